@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "petrous/Core/GridGeometry.h"
+#include "petrous/Volume/Sampling.h"
+
+namespace petrous::volume
+{
+
+/// What is left of each voxel after drilling: 65535 untouched, 0 gone.
+///
+/// Held in bricks of 16^3 that are made when first written; a brick that was never cut costs one
+/// null pointer. A brick's version is immutable: writing replaces the pointer, so a history keeps
+/// versions by sharing them, and undo is a swap of pointers. Not thread-safe: one writer, and
+/// readers on the same thread or on a copy (copies share the versions).
+class CutMask
+{
+public:
+  static constexpr int kBrickEdge = 16;
+  static constexpr std::size_t kBrickVoxels = 16 * 16 * 16;
+  static constexpr std::uint16_t kUntouched = 65535;
+
+  using Brick = std::array<std::uint16_t, kBrickVoxels>; ///< first axis fastest
+  using BrickVersion = std::shared_ptr<const Brick>;     ///< null: all untouched
+
+  explicit CutMask(const core::GridGeometry& geometry);
+
+  const core::GridGeometry& geometry() const noexcept
+  {
+    return m_geometry;
+  }
+  const core::Index3& brickDims() const noexcept
+  {
+    return m_brickDims;
+  }
+  std::size_t brickCount() const noexcept
+  {
+    return m_bricks.size();
+  }
+  std::size_t brickIndex(const core::Index3& brick) const noexcept;
+
+  /// The voxels of a brick, cut to the grid.
+  core::IndexBox brickBox(std::size_t brick) const noexcept;
+
+  /// The bricks (half-open box of brick positions) that a box of voxels touches.
+  core::IndexBox bricksCovering(const core::IndexBox& voxels) const noexcept;
+
+  const BrickVersion& brick(std::size_t index) const noexcept
+  {
+    return m_bricks[index];
+  }
+
+  /// Replaces a brick's version and marks it dirty. Voxels beyond the grid must be untouched.
+  void setBrick(std::size_t index, BrickVersion version);
+
+  std::uint16_t at(int i, int j, int k) const noexcept;
+
+  /// Trilinear share left at a continuous voxel position, 0 to 1. No lookups where untouched.
+  double sample(const Eigen::Vector3d& voxel) const noexcept;
+
+  bool untouched() const noexcept; ///< no brick was ever written, or all were undone
+  std::size_t residentBytes() const noexcept;
+
+  /// Bricks replaced since the last call, in order of first change, each once; clears the list.
+  std::vector<std::size_t> takeDirty();
+
+  /// Box of the voxels in `bricks`, widened by one voxel: what interpolation there can reach.
+  core::IndexBox boxOf(const std::vector<std::size_t>& bricks) const noexcept;
+
+  /// Every voxel, for export and for programs that want one array.
+  Volume<std::uint16_t> dense() const;
+
+private:
+  core::GridGeometry m_geometry;
+  core::Index3 m_brickDims;
+  std::vector<BrickVersion> m_bricks;
+  std::vector<std::size_t> m_dirty;
+  std::vector<bool> m_isDirty;
+};
+
+} // namespace petrous::volume

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "petrous/Volume/Volume.h"
+
+namespace petrous::volume
+{
+
+/// One structure of a label map.
+struct Segment
+{
+  std::string name;
+  std::uint16_t index = 0;         ///< its voxel value, >= 1
+  std::array<float, 3> color{};    ///< 0 to 1; black where the file gives none
+  std::uint64_t voxels = 0;        ///< how many voxels carry the index
+};
+
+/// Structures drawn on a grid of their own (which need not be the CT's): voxel value 0 is
+/// nothing, each other value is one segment. Segments of one map do not overlap.
+struct LabelMap
+{
+  std::shared_ptr<const Volume<std::uint16_t>> voxels;
+  std::vector<Segment> segments; ///< sorted by index
+
+  double volume(const Segment& segment) const ///< mm^3, voxel count times voxel volume
+  {
+    return static_cast<double>(segment.voxels) * voxels->geometry().voxelVolume();
+  }
+};
+
+/// Counts voxels; segments are named "label N" where `names` has no entry for an index that
+/// occurs. Entries of `names` that do not occur are kept with 0 voxels.
+/// Throws InvalidParameter when an index in `names` is 0 or occurs twice.
+LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
+                      std::vector<Segment> names);
+
+} // namespace petrous::volume

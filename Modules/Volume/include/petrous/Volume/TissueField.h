@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "petrous/Volume/CutMask.h"
+#include "petrous/Volume/IntensityVolume.h"
+#include "petrous/Volume/LabelMap.h"
+
+namespace petrous::volume
+{
+
+/// The one field that eye, hand and drill share (Documentation/equations.md, "One field"):
+///
+///   f(x) = min(max(c_CT(x), c_L(x)), m(x)),  solid where f > 0
+///
+///   c_CT = (HU - iso) / scale     scale in HU; it sets the unit of f, not the surface
+///   c_L  = smoothed union - 0.5   over the solid, touchable structures
+///   m    = mask - 0.5             1 untouched, 0 removed
+///
+/// Each operand is interpolated trilinearly, then they are combined; the normal is the gradient
+/// of the operand that decides. Outside the hull of the CT's voxel centres f is air.
+///
+/// Holds references to shared voxels; the mask is read as it stands at each call. Queries are
+/// const and thread-safe while nobody writes the mask.
+class TissueField
+{
+public:
+  struct Parameters
+  {
+    double iso = 300.0;    ///< HU
+    double scale = 1000.0; ///< HU; > 0
+  };
+
+  /// A structure map that takes part: its smoothed union (see SmoothedUnion.h).
+  using SolidUnion = std::shared_ptr<const Volume<float>>;
+
+  /// The mask may be null (nothing cut yet); it must lie on the CT's grid.
+  /// Throws InvalidParameter when scale is not positive or the grids differ.
+  TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<SolidUnion> solids,
+              std::shared_ptr<const CutMask> mask, const Parameters& parameters);
+
+  const core::GridGeometry& geometry() const noexcept
+  {
+    return m_ct->geometry();
+  }
+  const Parameters& parameters() const noexcept
+  {
+    return m_parameters;
+  }
+
+  /// f at a patient point (LPS mm); kAir outside the grid.
+  double value(const Eigen::Vector3d& patient) const;
+
+  /// f before the mask: max(c_CT, c_L).
+  double uncut(const Eigen::Vector3d& patient) const;
+
+  /// Unit vector towards decreasing f (out of the tissue), patient axes; zero where the field
+  /// is flat or outside the grid. Differences over `step` of the smallest spacing.
+  Eigen::Vector3d normal(const Eigen::Vector3d& patient, double step = 0.75) const;
+
+  /// First point on the segment from `start` to `end` where f rises above 0, in mm from start;
+  /// nothing when there is none. Steps of at most half the smallest spacing, then bisection to
+  /// 1e-4 of it. Zero when the start lies in tissue.
+  std::optional<double> firstHit(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
+
+  /// Signed distance (mm, positive in air) to the nearest surface of f within `reach` mm, found
+  /// by search on f itself; nothing when no surface lies within reach.
+  std::optional<double> distance(const Eigen::Vector3d& patient, double reach) const;
+
+  static constexpr double kAir = -1.0;
+
+private:
+  enum class Operand
+  {
+    None,
+    Ct,
+    Labels,
+    Mask
+  };
+  struct Decision
+  {
+    double value = kAir;
+    Operand operand = Operand::None;
+    std::size_t solid = 0;
+  };
+  Decision decide(const Eigen::Vector3d& patient) const;
+  double ctOperand(const Eigen::Vector3d& voxel) const;
+  double solidOperand(std::size_t solid, const Eigen::Vector3d& patient) const;
+
+  std::shared_ptr<const IntensityVolume> m_ct;
+  std::vector<SolidUnion> m_solids;
+  std::shared_ptr<const CutMask> m_mask;
+  Parameters m_parameters;
+};
+
+} // namespace petrous::volume

@@ -1,0 +1,79 @@
+include(GoogleTest)
+
+# What every target of ours gets: the language level, warnings, sanitizers.
+function(petrous_target_defaults target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<BOOL:${PETROUS_WERROR}>:-Werror>)
+  if(PETROUS_SANITIZE)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=${PETROUS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${PETROUS_SANITIZE})
+  endif()
+endfunction()
+
+# petrous_add_tests(<target> SOURCES file... [LINK target...] [LABELS label...] [ENVIRONMENT A=b...])
+# One executable; each GoogleTest case becomes a CTest test of its own.
+function(petrous_add_tests target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS;ENVIRONMENT" ${ARGN})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  add_executable(${target} ${ARG_SOURCES})
+  petrous_target_defaults(${target})
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest_main)
+  set(data_dir "${PETROUS_DATA_DIR}")
+  gtest_discover_tests(${target}
+    DISCOVERY_MODE PRE_TEST
+    PROPERTIES
+      LABELS "${ARG_LABELS}"
+      TIMEOUT 600
+      ENVIRONMENT "PETROUS_DATA=${data_dir};${ARG_ENVIRONMENT}")
+endfunction()
+
+# petrous_add_module(<Name>
+#   SOURCES file...            the library's sources
+#   DEPENDS Module...          modules whose public headers it includes
+#   EXTERNAL target...         libraries that its public headers show
+#   PRIVATE_EXTERNAL target... libraries that only its sources use
+#   TESTS file...              GoogleTest sources labelled 'unit'
+#   DATA_TESTS file...         GoogleTest sources labelled 'data' (real files beside the project)
+#   BENCHMARKS file...         sources of the module's part of `petrous bench`)
+# The declared DEPENDS are what Testing/IncludeDependencies.cmake holds the #includes against.
+function(petrous_add_module name)
+  cmake_parse_arguments(ARG "" ""
+    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;DATA_TESTS;BENCHMARKS" ${ARGN})
+  set(target Petrous${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(Petrous::${name} ALIAS ${target})
+  petrous_target_defaults(${target})
+  target_include_directories(${target}
+    PUBLIC include
+    PRIVATE src)
+  list(TRANSFORM ARG_DEPENDS PREPEND Petrous:: OUTPUT_VARIABLE modules)
+  target_link_libraries(${target}
+    PUBLIC ${modules} ${ARG_EXTERNAL}
+    PRIVATE ${ARG_PRIVATE_EXTERNAL})
+  set_property(GLOBAL APPEND PROPERTY PETROUS_MODULES ${name})
+  set_property(GLOBAL PROPERTY PETROUS_DEPENDS_${name} "${ARG_DEPENDS}")
+
+  if(ARG_TESTS)
+    petrous_add_tests(${target}Tests SOURCES ${ARG_TESTS} LINK Petrous::${name}
+      ${ARG_PRIVATE_EXTERNAL} LABELS unit)
+    target_include_directories(${target}Tests PRIVATE src Testing)
+  endif()
+  if(ARG_DATA_TESTS)
+    petrous_add_tests(${target}DataTests SOURCES ${ARG_DATA_TESTS} LINK Petrous::${name}
+      ${ARG_PRIVATE_EXTERNAL} LABELS data)
+    target_include_directories(${target}DataTests PRIVATE src Testing)
+  endif()
+  if(ARG_BENCHMARKS)
+    add_library(${target}Benchmarks STATIC ${ARG_BENCHMARKS})
+    add_library(Petrous::${name}Benchmarks ALIAS ${target}Benchmarks)
+    petrous_target_defaults(${target}Benchmarks)
+    target_include_directories(${target}Benchmarks PUBLIC Benchmarks)
+    target_link_libraries(${target}Benchmarks
+      PUBLIC Petrous::${name} PRIVATE ${ARG_PRIVATE_EXTERNAL})
+  endif()
+endfunction()

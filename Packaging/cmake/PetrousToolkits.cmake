@@ -1,0 +1,31 @@
+# ITK, GDCM and VTK as targets with SYSTEM includes, so that only the modules that link them see
+# them and their headers raise no warnings of ours.
+
+find_package(ITK 5.2 REQUIRED COMPONENTS
+  ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKImageGrid ITKTransform)
+add_library(petrous_itk INTERFACE)
+target_include_directories(petrous_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+target_link_libraries(petrous_itk INTERFACE ${ITK_LIBRARIES})
+add_library(Petrous::itk ALIAS petrous_itk)
+
+# ITK's own series reader, only as the peer of the import benchmark.
+find_package(ITK 5.2 REQUIRED COMPONENTS ITKIOGDCM)
+add_library(petrous_itk_gdcm INTERFACE)
+target_include_directories(petrous_itk_gdcm SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+target_link_libraries(petrous_itk_gdcm INTERFACE ${ITK_LIBRARIES})
+add_library(Petrous::itk_gdcm ALIAS petrous_itk_gdcm)
+
+add_library(petrous_gdcm INTERFACE)
+target_include_directories(petrous_gdcm SYSTEM INTERFACE ${GDCM_INCLUDE_DIRS})
+target_link_libraries(petrous_gdcm INTERFACE gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)
+add_library(Petrous::gdcm ALIAS petrous_gdcm)
+
+find_package(VTK 9.1 REQUIRED COMPONENTS
+  CommonCore CommonDataModel CommonColor CommonTransforms FiltersCore FiltersGeneral FiltersGeometry
+  FiltersSources ImagingCore ImagingHybrid InteractionStyle IOImage IOGeometry IOPLY RenderingCore
+  RenderingOpenGL2 RenderingVolume RenderingVolumeOpenGL2 glew)
+find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
+if(PETROUS_WORKSTATION)
+  find_package(Qt5 5.15 REQUIRED COMPONENTS Core Gui Widgets Test)
+  find_package(VTK 9.1 REQUIRED COMPONENTS GUISupportQt)
+endif()

@@ -38,12 +38,13 @@ endfunction()
 #   EXTERNAL target...         libraries that its public headers show
 #   PRIVATE_EXTERNAL target... libraries that only its sources use
 #   TESTS file...              GoogleTest sources labelled 'unit'
+#   RENDER_TESTS file...       GoogleTest sources labelled 'render' (draw off-screen)
 #   DATA_TESTS file...         GoogleTest sources labelled 'data' (real files beside the project)
 #   BENCHMARKS file...         sources of the module's part of `petrous bench`)
 # The declared DEPENDS are what Testing/IncludeDependencies.cmake holds the #includes against.
 function(petrous_add_module name)
   cmake_parse_arguments(ARG "" ""
-    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;DATA_TESTS;BENCHMARKS" ${ARGN})
+    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;RENDER_TESTS;DATA_TESTS;BENCHMARKS" ${ARGN})
   set(target Petrous${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Petrous::${name} ALIAS ${target})
@@ -58,16 +59,17 @@ function(petrous_add_module name)
   set_property(GLOBAL APPEND PROPERTY PETROUS_MODULES ${name})
   set_property(GLOBAL PROPERTY PETROUS_DEPENDS_${name} "${ARG_DEPENDS}")
 
-  if(ARG_TESTS)
-    petrous_add_tests(${target}Tests SOURCES ${ARG_TESTS} LINK Petrous::${name}
-      ${ARG_PRIVATE_EXTERNAL} LABELS unit)
-    target_include_directories(${target}Tests PRIVATE src Testing)
-  endif()
-  if(ARG_DATA_TESTS)
-    petrous_add_tests(${target}DataTests SOURCES ${ARG_DATA_TESTS} LINK Petrous::${name}
-      ${ARG_PRIVATE_EXTERNAL} LABELS data)
-    target_include_directories(${target}DataTests PRIVATE src Testing)
-  endif()
+  foreach(pair "TESTS|Tests|unit" "RENDER_TESTS|RenderTests|render" "DATA_TESTS|DataTests|data")
+    string(REPLACE "|" ";" pair "${pair}")
+    list(GET pair 0 files)
+    list(GET pair 1 suffix)
+    list(GET pair 2 label)
+    if(ARG_${files})
+      petrous_add_tests(${target}${suffix} SOURCES ${ARG_${files}} LABELS ${label}
+        LINK Petrous::${name} ${ARG_PRIVATE_EXTERNAL})
+      target_include_directories(${target}${suffix} PRIVATE src Testing)
+    endif()
+  endforeach()
   if(ARG_BENCHMARKS)
     add_library(${target}Benchmarks STATIC ${ARG_BENCHMARKS})
     add_library(Petrous::${name}Benchmarks ALIAS ${target}Benchmarks)

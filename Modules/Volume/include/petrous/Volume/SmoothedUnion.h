@@ -14,7 +14,7 @@ namespace petrous::volume
 ///
 /// A voxel of the structure itself never falls below kInsideFloor and one outside never rises
 /// above 1 - kInsideFloor, so a structure one voxel thin stays whole (Documentation/adr/0001).
-/// `wanted(index)` chooses the segments. Only the box around them is held, one voxel wider;
+/// `wanted(index)` chooses the segments. Only the box around them is held, two voxels wider;
 /// null when no voxel is wanted.
 std::shared_ptr<const Volume<float>>
 makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted);

@@ -57,7 +57,7 @@ public:
   double uncut(const Eigen::Vector3d& patient) const;
 
   /// Unit vector towards decreasing f (out of the tissue), patient axes; zero where the field
-  /// is flat or outside the grid. Differences over `step` of the smallest spacing.
+  /// is flat or outside the grid. Central differences over +-`step` voxels.
   Eigen::Vector3d normal(const Eigen::Vector3d& patient, double step = 0.75) const;
 
   /// First point on the segment from `start` to `end` where f rises above 0, in mm from start;

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Volume/IntensityVolume.h"
+
+namespace petrous::imaging
+{
+
+/// A UID under 2.25 (ITU-T X.667) that is a function of seed and role alone, so that files are
+/// the same for the same seed, e.g. deterministicUid(1, "ct.series").
+std::string deterministicUid(std::uint64_t seed, const std::string& role);
+
+/// What a written series says about itself. Nothing in it is a person's.
+struct SeriesDescription
+{
+  enum class Modality
+  {
+    Ct,
+    Mr
+  };
+
+  Modality modality = Modality::Ct;
+  std::string description;
+  int seriesNumber = 1;
+  std::string patientId = "PHANTOM";
+  std::string patientName = "Phantom^Petrous";
+  std::string studyUid;            ///< required
+  std::string seriesUid;           ///< required; instance UIDs are derived from it
+  std::string frameOfReferenceUid; ///< required
+  double rescaleIntercept = 0.0;   ///< CT: -1024; MR: 0 (its image module has no rescale)
+  double rescaleSlope = 1.0;       ///< > 0; value = slope * stored + intercept
+  double windowCenter = 700.0;     ///< in the image's units
+  double windowWidth = 4000.0;
+};
+
+/// Writes one file a slice, `slice-0001.dcm` upwards, as CT or MR Image Storage, explicit VR
+/// little endian, 16 bits, in parallel. Dates are fixed: same input, same bytes.
+///
+/// folder     made where it is not there; files of the same name are replaced
+/// image      int16 or uint16 voxels (float is refused); padding goes to PixelPaddingValue
+/// sliceStep  patient displacement (mm) from a slice to the next where it is not along the
+///            slices' normal, as a tilted gantry makes it
+///
+/// Throws InvalidParameter for a bad description, Error (Internal) naming the file that could
+/// not be written, CancelledError. Files written before the fault stay.
+void writeDicomSeries(const std::filesystem::path& folder, const volume::IntensityVolume& image,
+                      const SeriesDescription& description,
+                      const std::optional<Eigen::Vector3d>& sliceStep = std::nullopt,
+                      const core::Progress& progress = {});
+
+} // namespace petrous::imaging

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Imaging/FileError.h"
+#include "petrous/Volume/IntensityVolume.h"
+
+namespace petrous::imaging
+{
+
+/// Writes voxels for other programs: .nrrd (gzip), .nii, .nii.gz or .mha, in the type they have
+/// and where they lie (patient LPS mm; NIfTI states it as RAS). The file appears whole or not at
+/// all, and equal volumes give equal bytes.
+/// T: std::int16_t, std::uint16_t, std::uint8_t, float. Throws FileError, CancelledError.
+template <class T>
+void writeVolume(const std::filesystem::path& path, const volume::Volume<T>& volume,
+                 const core::Progress& progress = {});
+
+/// As above, in the type that the image has.
+void writeVolume(const std::filesystem::path& path, const volume::IntensityVolume& volume,
+                 const core::Progress& progress = {});
+
+extern template void writeVolume(const std::filesystem::path&, const volume::Volume<std::int16_t>&,
+                                 const core::Progress&);
+extern template void writeVolume(const std::filesystem::path&, const volume::Volume<std::uint16_t>&,
+                                 const core::Progress&);
+extern template void writeVolume(const std::filesystem::path&, const volume::Volume<std::uint8_t>&,
+                                 const core::Progress&);
+extern template void writeVolume(const std::filesystem::path&, const volume::Volume<float>&,
+                                 const core::Progress&);
+
+} // namespace petrous::imaging

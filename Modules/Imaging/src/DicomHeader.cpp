@@ -1,0 +1,220 @@
+#include "DicomHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "DicomElements.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr const char* kCutShort = "is cut short";
+
+const char* const kDeflated = "1.2.840.10008.1.2.1.99";
+const char* const kImplicit = "1.2.840.10008.1.2";
+const char* const kExplicit = "1.2.840.10008.1.2.1";
+const char* const kBigEndian = "1.2.840.10008.1.2.2";
+const char* const kDirectoryClass = "1.2.840.10008.1.3.10";
+
+/// Compressions of single images that GDCM decodes: JPEG, JPEG-LS, JPEG 2000, RLE.
+bool isDecodable(const std::string& syntax)
+{
+  static const char* const kKnown[] = {
+      "1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51", "1.2.840.10008.1.2.4.57",
+      "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80", "1.2.840.10008.1.2.4.81",
+      "1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.91", "1.2.840.10008.1.2.5"};
+  return std::find(std::begin(kKnown), std::end(kKnown), syntax) != std::end(kKnown);
+}
+
+bool isNative(const std::string& syntax)
+{
+  return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
+}
+
+/// Walks the items of an encapsulated element; false where one reaches beyond the end.
+bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
+{
+  std::uint64_t bytes = 0;
+  std::array<unsigned char, 8> item{};
+  while (source.read(offset, item.data(), item.size()))
+  {
+    const bool isDelimiter = item[0] == 0xfe && item[1] == 0xff && item[2] == 0xdd;
+    const bool isItem = item[0] == 0xfe && item[1] == 0xff && item[2] == 0x00;
+    if (isDelimiter || !isItem)
+      break;
+    const std::uint64_t length =
+        item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint64_t>(item[7]) << 24);
+    offset += item.size() + length;
+    if (offset > source.size())
+      return false;
+    bytes += length;
+  }
+  return bytes > 0; // some writers leave the closing delimiter out
+}
+
+std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
+{
+  if (values.size() < first + 3)
+    return std::nullopt;
+  return Eigen::Vector3d(values[first], values[first + 1], values[first + 2]);
+}
+
+void readPlace(const DicomElements& elements, SliceHeader& slice)
+{
+  slice.position = vectorAt(elements.numbers(0x00200032, 3), 0);
+  const std::vector<double> cosines = elements.numbers(0x00200037, 6);
+  slice.rowDirection = vectorAt(cosines, 0);
+  slice.columnDirection = vectorAt(cosines, 3);
+  const std::vector<double> spacing = elements.numbers(0x00280030, 2);
+  if (!spacing.empty())
+    slice.pixelSpacing = Eigen::Vector2d(spacing[0], spacing[1]);
+  slice.thickness = elements.number(0x00180050);
+  slice.declaredSpacing = elements.number(0x00180088);
+  slice.declaredTilt = elements.number(0x00181120);
+  slice.frameOfReferenceUid = elements.text(0x00200052);
+  slice.instanceNumber =
+      static_cast<int>(std::clamp(elements.number(0x00200013).value_or(0.0), -1e9, 1e9));
+}
+
+void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
+{
+  slice.rows = elements.integer(0x00280010).value_or(0);
+  slice.columns = elements.integer(0x00280011).value_or(0);
+  slice.frames = static_cast<int>(std::clamp(elements.number(0x00280008).value_or(1.0), 1.0, 1e6));
+  PixelFormat& pixels = slice.pixels;
+  pixels.bitsAllocated = elements.integer(0x00280100).value_or(0);
+  pixels.bitsStored = elements.integer(0x00280101).value_or(pixels.bitsAllocated);
+  pixels.highBit = elements.integer(0x00280102).value_or(pixels.bitsStored - 1);
+  pixels.isSigned = elements.integer(0x00280103).value_or(0) == 1;
+  pixels.samplesPerPixel = elements.integer(0x00280002).value_or(1);
+  pixels.photometric = elements.text(0x00280004);
+  pixels.transferSyntax = elements.transferSyntax();
+  pixels.isBigEndian = elements.isBigEndian();
+  pixels.isDeflated = pixels.transferSyntax == kDeflated;
+  slice.padding = elements.integer(0x00280120, pixels.isSigned);
+  slice.paddingRangeLimit = elements.integer(0x00280121, pixels.isSigned);
+}
+
+/// What is wrong with the rescale, or nothing.
+const char* readRescale(const DicomElements& elements, SliceHeader& slice)
+{
+  constexpr Tag kSlope = 0x00281053;
+  constexpr Tag kIntercept = 0x00281052;
+  slice.hasRescale = !elements.text(kSlope).empty() || !elements.text(kIntercept).empty();
+  if (!slice.hasRescale)
+    return "";
+  const auto slope = elements.number(kSlope);
+  const auto intercept = elements.number(kIntercept);
+  if (!slope || !intercept || *slope == 0.0 || std::abs(*slope) > 1e9 || std::abs(*intercept) > 1e9)
+    return "states a rescale slope and intercept that cannot be";
+  slice.slope = *slope;
+  slice.intercept = *intercept;
+  return "";
+}
+
+/// What is wrong with the coding of a grey image, or nothing.
+const char* checkFormat(const SliceHeader& slice)
+{
+  const PixelFormat& pixels = slice.pixels;
+  const int bits = pixels.bitsAllocated;
+  if (!isNative(pixels.transferSyntax) && !isDecodable(pixels.transferSyntax))
+    return "is compressed in a way that cannot be read";
+  // 12 bits allocated were packed in two ways, 8 bits big endian too; nothing tells them apart.
+  if (bits != 16 && bits != 32 && (bits != 8 || pixels.isBigEndian))
+    return "has pixels of an unusual number of bits";
+  if (pixels.bitsStored < 1 || pixels.bitsStored > bits || pixels.highBit >= bits ||
+      pixels.highBit < pixels.bitsStored - 1)
+    return "contradicts itself about the bits of a pixel";
+  return "";
+}
+
+/// Where the pixels lie and what is wrong with them, or nothing.
+const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, SliceHeader& slice)
+{
+  if (found.tag != kPixelData)
+    return "holds floating-point pixels, which are not read";
+  PixelFormat& pixels = slice.pixels;
+  pixels.offset = found.offset;
+  pixels.isEncapsulated = found.length == DicomElements::kUndefinedLength;
+  pixels.length = pixels.isEncapsulated ? source.size() - found.offset : found.length;
+  if (pixels.isEncapsulated && isNative(pixels.transferSyntax))
+    return "is compressed, but does not say how";
+  if (pixels.offset + pixels.length > source.size())
+    return kCutShort;
+  if (slice.frames > 1 || pixels.samplesPerPixel != 1)
+    return ""; // set aside for that reason, which is the better one to name
+  if (pixels.isEncapsulated)
+  {
+    if (!fragmentsComplete(source, pixels.offset))
+      return kCutShort;
+  }
+  else
+  {
+    const auto count = static_cast<std::uint64_t>(slice.rows) * slice.columns;
+    if (!isNative(pixels.transferSyntax))
+      return "says it is compressed, but is not";
+    if (pixels.length < (count * pixels.bitsAllocated + 7) / 8)
+      return "holds fewer pixels than its header says";
+  }
+  return checkFormat(slice);
+}
+
+void readSlice(ByteSource& source, const DicomElements& elements, FileHeader& header)
+{
+  SliceHeader& slice = header.slice;
+  header.seriesUid = elements.text(0x0020000e);
+  header.modality = elements.text(0x00080060);
+  header.description = elements.text(0x0008103e);
+  slice.imageType = elements.words(0x00080008);
+  readPlace(elements, slice);
+  readPixelFormat(elements, slice);
+  const char* rescale = readRescale(elements, slice);
+
+  const bool complete = elements.state() == DicomElements::State::Complete;
+  if (!complete || elements.empty())
+  {
+    header.kind = header.seriesUid.empty() ? FileKind::Broken : FileKind::Dicom;
+    slice.damage = elements.empty() ? kCutShort : "is cut short or damaged";
+    return;
+  }
+  header.kind = FileKind::Dicom;
+  slice.isImage = elements.pixels().tag != 0;
+  if (slice.isImage)
+    slice.damage = checkPixels(source, elements.pixels(), slice);
+  else if (slice.rows > 0)
+    slice.damage = "holds no pixels although it describes some";
+  if (slice.damage.empty())
+    slice.damage = rescale;
+}
+
+} // namespace
+
+FileHeader readHeader(const std::filesystem::path& file)
+{
+  FileHeader header;
+  header.slice.file = file;
+  ByteSource source(file);
+  if (!source.isOpen())
+  {
+    header.kind = FileKind::Broken;
+    header.slice.damage = "cannot be opened";
+    return header;
+  }
+  const DicomElements elements(source);
+  if (elements.state() == DicomElements::State::Foreign)
+    return header;
+  std::string sopClass = elements.text(0x00080016);
+  if (sopClass.empty())
+    sopClass = elements.text(0x00020002);
+  if (sopClass == kDirectoryClass)
+    header.kind = FileKind::Directory;
+  else
+    readSlice(source, elements, header);
+  return header;
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "PhantomAnatomy.h"
+#include "petrous/Imaging/Phantom.h"
+
+namespace petrous::imaging
+{
+
+/// The phantom's layers of paint and how a point looks through them.
+struct Phantom::Scene
+{
+  std::vector<anatomy::Layer> layers;
+  std::vector<std::size_t> layerOf;               ///< structure -> its layer
+  std::vector<std::vector<std::size_t>> coverers; ///< structure -> later layers that may meet it
+  shapes::Shape cranial;
+
+  static constexpr double kFar = 1e3; ///< mm; farther than any block is wide
+
+  /// Layers that decide the tissue within `reach` mm of a point, topmost first. `base` lies under
+  /// all of them and covers the whole neighbourhood; -1 when that is the air round the head.
+  struct Stack
+  {
+    std::vector<std::size_t> layers;
+    int base = -1;
+  };
+  Stack stackAround(const shapes::Point& center, double reach) const;
+
+  static double intensity(const anatomy::Layer& layer, Modality modality)
+  {
+    return modality == Modality::Ct ? layer.ct : layer.mr;
+  }
+  double baseIntensity(const Stack& stack, Modality modality) const
+  {
+    if (stack.base < 0)
+      return modality == Modality::Ct ? -1000.0 : 4.0;
+    return intensity(layers[static_cast<std::size_t>(stack.base)], modality);
+  }
+
+  /// Each layer covers the share of a span of `width` mm that its signed distance gives, exact
+  /// for one plane border.
+  double look(const shapes::Point& p, double width, Modality modality, const Stack& stack) const
+  {
+    double value = 0.0;
+    double left = 1.0;
+    for (const std::size_t l : stack.layers)
+    {
+      const double d = layers[l].shape(p);
+      const double share =
+        width > 0.0 ? std::clamp(0.5 - d / width, 0.0, 1.0) : (d <= 0.0 ? 1.0 : 0.0);
+      value += left * share * intensity(layers[l], modality);
+      left *= 1.0 - share;
+      if (left <= 0.0)
+        return value;
+    }
+    return value + left * baseIntensity(stack, modality);
+  }
+
+  /// The topmost layer at a point, -1 for air round the head.
+  int topmost(const shapes::Point& p, const Stack& stack) const
+  {
+    for (const std::size_t l : stack.layers)
+      if (layers[l].shape(p) <= 0.0)
+        return static_cast<int>(l);
+    return stack.base;
+  }
+
+  double distance(std::size_t structure, const shapes::Point& p) const;
+};
+
+} // namespace petrous::imaging

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+/// Signed distances (mm; negative inside) to implicit shapes in patient LPS, and how to combine
+/// them. Each is close to the true distance near its surface and never steeper than about 1 mm
+/// a mm outside and 2 inside, so that blocks of space may be left out by their centre's value.
+namespace petrous::imaging::shapes
+{
+
+using Point = Eigen::Vector3d;
+using Box = Eigen::AlignedBox3d;
+
+struct Shape
+{
+  std::function<double(const Point&)> distance;
+  Box box; ///< holds {distance <= 0}
+
+  double operator()(const Point& p) const
+  {
+    return distance(p);
+  }
+};
+
+/// A point of a tube's centre line with the tube's radius there, mm.
+struct Knot
+{
+  Point center;
+  double radius;
+};
+
+Box everywhere();
+
+Shape sphere(const Point& center, double radius);
+
+/// Half axes along the columns of `axes`. First-order distance (exact on the surface).
+Shape ellipsoid(const Point& center, const Eigen::Vector3d& radii,
+                const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+
+/// A cone with round ends.
+Shape capsule(const Knot& a, const Knot& b);
+
+/// Round tube along a polyline with round ends, radius linear along each piece.
+Shape tube(const std::vector<Knot>& knots);
+
+/// Catmull-Rom curve through the knots, sampled about every `step` mm.
+std::vector<Knot> spline(const std::vector<Knot>& knots, double step = 0.3);
+
+/// Full torus; the axis is a unit vector.
+Shape torus(const Point& center, const Eigen::Vector3d& axis, double ring, double radius);
+
+/// Elliptic disc with rounded rim: half axes along u and v (unit, perpendicular), half thickness.
+Shape disc(const Point& center, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double halfU,
+           double halfV, double halfThickness);
+
+/// {normal . p < offset}; the normal is a unit vector.
+Shape halfSpace(const Eigen::Vector3d& normal, double offset);
+
+Shape merge(std::vector<Shape> parts);
+Shape common(std::vector<Shape> parts);
+Shape without(const Shape& a, const Shape& b);
+Shape complement(const Shape& a);
+Shape grown(const Shape& a, double by); ///< shrunk where `by` is negative
+
+/// Union and intersection whose crease is rounded over about `k` mm.
+Shape blend(std::vector<Shape> parts, double k);
+Shape blendCommon(const Shape& a, const Shape& b, double k);
+double smoothMin(double a, double b, double k);
+
+/// SplitMix64: a bijection of 64 bits that looks random (Steele, Lea, Flood 2014). The generator
+/// of every random number here, so that results are the same with every library and machine.
+std::uint64_t mix(std::uint64_t x) noexcept;
+
+/// Uniform in [0, 1) from a seed and a counter.
+double uniform(std::uint64_t seed, std::uint64_t counter) noexcept;
+
+} // namespace petrous::imaging::shapes

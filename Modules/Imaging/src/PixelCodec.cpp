@@ -1,0 +1,210 @@
+#include "PixelCodec.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <mutex>
+
+#include <gdcmDataElement.h>
+#include <gdcmFragment.h>
+#include <gdcmImage.h>
+#include <gdcmSequenceOfFragments.h>
+#include <gdcmTrace.h>
+
+#include "ByteSource.h"
+#include "DicomElements.h"
+#include "petrous/Imaging/DicomScan.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+[[noreturn]] void fail(const SliceHeader& slice, const char* what)
+{
+  throw DicomError(DicomError::Reason::Unreadable, slice.file.filename().string() + " " + what +
+                                                       "; copy it again from where it "
+                                                       "came from");
+}
+
+/// The stored value among its allocated bits: shifted down, masked, sign-extended.
+struct BitField
+{
+  int shift = 0;  ///< unused bits below
+  int unused = 0; ///< unused bits above, counted in 32
+  bool isSigned = false;
+
+  std::int32_t operator()(std::uint32_t cell) const
+  {
+    const std::uint32_t top = (cell >> shift) << unused;
+    return isSigned ? static_cast<std::int32_t>(top) >> unused
+                    : static_cast<std::int32_t>(top >> unused);
+  }
+};
+
+template <class Cell>
+void unpack(const unsigned char* bytes, bool swap, const BitField& field,
+            std::vector<std::int32_t>& values)
+{
+  if (swap)
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      std::array<unsigned char, sizeof(Cell)> cell{};
+      std::reverse_copy(bytes + i * sizeof(Cell), bytes + (i + 1) * sizeof(Cell), cell.begin());
+      Cell value = 0;
+      std::memcpy(&value, cell.data(), sizeof value);
+      values[i] = field(value);
+    }
+  else
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      Cell value = 0;
+      std::memcpy(&value, bytes + i * sizeof(Cell), sizeof value);
+      values[i] = field(value);
+    }
+}
+
+void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& field, bool swap,
+                 StoredPixels& pixels)
+{
+  const unsigned char* bytes = pixels.scratch.data();
+  if (bitsAllocated == 8)
+    unpack<std::uint8_t>(bytes, false, field, pixels.values);
+  else if (bitsAllocated == 16)
+    unpack<std::uint16_t>(bytes, swap, field, pixels.values);
+  else if (bitsAllocated == 32)
+    unpack<std::uint32_t>(bytes, swap, field, pixels.values);
+  else
+    fail(slice, "has pixels of an unusual number of bits");
+  // Unsigned values of 32 bits that do not fit come out negative.
+  if (field.unused == 0 && !field.isSigned &&
+      *std::min_element(pixels.values.begin(), pixels.values.end()) < 0)
+    fail(slice, "holds values beyond 2147483647");
+}
+
+BitField bitField(int bitsStored, int highBit, bool isSigned)
+{
+  return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
+}
+
+/// The items behind the offset table. One frame, so all of them are one codestream.
+gdcm::SmartPointer<gdcm::SequenceOfFragments> readFragments(ByteSource& source,
+                                                            const SliceHeader& slice)
+{
+  gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = gdcm::SequenceOfFragments::New();
+  std::uint64_t offset = slice.pixels.offset;
+  bool isTable = true;
+  std::array<unsigned char, 8> item{};
+  std::vector<char> bytes;
+  while (source.read(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
+         item[2] == 0x00)
+  {
+    const std::uint32_t length =
+        item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint32_t>(item[7]) << 24);
+    offset += item.size();
+    if (offset + length > source.size())
+      fail(slice, "is cut short");
+    bytes.resize(length);
+    if (!source.read(offset, bytes.data(), bytes.size()))
+      fail(slice, "cannot be read");
+    if (!isTable)
+    {
+      gdcm::Fragment fragment;
+      fragment.SetByteValue(bytes.data(), gdcm::VL(length));
+      fragments->AddFragment(fragment);
+    }
+    isTable = false;
+    offset += length;
+  }
+  if (fragments->GetNumberOfFragments() == 0)
+    fail(slice, "is cut short");
+  return fragments;
+}
+
+/// GDCM's warnings quote what they find.
+void silenceGdcm()
+{
+  static std::once_flag once;
+  std::call_once(once,
+                 []
+                 {
+                   gdcm::Trace::DebugOff();
+                   gdcm::Trace::WarningOff();
+                   gdcm::Trace::ErrorOff();
+                 });
+}
+
+void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
+{
+  silenceGdcm();
+  const PixelFormat& format = slice.pixels;
+  gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
+  element.SetVR(gdcm::VR::OB);
+  element.SetValue(*readFragments(source, slice));
+
+  gdcm::Image image;
+  image.SetNumberOfDimensions(2);
+  image.SetDimension(0, static_cast<unsigned int>(slice.columns));
+  image.SetDimension(1, static_cast<unsigned int>(slice.rows));
+  image.SetPixelFormat(gdcm::PixelFormat(1, static_cast<unsigned short>(format.bitsAllocated),
+                                         static_cast<unsigned short>(format.bitsStored),
+                                         static_cast<unsigned short>(format.highBit),
+                                         static_cast<unsigned short>(format.isSigned ? 1 : 0)));
+  image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  image.SetTransferSyntax(
+      gdcm::TransferSyntax(gdcm::TransferSyntax::GetTSType(format.transferSyntax.c_str())));
+  image.SetDataElement(element);
+
+  bool decoded = false;
+  try
+  {
+    const std::size_t needed =
+        pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8);
+    if (image.GetBufferLength() == needed)
+    {
+      pixels.scratch.assign(needed, 0);
+      decoded = image.GetBuffer(reinterpret_cast<char*>(pixels.scratch.data()));
+    }
+  }
+  catch (const std::exception&) // its words may quote the patient
+  {
+    decoded = false;
+  }
+  // The codestream's own word on bits and sign replaces the header's where they differ.
+  const gdcm::PixelFormat& real = image.GetPixelFormat();
+  if (!decoded || real.GetSamplesPerPixel() != 1 || real.GetBitsAllocated() != format.bitsAllocated)
+    fail(slice, "has a damaged compressed image");
+  const BitField field =
+      bitField(real.GetBitsStored(), real.GetHighBit(), real.GetPixelRepresentation() == 1);
+  unpackCells(slice, format.bitsAllocated, field, false, pixels);
+}
+
+} // namespace
+
+void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
+{
+  ByteSource source(slice.file);
+  if (!source.isOpen())
+    fail(slice, "cannot be opened");
+  const PixelFormat& format = slice.pixels;
+  pixels.values.resize(static_cast<std::size_t>(slice.rows) *
+                       static_cast<std::size_t>(slice.columns));
+  if (format.isDeflated)
+    const DicomElements inflated(source); // leaves the source inflated
+  if (format.isEncapsulated)
+  {
+    decompress(source, slice, pixels);
+    return;
+  }
+  pixels.scratch.resize(pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8));
+  if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
+    fail(slice, "is cut short");
+  unpackCells(slice, format.bitsAllocated,
+              bitField(format.bitsStored, format.highBit, format.isSigned), format.isBigEndian,
+              pixels);
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,105 @@
+# Set-up shared by Packaging/run and Packaging/test; sourced by them.
+#
+# Everything here writes to stderr and is quiet when there is nothing to do, so that the output
+# of `Packaging/run ARGS...` is that of `petrous ARGS...` alone.
+
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$top/build/release
+program=$build/Application/Cli/petrous
+
+say()
+{
+  printf '%s\n' "$*" >&2
+}
+
+fail()
+{
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+# Packages of dependencies.txt that are not installed, one a line.
+missing_packages()
+{
+  local wanted
+  wanted=$(sed -e 's/#.*//' "$top/Packaging/dependencies.txt" | awk 'NF { print $1 }')
+  # dpkg-query fails where it knows nothing of a package: then that package is missing.
+  { dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null || true; } |
+    awk -v wanted="$wanted" '
+      $1 == "installed" { here[$2] = 1 }
+      END {
+        count = split(wanted, names, /[ \n]+/)
+        for (i = 1; i <= count; ++i)
+          if (!(names[i] in here))
+            print names[i]
+      }'
+}
+
+install_packages()
+{
+  local missing as_root=() log=$top/build/apt.log
+  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
+    fail "this set-up needs Debian 12 with apt-get and dpkg; on another system install what Packaging/dependencies.txt names and build with 'cmake --preset release'"
+  missing=$(missing_packages)
+  [[ -n $missing ]] || return 0
+
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null ||
+      fail "missing packages need root, and there is no sudo; as root: apt-get install --no-install-recommends" $missing
+    as_root=(sudo)
+    if ! sudo -n true 2>/dev/null; then
+      [[ -t 0 ]] ||
+        fail "missing packages need root, and sudo asks for a password without a terminal; as root: apt-get install --no-install-recommends" $missing
+      sudo -v || fail "missing packages need root; sudo refused"
+    fi
+  fi
+
+  say "Installing $(wc -w <<<"$missing") packages (log: $log) ..."
+  # A source that does not answer is no fault as long as the packages can be had.
+  "${as_root[@]}" apt-get update </dev/null >"$log" 2>&1 || true
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=300 $missing \
+    </dev/null >>"$log" 2>&1 ||
+    fail "apt-get could not install the missing packages (is there a network?): $(grep -m1 '^E: ' "$log" || tail -n1 "$log")"
+}
+
+# configure [-DNAME=VALUE...]: runs cmake where it has not run, or not with these settings.
+# Changed CMakeLists.txt files are ninja's business.
+configure()
+{
+  local stamp=$build/petrous-configured fresh=() log=$top/build/configure.log
+  if [[ -f $build/CMakeCache.txt ]] &&
+    ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$top" "$build/CMakeCache.txt"; then
+    fresh=(--fresh) # the checkout was moved
+  elif [[ -f $build/build.ninja && $stamp -nt $top/CMakePresets.json ]] &&
+    [[ $# -eq 0 || $(<"$stamp") == "$*" ]]; then
+    return 0
+  fi
+  say "Configuring $build ..."
+  (cd "$top" && cmake --preset release ${fresh[@]+"${fresh[@]}"} "$@") </dev/null >"$log" 2>&1 || {
+    cat "$log" >&2
+    fail "configuring failed (log: $log)"
+  }
+  printf '%s' "$*" >"$stamp"
+}
+
+# compile [TARGET...]
+compile()
+{
+  ninja -C "$build" "$@" </dev/null 2>&1 |
+    sed -u -e '/^ninja: Entering directory/d' -e '/^ninja: no work to do/d' >&2 ||
+    fail "the build failed"
+}
+
+# One set-up at a time in a checkout; the lock ends with unlock, or with the process.
+lock()
+{
+  mkdir -p "$top/build" || fail "cannot write to $top/build"
+  exec 9>"$top/build/lock"
+  flock 9
+}
+
+unlock()
+{
+  exec 9>&-
+}

@@ -1,0 +1,157 @@
+# Holds every #include against what its module declares and against the table of modules.
+#
+#   cmake -D TREE=<source tree> -D DECLARED=<file> -P IncludeDependencies.cmake
+#
+# DECLARED sets PETROUS_MODULES and PETROUS_DEPENDS_<Name>, the DEPENDS of each
+# petrous_add_module. Modules that the preset leaves out are not declared and not read.
+# Every violation is one line: file, line number, what is missing or forbidden.
+cmake_minimum_required(VERSION 3.25)
+
+# What a module may depend on. Arrows point down only: a row names no module above it.
+set(allowed_Core)
+set(allowed_Volume Core)
+set(allowed_Appearance Core Volume)
+set(allowed_Imaging Core Volume)
+set(allowed_Registration Core Volume)
+set(allowed_Haptics Core Volume)
+set(allowed_Devices Core Volume Haptics)
+set(allowed_Dissection Core Volume)
+set(allowed_Simulation Core Volume Haptics Dissection)
+set(allowed_Scene Core Volume Appearance Dissection)
+set(allowed_Library Core Volume Appearance Dissection Scene Imaging)
+set(allowed_Rendering Core Volume Appearance)
+set(allowed_Interaction
+  Core Volume Appearance Haptics Dissection Simulation Scene Rendering)
+set(known_modules
+  Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library
+  Rendering Interaction)
+
+# The toolkits whose headers a module may see; a module that is not named here sees none. Qt
+# belongs to the application alone.
+set(toolkits_Imaging ITK GDCM)
+set(toolkits_Registration ITK)
+set(toolkits_Library GDCM)
+set(toolkits_Rendering VTK)
+set(toolkits_Interaction VTK)
+
+set(violations)
+
+# violation(<file> <text of the #include> <message>)
+function(violation file include message)
+  # The line number, looked up only here: the lines before the match are counted.
+  file(READ ${file} text)
+  string(FIND "${text}" "${include}" at)
+  string(SUBSTRING "${text}" 0 ${at} before)
+  string(REGEX REPLACE "[^\n]" "" before "${before}")
+  string(LENGTH "${before}" line)
+  math(EXPR line "${line} + 1")
+  file(RELATIVE_PATH file ${TREE} ${file})
+  set(violations ${violations} "${file}:${line}: ${message}" PARENT_SCOPE)
+endfunction()
+
+# Sets <result> to the toolkit that a header's name belongs to, or to nothing.
+function(toolkit_of header result)
+  set(toolkit)
+  if(header MATCHES "^vtk[A-Za-z0-9_]*\\.h$")
+    set(toolkit VTK)
+  elseif(header MATCHES "^itk[A-Za-z0-9_]*\\.h(xx)?$")
+    set(toolkit ITK)
+  elseif(header MATCHES "^(gdcm-[0-9.]+/)?gdcm[A-Za-z0-9_]*\\.h$")
+    set(toolkit GDCM)
+  elseif(header MATCHES "^(Qt[A-Z][A-Za-z]*/.*|Q[A-Z][A-Za-z0-9]*|QVTK[A-Za-z]*\\.h|q[a-z]+\\.h)$")
+    set(toolkit Qt)
+  endif()
+  set(${result} "${toolkit}" PARENT_SCOPE)
+endfunction()
+
+# Sets <result> to the #include lines of a file, without their line ends.
+function(includes_of file result)
+  file(READ ${file} text)
+  string(REGEX MATCHALL "#[ \t]*include[ \t]*[<\"][^>\"\n]+[>\"]" includes "${text}")
+  set(${result} "${includes}" PARENT_SCOPE)
+endfunction()
+
+function(sources_below result)
+  set(patterns)
+  foreach(folder IN LISTS ARGN)
+    foreach(suffix h hpp cpp cxx txx)
+      list(APPEND patterns ${folder}/*.${suffix})
+    endforeach()
+  endforeach()
+  file(GLOB_RECURSE files ${patterns})
+  set(${result} "${files}" PARENT_SCOPE)
+endfunction()
+
+include(${DECLARED})
+set(files_read 0)
+
+foreach(module IN LISTS PETROUS_MODULES)
+  set(declaration Modules/${module}/CMakeLists.txt)
+  if(NOT module IN_LIST known_modules)
+    list(APPEND violations
+      "${declaration}: module ${module} has no row in the table of Testing/IncludeDependencies.cmake")
+  endif()
+  foreach(dependency IN LISTS PETROUS_DEPENDS_${module})
+    if(module IN_LIST known_modules AND NOT dependency IN_LIST allowed_${module})
+      list(JOIN allowed_${module} " " allowed)
+      list(APPEND violations
+        "${declaration}: ${module} must not depend on ${dependency} (allowed: ${allowed})")
+    endif()
+  endforeach()
+
+  sources_below(files ${TREE}/Modules/${module})
+  foreach(file IN LISTS files)
+    math(EXPR files_read "${files_read} + 1")
+    includes_of(${file} includes)
+    foreach(include IN LISTS includes)
+      string(REGEX REPLACE "^#[ \t]*include[ \t]*[<\"]([^>\"]+)[>\"]$" "\\1" header "${include}")
+      if(header MATCHES "^petrous/([A-Za-z]+)/")
+        set(other ${CMAKE_MATCH_1})
+        if(NOT other STREQUAL module AND NOT other IN_LIST PETROUS_DEPENDS_${module})
+          violation(${file} "${include}"
+            "includes ${header}, but ${declaration} does not declare 'DEPENDS ${other}'")
+        endif()
+        continue()
+      endif()
+      toolkit_of("${header}" toolkit)
+      if(NOT toolkit)
+        continue()
+      endif()
+      if(NOT toolkit IN_LIST toolkits_${module})
+        violation(${file} "${include}"
+          "includes ${header}, but module ${module} must not include headers of ${toolkit}")
+      elseif(toolkit MATCHES "^(ITK|GDCM)$" AND NOT file MATCHES "\\.(cpp|cxx)$")
+        violation(${file} "${include}"
+          "includes ${header}, but headers of ${toolkit} belong in .cpp files only")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+# The application may include every module; its presenters stay free of Qt.
+sources_below(files ${TREE}/Application)
+foreach(file IN LISTS files)
+  math(EXPR files_read "${files_read} + 1")
+  includes_of(${file} includes)
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "^#[ \t]*include[ \t]*[<\"]([^>\"]+)[>\"]$" "\\1" header "${include}")
+    if(header MATCHES "^petrous/([A-Za-z]+)/" AND NOT CMAKE_MATCH_1 IN_LIST known_modules)
+      violation(${file} "${include}" "includes ${header}, but there is no module ${CMAKE_MATCH_1}")
+    endif()
+    toolkit_of("${header}" toolkit)
+    if(toolkit STREQUAL "Qt" AND file MATCHES "/Application/Presenters/")
+      violation(${file} "${include}" "includes ${header}, but presenters do not use Qt")
+    elseif(toolkit MATCHES "^(ITK|GDCM)$" AND NOT file MATCHES "\\.(cpp|cxx)$")
+      violation(${file} "${include}"
+        "includes ${header}, but headers of ${toolkit} belong in .cpp files only")
+    endif()
+  endforeach()
+endforeach()
+
+if(violations)
+  list(JOIN violations "\n" text)
+  message("${text}")
+  list(LENGTH violations count)
+  message(FATAL_ERROR "${count} includes or declarations against the rules")
+endif()
+message(STATUS "${files_read} files keep to the declared dependencies")

@@ -1,0 +1,324 @@
+// Real files that nobody here made (label "data"): geometry, verdicts and voxels of whole series.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "TestDicom.h"
+#include "petrous/Imaging/DicomReader.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using volume::IntensityVolume;
+
+class DicomData : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const char* folder = std::getenv("PETROUS_DATA");
+    if (!folder || !*folder || !fs::is_directory(folder))
+      GTEST_SKIP() << "no real data: PETROUS_DATA names no folder";
+    m_root = folder;
+  }
+
+  /// The part of the data below `name`; skips the test where it was not unpacked.
+  fs::path part(const fs::path& name) const { return m_root / name; }
+
+  fs::path m_root;
+};
+
+#define PETROUS_NEEDS(path)                                                                        \
+  if (!fs::exists(path))                                                                           \
+  GTEST_SKIP() << "not unpacked: " << (path)
+
+DicomSeries only(const fs::path& folder)
+{
+  const ScanResult result = scanDicom(folder, {});
+  return chooseSeries(result, folder);
+}
+
+const Finding* findingOf(const DicomSeries& series, FindingKind kind)
+{
+  const auto& all = series.geometry.findings;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [kind](const Finding& f) { return f.kind == kind; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// CRC-32 (IEEE 802.3), as zlib and Python compute it.
+std::uint32_t crc32(const unsigned char* bytes, std::size_t count)
+{
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t n = 0; n < 256; ++n)
+  {
+    std::uint32_t c = n;
+    for (int bit = 0; bit < 8; ++bit)
+      c = c & 1U ? 0xEDB88320U ^ (c >> 1) : c >> 1;
+    table[n] = c;
+  }
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (std::size_t i = 0; i < count; ++i)
+    crc = table[(crc ^ bytes[i]) & 0xFFU] ^ (crc >> 8);
+  return crc ^ 0xFFFFFFFFU;
+}
+
+std::string run(const std::string& command)
+{
+  std::string output;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (!pipe)
+    return output;
+  std::array<char, 256> buffer{};
+  while (std::fgets(buffer.data(), buffer.size(), pipe))
+    output += buffer.data();
+  return ::pclose(pipe) == 0 ? output : std::string();
+}
+
+bool hasPydicom()
+{
+  return !run("/usr/bin/python3 -c 'import pydicom, numpy; print(1)' 2>/dev/null").empty();
+}
+
+/// Sum and CRC of the int16 values, the slices sorted along row x column, by pydicom and numpy.
+std::string peerChecksum(const fs::path& folder)
+{
+  const test::TemporaryFolder work;
+  test::writeText(work.path() / "peer.py", R"(
+import os, sys, zlib, numpy, pydicom
+slices = []
+for name in os.listdir(sys.argv[1]):
+    try:
+        data = pydicom.dcmread(os.path.join(sys.argv[1], name))
+        cosines = [float(c) for c in data.ImageOrientationPatient]
+        normal = numpy.cross(cosines[:3], cosines[3:])
+        place = float(numpy.dot(normal, [float(p) for p in data.ImagePositionPatient]))
+        values = data.pixel_array.astype(numpy.int64)
+    except Exception:
+        continue
+    values = values * int(data.get('RescaleSlope', 1)) + int(data.get('RescaleIntercept', 0))
+    slices.append((place, values.astype('<i2')))
+slices.sort(key=lambda s: s[0])
+crc, total = 0, 0
+for place, values in slices:
+    crc = zlib.crc32(values.tobytes(), crc)
+    total += int(values.sum(dtype=numpy.int64))
+print(len(slices), total, crc)
+)");
+  return run("/usr/bin/python3 '" + (work.path() / "peer.py").string() + "' '" + folder.string() +
+             "' 2>/dev/null");
+}
+
+std::string checksum(const IntensityVolume& volume)
+{
+  using Voxels = std::shared_ptr<const volume::Volume<std::int16_t>>;
+  const auto& voxels = std::get<Voxels>(volume.voxels());
+  long long total = 0;
+  for (std::size_t i = 0; i < voxels->size(); ++i)
+    total += voxels->data()[i];
+  std::ostringstream text;
+  text << voxels->geometry().dims()[2] << " " << total << " "
+       << crc32(reinterpret_cast<const unsigned char*>(voxels->data()), voxels->bytes()) << "\n";
+  return text.str();
+}
+
+void expectPeersVoxels(const fs::path& folder, bool acceptDefects = false)
+{
+  if (!hasPydicom())
+    GTEST_SKIP() << "python3 has no pydicom to compare with";
+  ReadOptions options;
+  options.acceptDefects = acceptDefects;
+  EXPECT_EQ(checksum(readSeries(only(folder), options, {})), peerChecksum(folder));
+}
+
+TEST_F(DicomData, VisibleHumanHeadIsOkAndLiesWhereItsFilesSay)
+{
+  const fs::path folder = part("ct_head_vhm/vhm_1080-1245");
+  PETROUS_NEEDS(folder);
+  const DicomSeries series = only(folder);
+  EXPECT_EQ(series.geometry.verdict, Verdict::Ok);
+  ASSERT_TRUE(series.geometry.grid);
+  const core::GridGeometry expected({512, 512, 166}, {1, 1, 1}, {0, 0, 1079});
+  EXPECT_TRUE(core::sameGrid(*series.geometry.grid, expected, 1e-6));
+  const IntensityVolume volume = readSeries(series, {}, {});
+  EXPECT_EQ(volume.range().min, -1024.0);
+  EXPECT_EQ(volume.range().max, 3617.0);
+}
+
+TEST_F(DicomData, VisibleHumanVoxelsEqualPydicomToTheBit)
+{
+  const fs::path folder = part("ct_head_vhm/vhm_1080-1245");
+  PETROUS_NEEDS(folder);
+  expectPeersVoxels(folder);
+}
+
+TEST_F(DicomData, StraightPhantomScanIsOkAndEqualsPydicomToTheBit)
+{
+  const fs::path folder = part("ct_phantom/philips_S21570_S2020_notilt_1mm/S2020");
+  PETROUS_NEEDS(folder);
+  const DicomSeries series = only(folder);
+  EXPECT_EQ(series.geometry.verdict, Verdict::Ok);
+  const core::GridGeometry expected({512, 512, 140}, {0.451171875, 0.451171875, 1},
+                                    {-115.5, -1.85, 694.21});
+  EXPECT_TRUE(core::sameGrid(*series.geometry.grid, expected, 1e-6));
+  expectPeersVoxels(folder);
+}
+
+TEST_F(DicomData, TiltedPhantomScanIsRefusedWithItsMillimetres)
+{
+  const fs::path folder = part("ct_phantom/philips_S21610_S2010_tilt-18.5/S2010");
+  PETROUS_NEEDS(folder);
+  const DicomSeries series = only(folder);
+  EXPECT_EQ(series.geometry.verdict, Verdict::Refused);
+  const Finding* tilt = findingOf(series, FindingKind::GantryTilt);
+  ASSERT_TRUE(tilt);
+  EXPECT_GE(tilt->errorMm, 18.0);
+  EXPECT_LE(tilt->errorMm, 25.0);
+  EXPECT_EQ(series.geometry.findings.size(), 1U);
+  EXPECT_NEAR(series.geometry.grid->spacing()[2], 2.5 * 0.9483237, 1e-5);
+  expectPeersVoxels(folder, true);
+}
+
+TEST_F(DicomData, MissingSliceIsNamed)
+{
+  const fs::path folder = part("dicom_odd/dicom2nifti_failing_public/failing/sliceincrement/001");
+  PETROUS_NEEDS(folder);
+  const DicomSeries series = only(folder);
+  const Finding* missing = findingOf(series, FindingKind::MissingSlice);
+  ASSERT_TRUE(missing);
+  EXPECT_NEAR(missing->errorMm, 5.0, 1e-3);
+}
+
+TEST_F(DicomData, SlicesAtOnePlaceAreNoVolume)
+{
+  const fs::path folder = part("dicom_odd/dicom2nifti_failing_public/failing/notavolume/001");
+  PETROUS_NEEDS(folder);
+  const DicomSeries series = only(folder);
+  EXPECT_TRUE(findingOf(series, FindingKind::DuplicateSlice));
+  EXPECT_THROW(readSeries(series, {}, {}), DicomError);
+}
+
+TEST_F(DicomData, MixedOrientationIsNamed)
+{
+  const fs::path folder = part("dicom_odd/dicom2nifti_failing_public/failing/sliceorientation/001");
+  PETROUS_NEEDS(folder);
+  EXPECT_TRUE(findingOf(only(folder), FindingKind::OddOrientation));
+}
+
+TEST_F(DicomData, HeadFirstSupineAndProneLieInOnePatientFrame)
+{
+  for (const char* name : {"HFS/3_t1_fl2d_sag", "HFP/2_t1_fl2d_sag"})
+  {
+    const fs::path folder = part("mr_positions/siemens_t1_HFS_HFP") / name;
+    PETROUS_NEEDS(folder);
+    const DicomSeries series = only(folder);
+    EXPECT_EQ(series.geometry.verdict, Verdict::Ok) << name;
+    EXPECT_EQ(series.geometry.grid->dims(), (core::Index3{256, 256, 35}));
+    // Sagittal: rows to the back, columns down, slices from left to right.
+    Eigen::Matrix3d axes;
+    axes << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+    EXPECT_TRUE(series.geometry.grid->direction().isApprox(axes, 1e-9));
+    EXPECT_NEAR(series.geometry.grid->spacing()[2], 4.8, 1e-6);
+    expectPeersVoxels(folder);
+  }
+}
+
+TEST_F(DicomData, EveryCompressionGivesTheSameVoxels)
+{
+  const fs::path root = part("dicom_odd/dicom2nifti_generic/generic");
+  PETROUS_NEEDS(root);
+  const std::string lossless = checksum(readSeries(only(root / "compressed_j2k/001"), {}, {}));
+  for (const char* name :
+       {"compressed/001", "compressed_jpeg/001", "compressed_jpegls/001", "compressed_rle/001"})
+    EXPECT_EQ(checksum(readSeries(only(root / name), {}, {})), lossless) << name;
+}
+
+TEST_F(DicomData, ColoursAreRefusedInWords)
+{
+  const fs::path folder = part("dicom_odd/dicom2nifti_generic/generic/rgb/001");
+  PETROUS_NEEDS(folder);
+  const ScanResult result = scanDicom(folder, {});
+  ASSERT_EQ(result.series.size(), 1U);
+  EXPECT_TRUE(findingOf(result.series.front(), FindingKind::NotAnImage));
+}
+
+TEST_F(DicomData, TwelveBitsAreMaskedAndSignExtended)
+{
+  const fs::path folder = part("dicom_odd/dcm_qa_12bit/dcm_qa_12bit/In");
+  PETROUS_NEEDS(folder);
+  // Three files of one place: each is read as a stack of its own, beside a copy moved up.
+  DicomSeries series = only(folder);
+  ASSERT_EQ(series.geometry.slices.size(), 3U);
+  const auto rangeOf = [&](const std::string& name)
+  {
+    DicomSeries two = series;
+    std::vector<SliceHeader> slices;
+    for (const SliceHeader& slice : series.geometry.slices)
+      if (slice.file.filename() == name)
+        slices = {slice, slice};
+    EXPECT_EQ(slices.size(), 2U) << name;
+    const Eigen::Vector3d normal = slices[0].rowDirection->cross(*slices[0].columnDirection);
+    *slices[1].position += 5.0 * normal;
+    two.geometry = assess(slices);
+    return readSeries(two, {}, {}).range();
+  };
+  EXPECT_EQ(rangeOf("12bitUnsigned_0x0F0F.dcm").max, 4095.0);
+  EXPECT_GE(rangeOf("12bitUnsigned_0x0F0F.dcm").min, 0.0);
+  // Stripes of 0x0F0F and 0xFFFF in 12 signed bits.
+  EXPECT_LE(rangeOf("12bitSigned_0x0F0F.dcm").min, -241.0);
+  EXPECT_LE(rangeOf("12bitSigned_0x0F0F.dcm").max, 2047.0);
+}
+
+TEST_F(DicomData, OddFilesNeverCrashAndNeverSpeak)
+{
+  for (const char* name : {"dicom_odd/pydicom_test_files", "seg_rt"})
+  {
+    const fs::path folder = part(name);
+    PETROUS_NEEDS(folder);
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    const ScanResult result = scanDicom(folder, {});
+    ReadOptions options;
+    options.acceptDefects = true;
+    std::size_t readable = 0;
+    for (const DicomSeries& series : result.series)
+      try
+      {
+        readSeries(series, options, {});
+        ++readable;
+      }
+      catch (const DicomError&)
+      {
+      }
+    std::string spoken = testing::internal::GetCapturedStderr();
+    spoken += testing::internal::GetCapturedStdout();
+    EXPECT_EQ(spoken, "");
+    EXPECT_GT(result.series.size(), 10U);
+    EXPECT_GT(readable, 1U);
+  }
+}
+
+TEST_F(DicomData, SegmentationsAndStructureSetsAreNoImages)
+{
+  const fs::path folder = part("seg_rt");
+  PETROUS_NEEDS(folder);
+  for (const DicomSeries& series : scanDicom(folder, {}).series)
+    if (series.modality == "SEG" || series.modality == "RTSTRUCT" || series.modality == "SR")
+    {
+      EXPECT_EQ(series.geometry.verdict, Verdict::Refused);
+      EXPECT_TRUE(findingOf(series, FindingKind::MultiFrame) ||
+                  findingOf(series, FindingKind::NotAnImage));
+    }
+}
+
+} // namespace
+} // namespace petrous::imaging

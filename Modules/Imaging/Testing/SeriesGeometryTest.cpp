@@ -1,0 +1,388 @@
+#include "petrous/Imaging/SeriesGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Headers = std::vector<SliceHeader>;
+
+/// A straight stack of 100 x 80 pixels of 0.4 mm: slice k at origin + k * spacing * normal.
+Headers stack(int count, double spacing = 0.6,
+              const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(),
+              const Eigen::Vector3d& origin = {-20.0, -16.0, 100.0})
+{
+  Headers slices;
+  for (int k = 0; k < count; ++k)
+  {
+    SliceHeader slice;
+    slice.file = "slice" + std::to_string(k);
+    slice.position = origin + axes.col(2) * (spacing * k);
+    slice.rowDirection = axes.col(0);
+    slice.columnDirection = axes.col(1);
+    slice.pixelSpacing = Eigen::Vector2d(0.4, 0.4);
+    slice.rows = 80;
+    slice.columns = 100;
+    slice.instanceNumber = k + 1;
+    slice.imageType = {"ORIGINAL", "PRIMARY", "AXIAL"};
+    slices.push_back(slice);
+  }
+  return slices;
+}
+
+bool has(const SeriesGeometry& series, FindingKind kind)
+{
+  return std::any_of(series.findings.begin(), series.findings.end(),
+                     [kind](const Finding& f) { return f.kind == kind; });
+}
+
+Finding only(const SeriesGeometry& series)
+{
+  EXPECT_EQ(series.findings.size(), 1U);
+  EXPECT_EQ(series.verdict, Verdict::Refused);
+  return series.findings.empty() ? Finding{FindingKind::Unreadable, "", -1.0}
+                                 : series.findings.front();
+}
+
+TEST(SeriesGeometry, AcceptsAStraightStackAndStatesItsGrid)
+{
+  Headers slices = stack(20);
+  for (SliceHeader& slice : slices)
+    slice.pixelSpacing = Eigen::Vector2d(0.5, 0.4); // DICOM order: rows first
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_TRUE(series.findings.empty());
+  ASSERT_TRUE(series.grid);
+  EXPECT_EQ(series.grid->dims(), (core::Index3{100, 80, 20}));
+  EXPECT_TRUE(series.grid->spacing().isApprox(Eigen::Vector3d(0.4, 0.5, 0.6), 1e-12));
+  EXPECT_TRUE(series.grid->origin().isApprox(Eigen::Vector3d(-20.0, -16.0, 100.0), 1e-12));
+  EXPECT_TRUE(series.grid->direction().isApprox(Eigen::Matrix3d::Identity(), 1e-12));
+}
+
+TEST(SeriesGeometry, DoesNotDependOnTheOrderOfTheFiles)
+{
+  Headers slices = stack(30);
+  slices.erase(slices.begin() + 12);
+  const SeriesGeometry expected = assess(slices);
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    std::shuffle(slices.begin(), slices.end(), random);
+    const SeriesGeometry series = assess(slices);
+    ASSERT_EQ(series.slices.size(), expected.slices.size());
+    for (std::size_t k = 0; k < series.slices.size(); ++k)
+      EXPECT_EQ(series.slices[k].file, expected.slices[k].file);
+    EXPECT_TRUE(core::sameGrid(*series.grid, *expected.grid));
+    EXPECT_EQ(series.findings.front().text, expected.findings.front().text);
+  }
+}
+
+TEST(SeriesGeometry, SortsByPositionNotByInstanceNumber)
+{
+  Headers slices = stack(10);
+  for (int k = 0; k < 10; ++k)
+    slices[static_cast<std::size_t>(k)].instanceNumber = 10 - k; // feet first
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_EQ(series.slices.front().file, "slice0");
+}
+
+TEST(SeriesGeometry, PlacesEverySliceOfAnObliqueStackWhereItsFileSays)
+{
+  const Eigen::Matrix3d axes =
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized())).toRotationMatrix();
+  const SeriesGeometry series = assess(stack(15, 0.7, axes));
+  ASSERT_EQ(series.verdict, Verdict::Ok);
+  for (int k = 0; k < 15; ++k)
+    EXPECT_LT((series.grid->patientFromVoxel({0.0, 0.0, double(k)}) -
+               *series.slices[static_cast<std::size_t>(k)].position)
+                  .norm(),
+              1e-9);
+}
+
+TEST(SeriesGeometry, FollowsANormalThatPointsDown)
+{
+  Eigen::Matrix3d axes;
+  axes << 1, 0, 0, 0, -1, 0, 0, 0, -1; // rows to the left, columns to the front
+  const SeriesGeometry series = assess(stack(5, 2.0, axes));
+  ASSERT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_GT(series.grid->direction().determinant(), 0.0);
+  EXPECT_DOUBLE_EQ(series.grid->origin()[2], 100.0); // the highest slice is the first
+  EXPECT_NEAR(series.grid->patientFromVoxel({0, 0, 4})[2], 92.0, 1e-12);
+}
+
+TEST(SeriesGeometry, AcceptsCosinesRoundedToFourDigits)
+{
+  const Eigen::Matrix3d exact =
+      (Eigen::AngleAxisd(0.3, Eigen::Vector3d(3, 1, 1).normalized())).toRotationMatrix();
+  Headers slices = stack(10, 1.0, exact);
+  for (SliceHeader& slice : slices)
+  {
+    slice.rowDirection = (*slice.rowDirection * 1e4).array().round().matrix() / 1e4;
+    slice.columnDirection = (*slice.columnDirection * 1e4).array().round().matrix() / 1e4;
+  }
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+}
+
+TEST(SeriesGeometry, AcceptsAndNotesJitterBelowATenthOfAMillimetreAndOnePercent)
+{
+  Headers slices = stack(20, 1.0);
+  (*slices[7].position)[2] += 0.008;
+  (*slices[9].position)[0] += 0.008;
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_EQ(series.notes.size(), 2U);
+}
+
+TEST(SeriesGeometry, RefusesJitterAboveOnePercentOfTheSpacing)
+{
+  Headers slices = stack(20, 1.0);
+  (*slices[7].position)[2] += 0.02;
+  const Finding finding = only(assess(slices));
+  EXPECT_EQ(finding.kind, FindingKind::UnevenSpacing);
+  EXPECT_NEAR(finding.errorMm, 0.02, 1e-9);
+}
+
+TEST(SeriesGeometry, RefusesJitterAboveATenthOfAMillimetreInThickSlices)
+{
+  Headers slices = stack(20, 20.0);
+  (*slices[7].position)[2] += 0.15;
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
+TEST(SeriesGeometry, StatesTheMillimetresOfAGantryTilt)
+{
+  // Tilt t about the patient's x axis; the table moves along z by 1.25 mm a slice.
+  const double tilt = 12.0 * M_PI / 180.0;
+  Eigen::Matrix3d axes = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  Headers slices = stack(41, 1.0, axes);
+  for (int k = 0; k < 41; ++k)
+    slices[static_cast<std::size_t>(k)].position = Eigen::Vector3d(-20, -16, 100 + 1.25 * k);
+  const SeriesGeometry series = assess(slices);
+  const Finding finding = only(series);
+  EXPECT_EQ(finding.kind, FindingKind::GantryTilt);
+  EXPECT_NEAR(finding.errorMm, 0.5 * 50.0 * std::sin(tilt), 1e-6);
+  EXPECT_NEAR(series.grid->spacing()[2], 1.25 * std::cos(tilt), 1e-9);
+  EXPECT_NE(finding.text.find("12.0 degrees"), std::string::npos) << finding.text;
+}
+
+TEST(SeriesGeometry, TellsATiltAlsoWhenASliceIsMissing)
+{
+  Headers slices = stack(30, 1.0);
+  for (int k = 0; k < 30; ++k)
+    (*slices[static_cast<std::size_t>(k)].position)[1] += 0.2 * k;
+  slices.erase(slices.begin() + 10);
+  const SeriesGeometry series = assess(slices);
+  EXPECT_TRUE(has(series, FindingKind::GantryTilt));
+  EXPECT_TRUE(has(series, FindingKind::MissingSlice));
+  EXPECT_EQ(series.findings.size(), 2U);
+}
+
+TEST(SeriesGeometry, DoesNotTakeOneShiftedSliceForATilt)
+{
+  Headers slices = stack(30, 1.0);
+  (*slices[29].position)[0] += 3.0;
+  const Finding finding = only(assess(slices));
+  EXPECT_EQ(finding.kind, FindingKind::UnevenSpacing);
+  EXPECT_NEAR(finding.errorMm, 3.0, 1e-9);
+}
+
+TEST(SeriesGeometry, NamesTheMissingSlicesAndTheMillimetresAtStake)
+{
+  Headers slices = stack(20, 0.6);
+  slices.erase(slices.begin() + 5, slices.begin() + 7);
+  const SeriesGeometry series = assess(slices);
+  const Finding finding = only(series);
+  EXPECT_EQ(finding.kind, FindingKind::MissingSlice);
+  EXPECT_NEAR(finding.errorMm, 1.2, 1e-9);
+  EXPECT_NE(finding.text.find("2 slices are missing"), std::string::npos) << finding.text;
+  EXPECT_NE(finding.text.find("between 102.40 and 104.20 mm"), std::string::npos) << finding.text;
+  EXPECT_NEAR(series.grid->spacing()[2], 0.6, 1e-9);
+}
+
+TEST(SeriesGeometry, CallsAChangeOfPitchUneven)
+{
+  Headers slices = stack(20, 1.0);
+  for (int k = 10; k < 20; ++k)
+    (*slices[static_cast<std::size_t>(k)].position)[2] = 109.0 + 2.0 * (k - 9);
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
+TEST(SeriesGeometry, CallsAFractionalGapUneven)
+{
+  Headers slices = stack(20, 1.0);
+  for (int k = 10; k < 20; ++k)
+    (*slices[static_cast<std::size_t>(k)].position)[2] += 0.5;
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
+TEST(SeriesGeometry, NamesADuplicateSlice)
+{
+  Headers slices = stack(20, 1.0);
+  slices.push_back(slices[4]);
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(only(series).kind, FindingKind::DuplicateSlice);
+  EXPECT_NEAR(series.findings.front().errorMm, 1.0, 1e-9);
+}
+
+TEST(SeriesGeometry, NamesTwoAcquisitionsAtTheSamePlaces)
+{
+  Headers slices = stack(20, 1.0);
+  const Headers again = stack(20, 1.0);
+  slices.insert(slices.end(), again.begin(), again.end());
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(only(series).kind, FindingKind::DuplicateSlice);
+  EXPECT_NEAR(series.grid->spacing()[2], 1.0, 1e-9);
+}
+
+TEST(SeriesGeometry, HasNoGridWhenAllSlicesShareOnePlace)
+{
+  Headers slices(4, stack(1).front());
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(only(series).kind, FindingKind::DuplicateSlice);
+  EXPECT_FALSE(series.grid);
+}
+
+TEST(SeriesGeometry, SetsATurnedSliceAside)
+{
+  Headers slices = stack(20, 1.0);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  slices[19].columnDirection = turn.col(1);
+  const SeriesGeometry series = assess(slices);
+  const Finding finding = only(series);
+  EXPECT_EQ(finding.kind, FindingKind::OddOrientation);
+  EXPECT_NEAR(finding.errorMm, 2.0 * std::sin(0.05) * 80 * 0.4, 1e-6);
+  EXPECT_EQ(series.slices.size(), 19U);
+}
+
+TEST(SeriesGeometry, SetsASliceOfAnotherSizeAside)
+{
+  Headers slices = stack(20, 1.0);
+  slices[19].rows = 64;
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::OddSize);
+  slices = stack(20, 1.0);
+  slices[19].pixelSpacing = Eigen::Vector2d(0.5, 0.5);
+  const Finding finding = only(assess(slices));
+  EXPECT_EQ(finding.kind, FindingKind::OddSize);
+  EXPECT_NEAR(finding.errorMm, 10.0, 1e-9);
+}
+
+TEST(SeriesGeometry, NamesMixedRescale)
+{
+  Headers slices = stack(20, 1.0);
+  slices[3].intercept = -1024.0;
+  const Finding finding = only(assess(slices));
+  EXPECT_EQ(finding.kind, FindingKind::MixedRescale);
+  EXPECT_EQ(finding.errorMm, 0.0);
+}
+
+TEST(SeriesGeometry, SetsALocalizerAside)
+{
+  Headers slices = stack(20, 1.0);
+  slices[0].imageType = {"ORIGINAL", "PRIMARY", "LOCALIZER"};
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(only(series).kind, FindingKind::LocalizerMixedIn);
+  EXPECT_EQ(series.slices.size(), 19U);
+}
+
+TEST(SeriesGeometry, KnowsAnUndeclaredLocalizerByItsPlane)
+{
+  Headers slices = stack(20, 1.0);
+  SliceHeader scout = slices[0];
+  scout.columnDirection = Eigen::Vector3d(0, 0, -1);
+  slices.push_back(scout);
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::LocalizerMixedIn);
+}
+
+TEST(SeriesGeometry, HasNoGridWithoutUsableNumbers)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto damage = [](const std::function<void(SliceHeader&)>& change)
+  {
+    Headers slices = stack(5);
+    for (SliceHeader& slice : slices)
+      change(slice);
+    const SeriesGeometry series = assess(slices);
+    EXPECT_FALSE(series.grid);
+    return only(series).kind;
+  };
+  const FindingKind none = FindingKind::NoGeometry;
+  EXPECT_EQ(damage([](SliceHeader& s) { s.position.reset(); }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.rowDirection.reset(); }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.pixelSpacing.reset(); }), none);
+  EXPECT_EQ(damage([&](SliceHeader& s) { (*s.position)[1] = nan; }), none);
+  EXPECT_EQ(damage([&](SliceHeader& s) { (*s.position)[1] = infinity; }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { (*s.position)[1] = 1e30; }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.pixelSpacing = Eigen::Vector2d(0.0, 0.4); }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.pixelSpacing = Eigen::Vector2d(-1.0, 0.4); }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.columnDirection = s.rowDirection; }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.rowDirection = Eigen::Vector3d::Zero(); }), none);
+  EXPECT_EQ(damage([](SliceHeader& s) { s.rows = 0; }), none);
+}
+
+TEST(SeriesGeometry, RefusesOneSliceAlone)
+{
+  const SeriesGeometry series = assess(stack(1));
+  EXPECT_EQ(only(series).kind, FindingKind::NoGeometry);
+  EXPECT_FALSE(series.grid);
+}
+
+TEST(SeriesGeometry, RefusesSlicesOfTwoFramesOfReference)
+{
+  Headers slices = stack(20, 1.0);
+  slices[19].frameOfReferenceUid = "1.2.3";
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::NoGeometry);
+}
+
+TEST(SeriesGeometry, RefusesMultiFrameColourDamageAndNonImages)
+{
+  Headers slices = stack(5);
+  slices[0].frames = 12;
+  EXPECT_TRUE(has(assess(slices), FindingKind::MultiFrame));
+  slices = stack(5);
+  for (SliceHeader& slice : slices)
+    slice.pixels.samplesPerPixel = 3;
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::NotAnImage);
+  slices = stack(5);
+  for (SliceHeader& slice : slices)
+    slice.isImage = false;
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::NotAnImage);
+  slices = stack(5);
+  slices[4].damage = "is cut short";
+  const Finding finding = only(assess(slices));
+  EXPECT_EQ(finding.kind, FindingKind::Unreadable);
+  EXPECT_EQ(finding.text, "slice4 is cut short.");
+}
+
+TEST(SeriesGeometry, SurvivesAnEmptySeries)
+{
+  const SeriesGeometry series = assess({});
+  EXPECT_NE(series.verdict, Verdict::Ok);
+  EXPECT_FALSE(series.grid);
+}
+
+TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
+{
+  std::set<std::string> names;
+  for (int kind = 0; kind <= static_cast<int>(FindingKind::Unreadable); ++kind)
+    names.insert(kindName(static_cast<FindingKind>(kind)));
+  const std::set<std::string> expected{"gantry-tilt",     "missing-slice",   "uneven-spacing",
+                                       "duplicate-slice", "odd-orientation", "odd-size",
+                                       "mixed-rescale",   "no-geometry",     "localizer-mixed-in",
+                                       "multi-frame",     "not-an-image",    "unreadable"};
+  EXPECT_EQ(names, expected);
+}
+
+} // namespace
+} // namespace petrous::imaging

@@ -30,6 +30,15 @@ bool isDecodable(const std::string& syntax)
   return std::find(std::begin(kKnown), std::end(kKnown), syntax) != std::end(kKnown);
 }
 
+/// Storage classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
+bool isSliceClass(const std::string& sopClass)
+{
+  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
+  static const char* const kKnown[] = {"1", "2", "2.1", "4", "4.1", "7", "128"};
+  return std::any_of(std::begin(kKnown), std::end(kKnown),
+                     [&](const char* known) { return sopClass == kStorage + known; });
+}
+
 bool isNative(const std::string& syntax)
 {
   return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
@@ -163,7 +172,8 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   return checkFormat(slice);
 }
 
-void readSlice(ByteSource& source, const DicomElements& elements, FileHeader& header)
+void readSlice(ByteSource& source, const DicomElements& elements, const std::string& sopClass,
+               FileHeader& header)
 {
   SliceHeader& slice = header.slice;
   header.seriesUid = elements.text(0x0020000e);
@@ -185,8 +195,13 @@ void readSlice(ByteSource& source, const DicomElements& elements, FileHeader& he
   slice.isImage = elements.pixels().tag != 0;
   if (slice.isImage)
     slice.damage = checkPixels(source, elements.pixels(), slice);
-  else if (slice.rows > 0)
-    slice.damage = "holds no pixels although it describes some";
+  else if (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass))
+  {
+    // Cut between two elements, or stripped: either way something is lost.
+    slice.damage = "holds no pixels";
+    if (header.seriesUid.empty())
+      header.kind = FileKind::Broken;
+  }
   if (slice.damage.empty())
     slice.damage = rescale;
 }
@@ -213,7 +228,7 @@ FileHeader readHeader(const std::filesystem::path& file)
   if (sopClass == kDirectoryClass)
     header.kind = FileKind::Directory;
   else
-    readSlice(source, elements, header);
+    readSlice(source, elements, sopClass, header);
   return header;
 }
 

@@ -1,10 +1,11 @@
 #include "petrous/Imaging/DicomWriter.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <limits>
 #include <system_error>
 #include <type_traits>
 #include <vector>
@@ -247,29 +248,34 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
       throw core::InvalidParameter("DICOM series: float voxels cannot be stored as CT or MR");
     else
     {
-      gdcm::DataSet shared = commonPart(description, grid, std::is_signed_v<T>);
-      if (image.padding())
-      {
-        const double stored =
-          (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
-        put(shared, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
-            std::is_signed_v<T> ? gdcm::VR::SS : gdcm::VR::US);
-      }
       const gdcm::MediaStorage storage(ct ? gdcm::MediaStorage::CTImageStorage
                                           : gdcm::MediaStorage::MRImageStorage);
       const Eigen::Vector3d step =
         sliceStep.value_or(grid.spacing()[2] * grid.direction().col(2));
-      const std::uint64_t instanceSeed = std::hash<std::string>{}(description.seriesUid);
       const int slices = grid.dims()[2];
       std::atomic<int> done{0};
       const auto writeSlice = [&](int k) {
         progress.report(static_cast<double>(done.fetch_add(1)) / slices, "writing DICOM slices");
         gdcm::Writer writer;
         gdcm::DataSet& data = writer.GetFile().GetDataSet();
-        data = shared;
+        // GDCM counts references to values without a lock, so slices share none of them
+        data = commonPart(description, grid, std::is_signed_v<T>);
+        if (image.padding())
+        {
+          const double stored =
+            (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
+          put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
+              std::is_signed_v<T> ? gdcm::VR::SS : gdcm::VR::US);
+        }
+        if (ct && sliceStep)
+        {
+          const double lean =
+            std::acos(std::clamp(step.normalized().dot(grid.direction().col(2)), -1.0, 1.0));
+          put(data, 0x0018, 0x1120, gdcm::VR::DS, decimal(lean * 180.0 / 3.14159265358979323846));
+        }
         const Eigen::Vector3d position = grid.origin() + k * step;
         const std::string uid =
-          deterministicUid(instanceSeed, description.seriesUid + "/" + std::to_string(k));
+          deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
         put(data, 0x0008, 0x0016, gdcm::VR::UI, storage.GetString());
         put(data, 0x0008, 0x0018, gdcm::VR::UI, uid);
         put(data, 0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1));

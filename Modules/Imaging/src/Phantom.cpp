@@ -104,26 +104,40 @@ core::RigidTransform Phantom::mrFromCt() const
   return {rotation, center() + shift - rotation * center()};
 }
 
-Phantom::Scene::Stack Phantom::Scene::stackAround(const shapes::Point& center, double reach) const
+Phantom::Scene::Stack Phantom::Scene::stackAround(const shapes::Point& center, double reach,
+                                                  const Stack* among) const
 {
   // Distances may fall short of a border's true distance: never by more than these shares.
   constexpr double kOutside = 1.3;
   constexpr double kInside = 2.1;
   Stack stack;
-  for (std::size_t l = layers.size(); l-- > 0;)
-  {
+  const auto covers = [&](std::size_t l) {
     if (layers[l].shape.box.squaredExteriorDistance(center) > reach * reach)
-      continue;
+      return false;
     const double d = layers[l].shape(center);
-    if (d > kOutside * reach)
-      continue;
     if (d < -kInside * reach)
+      return true;
+    if (d <= kOutside * reach)
+      stack.layers.push_back(l);
+    return false;
+  };
+  if (among)
+  {
+    stack.base = among->base;
+    for (const std::size_t l : among->layers)
+      if (covers(l))
+      {
+        stack.base = static_cast<int>(l);
+        break;
+      }
+    return stack;
+  }
+  for (std::size_t l = layers.size(); l-- > 0;)
+    if (covers(l))
     {
       stack.base = static_cast<int>(l);
       break;
     }
-    stack.layers.push_back(l);
-  }
   return stack;
 }
 

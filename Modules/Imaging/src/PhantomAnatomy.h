@@ -78,6 +78,7 @@ struct Layer
   std::array<float, 3> color{};
   bool solid = true;
   double mesh = 0.0; ///< mm between the samples of its surface; 0: it has none
+  double mottle = 0.0; ///< share by which trabeculae vary the intensity, standard deviation
 };
 std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma);
 

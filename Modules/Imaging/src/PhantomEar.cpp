@@ -96,13 +96,13 @@ Arc lateralArc()
   const double tilt = 25.0 * 3.14159265358979323846 / 180.0;
   const Vector3d v(0.0, -std::cos(tilt), std::sin(tilt));
   const Vector3d u(-1.0, 0.0, 0.0);
-  return {{kVestibule + Vector3d(-2.1, 0.9, 2.3), u.cross(v), 2.9}, u, v, 2.25, -2.25};
+  return {{kVestibule + Vector3d(-2.1, 1.0, 2.8), u.cross(v), 2.9}, u, v, 2.25, -2.25};
 }
 
 Arc superiorArc()
 {
   const Vector3d u = Vector3d(-1.0, -1.0, 0.0).normalized(); // anterolateral
-  return {{kVestibule + Vector3d(-0.1, -0.1, 4.1), u.cross(Vector3d::UnitZ()), 3.5},
+  return {{kVestibule + Vector3d(0.3, 0.3, 4.2), u.cross(Vector3d::UnitZ()), 3.3},
           u,
           Vector3d::UnitZ(),
           -0.9,
@@ -133,8 +133,10 @@ void addLabyrinth(Ear& ear)
   ear.superior = canalShape(superior, inner + Vector3d(-0.8, -0.8, 0.8), crus, true);
   ear.posterior = canalShape(posterior, superior.at(superior.last),
                              inner + Vector3d(0.4, 1.2, -0.9), false);
-  ear.cochlea = tube(cochlearSpiral());
-  ear.labyrinth = merge({ear.vestibule, ear.cochlea, ear.lateral, ear.superior, ear.posterior});
+  ear.superior = remembered(ear.superior);
+  ear.cochlea = remembered(tube(cochlearSpiral()));
+  ear.labyrinth = remembered(
+    merge({ear.vestibule, ear.cochlea, ear.lateral, ear.superior, ear.posterior}));
 }
 
 void addOssicles(Ear& ear)
@@ -176,8 +178,8 @@ void addNerves(Ear& ear)
   const std::vector<Knot> meatal{{{-20.0, 0.0, 2.6}, 0.6}, {{-27.0, -0.4, 2.3}, 0.6},
                                  {{-33.5, -1.2, 2.5}, 0.6}, {{-35.4, -2.2, 3.4}, 0.5},
                                  {{-37.3, -4.0, 4.6}, 0.55}, {{-38.6, -5.6, 5.2}, 0.9},
-                                 {{-40.1, -4.6, 4.9}, 0.6}, {{-41.6, -1.9, 4.1}, 0.6},
-                                 {{-43.0, 0.7, 3.3}, 0.6}, {{-44.5, 3.2, 2.3}, 0.6},
+                                 {{-40.1, -4.6, 4.9}, 0.6}, {{-41.8, -2.1, 4.1}, 0.6},
+                                 {{-43.3, 0.7, 3.2}, 0.6}, {{-44.8, 3.2, 2.1}, 0.6},
                                  {{-45.5, 4.7, 0.2}, 0.6}, {{-46.0, 5.4, -4.0}, 0.6},
                                  {{-46.6, 6.0, -10.0}, 0.6}, {{-46.9, 6.0, -15.0}, 0.6},
                                  {{-47.6, 4.6, -19.5}, 0.65}, {{-50.0, 0.0, -24.0}, 0.7},
@@ -190,8 +192,8 @@ void addNerves(Ear& ear)
       knot.radius += by;
     return tube(knots);
   };
-  ear.facialCanal = widened(0.3);
-  ear.facialWall = widened(0.65);
+  ear.facialCanal = remembered(widened(0.3));
+  ear.facialWall = remembered(grown(ear.facialCanal, 0.35));
   ear.chorda = tube(spline({{{-46.5, 5.9, -9.0}, 0.25},
                             {{-47.6, 4.5, -4.0}, 0.25},
                             {{-48.2, 2.7, 1.0}, 0.25},
@@ -224,7 +226,7 @@ Ear makeEar(const Skull& skull)
                                    {{-48.5, -2.3, -0.7}, 4.4},
                                    {{-46.0, -2.1, -0.6}, 4.4}}));
   const Shape lateralOfDrum{[drum](const Point& p) { return -drum.side(p); }, everywhere()};
-  ear.canal = common({outer, lateralOfDrum, skull.skin});
+  ear.canal = remembered(common({outer, lateralOfDrum, skull.skin}));
   ear.drum = {[drum](const Point& p) {
                 const Vector3d q = p - drum.center;
                 const double height = q.dot(drum.normal);
@@ -248,9 +250,9 @@ Ear makeEar(const Skull& skull)
     [cranial = skull.cranial](const Point& p) { return kTegmenThickness - cranial(p); },
     everywhere()};
   ear.cavity =
-    blendCommon(blend({lower, epi, aditus, tubal}, 0.8), underTegmen, 0.4);
+    remembered(blendCommon(blend({lower, epi, aditus, tubal}, 0.8), underTegmen, 0.4));
   ear.antrum =
-    blendCommon(ellipsoid({-48.8, 7.2, 7.2}, {3.4, 4.6, 4.4}), underTegmen, 0.4);
+    remembered(blendCommon(ellipsoid({-48.8, 7.2, 7.2}, {3.4, 4.6, 4.4}), underTegmen, 0.4));
 
   addLabyrinth(ear);
   addOssicles(ear);

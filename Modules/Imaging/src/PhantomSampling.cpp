@@ -15,7 +15,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr int kBlock = 8;        // voxels along a block's edge
+constexpr int kSlab = 8;          // slices that one task samples
 constexpr double kFraction = 8.0; // units a HU while filtering, so that rounding adds < 0.1 HU
 
 /// Standard normal quantiles, to turn counters into Gaussian noise without a state.
@@ -118,26 +118,69 @@ struct Frame
   }
 };
 
-/// Calls each(i, j, k, stack, position) block by block for slices [first, last).
+/// Calls each(box, stack) for boxes of voxels that make up slices [first, last): the slab is cut
+/// in halves as long as borders pass and a box is wider than a few voxels.
 template <class Each>
-void visitBlocks(const Phantom::Scene& scene, const Frame& frame, const core::Index3& dims,
-                 int first, int last, double margin, const Each& each)
+class BlockVisitor
 {
-  const double reach = 0.5 * (kBlock - 1) * frame.step.colwise().norm().sum() + margin;
-  const int depth = last - first;
-  for (int j0 = 0; j0 < dims[1]; j0 += kBlock)
-    for (int i0 = 0; i0 < dims[0]; i0 += kBlock)
+public:
+  BlockVisitor(const Phantom::Scene& scene, const Frame& frame, double margin, const Each& each)
+    : m_scene(scene)
+    , m_frame(frame)
+    , m_margin(margin)
+    , m_each(each)
+  {
+  }
+
+  void visit(const core::Index3& dims, int first, int last) const
+  {
+    for (int j = 0; j < dims[1]; j += kTile)
+      for (int i = 0; i < dims[0]; i += kTile)
+        split({{i, j, first}, {std::min(i + kTile, dims[0]), std::min(j + kTile, dims[1]), last}},
+              nullptr);
+  }
+
+private:
+  static constexpr int kTile = 32;
+  static constexpr int kSmallest = 4;
+
+  void split(const core::IndexBox& box, const Phantom::Scene::Stack* among) const
+  {
+    const core::Index3 size = box.size();
+    const Eigen::Vector3d half(0.5 * (size[0] - 1), 0.5 * (size[1] - 1), 0.5 * (size[2] - 1));
+    const Eigen::Vector3d low(box.lower[0], box.lower[1], box.lower[2]);
+    // the farthest corner, for a sheared grid too
+    double reach = 0.0;
+    for (int corner = 0; corner < 4; ++corner)
     {
-      const double half = 0.5 * (kBlock - 1);
-      const double tight = 0.5 * (frame.step * Eigen::Vector3d(kBlock - 1, kBlock - 1, kBlock - 1))
-                                   .norm() +
-                           margin;
-      const bool square = std::abs(frame.step.col(1).dot(frame.step.col(2))) < 1e-9;
-      const auto stack = scene.stackAround(
-        frame.at(i0 + half, j0 + half, first + 0.5 * (depth - 1)), square ? tight : reach);
-      each(i0, std::min(i0 + kBlock, dims[0]), j0, std::min(j0 + kBlock, dims[1]), stack);
+      const Eigen::Vector3d side(half[0], (corner & 1) ? half[1] : -half[1],
+                                 (corner & 2) ? half[2] : -half[2]);
+      reach = std::max(reach, (m_frame.step * side).norm());
     }
-}
+    const Eigen::Vector3d middle = low + half;
+    const auto stack = m_scene.stackAround(m_frame.at(middle[0], middle[1], middle[2]),
+                                           reach + m_margin, among);
+    std::size_t axis = 0;
+    for (std::size_t a = 1; a < 3; ++a)
+      if (size[a] > size[axis])
+        axis = a;
+    if (stack.layers.empty() || size[axis] <= kSmallest)
+    {
+      m_each(box, stack);
+      return;
+    }
+    core::IndexBox lower = box;
+    core::IndexBox upper = box;
+    lower.upper[axis] = upper.lower[axis] = box.lower[axis] + size[axis] / 2;
+    split(lower, &stack);
+    split(upper, &stack);
+  }
+
+  const Phantom::Scene& m_scene;
+  const Frame& m_frame;
+  double m_margin;
+  const Each& m_each;
+};
 
 } // namespace
 
@@ -165,29 +208,28 @@ volume::Volume<std::int16_t> samplePhantom(const Phantom& phantom, const ScanGri
     return static_cast<std::int16_t>(std::lround(std::clamp(v, -32768.0F, 32767.0F)));
   };
 
-  const int slabs = (dims[2] + kBlock - 1) / kBlock;
+  const int slabs = (dims[2] + kSlab - 1) / kSlab;
   std::atomic<int> done{0};
   tbb::parallel_for(0, slabs, [&](int slab) {
     progress.report(0.8 * done.fetch_add(1) / slabs, "scanning the phantom");
-    const int first = slab * kBlock;
-    const int last = std::min(first + kBlock, dims[2]);
+    const int first = slab * kSlab;
+    const int last = std::min(first + kSlab, dims[2]);
     std::vector<float> buffer(slice * static_cast<std::size_t>(last - first));
-    visitBlocks(scene, frame, dims, first, last, 0.5 * width,
-                [&](int i0, int i1, int j0, int j1, const Phantom::Scene::Stack& stack) {
-                  const auto base =
-                    static_cast<float>(scene.baseIntensity(stack, settings.modality));
-                  for (int k = first; k < last; ++k)
-                    for (int j = j0; j < j1; ++j)
-                    {
-                      float* row = buffer.data() + slice * static_cast<std::size_t>(k - first) +
-                                   static_cast<std::size_t>(j) * static_cast<std::size_t>(dims[0]);
-                      for (int i = i0; i < i1; ++i)
-                        row[i] = stack.layers.empty()
-                                   ? base
-                                   : static_cast<float>(scene.look(frame.at(i, j, k), width,
-                                                                   settings.modality, stack));
-                    }
-                });
+    const auto fill = [&](const core::IndexBox& box, const Phantom::Scene::Stack& stack) {
+      const bool plain = stack.layers.empty() && scene.baseIsUniform(stack);
+      const auto base = static_cast<float>(scene.baseIntensity(stack, settings.modality));
+      for (int k = box.lower[2]; k < box.upper[2]; ++k)
+        for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        {
+          float* row = buffer.data() + slice * static_cast<std::size_t>(k - first) +
+                       static_cast<std::size_t>(j) * static_cast<std::size_t>(dims[0]);
+          for (int i = box.lower[0]; i < box.upper[0]; ++i)
+            row[i] = plain ? base
+                           : static_cast<float>(scene.look(frame.at(i, j, k), width,
+                                                           settings.modality, stack));
+        }
+    };
+    BlockVisitor(scene, frame, 0.5 * width, fill).visit(dims, first, last);
     std::vector<float> scratch;
     for (int k = first; k < last; ++k)
     {
@@ -248,22 +290,21 @@ volume::LabelMap labelPhantom(const Phantom& phantom, const core::GridGeometry& 
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(geometry);
   const core::Index3 dims = geometry.dims();
   const Frame frame{geometry.origin(), geometry.patientFromVoxelLinear()};
-  const int slabs = (dims[2] + kBlock - 1) / kBlock;
+  const int slabs = (dims[2] + kSlab - 1) / kSlab;
   std::atomic<int> done{0};
   tbb::parallel_for(0, slabs, [&](int slab) {
     progress.report(static_cast<double>(done.fetch_add(1)) / slabs, "labelling the phantom");
-    const int first = slab * kBlock;
-    const int last = std::min(first + kBlock, dims[2]);
-    visitBlocks(scene, frame, dims, first, last, 0.0,
-                [&](int i0, int i1, int j0, int j1, const Phantom::Scene::Stack& stack) {
-                  for (int k = first; k < last; ++k)
-                    for (int j = j0; j < j1; ++j)
-                      for (int i = i0; i < i1; ++i)
-                        voxels->at(i, j, k) =
-                          stack.layers.empty()
-                            ? indexOf(stack.base)
-                            : indexOf(scene.topmost(frame.at(i, j, k), stack));
-                });
+    const int first = slab * kSlab;
+    const int last = std::min(first + kSlab, dims[2]);
+    const auto fill = [&](const core::IndexBox& box, const Phantom::Scene::Stack& stack) {
+      for (int k = box.lower[2]; k < box.upper[2]; ++k)
+        for (int j = box.lower[1]; j < box.upper[1]; ++j)
+          for (int i = box.lower[0]; i < box.upper[0]; ++i)
+            voxels->at(i, j, k) = stack.layers.empty()
+                                    ? indexOf(stack.base)
+                                    : indexOf(scene.topmost(frame.at(i, j, k), stack));
+    };
+    BlockVisitor(scene, frame, 0.0, fill).visit(dims, first, last);
   });
 
   std::vector<volume::Segment> names;

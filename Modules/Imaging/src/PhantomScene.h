@@ -18,7 +18,7 @@ struct Phantom::Scene
   std::vector<std::vector<std::size_t>> coverers; ///< structure -> later layers that may meet it
   shapes::Shape cranial;
 
-  static constexpr double kFar = 1e3; ///< mm; farther than any block is wide
+  static constexpr double kFar = 1e3; ///< mm; farther than any neighbourhood is wide
 
   /// Layers that decide the tissue within `reach` mm of a point, topmost first. `base` lies under
   /// all of them and covers the whole neighbourhood; -1 when that is the air round the head.
@@ -27,7 +27,8 @@ struct Phantom::Scene
     std::vector<std::size_t> layers;
     int base = -1;
   };
-  Stack stackAround(const shapes::Point& center, double reach) const;
+  /// `among`: the stack of a neighbourhood that holds this one, to look at fewer layers.
+  Stack stackAround(const shapes::Point& center, double reach, const Stack* among = nullptr) const;
 
   static double intensity(const anatomy::Layer& layer, Modality modality)
   {
@@ -38,6 +39,20 @@ struct Phantom::Scene
     if (stack.base < 0)
       return modality == Modality::Ct ? -1000.0 : 4.0;
     return intensity(layers[static_cast<std::size_t>(stack.base)], modality);
+  }
+
+  /// The layer's intensity at a point: marrow spaces of about a millimetre make bone mottled.
+  static double intensityAt(const anatomy::Layer& layer, Modality modality,
+                            const shapes::Point& p)
+  {
+    const double value = intensity(layer, modality);
+    return layer.mottle > 0.0 ? value * (1.0 + layer.mottle * shapes::mottling(p)) : value;
+  }
+
+  /// Whether every point that the stack leaves to its base looks the same.
+  bool baseIsUniform(const Stack& stack) const
+  {
+    return stack.base < 0 || layers[static_cast<std::size_t>(stack.base)].mottle <= 0.0;
   }
 
   /// Each layer covers the share of a span of `width` mm that its signed distance gives, exact
@@ -51,12 +66,16 @@ struct Phantom::Scene
       const double d = layers[l].shape(p);
       const double share =
         width > 0.0 ? std::clamp(0.5 - d / width, 0.0, 1.0) : (d <= 0.0 ? 1.0 : 0.0);
-      value += left * share * intensity(layers[l], modality);
+      if (share > 0.0)
+        value += left * share * intensityAt(layers[l], modality, p);
       left *= 1.0 - share;
       if (left <= 0.0)
         return value;
     }
-    return value + left * baseIntensity(stack, modality);
+    if (baseIsUniform(stack))
+      return value + left * baseIntensity(stack, modality);
+    return value +
+           left * intensityAt(layers[static_cast<std::size_t>(stack.base)], modality, p);
   }
 
   /// The topmost layer at a point, -1 for air round the head.
@@ -69,6 +88,21 @@ struct Phantom::Scene
   }
 
   double distance(std::size_t structure, const shapes::Point& p) const;
+
+  /// The same inside a neighbourhood; far (of either sign) where it has no border of the layer.
+  double distance(const Stack& stack, std::size_t layer, const shapes::Point& p) const
+  {
+    double d = -kFar;
+    for (const std::size_t l : stack.layers)
+    {
+      if (l < layer)
+        return kFar; // the layer is not among them
+      if (l == layer)
+        return std::max(d, layers[l].shape(p));
+      d = std::max(d, -layers[l].shape(p));
+    }
+    return stack.base == static_cast<int>(layer) ? d : kFar;
+  }
 };
 
 } // namespace petrous::imaging

@@ -1,6 +1,8 @@
 #include "PhantomShapes.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -15,14 +17,31 @@ double square(double x)
   return x * x;
 }
 
-double segmentDistance(const Point& p, const Knot& a, const Knot& b)
+/// A piece of a tube, ready to be asked.
+struct Piece
 {
-  const Eigen::Vector3d along = b.center - a.center;
-  const double length2 = along.squaredNorm();
-  const double t =
-    length2 > 0.0 ? std::clamp((p - a.center).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a.center - t * along).norm() - (a.radius + t * (b.radius - a.radius));
-}
+  Point start;
+  Eigen::Vector3d along;
+  double inverseLength2;
+  double radius;
+  double widening;
+
+  Piece(const Knot& a, const Knot& b)
+    : start(a.center)
+    , along(b.center - a.center)
+    , inverseLength2(along.squaredNorm() > 0.0 ? 1.0 / along.squaredNorm() : 0.0)
+    , radius(a.radius)
+    , widening(b.radius - a.radius)
+  {
+  }
+
+  double distance(const Point& p) const
+  {
+    const Eigen::Vector3d q = p - start;
+    const double t = std::clamp(q.dot(along) * inverseLength2, 0.0, 1.0);
+    return (q - t * along).norm() - (radius + t * widening);
+  }
+};
 
 /// A run of tube pieces with a sphere round them, so that far runs are left out.
 struct Run
@@ -87,15 +106,33 @@ Shape tube(const std::vector<Knot>& knots)
         std::max(run.reach, (knots[i].center - run.center).norm() + knots[i].radius);
     runs.push_back(run);
   }
-  return {[knots, runs](const Point& p) {
-            double best = std::numeric_limits<double>::max();
-            for (const Run& run : runs)
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+    pieces.emplace_back(knots[i], knots[i + 1]);
+  return {[pieces, runs](const Point& p) {
+            // the run that looks nearest first: it rules out most of the others
+            std::size_t near = 0;
+            double least = std::numeric_limits<double>::max();
+            for (std::size_t r = 0; r < runs.size(); ++r)
             {
-              if (best < 1e100 && (p - run.center).squaredNorm() > square(run.reach + best) &&
-                  run.reach + best > 0.0)
-                continue;
+              const double away = (p - runs[r].center).squaredNorm();
+              if (away < least)
+              {
+                least = away;
+                near = r;
+              }
+            }
+            double best = std::numeric_limits<double>::max();
+            const auto ask = [&](const Run& run) {
               for (std::size_t i = run.first; i < run.last; ++i)
-                best = std::min(best, segmentDistance(p, knots[i], knots[i + 1]));
+                best = std::min(best, pieces[i].distance(p));
+            };
+            ask(runs[near]);
+            for (std::size_t r = 0; r < runs.size(); ++r)
+            {
+              const double within = std::max(runs[r].reach + best, 0.0);
+              if (r != near && (p - runs[r].center).squaredNorm() < within * within)
+                ask(runs[r]);
             }
             return best;
           },
@@ -113,8 +150,9 @@ std::vector<Knot> spline(const std::vector<Knot>& knots, double step)
     const Knot b = knot(i);
     const Knot c = knot(i + 1);
     const Knot d = knot(i + 2);
+    const double stride = step * std::max(1.0, b.radius / 1.5); // wide tubes bend gently
     const int pieces =
-      std::max(1, static_cast<int>(std::lround((c.center - b.center).norm() / step)));
+      std::max(1, static_cast<int>(std::lround((c.center - b.center).norm() / stride)));
     for (int s = 0; s < pieces; ++s)
     {
       const double t = static_cast<double>(s) / pieces;
@@ -257,6 +295,57 @@ std::uint64_t mix(std::uint64_t x) noexcept
 double uniform(std::uint64_t seed, std::uint64_t counter) noexcept
 {
   return static_cast<double>(mix(mix(seed) ^ counter) >> 11) * 0x1.0p-53;
+}
+
+Shape remembered(const Shape& a)
+{
+  constexpr std::size_t kSlots = 64;
+  struct Last
+  {
+    std::uint64_t id = 0;
+    Point point = Point::Zero();
+    double value = 0.0;
+  };
+  static std::atomic<std::uint64_t> count{0};
+  const std::uint64_t id = ++count; // never used twice: a slot of another phantom is no match
+  return {[distance = a.distance, id](const Point& p) {
+            thread_local std::array<Last, kSlots> memory;
+            Last& last = memory[id % kSlots];
+            if (last.id != id || last.point != p)
+              last = {id, p, distance(p)};
+            return last.value;
+          },
+          a.box};
+}
+
+double mottling(const Point& p) noexcept
+{
+  constexpr double kGrain = 1.2;    // mm between the lattice's random values
+  constexpr double kContrast = 3.0; // brings trilinear mixing back to deviation 1
+  std::array<std::int64_t, 3> cell{};
+  Eigen::Vector3d part;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double x = p[a] / kGrain;
+    const double low = std::floor(x);
+    cell[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(low);
+    part[a] = x - low;
+  }
+  double value = 0.0;
+  for (int c = 0; c < 8; ++c)
+  {
+    std::uint64_t key = 0;
+    double weight = 1.0;
+    for (int a = 0; a < 3; ++a)
+    {
+      const int bit = (c >> a) & 1;
+      key = key * 0x100000001B3ULL +
+            static_cast<std::uint64_t>(cell[static_cast<std::size_t>(a)] + bit);
+      weight *= bit ? part[a] : 1.0 - part[a];
+    }
+    value += weight * (static_cast<double>(mix(key) >> 11) * 0x1.0p-53 - 0.5);
+  }
+  return 2.0 * kContrast * value;
 }
 
 } // namespace petrous::imaging::shapes

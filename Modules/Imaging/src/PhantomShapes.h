@@ -47,7 +47,7 @@ Shape capsule(const Knot& a, const Knot& b);
 /// Round tube along a polyline with round ends, radius linear along each piece.
 Shape tube(const std::vector<Knot>& knots);
 
-/// Catmull-Rom curve through the knots, sampled about every `step` mm.
+/// Catmull-Rom curve through the knots, sampled about every `step` mm (coarser where it is wide).
 std::vector<Knot> spline(const std::vector<Knot>& knots, double step = 0.3);
 
 /// Full torus; the axis is a unit vector.
@@ -77,5 +77,12 @@ std::uint64_t mix(std::uint64_t x) noexcept;
 
 /// Uniform in [0, 1) from a seed and a counter.
 double uniform(std::uint64_t seed, std::uint64_t counter) noexcept;
+
+/// The same shape, which knows its last value on each thread: for a shape that several layers
+/// share and ask about the same point in turn.
+Shape remembered(const Shape& a);
+
+/// Smooth noise of mean 0 and standard deviation about 1, grain about 1.2 mm: spongy bone.
+double mottling(const Point& p) noexcept;
 
 } // namespace petrous::imaging::shapes

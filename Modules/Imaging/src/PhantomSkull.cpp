@@ -45,7 +45,7 @@ Shape cranialCavity()
 Skull makeSkull()
 {
   Skull s;
-  s.cranial = cranialCavity();
+  s.cranial = remembered(cranialCavity());
 
   const Shape mastoid = capsule({{-50.0, 12.0, 2.0}, 11.5}, {{-52.5, 9.5, -20.5}, 5.8});
   const Shape petrous = capsule({{-50.0, 6.0, 0.5}, 12.0}, {{-14.0, -17.0, 0.0}, 8.0});
@@ -62,8 +62,12 @@ Skull makeSkull()
   s.condyle = blend({ellipsoid({-53.5, -17.0, -5.5}, {7.0, 3.6, 4.5}),
                      capsule({{-54.0, -17.5, -8.0}, 3.0}, {{-56.0, -19.0, -34.0}, 4.0})},
                     2.0);
-  const Shape solid = blend({vault, mastoid, petrous, tympanic, zygoma}, 4.0);
-  s.bone = blend({without(blendCommon(solid, complement(s.joint), 2.0), digastric), styloid}, 1.0);
+  // the mastoid goes over into the occiput without a step
+  const Shape angle = capsule({{-49.0, 13.0, 5.0}, 11.5}, {{-40.0, 38.0, 2.0}, 11.0});
+  const Shape solid = blend({vault, mastoid, angle, petrous, tympanic, zygoma}, 4.0);
+  const Shape carved =
+    blendCommon(blendCommon(solid, complement(s.joint), 2.0), complement(digastric), 1.5);
+  s.bone = remembered(blend({carved, styloid}, 1.0));
 
   // Veins: the sigmoid sinus bends from the transverse sinus down and medially to the bulb.
   s.sigmoid = tube(spline({{{-41.0, 44.0, 6.0}, 4.4},
@@ -89,6 +93,10 @@ Skull makeSkull()
   const Shape neck = capsule({{-8.0, 4.0, -15.0}, 55.0}, {{-6.0, 2.0, -90.0}, 50.0});
   s.skin = blend({sphere({15.0, 12.0, 15.0}, 84.0), grown(mastoid, 5.5), grown(zygoma, 5.0), neck},
                  8.0);
+  s.skin = remembered(s.skin);
+  s.sigmoid = remembered(s.sigmoid);
+  s.jugular = remembered(s.jugular);
+  s.condyle = remembered(s.condyle);
   return s;
 }
 

@@ -279,6 +279,8 @@ private:
   {
     if (m_slices.size() < 2)
     {
+      if (m_slices.empty() && m_result.findings.empty())
+        find(FindingKind::NotAnImage, "There is no slice.");
       if (m_slices.size() == 1 && m_result.findings.empty())
         find(FindingKind::NoGeometry, "One slice alone has no thickness that its position could "
                                       "show; a stack of at least 2 slices is needed.");

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "petrous/Volume/CutMask.h"
+
+namespace petrous::dissection
+{
+
+/// The space that a burr sweeps between two positions, in patient LPS mm.
+struct SweptSphere
+{
+  Eigen::Vector3d from{0.0, 0.0, 0.0};
+  Eigen::Vector3d to{0.0, 0.0, 0.0};
+  double radius = 0.0; ///< mm, > 0
+};
+
+/// Structures that the drill must leave: their smoothed unions (SmoothedUnion.h).
+using ProtectedTissue = std::vector<std::shared_ptr<const volume::Volume<float>>>;
+
+/// Share of a voxel that the burr takes, before clamping to [0, 1] (Documentation/adr/0006):
+///
+///   coverage = 1/2 - (d - b) / (2 w)       d  signed distance to the swept sphere, mm
+///   b = sum_a h_a^2/12 d2d/dx_a2           mean excess of trilinear interpolation of d
+///   w = |spacing|                          half width of the ramp: one voxel diagonal
+///
+/// With this w no corner of a cell that the surface crosses is clamped, so the 1/2 level of the
+/// interpolated mask is the sphere and not its voxels; b takes out the bias of its curvature.
+double coverage(const SweptSphere& burr, const core::GridGeometry& grid,
+                const Eigen::Vector3d& patient) noexcept;
+
+/// Lowers the mask: mask = min(mask, 1 - coverage), never below what is protected. A burr that
+/// rests removes exactly nothing the second time. Returns the bricks that changed; each gets a
+/// new version. Parts outside the grid cut nothing.
+/// Throws InvalidParameter when the radius is not above 0 or a position is not finite.
+std::vector<std::size_t> cut(volume::CutMask& mask, const SweptSphere& burr,
+                             const ProtectedTissue& keep = {});
+
+} // namespace petrous::dissection

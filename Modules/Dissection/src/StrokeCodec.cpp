@@ -1,0 +1,127 @@
+#include "petrous/Dissection/StrokeCodec.h"
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include <zstd.h>
+
+namespace petrous::dissection
+{
+
+namespace
+{
+
+using volume::CutMask;
+
+// Layout before compression, little endian: magic "PSTK", u32 version, u32 edge, u32 brick count,
+// then the u32 brick indices, then for each brick the low bytes of all differences, then the high
+// bytes: the high bytes are nearly constant and pack well.
+constexpr char kMagic[4] = {'P', 'S', 'T', 'K'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeader = 16;
+constexpr int kLevel = 3;
+constexpr std::size_t kBrickBytes = 2 * CutMask::kBrickVoxels;
+
+void putU32(std::uint8_t* to, std::uint32_t value)
+{
+  for (int byte = 0; byte < 4; ++byte)
+    to[byte] = static_cast<std::uint8_t>(value >> (8 * byte));
+}
+
+std::uint32_t getU32(const std::uint8_t* from)
+{
+  std::uint32_t value = 0;
+  for (int byte = 0; byte < 4; ++byte)
+    value |= static_cast<std::uint32_t>(from[byte]) << (8 * byte);
+  return value;
+}
+
+std::uint16_t valueOf(const CutMask::BrickVersion& version, std::size_t n)
+{
+  return version ? (*version)[n] : CutMask::kUntouched;
+}
+
+[[noreturn]] void damaged(const char* what)
+{
+  throw core::InvalidParameter(std::string("stroke: ") + what +
+                               "; the file is damaged or belongs to another case");
+}
+
+std::vector<std::uint8_t> decompress(const std::vector<std::uint8_t>& bytes, std::size_t limit)
+{
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size < kHeader ||
+      size > limit)
+    damaged("its size is not that of a stroke on this grid");
+  std::vector<std::uint8_t> raw(static_cast<std::size_t>(size));
+  if (ZSTD_decompress(raw.data(), raw.size(), bytes.data(), bytes.size()) != raw.size())
+    damaged("it does not unpack");
+  return raw;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas)
+{
+  std::vector<std::uint8_t> raw(kHeader + deltas.size() * (4 + kBrickBytes));
+  std::memcpy(raw.data(), kMagic, sizeof kMagic);
+  putU32(&raw[4], kVersion);
+  putU32(&raw[8], CutMask::kBrickEdge);
+  putU32(&raw[12], static_cast<std::uint32_t>(deltas.size()));
+  std::uint8_t* voxels = raw.data() + kHeader + 4 * deltas.size();
+  for (std::size_t d = 0; d < deltas.size(); ++d)
+  {
+    putU32(&raw[kHeader + 4 * d], static_cast<std::uint32_t>(deltas[d].brick));
+    for (std::size_t n = 0; n < CutMask::kBrickVoxels; ++n)
+    {
+      const int taken = valueOf(deltas[d].before, n) - valueOf(deltas[d].after, n);
+      voxels[n] = static_cast<std::uint8_t>(taken & 255);
+      voxels[CutMask::kBrickVoxels + n] = static_cast<std::uint8_t>(taken >> 8 & 255);
+    }
+    voxels += kBrickBytes;
+  }
+  std::vector<std::uint8_t> packed(ZSTD_compressBound(raw.size()));
+  const std::size_t size =
+    ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
+  if (ZSTD_isError(size))
+    throw core::Error(core::Fault::Internal, "stroke: could not be compressed");
+  packed.resize(size);
+  return packed;
+}
+
+std::vector<BrickDelta> decodeDeltas(const std::vector<std::uint8_t>& bytes, const CutMask& before)
+{
+  const auto raw = decompress(bytes, kHeader + before.brickCount() * (4 + kBrickBytes));
+  const std::size_t count = getU32(&raw[12]);
+  if (std::memcmp(raw.data(), kMagic, sizeof kMagic) != 0)
+    damaged("it does not begin as a stroke does");
+  if (getU32(&raw[4]) != kVersion || getU32(&raw[8]) != CutMask::kBrickEdge)
+    damaged("its version is unknown");
+  if (raw.size() != kHeader + count * (4 + kBrickBytes))
+    damaged("it is too short");
+
+  std::vector<BrickDelta> deltas(count);
+  const std::uint8_t* voxels = raw.data() + kHeader + 4 * count;
+  for (std::size_t d = 0; d < count; ++d)
+  {
+    const std::size_t brick = getU32(&raw[kHeader + 4 * d]);
+    if (brick >= before.brickCount() || (d > 0 && brick <= deltas[d - 1].brick))
+      damaged("it names a brick that is not in the grid");
+    auto after = std::make_shared<CutMask::Brick>();
+    const CutMask::BrickVersion& start = before.brick(brick);
+    for (std::size_t n = 0; n < CutMask::kBrickVoxels; ++n)
+    {
+      const int taken = voxels[n] | voxels[CutMask::kBrickVoxels + n] << 8;
+      const int left = valueOf(start, n) - taken;
+      if (left < 0)
+        damaged("it takes more than is there");
+      (*after)[n] = static_cast<std::uint16_t>(left);
+    }
+    deltas[d] = {brick, start, std::move(after)};
+    voxels += kBrickBytes;
+  }
+  return deltas;
+}
+
+} // namespace petrous::dissection

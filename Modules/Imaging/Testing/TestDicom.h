@@ -1,0 +1,176 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+namespace petrous::imaging::test
+{
+
+/// A folder that is gone after the test.
+class TemporaryFolder
+{
+public:
+  TemporaryFolder()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "petrous-XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+      throw std::runtime_error("no temporary folder");
+    m_path = name;
+  }
+  ~TemporaryFolder()
+  {
+    std::error_code error;
+    std::filesystem::remove_all(m_path, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return m_path; }
+
+private:
+  std::filesystem::path m_path;
+};
+
+/// One slice, written byte by byte as PS3.10 says: a truth that shares no code with the reader.
+struct TestSlice
+{
+  int columns = 8;
+  int rows = 6;
+  double z = 0.0;
+  std::string seriesUid = "1.2.3.4";
+  std::string modality = "CT";
+  std::string sopClass = "1.2.840.10008.5.1.4.1.1.2";
+  int bitsAllocated = 16;
+  int bitsStored = 16;
+  bool isSigned = true;
+  std::optional<double> slope = 1.0;
+  double intercept = 0.0;
+  std::optional<std::uint16_t> padding;
+  std::optional<std::uint16_t> paddingLimit;
+  bool implicitVr = false;
+  bool bigEndian = false;
+  bool marker = true; ///< preamble, DICM and group 2
+  bool pixels = true;
+  std::string extra;  ///< elements written as they are behind the first group
+  std::string syntax; ///< names another one than the bytes follow
+  /// The cell of a pixel, unused bits and all.
+  std::function<std::uint32_t(int i, int j)> cell = [](int, int) { return 0U; };
+
+  void append(std::string& out, std::uint32_t number, int bytes) const
+  {
+    for (int b = 0; b < bytes; ++b)
+      out += static_cast<char>(number >> 8 * (bigEndian ? bytes - 1 - b : b));
+  }
+
+  void element(std::string& out, std::uint32_t tag, const char* vr, std::string value) const
+  {
+    if (value.size() % 2)
+      value += std::string(vr) == "UI" ? '\0' : ' ';
+    append(out, tag >> 16, 2);
+    append(out, tag & 0xffff, 2);
+    const bool isLong = vr[0] == 'O' || std::string(vr) == "SQ" || std::string(vr) == "UN";
+    if (!implicitVr)
+      out += vr;
+    if (!implicitVr && isLong)
+      out += std::string(2, '\0');
+    append(out, static_cast<std::uint32_t>(value.size()), implicitVr || isLong ? 4 : 2);
+    out += value;
+  }
+
+  void number(std::string& out, std::uint32_t tag, std::uint32_t value) const
+  {
+    std::string bytes;
+    append(bytes, value, 2);
+    element(out, tag, "US", bytes);
+  }
+
+  std::string bytes() const
+  {
+    std::string out;
+    if (marker)
+    {
+      TestSlice meta;
+      std::string group;
+      const char* own = implicitVr  ? "1.2.840.10008.1.2"
+                        : bigEndian ? "1.2.840.10008.1.2.2"
+                                    : "1.2.840.10008.1.2.1";
+      meta.element(group, 0x00020010, "UI", syntax.empty() ? own : syntax);
+      out = std::string(128, '\0') + "DICM" + group;
+    }
+    const std::string here = std::to_string(z);
+    element(out, 0x00080008, "CS", "ORIGINAL\\PRIMARY\\AXIAL");
+    element(out, 0x00080016, "UI", sopClass);
+    element(out, 0x00080018, "UI", "1.2.3.4.5." + std::to_string(1000 + static_cast<int>(z * 10)));
+    element(out, 0x00080060, "CS", modality);
+    element(out, 0x0008103e, "LO", "EAR \x1b[31mTEST");
+    out += extra;
+    element(out, 0x00100010, "PN", "SECRET^NAME");
+    element(out, 0x0020000e, "UI", seriesUid);
+    element(out, 0x00200032, "DS", "-10\\20.5\\" + here);
+    element(out, 0x00200037, "DS", "1\\0\\0\\0\\1\\0");
+    element(out, 0x00200052, "UI", "1.2.3.9");
+    number(out, 0x00280002, 1);
+    element(out, 0x00280004, "CS", "MONOCHROME2");
+    number(out, 0x00280010, static_cast<std::uint32_t>(rows));
+    number(out, 0x00280011, static_cast<std::uint32_t>(columns));
+    element(out, 0x00280030, "DS", "0.5\\0.4");
+    number(out, 0x00280100, static_cast<std::uint32_t>(bitsAllocated));
+    number(out, 0x00280101, static_cast<std::uint32_t>(bitsStored));
+    number(out, 0x00280102, static_cast<std::uint32_t>(bitsStored - 1));
+    number(out, 0x00280103, isSigned ? 1 : 0);
+    if (padding)
+      number(out, 0x00280120, *padding);
+    if (paddingLimit)
+      number(out, 0x00280121, *paddingLimit);
+    if (slope)
+    {
+      element(out, 0x00281052, "DS", std::to_string(intercept));
+      element(out, 0x00281053, "DS", std::to_string(*slope));
+    }
+    if (!pixels)
+      return out;
+    std::string data;
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns; ++i)
+        append(data, cell(i, j), bitsAllocated / 8);
+    element(out, 0x7fe00010, bitsAllocated == 8 ? "OB" : "OW", data);
+    return out;
+  }
+
+  void write(const std::filesystem::path& file) const
+  {
+    std::filesystem::create_directories(file.parent_path());
+    const std::string all = bytes();
+    std::ofstream(file, std::ios::binary).write(all.data(), static_cast<long>(all.size()));
+  }
+};
+
+/// `count` slices 0.5 mm apart; `change` shapes slice k before it is written.
+inline void writeSeries(
+    const std::filesystem::path& folder, int count,
+    const std::function<void(int k, TestSlice&)>& change = [](int, TestSlice&) {})
+{
+  for (int k = 0; k < count; ++k)
+  {
+    TestSlice slice;
+    slice.z = 0.5 * k;
+    change(k, slice);
+    slice.write(folder / ("s" + std::to_string(k) + ".dcm"));
+  }
+}
+
+inline void writeText(const std::filesystem::path& file, const std::string& text)
+{
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+} // namespace petrous::imaging::test

@@ -1,0 +1,197 @@
+#include "FileHelpers.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <system_error>
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+template <class T>
+std::string shortest(T value)
+{
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+template <class T>
+std::optional<T> parse(std::string_view text)
+{
+  if (!text.empty() && text.front() == '+')
+    text.remove_prefix(1);
+  T value{};
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  // Too small for the type is zero, as everywhere; too large is no number.
+  if (end.ptr != text.data() + text.size() || text.empty() || end.ec == std::errc::invalid_argument)
+    return std::nullopt;
+  if (end.ec == std::errc::result_out_of_range)
+  {
+    if constexpr (std::is_floating_point_v<T>)
+      if (text.find("e-") != text.npos || text.find("E-") != text.npos)
+        return T{0};
+    return std::nullopt;
+  }
+  return value;
+}
+
+bool isSpace(char c)
+{
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
+
+} // namespace
+
+void fail(FileError::Reason reason, const std::filesystem::path& path, const std::string& text,
+          core::Fault fault)
+{
+  std::string name = path.string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < 32 || c == 127; }, '?');
+  throw FileError(reason, name + ": " + text, fault);
+}
+
+std::string lowerName(const std::filesystem::path& path)
+{
+  std::string name = path.filename().string();
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z')
+      c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+bool endsWith(std::string_view text, std::string_view end)
+{
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::string baseName(const std::filesystem::path& path)
+{
+  const std::string lower = lowerName(path);
+  const std::string name = path.filename().string();
+  for (const std::string_view end : {".seg.nrrd", ".seg.nhdr", ".nii.gz"})
+    if (lower.size() > end.size() && endsWith(lower, end))
+      return name.substr(0, name.size() - end.size());
+  return path.stem().string();
+}
+
+std::uintmax_t checkedFileSize(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    fail(FileError::Reason::NotFound, path, "there is no such file; check the name");
+  if (status.type() == std::filesystem::file_type::directory)
+    fail(FileError::Reason::NotFound, path, "is a folder; name a file in it");
+  if (status.type() != std::filesystem::file_type::regular)
+    fail(FileError::Reason::Unreadable, path, "is not an ordinary file; name one that may be read");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || !std::ifstream(path, std::ios::binary))
+    fail(FileError::Reason::Unreadable, path, "may not be opened; allow reading it");
+  if (size == 0)
+    fail(FileError::Reason::Unreadable, path, "is empty; copy it again from where it came");
+  return size;
+}
+
+std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)
+{
+  const std::uintmax_t size = std::min(checkedFileSize(path), limit);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(in.gcount()) != size)
+    fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
+  return bytes;
+}
+
+std::string exactText(double value)
+{
+  return shortest(value);
+}
+
+std::string exactText(float value)
+{
+  return shortest(value);
+}
+
+std::string roughText(double value)
+{
+  std::array<char, 64> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4);
+  return {text.data(), end.ptr};
+}
+
+std::string dimsText(const std::vector<std::uint64_t>& dims)
+{
+  std::string text;
+  for (const std::uint64_t n : dims)
+    text += (text.empty() ? "" : " x ") + std::to_string(n);
+  return text;
+}
+
+std::optional<double> parseDouble(std::string_view text)
+{
+  return parse<double>(text);
+}
+
+std::optional<float> parseFloat(std::string_view text)
+{
+  return parse<float>(text);
+}
+
+std::optional<std::int64_t> parseInteger(std::string_view text)
+{
+  return parse<std::int64_t>(text);
+}
+
+std::string_view trimmed(std::string_view text)
+{
+  while (!text.empty() && isSpace(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && isSpace(text.back()))
+    text.remove_suffix(1);
+  return text;
+}
+
+std::string_view takeWord(std::string_view& text)
+{
+  while (!text.empty() && isSpace(text.front()))
+    text.remove_prefix(1);
+  std::size_t length = 0;
+  while (length < text.size() && !isSpace(text[length]))
+    ++length;
+  const std::string_view word = text.substr(0, length);
+  text.remove_prefix(length);
+  return word;
+}
+
+std::string_view takeLine(std::string_view& text)
+{
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  if (!line.empty() && line.back() == '\r')
+    line.remove_suffix(1);
+  return line;
+}
+
+PlainNumbers::PlainNumbers()
+  : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
+  , m_before(uselocale(m_plain))
+{
+}
+
+PlainNumbers::~PlainNumbers()
+{
+  uselocale(m_before);
+  if (m_plain)
+    freelocale(m_plain);
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "petrous/Library/LibraryError.h"
+
+namespace petrous::library
+{
+
+/// Files named by the SHA-256 of their content: what is stored twice is kept once, and nothing that
+/// a manifest names is ever overwritten.
+///
+/// An object's name is its hash in hexadecimal with the ending of its format, e.g.
+/// "3b1c….nrrd". Not for several writers at once: the library's lock sees to that.
+class ObjectStore
+{
+public:
+  explicit ObjectStore(std::filesystem::path folder);
+
+  /// Lets `write` make a file at a temporary path, then takes it in; returns the object's name.
+  /// Throws what `write` throws, and LibraryError; leaves nothing behind then.
+  std::string add(const std::string& ending,
+                  const std::function<void(const std::filesystem::path&)>& write);
+
+  std::string add(const std::string& ending, const std::vector<std::uint8_t>& bytes);
+
+  /// Path of an object that is there; throws LibraryError (NotFound) naming it otherwise, and
+  /// (Damaged) for a name that is no object name.
+  std::filesystem::path path(const std::string& object) const;
+
+  std::vector<std::uint8_t> read(const std::string& object) const;
+
+  /// Objects that this store added since `forget`, newest last; `discardNew` removes them again.
+  void discardNew() noexcept;
+  void forget() noexcept;
+
+  /// Temporary files that a killed writer left.
+  void removeLeftovers() noexcept;
+
+private:
+  std::filesystem::path m_folder;
+  std::vector<std::filesystem::path> m_new;
+};
+
+/// SHA-256 of a file in lower-case hexadecimal. Throws LibraryError when it cannot be read.
+std::string sha256OfFile(const std::filesystem::path& path);
+
+} // namespace petrous::library

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include <vtkGenericOpenGLRenderWindow.h>
+
+/// A VTK window without a display: an OpenGL context on Mesa's surfaceless EGL platform, or on an
+/// EGL device (a GPU whose driver has no surfaceless platform).
+///
+/// Draws into VTK's own frame buffers; there is no surface behind it. Start throws
+/// petrous::rendering::RenderingError NoOpenGL where no context can be made.
+class vtkPetrousEGLRenderWindow : public vtkGenericOpenGLRenderWindow
+{
+public:
+  static vtkPetrousEGLRenderWindow* New();
+  vtkTypeMacro(vtkPetrousEGLRenderWindow, vtkGenericOpenGLRenderWindow);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  vtkPetrousEGLRenderWindow(const vtkPetrousEGLRenderWindow&) = delete;
+  void operator=(const vtkPetrousEGLRenderWindow&) = delete;
+
+  void Start() override;
+  void Initialize() override;
+  void Finalize() override;
+  void MakeCurrent() override;
+  void ReleaseCurrent() override;
+  bool IsCurrent() override;
+  void OpenGLInitContext() override;
+  void Render() override;
+  void* GetGenericContext() override;
+  int SupportsOpenGL() override;
+  vtkTypeBool IsDirect() override;
+
+protected:
+  vtkPetrousEGLRenderWindow();
+  ~vtkPetrousEGLRenderWindow() override;
+
+private:
+  class Context;
+  std::unique_ptr<Context> EglContext;
+};

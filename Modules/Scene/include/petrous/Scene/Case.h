@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "petrous/Appearance/StructureLook.h"
+#include "petrous/Core/CameraPose.h"
+#include "petrous/Core/Lazy.h"
+#include "petrous/Core/RigidTransform.h"
+#include "petrous/Core/TriangleMesh.h"
+#include "petrous/Dissection/Dissection.h"
+#include "petrous/Volume/IntensityVolume.h"
+#include "petrous/Volume/LabelMap.h"
+
+namespace petrous::scene
+{
+
+/// A CT or MR image of the case. The voxels come when asked for; the rest is known without them.
+struct ImagePart
+{
+  std::string name;
+  std::string object; ///< name in the store; empty until saved
+  core::GridGeometry geometry;
+  volume::ValueRange range;
+  std::vector<std::string> notes; ///< what was accepted when the image was read, in words
+  core::Lazy<volume::IntensityVolume> volume;
+  /// X_MC: takes CT patient points to this image's patient points, LPS mm; identity until registered.
+  core::RigidTransform mrFromCt;
+  bool registered = false;
+};
+
+/// A structure drawn in a label map.
+struct StructurePart
+{
+  std::string name;
+  std::uint16_t index = 0;
+  std::uint64_t voxels = 0;
+  double volume = 0.0; ///< mm^3, voxel count times voxel volume
+  appearance::StructureLook look;
+};
+
+/// A label map with the structures that the case uses of it.
+struct LabelPart
+{
+  std::string object;
+  core::Lazy<volume::LabelMap> labels;
+  std::vector<StructurePart> structures;
+};
+
+struct MeshPart
+{
+  std::string name;
+  std::string object;
+  std::size_t triangles = 0;
+  core::Lazy<core::TriangleMesh> mesh;
+  appearance::StructureLook look;
+};
+
+/// A stroke as the case lists it; its voxels lie in `object`.
+struct StrokePart
+{
+  std::string object;
+  std::size_t bytes = 0; ///< on disk
+  dissection::StrokeInfo info;
+};
+
+/// One patient's case as a value: what was put together, how it looks, what was drilled.
+///
+/// The strokes are kept twice: as a list that is always there, and as voxels in `dissection`, which
+/// is loaded only where somebody drills, draws or asks the field (Library::loadDissection).
+struct Case
+{
+  std::string name;
+  std::uint64_t revision = 0; ///< of the manifest on disk; 0: never saved
+  double iso = 300.0;         ///< HU
+  ImagePart ct;
+  std::vector<ImagePart> mr;
+  std::vector<LabelPart> labels;
+  std::vector<MeshPart> meshes;
+  std::optional<core::CameraPose> camera; ///< last view; none: the lateral one
+
+  std::vector<StrokePart> strokes;
+  std::size_t applied = 0; ///< strokes [0, applied) are done, the rest can be redone
+  std::shared_ptr<dissection::Dissection> dissection;
+
+  double removedVolume() const; ///< mm^3, of the strokes that are done
+};
+
+/// Steps `count` strokes back (or forth) in the list and in the voxels where they are loaded.
+/// Returns how many steps there were.
+std::size_t undo(Case& value, std::size_t count);
+std::size_t redo(Case& value, std::size_t count);
+
+/// Closes the open stroke of `dissection` and lists it. Null when it changed nothing.
+std::shared_ptr<const dissection::Stroke> endStroke(Case& value);
+
+/// The structure, or null.
+StructurePart* findStructure(Case& value, const std::string& name);
+const StructurePart* findStructure(const Case& value, const std::string& name);
+MeshPart* findMesh(Case& value, const std::string& name);
+
+/// Every name a part of the case goes by, to keep new ones apart. "ct" is always among them.
+std::vector<std::string> partNames(const Case& value);
+
+/// Removes an MR, a structure or a mesh. Throws InvalidParameter naming the parts there are.
+void removePart(Case& value, const std::string& name);
+
+/// Throws InvalidParameter unless the name fits a file on every system: 1 to 100 bytes of UTF-8, no
+/// control characters, none of / \ : * ? " < > |, no dot or space at the ends, not a leading dash.
+void checkCaseName(const std::string& name);
+
+} // namespace petrous::scene

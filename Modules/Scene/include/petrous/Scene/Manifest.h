@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "petrous/Core/Error.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::scene
+{
+
+struct ManifestError : core::Error
+{
+  enum class Reason
+  {
+    Damaged,
+    NewerFormat
+  };
+  ManifestError(Reason r, const std::string& message);
+  Reason reason;
+};
+
+constexpr int kManifestFormat = 1;
+
+/// The case as JSON: everything but the voxels, which it names by their objects. Two equal cases
+/// give the same text. Numbers go there and back without loss.
+std::string toManifest(const Case& value);
+
+/// A case without voxels; the library attaches them. `source` names the manifest in errors.
+/// Throws ManifestError when the text is damaged or written by a newer format.
+Case fromManifest(std::string_view text, const std::string& source);
+
+} // namespace petrous::scene

@@ -1,0 +1,126 @@
+#include "petrous/Scene/Case.h"
+
+#include <algorithm>
+
+namespace petrous::scene
+{
+
+double Case::removedVolume() const
+{
+  double sum = 0.0;
+  for (std::size_t n = 0; n < applied; ++n)
+    sum += strokes[n].info.removed;
+  return sum;
+}
+
+std::size_t undo(Case& value, std::size_t count)
+{
+  const std::size_t steps = std::min(count, value.applied);
+  for (std::size_t n = 0; n < steps && value.dissection; ++n)
+    value.dissection->undo();
+  value.applied -= steps;
+  return steps;
+}
+
+std::size_t redo(Case& value, std::size_t count)
+{
+  const std::size_t steps = std::min(count, value.strokes.size() - value.applied);
+  for (std::size_t n = 0; n < steps && value.dissection; ++n)
+    value.dissection->redo();
+  value.applied += steps;
+  return steps;
+}
+
+std::shared_ptr<const dissection::Stroke> endStroke(Case& value)
+{
+  if (!value.dissection)
+    return nullptr;
+  auto stroke = value.dissection->endStroke();
+  if (!stroke)
+    return nullptr;
+  value.strokes.resize(value.applied);
+  value.strokes.push_back({"", 0, stroke->info});
+  value.applied = value.strokes.size();
+  return stroke;
+}
+
+const StructurePart* findStructure(const Case& value, const std::string& name)
+{
+  for (const LabelPart& part : value.labels)
+    for (const StructurePart& structure : part.structures)
+      if (structure.name == name)
+        return &structure;
+  return nullptr;
+}
+
+StructurePart* findStructure(Case& value, const std::string& name)
+{
+  return const_cast<StructurePart*>(findStructure(static_cast<const Case&>(value), name));
+}
+
+MeshPart* findMesh(Case& value, const std::string& name)
+{
+  const auto found = std::find_if(value.meshes.begin(), value.meshes.end(),
+                                  [&name](const MeshPart& mesh) { return mesh.name == name; });
+  return found == value.meshes.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> partNames(const Case& value)
+{
+  std::vector<std::string> names{"ct"};
+  for (const ImagePart& mr : value.mr)
+    names.push_back(mr.name);
+  for (const LabelPart& part : value.labels)
+    for (const StructurePart& structure : part.structures)
+      names.push_back(structure.name);
+  for (const MeshPart& mesh : value.meshes)
+    names.push_back(mesh.name);
+  return names;
+}
+
+void removePart(Case& value, const std::string& name)
+{
+  const auto removeNamed = [&name](auto& parts) {
+    const auto found = std::find_if(parts.begin(), parts.end(),
+                                    [&name](const auto& part) { return part.name == name; });
+    if (found == parts.end())
+      return false;
+    parts.erase(found);
+    return true;
+  };
+  bool removed = removeNamed(value.mr);
+  for (auto part = value.labels.begin(); part != value.labels.end();)
+  {
+    removed = removeNamed(part->structures) || removed;
+    part = part->structures.empty() ? value.labels.erase(part) : part + 1;
+  }
+  removed = removeNamed(value.meshes) || removed;
+  if (removed)
+    return;
+  std::string there;
+  for (const std::string& part : partNames(value))
+    if (part != "ct")
+      there += (there.empty() ? "" : ", ") + part;
+  throw core::InvalidParameter("case '" + value.name + "' has no part '" + name + "'" +
+                               (name == "ct" ? " that can be removed" : "") + "; it has " +
+                               (there.empty() ? "the CT alone" : there));
+}
+
+void checkCaseName(const std::string& name)
+{
+  const auto bad = [](unsigned char c) {
+    return c < 0x20 || c == 0x7f || std::string("/\\:*?\"<>|").find(static_cast<char>(c)) !=
+                                      std::string::npos;
+  };
+  const auto ragged = [](char c) { return c == '.' || c == ' '; };
+  if (name.empty() || name.size() > 100)
+    throw core::InvalidParameter("case name: must have 1 to 100 bytes, not " +
+                                 std::to_string(name.size()));
+  if (std::any_of(name.begin(), name.end(), bad) || ragged(name.front()) || ragged(name.back()) ||
+      name.front() == '-')
+    throw core::InvalidParameter(
+      "case name: must be a plain name without / \\ : * ? \" < > |, control characters, a dot or "
+      "space at its ends, or a dash in front");
+}
+
+} // namespace petrous::scene

@@ -193,7 +193,7 @@ TEST(DicomScan, CallsAnObjectWithoutPixelsNoImage)
               [](int, TestSlice& s)
               {
                 s.sopClass = "1.2.840.10008.5.1.4.1.1.88.11"; // a report
-    s.pixels = false;
+                s.pixels = false;
                 s.rows = 0;
                 s.columns = 0;
               });

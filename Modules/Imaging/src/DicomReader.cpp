@@ -111,6 +111,9 @@ public:
       declared.add(rescaled(slice, pixels.isSigned ? -0.5 * count : 0.0));
       declared.add(rescaled(slice, pixels.isSigned ? 0.5 * count - 1.0 : count - 1.0));
     }
+    m_needsRange = (whole && !declared.fits<std::int16_t>() && !declared.fits<std::uint16_t>()) ||
+                   std::any_of(m_slices.begin(), m_slices.end(),
+                               [](const SliceHeader& s) { return s.padding.has_value(); });
     if (!whole)
       return *tryRead<float>();
     if (declared.fits<std::int16_t>() || !declared.fits<std::uint16_t>())
@@ -232,6 +235,8 @@ private:
                                  static_cast<std::size_t>(m_box.lower[0]);
       T* to = &voxels.at(0, j - m_box.lower[1], k);
       rescaleRow(slice, from, width, to);
+      if (!m_needsRange)
+        continue;
       if (padding.empty())
         for (std::size_t i = 0; i < width; ++i)
         {
@@ -308,6 +313,7 @@ private:
   IndexBox m_box;
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
+  bool m_needsRange = true; ///< whether anything hangs on the real values' range
   std::mutex m_mutex;
   Contents m_contents;
 };

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <system_error>
 #include <type_traits>
 #include <vector>
@@ -27,26 +29,15 @@ namespace
 
 using Modality = SeriesDescription::Modality;
 
-/// A decimal string holds at most 16 characters: the most digits that fit.
-double representable(double value)
-{
-  std::array<char, 40> text{};
-  for (int digits = 15; digits > 0; --digits)
-  {
-    const int length = std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-    if (length <= 16)
-      return std::strtod(text.data(), nullptr);
-  }
-  return value;
-}
-
+/// A decimal string holds at most 16 characters, the last one perhaps a space that makes the
+/// length even: the most digits that fit.
 std::string decimal(double value)
 {
   std::array<char, 40> text{};
   if (value == 0.0)
     return "0"; // also for -0
   for (int digits = 15; digits > 0; --digits)
-    if (std::snprintf(text.data(), text.size(), "%.*g", digits, representable(value)) <= 16)
+    if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= 15)
       break;
   return text.data();
 }
@@ -117,8 +108,7 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   put(d, 0x0008, 0x1090, VR::LO, "Phantom");
   put(d, 0x0018, 0x1020, VR::LO, "1");
   // image
-  put(d, 0x0008, 0x0008, VR::CS,
-      ct ? "ORIGINAL\\PRIMARY\\AXIAL" : "ORIGINAL\\PRIMARY\\OTHER");
+  put(d, 0x0008, 0x0008, VR::CS, ct ? "ORIGINAL\\PRIMARY\\AXIAL" : "ORIGINAL\\PRIMARY\\OTHER");
   put(d, 0x0020, 0x0012, VR::IS, "1");
   put(d, 0x0008, 0x0022, VR::DA, "20200101");
   put(d, 0x0008, 0x0032, VR::TM, "120000");
@@ -174,16 +164,15 @@ std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slo
                                double intercept)
 {
   const core::Index3& dims = image.geometry().dims();
-  const std::size_t count =
-    static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  const std::size_t count = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
   const T* values = image.data() + image.geometry().linearIndex(0, 0, k);
   std::vector<char> bytes(2 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const double stored = std::round((static_cast<double>(values[i]) - intercept) / slope);
-    const auto bits = static_cast<std::uint16_t>(static_cast<T>(
-      std::clamp(stored, static_cast<double>(std::numeric_limits<T>::lowest()),
-                 static_cast<double>(std::numeric_limits<T>::max()))));
+    const auto bits = static_cast<std::uint16_t>(
+        static_cast<T>(std::clamp(stored, static_cast<double>(std::numeric_limits<T>::lowest()),
+                                  static_cast<double>(std::numeric_limits<T>::max()))));
     bytes[2 * i] = static_cast<char>(bits & 0xFF);
     bytes[2 * i + 1] = static_cast<char>(bits >> 8);
   }
@@ -199,11 +188,11 @@ std::string deterministicUid(std::uint64_t seed, const std::string& role)
     low = shapes::mix(low ^ static_cast<unsigned char>(c));
   const std::uint64_t high = shapes::mix(low);
   // version 8 (free use) and variant bits of a UUID, written as one decimal integer
-  std::array<std::uint32_t, 4> words{
-    static_cast<std::uint32_t>(high >> 32),
-    (static_cast<std::uint32_t>(high) & 0xFFFF0FFFU) | 0x00008000U,
-    (static_cast<std::uint32_t>(low >> 32) & 0x3FFFFFFFU) | 0x80000000U,
-    static_cast<std::uint32_t>(low)};
+  std::array<std::uint32_t, 4> words{static_cast<std::uint32_t>(high >> 32),
+                                     (static_cast<std::uint32_t>(high) & 0xFFFF0FFFU) | 0x00008000U,
+                                     (static_cast<std::uint32_t>(low >> 32) & 0x3FFFFFFFU) |
+                                         0x80000000U,
+                                     static_cast<std::uint32_t>(low)};
   std::string digits;
   while (words[0] != 0 || words[1] != 0 || words[2] != 0 || words[3] != 0)
   {
@@ -242,71 +231,80 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
     throw core::Error(core::Fault::Internal,
                       folder.string() + ": cannot be made: " + fault.message());
 
-  image.visit([&](const auto& voxels) {
-    using T = typename std::decay_t<decltype(voxels)>::Value;
-    if constexpr (std::is_floating_point_v<T>)
-      throw core::InvalidParameter("DICOM series: float voxels cannot be stored as CT or MR");
-    else
-    {
-      const gdcm::MediaStorage storage(ct ? gdcm::MediaStorage::CTImageStorage
-                                          : gdcm::MediaStorage::MRImageStorage);
-      const Eigen::Vector3d step =
-        sliceStep.value_or(grid.spacing()[2] * grid.direction().col(2));
-      const int slices = grid.dims()[2];
-      std::atomic<int> done{0};
-      const auto writeSlice = [&](int k) {
-        progress.report(static_cast<double>(done.fetch_add(1)) / slices, "writing DICOM slices");
-        gdcm::Writer writer;
-        gdcm::DataSet& data = writer.GetFile().GetDataSet();
-        // GDCM counts references to values without a lock, so slices share none of them
-        data = commonPart(description, grid, std::is_signed_v<T>);
-        if (image.padding())
+  image.visit(
+      [&](const auto& voxels)
+      {
+        using T = typename std::decay_t<decltype(voxels)>::Value;
+        if constexpr (std::is_floating_point_v<T>)
+          throw core::InvalidParameter("DICOM series: float voxels cannot be stored as CT or MR");
+        else
         {
-          const double stored =
-            (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
-          put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
-              std::is_signed_v<T> ? gdcm::VR::SS : gdcm::VR::US);
-        }
-        if (ct && sliceStep)
-        {
-          const double lean =
-            std::acos(std::clamp(step.normalized().dot(grid.direction().col(2)), -1.0, 1.0));
-          put(data, 0x0018, 0x1120, gdcm::VR::DS, decimal(lean * 180.0 / 3.14159265358979323846));
-        }
-        const Eigen::Vector3d position = grid.origin() + k * step;
-        const std::string uid =
-          deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
-        put(data, 0x0008, 0x0016, gdcm::VR::UI, storage.GetString());
-        put(data, 0x0008, 0x0018, gdcm::VR::UI, uid);
-        put(data, 0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1));
-        put(data, 0x0020, 0x0032, gdcm::VR::DS,
-            decimals({position.x(), position.y(), position.z()}));
-        put(data, 0x0020, 0x1041, gdcm::VR::DS, decimal(position.z()));
-        gdcm::DataElement pixels(gdcm::Tag(0x7FE0, 0x0010));
-        pixels.SetVR(gdcm::VR::OW);
-        const std::vector<char> bytes = storedValues(voxels, k, description.rescaleSlope,
-                                                     description.rescaleIntercept);
-        pixels.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-        data.Replace(pixels);
-        writer.GetFile().GetHeader().SetDataSetTransferSyntax(
-          gdcm::TransferSyntax::ExplicitVRLittleEndian);
+          const gdcm::MediaStorage storage(ct ? gdcm::MediaStorage::CTImageStorage
+                                              : gdcm::MediaStorage::MRImageStorage);
+          const Eigen::Vector3d step =
+              sliceStep.value_or(grid.spacing()[2] * grid.direction().col(2));
+          const int slices = grid.dims()[2];
+          std::atomic<int> done{0};
+          const auto writeSlice = [&](int k)
+          {
+            progress.report(static_cast<double>(done.fetch_add(1)) / slices,
+                            "writing DICOM slices");
+            gdcm::Writer writer;
+            gdcm::DataSet& data = writer.GetFile().GetDataSet();
+            // GDCM counts references to values without a lock, so slices share none of them
+            data = commonPart(description, grid, std::is_signed_v<T>);
+            if (image.padding())
+            {
+              const double stored =
+                  (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
+              put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
+                  std::is_signed_v<T> ? gdcm::VR::SS : gdcm::VR::US);
+            }
+            if (ct && sliceStep)
+            {
+              const double lean =
+                  std::acos(std::clamp(step.normalized().dot(grid.direction().col(2)), -1.0, 1.0));
+              put(data, 0x0018, 0x1120, gdcm::VR::DS,
+                  decimal(lean * 180.0 / 3.14159265358979323846));
+            }
+            const Eigen::Vector3d position = grid.origin() + k * step;
+            const std::string uid =
+                deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
+            put(data, 0x0008, 0x0016, gdcm::VR::UI, storage.GetString());
+            put(data, 0x0008, 0x0018, gdcm::VR::UI, uid);
+            put(data, 0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1));
+            put(data, 0x0020, 0x0032, gdcm::VR::DS,
+                decimals({position.x(), position.y(), position.z()}));
+            put(data, 0x0020, 0x1041, gdcm::VR::DS, decimal(position.z()));
+            gdcm::DataElement pixels(gdcm::Tag(0x7FE0, 0x0010));
+            pixels.SetVR(gdcm::VR::OW);
+            const std::vector<char> bytes =
+                storedValues(voxels, k, description.rescaleSlope, description.rescaleIntercept);
+            pixels.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+            data.Replace(pixels);
+            writer.GetFile().GetHeader().SetDataSetTransferSyntax(
+                gdcm::TransferSyntax::ExplicitVRLittleEndian);
 
-        std::array<char, 32> name{};
-        std::snprintf(name.data(), name.size(), "slice-%04d.dcm", k + 1);
-        const std::filesystem::path file = folder / name.data();
-        writer.SetFileName(file.c_str());
-        if (!writer.Write())
-          throw core::Error(core::Fault::Internal, file.string() + ": cannot be written");
-        // the writer does not see a disk that fills up: hold the file against its least size
-        std::error_code ignored;
-        if (std::filesystem::file_size(file, ignored) < bytes.size())
-          throw core::Error(core::Fault::Internal,
-                            file.string() + ": cannot be written in full; is the disk full?");
-      };
-      writeSlice(0); // GDCM's dictionaries are made on first use, by one thread
-      tbb::parallel_for(1, slices, writeSlice);
-    }
-  });
+            std::array<char, 32> name{};
+            std::snprintf(name.data(), name.size(), "slice-%04d.dcm", k + 1);
+            const std::filesystem::path file = folder / name.data();
+            // into memory first: GDCM aborts the program where a disk is full
+            std::ostringstream encoded;
+            writer.SetStream(encoded);
+            if (!writer.Write())
+              throw core::Error(core::Fault::Internal, file.string() + ": cannot be encoded");
+            const std::string content = encoded.str();
+            std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+            stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+            stream.close();
+            if (!stream)
+              throw core::Error(core::Fault::Internal,
+                                file.string() + ": cannot be written; is the disk full?");
+          };
+          writeSlice(0); // GDCM's dictionaries are made on first use, by one thread
+          tbb::parallel_for(1, slices, writeSlice);
+        }
+      });
 }
 
 } // namespace petrous::imaging

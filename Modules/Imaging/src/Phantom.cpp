@@ -17,11 +17,14 @@ bool mayMeet(const shapes::Box& a, const shapes::Box& b)
 } // namespace
 
 ScanGrid::ScanGrid(const core::GridGeometry& geometry)
-  : dims(geometry.dims()), origin(geometry.origin()), step(geometry.patientFromVoxelLinear())
+  : dims(geometry.dims())
+  , origin(geometry.origin())
+  , step(geometry.patientFromVoxelLinear())
 {
 }
 
-Phantom::Phantom(const PhantomRecipe& recipe) : m_recipe(recipe)
+Phantom::Phantom(const PhantomRecipe& recipe)
+  : m_recipe(recipe)
 {
   auto scene = std::make_unique<Scene>();
   scene->layers = anatomy::paint(recipe.seed, recipe.cholesteatoma);
@@ -93,12 +96,11 @@ double Phantom::distanceToCranialCavity(const Eigen::Vector3d& patient) const
 core::RigidTransform Phantom::mrFromCt() const
 {
   // 4 to 6 degrees about an oblique axis through the ear, then about 8 mm.
-  const auto wobble = [this](std::uint64_t counter) {
-    return 2.0 * shapes::uniform(m_recipe.seed ^ 0x4D52ULL, counter) - 1.0;
-  };
+  const auto wobble = [this](std::uint64_t counter)
+  { return 2.0 * shapes::uniform(m_recipe.seed ^ 0x4D52ULL, counter) - 1.0; };
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   const Eigen::Vector3d axis =
-    Eigen::Vector3d(0.40 + 0.1 * wobble(0), -0.55 + 0.1 * wobble(1), 0.73).normalized();
+      Eigen::Vector3d(0.40 + 0.1 * wobble(0), -0.55 + 0.1 * wobble(1), 0.73).normalized();
   const Eigen::Quaterniond rotation(Eigen::AngleAxisd((5.0 + wobble(2)) * kDegree, axis));
   const Eigen::Vector3d shift(6.0 + wobble(3), -4.0 + wobble(4), 3.0 + wobble(5));
   return {rotation, center() + shift - rotation * center()};
@@ -111,7 +113,8 @@ Phantom::Scene::Stack Phantom::Scene::stackAround(const shapes::Point& center, d
   constexpr double kOutside = 1.3;
   constexpr double kInside = 2.1;
   Stack stack;
-  const auto covers = [&](std::size_t l) {
+  const auto covers = [&](std::size_t l)
+  {
     if (layers[l].shape.box.squaredExteriorDistance(center) > reach * reach)
       return false;
     const double d = layers[l].shape(center);

@@ -49,7 +49,8 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
   const auto coat = [&](const Shape& shape, Tissue tissue) {
     layers.push_back({shape, tissue.ct, tissue.mr, {}, {}, true, 0.0, 0.0});
   };
-  const auto spongy = [&](const Shape& shape) {
+  const auto spongy = [&](const Shape& shape)
+  {
     coat(shape, kCancellous);
     layers.back().mottle = 0.16;
   };
@@ -70,18 +71,20 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
   coat(without(grown(ear.canal, 1.2), complement(skull.bone)), kCortical);
   coat(skull.cranial, kFluid);
   // gyri: the fluid over the brain is 0.6 to 2.8 mm deep
-  coat({[cranial = skull.cranial](const Point& p) {
+  coat({[cranial = skull.cranial](const Point& p)
+        {
           const double gyrus = std::sin(0.62 * p.x() + 0.9 * std::sin(0.31 * p.y())) *
-                                 std::sin(0.55 * p.y() + 0.8 * std::sin(0.36 * p.z())) +
+                                   std::sin(0.55 * p.y() + 0.8 * std::sin(0.36 * p.z())) +
                                0.5 * std::sin(0.5 * p.z() + 0.4 * p.x());
           return 0.75 * (cranial(p) + 1.7 + 0.75 * gyrus);
         },
         everywhere()},
        kBrain);
 
-  const Shape plateau = disc({-48.0, 3.5, 11.5}, Eigen::Vector3d::UnitX(),
-                             Eigen::Vector3d::UnitY(), 6.5, 10.0, 3.0);
-  const Shape plate{[cranial = skull.cranial](const Point& p) {
+  const Shape plateau =
+      disc({-48.0, 3.5, 11.5}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 6.5, 10.0, 3.0);
+  const Shape plate{[cranial = skull.cranial](const Point& p)
+                    {
                       const double d = cranial(p);
                       return std::max(d - kTegmenThickness, -d);
                     },
@@ -96,12 +99,14 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
 
   const Shape region = remembered(cellRegion(skull, ear));
   const Shape walls = honeycomb(
-    region,
-    [antrum = ear.antrum](const Point& p) {
-      return std::clamp(1.9 + 0.14 * antrum(p), 1.9, 4.4); // larger towards the periphery
-    },
-    seed);
-  const Shape cells{[region, walls](const Point& p) {
+      region,
+      [antrum = ear.antrum](const Point& p)
+      {
+        return std::clamp(1.9 + 0.14 * antrum(p), 1.9, 4.4); // larger towards the periphery
+      },
+      seed);
+  const Shape cells{[region, walls](const Point& p)
+                    {
                       const double d = region(p);
                       return d > 1.5 ? d : -smoothMin(-d, -walls(p), 0.5);
                     },
@@ -114,8 +119,7 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
   // the densest bone: one mass round cochlea and canals, bulging as promontory and prominence
   const Shape core = ellipsoid({-38.8, 2.0, 3.4}, {3.6, 3.8, 4.2});
   coat(common({blend({grown(ear.labyrinth, 1.2), grown(ear.cochlea, 1.5), core}, 2.0),
-               complement(skull.cranial), complement(skull.carotid),
-               complement(skull.jugular)}),
+               complement(skull.cranial), complement(skull.carotid), complement(skull.jugular)}),
        kCapsule);
   coat(ear.windows, kAir);
   coat(without(ear.facialWall, ear.windows), kCortical);
@@ -131,8 +135,8 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
             {0.46F, 0.42F, 0.84F}, 0.08);
   structure(without(ear.posterior, merge({ear.vestibule, ear.superior})), kFluid,
             "posterior_semicircular_canal", {0.40F, 0.34F, 0.74F}, 0.08);
-  structure(without(ear.lateral, merge({ear.vestibule, ear.superior})), kFluid, "lateral_semicircular_canal",
-            {0.62F, 0.36F, 0.78F}, 0.08);
+  structure(without(ear.lateral, merge({ear.vestibule, ear.superior})), kFluid,
+            "lateral_semicircular_canal", {0.62F, 0.36F, 0.78F}, 0.08);
   coat(without(ear.facialCanal, ear.labyrinth), kSkin);
   structure(ear.eighthNerve, kNerve, "vestibulocochlear_nerve", {0.94F, 0.74F, 0.24F}, 0.15);
   structure(ear.chorda, kNerve, "chorda_tympani", {0.99F, 0.88F, 0.40F}, 0.06);

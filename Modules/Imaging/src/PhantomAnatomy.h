@@ -17,11 +17,11 @@ namespace petrous::imaging::anatomy
 /// Skull and what lies in it, without the ear.
 struct Skull
 {
-  shapes::Shape skin;     ///< the head with its soft tissue
-  shapes::Shape bone;     ///< outer surface of bone, cranial cavity not taken out
-  shapes::Shape cranial;  ///< inside of the dura
-  shapes::Shape condyle;  ///< of the mandible
-  shapes::Shape joint;    ///< soft tissue round it
+  shapes::Shape skin;    ///< the head with its soft tissue
+  shapes::Shape bone;    ///< outer surface of bone, cranial cavity not taken out
+  shapes::Shape cranial; ///< inside of the dura
+  shapes::Shape condyle; ///< of the mandible
+  shapes::Shape joint;   ///< soft tissue round it
   shapes::Shape sigmoid;
   shapes::Shape jugular;
   shapes::Shape carotid;
@@ -31,26 +31,26 @@ Skull makeSkull();
 /// Hearing and balance, and the nerves.
 struct Ear
 {
-  shapes::Shape canal;        ///< external auditory canal, lumen to the drum
-  shapes::Shape drum;         ///< tympanic membrane
-  shapes::Shape annulus;      ///< tympanic ring
-  shapes::Shape cavity;       ///< air of meso- and epitympanum, aditus and Eustachian tube
+  shapes::Shape canal;   ///< external auditory canal, lumen to the drum
+  shapes::Shape drum;    ///< tympanic membrane
+  shapes::Shape annulus; ///< tympanic ring
+  shapes::Shape cavity;  ///< air of meso- and epitympanum, aditus and Eustachian tube
   shapes::Shape antrum;
   shapes::Shape malleus;
   shapes::Shape incus;
   shapes::Shape stapes;
-  shapes::Shape windows;      ///< niches of oval and round window, air
+  shapes::Shape windows; ///< niches of oval and round window, air
   shapes::Shape vestibule;
   shapes::Shape cochlea;
-  shapes::Shape lateral;      ///< semicircular canals
+  shapes::Shape lateral; ///< semicircular canals
   shapes::Shape superior;
   shapes::Shape posterior;
-  shapes::Shape labyrinth;    ///< all fluid spaces of the inner ear
-  shapes::Shape meatus;       ///< internal auditory canal
+  shapes::Shape labyrinth; ///< all fluid spaces of the inner ear
+  shapes::Shape meatus;    ///< internal auditory canal
   shapes::Shape eighthNerve;
   shapes::Shape facialNerve;
-  shapes::Shape facialCanal;  ///< lumen in which the nerve lies
-  shapes::Shape facialWall;   ///< outside of the canal's bone
+  shapes::Shape facialCanal; ///< lumen in which the nerve lies
+  shapes::Shape facialWall;  ///< outside of the canal's bone
   shapes::Shape chorda;
   shapes::Shape cholesteatoma;
 };
@@ -72,12 +72,12 @@ shapes::Shape cellRegion(const Skull& skull, const Ear& ear);
 struct Layer
 {
   shapes::Shape shape;
-  double ct = 0.0; ///< HU
-  double mr = 0.0; ///< arbitrary units, T2-like
+  double ct = 0.0;  ///< HU
+  double mr = 0.0;  ///< arbitrary units, T2-like
   std::string name; ///< empty: no structure
   std::array<float, 3> color{};
   bool solid = true;
-  double mesh = 0.0; ///< mm between the samples of its surface; 0: it has none
+  double mesh = 0.0;   ///< mm between the samples of its surface; 0: it has none
   double mottle = 0.0; ///< share by which trabeculae vary the intensity, standard deviation
 };
 std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma);

@@ -13,10 +13,10 @@ namespace petrous::imaging::shapes
 namespace
 {
 
-constexpr double kBin = 1.5;       // mm, edge of a look-up bin
-constexpr std::size_t kNear = 24;  // seeds that can matter in a bin
-constexpr double kRounding = 0.7;  // mm, of the cells' edges
-constexpr double kPore = 0.4;      // mm, radius
+constexpr double kBin = 1.5;      // mm, edge of a look-up bin
+constexpr std::size_t kNear = 24; // seeds that can matter in a bin
+constexpr double kRounding = 0.7; // mm, of the cells' edges
+constexpr double kPore = 0.4;     // mm, radius
 constexpr int kDarts = 60000;
 
 struct Cells
@@ -33,7 +33,8 @@ struct Cells
     for (int axis = 2; axis >= 0; --axis)
     {
       const auto a = static_cast<std::size_t>(axis);
-      const int b = std::clamp(static_cast<int>((p[axis] - box.min()[axis]) / kBin), 0, bins[a] - 1);
+      const int b =
+          std::clamp(static_cast<int>((p[axis] - box.min()[axis]) / kBin), 0, bins[a] - 1);
       index = index * static_cast<std::size_t>(bins[a]) + static_cast<std::size_t>(b);
     }
     return index;
@@ -75,7 +76,7 @@ struct Cells
       room = smoothMin(room, wall - half, kRounding);
       if ((bits >> 20) % 3 == 0 && along > 0.0)
         pore = std::min(
-          pore, std::sqrt(std::max((p - seeds[own]).squaredNorm() - along * along, 0.0)) - kPore);
+            pore, std::sqrt(std::max((p - seeds[own]).squaredNorm() - along * along, 0.0)) - kPore);
     }
     return std::min(-room, pore);
   }
@@ -110,7 +111,7 @@ Shape honeycomb(const Shape& region, const std::function<double(const Point&)>& 
 
   for (std::size_t a = 0; a < 3; ++a)
     cells->bins[a] =
-      std::max(1, static_cast<int>(std::ceil(extent[static_cast<Eigen::Index>(a)] / kBin)));
+        std::max(1, static_cast<int>(std::ceil(extent[static_cast<Eigen::Index>(a)] / kBin)));
   for (int k = 0; k < cells->bins[2]; ++k)
     for (int j = 0; j < cells->bins[1]; ++j)
       for (int i = 0; i < cells->bins[0]; ++i)

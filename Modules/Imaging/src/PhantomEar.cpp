@@ -11,7 +11,7 @@ using namespace shapes;
 using Eigen::Vector3d;
 
 const Point kVestibule(-38.4, 1.0, 1.4);
-const Point kOvalWindow(-40.75, 0.9, 1.0);
+const Point kOvalWindow(-40.62, 0.9, 1.0);
 const Point kStapesHead(-43.6, 0.8, 0.6);
 const Point kUmbo(-46.4, -1.9, -0.2);
 
@@ -76,7 +76,7 @@ struct Arc
   }
 };
 
-constexpr double kCanalRadius = 0.5;    // of the tube: 1.0 mm wide
+constexpr double kCanalRadius = 0.5; // of the tube: 1.0 mm wide
 constexpr double kAmpullaRadius = 0.95;
 
 Shape canalShape(const Arc& arc, const Point& firstEnd, const Point& lastEnd, bool ampullaFirst)
@@ -131,12 +131,12 @@ void addLabyrinth(Ear& ear)
   ear.lateral = canalShape(lateral, inner + Vector3d(-0.6, -0.8, 1.0),
                            inner + Vector3d(-0.6, 0.9, 0.5), true);
   ear.superior = canalShape(superior, inner + Vector3d(-0.8, -0.8, 0.8), crus, true);
-  ear.posterior = canalShape(posterior, superior.at(superior.last),
-                             inner + Vector3d(0.4, 1.2, -0.9), false);
+  ear.posterior =
+      canalShape(posterior, superior.at(superior.last), inner + Vector3d(0.4, 1.2, -0.9), false);
   ear.superior = remembered(ear.superior);
   ear.cochlea = remembered(tube(cochlearSpiral()));
-  ear.labyrinth = remembered(
-    merge({ear.vestibule, ear.cochlea, ear.lateral, ear.superior, ear.posterior}));
+  ear.labyrinth =
+      remembered(merge({ear.vestibule, ear.cochlea, ear.lateral, ear.superior, ear.posterior}));
 }
 
 void addOssicles(Ear& ear)
@@ -159,7 +159,8 @@ void addOssicles(Ear& ear)
                                   {{-44.45, 0.9, 0.6}, 0.33}}))},
                     0.5);
   const Vector3d along = Vector3d::UnitY();
-  const auto crus = [&](double side) {
+  const auto crus = [&](double side)
+  {
     return tube(spline({{kOvalWindow + Vector3d(-0.1, side * 1.15, 0.0), 0.2},
                         {kOvalWindow + Vector3d(-1.0, side * 1.1, -0.1), 0.2},
                         {kOvalWindow + Vector3d(-1.9, side * 0.75, -0.25), 0.2},
@@ -175,18 +176,17 @@ void addNerves(Ear& ear)
 {
   // Labyrinthine segment, geniculate ganglion, tympanic segment over the oval window, second
   // genu under the lateral canal, mastoid segment, stylomastoid foramen.
-  const std::vector<Knot> meatal{{{-20.0, 0.0, 2.6}, 0.6}, {{-27.0, -0.4, 2.3}, 0.6},
-                                 {{-33.5, -1.2, 2.5}, 0.6}, {{-35.4, -2.2, 3.4}, 0.5},
-                                 {{-37.3, -4.0, 4.6}, 0.55}, {{-38.6, -5.6, 5.2}, 0.9},
-                                 {{-40.1, -4.6, 4.9}, 0.6}, {{-41.8, -2.1, 4.1}, 0.6},
-                                 {{-43.3, 0.7, 3.2}, 0.6}, {{-44.8, 3.2, 2.1}, 0.6},
-                                 {{-45.5, 4.7, 0.2}, 0.6}, {{-46.0, 5.4, -4.0}, 0.6},
-                                 {{-46.6, 6.0, -10.0}, 0.6}, {{-46.9, 6.0, -15.0}, 0.6},
-                                 {{-47.6, 4.6, -19.5}, 0.65}, {{-50.0, 0.0, -24.0}, 0.7},
-                                 {{-54.0, -7.0, -30.0}, 0.7}};
+  const std::vector<Knot> meatal{
+      {{-20.0, 0.0, 2.6}, 0.6},   {{-27.0, -0.4, 2.3}, 0.6},  {{-33.5, -1.2, 2.5}, 0.6},
+      {{-35.4, -2.2, 3.4}, 0.5},  {{-37.3, -4.0, 4.6}, 0.55}, {{-38.6, -5.6, 5.2}, 0.9},
+      {{-40.1, -4.6, 4.9}, 0.6},  {{-41.8, -2.1, 4.1}, 0.6},  {{-43.3, 0.7, 3.2}, 0.6},
+      {{-44.8, 3.2, 2.1}, 0.6},   {{-45.5, 4.7, 0.2}, 0.6},   {{-46.0, 5.4, -4.0}, 0.6},
+      {{-46.6, 6.0, -10.0}, 0.6}, {{-46.9, 6.0, -15.0}, 0.6}, {{-47.6, 4.6, -19.5}, 0.65},
+      {{-50.0, 0.0, -24.0}, 0.7}, {{-54.0, -7.0, -30.0}, 0.7}};
   ear.facialNerve = tube(spline(meatal, 0.3));
   const std::vector<Knot> bony(meatal.begin() + 3, meatal.begin() + 14);
-  const auto widened = [&](double by) {
+  const auto widened = [&](double by)
+  {
     std::vector<Knot> knots = spline(bony, 0.3);
     for (Knot& knot : knots)
       knot.radius += by;
@@ -202,10 +202,14 @@ void addNerves(Ear& ear)
                             {{-46.4, -5.4, 3.6}, 0.25},
                             {{-46.0, -8.5, 2.6}, 0.25}},
                            0.2));
-  ear.meatus = tube(spline({{{-21.0, 1.6, 1.2}, 3.6}, {{-25.5, 0.6, 1.2}, 2.6},
-                            {{-29.5, 0.1, 1.2}, 2.3}, {{-33.0, -0.5, 1.3}, 2.0}}));
-  ear.eighthNerve = tube(spline({{{-19.0, 1.5, 0.6}, 0.9}, {{-27.0, 0.6, 0.4}, 0.9},
-                                 {{-33.0, -0.8, 0.4}, 0.8}, {{-35.0, -2.2, 0.0}, 0.5}}));
+  ear.meatus = tube(spline({{{-21.0, 1.6, 1.2}, 3.6},
+                            {{-25.5, 0.6, 1.2}, 2.6},
+                            {{-29.5, 0.1, 1.2}, 2.3},
+                            {{-33.0, -0.5, 1.3}, 2.0}}));
+  ear.eighthNerve = tube(spline({{{-19.0, 1.5, 0.6}, 0.9},
+                                 {{-27.0, 0.6, 0.4}, 0.9},
+                                 {{-33.0, -0.8, 0.4}, 0.8},
+                                 {{-35.0, -2.2, 0.0}, 0.5}}));
 }
 
 } // namespace
@@ -227,7 +231,8 @@ Ear makeEar(const Skull& skull)
                                    {{-46.0, -2.1, -0.6}, 4.4}}));
   const Shape lateralOfDrum{[drum](const Point& p) { return -drum.side(p); }, everywhere()};
   ear.canal = remembered(common({outer, lateralOfDrum, skull.skin}));
-  ear.drum = {[drum](const Point& p) {
+  ear.drum = {[drum](const Point& p)
+              {
                 const Vector3d q = p - drum.center;
                 const double height = q.dot(drum.normal);
                 const double ring = (q - height * drum.normal).norm() - drum.radius - 0.3;
@@ -246,22 +251,21 @@ Ear makeEar(const Skull& skull)
                                    {{-27.0, -33.0, -11.0}, 0.8}}));
   const Shape behindDrum{[drum](const Point& p) { return drum.side(p); }, everywhere()};
   const Shape lower = common({merge({meso, grown(outer, -0.4)}), behindDrum});
-  const Shape underTegmen{
-    [cranial = skull.cranial](const Point& p) { return kTegmenThickness - cranial(p); },
-    everywhere()};
-  ear.cavity =
-    remembered(blendCommon(blend({lower, epi, aditus, tubal}, 0.8), underTegmen, 0.4));
+  const Shape underTegmen{[cranial = skull.cranial](const Point& p)
+                          { return kTegmenThickness - cranial(p); },
+                          everywhere()};
+  ear.cavity = remembered(blendCommon(blend({lower, epi, aditus, tubal}, 0.8), underTegmen, 0.4));
   ear.antrum =
-    remembered(blendCommon(ellipsoid({-48.8, 7.2, 7.2}, {3.4, 4.6, 4.4}), underTegmen, 0.4));
+      remembered(blendCommon(ellipsoid({-48.8, 7.2, 7.2}, {3.4, 4.6, 4.4}), underTegmen, 0.4));
 
   addLabyrinth(ear);
   addOssicles(ear);
   addNerves(ear);
 
   const Vector3d along = Vector3d::UnitY();
-  ear.windows = merge({disc(kOvalWindow + Vector3d(-0.9, 0.0, 0.0), along, Vector3d::UnitZ(), 1.7,
-                            0.95, 0.85),
-                       capsule({{-40.9, 0.3, -1.9}, 0.6}, {{-42.6, 0.9, -2.2}, 0.8})});
+  ear.windows = merge(
+      {disc(kOvalWindow + Vector3d(-0.9, 0.0, 0.0), along, Vector3d::UnitZ(), 1.7, 0.95, 0.85),
+       capsule({{-40.9, 0.3, -1.9}, 0.6}, {{-42.6, 0.9, -2.2}, 0.8})});
 
   // Grows from the posterior epitympanum round the incus into the antrum.
   const Shape sac = blend({ellipsoid({-48.4, 5.8, 7.4}, {2.7, 3.3, 2.7}),

@@ -22,7 +22,8 @@ constexpr double kFraction = 8.0; // units a HU while filtering, so that roundin
 class GaussianNoise
 {
 public:
-  GaussianNoise(std::uint64_t seed, double sigma) : m_seed(shapes::mix(seed ^ 0x6E6F697365ULL))
+  GaussianNoise(std::uint64_t seed, double sigma)
+    : m_seed(shapes::mix(seed ^ 0x6E6F697365ULL))
   {
     for (std::size_t i = 0; i <= kSteps; ++i)
     {
@@ -158,8 +159,8 @@ private:
       reach = std::max(reach, (m_frame.step * side).norm());
     }
     const Eigen::Vector3d middle = low + half;
-    const auto stack = m_scene.stackAround(m_frame.at(middle[0], middle[1], middle[2]),
-                                           reach + m_margin, among);
+    const auto stack =
+        m_scene.stackAround(m_frame.at(middle[0], middle[1], middle[2]), reach + m_margin, among);
     std::size_t axis = 0;
     for (std::size_t a = 1; a < 3; ++a)
       if (size[a] > size[axis])
@@ -198,81 +199,87 @@ volume::Volume<std::int16_t> samplePhantom(const Phantom& phantom, const ScanGri
   const Eigen::Vector3d spacing = grid.step.colwise().norm().transpose();
   const double width = std::cbrt(spacing.prod());
   const double sigma =
-    settings.pointSpread < 0.0 ? std::min(0.25, 0.75 * spacing.minCoeff()) : settings.pointSpread;
+      settings.pointSpread < 0.0 ? std::min(0.25, 0.75 * spacing.minCoeff()) : settings.pointSpread;
   const std::array<std::vector<float>, 3> kernels{gaussianKernel(sigma / spacing[0]),
                                                   gaussianKernel(sigma / spacing[1]),
                                                   gaussianKernel(sigma / spacing[2])};
   const bool filterSlices = kernels[2].size() > 1;
   const std::size_t slice = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
-  const auto rounded = [](float v) {
-    return static_cast<std::int16_t>(std::lround(std::clamp(v, -32768.0F, 32767.0F)));
-  };
+  const auto rounded = [](float v)
+  { return static_cast<std::int16_t>(std::lround(std::clamp(v, -32768.0F, 32767.0F))); };
 
   const int slabs = (dims[2] + kSlab - 1) / kSlab;
   std::atomic<int> done{0};
-  tbb::parallel_for(0, slabs, [&](int slab) {
-    progress.report(0.8 * done.fetch_add(1) / slabs, "scanning the phantom");
-    const int first = slab * kSlab;
-    const int last = std::min(first + kSlab, dims[2]);
-    std::vector<float> buffer(slice * static_cast<std::size_t>(last - first));
-    const auto fill = [&](const core::IndexBox& box, const Phantom::Scene::Stack& stack) {
-      const bool plain = stack.layers.empty() && scene.baseIsUniform(stack);
-      const auto base = static_cast<float>(scene.baseIntensity(stack, settings.modality));
-      for (int k = box.lower[2]; k < box.upper[2]; ++k)
-        for (int j = box.lower[1]; j < box.upper[1]; ++j)
+  tbb::parallel_for(
+      0, slabs,
+      [&](int slab)
+      {
+        progress.report(0.8 * done.fetch_add(1) / slabs, "scanning the phantom");
+        const int first = slab * kSlab;
+        const int last = std::min(first + kSlab, dims[2]);
+        std::vector<float> buffer(slice * static_cast<std::size_t>(last - first));
+        const auto fill = [&](const core::IndexBox& box, const Phantom::Scene::Stack& stack)
         {
-          float* row = buffer.data() + slice * static_cast<std::size_t>(k - first) +
-                       static_cast<std::size_t>(j) * static_cast<std::size_t>(dims[0]);
-          for (int i = box.lower[0]; i < box.upper[0]; ++i)
-            row[i] = plain ? base
-                           : static_cast<float>(scene.look(frame.at(i, j, k), width,
-                                                           settings.modality, stack));
+          const bool plain = stack.layers.empty() && scene.baseIsUniform(stack);
+          const auto base = static_cast<float>(scene.baseIntensity(stack, settings.modality));
+          for (int k = box.lower[2]; k < box.upper[2]; ++k)
+            for (int j = box.lower[1]; j < box.upper[1]; ++j)
+            {
+              float* row = buffer.data() + slice * static_cast<std::size_t>(k - first) +
+                           static_cast<std::size_t>(j) * static_cast<std::size_t>(dims[0]);
+              for (int i = box.lower[0]; i < box.upper[0]; ++i)
+                row[i] = plain ? base
+                               : static_cast<float>(scene.look(frame.at(i, j, k), width,
+                                                               settings.modality, stack));
+            }
+        };
+        BlockVisitor(scene, frame, 0.5 * width, fill).visit(dims, first, last);
+        std::vector<float> scratch;
+        for (int k = first; k < last; ++k)
+        {
+          float* plane = buffer.data() + slice * static_cast<std::size_t>(k - first);
+          for (int j = 0; j < dims[1]; ++j)
+            filterLine(plane + static_cast<std::ptrdiff_t>(j) * dims[0], dims[0], 1, kernels[0],
+                       scratch);
+          for (int i = 0; i < dims[0]; ++i)
+            filterLine(plane + i, dims[1], dims[0], kernels[1], scratch);
         }
-    };
-    BlockVisitor(scene, frame, 0.5 * width, fill).visit(dims, first, last);
-    std::vector<float> scratch;
-    for (int k = first; k < last; ++k)
-    {
-      float* plane = buffer.data() + slice * static_cast<std::size_t>(k - first);
-      for (int j = 0; j < dims[1]; ++j)
-        filterLine(plane + static_cast<std::ptrdiff_t>(j) * dims[0], dims[0], 1, kernels[0],
-                   scratch);
-      for (int i = 0; i < dims[0]; ++i)
-        filterLine(plane + i, dims[1], dims[0], kernels[1], scratch);
-    }
-    std::int16_t* out = result.data() + slice * static_cast<std::size_t>(first);
-    for (std::size_t v = 0; v < buffer.size(); ++v)
-      out[v] = rounded(buffer[v] * static_cast<float>(kFraction));
-  });
+        std::int16_t* out = result.data() + slice * static_cast<std::size_t>(first);
+        for (std::size_t v = 0; v < buffer.size(); ++v)
+          out[v] = rounded(buffer[v] * static_cast<float>(kFraction));
+      });
 
   // Across the slices, and the noise. A sheared grid is filtered along its own slice axis.
   const GaussianNoise noise(settings.seed, settings.noise);
   done = 0;
-  tbb::parallel_for(0, dims[1], [&](int j) {
-    progress.report(0.8 + 0.2 * done.fetch_add(1) / dims[1], "scanning the phantom");
-    const auto columns = static_cast<std::size_t>(dims[0]);
-    std::vector<float> sheet(columns * static_cast<std::size_t>(dims[2]));
-    std::vector<float> scratch;
-    const std::size_t offset = static_cast<std::size_t>(j) * columns;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dims[2]); ++k)
-      for (std::size_t i = 0; i < columns; ++i)
-        sheet[k * columns + i] = static_cast<float>(result.data()[k * slice + offset + i]);
-    if (filterSlices)
-      for (int i = 0; i < dims[0]; ++i)
-        filterLine(sheet.data() + i, dims[2], dims[0], kernels[2], scratch);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dims[2]); ++k)
-      for (std::size_t i = 0; i < columns; ++i)
+  tbb::parallel_for(
+      0, dims[1],
+      [&](int j)
       {
-        const std::size_t voxel = k * slice + offset + i;
-        float value = sheet[k * columns + i] / static_cast<float>(kFraction);
-        if (settings.noise > 0.0)
-          value += noise.at(voxel);
-        // a magnitude image has no negative values
-        if (settings.modality == Phantom::Modality::Mr)
-          value = std::abs(value);
-        result.data()[voxel] = rounded(value);
-      }
-  });
+        progress.report(0.8 + 0.2 * done.fetch_add(1) / dims[1], "scanning the phantom");
+        const auto columns = static_cast<std::size_t>(dims[0]);
+        std::vector<float> sheet(columns * static_cast<std::size_t>(dims[2]));
+        std::vector<float> scratch;
+        const std::size_t offset = static_cast<std::size_t>(j) * columns;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dims[2]); ++k)
+          for (std::size_t i = 0; i < columns; ++i)
+            sheet[k * columns + i] = static_cast<float>(result.data()[k * slice + offset + i]);
+        if (filterSlices)
+          for (int i = 0; i < dims[0]; ++i)
+            filterLine(sheet.data() + i, dims[2], dims[0], kernels[2], scratch);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dims[2]); ++k)
+          for (std::size_t i = 0; i < columns; ++i)
+          {
+            const std::size_t voxel = k * slice + offset + i;
+            float value = sheet[k * columns + i] / static_cast<float>(kFraction);
+            if (settings.noise > 0.0)
+              value += noise.at(voxel);
+            // a magnitude image has no negative values
+            if (settings.modality == Phantom::Modality::Mr)
+              value = std::abs(value);
+            result.data()[voxel] = rounded(value);
+          }
+      });
   return result;
 }
 
@@ -283,29 +290,32 @@ volume::LabelMap labelPhantom(const Phantom& phantom, const core::GridGeometry& 
   std::vector<std::uint16_t> indexOfLayer(scene.layers.size(), 0);
   for (std::size_t s = 0; s < scene.layerOf.size(); ++s)
     indexOfLayer[scene.layerOf[s]] = static_cast<std::uint16_t>(s + 1);
-  const auto indexOf = [&](int layer) -> std::uint16_t {
-    return layer < 0 ? std::uint16_t{0} : indexOfLayer[static_cast<std::size_t>(layer)];
-  };
+  const auto indexOf = [&](int layer) -> std::uint16_t
+  { return layer < 0 ? std::uint16_t{0} : indexOfLayer[static_cast<std::size_t>(layer)]; };
 
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(geometry);
   const core::Index3 dims = geometry.dims();
   const Frame frame{geometry.origin(), geometry.patientFromVoxelLinear()};
   const int slabs = (dims[2] + kSlab - 1) / kSlab;
   std::atomic<int> done{0};
-  tbb::parallel_for(0, slabs, [&](int slab) {
-    progress.report(static_cast<double>(done.fetch_add(1)) / slabs, "labelling the phantom");
-    const int first = slab * kSlab;
-    const int last = std::min(first + kSlab, dims[2]);
-    const auto fill = [&](const core::IndexBox& box, const Phantom::Scene::Stack& stack) {
-      for (int k = box.lower[2]; k < box.upper[2]; ++k)
-        for (int j = box.lower[1]; j < box.upper[1]; ++j)
-          for (int i = box.lower[0]; i < box.upper[0]; ++i)
-            voxels->at(i, j, k) = stack.layers.empty()
-                                    ? indexOf(stack.base)
-                                    : indexOf(scene.topmost(frame.at(i, j, k), stack));
-    };
-    BlockVisitor(scene, frame, 0.0, fill).visit(dims, first, last);
-  });
+  tbb::parallel_for(
+      0, slabs,
+      [&](int slab)
+      {
+        progress.report(static_cast<double>(done.fetch_add(1)) / slabs, "labelling the phantom");
+        const int first = slab * kSlab;
+        const int last = std::min(first + kSlab, dims[2]);
+        const auto fill = [&](const core::IndexBox& box, const Phantom::Scene::Stack& stack)
+        {
+          for (int k = box.lower[2]; k < box.upper[2]; ++k)
+            for (int j = box.lower[1]; j < box.upper[1]; ++j)
+              for (int i = box.lower[0]; i < box.upper[0]; ++i)
+                voxels->at(i, j, k) = stack.layers.empty()
+                                          ? indexOf(stack.base)
+                                          : indexOf(scene.topmost(frame.at(i, j, k), stack));
+        };
+        BlockVisitor(scene, frame, 0.0, fill).visit(dims, first, last);
+      });
 
   std::vector<volume::Segment> names;
   for (std::size_t s = 0; s < phantom.structures().size(); ++s)

@@ -42,8 +42,7 @@ struct Phantom::Scene
   }
 
   /// The layer's intensity at a point: marrow spaces of about a millimetre make bone mottled.
-  static double intensityAt(const anatomy::Layer& layer, Modality modality,
-                            const shapes::Point& p)
+  static double intensityAt(const anatomy::Layer& layer, Modality modality, const shapes::Point& p)
   {
     const double value = intensity(layer, modality);
     return layer.mottle > 0.0 ? value * (1.0 + layer.mottle * shapes::mottling(p)) : value;
@@ -65,7 +64,7 @@ struct Phantom::Scene
     {
       const double d = layers[l].shape(p);
       const double share =
-        width > 0.0 ? std::clamp(0.5 - d / width, 0.0, 1.0) : (d <= 0.0 ? 1.0 : 0.0);
+          width > 0.0 ? std::clamp(0.5 - d / width, 0.0, 1.0) : (d <= 0.0 ? 1.0 : 0.0);
       if (share > 0.0)
         value += left * share * intensityAt(layers[l], modality, p);
       left *= 1.0 - share;
@@ -74,8 +73,7 @@ struct Phantom::Scene
     }
     if (baseIsUniform(stack))
       return value + left * baseIntensity(stack, modality);
-    return value +
-           left * intensityAt(layers[static_cast<std::size_t>(stack.base)], modality, p);
+    return value + left * intensityAt(layers[static_cast<std::size_t>(stack.base)], modality, p);
   }
 
   /// The topmost layer at a point, -1 for air round the head.

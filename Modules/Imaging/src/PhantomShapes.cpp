@@ -69,7 +69,8 @@ Shape ellipsoid(const Point& center, const Eigen::Vector3d& radii, const Eigen::
 {
   const double smallest = radii.minCoeff();
   const Eigen::Vector3d half = (axes.cwiseAbs2() * radii.cwiseAbs2()).cwiseSqrt();
-  return {[=](const Point& p) {
+  return {[=](const Point& p)
+          {
             const Eigen::Vector3d q = (axes.transpose() * (p - center)).cwiseQuotient(radii);
             const double k0 = q.norm();
             const double k1 = q.cwiseQuotient(radii).norm();
@@ -102,14 +103,14 @@ Shape tube(const std::vector<Knot>& knots)
     Run run{first, std::min(first + kRun, knots.size() - 1), Point::Zero(), 0.0};
     run.center = 0.5 * (knots[run.first].center + knots[run.last].center);
     for (std::size_t i = run.first; i <= run.last; ++i)
-      run.reach =
-        std::max(run.reach, (knots[i].center - run.center).norm() + knots[i].radius);
+      run.reach = std::max(run.reach, (knots[i].center - run.center).norm() + knots[i].radius);
     runs.push_back(run);
   }
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
     pieces.emplace_back(knots[i], knots[i + 1]);
-  return {[pieces, runs](const Point& p) {
+  return {[pieces, runs](const Point& p)
+          {
             // the run that looks nearest first: it rules out most of the others
             std::size_t near = 0;
             double least = std::numeric_limits<double>::max();
@@ -123,7 +124,8 @@ Shape tube(const std::vector<Knot>& knots)
               }
             }
             double best = std::numeric_limits<double>::max();
-            const auto ask = [&](const Run& run) {
+            const auto ask = [&](const Run& run)
+            {
               for (std::size_t i = run.first; i < run.last; ++i)
                 best = std::min(best, pieces[i].distance(p));
             };
@@ -152,16 +154,17 @@ std::vector<Knot> spline(const std::vector<Knot>& knots, double step)
     const Knot d = knot(i + 2);
     const double stride = step * std::max(1.0, b.radius / 1.5); // wide tubes bend gently
     const int pieces =
-      std::max(1, static_cast<int>(std::lround((c.center - b.center).norm() / stride)));
+        std::max(1, static_cast<int>(std::lround((c.center - b.center).norm() / stride)));
     for (int s = 0; s < pieces; ++s)
     {
       const double t = static_cast<double>(s) / pieces;
-      const auto curve = [t](const auto& w, const auto& x, const auto& y, const auto& z) {
+      const auto curve = [t](const auto& w, const auto& x, const auto& y, const auto& z)
+      {
         return 0.5 * (2.0 * x + t * (y - w) + t * t * (2.0 * w - 5.0 * x + 4.0 * y - z) +
                       t * t * t * (3.0 * x - w - 3.0 * y + z));
       };
-      result.push_back({curve(a.center, b.center, c.center, d.center),
-                        b.radius + t * (c.radius - b.radius)});
+      result.push_back(
+          {curve(a.center, b.center, c.center, d.center), b.radius + t * (c.radius - b.radius)});
     }
   }
   result.push_back(knots.back());
@@ -171,7 +174,8 @@ std::vector<Knot> spline(const std::vector<Knot>& knots, double step)
 Shape torus(const Point& center, const Eigen::Vector3d& axis, double ring, double radius)
 {
   const double reach = ring + radius;
-  return {[=](const Point& p) {
+  return {[=](const Point& p)
+          {
             const Eigen::Vector3d q = p - center;
             const double height = q.dot(axis);
             return std::hypot((q - height * axis).norm() - ring, height) - radius;
@@ -184,8 +188,9 @@ Shape disc(const Point& center, const Eigen::Vector3d& u, const Eigen::Vector3d&
 {
   const Eigen::Vector3d w = u.cross(v);
   const Eigen::Vector3d half =
-    halfU * u.cwiseAbs() + halfV * v.cwiseAbs() + halfThickness * w.cwiseAbs();
-  return {[=](const Point& p) {
+      halfU * u.cwiseAbs() + halfV * v.cwiseAbs() + halfThickness * w.cwiseAbs();
+  return {[=](const Point& p)
+          {
             const Eigen::Vector3d q = p - center;
             const Eigen::Vector2d e(q.dot(u) / halfU, q.dot(v) / halfV);
             const double k0 = e.norm();
@@ -208,10 +213,12 @@ Shape merge(std::vector<Shape> parts)
   Box box;
   for (const Shape& part : parts)
     box.extend(part.box);
-  return {[parts = std::move(parts)](const Point& p) {
+  return {[parts = std::move(parts)](const Point& p)
+          {
             double best = std::numeric_limits<double>::max();
             for (const Shape& part : parts)
-              if (best > 1e100 || part.box.squaredExteriorDistance(p) < square(std::max(best, 0.0)) ||
+              if (best > 1e100 ||
+                  part.box.squaredExteriorDistance(p) < square(std::max(best, 0.0)) ||
                   part.box.contains(p))
                 best = std::min(best, part(p));
             return best;
@@ -224,7 +231,8 @@ Shape common(std::vector<Shape> parts)
   Box box = everywhere();
   for (const Shape& part : parts)
     box = box.intersection(part.box);
-  return {[parts = std::move(parts)](const Point& p) {
+  return {[parts = std::move(parts)](const Point& p)
+          {
             double worst = std::numeric_limits<double>::lowest();
             for (const Shape& part : parts)
               worst = std::max(worst, part(p));
@@ -264,7 +272,8 @@ Shape blend(std::vector<Shape> parts, double k)
     box.extend(part.box);
   box.min().array() -= k;
   box.max().array() += k;
-  return {[parts = std::move(parts), k](const Point& p) {
+  return {[parts = std::move(parts), k](const Point& p)
+          {
             double value = parts.front()(p);
             for (std::size_t i = 1; i < parts.size(); ++i)
             {
@@ -308,7 +317,8 @@ Shape remembered(const Shape& a)
   };
   static std::atomic<std::uint64_t> count{0};
   const std::uint64_t id = ++count; // never used twice: a slot of another phantom is no match
-  return {[distance = a.distance, id](const Point& p) {
+  return {[distance = a.distance, id](const Point& p)
+          {
             thread_local std::array<Last, kSlots> memory;
             Last& last = memory[id % kSlots];
             if (last.id != id || last.point != p)

@@ -20,10 +20,7 @@ struct Shape
   std::function<double(const Point&)> distance;
   Box box; ///< holds {distance <= 0}
 
-  double operator()(const Point& p) const
-  {
-    return distance(p);
-  }
+  double operator()(const Point& p) const { return distance(p); }
 };
 
 /// A point of a tube's centre line with the tube's radius there, mm.

@@ -13,7 +13,8 @@ using namespace shapes;
 /// (arcuate eminence), falling towards the temporal pole.
 Shape middleFossa()
 {
-  return {[](const Point& p) {
+  return {[](const Point& p)
+          {
             constexpr double kLevel = 12.2;
             constexpr double kFall = 0.55;
             const double ahead = 0.5 * (-8.0 - p.y());
@@ -50,13 +51,12 @@ Skull makeSkull()
   const Shape mastoid = capsule({{-50.0, 12.0, 2.0}, 11.5}, {{-52.5, 9.5, -20.5}, 5.8});
   const Shape petrous = capsule({{-50.0, 6.0, 0.5}, 12.0}, {{-14.0, -17.0, 0.0}, 8.0});
   const Shape tympanic = capsule({{-61.0, -0.5, 1.0}, 6.0}, {{-47.0, -2.5, -1.0}, 8.5});
-  const Shape zygoma =
-    tube(spline({{{-55.0, 0.0, 6.5}, 4.5}, {{-61.0, -12.0, 5.0}, 3.6}, {{-66.5, -36.0, 3.5}, 3.0}}));
-  const Shape styloid =
-    tube(spline({{{-45.0, 1.0, -11.0}, 3.2}, {{-44.5, -0.5, -18.0}, 1.8}, {{-42.5, -5.0, -34.0}, 1.1}}));
+  const Shape zygoma = tube(
+      spline({{{-55.0, 0.0, 6.5}, 4.5}, {{-61.0, -12.0, 5.0}, 3.6}, {{-66.5, -36.0, 3.5}, 3.0}}));
+  const Shape styloid = tube(spline(
+      {{{-45.0, 1.0, -11.0}, 3.2}, {{-44.5, -0.5, -18.0}, 1.8}, {{-42.5, -5.0, -34.0}, 1.1}}));
   const Shape vault = grown(s.cranial, 4.2); // squama, occiput and the floors of the fossae
-  const Shape digastric =
-    capsule({{-46.5, 24.0, -21.0}, 3.2}, {{-47.5, 5.0, -22.0}, 2.4});
+  const Shape digastric = capsule({{-46.5, 24.0, -21.0}, 3.2}, {{-47.5, 5.0, -22.0}, 2.4});
 
   s.joint = ellipsoid({-53.5, -17.0, -5.5}, {9.5, 7.0, 8.0});
   s.condyle = blend({ellipsoid({-53.5, -17.0, -5.5}, {7.0, 3.6, 4.5}),
@@ -66,7 +66,7 @@ Skull makeSkull()
   const Shape angle = capsule({{-49.0, 13.0, 5.0}, 11.5}, {{-40.0, 38.0, 2.0}, 11.0});
   const Shape solid = blend({vault, mastoid, angle, petrous, tympanic, zygoma}, 4.0);
   const Shape carved =
-    blendCommon(blendCommon(solid, complement(s.joint), 2.0), complement(digastric), 1.5);
+      blendCommon(blendCommon(solid, complement(s.joint), 2.0), complement(digastric), 1.5);
   s.bone = remembered(blend({carved, styloid}, 1.0));
 
   // Veins: the sigmoid sinus bends from the transverse sinus down and medially to the bulb.
@@ -76,12 +76,12 @@ Skull makeSkull()
                            {{-51.0, 17.0, -4.0}, 4.5},
                            {{-47.5, 15.0, -11.0}, 4.3},
                            {{-42.5, 11.5, -14.0}, 4.1}}));
-  s.jugular = blend({ellipsoid({-38.5, 6.5, -11.5}, {4.3, 4.3, 4.6}),
-                     tube(spline({{{-42.5, 11.5, -14.0}, 3.8},
-                                  {{-38.8, 7.2, -12.5}, 4.0},
-                                  {{-38.5, 4.5, -20.0}, 3.9},
-                                  {{-39.5, 2.0, -36.0}, 4.0}}))},
-                    1.5);
+  s.jugular = blend(
+      {ellipsoid({-38.5, 6.5, -11.5}, {4.3, 4.3, 4.6}), tube(spline({{{-42.5, 11.5, -14.0}, 3.8},
+                                                                     {{-38.8, 7.2, -12.5}, 4.0},
+                                                                     {{-38.5, 4.5, -20.0}, 3.9},
+                                                                     {{-39.5, 2.0, -36.0}, 4.0}}))},
+      1.5);
   s.carotid = tube(spline({{{-40.0, -7.0, -38.0}, 2.7},
                            {{-39.5, -8.5, -22.0}, 2.7},
                            {{-39.5, -10.5, -12.0}, 2.7},
@@ -91,8 +91,8 @@ Skull makeSkull()
                            {{-9.0, -28.0, 1.0}, 2.5}}));
 
   const Shape neck = capsule({{-8.0, 4.0, -15.0}, 55.0}, {{-6.0, 2.0, -90.0}, 50.0});
-  s.skin = blend({sphere({15.0, 12.0, 15.0}, 84.0), grown(mastoid, 5.5), grown(zygoma, 5.0), neck},
-                 8.0);
+  s.skin =
+      blend({sphere({15.0, 12.0, 15.0}, 84.0), grown(mastoid, 5.5), grown(zygoma, 5.0), neck}, 8.0);
   s.skin = remembered(s.skin);
   s.sigmoid = remembered(s.sigmoid);
   s.jugular = remembered(s.jugular);
@@ -106,24 +106,30 @@ Shape cellRegion(const Skull& skull, const Ear& ear)
                               ellipsoid({-47.5, 8.0, 8.0}, {9.0, 9.0, 5.0}),
                               ellipsoid({-56.0, -1.0, 9.0}, {6.5, 7.0, 4.0})},
                              3.0);
-  const double dura = kTegmenThickness;
-  return {[=](const Point& p) {
+  return {[=](const Point& p)
+          {
             double d = extent(p);
-            // cheap borders first; far outside the rest cannot bring a point back in
+            // cheap borders first; nothing brings a point back in
             if (d > 6.0)
               return d;
+            // at least `gap` mm from a shape, which is asked only where it can decide
+            const auto keepOff = [&](const Shape& shape, double gap)
+            {
+              const double near = std::max(gap - d, 0.0);
+              if (shape.box.squaredExteriorDistance(p) <= near * near)
+                d = std::max(d, gap - shape(p));
+            };
             d = std::max(d, skull.bone(p) + 2.2);
-            d = std::max(d, dura - skull.cranial(p));
-            d = std::max(d, 1.0 - skull.sigmoid(p));
-            d = std::max(d, 1.2 - ear.canal(p));
-            d = std::max(d, 1.0 - skull.joint(p));
-            if (d > 2.0)
-              return d;
-            d = std::max(d, 1.1 - ear.facialCanal(p));
-            d = std::max(d, 2.0 - ear.labyrinth(p));
-            d = std::max(d, 0.5 - ear.antrum(p));
-            d = std::max(d, 0.8 - ear.cavity(p));
-            return std::max(d, 1.2 - skull.jugular(p));
+            keepOff(skull.cranial, kTegmenThickness);
+            keepOff(skull.sigmoid, 1.0);
+            keepOff(ear.canal, 1.2);
+            keepOff(skull.joint, 1.0);
+            keepOff(ear.antrum, 0.5);
+            keepOff(ear.cavity, 0.8);
+            keepOff(ear.facialCanal, 1.1);
+            keepOff(ear.labyrinth, 2.0);
+            keepOff(skull.jugular, 1.2);
+            return d;
           },
           extent.box};
 }

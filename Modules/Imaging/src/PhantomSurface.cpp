@@ -23,8 +23,9 @@ double boxDistance(const shapes::Box& box, const shapes::Point& p)
 }
 
 /// Volume of a layer in a cell: cut in eight until the border's share is known.
-double cellVolume(const Phantom::Scene& scene, std::size_t layer, const Phantom::Scene::Stack* among,
-                  const shapes::Point& center, const Eigen::Vector3d& edge, double resolution)
+double cellVolume(const Phantom::Scene& scene, std::size_t layer,
+                  const Phantom::Scene::Stack* among, const shapes::Point& center,
+                  const Eigen::Vector3d& edge, double resolution)
 {
   const auto stack = scene.stackAround(center, 0.5 * edge.norm(), among);
   const double width = std::cbrt(edge.prod());
@@ -40,8 +41,8 @@ double cellVolume(const Phantom::Scene& scene, std::size_t layer, const Phantom:
   {
     const Eigen::Vector3d side((corner & 1) ? 0.25 : -0.25, (corner & 2) ? 0.25 : -0.25,
                                (corner & 4) ? 0.25 : -0.25);
-    sum += cellVolume(scene, layer, &stack, center + edge.cwiseProduct(side), 0.5 * edge,
-                      resolution);
+    sum +=
+        cellVolume(scene, layer, &stack, center + edge.cwiseProduct(side), 0.5 * edge, resolution);
   }
   return sum;
 }
@@ -53,19 +54,16 @@ class Polygoniser
 public:
   template <class Distance>
   Polygoniser(const shapes::Box& box, double step, const Distance& distance)
-    : m_origin(box.min().array() - 1.5 * step), m_step(step)
+    : m_origin(box.min().array() - 1.5 * step)
+    , m_step(step)
   {
     for (std::size_t a = 0; a < 3; ++a)
-      m_dims[a] =
-        static_cast<int>(std::ceil(box.sizes()[static_cast<Eigen::Index>(a)] / step)) + 4;
+      m_dims[a] = static_cast<int>(std::ceil(box.sizes()[static_cast<Eigen::Index>(a)] / step)) + 4;
     sample(distance);
     cut(distance);
   }
 
-  core::TriangleMesh take()
-  {
-    return std::move(m_mesh);
-  }
+  core::TriangleMesh take() { return std::move(m_mesh); }
 
 private:
   static constexpr int kBlock = 6;
@@ -74,7 +72,7 @@ private:
   {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(m_dims[1]) +
             static_cast<std::size_t>(j)) *
-             static_cast<std::size_t>(m_dims[0]) +
+               static_cast<std::size_t>(m_dims[0]) +
            static_cast<std::size_t>(i);
   }
   shapes::Point at(double i, double j, double k) const
@@ -89,22 +87,24 @@ private:
     m_values.resize(index(0, 0, m_dims[2]));
     const double reach = 0.5 * std::sqrt(3.0) * kBlock * m_step;
     const int slabs = (m_dims[2] + kBlock - 1) / kBlock;
-    tbb::parallel_for(0, slabs, [&](int slab) {
-      const int k0 = slab * kBlock;
-      const int k1 = std::min(k0 + kBlock, m_dims[2]);
-      for (int j0 = 0; j0 < m_dims[1]; j0 += kBlock)
-        for (int i0 = 0; i0 < m_dims[0]; i0 += kBlock)
-        {
-          const double half = 0.5 * (kBlock - 1);
-          const double middle = distance(at(i0 + half, j0 + half, k0 + half));
-          const bool far = middle > kOutside * reach || middle < -kInside * reach;
-          for (int k = k0; k < k1; ++k)
-            for (int j = j0; j < std::min(j0 + kBlock, m_dims[1]); ++j)
-              for (int i = i0; i < std::min(i0 + kBlock, m_dims[0]); ++i)
-                m_values[index(i, j, k)] =
-                  static_cast<float>(far ? middle : distance(at(i, j, k)));
-        }
-    });
+    tbb::parallel_for(0, slabs,
+                      [&](int slab)
+                      {
+                        const int k0 = slab * kBlock;
+                        const int k1 = std::min(k0 + kBlock, m_dims[2]);
+                        for (int j0 = 0; j0 < m_dims[1]; j0 += kBlock)
+                          for (int i0 = 0; i0 < m_dims[0]; i0 += kBlock)
+                          {
+                            const double half = 0.5 * (kBlock - 1);
+                            const double middle = distance(at(i0 + half, j0 + half, k0 + half));
+                            const bool far = middle > kOutside * reach || middle < -kInside * reach;
+                            for (int k = k0; k < k1; ++k)
+                              for (int j = j0; j < std::min(j0 + kBlock, m_dims[1]); ++j)
+                                for (int i = i0; i < std::min(i0 + kBlock, m_dims[0]); ++i)
+                                  m_values[index(i, j, k)] =
+                                      static_cast<float>(far ? middle : distance(at(i, j, k)));
+                          }
+                      });
   }
 
   template <class Distance>
@@ -112,7 +112,7 @@ private:
   {
     // the six tetrahedra of a cube share the diagonal 0-7; corners are bits x, y, z
     static constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
-      {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
+        {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
     for (int k = 0; k + 1 < m_dims[2]; ++k)
       for (int j = 0; j + 1 < m_dims[1]; ++j)
         for (int i = 0; i + 1 < m_dims[0]; ++i)
@@ -144,13 +144,13 @@ private:
     for (const int c : corners)
       ((inside >> c) & 1U) ? in[ins++] = c : out[outs++] = c;
     const auto vertex = [&](int a, int b) { return edgeVertex(distance, i, j, k, a, b); };
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c)
+    {
       // outwards: away from an inside corner
       const auto& v = m_mesh.vertices;
       const Eigen::Vector3d ref = at(i + (in[0] & 1), j + ((in[0] >> 1) & 1), k + (in[0] >> 2));
       const Eigen::Vector3d va = v[a].cast<double>();
-      const Eigen::Vector3d normal =
-        (v[b].cast<double>() - va).cross(v[c].cast<double>() - va);
+      const Eigen::Vector3d normal = (v[b].cast<double>() - va).cross(v[c].cast<double>() - va);
       if (normal.dot(va - ref) >= 0.0)
         m_mesh.triangles.push_back({a, b, c});
       else
@@ -177,11 +177,10 @@ private:
   {
     const int low = std::min(a, b);
     const int high = std::max(a, b);
-    const std::size_t key =
-      index(i + (low & 1), j + ((low >> 1) & 1), k + (low >> 2)) * 8 +
-      static_cast<std::size_t>(high - low);
+    const std::size_t key = index(i + (low & 1), j + ((low >> 1) & 1), k + (low >> 2)) * 8 +
+                            static_cast<std::size_t>(high - low);
     const auto [entry, fresh] =
-      m_vertexOf.try_emplace(key, static_cast<std::uint32_t>(m_mesh.vertices.size()));
+        m_vertexOf.try_emplace(key, static_cast<std::uint32_t>(m_mesh.vertices.size()));
     if (!fresh)
       return entry->second;
     const shapes::Point p = at(i + (low & 1), j + ((low >> 1) & 1), k + (low >> 2));
@@ -193,8 +192,7 @@ private:
     double t = 0.5;
     for (int round = 0; round < 4; ++round)
     {
-      t = std::clamp(t0 + (t1 - t0) * f0 / (f0 - f1), t0 + 0.05 * (t1 - t0),
-                     t1 - 0.05 * (t1 - t0));
+      t = std::clamp(t0 + (t1 - t0) * f0 / (f0 - f1), t0 + 0.05 * (t1 - t0), t1 - 0.05 * (t1 - t0));
       const double f = distance(p + t * (q - p));
       if ((f < 0.0) == (f0 < 0.0))
       {
@@ -224,8 +222,7 @@ private:
 
 double Phantom::volume(std::size_t structure, const PatientBox& within) const
 {
-  const shapes::Box box =
-    m_scene->layers[m_scene->layerOf[structure]].shape.box.intersection(
+  const shapes::Box box = m_scene->layers[m_scene->layerOf[structure]].shape.box.intersection(
       shapes::Box(within.lower, within.upper));
   if (box.isEmpty())
     return 0.0;
@@ -236,19 +233,22 @@ double Phantom::volume(std::size_t structure, const PatientBox& within) const
   const Eigen::Vector3d edge = size.array() / cells.cast<double>();
   const std::size_t layer = m_scene->layerOf[structure];
 
-  const auto measure = [&](double finest) {
+  const auto measure = [&](double finest)
+  {
     // one sum a layer of cells, added in order: the same result whatever the threads
     std::vector<double> sums(static_cast<std::size_t>(cells[2]), 0.0);
-    tbb::parallel_for(0, cells[2], [&](int k) {
-      double sum = 0.0;
-      for (int j = 0; j < cells[1]; ++j)
-        for (int i = 0; i < cells[0]; ++i)
-          sum += cellVolume(
-            *m_scene, layer, nullptr,
-            box.min() + edge.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5)), edge,
-            finest);
-      sums[static_cast<std::size_t>(k)] = sum;
-    });
+    tbb::parallel_for(0, cells[2],
+                      [&](int k)
+                      {
+                        double sum = 0.0;
+                        for (int j = 0; j < cells[1]; ++j)
+                          for (int i = 0; i < cells[0]; ++i)
+                            sum += cellVolume(*m_scene, layer, nullptr,
+                                              box.min() + edge.cwiseProduct(Eigen::Vector3d(
+                                                              i + 0.5, j + 0.5, k + 0.5)),
+                                              edge, finest);
+                        sums[static_cast<std::size_t>(k)] = sum;
+                      });
     return std::accumulate(sums.begin(), sums.end(), 0.0);
   };
   // The share of a border cell is wrong in proportion to the square of its edge where the
@@ -265,9 +265,8 @@ core::TriangleMesh Phantom::surface(std::size_t structure, const PatientBox& wit
   if (box.isEmpty())
     return {};
   const double step = resolution > 0.0 ? resolution : (layer.mesh > 0.0 ? layer.mesh : 0.3);
-  const auto distance = [&](const shapes::Point& p) {
-    return std::max(m_scene->distance(structure, p), boxDistance(clip, p));
-  };
+  const auto distance = [&](const shapes::Point& p)
+  { return std::max(m_scene->distance(structure, p), boxDistance(clip, p)); };
   return Polygoniser(box, step, distance).take();
 }
 

@@ -14,6 +14,7 @@
 #include <gdcmTrace.h>
 
 #include "ByteSource.h"
+#include "Codestream.h"
 #include "DicomElements.h"
 #include "petrous/Imaging/DicomScan.h"
 
@@ -45,26 +46,42 @@ struct BitField
   }
 };
 
+/// Plain pointers and one branch outside the loop, so that the compiler can vectorise it.
 template <class Cell>
 void unpack(const unsigned char* bytes, bool swap, const BitField& field,
             std::vector<std::int32_t>& values)
 {
+  std::int32_t* const out = values.data();
+  const std::size_t count = values.size();
+  const auto each = [=](auto convert)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      Cell cell = 0;
+      std::memcpy(&cell, bytes + i * sizeof(Cell), sizeof cell);
+      out[i] = convert(cell);
+    }
+  };
+  const int shift = field.shift;
+  const int unused = field.unused;
   if (swap)
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      std::array<unsigned char, sizeof(Cell)> cell{};
-      std::reverse_copy(bytes + i * sizeof(Cell), bytes + (i + 1) * sizeof(Cell), cell.begin());
-      Cell value = 0;
-      std::memcpy(&value, cell.data(), sizeof value);
-      values[i] = field(value);
-    }
+    each(
+        [&field](Cell cell)
+        {
+          std::array<unsigned char, sizeof(Cell)> cellBytes{};
+          std::memcpy(cellBytes.data(), &cell, sizeof cell);
+          std::reverse(cellBytes.begin(), cellBytes.end());
+          std::memcpy(&cell, cellBytes.data(), sizeof cell);
+          return field(cell);
+        });
+  else if (field.isSigned)
+    each([=](Cell cell)
+         { return static_cast<std::int32_t>((std::uint32_t{cell} >> shift) << unused) >> unused; });
   else
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      Cell value = 0;
-      std::memcpy(&value, bytes + i * sizeof(Cell), sizeof value);
-      values[i] = field(value);
-    }
+    each(
+        [=](Cell cell) {
+          return static_cast<std::int32_t>(((std::uint32_t{cell} >> shift) << unused) >> unused);
+        });
 }
 
 void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& field, bool swap,
@@ -91,10 +108,8 @@ BitField bitField(int bitsStored, int highBit, bool isSigned)
 }
 
 /// The items behind the offset table. One frame, so all of them are one codestream.
-gdcm::SmartPointer<gdcm::SequenceOfFragments> readFragments(ByteSource& source,
-                                                            const SliceHeader& slice)
+std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
 {
-  gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = gdcm::SequenceOfFragments::New();
   std::uint64_t offset = slice.pixels.offset;
   bool isTable = true;
   std::array<unsigned char, 8> item{};
@@ -102,26 +117,22 @@ gdcm::SmartPointer<gdcm::SequenceOfFragments> readFragments(ByteSource& source,
   while (source.read(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
          item[2] == 0x00)
   {
-    const std::uint32_t length =
-        item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint32_t>(item[7]) << 24);
+    const std::uint32_t length = static_cast<std::uint32_t>(item[4] | (item[5] << 8)) |
+                                 (static_cast<std::uint32_t>(item[6] | (item[7] << 8)) << 16);
     offset += item.size();
     if (offset + length > source.size())
       fail(slice, "is cut short");
-    bytes.resize(length);
-    if (!source.read(offset, bytes.data(), bytes.size()))
-      fail(slice, "cannot be read");
     if (!isTable)
     {
-      gdcm::Fragment fragment;
-      fragment.SetByteValue(bytes.data(), gdcm::VL(length));
-      fragments->AddFragment(fragment);
+      const std::size_t filled = bytes.size();
+      bytes.resize(filled + length);
+      if (!source.read(offset, bytes.data() + filled, length))
+        fail(slice, "cannot be read");
     }
     isTable = false;
     offset += length;
   }
-  if (fragments->GetNumberOfFragments() == 0)
-    fail(slice, "is cut short");
-  return fragments;
+  return bytes;
 }
 
 /// GDCM's warnings quote what they find.
@@ -143,7 +154,14 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
   const PixelFormat& format = slice.pixels;
   gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
   element.SetVR(gdcm::VR::OB);
-  element.SetValue(*readFragments(source, slice));
+  const std::vector<char> codestream = readCodestream(source, slice);
+  if (codestream.empty() || !codestreamFits(codestream, slice))
+    fail(slice, "has a damaged compressed image");
+  gdcm::Fragment fragment;
+  fragment.SetByteValue(codestream.data(), gdcm::VL(static_cast<std::uint32_t>(codestream.size())));
+  const gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = gdcm::SequenceOfFragments::New();
+  fragments->AddFragment(fragment);
+  element.SetValue(*fragments);
 
   gdcm::Image image;
   image.SetNumberOfDimensions(2);

@@ -71,10 +71,11 @@ ScanGrid tilted(const core::GridGeometry& upright, double tilt)
 {
   ScanGrid grid(upright);
   const double s = upright.spacing()[1];
-  grid.step.col(1) = Eigen::Vector3d(0.0, s * std::cos(tilt * kDegree), s * std::sin(tilt * kDegree));
+  grid.step.col(1) =
+      Eigen::Vector3d(0.0, s * std::cos(tilt * kDegree), s * std::sin(tilt * kDegree));
   const core::Index3& dims = upright.dims();
   grid.origin =
-    upright.center() - 0.5 * grid.step * Eigen::Vector3d(dims[0] - 1, dims[1] - 1, dims[2] - 1);
+      upright.center() - 0.5 * grid.step * Eigen::Vector3d(dims[0] - 1, dims[1] - 1, dims[2] - 1);
   return grid;
 }
 
@@ -119,10 +120,7 @@ public:
   }
 
 private:
-  std::string uid(const char* role) const
-  {
-    return deterministicUid(m_options.seed, role);
-  }
+  std::string uid(const char* role) const { return deterministicUid(m_options.seed, role); }
 
   void writeCt(const core::Progress& progress)
   {
@@ -131,7 +129,7 @@ private:
     settings.noise = m_options.noise;
     settings.seed = m_options.seed;
     auto ct = std::make_shared<const volume::Volume<std::int16_t>>(
-      samplePhantom(m_phantom, grid, settings, progress.part(0.0, 0.7)));
+        samplePhantom(m_phantom, grid, settings, progress.part(0.0, 0.7)));
     SeriesDescription series;
     series.description = "Temporal bone right";
     series.studyUid = uid("study");
@@ -149,7 +147,7 @@ private:
   {
     const core::RigidTransform motion = m_phantom.mrFromCt();
     const Eigen::Vector3d size =
-      ((Phantom::extent().array() + kMrMargin) / kMrSpacing.array()).ceil();
+        ((Phantom::extent().array() + kMrMargin) / kMrSpacing.array()).ceil();
     const core::Index3 dims{static_cast<int>(size[0]), static_cast<int>(size[1]),
                             static_cast<int>(size[2])};
     m_mrGrid = centred(dims, kMrSpacing, motion * Phantom::center());
@@ -160,7 +158,7 @@ private:
     settings.seed = m_options.seed + 1;
     settings.patientFromScan = motion.inverse();
     auto mr = std::make_shared<const volume::Volume<std::int16_t>>(
-      samplePhantom(m_phantom, m_mrGrid, settings, progress.part(0.0, 0.7)));
+        samplePhantom(m_phantom, m_mrGrid, settings, progress.part(0.0, 0.7)));
     SeriesDescription series;
     series.modality = SeriesDescription::Modality::Mr;
     series.description = "T2 3D inner ear right";
@@ -183,20 +181,24 @@ private:
 
     std::atomic<std::size_t> done{0};
     const core::Progress files = progress.part(0.4, 1.0);
-    tbb::parallel_for(std::size_t{0}, m_segments.size(), [&](std::size_t s) {
-      const volume::Segment& segment = m_segments[s];
-      files.report(static_cast<double>(done.fetch_add(1)) / static_cast<double>(m_segments.size()),
-                   "writing labels");
-      if (segment.voxels == 0)
-        return; // outside a small grid, or between the voxels of a coarse one
-      auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(m_grid);
-      const std::uint16_t* from = labels.voxels->data();
-      std::transform(from, from + voxels->size(), voxels->data(), [&](std::uint16_t index) {
-        return static_cast<std::uint16_t>(index == segment.index ? 1 : 0);
-      });
-      const volume::LabelMap one{voxels, {{segment.name, 1, segment.color, segment.voxels}}};
-      writeLabelFile(m_folder / "labels" / (segment.name + ".nii.gz"), one);
-    });
+    tbb::parallel_for(
+        std::size_t{0}, m_segments.size(),
+        [&](std::size_t s)
+        {
+          const volume::Segment& segment = m_segments[s];
+          files.report(static_cast<double>(done.fetch_add(1)) /
+                           static_cast<double>(m_segments.size()),
+                       "writing labels");
+          if (segment.voxels == 0)
+            return; // outside a small grid, or between the voxels of a coarse one
+          auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(m_grid);
+          const std::uint16_t* from = labels.voxels->data();
+          std::transform(from, from + voxels->size(), voxels->data(),
+                         [&](std::uint16_t index)
+                         { return static_cast<std::uint16_t>(index == segment.index ? 1 : 0); });
+          const volume::LabelMap one{voxels, {{segment.name, 1, segment.color, segment.voxels}}};
+          writeLabelFile(m_folder / "labels" / (segment.name + ".nii.gz"), one);
+        });
   }
 
   void writeMeshes(const core::Progress& progress)
@@ -207,22 +209,31 @@ private:
     m_meshes.resize(structures.size());
     m_volumes.resize(structures.size());
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, structures.size(), [&](std::size_t s) {
-      progress.report(static_cast<double>(done.fetch_add(1)) /
-                        static_cast<double>(structures.size()),
-                      "measuring and writing surfaces");
-      m_volumes[s] = m_phantom.volume(s, box);
-      if (!structures[s].meshed)
-        return;
-      const core::TriangleMesh mesh = m_phantom.surface(s, box);
-      if (mesh.triangles.empty())
-        return; // outside a small grid
-      const std::string name = "meshes/" + structures[s].name + ".obj";
-      writeMesh(m_folder / name, mesh);
-      m_meshes[s] = {{"file", name},
-                     {"triangles", mesh.triangles.size()},
-                     {"volume_mm3", mesh.signedVolume()}};
-    });
+    tbb::parallel_for(std::size_t{0}, structures.size(),
+                      [&](std::size_t s)
+                      {
+                        progress.report(static_cast<double>(done.fetch_add(1)) /
+                                            static_cast<double>(structures.size()),
+                                        "measuring and writing surfaces");
+                        m_volumes[s] = m_phantom.volume(s, box);
+                        if (!structures[s].meshed)
+                          return;
+                        const core::TriangleMesh mesh = m_phantom.surface(s, box);
+                        if (mesh.triangles.empty())
+                          return; // outside a small grid
+                        const std::string name = "meshes/" + structures[s].name + ".obj";
+                        writeMesh(m_folder / name, mesh);
+                        m_meshes[s] = {{"file", name},
+                                       {"triangles", mesh.triangles.size()},
+                                       {"volume_mm3", mesh.signedVolume()}};
+                      });
+  }
+
+  bool inside(const PhantomStructure& structure) const
+  {
+    const PatientBox box = boxOf(m_grid);
+    return (structure.lower - box.lower).minCoeff() >= 0.0 &&
+           (box.upper - structure.upper).minCoeff() >= 0.0;
   }
 
   void writeTruth() const
@@ -258,6 +269,7 @@ private:
       one["solid"] = structures[s].solid;
       one["color"] = structures[s].color;
       one["hu"] = structures[s].hounsfield;
+      one["complete"] = inside(structures[s]); // false: cut at the volume's border
       one["volume_mm3"] = m_volumes[s];
       one["label"] = segment.voxels > 0 ? Json("labels/" + segment.name + ".nii.gz") : Json();
       one["label_voxels"] = segment.voxels;
@@ -301,8 +313,7 @@ core::GridGeometry sampleGrid(const SampleOptions& options)
     dims = *options.dims;
     if (!options.spacing)
     {
-      const Eigen::Vector3d fit =
-        extent.cwiseQuotient(Eigen::Vector3d(dims[0], dims[1], dims[2]));
+      const Eigen::Vector3d fit = extent.cwiseQuotient(Eigen::Vector3d(dims[0], dims[1], dims[2]));
       spacing = std::clamp(std::round(fit.maxCoeff() * 1e6) / 1e6, 0.05, 5.0);
     }
   }

@@ -50,7 +50,8 @@ StagedFolder::StagedFolder(const fs::path& target)
   }
   else
   {
-    m_staging = m_target.parent_path() / ("." + m_target.filename().string() + ".partial-" + process);
+    m_staging =
+        m_target.parent_path() / ("." + m_target.filename().string() + ".partial-" + process);
     m_made = m_staging;
     for (fs::path up = m_staging.parent_path(); !up.empty() && !fs::exists(up, fault);
          up = up.parent_path())

@@ -1,0 +1,123 @@
+#include "petrous/Rendering/OffscreenView.h"
+
+#include <chrono>
+#include <cstring>
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtk_glew.h>
+
+#include "petrous/Rendering/EglRenderWindow.h"
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+constexpr int kLargestEdge = 16384;
+
+double since(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+} // namespace
+
+class OffscreenView::Implementation
+{
+public:
+  Implementation(int width, int height)
+  {
+    if (width < 1 || height < 1 || width > kLargestEdge || height > kLargestEdge)
+      throw RenderingError(RenderingError::Reason::BadSize,
+                           "a picture of " + std::to_string(width) + " x " +
+                               std::to_string(height) + " pixels; 1 to " +
+                               std::to_string(kLargestEdge) + " are possible");
+    window->SetSize(width, height);
+    window->Initialize();
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    rendererName = name ? name : "unknown";
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (width > largest || height > largest)
+      throw RenderingError(RenderingError::Reason::BadSize,
+                           "a picture of " + std::to_string(width) + " x " +
+                               std::to_string(height) + " pixels; " + rendererName +
+                               " draws up to " + std::to_string(largest));
+    renderer->SetUseFXAA(false);
+    window->AddRenderer(renderer);
+  }
+
+  ~Implementation()
+  {
+    if (scene)
+      scene->attach(nullptr);
+  }
+
+  vtkNew<vtkPetrousEGLRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  std::string rendererName;
+  ScenePicture* scene = nullptr;
+  double milliseconds = 0.0;
+  double firstFrame = 0.0;
+};
+
+OffscreenView::OffscreenView(int width, int height)
+  : m_implementation(std::make_unique<Implementation>(width, height))
+{
+}
+
+OffscreenView::~OffscreenView() = default;
+
+Picture OffscreenView::render(ScenePicture& scene)
+{
+  Implementation& my = *m_implementation;
+  const bool first = my.scene != &scene;
+  const auto start = std::chrono::steady_clock::now();
+  if (first)
+  {
+    if (my.scene)
+      my.scene->attach(nullptr);
+    my.scene = &scene;
+    scene.attach(my.renderer);
+  }
+  my.window->Render();
+
+  const int* size = my.window->GetSize();
+  Picture picture;
+  picture.width = size[0];
+  picture.height = size[1];
+  vtkNew<vtkUnsignedCharArray> pixels;
+  my.window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels, 0);
+  const std::size_t row = 3 * static_cast<std::size_t>(size[0]);
+  picture.rgb.resize(row * static_cast<std::size_t>(size[1]));
+  if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != picture.rgb.size())
+    throw RenderingError(RenderingError::Reason::NoOpenGL,
+                         my.rendererName + " gave no picture back");
+  for (int y = 0; y < size[1]; ++y) // OpenGL's rows run from the bottom
+    std::memcpy(&picture.rgb[row * static_cast<std::size_t>(size[1] - 1 - y)],
+                pixels->GetPointer(static_cast<vtkIdType>(row) * y), row);
+  my.milliseconds = since(start);
+  if (first)
+    my.firstFrame = my.milliseconds;
+  return picture;
+}
+
+double OffscreenView::milliseconds() const
+{
+  return m_implementation->milliseconds;
+}
+
+double OffscreenView::firstFrameMilliseconds() const
+{
+  return m_implementation->firstFrame;
+}
+
+std::string OffscreenView::glRenderer() const
+{
+  return m_implementation->rendererName;
+}
+
+} // namespace petrous::rendering

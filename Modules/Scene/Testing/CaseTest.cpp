@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Scene/Case.h"
+
+using namespace petrous;
+using Eigen::Vector3d;
+
+namespace
+{
+
+scene::Case drilledCase(int strokes)
+{
+  scene::Case value;
+  value.name = "ear";
+  value.ct.geometry =
+    core::GridGeometry({32, 32, 32}, Vector3d::Constant(0.3), Vector3d::Zero());
+  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  for (int n = 0; n < strokes; ++n)
+  {
+    value.dissection->beginStroke({});
+    value.dissection->cut({{2.0 + 2 * n, 4, 4}, {2.0 + 2 * n, 5, 4}, 1.0});
+    value.dissection->openInfo().removed = 10.0 + n;
+    scene::endStroke(value);
+  }
+  return value;
+}
+
+scene::LabelPart labelsNamed(std::vector<std::string> names)
+{
+  scene::LabelPart part;
+  std::uint16_t index = 1;
+  for (auto& name : names)
+  {
+    scene::StructurePart s;
+    s.name = std::move(name);
+    s.index = index++;
+    part.structures.push_back(std::move(s));
+  }
+  return part;
+}
+
+} // namespace
+
+TEST(Case, UndoAndRedoMoveListAndVoxelsTogether)
+{
+  scene::Case value = drilledCase(3);
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 33.0);
+  EXPECT_EQ(scene::undo(value, 2), 2u);
+  EXPECT_EQ(value.dissection->applied(), 1u);
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 10.0);
+  EXPECT_EQ(scene::redo(value, 9), 2u);
+  EXPECT_EQ(value.dissection->applied(), 3u);
+  EXPECT_EQ(scene::undo(value, 9), 3u);
+  EXPECT_EQ(scene::undo(value, 1), 0u);
+}
+
+TEST(Case, UndoNeedsNoVoxels)
+{
+  scene::Case value = drilledCase(2);
+  value.dissection = nullptr;
+  EXPECT_EQ(scene::undo(value, 1), 1u);
+  EXPECT_EQ(value.applied, 1u);
+}
+
+TEST(Case, ANewStrokeReplacesTheUndoneInTheList)
+{
+  scene::Case value = drilledCase(3);
+  scene::undo(value, 2);
+  value.dissection->beginStroke({});
+  value.dissection->cut({{4, 4, 8}, {4, 4, 8}, 1.0});
+  scene::endStroke(value);
+  EXPECT_EQ(value.strokes.size(), 2u);
+  EXPECT_EQ(value.applied, value.dissection->applied());
+}
+
+TEST(Case, RemovesPartsByNameAndEmptyMapsWithThem)
+{
+  scene::Case value;
+  value.labels = {labelsNamed({"nerve", "sinus"}), labelsNamed({"incus"})};
+  scene::removePart(value, "incus");
+  EXPECT_EQ(value.labels.size(), 1u);
+  scene::removePart(value, "nerve");
+  EXPECT_EQ(value.labels.front().structures.size(), 1u);
+  EXPECT_EQ(scene::partNames(value), (std::vector<std::string>{"ct", "sinus"}));
+}
+
+TEST(Case, RefusesToRemoveWhatIsNotThereOrTheCt)
+{
+  scene::Case value;
+  value.labels = {labelsNamed({"sinus"})};
+  try
+  {
+    scene::removePart(value, "zebra");
+    FAIL();
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("sinus"), std::string::npos);
+  }
+  EXPECT_THROW(scene::removePart(value, "ct"), core::InvalidParameter);
+}
+
+TEST(Case, NamesMustFitAFile)
+{
+  for (const std::string good : {"ear", "Ohr links 2", "ohr_1", "ünïcode", "a.b"})
+    EXPECT_NO_THROW(scene::checkCaseName(good)) << good;
+  for (const std::string& bad : {std::string(), std::string("../x"), std::string(".hidden"),
+                                 std::string("a/b"), std::string("tab\t"), std::string("-x"),
+                                 std::string("end "), std::string(101, 'a'), std::string("a\0b", 3)})
+    EXPECT_THROW(scene::checkCaseName(bad), core::InvalidParameter) << bad;
+}

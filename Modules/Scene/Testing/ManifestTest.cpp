@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Scene/Manifest.h"
+
+using namespace petrous;
+using Eigen::Vector3d;
+
+namespace
+{
+
+scene::Case fullCase()
+{
+  scene::Case value;
+  value.name = "Ohr links ü";
+  value.revision = 41;
+  value.iso = 287.123456789012345;
+  value.ct.name = "ct";
+  value.ct.object = "abc.nrrd";
+  value.ct.geometry = core::GridGeometry({512, 512, 166}, {1.0 / 3.0, 0.45, 0.7000000001},
+                                         {-123.456789, 0.1, 1e-7});
+  value.ct.range = {-1024, 3617};
+  value.ct.notes = {"jitter of 0.02 mm"};
+  scene::ImagePart mr = value.ct;
+  mr.name = "t2";
+  mr.registered = true;
+  mr.mrFromCt = {Eigen::Quaterniond(0.9, 0.1, 0.2, 0.3), {1, 2, 3}};
+  value.mr = {mr};
+  scene::LabelPart part;
+  part.object = "def.seg.nrrd";
+  scene::StructurePart s;
+  s.name = "nerve";
+  s.index = 300;
+  s.voxels = 123456789012ULL;
+  s.volume = 0.1;
+  s.look.color = {0.1F, 0.2F, 0.3F};
+  s.look.touchable = false;
+  part.structures = {s};
+  value.labels = {part};
+  scene::MeshPart mesh;
+  mesh.name = "incus";
+  mesh.object = "ghi.obj";
+  mesh.triangles = 12;
+  value.meshes = {mesh};
+  core::CameraPose camera;
+  camera.parallelScale = 33.0;
+  value.camera = camera;
+  scene::StrokePart stroke;
+  stroke.object = "jkl.stroke";
+  stroke.bytes = 1234;
+  stroke.info.startedAt = "2026-01-01T00:00:00Z";
+  stroke.info.burr.kind = dissection::Burr::Kind::Diamond;
+  stroke.info.removed = 1.0 / 7.0;
+  stroke.info.structures = {{"nerve", 0.25}};
+  stroke.info.camera = core::CameraPose{};
+  value.strokes = {stroke, stroke};
+  value.applied = 1;
+  return value;
+}
+
+} // namespace
+
+TEST(Manifest, ComesBackAsItWent)
+{
+  const scene::Case value = fullCase();
+  const std::string text = scene::toManifest(value);
+  const scene::Case back = scene::fromManifest(text, "m.json");
+  EXPECT_EQ(scene::toManifest(back), text);
+  EXPECT_EQ(back.iso, value.iso);
+  EXPECT_EQ(back.ct.geometry.spacing(), value.ct.geometry.spacing());
+  EXPECT_EQ(back.ct.geometry.origin(), value.ct.geometry.origin());
+  EXPECT_EQ(back.strokes[0].info.removed, 1.0 / 7.0);
+  EXPECT_FALSE(back.labels[0].structures[0].look.touchable);
+  EXPECT_EQ(back.labels[0].structures[0].voxels, 123456789012ULL);
+  EXPECT_LT((back.mr[0].mrFromCt.matrix() - value.mr[0].mrFromCt.matrix()).norm(), 1e-15);
+}
+
+TEST(Manifest, RefusesANewerFormatInWords)
+{
+  std::string text = scene::toManifest(fullCase());
+  const auto at = text.find("\"petrous_case\": 1");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 17, "\"petrous_case\": 9");
+  try
+  {
+    scene::fromManifest(text, "m.json");
+    FAIL();
+  }
+  catch (const scene::ManifestError& error)
+  {
+    EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
+    EXPECT_NE(std::string(error.what()).find("format 9"), std::string::npos);
+  }
+}
+
+TEST(Manifest, RefusesEveryTruncation)
+{
+  const std::string text = scene::toManifest(fullCase());
+  for (std::size_t size = 0; size + 2 < text.size(); size += 37)
+    EXPECT_THROW(scene::fromManifest(text.substr(0, size), "m.json"), scene::ManifestError);
+}
+
+TEST(Manifest, RefusesWhatContradictsItself)
+{
+  scene::Case value = fullCase();
+  value.applied = 3;
+  EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "m.json"), scene::ManifestError);
+  value = fullCase();
+  value.name = "../escape";
+  EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "m.json"), scene::ManifestError);
+}

@@ -1,0 +1,78 @@
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "petrous/Volume/Sampling.h"
+
+using namespace petrous;
+using Eigen::Vector3d;
+
+namespace
+{
+
+volume::Volume<float> linearVolume(const core::GridGeometry& grid, const Vector3d& slope)
+{
+  volume::Volume<float> v(grid);
+  for (int k = 0; k < grid.dims()[2]; ++k)
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+        v.at(i, j, k) =
+          static_cast<float>(slope.dot(grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})));
+  return v;
+}
+
+} // namespace
+
+TEST(Sampling, IsExactOnATrilinearFunction)
+{
+  const core::GridGeometry grid({5, 6, 7}, Vector3d::Ones(), Vector3d::Zero());
+  volume::Volume<float> v(grid);
+  const auto f = [](double x, double y, double z) { return 1 + x - 2 * y + 0.5 * x * y * z; };
+  for (int k = 0; k < 7; ++k)
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 5; ++i)
+        v.at(i, j, k) = static_cast<float>(f(i, j, k));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 200; ++n)
+  {
+    const Vector3d p(4 * unit(random), 5 * unit(random), 6 * unit(random));
+    EXPECT_NEAR(volume::sampleTrilinear(v, p), f(p[0], p[1], p[2]), 1e-4);
+  }
+}
+
+TEST(Sampling, ReachesTheLastVoxelAndClampsBeyond)
+{
+  volume::Volume<short> v(core::GridGeometry({2, 1, 3}, Vector3d::Ones(), Vector3d::Zero()));
+  short n = 0;
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 2; ++i)
+      v.at(i, 0, k) = n++;
+  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(v, {1, 0, 2}), 5.0);
+  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(v, {99, 99, 99}), 5.0);
+  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(v, {0.5, 0, 1}), 2.5);
+}
+
+TEST(Sampling, GradientOfALinearFieldIsItsSlopeInPatientAxes)
+{
+  const Eigen::Matrix3d direction =
+    Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
+  const core::GridGeometry grid({9, 9, 9}, {0.4, 0.5, 1.2}, {10, -20, 30}, direction);
+  const Vector3d slope(3.0, -1.0, 2.0);
+  const auto v = linearVolume(grid, slope);
+  EXPECT_LT((volume::sampleGradient(v, {4.2, 3.3, 5.1}) - slope).norm(), 1e-3);
+  EXPECT_LT((volume::sampleGradient(v, {0.0, 8.0, 0.0}) - slope).norm(), 1e-3) << "at the border";
+}
+
+TEST(Volume, SharesTheMemoryItAdopts)
+{
+  auto memory = std::shared_ptr<short>(new short[8](), std::default_delete<short[]>());
+  const std::weak_ptr<short> watch = memory;
+  {
+    const volume::Volume<short> v(
+      core::GridGeometry({2, 2, 2}, Vector3d::Ones(), Vector3d::Zero()), std::move(memory));
+    EXPECT_EQ(v.data(), watch.lock().get());
+  }
+  EXPECT_TRUE(watch.expired());
+}

@@ -49,7 +49,7 @@ struct PatientBox
 struct ScanGrid
 {
   core::Index3 dims{1, 1, 1};
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();      ///< patient LPS mm
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< patient LPS mm
   Eigen::Matrix3d step = Eigen::Matrix3d::Identity(); ///< columns: mm a voxel along each axis
 
   ScanGrid() = default;
@@ -75,10 +75,7 @@ public:
   Phantom(Phantom&&) noexcept;
   Phantom& operator=(Phantom&&) noexcept;
 
-  const PhantomRecipe& recipe() const noexcept
-  {
-    return m_recipe;
-  }
+  const PhantomRecipe& recipe() const noexcept { return m_recipe; }
   static Eigen::Vector3d center() noexcept; ///< of the ear, patient LPS mm
   static Eigen::Vector3d extent() noexcept; ///< mm that hold the ear along x, y, z
 
@@ -86,10 +83,7 @@ public:
   double mrIntensity(const Eigen::Vector3d& patient) const; ///< at the CT's patient position
 
   /// In the order of their label indices 1, 2, ...
-  const std::vector<PhantomStructure>& structures() const noexcept
-  {
-    return m_structures;
-  }
+  const std::vector<PhantomStructure>& structures() const noexcept { return m_structures; }
   std::size_t indexOf(const std::string& name) const; ///< throws InvalidParameter
 
   /// To the structure's surface as it is painted (carved by what lies over it), mm.
@@ -113,10 +107,7 @@ public:
   core::RigidTransform mrFromCt() const;
 
   struct Scene; ///< the painted shapes, PhantomScene.h
-  const Scene& scene() const noexcept
-  {
-    return *m_scene;
-  }
+  const Scene& scene() const noexcept { return *m_scene; }
 
 private:
   PhantomRecipe m_recipe;
@@ -131,7 +122,7 @@ struct ScanSettings
   double noise = 20.0; ///< standard deviation of white Gaussian noise, in the image's units
   /// Sigma of the Gaussian point spread, mm; negative: 0.75 voxel, at most 0.25 mm.
   double pointSpread = -1.0;
-  std::uint64_t seed = 1;      ///< of the noise
+  std::uint64_t seed = 1;               ///< of the noise
   core::RigidTransform patientFromScan; ///< takes positions of the scan to phantom positions
 };
 

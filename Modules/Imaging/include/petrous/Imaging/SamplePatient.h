@@ -12,10 +12,10 @@ namespace petrous::imaging
 
 struct SampleOptions
 {
-  std::optional<double> spacing;     ///< mm, 0.05 to 5; default 0.3, or what fits dims
-  std::optional<core::Index3> dims;  ///< 16 to 1024 each; default what covers the ear
-  double noise = 20.0;               ///< HU, 0 to 500
-  double tilt = 0.0;                 ///< degrees about x, -35 to 35
+  std::optional<double> spacing;    ///< mm, 0.05 to 5; default 0.3, or what fits dims
+  std::optional<core::Index3> dims; ///< 16 to 1024 each; default what covers the ear
+  double noise = 20.0;              ///< HU, 0 to 500
+  double tilt = 0.0;                ///< degrees about x, -35 to 35
   std::uint64_t seed = 1;
 };
 

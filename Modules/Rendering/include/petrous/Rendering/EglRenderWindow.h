@@ -4,11 +4,16 @@
 
 #include <vtkGenericOpenGLRenderWindow.h>
 
+namespace petrous::rendering
+{
+class EglContext;
+}
+
 /// A VTK window without a display: an OpenGL context on Mesa's surfaceless EGL platform, or on an
 /// EGL device (a GPU whose driver has no surfaceless platform).
 ///
-/// Draws into VTK's own frame buffers; there is no surface behind it. Start throws
-/// petrous::rendering::RenderingError NoOpenGL where no context can be made.
+/// Draws into VTK's own frame buffers; there is no surface behind it. Initialize (which the first
+/// Render calls) throws petrous::rendering::RenderingError NoOpenGL where no context can be made.
 class vtkPetrousEGLRenderWindow : public vtkGenericOpenGLRenderWindow
 {
 public:
@@ -19,7 +24,6 @@ public:
   vtkPetrousEGLRenderWindow(const vtkPetrousEGLRenderWindow&) = delete;
   void operator=(const vtkPetrousEGLRenderWindow&) = delete;
 
-  void Start() override;
   void Initialize() override;
   void Finalize() override;
   void MakeCurrent() override;
@@ -36,6 +40,5 @@ protected:
   ~vtkPetrousEGLRenderWindow() override;
 
 private:
-  class Context;
-  std::unique_ptr<Context> EglContext;
+  std::unique_ptr<petrous::rendering::EglContext> Context;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <optional>
-#include <string>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "petrous/Core/CameraPose.h"
@@ -68,7 +68,7 @@ private:
     std::shared_ptr<const volume::Volume<float>> inside;
     std::array<float, 3> color;
   };
-  Eigen::Vector3d colorAt(const Eigen::Vector3d& patient) const;
+  Eigen::Vector3d colorAt(const Eigen::Vector3d& patient, const Eigen::Vector3d& normal) const;
 
   const volume::TissueField& m_field;
   SceneContents m_contents;

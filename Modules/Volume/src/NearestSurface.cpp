@@ -130,7 +130,8 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
 
 } // namespace
 
-std::optional<double> TissueField::distance(const Eigen::Vector3d& patient, double reach) const
+std::optional<TissueField::NearestSurface>
+TissueField::nearestSurface(const Eigen::Vector3d& patient, double reach) const
 {
   const core::GridGeometry& grid = geometry();
   const double h = grid.minSpacing();
@@ -165,7 +166,8 @@ std::optional<double> TissueField::distance(const Eigen::Vector3d& patient, doub
   if (!found)
     return std::nullopt;
   refine(*this, patient, best);
-  return value(patient) > 0.0 ? -best.distance : best.distance;
+  return NearestSurface{value(patient) > 0.0 ? -best.distance : best.distance, best.point,
+                        normal(best.point, 0.5)};
 }
 
 } // namespace petrous::volume

@@ -1,0 +1,129 @@
+#include "CaseJson.h"
+
+namespace petrous::cli
+{
+
+using nlohmann::json;
+
+json vectorJson(const Eigen::Vector3d& vector)
+{
+  return {vector[0], vector[1], vector[2]};
+}
+
+json directionJson(const Eigen::Matrix3d& direction)
+{
+  json values = json::array();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      values.push_back(direction(row, column));
+  return values;
+}
+
+json gridJson(const core::GridGeometry& grid)
+{
+  return {{"dims", grid.dims()},
+          {"spacing_mm", vectorJson(grid.spacing())},
+          {"origin_mm", vectorJson(grid.origin())},
+          {"direction", directionJson(grid.direction())}};
+}
+
+json infoJson(const scene::Case& value)
+{
+  json ct = gridJson(value.ct.geometry);
+  ct["min"] = value.ct.range.min;
+  ct["max"] = value.ct.range.max;
+  ct["notes"] = value.ct.notes;
+  json mr = json::array();
+  for (const auto& image : value.mr)
+  {
+    json transform = json::array();
+    const Eigen::Matrix4d matrix = image.mrFromCt.matrix();
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        transform.push_back(matrix(row, column));
+    json part = gridJson(image.geometry);
+    part["name"] = image.name;
+    part["registered"] = image.registered;
+    part["transform"] = std::move(transform);
+    mr.push_back(std::move(part));
+  }
+  json labels = json::array();
+  for (const auto& part : value.labels)
+    for (const auto& s : part.structures)
+      labels.push_back({{"name", s.name},
+                        {"index", s.index},
+                        {"voxels", s.voxels},
+                        {"volume_mm3", s.volume},
+                        {"color", s.look.color},
+                        {"preset", s.look.preset},
+                        {"flags", appearance::flagsOf(s.look)},
+                        {"solid", s.look.solid}});
+  json meshes = json::array();
+  for (const auto& mesh : value.meshes)
+    // Touch works on voxels: a mesh alone is seen, not felt, and the list says so.
+    meshes.push_back({{"name", mesh.name},
+                      {"triangles", mesh.triangles},
+                      {"touchable", scene::findStructure(value, mesh.name) != nullptr}});
+  return {{"case", value.name},
+          {"iso_hu", value.iso},
+          {"ct", std::move(ct)},
+          {"mr", std::move(mr)},
+          {"labels", std::move(labels)},
+          {"meshes", std::move(meshes)},
+          {"dissection",
+           {{"strokes", value.strokes.size()},
+            {"undo", value.applied},
+            {"redo", value.strokes.size() - value.applied},
+            {"removed_mm3", value.removedVolume()},
+            {"branch", "main"}}},
+          {"resources", residentResources(value)}};
+}
+
+json strokesJson(const scene::Case& value)
+{
+  json strokes = json::array();
+  for (std::size_t n = 0; n < value.strokes.size(); ++n)
+  {
+    const scene::StrokePart& stroke = value.strokes[n];
+    json structures = json::array();
+    for (const auto& touched : stroke.info.structures)
+      structures.push_back({{"label", touched.name}, {"volume_mm3", touched.volume}});
+    const auto& burr = stroke.info.burr;
+    strokes.push_back({{"number", n + 1},
+                       {"done", n < value.applied},
+                       {"started_at", stroke.info.startedAt},
+                       {"duration_s", stroke.info.duration},
+                       {"burr", burr.kind == dissection::Burr::Kind::Cutting ? "cutting" : "diamond"},
+                       {"diameter_mm", burr.diameter},
+                       {"rpm", burr.rpm},
+                       {"removed_mm3", stroke.info.removed},
+                       {"structures_touched", std::move(structures)},
+                       {"bytes", stroke.bytes}});
+  }
+  return strokes;
+}
+
+std::map<std::string, std::size_t> residentResources(const scene::Case& value)
+{
+  std::map<std::string, std::size_t> resources;
+  if (const auto ct = value.ct.volume.peek())
+    resources["ct.voxels"] = ct->bytes();
+  for (const auto& image : value.mr)
+    if (const auto mr = image.volume.peek())
+      resources["mr." + image.name] = mr->bytes();
+  for (const auto& part : value.labels)
+    if (const auto labels = part.labels.peek())
+      resources["labels." + part.structures.front().name] = labels->voxels->bytes();
+  for (const auto& part : value.meshes)
+    if (const auto mesh = part.mesh.peek())
+      resources["meshes." + part.name] = mesh->vertices.size() * sizeof(Eigen::Vector3f) +
+                                         mesh->triangles.size() * 3 * sizeof(std::uint32_t);
+  if (value.dissection)
+  {
+    resources["mask.bricks"] = std::as_const(*value.dissection).mask().residentBytes();
+    resources["history.strokes"] = value.dissection->historyBytes();
+  }
+  return resources;
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "petrous/Scene/Case.h"
+
+namespace petrous::cli
+{
+
+nlohmann::json vectorJson(const Eigen::Vector3d& vector);
+
+/// Row-major, columns are the axes.
+nlohmann::json directionJson(const Eigen::Matrix3d& direction);
+
+/// dims, spacing_mm, origin_mm, direction.
+nlohmann::json gridJson(const core::GridGeometry& grid);
+
+/// What `petrous info` gives.
+nlohmann::json infoJson(const scene::Case& value);
+
+/// What `petrous history` gives of the strokes.
+nlohmann::json strokesJson(const scene::Case& value);
+
+/// Voxels and bricks of the case that are in memory now, in bytes.
+std::map<std::string, std::size_t> residentResources(const scene::Case& value);
+
+} // namespace petrous::cli

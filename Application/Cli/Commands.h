@@ -1,0 +1,21 @@
+#pragma once
+
+#include "Context.h"
+
+namespace petrous::cli
+{
+
+// Each adds its subcommands to the program; the context must outlive the parse.
+void addSampleCommand(CLI::App& app, Context& context);
+void addScanCommand(CLI::App& app, Context& context);
+void addCaseCommands(CLI::App& app, Context& context); ///< new, add, remove, info, library
+void addAppearanceCommand(CLI::App& app, Context& context);
+void addRenderCommand(CLI::App& app, Context& context);
+void addProbeCommand(CLI::App& app, Context& context);
+void addDrillCommand(CLI::App& app, Context& context);
+void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history
+void addExportCommand(CLI::App& app, Context& context);
+void addBenchCommand(CLI::App& app, Context& context);
+void addDoctorCommand(CLI::App& app, Context& context);
+
+} // namespace petrous::cli

@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "CaseJson.h"
+#include "Commands.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Rendering/SurfaceExtraction.h"
+#include "petrous/Scene/CaseField.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+constexpr double kAirHu = -1000.0;
+
+struct Options
+{
+  std::string caseName, what, out, part;
+};
+
+template <class T>
+T rounded(double value)
+{
+  if constexpr (std::is_integral_v<T>)
+    return static_cast<T>(std::lround(
+      std::clamp(value, double{std::numeric_limits<T>::min()}, double{std::numeric_limits<T>::max()})));
+  else
+    return static_cast<T>(value);
+}
+
+// The CT as it is left: untouched voxels keep their value, removed ones are air, and between them
+// the value is capped so that the surface at `iso` is the cut surface of f.
+template <class T>
+volume::Volume<T> dissected(const volume::Volume<T>& ct, const volume::CutMask& mask, double iso)
+{
+  volume::Volume<T> result(ct.geometry());
+  const core::Index3 n = ct.geometry().dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+      {
+        const std::uint16_t left = mask.at(i, j, k);
+        T value = ct.at(i, j, k);
+        if (left != volume::CutMask::kUntouched)
+        {
+          const double share = static_cast<double>(left) / volume::CutMask::kUntouched;
+          const double cap = iso + (share - 0.5) * 2.0 * (iso - kAirHu);
+          if (cap < static_cast<double>(value))
+            value = rounded<T>(cap);
+        }
+        result.at(i, j, k) = value;
+      }
+  return result;
+}
+
+const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& name)
+{
+  if (value.mr.empty())
+    throw core::InvalidParameter("case '" + value.name + "' has no MR");
+  if (name.empty() && value.mr.size() == 1)
+    return value.mr.front();
+  std::string there;
+  for (const auto& mr : value.mr)
+  {
+    if (mr.name == name)
+      return mr;
+    there += (there.empty() ? "" : ", ") + mr.name;
+  }
+  throw UsageError("export mr: give --part NAME; there are: " + there);
+}
+
+// All structures of maps that share a grid in one map, numbered in their order; where two overlap
+// the earlier one stays.
+volume::LabelMap mergedLabels(const scene::Case& value, const std::string& only)
+{
+  std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
+  std::vector<volume::Segment> segments;
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+    {
+      if (!only.empty() && structure.name != only)
+        continue;
+      const auto& source = *part.labels.get()->voxels;
+      if (!voxels)
+        voxels = std::make_shared<volume::Volume<std::uint16_t>>(source.geometry(),
+                                                                 std::uint16_t{0});
+      if (!core::sameGrid(voxels->geometry(), source.geometry()))
+        throw UsageError("export labels: '" + structure.name +
+                         "' lies on another grid; export it alone with --part");
+      const auto index = static_cast<std::uint16_t>(segments.size() + 1);
+      std::transform(voxels->data(), voxels->data() + voxels->size(), source.data(), voxels->data(),
+                     [&structure, index](std::uint16_t present, std::uint16_t own) {
+                       return present == 0 && own == structure.index ? index : present;
+                     });
+      volume::Segment segment;
+      segment.name = structure.name;
+      segment.index = index;
+      segment.color = structure.look.color;
+      segments.push_back(std::move(segment));
+    }
+  if (!voxels)
+    throw core::InvalidParameter("case '" + value.name + "' has no " +
+                                 (only.empty() ? "structures" : "structure '" + only + "'"));
+  return volume::makeLabelMap(std::move(voxels), std::move(segments));
+}
+
+void exportCase(const Context& context, const Options& options)
+{
+  const library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  const core::Progress progress = context.progress();
+  const auto mask = [&]() -> const volume::CutMask& {
+    library.loadDissection(value);
+    return std::as_const(*value.dissection).mask();
+  };
+  if (options.what == "ct")
+    imaging::writeVolume(options.out, *value.ct.volume.get(), progress);
+  else if (options.what == "mr")
+    imaging::writeVolume(options.out, *chooseMr(value, options.part).volume.get(), progress);
+  else if (options.what == "labels")
+    imaging::writeLabelFile(options.out, mergedLabels(value, options.part));
+  else if (options.what == "mask")
+    imaging::writeVolume(options.out, mask().dense(), progress);
+  else if (options.what == "dissected")
+    value.ct.volume.get()->visit([&](const auto& ct) {
+      imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress);
+    });
+  else if (options.what == "surface")
+  {
+    mask();
+    const volume::TissueField field = scene::tissueField(value);
+    imaging::writeMesh(options.out,
+                       rendering::extractSurface(field, field.geometry().fullBox(), progress));
+  }
+  else
+    throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + options.what +
+                     "'");
+  context.say(options.out + ": " + options.what + " of '" + value.name + "'");
+  context.give({{"case", value.name}, {"what", options.what}, {"out", options.out}});
+}
+
+} // namespace
+
+void addExportCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+    context.addCommand(app, "export", "Voxels or a surface for other programs",
+                       [options, &context] { exportCase(context, *options); });
+  command->add_option("CASE", options->caseName)->required();
+  command->add_option("--what", options->what, "ct, mr, labels, mask, dissected or surface")
+    ->required();
+  command
+    ->add_option("--out", options->out,
+                 "Voxels: .nrrd, .nii.gz (labels also .seg.nrrd); surface: .stl, .obj, .ply; mm LPS")
+    ->type_name("F")
+    ->required();
+  command->add_option("--part", options->part, "One MR or structure of several")->type_name("NAME");
+}
+
+} // namespace petrous::cli

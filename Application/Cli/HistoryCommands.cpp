@@ -1,0 +1,84 @@
+#include "CaseJson.h"
+#include "Commands.h"
+#include "Numbers.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+void addStep(CLI::App& app, Context& context, const std::string& name, const std::string& text,
+             std::size_t (*step)(scene::Case&, std::size_t))
+{
+  struct Options
+  {
+    std::string caseName;
+    int count = 1;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = context.addCommand(app, name, text, [options, step, name, &context] {
+    if (options->count < 1)
+      throw UsageError(name + ": N must be at least 1");
+    library::Library library = context.openLibrary();
+    scene::Case value = library.open(options->caseName);
+    const std::size_t steps = step(value, static_cast<std::size_t>(options->count));
+    if (steps == 0)
+      context.remark("nothing to " + name + " in case '" + value.name + "'");
+    else
+      library.save(value);
+    context.say(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
+                std::to_string(value.applied) + " done, " +
+                std::to_string(value.strokes.size() - value.applied) + " to redo, " +
+                fixed(value.removedVolume(), 1) + " mm3 removed");
+    context.give({{"case", value.name},
+                  {"steps", steps},
+                  {"strokes", value.strokes.size()},
+                  {"undo", value.applied},
+                  {"redo", value.strokes.size() - value.applied},
+                  {"removed_mm3", value.removedVolume()}});
+  });
+  command->add_option("CASE", options->caseName)->required();
+  command->add_option("N", options->count, "How many strokes (1)");
+}
+
+void sayHistory(const Context& context, const scene::Case& value)
+{
+  for (std::size_t n = 0; n < value.strokes.size(); ++n)
+  {
+    const auto& info = value.strokes[n].info;
+    std::string line = std::to_string(n + 1) + (n < value.applied ? "  done    " : "  undone  ") +
+                       info.startedAt + "  " + fixed(info.burr.diameter, 1) + " mm " +
+                       (info.burr.kind == dissection::Burr::Kind::Cutting ? "cutting" : "diamond") +
+                       ", " + fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
+    for (const auto& touched : info.structures)
+      line += "; " + touched.name + " " + fixed(touched.volume, 2) + " mm3";
+    context.say(line);
+  }
+  if (value.strokes.empty())
+    context.say("no stroke yet");
+}
+
+} // namespace
+
+void addHistoryCommands(CLI::App& app, Context& context)
+{
+  addStep(app, context, "undo", "Take back the last strokes", &scene::undo);
+  addStep(app, context, "redo", "Do again what was taken back", &scene::redo);
+  auto name = std::make_shared<std::string>();
+  context
+    .addCommand(app, "history", "The strokes of a case",
+                [name, &context] {
+                  const scene::Case value = context.openLibrary().open(*name);
+                  sayHistory(context, value);
+                  context.give({{"case", value.name},
+                                {"branch", "main"},
+                                {"strokes", strokesJson(value)},
+                                {"undo", value.applied},
+                                {"redo", value.strokes.size() - value.applied}});
+                })
+    ->add_option("CASE", *name)
+    ->required();
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,48 @@
+#include "Numbers.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+#include "Context.h"
+
+namespace petrous::cli
+{
+
+std::vector<double> parseNumbers(const std::string& text, std::size_t count,
+                                 const std::string& option)
+{
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string field; std::getline(stream, field, ',');)
+  {
+    double value = 0.0;
+    const char* end = field.data() + field.size();
+    const auto [rest, error] = std::from_chars(field.data(), end, value);
+    if (error != std::errc{} || rest != end || !std::isfinite(value))
+      throw UsageError(option + ": '" + field + "' is no number");
+    numbers.push_back(value);
+  }
+  if (numbers.size() != count)
+    throw UsageError(option + ": " + std::to_string(count) + " numbers are needed, not " +
+                     std::to_string(numbers.size()));
+  return numbers;
+}
+
+int toInt(double value, const std::string& option)
+{
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+    throw UsageError(option + ": a whole number is needed");
+  return static_cast<int>(value);
+}
+
+std::string fixed(double value, int digits)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace petrous::cli
+{
+
+/// Exactly `count` finite numbers with commas between them; UsageError naming `option` otherwise.
+std::vector<double> parseNumbers(const std::string& text, std::size_t count,
+                                 const std::string& option);
+
+/// A whole number that fits an int; UsageError naming `option` otherwise.
+int toInt(double value, const std::string& option);
+
+/// A number for people: `digits` after the point.
+std::string fixed(double value, int digits);
+
+} // namespace petrous::cli

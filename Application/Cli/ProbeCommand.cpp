@@ -1,0 +1,114 @@
+#include "CaseJson.h"
+#include "Commands.h"
+#include "PointsFile.h"
+#include "petrous/Scene/CaseField.h"
+#include "petrous/Volume/SmoothedUnion.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+// How far a surface is looked for, mm.
+constexpr double kReach = 20.0;
+
+std::string structureAt(const scene::Case& value, const Eigen::Vector3d& p)
+{
+  for (const auto& part : value.labels)
+  {
+    const auto labels = part.labels.get();
+    const auto& grid = labels->voxels->geometry();
+    const Eigen::Vector3d v = grid.voxelFromPatient(p);
+    const core::Index3 nearest{static_cast<int>(std::lround(v[0])),
+                               static_cast<int>(std::lround(v[1])),
+                               static_cast<int>(std::lround(v[2]))};
+    if (!grid.fullBox().contains(nearest))
+      continue;
+    const std::uint16_t index = labels->voxels->at(nearest[0], nearest[1], nearest[2]);
+    for (const auto& structure : part.structures)
+      if (structure.index == index)
+        return structure.name;
+  }
+  return {};
+}
+
+std::string number(const std::optional<double>& value)
+{
+  if (!value)
+    return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", *value);
+  return text;
+}
+
+void probe(Context& context, const std::string& name, const std::string& pointsFile,
+           const std::string& out)
+{
+  const auto points = readPoints(pointsFile);
+  const library::Library library = context.openLibrary();
+  scene::Case value = library.open(name);
+  library.loadDissection(value);
+  const volume::TissueField field = scene::tissueField(value);
+  const auto ct = value.ct.volume.get();
+  const core::Progress progress = context.progress();
+
+  std::string csv = "x_mm,y_mm,z_mm,f,hu,structure,distance_mm,nx,ny,nz\n";
+  nlohmann::json rows = nlohmann::json::array();
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    progress.report(static_cast<double>(n) / static_cast<double>(points.size()), "probing");
+    const Eigen::Vector3d& p = points[n];
+    const Eigen::Vector3d voxel = ct->geometry().voxelFromPatient(p);
+    std::optional<double> hu;
+    if (ct->geometry().hullContains(voxel))
+      hu = ct->sample(voxel);
+    const auto nearest = field.nearestSurface(p, kReach);
+    const std::string structure = structureAt(value, p);
+    const auto component = [&](int axis) {
+      return nearest ? std::optional<double>(nearest->normal[axis]) : std::nullopt;
+    };
+    const auto distance = nearest ? std::optional<double>(nearest->distance) : std::nullopt;
+    csv += number(p[0]) + "," + number(p[1]) + "," + number(p[2]) + "," + number(field.value(p)) +
+           "," + number(hu) + "," + structure + "," + number(distance) + "," +
+           number(component(0)) + "," + number(component(1)) + "," + number(component(2)) + "\n";
+    nlohmann::json row{{"x_mm", p[0]},       {"y_mm", p[1]},         {"z_mm", p[2]},
+                       {"f", field.value(p)}, {"structure", structure}, {"hu", nullptr},
+                       {"distance_mm", nullptr}, {"normal", nullptr}};
+    if (hu)
+      row["hu"] = *hu;
+    if (nearest)
+    {
+      row["distance_mm"] = nearest->distance;
+      row["normal"] = vectorJson(nearest->normal);
+    }
+    rows.push_back(std::move(row));
+  }
+  if (!out.empty())
+    writeTextFile(out, csv);
+  else
+    context.say(csv.substr(0, csv.size() - 1));
+  context.give({{"case", value.name}, {"points", std::move(rows)}});
+}
+
+} // namespace
+
+void addProbeCommand(CLI::App& app, Context& context)
+{
+  struct Options
+  {
+    std::string name, points, out;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = context.addCommand(
+    app, "probe", "The tissue field, HU, structure and nearest surface at points",
+    [options, &context] { probe(context, options->name, options->points, options->out); });
+  command->add_option("CASE", options->name)->required();
+  command->add_option("--points", options->points, "CSV with x_mm,y_mm,z_mm, patient LPS")
+    ->type_name("F.csv")
+    ->required();
+  command->add_option("--out", options->out, "CSV to write; without it the rows go to stdout")
+    ->type_name("F.csv");
+}
+
+} // namespace petrous::cli

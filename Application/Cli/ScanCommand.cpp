@@ -1,0 +1,89 @@
+#include "CaseJson.h"
+#include "Commands.h"
+#include "Numbers.h"
+#include "petrous/Imaging/DicomScan.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+json findingsJson(const std::vector<imaging::Finding>& findings)
+{
+  json list = json::array();
+  for (const auto& finding : findings)
+    list.push_back({{"kind", imaging::kindName(finding.kind)},
+                    {"text", finding.text},
+                    {"error_mm", finding.errorMm}});
+  return list;
+}
+
+json seriesJson(const imaging::DicomSeries& series)
+{
+  const auto& geometry = series.geometry;
+  json entry{{"uid", series.uid},
+             {"modality", series.modality},
+             {"description", series.description},
+             {"slices", geometry.slices.size()},
+             {"files", series.files},
+             {"dims", nullptr},
+             {"spacing_mm", nullptr},
+             {"origin_mm", nullptr},
+             {"direction", nullptr},
+             {"verdict", imaging::verdictName(geometry.verdict)},
+             {"findings", findingsJson(geometry.findings)},
+             {"notes", geometry.notes}};
+  if (geometry.grid)
+    entry.update(gridJson(*geometry.grid));
+  return entry;
+}
+
+void sayFindings(const Context& context, const std::vector<imaging::Finding>& findings)
+{
+  for (const auto& finding : findings)
+    context.say(std::string("    ") + imaging::kindName(finding.kind) + ": " + finding.text);
+}
+
+void scan(const Context& context, const std::string& path)
+{
+  const auto result = imaging::scanDicom(path, context.progress());
+  if (result.series.empty() && result.unreadable.empty())
+    imaging::chooseSeries(result, path); // says what was found instead
+  json list = json::array();
+  for (const auto& series : result.series)
+  {
+    list.push_back(seriesJson(series));
+    std::string line = std::string(imaging::verdictName(series.geometry.verdict)) + "  " +
+                       series.modality + "  " + std::to_string(series.geometry.slices.size()) +
+                       " slices";
+    if (const auto& grid = series.geometry.grid)
+      line += " of " + std::to_string(grid->dims()[0]) + " x " + std::to_string(grid->dims()[1]) +
+              ", " + fixed(grid->spacing()[0], 3) + " x " + fixed(grid->spacing()[1], 3) + " x " +
+              fixed(grid->spacing()[2], 3) + " mm";
+    context.say(line + "  " + series.uid);
+    sayFindings(context, series.geometry.findings);
+    for (const auto& note : series.geometry.notes)
+      context.say("    noted: " + note);
+  }
+  sayFindings(context, result.unreadable);
+  context.give({{"series", std::move(list)},
+                {"unreadable", findingsJson(result.unreadable)},
+                {"foreign_files", result.foreignFiles}});
+}
+
+} // namespace
+
+void addScanCommand(CLI::App& app, Context& context)
+{
+  auto path = std::make_shared<std::string>();
+  context
+    .addCommand(app, "scan", "Judge the geometry of each DICOM series below a path",
+                [path, &context] { scan(context, *path); })
+    ->add_option("PATH", *path, "Folder or file")
+    ->required();
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <new>
+
+#include <unistd.h>
+
+#include "Commands.h"
+#include "petrous/Core/Error.h"
+
+namespace
+{
+
+using namespace petrous;
+
+enum ExitCode
+{
+  kDone = 0,
+  kOurFault = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kRefused = 4
+};
+
+// Named in the contract of the command line; their issues come later.
+constexpr std::array<const char*, 7> kNotBuilt{"register", "branch",  "archive", "restore",
+                                               "send",     "receive", "nodes"};
+
+int exitCodeOf(core::Fault fault)
+{
+  switch (fault)
+  {
+  case core::Fault::BadInput:
+    return kBadInput;
+  case core::Fault::Refused:
+  case core::Fault::Cancelled:
+    return kRefused;
+  case core::Fault::Internal:
+    break;
+  }
+  return kOurFault;
+}
+
+int complain(const std::string& text, int code)
+{
+  std::cerr << "petrous: " << text << '\n';
+  return code;
+}
+
+// The window is a program of its own: the command starts without Qt.
+int openWorkstation(char** arguments)
+{
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto folder = self.parent_path();
+  for (const auto& candidate :
+       {folder / "petrous-workstation", folder / "../Workstation/petrous-workstation"})
+    if (std::filesystem::exists(candidate))
+    {
+      ::execv(candidate.c_str(), arguments);
+      return complain(candidate.string() + ": cannot be started", kOurFault);
+    }
+  return complain("the workstation is not installed beside this program; 'petrous --help' lists "
+                  "what the command line can do",
+                  kUsage);
+}
+
+int runCommand(int argc, char** argv)
+{
+  CLI::App app("Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
+               "Without arguments the workstation opens.",
+               "petrous");
+  app.set_version_flag("--version", "petrous " PETROUS_VERSION);
+  app.require_subcommand(1);
+  cli::Context context;
+  cli::addSampleCommand(app, context);
+  cli::addScanCommand(app, context);
+  cli::addCaseCommands(app, context);
+  cli::addAppearanceCommand(app, context);
+  cli::addRenderCommand(app, context);
+  cli::addProbeCommand(app, context);
+  cli::addDrillCommand(app, context);
+  cli::addHistoryCommands(app, context);
+  cli::addExportCommand(app, context);
+  cli::addBenchCommand(app, context);
+  cli::addDoctorCommand(app, context);
+  try
+  {
+    app.parse(argc, argv);
+    return kDone;
+  }
+  catch (const CLI::Success& asked) // --help, --version
+  {
+    return app.exit(asked);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return complain(std::string(error.what()) + "; see 'petrous --help'", kUsage);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    if (argc < 2)
+      return openWorkstation(argv);
+    const std::string first = argv[1];
+    if (std::find(kNotBuilt.begin(), kNotBuilt.end(), first) != kNotBuilt.end())
+      return complain("'" + first + "' is not built yet", kUsage);
+    return runCommand(argc, argv);
+  }
+  catch (const cli::UsageError& error)
+  {
+    return complain(error.what(), kUsage);
+  }
+  catch (const core::Error& error)
+  {
+    return complain(error.what(), exitCodeOf(error.fault()));
+  }
+  catch (const std::bad_alloc&)
+  {
+    return complain("not enough memory; close other programs, or load less with --roi", kRefused);
+  }
+  catch (const std::exception&)
+  {
+    // Texts of other libraries may carry patient data; they stay out.
+    return complain("an unexpected fault; the library is as it was before", kOurFault);
+  }
+}

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::presenters
+{
+
+/// A file that becomes a part of a case, with the name the user gave it (may be empty).
+struct PartSource
+{
+  std::string name;
+  std::filesystem::path path;
+
+  /// "NAME=FILE" or "FILE". What names a file that is there is a FILE, whatever it contains.
+  static PartSource parse(const std::string& text);
+};
+
+struct PartSources
+{
+  std::vector<PartSource> mr;     ///< DICOM folders, NIfTI, NRRD, MetaImage
+  std::vector<PartSource> labels; ///< NIfTI, NRRD (.seg.nrrd too), MetaImage
+  std::vector<PartSource> meshes; ///< OBJ, STL, PLY
+};
+
+struct CaseSources
+{
+  std::filesystem::path ct;       ///< DICOM folder or file, NIfTI, NRRD or MetaImage
+  std::string seriesUid;          ///< which series of a folder; empty: the one that is meant
+  std::optional<imaging::PatientBox> roi; ///< crops the CT on load
+  PartSources parts;
+};
+
+/// A case put together in memory, not saved. What was accepted or assumed on the way is in the
+/// parts' notes. Throws the imaging module's errors, InvalidParameter, CancelledError.
+scene::Case buildCase(const std::string& name, const CaseSources& sources,
+                      const core::Progress& progress);
+
+/// Adds parts to a case; on an exception the case is as before. Structure names must be new to the
+/// case's labels, mesh names to its meshes.
+void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress);
+
+} // namespace petrous::presenters

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "petrous/Dissection/RemovedVolume.h"
+#include "petrous/Scene/Case.h"
+#include "petrous/Volume/TissueField.h"
+
+namespace petrous::presenters
+{
+
+/// Drilling in a case by burr positions: until force and removal laws drive it, the burr takes
+/// what it sweeps over (the simple cut).
+///
+/// The case must have its dissection loaded and outlive the session; a change of its structures or
+/// surface threshold asks for a new session. One thread.
+class DrillSession
+{
+public:
+  explicit DrillSession(scene::Case& value);
+
+  /// The field as it stands now; follows the cut.
+  const volume::TissueField& field() const noexcept
+  {
+    return m_field;
+  }
+
+  /// Drill on: opens a stroke at time `seconds`. `startedAt` is UTC, ISO 8601.
+  void begin(const dissection::Burr& burr, const std::string& startedAt, double seconds,
+             const std::optional<core::CameraPose>& camera);
+
+  bool drilling() const noexcept;
+
+  /// The burr's centre is at `patient` (LPS mm) at time `seconds`; with the drill on it cuts all it
+  /// swept since the last position of this stroke. True when a voxel changed.
+  bool moveTo(const Eigen::Vector3d& patient, double seconds);
+
+  /// Drill off: measures what the stroke removed and lists it in the case. Null when the stroke
+  /// changed nothing.
+  std::shared_ptr<const dissection::Stroke> end();
+
+private:
+  scene::Case& m_case;
+  volume::TissueField m_field;
+  dissection::ProtectedTissue m_keep;
+  std::vector<dissection::NamedStructure> m_structures;
+  std::optional<Eigen::Vector3d> m_last;
+  double m_startedAt = 0.0;
+};
+
+/// Now, UTC, ISO 8601 with seconds.
+std::string utcNow();
+
+} // namespace petrous::presenters

@@ -1,0 +1,181 @@
+#include "petrous/Presenters/CaseBuilder.h"
+
+#include <algorithm>
+#include <set>
+
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
+
+namespace petrous::presenters
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+// The file's name up to its first format ending: "facial_nerve.nii.gz" -> "facial_nerve".
+std::string baseName(const fs::path& path)
+{
+  std::string name = path.filename().string();
+  for (const char* ending : {".seg.nrrd", ".nii.gz"})
+  {
+    const std::string end = ending;
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+      return name.substr(0, name.size() - end.size());
+  }
+  return path.stem().string();
+}
+
+scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
+                           const std::optional<imaging::PatientBox>& roi,
+                           const core::Progress& progress)
+{
+  scene::ImagePart part;
+  if (!fs::is_directory(path) && imaging::isImageFileName(path))
+  {
+    auto image = imaging::readImageFile(path, roi, progress);
+    part.volume = image.volume;
+    part.notes = std::move(image.notes);
+  }
+  else
+  {
+    const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
+    const auto& series = imaging::chooseSeries(scan, path, seriesUid);
+    imaging::ReadOptions options;
+    options.roi = roi;
+    std::vector<std::string> notes = series.geometry.notes;
+    part.volume = std::make_shared<const volume::IntensityVolume>(
+      imaging::readSeries(series, options, progress.part(0.2, 0.9), &notes));
+    part.notes = std::move(notes);
+  }
+  const auto image = part.volume.get();
+  part.geometry = image->geometry();
+  part.range = image->range();
+  return part;
+}
+
+[[noreturn]] void nameTaken(const fs::path& path, const std::string& what, const std::string& name)
+{
+  throw core::InvalidParameter(path.string() + ": " + what + " '" + name +
+                               "' is in the case already; give it another name with NAME=FILE");
+}
+
+void addMr(scene::Case& value, const PartSource& source, const core::Progress& progress)
+{
+  const auto taken = [&value](const std::string& name) {
+    return std::any_of(value.mr.begin(), value.mr.end(),
+                       [&name](const auto& mr) { return mr.name == name; });
+  };
+  std::string name = source.name;
+  if (name.empty())
+  {
+    name = "mr";
+    for (int n = 2; taken(name); ++n)
+      name = "mr" + std::to_string(n);
+  }
+  else if (taken(name))
+    nameTaken(source.path, "MR", name);
+  scene::ImagePart part = readImage(source.path, {}, std::nullopt, progress);
+  part.name = name;
+  value.mr.push_back(std::move(part));
+}
+
+void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)
+{
+  const auto presets = appearance::StructurePresets::builtIn();
+  for (auto& map : imaging::readLabelFiles(source.path, progress))
+  {
+    scene::LabelPart part;
+    for (const volume::Segment& segment : map.segments)
+    {
+      if (segment.voxels == 0)
+        continue;
+      scene::StructurePart structure;
+      structure.name = source.name.empty() ? segment.name
+                       : map.segments.size() == 1 ? source.name
+                                                  : source.name + " " + segment.name;
+      structure.index = segment.index;
+      structure.voxels = segment.voxels;
+      structure.volume = map.volume(segment);
+      structure.look = presets.lookFor(structure.name);
+      const bool colored = segment.color != std::array<float, 3>{};
+      if (colored && structure.look.preset == "other")
+        structure.look.color = segment.color;
+      if (scene::findStructure(value, structure.name))
+        nameTaken(source.path, "structure", structure.name);
+      part.structures.push_back(std::move(structure));
+    }
+    if (part.structures.empty())
+      continue;
+    std::set<std::string> names;
+    for (const auto& structure : part.structures)
+      if (!names.insert(structure.name).second)
+        throw core::InvalidParameter(source.path.string() + ": two structures are called '" +
+                                     structure.name + "'; rename one");
+    part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+    value.labels.push_back(std::move(part));
+  }
+}
+
+void addMesh(scene::Case& value, const PartSource& source)
+{
+  scene::MeshPart part;
+  part.name = source.name.empty() ? baseName(source.path) : source.name;
+  if (scene::findMesh(value, part.name))
+    nameTaken(source.path, "mesh", part.name);
+  auto mesh = std::make_shared<core::TriangleMesh>(imaging::readMesh(source.path));
+  part.triangles = mesh->triangles.size();
+  part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
+  part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
+  value.meshes.push_back(std::move(part));
+}
+
+} // namespace
+
+PartSource PartSource::parse(const std::string& text)
+{
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || fs::exists(text))
+    return {"", text};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+scene::Case buildCase(const std::string& name, const CaseSources& sources,
+                      const core::Progress& progress)
+{
+  scene::checkCaseName(name);
+  scene::Case value;
+  value.name = name;
+  value.ct = readImage(sources.ct, sources.seriesUid, sources.roi, progress.part(0.0, 0.7));
+  value.ct.name = "ct";
+  addParts(value, sources.parts, progress.part(0.7, 1.0));
+  return value;
+}
+
+void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress)
+{
+  scene::Case next = value;
+  const std::size_t count = parts.mr.size() + parts.labels.size() + parts.meshes.size();
+  std::size_t done = 0;
+  const auto share = [&] {
+    const double size = 1.0 / static_cast<double>(std::max<std::size_t>(count, 1));
+    const double first = static_cast<double>(done++) * size;
+    return progress.part(first, first + size);
+  };
+  for (const PartSource& source : parts.mr)
+    addMr(next, source, share());
+  for (const PartSource& source : parts.labels)
+    addLabels(next, source, share());
+  for (const PartSource& source : parts.meshes)
+  {
+    share().report(0.0, "reading meshes");
+    addMesh(next, source);
+  }
+  value = std::move(next);
+}
+
+} // namespace petrous::presenters

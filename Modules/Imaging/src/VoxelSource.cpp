@@ -1,0 +1,346 @@
+#include "VoxelSource.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include "FileHelpers.h"
+#include "GridFromAffine.h"
+#include "NiftiHeader.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+// zlib cannot pack tighter than this; more is a header that does not belong to the voxels.
+constexpr long double kTightestPacking = 1032.0L;
+constexpr std::uintmax_t kLargestMetaHeader = 65536;
+
+std::optional<Component> componentOf(itk::IOComponentEnum type)
+{
+  const auto integer = [](std::size_t bytes, bool isSigned)
+  {
+    return bytes == 4 ? (isSigned ? Component::Int32 : Component::UInt32)
+                      : (isSigned ? Component::Int64 : Component::UInt64);
+  };
+  switch (type)
+  {
+  case itk::IOComponentEnum::CHAR:
+    return Component::Int8;
+  case itk::IOComponentEnum::UCHAR:
+    return Component::UInt8;
+  case itk::IOComponentEnum::SHORT:
+    return Component::Int16;
+  case itk::IOComponentEnum::USHORT:
+    return Component::UInt16;
+  case itk::IOComponentEnum::INT:
+    return integer(sizeof(int), true);
+  case itk::IOComponentEnum::UINT:
+    return integer(sizeof(unsigned), false);
+  case itk::IOComponentEnum::LONG:
+    return integer(sizeof(long), true);
+  case itk::IOComponentEnum::ULONG:
+    return integer(sizeof(unsigned long), false);
+  case itk::IOComponentEnum::LONGLONG:
+    return Component::Int64;
+  case itk::IOComponentEnum::ULONGLONG:
+    return Component::UInt64;
+  case itk::IOComponentEnum::FLOAT:
+    return Component::Float;
+  case itk::IOComponentEnum::DOUBLE:
+    return Component::Double;
+  default:
+    return std::nullopt;
+  }
+}
+
+/// Bytes of the voxels' file that a header names, or of all files in its folder where it names a
+/// list or a pattern.
+std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name)
+{
+  std::error_code error;
+  const std::filesystem::path folder =
+      header.has_parent_path() ? header.parent_path() : std::filesystem::path(".");
+  const bool many = name.rfind("LIST", 0) == 0 || name.find('%') != name.npos;
+  if (!many)
+  {
+    const std::uintmax_t size = std::filesystem::file_size(folder / name, error);
+    if (error)
+      fail(FileError::Reason::NotFound, header,
+           "is a header whose file of voxels is not there; keep both in one folder");
+    return size;
+  }
+  std::uintmax_t sum = 0;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->is_regular_file(error))
+      sum += entry->file_size(error);
+  return sum;
+}
+
+std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
+{
+  if (void* memory = std::malloc(std::max<std::size_t>(bytes, 1)))
+    return {memory, std::free};
+  fail(FileError::Reason::Unreadable, path,
+       "needs " + roughText(static_cast<double>(bytes) / 1e9) +
+           " GB of memory, which is not free; close programs or give a region of interest",
+       core::Fault::Internal);
+}
+
+const std::string* valueOf(const std::vector<std::pair<std::string, std::string>>& fields,
+                           const std::string& name)
+{
+  for (const auto& field : fields)
+    if (field.first == name)
+      return &field.second;
+  return nullptr;
+}
+
+double unitInMillimetres(std::string name, std::vector<std::string>& notes)
+{
+  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  const std::string unit(trimmed(name));
+  if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit == "millimetre")
+    return 1.0;
+  for (const auto& [known, scale] :
+       {std::pair("um", 1e-3), std::pair("\xc2\xb5m", 1e-3), std::pair("micron", 1e-3),
+        std::pair("microns", 1e-3), std::pair("cm", 10.0), std::pair("m", 1e3)})
+    if (unit == known)
+    {
+      notes.push_back("counts in " + unit + ", turned into mm");
+      return scale;
+    }
+  notes.emplace_back("states no unit of length; taken as mm");
+  return 1.0;
+}
+
+} // namespace
+
+struct VoxelSource::Io
+{
+  itk::ImageIOBase::Pointer reader;
+};
+
+std::vector<std::pair<std::string, std::string>> metaFields(const std::filesystem::path& path)
+{
+  const std::string bytes = readBytes(path, kLargestMetaHeader);
+  std::vector<std::pair<std::string, std::string>> fields;
+  std::string_view rest = bytes;
+  while (!rest.empty())
+  {
+    const std::string_view line = takeLine(rest);
+    const std::size_t sign = line.find('=');
+    if (sign == line.npos)
+      break;
+    fields.emplace_back(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)));
+    if (fields.back().first == "ElementDataFile")
+      break;
+  }
+  return fields;
+}
+
+VoxelSource::VoxelSource(const std::filesystem::path& path)
+  : m_path(path)
+  , m_io(std::make_unique<Io>())
+{
+  m_dataBytes = checkedFileSize(path);
+  const std::string name = lowerName(path);
+  if (endsWith(name, ".nii") || endsWith(name, ".nii.gz"))
+    openNifti();
+  else if (endsWith(name, ".nrrd") || endsWith(name, ".nhdr"))
+    openNrrd();
+  else if (endsWith(name, ".mha") || endsWith(name, ".mhd"))
+    openMeta();
+  else
+    fail(FileError::Reason::UnknownFormat, path,
+         "is of no format that is read; give a .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd file");
+}
+
+VoxelSource::~VoxelSource() = default;
+
+void VoxelSource::openNifti()
+{
+  NiftiHeader header = readNiftiHeader(m_path);
+  m_notes = std::move(header.notes);
+  m_rescaled = header.rescaled();
+  if (header.dims.size() > 3)
+    fail(FileError::Reason::Unsupported, m_path,
+         "holds " + dimsText(header.dims) +
+             " values; one volume of 3 dimensions is needed, so "
+             "save one of them alone");
+  m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
+  m_io->reader = itk::NiftiImageIO::New();
+  readItkHeader();
+  checkRoom();
+}
+
+void VoxelSource::openNrrd()
+{
+  m_nrrd = readNrrdHeader(m_path);
+  if (const std::string* data = m_nrrd->field("data file"))
+    m_dataBytes = detachedBytes(m_path, *data);
+  const std::string* units = m_nrrd->field("space units");
+  std::string unit;
+  if (units)
+  {
+    std::string_view rest = *units;
+    unit = takeWord(rest);
+  }
+  const double scale = unitInMillimetres(unit, m_notes);
+  const std::string* space = m_nrrd->field("space");
+  const bool directions = m_nrrd->field("space directions") != nullptr;
+  if (!directions && !m_nrrd->field("spacings"))
+    fail(FileError::Reason::NoGeometry, m_path,
+         "its header gives no voxel size ('space directions'); export it again with its geometry");
+  if (!directions)
+    m_notes.emplace_back("states no place in the patient: its axes are taken as to the left, back "
+                         "and top of the patient, from 0, 0, 0");
+  else if (!space)
+    m_notes.emplace_back("states no patient frame; taken as left, posterior, superior (LPS)");
+  else if (space->find("left") == space->npos && space->find("right") == space->npos &&
+           *space != "LPS" && *space != "RAS" && *space != "LAS")
+    m_notes.emplace_back("its frame is not a patient's; taken as left, posterior, superior (LPS)");
+  m_io->reader = itk::NrrdImageIO::New();
+  readItkHeader();
+  checkRoom();
+  takeItkGeometry(scale);
+}
+
+void VoxelSource::openMeta()
+{
+  const auto fields = metaFields(m_path);
+  const std::string* data = valueOf(fields, "ElementDataFile");
+  if (!data || !valueOf(fields, "NDims"))
+    fail(FileError::Reason::UnknownFormat, m_path,
+         "is no MetaImage file although its name says so; give it the name of the format it is in");
+  if (*data != "LOCAL" && *data != "Local" && *data != "local")
+    m_dataBytes = detachedBytes(m_path, *data);
+  const std::string* units = valueOf(fields, "DistanceUnits");
+  const double scale = unitInMillimetres(units ? *units : "", m_notes);
+  if (!valueOf(fields, "ElementSpacing") && !valueOf(fields, "ElementSize"))
+    fail(FileError::Reason::NoGeometry, m_path,
+         "its header gives no voxel size (ElementSpacing); export it again with its geometry");
+  if (!valueOf(fields, "Offset") && !valueOf(fields, "Position") && !valueOf(fields, "Origin"))
+    m_notes.emplace_back("states no place in the patient; its first voxel is taken as at 0, 0, 0");
+  m_io->reader = itk::MetaImageIO::New();
+  readItkHeader();
+  checkRoom();
+  takeItkGeometry(scale);
+}
+
+void VoxelSource::readItkHeader()
+{
+  const PlainNumbers plain;
+  itk::ImageIOBase& reader = *m_io->reader;
+  try
+  {
+    reader.SetFileName(m_path.string());
+    reader.ReadImageInformation();
+  }
+  catch (const std::exception&) // its text may quote the file
+  {
+    fail(FileError::Reason::Unreadable, m_path,
+         "its header cannot be read; it is damaged or of an unknown kind, export it again");
+  }
+  for (unsigned d = 0; d < reader.GetNumberOfDimensions(); ++d)
+    m_dims.push_back(reader.GetDimensions(d));
+  m_components = reader.GetNumberOfComponents();
+  const auto component = componentOf(reader.GetComponentType());
+  if (!component || m_components < 1)
+    fail(FileError::Reason::Unsupported, m_path,
+         "its voxels are of a type that is not read; save them as whole numbers or float");
+  m_component = *component;
+  std::vector<std::uint64_t> kept = m_dims;
+  while (kept.size() > 3 && kept.back() == 1)
+    kept.pop_back();
+  if (kept.size() != 3)
+    fail(FileError::Reason::Unsupported, m_path,
+         "holds " + dimsText(kept) + " voxels; one volume of 3 dimensions is needed");
+}
+
+void VoxelSource::takeItkGeometry(double unit)
+{
+  const itk::ImageIOBase& reader = *m_io->reader;
+  Eigen::Matrix3d linear;
+  Eigen::Vector3d origin;
+  for (unsigned a = 0; a < 3; ++a)
+  {
+    const std::vector<double> axis = reader.GetDirection(a);
+    for (unsigned row = 0; row < 3; ++row)
+      linear(row, a) = axis[row] * reader.GetSpacing(a) * unit;
+    origin[a] = reader.GetOrigin(a) * unit;
+  }
+  m_geometry = gridFromAffine(m_path, m_dims, linear, origin, m_notes);
+}
+
+void VoxelSource::checkRoom() const
+{
+  long double bytes = static_cast<long double>(m_components);
+  for (const std::uint64_t n : m_dims)
+    bytes *= static_cast<long double>(n);
+  // A rescaled voxel takes 4 bytes in memory, but may take one on the disk.
+  if (!m_rescaled)
+    bytes *= visitComponent(m_component, [](auto type) { return sizeof type; });
+  if (bytes > kTightestPacking * static_cast<long double>(m_dataBytes))
+    fail(FileError::Reason::Unreadable, m_path,
+         "its header speaks of " + dimsText(m_dims) +
+             " voxels, which the file is too short to hold; copy it again from where it came");
+}
+
+std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
+                                        const core::Progress& progress) const
+{
+  itk::ImageIOBase& reader = *m_io->reader;
+  const std::size_t voxelBytes =
+      m_components * visitComponent(m_component, [](auto type) { return sizeof type; });
+  const bool streams = reader.CanStreamRead() && m_dims.size() == 3;
+  const core::IndexBox loaded = streams ? box : m_geometry->fullBox();
+  const core::Index3 size = loaded.size();
+
+  itk::ImageIORegion region(static_cast<unsigned>(m_dims.size()));
+  for (unsigned a = 0; a < m_dims.size(); ++a)
+  {
+    region.SetIndex(a, a < 3 ? loaded.lower[a] : 0);
+    region.SetSize(a, a < 3 ? static_cast<itk::SizeValueType>(size[a]) : 1);
+  }
+  progress.report(0.0, "reading voxels");
+  auto memory = allocate(m_path, loaded.count() * voxelBytes);
+  try
+  {
+    const PlainNumbers plain;
+    reader.SetIORegion(region);
+    reader.Read(memory.get());
+  }
+  catch (const std::exception&) // its text may quote the file
+  {
+    fail(FileError::Reason::Unreadable, m_path,
+         "breaks off or is damaged within its voxels; copy it again from where it came");
+  }
+  progress.report(0.9, "reading voxels");
+  if (loaded == box)
+    return memory;
+
+  auto kept = allocate(m_path, box.count() * voxelBytes);
+  const core::Index3 part = box.size();
+  const std::size_t row = static_cast<std::size_t>(part[0]) * voxelBytes;
+  auto* out = static_cast<char*>(kept.get());
+  for (int k = 0; k < part[2]; ++k)
+    for (int j = 0; j < part[1]; ++j, out += row)
+      std::memcpy(out,
+                  static_cast<const char*>(memory.get()) +
+                      m_geometry->linearIndex(box.lower[0], box.lower[1] + j, box.lower[2] + k) *
+                          voxelBytes,
+                  row);
+  return kept;
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,101 @@
+#include "ToolProps.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include <vtkActor.h>
+#include <vtkCylinderSource.h>
+#include <vtkMatrix4x4.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+
+namespace petrous::rendering
+{
+
+namespace
+{
+// The tool of the tissue field's shell (PHYSICS): shaft <= 0.6 R for 30 mm, the handpiece beyond.
+constexpr double kShaftRatio = 0.5;
+constexpr double kShaftLength = 30.0;     // mm from the burr's centre
+constexpr double kHandpieceLength = 90.0; // mm
+constexpr double kHandpieceRadius = 5.0;  // mm
+} // namespace
+
+ToolProps::ToolProps()
+{
+  m_burr->SetThetaResolution(48);
+  m_burr->SetPhiResolution(32);
+  m_shaft->SetResolution(32);
+  m_handpiece->SetResolution(48);
+  vtkAlgorithm* const sources[3] = {m_burr, m_shaft, m_handpiece};
+  const double colors[3][3] = {{0.85, 0.72, 0.35}, {0.72, 0.74, 0.77}, {0.36, 0.40, 0.46}};
+  for (std::size_t part = 0; part < m_actors.size(); ++part)
+  {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(sources[part]->GetOutputPort());
+    m_actors[part] = vtkSmartPointer<vtkActor>::New();
+    m_actors[part]->SetMapper(mapper);
+    m_actors[part]->SetVisibility(0);
+    m_actors[part]->PickableOff();
+    vtkProperty* property = m_actors[part]->GetProperty();
+    property->SetColor(colors[part][0], colors[part][1], colors[part][2]);
+    property->SetInterpolationToPhong();
+    property->SetAmbient(0.2);
+    property->SetDiffuse(0.75);
+    property->SetSpecular(0.45);
+    property->SetSpecularPower(40.0);
+  }
+}
+
+ToolProps::~ToolProps() = default;
+
+void ToolProps::addTo(vtkRenderer* renderer) const
+{
+  for (const auto& actor : m_actors)
+    renderer->AddActor(actor);
+}
+
+void ToolProps::removeFrom(vtkRenderer* renderer) const
+{
+  for (const auto& actor : m_actors)
+    renderer->RemoveActor(actor);
+}
+
+void ToolProps::setPose(const std::optional<ToolPose>& tool)
+{
+  const bool shown = tool && tool->radius > 0.0 && tool->axisToHand.norm() > 0.0;
+  for (const auto& actor : m_actors)
+    actor->SetVisibility(shown ? 1 : 0);
+  if (!shown)
+    return;
+  m_burr->SetRadius(tool->radius);
+  // VTK's cylinders lie along y, centred.
+  m_shaft->SetRadius(kShaftRatio * tool->radius);
+  m_shaft->SetHeight(kShaftLength);
+  m_shaft->SetCenter(0.0, 0.5 * kShaftLength, 0.0);
+  m_handpiece->SetRadius(std::max(kHandpieceRadius, tool->radius));
+  m_handpiece->SetHeight(kHandpieceLength);
+  m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
+  if (tool->drilling)
+    m_actors[0]->GetProperty()->SetColor(1.0, 0.55, 0.15);
+  else
+    m_actors[0]->GetProperty()->SetColor(0.85, 0.72, 0.35);
+
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), tool->axisToHand)
+          .toRotationMatrix();
+  vtkNew<vtkMatrix4x4> pose;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+      pose->SetElement(row, column, turn(row, column));
+    pose->SetElement(row, 3, tool->center[row]);
+  }
+  for (const auto& actor : m_actors)
+    actor->SetUserMatrix(pose);
+}
+
+} // namespace petrous::rendering

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include "petrous/Rendering/SceneContents.h"
+
+class vtkActor;
+class vtkCylinderSource;
+class vtkRenderer;
+class vtkSphereSource;
+
+namespace petrous::rendering
+{
+
+/// The drill: burr, shaft and handpiece.
+class ToolProps
+{
+public:
+  ToolProps();
+  ~ToolProps();
+
+  void addTo(vtkRenderer* renderer) const;
+  void removeFrom(vtkRenderer* renderer) const;
+  void setPose(const std::optional<ToolPose>& tool);
+
+private:
+  vtkNew<vtkSphereSource> m_burr;
+  vtkNew<vtkCylinderSource> m_shaft;
+  vtkNew<vtkCylinderSource> m_handpiece;
+  std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
+};
+
+} // namespace petrous::rendering

@@ -1,0 +1,107 @@
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
+
+using namespace petrous;
+using presenters::PartSource;
+using Eigen::Vector3d;
+
+namespace
+{
+
+class CaseBuilder : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    m_folder = std::filesystem::temp_directory_path() /
+               ("petrous-builder-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(m_folder);
+    const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{-1000});
+    ct->at(7, 6, 5) = 1200;
+    imaging::writeVolume(m_folder / "ct.nrrd", *ct);
+    auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    labels->at(4, 4, 4) = 1;
+    imaging::writeLabelFile(m_folder / "facial_nerve.nii.gz",
+                            volume::makeLabelMap(std::move(labels), {}));
+    core::TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    imaging::writeMesh(m_folder / "incus.obj", mesh);
+    m_sources.ct = m_folder / "ct.nrrd";
+  }
+  void TearDown() override
+  {
+    std::filesystem::remove_all(m_folder);
+  }
+
+  std::filesystem::path m_folder;
+  presenters::CaseSources m_sources;
+};
+
+} // namespace
+
+TEST(PartSource, SplitsTheNameFromTheFile)
+{
+  EXPECT_EQ(PartSource::parse("nerve=/a/b=c.nrrd").name, "nerve");
+  EXPECT_EQ(PartSource::parse("nerve=/a/b=c.nrrd").path, "/a/b=c.nrrd");
+  EXPECT_EQ(PartSource::parse("/a/b.nrrd").name, "");
+  EXPECT_EQ(PartSource::parse("=x").path, "=x");
+}
+
+TEST_F(CaseBuilder, PutsACaseTogether)
+{
+  m_sources.parts.labels = {{"", m_folder / "facial_nerve.nii.gz"}};
+  m_sources.parts.meshes = {{"", m_folder / "incus.obj"}};
+  m_sources.parts.mr = {{"t2", m_folder / "ct.nrrd"}};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(value.ct.range.max, 1200.0);
+  EXPECT_EQ(value.labels.at(0).structures.at(0).name, "facial_nerve");
+  EXPECT_EQ(value.labels.at(0).structures.at(0).look.preset, "nerve");
+  EXPECT_EQ(value.meshes.at(0).name, "incus");
+  EXPECT_EQ(value.mr.at(0).name, "t2");
+  EXPECT_FALSE(value.mr.at(0).registered);
+}
+
+TEST_F(CaseBuilder, CropsToTheRegionAsked)
+{
+  m_sources.roi = {Vector3d(-2, 6, 6), Vector3d(2, 10, 10)};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(value.ct.geometry.dims(), (core::Index3{5, 5, 5}));
+  EXPECT_EQ(value.ct.geometry.origin(), Vector3d(-2, 6, 6));
+  EXPECT_EQ(value.ct.range.max, 1200.0);
+}
+
+TEST_F(CaseBuilder, RefusesAStructureTwiceAndLeavesTheCase)
+{
+  m_sources.parts.labels = {{"", m_folder / "facial_nerve.nii.gz"}};
+  auto value = presenters::buildCase("ear", m_sources, {});
+  presenters::PartSources more;
+  more.labels = {{"second", m_folder / "facial_nerve.nii.gz"},
+                 {"", m_folder / "facial_nerve.nii.gz"}};
+  EXPECT_THROW(presenters::addParts(value, more, {}), core::InvalidParameter);
+  EXPECT_EQ(value.labels.size(), 1u);
+}
+
+TEST_F(CaseBuilder, NamesTheFileThatIsNotThere)
+{
+  m_sources.ct = m_folder / "missing.nrrd";
+  try
+  {
+    presenters::buildCase("ear", m_sources, {});
+    FAIL();
+  }
+  catch (const core::Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("missing.nrrd"), std::string::npos);
+    EXPECT_EQ(error.fault(), core::Fault::BadInput);
+  }
+}

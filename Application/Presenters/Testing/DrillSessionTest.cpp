@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Presenters/DrillSession.h"
+
+using namespace petrous;
+using Eigen::Vector3d;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+scene::Case boneCase()
+{
+  scene::Case value;
+  value.name = "bone";
+  value.ct.geometry =
+    core::GridGeometry({50, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+    std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry, std::int16_t{1500}));
+  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  return value;
+}
+
+} // namespace
+
+TEST(DrillSession, RemovesTheCapsuleThatTheBurrSwept)
+{
+  scene::Case value = boneCase();
+  presenters::DrillSession session(value);
+  session.begin({}, "2026-01-01T00:00:00Z", 1.0, {});
+  for (int n = 0; n <= 50; ++n)
+    session.moveTo({4.0 + 0.1 * n, 6, 6}, 1.0 + 0.01 * n);
+  const auto stroke = session.end();
+  ASSERT_TRUE(stroke);
+  const double truth = 4.0 / 3.0 * kPi * 8.0 + kPi * 4.0 * 5.0;
+  EXPECT_NEAR(stroke->info.removed / truth, 1.0, 0.005);
+  EXPECT_NEAR(stroke->info.duration, 0.5, 1e-9);
+  EXPECT_EQ(value.strokes.size(), 1u);
+}
+
+TEST(DrillSession, CutsNothingWithTheDrillOff)
+{
+  scene::Case value = boneCase();
+  presenters::DrillSession session(value);
+  EXPECT_FALSE(session.moveTo({6, 6, 6}, 0.0));
+  EXPECT_TRUE(value.dissection->mask().untouched());
+  EXPECT_EQ(session.end(), nullptr);
+}
+
+TEST(DrillSession, DoesNotCutTheWayBetweenTwoStrokes)
+{
+  scene::Case value = boneCase();
+  presenters::DrillSession session(value);
+  session.begin({}, "", 0.0, {});
+  session.moveTo({3, 6, 6}, 0.0);
+  session.end();
+  session.begin({}, "", 1.0, {});
+  session.moveTo({12, 6, 6}, 1.0);
+  session.end();
+  EXPECT_GT(session.field().value({7.5, 6, 6}), 0.0);
+  EXPECT_LT(session.field().value({3, 6, 6}), 0.0);
+  EXPECT_LT(session.field().value({12, 6, 6}), 0.0);
+}
+
+TEST(DrillSession, LeavesAStructureThatIsNotDrillable)
+{
+  scene::Case value = boneCase();
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry,
+                                                                std::uint16_t{0});
+  for (int k = 18; k < 22; ++k)
+    for (int j = 18; j < 22; ++j)
+      for (int i = 0; i < 50; ++i)
+        labels->at(i, j, k) = 1;
+  scene::LabelPart part;
+  part.labels =
+    std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
+  scene::StructurePart nerve;
+  nerve.name = "nerve";
+  nerve.index = 1;
+  nerve.look.drillable = false;
+  part.structures = {nerve};
+  value.labels = {part};
+  presenters::DrillSession session(value);
+  session.begin({}, "", 0.0, {});
+  session.moveTo({6, 6, 6}, 0.0);
+  const auto stroke = session.end();
+  ASSERT_TRUE(stroke);
+  EXPECT_GT(session.field().value({6, 5.85, 5.85}), 0.0) << "the nerve is whole";
+  EXPECT_LT(session.field().value({6, 7.2, 6}), 0.0) << "the bone round it is gone";
+}

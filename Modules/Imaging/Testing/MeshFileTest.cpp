@@ -1,0 +1,239 @@
+#include "petrous/Imaging/MeshFile.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "TestFiles.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Reason = FileError::Reason;
+
+/// A box from (10, 20, 30), 2 x 3 x 4 mm: volume 24 mm^3, faces outwards.
+const char* const kBoxObj = "# a box of quadrangles\n"
+                            "v 10 20 30\nv 12 20 30\nv 12 23 30\nv 10 23 30\n"
+                            "v 10 20 34\nv 12 20 34\nv 12 23 34\nv 10 23 34\n"
+                            "vt 0 0\nvn 0 0 1\no box\ns off\nusemtl bone\n"
+                            "f 1 4 3 2\nf 5/1 6/1 7/1 8/1\nf 1//1 2//1 6//1 5//1\n"
+                            "f 2/1/1 3/1/1 7/1/1 6/1/1\nf -6 -5 -1 \\\n -2\nf 4 1 5 8\n";
+
+core::TriangleMesh boxOf(const TestFolder& folder)
+{
+  return readMesh(putFile(folder / "box.obj", kBoxObj));
+}
+
+void expectBox(const core::TriangleMesh& mesh)
+{
+  EXPECT_EQ(mesh.vertices.size(), 8U);
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  EXPECT_TRUE(mesh.isClosed());
+  EXPECT_NEAR(mesh.signedVolume(), 24.0, 1e-9);
+  EXPECT_EQ(mesh.bounds()[0], Eigen::Vector3f(10.0F, 20.0F, 30.0F));
+  EXPECT_EQ(mesh.bounds()[1], Eigen::Vector3f(12.0F, 23.0F, 34.0F));
+}
+
+TEST(MeshFile, ReadsObjPolygonsAndEveryFormOfCorner)
+{
+  const TestFolder folder;
+  expectBox(boxOf(folder));
+  std::string dos(kBoxObj);
+  for (std::size_t at = 0; (at = dos.find('\n', at)) != dos.npos; at += 2)
+    dos.insert(at, "\r");
+  dos.replace(dos.find("\\\r"), 2, ""); // a joined line of its own kind
+  dos.replace(dos.find("\n -2"), 4, " -2");
+  expectBox(readMesh(putFile(folder / "dos.OBJ", dos)));
+}
+
+TEST(MeshFile, EveryFormatKeepsTheSurface)
+{
+  const TestFolder folder;
+  const core::TriangleMesh box = boxOf(folder);
+  for (const std::string end : {".obj", ".stl", ".ply"})
+  {
+    writeMesh(folder / ("a" + end), box);
+    writeMesh(folder / ("b" + end), box);
+    expectBox(readMesh(folder / ("a" + end)));
+    EXPECT_EQ(fileBytes(folder / ("a" + end)), fileBytes(folder / ("b" + end)));
+    EXPECT_NE(fileBytes(folder / ("a" + end)).find("SPACE=LPS"), std::string::npos);
+    EXPECT_TRUE(loadMesh(folder / ("a" + end)).notes.empty());
+  }
+}
+
+TEST(MeshFile, ObjAndPlyKeepEveryBitOfAVertex)
+{
+  const TestFolder folder;
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0.1F, 1.0F / 3.0F, 1e-30F}, {1.2345678e7F, -0.7F, 3.0F}, {5.0F, 6.0F, 7.1F}};
+  mesh.triangles = {{0, 1, 2}};
+  for (const char* name : {"a.obj", "a.ply"})
+  {
+    writeMesh(folder / name, mesh);
+    EXPECT_EQ(readMesh(folder / name).vertices, mesh.vertices) << name;
+  }
+}
+
+TEST(MeshFile, ReadsTextStlAndMergesEqualCorners)
+{
+  const TestFolder folder;
+  const std::string facets =
+      "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 1 0\n"
+      " endloop\nendfacet\n"
+      "facet normal 0 0 1\n outer loop\n  vertex 1 0 -0\n  vertex 1 1 0\n  vertex 0 1 0\n"
+      " endloop\nendfacet\n";
+  const auto loaded =
+      loadMesh(putFile(folder / "a.stl", "solid part\n" + facets + "endsolid part\n"));
+  EXPECT_EQ(loaded.mesh.vertices.size(), 4U);
+  EXPECT_EQ(loaded.mesh.triangles.size(), 2U);
+  expectRefused(refusalOf([&] { readMesh(putFile(folder / "b.stl", "solid part\n" + facets)); }),
+                Reason::Unreadable, "endsolid");
+}
+
+TEST(MeshFile, TurnsRasIntoLpsAndNotesIt)
+{
+  const TestFolder folder;
+  const std::string body = "v 1 2 3\nv 4 2 3\nv 1 5 3\nf 1 2 3\n";
+  const auto ras = loadMesh(putFile(folder / "ras.obj", "# 3D Slicer output. SPACE=RAS\n" + body));
+  const auto lps = loadMesh(putFile(folder / "lps.obj", "# 3D Slicer output. SPACE=LPS\n" + body));
+  EXPECT_EQ(ras.mesh.vertices[1], Eigen::Vector3f(-4.0F, -2.0F, 3.0F));
+  EXPECT_EQ(lps.mesh.vertices[1], Eigen::Vector3f(4.0F, 2.0F, 3.0F));
+  EXPECT_EQ(ras.mesh.triangles, lps.mesh.triangles); // a half turn keeps the outside outside
+  EXPECT_EQ(ras.notes.size(), 1U);
+  EXPECT_TRUE(lps.notes.empty());
+  const core::TriangleMesh box = boxOf(folder);
+  writeMesh(folder / "a.stl", box);
+  std::string stl = fileBytes(folder / "a.stl");
+  stl.replace(stl.find("SPACE=LPS"), 9, "SPACE=RAS");
+  const auto turned = loadMesh(putFile(folder / "b.stl", stl));
+  EXPECT_EQ(turned.mesh.bounds()[0], Eigen::Vector3f(-12.0F, -23.0F, 30.0F));
+  EXPECT_NEAR(turned.mesh.signedVolume(), 24.0, 1e-9);
+}
+
+TEST(MeshFile, ReadsTextPlyWithOtherProperties)
+{
+  const TestFolder folder;
+  const auto mesh = readMesh(
+      putFile(folder / "a.ply",
+              "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\n"
+              "property float nx\nproperty double x\nproperty double y\nproperty double z\n"
+              "property uchar red\nelement edge 1\nproperty int a\nproperty int b\n"
+              "element face 1\nproperty uchar flag\nproperty list uchar int vertex_index\n"
+              "end_header\n9 0 0 0 255\n9 1 0 0 255\n9 1 1 0 255\n9 0 1 0 255\n0 1\n"
+              "7 4 0 1 2 3\n"));
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_EQ(mesh.vertices[2], Eigen::Vector3f(1.0F, 1.0F, 0.0F));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{{0, 1, 2}}, {{0, 2, 3}}}));
+}
+
+TEST(MeshFile, ReadsBigEndianPly)
+{
+  const TestFolder folder;
+  std::string bytes = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\n"
+                      "property float y\nproperty float z\nelement face 1\n"
+                      "property list uint8 int32 vertex_indices\nend_header\n";
+  const auto put = [&bytes](auto value)
+  {
+    std::string raw = bytesOf(std::vector<decltype(value)>{value});
+    std::reverse(raw.begin(), raw.end());
+    bytes += raw;
+  };
+  for (const float c : {0.0F, 0.0F, 0.0F, 1.5F, 0.0F, 0.0F, 0.0F, -2.5F, 0.0F})
+    put(c);
+  put(std::uint8_t{3});
+  for (const std::int32_t corner : {0, 1, 2})
+    put(corner);
+  const auto mesh = readMesh(putFile(folder / "a.ply", bytes));
+  EXPECT_EQ(mesh.vertices[1], Eigen::Vector3f(1.5F, 0.0F, 0.0F));
+  EXPECT_EQ(mesh.vertices[2], Eigen::Vector3f(0.0F, -2.5F, 0.0F));
+}
+
+TEST(MeshFile, NeverBelievesAnAbsurdCount)
+{
+  const TestFolder folder;
+  const std::string start = "ply\nformat binary_little_endian 1.0\nelement vertex ";
+  const std::string end = "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                          "property list uchar int vertex_indices\nend_header\nabcdefghijkl";
+  for (const char* count : {"1000000000000", "9223372036854775807", "99999999999999999999", "-1"})
+    expectRefused(refusalOf([&] { readMesh(putFile(folder / "a.ply", start + count + end)); }),
+                  Reason::Unreadable);
+  expectRefused(refusalOf(
+                    [&]
+                    {
+                      readMesh(putFile(folder / "b.ply", "ply\nformat ascii 1.0\nelement void "
+                                                         "1000000000000\nend_header\n"));
+                    }),
+                Reason::Unreadable, "more than the file can hold");
+  std::string stl(80, ' ');
+  stl += bytesOf(std::vector<std::uint32_t>{4000000000U});
+  expectRefused(refusalOf([&] { readMesh(putFile(folder / "a.stl", stl)); }), Reason::Unreadable,
+                "4000000000");
+}
+
+TEST(MeshFile, RefusesDamagedFilesInWords)
+{
+  const TestFolder folder;
+  const std::pair<const char*, std::string> bad[] = {
+      {"a.obj", "v 1 2\nf 1 1 1\n"},
+      {"b.obj", "v 1 2 nan\nv 1 1 1\nv 0 0 0\nf 1 2 3\n"},
+      {"c.obj", "v 1 2 inf\n"},
+      {"d.obj", "v 1 2 3\nv 1 1 1\nv 0 0 0\nf 1 2 4\n"},
+      {"e.obj", "v 1 2 3\nv 1 1 1\nv 0 0 0\nf 1 2 -4\n"},
+      {"f.obj", "v 1 2 3\nv 1 1 1\nv 0 0 0\nf 0 1 2\n"},
+      {"g.obj", std::string("\x7f\x45\x4c\x46\x02\x01\x00\xff garbage \n", 19)},
+      {"h.obj", "v 1 2 3\nv 1 1 1\nf 1 2\n"},
+      {"a.stl", "garbage"},
+      {"b.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\n"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"},
+      {"b.ply", "plx\n"},
+      {"c.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"},
+      {"d.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_indices\n"
+                "end_header\n-3 1 2 3\n"},
+      {"e.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_indices\n"
+                "end_header\n2000000000 1 2 3\n"}};
+  for (const auto& [name, bytes] : bad)
+    expectRefused(refusalOf([&, n = name, b = bytes] { readMesh(putFile(folder / n, b)); }),
+                  Reason::Unreadable, name);
+  expectRefused(refusalOf([&] { readMesh(putFile(folder / "z.obj", "v 1 2 3\n")); }),
+                Reason::Unsupported, "no triangle");
+  expectRefused(refusalOf([&] { readMesh(putFile(folder / "z.vtk", "v 1 2 3\n")); }),
+                Reason::UnknownFormat, ".ply");
+  expectRefused(refusalOf([&] { readMesh(folder / "none.obj"); }), Reason::NotFound);
+  expectRefused(refusalOf([&] { readMesh(folder.path()); }), Reason::NotFound, "folder");
+  expectRefused(refusalOf([&] { readMesh(putFile(folder / "0.obj", "")); }), Reason::Unreadable,
+                "empty");
+}
+
+TEST(MeshFile, EveryCutOfAFileIsRefusedOrWhole)
+{
+  const TestFolder folder;
+  const core::TriangleMesh box = boxOf(folder);
+  for (const std::string end : {".stl", ".ply"})
+  {
+    writeMesh(folder / ("whole" + end), box);
+    const std::string whole = fileBytes(folder / ("whole" + end));
+    for (std::size_t length = 0; length < whole.size(); length += 7)
+    {
+      const auto cut = putFile(folder / ("cut" + end), whole.substr(0, length));
+      EXPECT_TRUE(refusalOf([&] { readMesh(cut); }).thrown) << end << " " << length;
+    }
+  }
+}
+
+TEST(MeshFile, RefusesToWriteWhatIsNoSurface)
+{
+  const TestFolder folder;
+  core::TriangleMesh mesh = boxOf(folder);
+  EXPECT_THROW(writeMesh(folder / "a.stl", {}), core::InvalidParameter);
+  expectRefused(refusalOf([&] { writeMesh(folder / "a.vtp", mesh); }), Reason::UnknownFormat,
+                ".stl");
+  expectRefused(refusalOf([&] { writeMesh(folder / "none/a.stl", mesh); }), Reason::Unwritable);
+  mesh.vertices[0][1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(writeMesh(folder / "a.stl", mesh), core::InvalidParameter);
+  EXPECT_EQ(folder.fileCount(), 1U); // the box itself
+}
+
+} // namespace
+} // namespace petrous::imaging

@@ -6,10 +6,6 @@
 #include <new>
 #include <system_error>
 
-#include <itkMetaImageIO.h>
-#include <itkNiftiImageIO.h>
-#include <itkNrrdImageIO.h>
-
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
 #include "NiftiHeader.h"
@@ -23,44 +19,6 @@ namespace
 // zlib cannot pack tighter than this; more is a header that does not belong to the voxels.
 constexpr long double kTightestPacking = 1032.0L;
 constexpr std::uintmax_t kLargestMetaHeader = 65536;
-
-std::optional<Component> componentOf(itk::IOComponentEnum type)
-{
-  const auto integer = [](std::size_t bytes, bool isSigned)
-  {
-    return bytes == 4 ? (isSigned ? Component::Int32 : Component::UInt32)
-                      : (isSigned ? Component::Int64 : Component::UInt64);
-  };
-  switch (type)
-  {
-  case itk::IOComponentEnum::CHAR:
-    return Component::Int8;
-  case itk::IOComponentEnum::UCHAR:
-    return Component::UInt8;
-  case itk::IOComponentEnum::SHORT:
-    return Component::Int16;
-  case itk::IOComponentEnum::USHORT:
-    return Component::UInt16;
-  case itk::IOComponentEnum::INT:
-    return integer(sizeof(int), true);
-  case itk::IOComponentEnum::UINT:
-    return integer(sizeof(unsigned), false);
-  case itk::IOComponentEnum::LONG:
-    return integer(sizeof(long), true);
-  case itk::IOComponentEnum::ULONG:
-    return integer(sizeof(unsigned long), false);
-  case itk::IOComponentEnum::LONGLONG:
-    return Component::Int64;
-  case itk::IOComponentEnum::ULONGLONG:
-    return Component::UInt64;
-  case itk::IOComponentEnum::FLOAT:
-    return Component::Float;
-  case itk::IOComponentEnum::DOUBLE:
-    return Component::Double;
-  default:
-    return std::nullopt;
-  }
-}
 
 /// Bytes of the voxels' file that a header names, or of all files in its folder where it names a
 /// list or a pattern.
@@ -125,11 +83,6 @@ double unitInMillimetres(std::string name, std::vector<std::string>& notes)
 
 } // namespace
 
-struct VoxelSource::Io
-{
-  itk::ImageIOBase::Pointer reader;
-};
-
 std::vector<std::pair<std::string, std::string>> metaFields(const std::filesystem::path& path)
 {
   const std::string bytes = readBytes(path, kLargestMetaHeader);
@@ -150,7 +103,6 @@ std::vector<std::pair<std::string, std::string>> metaFields(const std::filesyste
 
 VoxelSource::VoxelSource(const std::filesystem::path& path)
   : m_path(path)
-  , m_io(std::make_unique<Io>())
 {
   m_dataBytes = checkedFileSize(path);
   const std::string name = lowerName(path);
@@ -165,8 +117,6 @@ VoxelSource::VoxelSource(const std::filesystem::path& path)
          "is of no format that is read; give a .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd file");
 }
 
-VoxelSource::~VoxelSource() = default;
-
 void VoxelSource::openNifti()
 {
   NiftiHeader header = readNiftiHeader(m_path);
@@ -178,8 +128,7 @@ void VoxelSource::openNifti()
              " values; one volume of 3 dimensions is needed, so "
              "save one of them alone");
   m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
-  m_io->reader = itk::NiftiImageIO::New();
-  readItkHeader();
+  readItkHeader(ItkReader::Format::Nifti);
   checkRoom();
 }
 
@@ -209,8 +158,7 @@ void VoxelSource::openNrrd()
   else if (space->find("left") == space->npos && space->find("right") == space->npos &&
            *space != "LPS" && *space != "RAS" && *space != "LAS")
     m_notes.emplace_back("its frame is not a patient's; taken as left, posterior, superior (LPS)");
-  m_io->reader = itk::NrrdImageIO::New();
-  readItkHeader();
+  readItkHeader(ItkReader::Format::Nrrd);
   checkRoom();
   takeItkGeometry(scale);
 }
@@ -231,30 +179,20 @@ void VoxelSource::openMeta()
          "its header gives no voxel size (ElementSpacing); export it again with its geometry");
   if (!valueOf(fields, "Offset") && !valueOf(fields, "Position") && !valueOf(fields, "Origin"))
     m_notes.emplace_back("states no place in the patient; its first voxel is taken as at 0, 0, 0");
-  m_io->reader = itk::MetaImageIO::New();
-  readItkHeader();
+  readItkHeader(ItkReader::Format::Meta);
   checkRoom();
   takeItkGeometry(scale);
 }
 
-void VoxelSource::readItkHeader()
+void VoxelSource::readItkHeader(ItkReader::Format format)
 {
-  const PlainNumbers plain;
-  itk::ImageIOBase& reader = *m_io->reader;
-  try
-  {
-    reader.SetFileName(m_path.string());
-    reader.ReadImageInformation();
-  }
-  catch (const std::exception&) // its text may quote the file
-  {
+  m_reader = std::make_unique<ItkReader>(m_path, format);
+  if (!m_reader->readHeader())
     fail(FileError::Reason::Unreadable, m_path,
          "its header cannot be read; it is damaged or of an unknown kind, export it again");
-  }
-  for (unsigned d = 0; d < reader.GetNumberOfDimensions(); ++d)
-    m_dims.push_back(reader.GetDimensions(d));
-  m_components = reader.GetNumberOfComponents();
-  const auto component = componentOf(reader.GetComponentType());
+  m_dims = m_reader->dims();
+  m_components = m_reader->components();
+  const auto component = m_reader->component();
   if (!component || m_components < 1)
     fail(FileError::Reason::Unsupported, m_path,
          "its voxels are of a type that is not read; save them as whole numbers or float");
@@ -269,15 +207,14 @@ void VoxelSource::readItkHeader()
 
 void VoxelSource::takeItkGeometry(double unit)
 {
-  const itk::ImageIOBase& reader = *m_io->reader;
   Eigen::Matrix3d linear;
   Eigen::Vector3d origin;
   for (unsigned a = 0; a < 3; ++a)
   {
-    const std::vector<double> axis = reader.GetDirection(a);
+    const auto axis = m_reader->axis(a);
     for (unsigned row = 0; row < 3; ++row)
-      linear(row, a) = axis[row] * reader.GetSpacing(a) * unit;
-    origin[a] = reader.GetOrigin(a) * unit;
+      linear(row, a) = axis[row] * m_reader->spacing(a) * unit;
+    origin[a] = m_reader->origin(a) * unit;
   }
   m_geometry = gridFromAffine(m_path, m_dims, linear, origin, m_notes);
 }
@@ -299,32 +236,14 @@ void VoxelSource::checkRoom() const
 std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
                                         const core::Progress& progress) const
 {
-  itk::ImageIOBase& reader = *m_io->reader;
   const std::size_t voxelBytes =
       m_components * visitComponent(m_component, [](auto type) { return sizeof type; });
-  const bool streams = reader.CanStreamRead() && m_dims.size() == 3;
-  const core::IndexBox loaded = streams ? box : m_geometry->fullBox();
-  const core::Index3 size = loaded.size();
-
-  itk::ImageIORegion region(static_cast<unsigned>(m_dims.size()));
-  for (unsigned a = 0; a < m_dims.size(); ++a)
-  {
-    region.SetIndex(a, a < 3 ? loaded.lower[a] : 0);
-    region.SetSize(a, a < 3 ? static_cast<itk::SizeValueType>(size[a]) : 1);
-  }
+  const core::IndexBox loaded = m_reader->canReadPart() ? box : m_geometry->fullBox();
   progress.report(0.0, "reading voxels");
   auto memory = allocate(m_path, loaded.count() * voxelBytes);
-  try
-  {
-    const PlainNumbers plain;
-    reader.SetIORegion(region);
-    reader.Read(memory.get());
-  }
-  catch (const std::exception&) // its text may quote the file
-  {
+  if (!m_reader->read(loaded.lower, loaded.size(), memory.get()))
     fail(FileError::Reason::Unreadable, m_path,
          "breaks off or is damaged within its voxels; copy it again from where it came");
-  }
   progress.report(0.9, "reading voxels");
   if (loaded == box)
     return memory;

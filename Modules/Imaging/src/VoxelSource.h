@@ -11,55 +11,11 @@
 #include "petrous/Core/GridGeometry.h"
 #include "petrous/Core/Progress.h"
 
+#include "ItkReader.h"
 #include "NrrdHeader.h"
 
 namespace petrous::imaging
 {
-
-/// The types of a voxel's number that files hold.
-enum class Component
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Float,
-  Double
-};
-
-/// visitor(T{}) with the C++ type of a component.
-template <class Visitor>
-decltype(auto) visitComponent(Component component, Visitor&& visitor)
-{
-  switch (component)
-  {
-  case Component::Int8:
-    return visitor(std::int8_t{});
-  case Component::UInt8:
-    return visitor(std::uint8_t{});
-  case Component::Int16:
-    return visitor(std::int16_t{});
-  case Component::UInt16:
-    return visitor(std::uint16_t{});
-  case Component::Int32:
-    return visitor(std::int32_t{});
-  case Component::UInt32:
-    return visitor(std::uint32_t{});
-  case Component::Int64:
-    return visitor(std::int64_t{});
-  case Component::UInt64:
-    return visitor(std::uint64_t{});
-  case Component::Float:
-    return visitor(float{});
-  case Component::Double:
-    break;
-  }
-  return visitor(double{});
-}
 
 /// A NIfTI, NRRD or MetaImage file whose header has been read and found sound: its dimensions
 /// can be held by the file, its axes are perpendicular. ITK reads the voxels; no ITK text ever
@@ -68,9 +24,6 @@ class VoxelSource
 {
 public:
   explicit VoxelSource(const std::filesystem::path& path);
-  ~VoxelSource();
-  VoxelSource(const VoxelSource&) = delete;
-  VoxelSource& operator=(const VoxelSource&) = delete;
 
   const core::GridGeometry& geometry() const noexcept { return *m_geometry; }
   Component component() const noexcept { return m_component; }
@@ -87,16 +40,15 @@ public:
   std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
 
 private:
-  struct Io;
   void openNifti();
   void openNrrd();
   void openMeta();
-  void readItkHeader();
+  void readItkHeader(ItkReader::Format format);
   void takeItkGeometry(double unit);
   void checkRoom() const;
 
   std::filesystem::path m_path;
-  std::unique_ptr<Io> m_io;
+  std::unique_ptr<ItkReader> m_reader;
   std::vector<std::uint64_t> m_dims;
   std::optional<core::GridGeometry> m_geometry;
   Component m_component = Component::Int16;

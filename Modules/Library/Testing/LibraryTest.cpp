@@ -1,0 +1,304 @@
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <sys/mount.h>
+#include <sys/wait.h>
+
+#include "TestCase.h"
+#include "petrous/Imaging/NrrdFile.h"
+
+using namespace petrous;
+using namespace petrous::library;
+using testing::contentOf;
+using testing::drill;
+using testing::smallCase;
+using testing::TemporaryFolder;
+
+namespace
+{
+
+template <class Action>
+LibraryError::Reason reasonOf(const Action& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const LibraryError& error)
+  {
+    return error.reason;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return LibraryError::Reason::Damaged;
+}
+
+bool sameVoxels(const volume::CutMask& a, const volume::CutMask& b)
+{
+  const auto da = a.dense();
+  const auto db = b.dense();
+  return std::equal(da.data(), da.data() + da.size(), db.data());
+}
+
+} // namespace
+
+TEST(Library, GivesACaseBackWithEveryVoxel)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path() / "library");
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  EXPECT_EQ(value.revision, 1u);
+
+  const scene::Case back = Library(folder.path() / "library").open("ear");
+  EXPECT_EQ(back.ct.volume.peek(), nullptr) << "nothing is read before it is asked for";
+  const auto a = std::get<0>(value.ct.volume.get()->voxels());
+  const auto b = std::get<0>(back.ct.volume.get()->voxels());
+  EXPECT_TRUE(std::equal(a->data(), a->data() + a->size(), b->data()));
+  EXPECT_EQ(b->geometry().origin(), a->geometry().origin());
+  EXPECT_EQ(back.ct.volume.get()->padding(), -2000.0);
+  const auto labels = back.labels.at(0).labels.get();
+  EXPECT_EQ(labels->voxels->at(5, 8, 8), 3);
+  EXPECT_EQ(labels->voxels->at(3, 8, 8), 0);
+  EXPECT_FLOAT_EQ(back.meshes.at(0).mesh.get()->vertices[1][0], 1.25F);
+}
+
+TEST(Library, StrokesComeBackAfterReopening)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  library.loadDissection(value);
+  drill(value, {8, 8, 8});
+  drill(value, {14, 8, 8});
+  drill(value, {14, 14, 8});
+  scene::undo(value, 1);
+  library.save(value);
+
+  scene::Case back = library.open("ear");
+  EXPECT_EQ(back.applied, 2u);
+  EXPECT_EQ(back.strokes.size(), 3u);
+  library.loadDissection(back);
+  EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));
+  scene::redo(back, 1);
+  scene::redo(value, 1);
+  EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));
+}
+
+TEST(Library, StoresOneCtForManyCases)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  for (const std::string name : {"one", "two", "three"})
+  {
+    scene::Case value = smallCase(name);
+    library.save(value);
+  }
+  std::size_t images = 0;
+  for (const auto& [name, content] : contentOf(folder.path()))
+    images += name.find(".nrrd") != std::string::npos && name.find(".seg.") == std::string::npos;
+  EXPECT_EQ(images, 1u);
+  EXPECT_EQ(library.list().size(), 3u);
+}
+
+TEST(Library, ListsFromTheManifestsWhereTheIndexIsGoneOrSpoilt)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  const auto first = library.list();
+  std::filesystem::remove(folder.path() / "library.sqlite");
+  EXPECT_EQ(library.list().at(0).modified, first.at(0).modified);
+  std::ofstream(folder.path() / "library.sqlite") << "no database";
+  ASSERT_EQ(library.list().size(), 1u);
+  EXPECT_EQ(library.list().at(0).dims, first.at(0).dims);
+  EXPECT_EQ(library.list().at(0).structures, 1u);
+}
+
+TEST(Library, RefusesATakenNameAndStaysAsItWas)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  const auto before = contentOf(folder.path());
+  scene::Case other = smallCase("ear", 20);
+  EXPECT_EQ(reasonOf([&] { library.save(other); }), LibraryError::Reason::NameTaken);
+  EXPECT_EQ(contentOf(folder.path()), before);
+  EXPECT_EQ(other.revision, 0u);
+}
+
+TEST(Library, RefusesToOverwriteWhatAnotherProgramSaved)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  scene::Case mine = library.open("ear");
+  scene::Case theirs = library.open("ear");
+  theirs.iso = 250;
+  library.save(theirs);
+  const auto before = contentOf(folder.path());
+  library.loadDissection(mine);
+  drill(mine, {8, 8, 8});
+  EXPECT_EQ(reasonOf([&] { library.save(mine); }), LibraryError::Reason::Conflict);
+  EXPECT_EQ(contentOf(folder.path()), before);
+  EXPECT_EQ(mine.strokes.size(), 1u) << "the work is still in memory";
+}
+
+TEST(Library, NamesTheCasesThereAreWhenOneIsMissing)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("left ear");
+  library.save(value);
+  try
+  {
+    library.open("right ear");
+    FAIL();
+  }
+  catch (const LibraryError& error)
+  {
+    EXPECT_EQ(error.reason, LibraryError::Reason::NotFound);
+    EXPECT_NE(std::string(error.what()).find("left ear"), std::string::npos);
+  }
+}
+
+TEST(Library, SaysWhichObjectIsMissingAndWhichManifestIsDamaged)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  std::filesystem::remove(folder.path() / "objects" / value.ct.object);
+  EXPECT_EQ(reasonOf([&] { library.open("ear").ct.volume.get(); }), LibraryError::Reason::NotFound);
+  std::ofstream(folder.path() / "cases/ear.json") << "{";
+  EXPECT_THROW(library.open("ear"), core::Error);
+  EXPECT_TRUE(library.list().at(0).damaged);
+}
+
+TEST(Library, CancelLeavesNothing)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  scene::Case value = smallCase("ear");
+  EXPECT_THROW(library.save(value, core::Progress(nullptr, token)), core::CancelledError);
+  EXPECT_TRUE(contentOf(folder.path()).empty());
+  EXPECT_TRUE(library.list().empty());
+}
+
+TEST(Library, AFullDiskLeavesTheCaseAsItWas)
+{
+  const TemporaryFolder folder;
+  const auto disk = folder.path() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=512k") != 0)
+    GTEST_SKIP() << "mounting a small disk needs root";
+  {
+    Library library(disk);
+    scene::Case value = smallCase("ear");
+    library.save(value);
+    const auto before = contentOf(disk);
+    scene::Case large = smallCase("large", 80); // 1 MB
+    try
+    {
+      library.save(large);
+      ADD_FAILURE() << "1 MB fitted on a disk of 512 KB";
+    }
+    catch (const core::Error& error)
+    {
+      EXPECT_NE(error.fault(), core::Fault::Internal);
+      EXPECT_NE(std::string(error.what()).find(disk.string()), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(contentOf(disk), before);
+
+    // Full to the last byte: a stroke is refused, stays in memory, and is saved once there is room.
+    library.loadDissection(value);
+    drill(value, {8, 8, 8});
+    {
+      std::ofstream filler(disk / "filler");
+      while (filler << std::string(4096, 'x') << std::flush)
+      {
+      }
+    }
+    EXPECT_EQ(reasonOf([&] { library.save(value); }), LibraryError::Reason::DiskFull);
+    EXPECT_EQ(library.open("ear").strokes.size(), 0u);
+    std::filesystem::remove(disk / "filler");
+    library.save(value);
+    EXPECT_EQ(library.open("ear").strokes.size(), 1u);
+  }
+  ::umount2(disk.c_str(), MNT_DETACH);
+}
+
+TEST(Library, AReadOnlyLibraryCanBeReadAndRefusesInWords)
+{
+  const TemporaryFolder folder;
+  const auto disk = folder.path() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4m") != 0)
+    GTEST_SKIP() << "mounting a disk needs root";
+  {
+    Library library(disk);
+    scene::Case value = smallCase("ear");
+    library.save(value);
+    ASSERT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr), 0);
+    EXPECT_EQ(library.list().size(), 1u);
+    EXPECT_EQ(library.open("ear").ct.volume.get()->at(1, 0, 0), 401.0);
+    EXPECT_EQ(reasonOf([&] { library.save(value); }), LibraryError::Reason::Unwritable);
+    scene::Case other = smallCase("other");
+    EXPECT_EQ(reasonOf([&] { library.save(other); }), LibraryError::Reason::Unwritable);
+  }
+  ::umount2(disk.c_str(), MNT_DETACH);
+}
+
+TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  std::mt19937 random(23);
+  for (int round = 0; round < 25; ++round)
+  {
+    const std::size_t before = library.open("ear").strokes.size();
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      try
+      {
+        scene::Case own = library.open("ear");
+        library.loadDissection(own);
+        for (int n = 0; n < 1000; ++n)
+        {
+          drill(own, {4.0 + n % 15, 4.0 + n / 15 % 15, 4.0 + n / 225 % 15});
+          library.save(own);
+        }
+      }
+      catch (...)
+      {
+      }
+      ::_exit(0);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500 + random() % 20000));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+
+    ASSERT_EQ(library.list().size(), 1u);
+    scene::Case after = library.open("ear");
+    EXPECT_GE(after.strokes.size(), before);
+    ASSERT_NO_THROW(library.loadDissection(after)) << "round " << round;
+    EXPECT_EQ(after.ct.volume.get()->at(3, 0, 0), 403.0);
+  }
+  // What killed writers left is cleared by the next save.
+  scene::Case last = library.open("ear");
+  library.save(last);
+  for (const auto& [name, content] : contentOf(folder.path()))
+    EXPECT_EQ(name.find("objects/.tmp-"), std::string::npos) << name;
+}

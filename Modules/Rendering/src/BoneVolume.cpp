@@ -117,7 +117,6 @@ BoneVolume::BoneVolume()
   property->SetScalarOpacity(opacity);
   property->SetInterpolationTypeToLinear();
   property->SetShade(0);
-  property->SetIndependentComponents(0);
 }
 
 BoneVolume::~BoneVolume() = default;
@@ -229,6 +228,7 @@ void BoneVolume::updateShader()
   if (variant == m_shaderVariant)
     return;
   m_shaderVariant = variant;
+  m_prop->GetProperty()->SetIndependentComponents(m_combined ? 0 : 1);
   vtkShaderProperty* shader = m_prop->GetShaderProperty();
   shader->ClearAllFragmentShaderReplacements();
   const std::string rayDirection = "//VTK::ComputeRayDirection::Dec";

@@ -1,6 +1,9 @@
 #include "IsoTriangles.h"
 
+#include <array>
 #include <utility>
+
+#include <Eigen/LU>
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>

@@ -9,6 +9,7 @@
 #include <vtkPolyData.h>
 
 #include "IsoTriangles.h"
+#include "ShadedMesh.h"
 #include "petrous/Volume/Sampling.h"
 #include "petrous/Volume/SmoothedUnion.h"
 
@@ -43,55 +44,102 @@ double maskOperand(const volume::CutMask& mask, const Eigen::Vector3d& patient)
   return mask.geometry().hullContains(voxel) ? mask.sample(voxel) - 0.5 : 0.5;
 }
 
-volume::Volume<float> cutField(const volume::Volume<float>& occupancy, const volume::CutMask* mask)
+// -0.5 to 0.5 at the mask's voxels in a box.
+volume::Volume<float> maskBlock(const volume::CutMask& mask, const core::IndexBox& box)
 {
-  const core::GridGeometry& grid = occupancy.geometry();
-  volume::Volume<float> field(grid);
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, grid.dims()[2]),
-      [&](const auto& slices)
-      {
-        for (int k = slices.begin(); k < slices.end(); ++k)
-          for (int j = 0; j < grid.dims()[1]; ++j)
-            for (int i = 0; i < grid.dims()[0]; ++i)
-            {
-              double value = static_cast<double>(occupancy.at(i, j, k)) - 0.5;
-              if (mask && value > -0.5)
-                value = std::min(
-                    value, maskOperand(*mask, grid.patientFromVoxel(Eigen::Vector3d(i, j, k))));
-              field.at(i, j, k) = static_cast<float>(value);
-            }
-      });
-  return field;
+  const core::Index3 size = box.size();
+  volume::Volume<float> block(mask.geometry().cropped(box));
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i)
+        block.at(i, j, k) =
+            static_cast<float>(mask.at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k)) /
+                static_cast<float>(volume::CutMask::kUntouched) -
+            0.5F;
+  return block;
 }
 
-// The gradient of the operand that decides at each vertex, so that the edge of a cut stays sharp.
-std::vector<Eigen::Vector3f> fieldNormals(const core::TriangleMesh& mesh,
-                                          const volume::Volume<float>& occupancy,
-                                          const volume::CutMask* mask)
+volume::Volume<float> occupancyBlock(const volume::Volume<float>& occupancy)
 {
-  constexpr double reach = 0.75; // voxels, as in the tissue field
-  std::vector<Eigen::Vector3f> normals(mesh.vertices.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size()),
+  volume::Volume<float> block(occupancy.geometry());
+  std::transform(occupancy.data(), occupancy.data() + occupancy.size(), block.data(),
+                 [](float value) { return value - 0.5F; });
+  return block;
+}
+
+// The operands of a structure's field and their normals (out of the tissue), patient LPS.
+struct Operands
+{
+  const volume::Volume<float>& occupancy;
+  const volume::CutMask* mask;
+  static constexpr double kReach = 0.75; // voxels, as in the tissue field
+
+  double inside(const Eigen::Vector3d& patient) const
+  {
+    const Eigen::Vector3d voxel = occupancy.geometry().voxelFromPatient(patient);
+    return occupancy.geometry().hullContains(voxel)
+               ? volume::sampleTrilinear(occupancy, voxel) - 0.5
+               : -0.5;
+  }
+  Eigen::Vector3d insideNormal(const Eigen::Vector3d& patient) const
+  {
+    return -volume::sampleGradient(occupancy, occupancy.geometry().voxelFromPatient(patient),
+                                   kReach);
+  }
+  double left(const Eigen::Vector3d& patient) const { return maskOperand(*mask, patient); }
+  Eigen::Vector3d leftNormal(const Eigen::Vector3d& patient) const
+  {
+    return -volume::gradientInPatient(
+        mask->geometry(), mask->geometry().voxelFromPatient(patient), kReach,
+        [this](const Eigen::Vector3d& at) { return mask->sample(at); });
+  }
+};
+
+template <class Value>
+auto atVertices(const core::TriangleMesh& mesh, const Value& value)
+{
+  using Result = decltype(value(Eigen::Vector3d()));
+  std::vector<Result> results(mesh.vertices.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, results.size()),
                     [&](const auto& range)
                     {
                       for (std::size_t v = range.begin(); v < range.end(); ++v)
-                      {
-                        const Eigen::Vector3d patient = mesh.vertices[v].cast<double>();
-                        const Eigen::Vector3d voxel =
-                            occupancy.geometry().voxelFromPatient(patient);
-                        const double inside = volume::sampleTrilinear(occupancy, voxel) - 0.5;
-                        Eigen::Vector3d gradient;
-                        if (mask && maskOperand(*mask, patient) < inside)
-                          gradient = volume::gradientInPatient(
-                              mask->geometry(), mask->geometry().voxelFromPatient(patient), reach,
-                              [mask](const Eigen::Vector3d& at) { return mask->sample(at); });
-                        else
-                          gradient = volume::sampleGradient(occupancy, voxel, reach);
-                        normals[v] = -gradient.stableNormalized().cast<float>();
-                      }
+                        results[v] = value(mesh.vertices[v].template cast<double>());
                     });
+  return results;
+}
+
+std::vector<Eigen::Vector3f> unitNormals(const core::TriangleMesh& mesh,
+                                         const std::vector<Eigen::Vector3d>& slopes)
+{
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size());
+  std::transform(slopes.begin(), slopes.end(), normals.begin(),
+                 [](const Eigen::Vector3d& slope)
+                 { return slope.stableNormalized().cast<float>().eval(); });
   return normals;
+}
+
+// {min(a, b) = 0} is {a = 0, b >= 0} and {b = 0, a >= 0}: each operand's own surface cut by the
+// other. A minimum taken at the voxels would blunt the edge of a cut and lose thin remnants.
+ShadedMesh structureMesh(const volume::Volume<float>& occupancy, const volume::CutMask* mask,
+                         const core::IndexBox& maskBox)
+{
+  const Operands operands{occupancy, mask};
+  ShadedMesh outside;
+  outside.mesh = isoTriangles(occupancyBlock(occupancy));
+  outside.normals = unitNormals(outside.mesh, atVertices(outside.mesh, [&](const Eigen::Vector3d& p)
+                                                         { return operands.insideNormal(p); }));
+  if (!mask)
+    return outside;
+  outside = clip(outside, atVertices(outside.mesh,
+                                     [&](const Eigen::Vector3d& p) { return operands.left(p); }));
+  ShadedMesh wall;
+  wall.mesh = isoTriangles(maskBlock(*mask, maskBox));
+  wall.normals = unitNormals(wall.mesh, atVertices(wall.mesh, [&](const Eigen::Vector3d& p)
+                                                   { return operands.leftNormal(p); }));
+  append(outside, clip(wall, atVertices(wall.mesh, [&](const Eigen::Vector3d& p)
+                                        { return operands.inside(p); })));
+  return outside;
 }
 
 } // namespace
@@ -140,10 +188,13 @@ void StructureSurface::update()
     return;
   }
   const volume::CutMask* mask = m_mask.get();
-  if (mask && !cutIn(*mask, meeting(m_occupancy->geometry(), *mask)))
+  core::IndexBox box;
+  if (mask)
+    box = meeting(m_occupancy->geometry(), *mask);
+  if (box.empty() || !cutIn(*mask, box))
     mask = nullptr;
-  const core::TriangleMesh mesh = isoTriangles(cutField(*m_occupancy, mask));
-  const auto surface = toPolyData(mesh, fieldNormals(mesh, *m_occupancy, mask));
+  const ShadedMesh mesh = structureMesh(*m_occupancy, mask, box);
+  const auto surface = toPolyData(mesh.mesh, mesh.normals);
   m_surfaceBytes = static_cast<std::size_t>(surface->GetActualMemorySize()) * 1024;
   m_actor.setSurface(surface);
 }

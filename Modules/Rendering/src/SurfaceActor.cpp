@@ -1,5 +1,7 @@
 #include "SurfaceActor.h"
 
+#include <Eigen/Geometry>
+
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -74,6 +76,8 @@ SurfaceActor::SurfaceActor(int pattern)
   m_actor->SetMapper(m_mapper);
   m_actor->SetVisibility(0);
 }
+
+SurfaceActor::~SurfaceActor() = default;
 
 vtkActor* SurfaceActor::prop() const
 {

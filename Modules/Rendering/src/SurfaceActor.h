@@ -29,6 +29,7 @@ class SurfaceActor
 public:
   /// `pattern` moves the screen door, so that neighbours in a list do not share it.
   explicit SurfaceActor(int pattern);
+  ~SurfaceActor();
 
   vtkActor* prop() const;
   void setSurface(vtkPolyData* surface);

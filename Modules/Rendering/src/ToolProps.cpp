@@ -31,7 +31,7 @@ ToolProps::ToolProps()
   m_shaft->SetResolution(32);
   m_handpiece->SetResolution(48);
   vtkAlgorithm* const sources[3] = {m_burr, m_shaft, m_handpiece};
-  const double colors[3][3] = {{0.85, 0.72, 0.35}, {0.72, 0.74, 0.77}, {0.36, 0.40, 0.46}};
+  const double colors[3][3] = {{0.85, 0.72, 0.35}, {0.72, 0.74, 0.77}, {0.50, 0.56, 0.64}};
   for (std::size_t part = 0; part < m_actors.size(); ++part)
   {
     vtkNew<vtkPolyDataMapper> mapper;
@@ -43,7 +43,7 @@ ToolProps::ToolProps()
     vtkProperty* property = m_actors[part]->GetProperty();
     property->SetColor(colors[part][0], colors[part][1], colors[part][2]);
     property->SetInterpolationToPhong();
-    property->SetAmbient(0.2);
+    property->SetAmbient(0.25);
     property->SetDiffuse(0.75);
     property->SetSpecular(0.45);
     property->SetSpecularPower(40.0);

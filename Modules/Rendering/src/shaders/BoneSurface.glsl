@@ -84,7 +84,8 @@ float boneLeap(vec3 p, vec3 stepVoxels)
 vec4 castBone()
 {
   vec3 rayDir = computeRayDirection();
-  vec3 start = clamp(g_dataPos, in_texMin[0], in_texMax[0]);
+  // VTK starts one step inside; the surface may lie before it.
+  vec3 start = clamp(g_dataPos - g_rayJitter, in_texMin[0], in_texMax[0]);
   vec3 stepVoxels = g_dirStep * p_dims;
 
   vec3 border = mix(in_texMin[0], in_texMax[0], greaterThan(g_dirStep, vec3(0.0)));
@@ -92,7 +93,7 @@ vec4 castBone()
                       greaterThan(abs(g_dirStep), vec3(1e-12)));
   float last = min(min(toBorder.x, toBorder.y), toBorder.z);
   // Where a polygon's surface and the bone's coincide, the polygon (a structure) is seen.
-  last = min(last, g_terminatePointMax - 0.1);
+  last = min(last, g_terminatePointMax + 1.0 - 0.1);
   if (last < 0.0)
     return vec4(0.0);
 

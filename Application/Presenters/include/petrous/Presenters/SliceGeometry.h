@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "petrous/Core/GridGeometry.h"
+
+namespace petrous::presenters
+{
+
+enum class SliceOrientation
+{
+  Axial,
+  Coronal,
+  Sagittal
+};
+
+/// Which part of the patient a slice picture shows, as a value.
+///
+/// Slices lie along the patient's axes (LPS), whatever the scanner's. The radiological convention:
+/// the patient's right is on the picture's left (axial, coronal) and anterior on its left
+/// (sagittal); superior, or anterior for axial slices, is up. Pixel centres are whole numbers.
+class SliceGeometry
+{
+public:
+  /// `center` is the patient point (LPS mm) in the middle of the picture, on the slice.
+  /// Throws InvalidParameter unless the sizes are above 0.
+  SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d& center, double mmPerPixel,
+                int width, int height);
+
+  /// The slice through `through` that shows all of `grid`, centred, with a narrow margin.
+  static SliceGeometry fitting(SliceOrientation orientation, const core::GridGeometry& grid,
+                               const Eigen::Vector3d& through, int width, int height);
+
+  SliceOrientation orientation() const noexcept
+  {
+    return m_orientation;
+  }
+  const Eigen::Vector3d& center() const noexcept
+  {
+    return m_center;
+  }
+  double mmPerPixel() const noexcept
+  {
+    return m_mmPerPixel;
+  }
+  int width() const noexcept
+  {
+    return m_width;
+  }
+  int height() const noexcept
+  {
+    return m_height;
+  }
+
+  Eigen::Vector3d patientFromPixel(double column, double row) const;
+  Eigen::Vector2d pixelFromPatient(const Eigen::Vector3d& patient) const; ///< projected on the slice
+
+  /// The letters of the patient's directions at the picture's left, right, top and bottom edge.
+  struct EdgeLetters
+  {
+    char left, right, top, bottom;
+  };
+  EdgeLetters edgeLetters() const;
+
+private:
+  SliceOrientation m_orientation;
+  Eigen::Vector3d m_center;
+  double m_mmPerPixel;
+  int m_width;
+  int m_height;
+};
+
+/// Unit vectors in the patient (LPS) along a picture's columns to the right, along its rows down,
+/// and the direction in which the next slice lies (towards S, P or L).
+struct SliceAxes
+{
+  Eigen::Vector3d right;
+  Eigen::Vector3d down;
+  Eigen::Vector3d next;
+};
+SliceAxes axesOf(SliceOrientation orientation);
+const char* nameOf(SliceOrientation orientation); ///< "Axial", ...
+
+/// Length of a scale bar, mm: the largest of 1, 2, 5, 10, 20, ... that is at most `longest` mm.
+double scaleBarLength(double longest);
+
+} // namespace petrous::presenters

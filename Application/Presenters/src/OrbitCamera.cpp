@@ -1,0 +1,72 @@
+#include "petrous/Presenters/OrbitCamera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace petrous::presenters
+{
+
+namespace
+{
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kNearest = 1.0;     // mm
+constexpr double kFarthest = 10000.0; // mm
+
+struct Frame
+{
+  Eigen::Vector3d right, up;
+};
+
+Frame frameOf(const core::CameraPose& camera)
+{
+  const Eigen::Vector3d forward = (camera.focalPoint - camera.position).normalized();
+  const Eigen::Vector3d right = forward.cross(camera.viewUp).normalized();
+  return {right, right.cross(forward)};
+}
+} // namespace
+
+core::CameraPose turned(const core::CameraPose& camera, double right, double down)
+{
+  const Frame frame = frameOf(camera);
+  // The camera goes the other way round than the patient seems to.
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(-right * kDegree, frame.up) *
+                                Eigen::AngleAxisd(-down * kDegree, frame.right));
+  core::CameraPose next = camera;
+  next.position = camera.focalPoint + turn * (camera.position - camera.focalPoint);
+  next.viewUp = (turn * frame.up).normalized();
+  return next;
+}
+
+core::CameraPose shifted(const core::CameraPose& camera, double right, double down)
+{
+  const Frame frame = frameOf(camera);
+  const double distance = (camera.focalPoint - camera.position).norm();
+  const double height = camera.parallelScale
+                          ? 2.0 * *camera.parallelScale
+                          : 2.0 * distance * std::tan(0.5 * camera.viewAngle * kDegree);
+  const Eigen::Vector3d offset = height * (down * frame.up - right * frame.right);
+  core::CameraPose next = camera;
+  next.position += offset;
+  next.focalPoint += offset;
+  return next;
+}
+
+core::CameraPose zoomed(const core::CameraPose& camera, double factor)
+{
+  core::CameraPose next = camera;
+  if (!(factor > 0.0))
+    return next;
+  if (camera.parallelScale)
+  {
+    next.parallelScale = std::clamp(*camera.parallelScale / factor, kNearest, kFarthest);
+    return next;
+  }
+  const Eigen::Vector3d arm = camera.position - camera.focalPoint;
+  const double distance = std::clamp(arm.norm() / factor, kNearest, kFarthest);
+  next.position = camera.focalPoint + distance * arm.normalized();
+  return next;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+
+#include <unistd.h>
+
+#include "petrous/Library/Library.h"
+
+namespace petrous::library::testing
+{
+
+/// A folder that goes with the test.
+class TemporaryFolder
+{
+public:
+  TemporaryFolder()
+    : m_path(std::filesystem::temp_directory_path() /
+             ("petrous-library-" + std::to_string(::getpid()) + "-" +
+              std::to_string(std::random_device{}())))
+  {
+    std::filesystem::create_directories(m_path);
+  }
+  ~TemporaryFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const
+  {
+    return m_path;
+  }
+
+private:
+  std::filesystem::path m_path;
+};
+
+/// A small case: a ramp of HU, one structure, one mesh.
+inline scene::Case smallCase(const std::string& name, int n = 24)
+{
+  using Eigen::Vector3d;
+  const core::GridGeometry grid({n, n, n}, Vector3d::Constant(0.4), Vector3d(-5, 6, -7));
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid);
+  for (std::size_t i = 0; i < ct->size(); ++i)
+    ct->data()[i] = static_cast<std::int16_t>(400 + i % 1000);
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  for (int i = 4; i < 10; ++i)
+    labels->at(i, 8, 8) = 3;
+  scene::Case value;
+  value.name = name;
+  value.ct.name = "ct";
+  value.ct.geometry = grid;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+    std::shared_ptr<const volume::Volume<std::int16_t>>(std::move(ct)), -2000.0);
+  value.ct.range = value.ct.volume.get()->range();
+  scene::LabelPart part;
+  auto map = volume::makeLabelMap(std::move(labels), {});
+  part.structures.push_back({"nerve", 3, 6, map.volume(map.segments.front()), {}});
+  part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+  value.labels.push_back(std::move(part));
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  mesh->vertices = {{0, 0, 0}, {1.25F, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  value.meshes.push_back({"incus", "", 4, std::shared_ptr<const core::TriangleMesh>(mesh), {}});
+  return value;
+}
+
+inline void drill(scene::Case& value, const Eigen::Vector3d& voxel)
+{
+  const Eigen::Vector3d p = value.ct.geometry.patientFromVoxel(voxel);
+  value.dissection->beginStroke({});
+  value.dissection->cut({p, p + Eigen::Vector3d(0.5, 0, 0), 1.0});
+  value.dissection->openInfo().removed = 4.0;
+  scene::endStroke(value);
+}
+
+/// Every file below a folder with its content; the lock and the index do not count.
+inline std::map<std::string, std::string> contentOf(const std::filesystem::path& folder)
+{
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+  {
+    const std::string name = std::filesystem::relative(entry.path(), folder).string();
+    if (!entry.is_regular_file() || name == ".lock" || name.rfind("library.sqlite", 0) == 0)
+      continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    files[name] = {std::istreambuf_iterator<char>(file), {}};
+  }
+  return files;
+}
+
+} // namespace petrous::library::testing

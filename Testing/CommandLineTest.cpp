@@ -1,0 +1,266 @@
+#include <cmath>
+#include <cstring>
+
+#include "CommandRunner.h"
+
+using petrous::testing::CommandLine;
+using petrous::testing::quoted;
+using petrous::testing::textOf;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A cube of bone, 30 mm wide round (-35, 0, 0), in air; NRRD as any program writes it.
+std::filesystem::path writeBone(const std::filesystem::path& folder)
+{
+  constexpr int n = 100;
+  std::vector<std::int16_t> voxels(n * n * n, -1000);
+  for (int k = 25; k < 75; ++k)
+    for (int j = 25; j < 75; ++j)
+      for (int i = 25; i < 75; ++i)
+        voxels[static_cast<std::size_t>(i + n * (j + n * k))] = 1500;
+  const auto path = folder / "bone.nrrd";
+  std::ofstream file(path, std::ios::binary);
+  file << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+          "sizes: 100 100 100\nspace directions: (0.6,0,0) (0,0.6,0) (0,0,0.6)\n"
+          "kinds: domain domain domain\nendian: little\nencoding: raw\n"
+          "space origin: (-64.7,-29.7,-29.7)\n\n";
+  file.write(reinterpret_cast<const char*>(voxels.data()),
+             static_cast<std::streamsize>(voxels.size() * 2));
+  return path;
+}
+
+} // namespace
+
+TEST_F(CommandLine, GoesFromThePhantomToADrilledSavedCase)
+{
+  makePatient();
+  const auto patient = m_folder / "patient";
+  const auto scan = json("scan " + quoted(patient / "ct"));
+  ASSERT_EQ(scan["series"].size(), 1u);
+  EXPECT_EQ(scan["series"][0]["verdict"], "ok");
+  EXPECT_EQ(scan["series"][0]["dims"], (std::vector<int>{64, 64, 60}));
+
+  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") +
+       " --labels " + quoted(patient / "labels.seg.nrrd"));
+  const auto info = json("info ear");
+  EXPECT_EQ(info["ct"]["dims"], (std::vector<int>{64, 64, 60}));
+  EXPECT_GT(info["labels"].size(), 5u);
+  EXPECT_EQ(info["mr"][0]["registered"], false);
+  EXPECT_EQ(info["dissection"]["strokes"], 0);
+  const auto truth = nlohmann::json::parse(textOf(patient / "truth.json"));
+  for (const auto& structure : truth["structures"])
+    for (const auto& label : info["labels"])
+      if (label["name"] == structure["name"] && structure["volume_mm3"] > 100.0)
+        EXPECT_NEAR(label["volume_mm3"].get<double>() / structure["volume_mm3"].get<double>(), 1.0,
+                    0.15)
+          << label["name"];
+  EXPECT_EQ(json("library list")["cases"][0]["name"], "ear");
+}
+
+TEST_F(CommandLine, DrillsASphereOfTheRightVolumeAndTakesItBack)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto path = writePath({-38, 0, 0}, {-32, 0, 0});
+  const auto drilled = json("drill bone --path " + quoted(path));
+  const double truth = 4.0 / 3.0 * kPi * 8.0 + kPi * 4.0 * 6.0;
+  EXPECT_EQ(drilled["strokes"], 1);
+  EXPECT_EQ(drilled["ticks"], 1001);
+  EXPECT_NEAR(drilled["removed_mm3"].get<double>() / truth, 1.0, 0.02);
+  for (const auto& [name, bytes] : drilled["resources"].items())
+    for (const std::string family : {"labels.", "mr.", "devices.", "registration."})
+      EXPECT_NE(name.rfind(family, 0), 0u) << name;
+
+  EXPECT_EQ(json("undo bone")["steps"], 1);
+  EXPECT_EQ(json("info bone")["dissection"]["removed_mm3"], 0.0);
+  EXPECT_EQ(json("undo bone")["steps"], 0);
+  EXPECT_EQ(json("redo bone 5")["steps"], 1);
+  EXPECT_NEAR(json("info bone")["dissection"]["removed_mm3"].get<double>(),
+              drilled["removed_mm3"].get<double>(), 1e-9);
+  const auto history = json("history bone");
+  ASSERT_EQ(history["strokes"].size(), 1u);
+  EXPECT_EQ(history["strokes"][0]["diameter_mm"], 4.0);
+}
+
+TEST_F(CommandLine, RendersTheSamePixelsInAFreshProcess)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto render = [this](const std::string& name) {
+    const auto result =
+      json("render bone --size 160x120 --out " + quoted(m_folder / name) + " --view lateral");
+    EXPECT_EQ(result["size"], (std::vector<int>{160, 120}));
+    for (const auto& [resource, bytes] : result["resources"].items())
+      for (const std::string family : {"labels.", "mr.", "devices.", "registration."})
+        EXPECT_NE(resource.rfind(family, 0), 0u) << resource;
+    return textOf(m_folder / name);
+  };
+  const auto whole = render("a.png");
+  EXPECT_EQ(render("b.png"), whole);
+  json("drill bone --path " + quoted(writePath({-50, 0, 0}, {-45, 3, 3})) + " --diameter 6");
+  const auto drilled = render("c.png");
+  EXPECT_NE(drilled, whole);
+  json("undo bone");
+  EXPECT_EQ(render("d.png"), whole);
+  json("redo bone");
+  EXPECT_EQ(render("e.png"), drilled);
+}
+
+TEST_F(CommandLine, ProbesTheFieldThatIsDrilled)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  std::ofstream(m_folder / "points.csv") << "x_mm,y_mm,z_mm\n-35,0,0\n-35,0,20\n900,0,0\n";
+  const std::string probe = "probe bone --points " + quoted(m_folder / "points.csv");
+  auto points = json(probe)["points"];
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_GT(points[0]["f"], 0.0);
+  EXPECT_EQ(points[0]["hu"], 1500.0);
+  EXPECT_LT(points[1]["f"], 0.0);
+  // The surface lies where -1000 + 2500 w = 300, w = 0.52 of the voxel between 14.7 and 15.3.
+  EXPECT_NEAR(points[1]["distance_mm"].get<double>(), 20.0 - (15.3 - 0.6 * 0.52), 0.02);
+  EXPECT_NEAR(points[1]["normal"][2].get<double>(), 1.0, 1e-3);
+  EXPECT_TRUE(points[2]["hu"].is_null());
+  json("drill bone --path " + quoted(writePath({-35, 0, 0}, {-34, 0, 0})));
+  points = json(probe)["points"];
+  EXPECT_LT(points[0]["f"], 0.0);
+  EXPECT_NEAR(points[0]["distance_mm"].get<double>(), 2.0, 0.03);
+  EXPECT_EQ(run(probe + " --out " + quoted(m_folder / "o.csv")).code, 0);
+  EXPECT_EQ(textOf(m_folder / "o.csv").rfind("x_mm,y_mm,z_mm,f,hu,structure,distance_mm", 0), 0u);
+}
+
+TEST_F(CommandLine, ExportsWhatOtherProgramsOpen)
+{
+  makePatient();
+  const auto patient = m_folder / "patient";
+  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") +
+       " --labels " + quoted(patient / "labels.seg.nrrd"));
+  for (const std::string file :
+       {"ct.nrrd", "mr.nii.gz", "labels.seg.nrrd", "mask.nrrd", "dissected.nii.gz", "surface.stl",
+        "surface.obj"})
+  {
+    const std::string what = file.substr(0, file.find('.'));
+    EXPECT_EQ(json("export ear --what " + what + " --out " + quoted(m_folder / file))["what"], what);
+    EXPECT_GT(std::filesystem::file_size(m_folder / file), 1000u) << file;
+  }
+  // What is exported comes in again, voxel for voxel.
+  json("new again --ct " + quoted(m_folder / "ct.nrrd") + " --labels " +
+       quoted(m_folder / "labels.seg.nrrd"));
+  const auto a = json("info ear");
+  const auto b = json("info again");
+  EXPECT_EQ(a["ct"]["min"], b["ct"]["min"]);
+  EXPECT_EQ(a["ct"]["max"], b["ct"]["max"]);
+  EXPECT_EQ(a["labels"].size(), b["labels"].size());
+}
+
+TEST_F(CommandLine, CropsToARegionOnLoad)
+{
+  json("new part --ct " + quoted(writeBone(m_folder)) + " --roi -40,-30,-5,5,-5,5");
+  const auto info = json("info part");
+  EXPECT_LE(info["ct"]["dims"][0], 19);
+  EXPECT_EQ(info["ct"]["min"], 1500.0);
+  expectRefused("new far --ct " + quoted(m_folder / "bone.nrrd") + " --roi 500,510,0,9,0,9", 3,
+                "bone.nrrd");
+  expectRefused("new far --ct " + quoted(m_folder / "bone.nrrd") + " --roi 5,1,0,9,0,9", 2, "--roi");
+}
+
+TEST_F(CommandLine, RefusesATiltedScanInWords)
+{
+  makePatient("--dims 32,32,40 --spacing 2 --tilt 18.5");
+  const auto scan = json("scan " + quoted(m_folder / "patient/ct"));
+  EXPECT_EQ(scan["series"][0]["verdict"], "refused");
+  EXPECT_EQ(scan["series"][0]["findings"][0]["kind"], "gantry-tilt");
+  EXPECT_GT(scan["series"][0]["findings"][0]["error_mm"], 5.0);
+  expectRefused("new ear --ct " + quoted(m_folder / "patient/ct"), 3, "tilt");
+  EXPECT_TRUE(libraryContent().empty());
+}
+
+TEST_F(CommandLine, RefusesBadInputInOneLineAndLeavesTheLibrary)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto before = libraryContent();
+  const auto folder = [this](const std::string& name) {
+    std::filesystem::create_directories(m_folder / name);
+    return m_folder / name;
+  };
+  const auto empty = folder("empty");
+  const auto photos = folder("photos");
+  for (const char* name : {"a.jpg", "b.jpg"})
+    std::ofstream(photos / name) << "\xFF\xD8\xFF\xE0 no picture of a patient";
+  expectRefused("scan " + quoted(empty), 3, "empty");
+  expectRefused("new a --ct " + quoted(empty), 3, "empty");
+  expectRefused("new a --ct " + quoted(photos), 3, "photos");
+  expectRefused("new a --ct " + quoted(m_folder / "missing"), 3, "missing");
+  expectRefused("new bone --ct " + quoted(m_folder / "bone.nrrd"), 4, "bone");
+  expectRefused("new a/b --ct " + quoted(m_folder / "bone.nrrd"), 3, "case name");
+  std::filesystem::copy_file(m_folder / "bone.nrrd", m_folder / "short.nrrd");
+  std::filesystem::resize_file(m_folder / "short.nrrd", 100000);
+  expectRefused("new a --ct " + quoted(m_folder / "short.nrrd"), 3, "short.nrrd");
+  expectRefused("info zebra", 3, "zebra");
+  expectRefused("add bone --labels " + quoted(m_folder / "missing.nrrd"), 3, "missing.nrrd");
+  expectRefused("remove bone --part nerve", 3, "nerve");
+  std::ofstream(m_folder / "bad.csv") << "t_s,x_mm\n0,0\n";
+  expectRefused("drill bone --path " + quoted(m_folder / "bad.csv"), 3, "bad.csv");
+  expectRefused("render bone --out " + quoted(m_folder / "no/such/folder.png") + " --size 64x48", 4,
+                "folder.png");
+  EXPECT_EQ(libraryContent(), before);
+}
+
+TEST_F(CommandLine, WrongUsageExitsWithTwo)
+{
+  expectRefused("zebra", 2, "zebra");
+  expectRefused("new", 2, "CASE");
+  expectRefused("render x --out a.png --size big", 2, "--size");
+  expectRefused("register x --mr t2", 2, "not built yet");
+  expectRefused("new x --ct y --repair", 2, "not built yet");
+  expectRefused("library gc", 2, "not built yet");
+  const auto help = run("--help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_EQ(help.out.find("register"), std::string::npos);
+  EXPECT_NE(help.out.find("render"), std::string::npos);
+}
+
+TEST_F(CommandLine, AppearanceSetsThresholdAndFlags)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct") + " --labels " +
+       quoted(m_folder / "patient/labels.seg.nrrd"));
+  const std::string name = json("info ear")["labels"][0]["name"];
+  json("appearance ear --iso 450 --flags '" + name + "=shown'");
+  const auto list = json("appearance ear --list");
+  EXPECT_EQ(list["iso_hu"], 450.0);
+  EXPECT_EQ(list["parts"][0]["flags"], "shown");
+  expectRefused("appearance ear --flags zebra=shown", 3, "zebra");
+  expectRefused("appearance ear --flags '" + name + "=loud'", 3, "loud");
+}
+
+TEST_F(CommandLine, SampleIsTheSameForTheSameSeed)
+{
+  for (const std::string name : {"a", "b"})
+    ASSERT_EQ(run("sample " + quoted(m_folder / name) + " --dims 24,24,24 --spacing 2.5").code, 0);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(m_folder / "a"))
+    if (entry.is_regular_file())
+    {
+      const auto other = m_folder / "b" / std::filesystem::relative(entry.path(), m_folder / "a");
+      EXPECT_EQ(textOf(entry.path()), textOf(other)) << other;
+    }
+  expectRefused("sample " + quoted(m_folder / "a"), 4, "a");
+}
+
+TEST_F(CommandLine, ReferenceEngineWritesDepthAlongEachRay)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  std::ofstream(m_folder / "camera.json")
+    << R"({"position_mm":[-135,0,0],"focal_point_mm":[-35,0,0],"view_up":[0,0,1],"view_angle_deg":20})";
+  json("render bone --engine reference --size 33x33 --camera " + quoted(m_folder / "camera.json") +
+       " --out " + quoted(m_folder / "r.png") + " --depth " + quoted(m_folder / "d.npy"));
+  const std::string npy = textOf(m_folder / "d.npy");
+  ASSERT_EQ(npy.substr(1, 5), "NUMPY");
+  const std::size_t data = npy.size() - 33 * 33 * 4;
+  float middle = 0;
+  std::memcpy(&middle, npy.data() + data + 4 * (33 * 16 + 16), 4);
+  EXPECT_NEAR(middle, 100.0 - (15.3 - 0.6 * 0.52), 0.01);
+  float corner = 0;
+  std::memcpy(&corner, npy.data() + data, 4);
+  EXPECT_TRUE(std::isnan(corner));
+}

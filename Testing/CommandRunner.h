@@ -1,0 +1,129 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace petrous::testing
+{
+
+struct Outcome
+{
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+inline std::string textOf(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline std::string quoted(const std::filesystem::path& path)
+{
+  return "'" + path.string() + "'";
+}
+
+/// Runs the petrous program as a user does, with a library and a scratch folder of its own.
+class CommandLine : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    m_folder = std::filesystem::temp_directory_path() /
+               ("petrous-command-" + std::to_string(::getpid()) + "-" +
+                std::to_string(std::random_device{}()));
+    std::filesystem::create_directories(m_folder);
+  }
+  void TearDown() override
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_folder, ignored);
+  }
+
+  Outcome run(const std::string& arguments) const
+  {
+    const auto out = m_folder / ".stdout";
+    const auto err = m_folder / ".stderr";
+    const std::string command = "PETROUS_LIBRARY=" + quoted(library()) + " " +
+                                quoted(PETROUS_PROGRAM) + " " + arguments + " >" + quoted(out) +
+                                " 2>" + quoted(err) + " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(out), textOf(err)};
+  }
+
+  /// With --json; the run must succeed.
+  nlohmann::json json(const std::string& arguments) const
+  {
+    const Outcome outcome = run(arguments + " --json");
+    EXPECT_EQ(outcome.code, 0) << arguments << ": " << outcome.err;
+    return nlohmann::json::parse(outcome.out, nullptr, false);
+  }
+
+  /// Refused with this code, and one line on stderr that contains `words`.
+  void expectRefused(const std::string& arguments, int code, const std::string& words) const
+  {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << arguments << ": " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1)
+      << arguments << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  }
+
+  /// A small phantom patient in patient/, made once a test.
+  void makePatient(const std::string& options = "--dims 64,64,60 --spacing 1.0") const
+  {
+    const Outcome outcome = run("sample " + quoted(m_folder / "patient") + " " + options);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+
+  /// A straight path through `from` to `to` (LPS mm), drill on all the way, one second.
+  std::filesystem::path writePath(const std::array<double, 3>& from,
+                                  const std::array<double, 3>& to) const
+  {
+    const auto path = m_folder / "path.csv";
+    std::ofstream file(path);
+    file << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n";
+    file << "0," << from[0] << ',' << from[1] << ',' << from[2] << ",1,0,0,0,1\n";
+    file << "1," << to[0] << ',' << to[1] << ',' << to[2] << ",1,0,0,0,0\n";
+    return path;
+  }
+
+  std::filesystem::path library() const
+  {
+    return m_folder / "library";
+  }
+
+  /// Every file of the library with its content, without its lock and index.
+  std::map<std::string, std::string> libraryContent() const
+  {
+    std::map<std::string, std::string> files;
+    if (!std::filesystem::exists(library()))
+      return files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(library()))
+    {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_regular_file() && name != ".lock" && name.rfind("library.sqlite", 0) != 0)
+        files[entry.path().string()] = textOf(entry.path());
+    }
+    return files;
+  }
+
+  std::filesystem::path m_folder;
+};
+
+} // namespace petrous::testing

@@ -1,0 +1,78 @@
+#include "CommandRunner.h"
+
+using petrous::testing::CommandLine;
+using petrous::testing::quoted;
+using petrous::testing::textOf;
+
+namespace
+{
+
+// The whole path on real CT, where the data stand beside the project.
+class RealData : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    const char* data = std::getenv("PETROUS_DATA");
+    if (!data || !*data)
+      GTEST_SKIP() << "no real data beside the project (PETROUS_DATA is not set)";
+    m_data = data;
+  }
+
+  void walk(const std::filesystem::path& series, const std::string& roi)
+  {
+    if (!std::filesystem::exists(series))
+      GTEST_SKIP() << series << " is not there";
+    json("new head --ct " + quoted(series) + " --roi " + roi);
+    const auto info = json("info head");
+    const auto& dims = info["ct"]["dims"];
+    std::array<double, 3> middle{};
+    for (std::size_t a = 0; a < 3; ++a)
+      middle[a] = info["ct"]["origin_mm"][a].get<double>() +
+                  0.5 * (dims[a].get<int>() - 1) * info["ct"]["spacing_mm"][a].get<double>();
+    const auto render = [this](const std::string& name) {
+      json("render head --size 160x120 --out " + quoted(m_folder / name));
+      return textOf(m_folder / name);
+    };
+    const auto whole = render("whole.png");
+    auto to = middle;
+    to[0] -= 60.0;
+    const auto drilled =
+      json("drill head --diameter 7 --path " + quoted(writePath(middle, to)));
+    EXPECT_GT(drilled["removed_mm3"], 1.0);
+    EXPECT_EQ(json("undo head")["steps"], 1);
+    EXPECT_EQ(render("undone.png"), whole);
+    EXPECT_EQ(json("redo head")["steps"], 1);
+    const auto after = render("redone.png");
+    EXPECT_EQ(render("again.png"), after);
+    EXPECT_NE(after, whole);
+  }
+
+  std::filesystem::path m_data;
+};
+
+} // namespace
+
+TEST_F(RealData, VisibleHumanHeadIsBuiltDrilledUndoneAndDrawnAgain)
+{
+  walk(m_data / "ct_head_vhm/vhm_1080-1245", PETROUS_VHM_ROI);
+}
+
+TEST_F(RealData, PhilipsPhantomIsBuiltDrilledUndoneAndDrawnAgain)
+{
+  walk(m_data / "ct_phantom/philips_S21570_S2020_notilt_1mm", PETROUS_PHILIPS_ROI);
+}
+
+TEST_F(RealData, TiltedPhilipsScanIsRefusedWithTheMillimetres)
+{
+  const auto series = m_data / "ct_phantom/philips_S21610_S2010_tilt-18.5";
+  const auto scan = json("scan " + quoted(series));
+  ASSERT_EQ(scan["series"].size(), 1u);
+  EXPECT_EQ(scan["series"][0]["verdict"], "refused");
+  const auto& finding = scan["series"][0]["findings"][0];
+  EXPECT_EQ(finding["kind"], "gantry-tilt");
+  EXPECT_GT(finding["error_mm"], 18.0);
+  EXPECT_LT(finding["error_mm"], 25.0);
+  expectRefused("new tilted --ct " + quoted(series), 3, "tilt");
+}

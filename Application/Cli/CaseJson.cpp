@@ -121,7 +121,8 @@ std::map<std::string, std::size_t> residentResources(const scene::Case& value)
   if (value.dissection)
   {
     resources["mask.bricks"] = std::as_const(*value.dissection).mask().residentBytes();
-    resources["history.strokes"] = value.dissection->historyBytes();
+    if (const std::size_t bytes = value.dissection->historyBytes())
+      resources["history.strokes"] = bytes;
   }
   return resources;
 }

@@ -6,8 +6,8 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Dissection/ToolPath.h"
+#include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/DrillSession.h"
-#include "petrous/Rendering/StandardViews.h"
 
 namespace petrous::cli
 {
@@ -96,8 +96,7 @@ void drill(const Context& context, const Options& options)
   scene::Case value = library.open(options.caseName);
   library.loadDissection(value);
   presenters::DrillSession session(value);
-  const auto camera = value.camera.value_or(
-    rendering::standardCamera(rendering::StandardView::Lateral, value.ct.geometry));
+  const auto camera = presenters::currentCamera(value);
   const core::Progress progress = context.progress();
 
   const std::size_t before = value.applied;

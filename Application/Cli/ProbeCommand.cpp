@@ -2,7 +2,7 @@
 #include "Commands.h"
 #include "PointsFile.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Volume/SmoothedUnion.h"
+#include "petrous/Volume/NearestSurface.h"
 
 namespace petrous::cli
 {
@@ -50,6 +50,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   scene::Case value = library.open(name);
   library.loadDissection(value);
   const volume::TissueField field = scene::tissueField(value);
+  volume::NearestSurfaceSearch surface(field, kReach);
   const auto ct = value.ct.volume.get();
   const core::Progress progress = context.progress();
 
@@ -63,7 +64,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
     std::optional<double> hu;
     if (ct->geometry().hullContains(voxel))
       hu = ct->sample(voxel);
-    const auto nearest = field.nearestSurface(p, kReach);
+    const auto nearest = surface.find(p);
     const std::string structure = structureAt(value, p);
     const auto component = [&](int axis) {
       return nearest ? std::optional<double>(nearest->normal[axis]) : std::nullopt;

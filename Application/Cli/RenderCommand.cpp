@@ -8,7 +8,6 @@
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
-#include "petrous/Rendering/StandardViews.h"
 #include "petrous/Scene/CaseField.h"
 
 namespace petrous::cli
@@ -81,13 +80,12 @@ core::CameraPose chooseCamera(const Options& options, const scene::Case& value)
   if (!options.camera.empty())
     return readCamera(options.camera);
   if (options.view.empty())
-    return value.camera.value_or(
-      rendering::standardCamera(rendering::StandardView::Lateral, value.ct.geometry));
+    return presenters::currentCamera(value);
   const auto view = rendering::parseView(options.view);
   if (!view)
     throw UsageError("--view: lateral, left, right, superior, inferior, anterior or posterior, not '" +
                      options.view + "'");
-  return rendering::standardCamera(*view, value.ct.geometry);
+  return presenters::standardCamera(value, *view);
 }
 
 void render(const Context& context, const Options& options)

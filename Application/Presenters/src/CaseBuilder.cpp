@@ -30,6 +30,25 @@ std::string baseName(const fs::path& path)
   return path.stem().string();
 }
 
+// The reader knows the series; the user knows the path.
+volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeries& series,
+                                  const imaging::ReadOptions& options,
+                                  const core::Progress& progress, std::vector<std::string>& notes)
+{
+  try
+  {
+    return imaging::readSeries(series, options, progress, &notes);
+  }
+  catch (const imaging::DicomError& error)
+  {
+    std::string what = error.what();
+    if (error.reason() == imaging::DicomError::Reason::Misleading)
+      what += " Give a series that 'petrous scan' finds ok.";
+    const bool named = what.rfind(path.string(), 0) == 0;
+    throw imaging::DicomError(error.reason(), named ? what : path.string() + ": " + what);
+  }
+}
+
 scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
                            const std::optional<imaging::PatientBox>& roi,
                            const core::Progress& progress)
@@ -49,7 +68,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
     options.roi = roi;
     std::vector<std::string> notes = series.geometry.notes;
     part.volume = std::make_shared<const volume::IntensityVolume>(
-      imaging::readSeries(series, options, progress.part(0.2, 0.9), &notes));
+      readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
   }
   const auto image = part.volume.get();

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "petrous/Volume/TissueExtent.h"
+
 namespace petrous::presenters
 {
 
@@ -21,6 +23,17 @@ rendering::SceneContents sceneContents(const scene::Case& value)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))
       contents.meshes.push_back({mesh.name, mesh.mesh.get(), mesh.look});
   return contents;
+}
+
+core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view)
+{
+  const auto extent = volume::tissueExtent(*value.ct.volume.get(), value.iso);
+  return rendering::standardCamera(view, value.ct.geometry, extent.center, extent.radius);
+}
+
+core::CameraPose currentCamera(const scene::Case& value)
+{
+  return value.camera ? *value.camera : standardCamera(value, rendering::StandardView::Lateral);
 }
 
 } // namespace petrous::presenters

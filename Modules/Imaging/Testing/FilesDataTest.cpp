@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/LabelFile.h"
+
+#include "ItkReader.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// A file of the archives' folder (PETROUS_DATA_ARCHIVES) or of the unpacked one (PETROUS_DATA);
+/// empty where neither holds it.
+fs::path dataFile(const std::string& name)
+{
+  for (const char* variable : {"PETROUS_DATA_ARCHIVES", "PETROUS_DATA"})
+    if (const char* folder = std::getenv(variable); folder && *folder)
+    {
+      std::error_code ignored;
+      if (fs::exists(fs::path(folder) / name, ignored))
+        return fs::path(folder) / name;
+    }
+  return {};
+}
+
+// GTEST_SKIP returns from the test, so this is a macro.
+#define PETROUS_NEED(variable, name)                                                               \
+  const fs::path variable = dataFile(name);                                                        \
+  if (variable.empty())                                                                            \
+  GTEST_SKIP() << (name) << " is not there; name its folder in PETROUS_DATA_ARCHIVES"
+
+const volume::Segment* find(const volume::LabelMap& map, const std::string& name)
+{
+  const auto at = std::find_if(map.segments.begin(), map.segments.end(),
+                               [&name](const auto& segment) { return segment.name == name; });
+  return at == map.segments.end() ? nullptr : &*at;
+}
+
+TEST(FilesData, HeadAndNeckAtlasHasItsPlaceAndItsNames)
+{
+  PETROUS_NEED(path, "labels/HN-Atlas-labels.nrrd");
+  const volume::LabelMap map = readLabelFile(path);
+  const auto& grid = map.voxels->geometry();
+  EXPECT_EQ(grid.dims(), (core::Index3{255, 255, 229}));
+  // By hand from its header: origin (124.0234375, 124.0234375, -159.6028), steps -0.9765625,
+  // -0.9765625, 1.4000244 mm, so voxel (100, 200, 50) lies at
+  EXPECT_NEAR(grid.patientFromVoxel({100.0, 200.0, 50.0})[0], 26.3671875, 1e-9);
+  EXPECT_NEAR(grid.patientFromVoxel({100.0, 200.0, 50.0})[1], -71.2890625, 1e-9);
+  EXPECT_NEAR(grid.patientFromVoxel({100.0, 200.0, 50.0})[2], -89.6015628, 1e-6);
+  ASSERT_NE(find(map, "mandible"), nullptr);
+  EXPECT_EQ(find(map, "mandible")->index, 25);
+  EXPECT_NEAR(find(map, "mandible")->color[0], 225.0F / 255.0F, 1e-6F);
+  // The right clavicle lies on the patient's right: LPS x below 0 on average.
+  const volume::Segment* clavicle = find(map, "right_clavicle");
+  ASSERT_NE(clavicle, nullptr);
+  double x = 0.0;
+  std::uint64_t count = 0;
+  for (int k = 0; k < grid.dims()[2]; ++k)
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+        if (map.voxels->at(i, j, k) == clavicle->index)
+        {
+          x += grid.patientFromVoxel({double(i), double(j), double(k)})[0];
+          ++count;
+        }
+  EXPECT_EQ(count, clavicle->voxels);
+  EXPECT_LT(x / static_cast<double>(count), -20.0);
+}
+
+void expectTemplate(const fs::path& path, double slope)
+{
+  const LoadedImage image = readImageFile(path);
+  const auto& grid = image.volume->geometry();
+  EXPECT_EQ(grid.dims(), (core::Index3{91, 109, 91}));
+  EXPECT_TRUE(image.notes.empty());
+  // sform (-2 0 0 90; 0 2 0 -126; 0 0 2 -72) RAS; LPS negates x and y.
+  EXPECT_TRUE(grid.patientFromVoxel({10.0, 20.0, 30.0}).isApprox(Eigen::Vector3d(-70, 86, -12)));
+  EXPECT_TRUE(
+      std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.volume->voxels()));
+  // Every value is a whole number from 0 to 255 times the slope, and both ends occur near.
+  const auto range = image.volume->range();
+  EXPECT_GE(range.min, 0.0);
+  EXPECT_LE(range.max, 255.0 * slope * (1.0 + 1e-6));
+  EXPECT_GT(range.max, 100.0 * slope);
+
+  // ITK, another program, has the same voxels in the same place.
+  ItkReader itk(path, ItkReader::Format::Nifti);
+  ASSERT_TRUE(itk.readHeader());
+  for (unsigned a = 0; a < 3; ++a)
+    EXPECT_NEAR(itk.origin(a), grid.origin()[a], 1e-4);
+  std::vector<float> voxels(grid.voxelCount());
+  ASSERT_TRUE(itk.read({0, 0, 0}, grid.dims(), voxels.data()));
+  for (const core::Index3& v : {core::Index3{45, 54, 45}, {30, 60, 40}, {0, 0, 0}, {60, 20, 70}})
+    EXPECT_NEAR(image.volume->at(v[0], v[1], v[2]), voxels[grid.linearIndex(v[0], v[1], v[2])],
+                1e-3);
+}
+
+TEST(FilesData, TemplateCtHasItsPlaceAndItsRescale)
+{
+  PETROUS_NEED(path, "registration/scct.nii.gz");
+  expectTemplate(path, 14.880134582519531);
+}
+
+TEST(FilesData, TemplateMrHasItsPlaceAndItsRescale)
+{
+  PETROUS_NEED(path, "registration/avg152T1.nii.gz");
+  expectTemplate(path, 0.003921568859368563);
+}
+
+TEST(FilesData, EveryNiftiLiesWhereItkPutsIt)
+{
+  const char* folder = std::getenv("PETROUS_DATA");
+  if (!folder || !fs::is_directory(folder))
+    GTEST_SKIP() << "no folder of real data; name it in PETROUS_DATA";
+  int compared = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.find(".nii") == name.npos || !isImageFileName(entry.path()))
+      continue;
+    try
+    {
+      const LoadedImage image = readImageFile(entry.path());
+      ItkReader itk(entry.path(), ItkReader::Format::Nifti);
+      ASSERT_TRUE(itk.readHeader()) << entry.path();
+      for (unsigned a = 0; a < 3; ++a)
+      {
+        EXPECT_NEAR(itk.origin(a), image.volume->geometry().origin()[a], 1e-2) << entry.path();
+        for (unsigned row = 0; row < 3; ++row)
+          EXPECT_NEAR(itk.axis(a)[row], image.volume->geometry().direction()(row, a), 1e-3)
+              << entry.path();
+      }
+      ++compared;
+    }
+    catch (const FileError& error)
+    {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  EXPECT_GT(compared, 0);
+}
+
+TEST(FilesData, EverySegmentationOfDcmqiReads)
+{
+  PETROUS_NEED(folder, "seg_rt/dcmqi/data/segmentations");
+  int read = 0;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".nrrd")
+    {
+      const volume::LabelMap map = readLabelFile(entry.path());
+      EXPECT_FALSE(map.segments.empty()) << entry.path();
+      ++read;
+    }
+  EXPECT_GT(read, 5);
+}
+
+} // namespace
+} // namespace petrous::imaging

@@ -1,0 +1,430 @@
+#include "petrous/Imaging/ImageFile.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "petrous/Imaging/VolumeFile.h"
+
+#include "TestFiles.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Reason = FileError::Reason;
+
+template <class T>
+bool holds(const LoadedImage& image)
+{
+  return std::holds_alternative<std::shared_ptr<const volume::Volume<T>>>(image.volume->voxels());
+}
+
+template <class T>
+std::vector<T> counting(std::size_t count)
+{
+  std::vector<T> values(count);
+  std::iota(values.begin(), values.end(), T{0});
+  return values;
+}
+
+bool noted(const LoadedImage& image, const std::string& word)
+{
+  for (const std::string& note : image.notes)
+    if (note.find(word) != note.npos)
+      return true;
+  return false;
+}
+
+/// A NRRD of 4 x 3 x 2 voxels, written by hand.
+std::string nrrd(const std::string& type, const std::string& voxels,
+                 const std::string& directions = "(0.5,0,0) (0,0.25,0) (0,0,2)",
+                 const std::string& more = "", const std::string& space = "left-posterior-superior")
+{
+  return "NRRD0004\ntype: " + type + "\ndimension: 3\nspace: " + space +
+         "\nsizes: 4 3 2\nspace directions: " + directions +
+         "\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: "
+         "(10,20,30)\n" +
+         more + "\n" + voxels;
+}
+
+TestNifti shortNifti()
+{
+  TestNifti nifti;
+  nifti.voxels = bytesOf(counting<std::int16_t>(24));
+  return nifti;
+}
+
+TEST(ImageFile, KeepsTheTypesOfCtAndMr)
+{
+  const TestFolder folder;
+  const auto a =
+      readImageFile(putFile(folder / "a.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24)))));
+  EXPECT_TRUE(holds<std::int16_t>(a));
+  EXPECT_EQ(a.volume->at(1, 2, 1), 1 + 4 * (2 + 3 * 1));
+  EXPECT_TRUE(holds<std::uint16_t>(readImageFile(
+      putFile(folder / "b.nrrd", nrrd("ushort", bytesOf(counting<std::uint16_t>(24)))))));
+  EXPECT_TRUE(holds<float>(
+      readImageFile(putFile(folder / "c.nrrd", nrrd("float", bytesOf(counting<float>(24)))))));
+}
+
+TEST(ImageFile, NarrowsOtherTypesOnlyWhereNoValueChanges)
+{
+  const TestFolder folder;
+  const auto read = [&folder](const std::string& type, const std::string& voxels)
+  { return readImageFile(putFile(folder / "a.nrrd", nrrd(type, voxels))); };
+  EXPECT_TRUE(holds<std::int16_t>(read("uchar", bytesOf(std::vector<std::uint8_t>(24, 200)))));
+  EXPECT_EQ(read("uchar", bytesOf(std::vector<std::uint8_t>(24, 200))).volume->at(0, 0, 0), 200);
+  EXPECT_EQ(read("signed char", bytesOf(std::vector<std::int8_t>(24, -100))).volume->at(0, 0, 0),
+            -100);
+  EXPECT_TRUE(holds<std::int16_t>(read("int", bytesOf(std::vector<std::int32_t>(24, -1000)))));
+  EXPECT_TRUE(holds<std::uint16_t>(read("uint", bytesOf(std::vector<std::uint32_t>(24, 60000)))));
+  EXPECT_TRUE(holds<float>(read("int", bytesOf(std::vector<std::int32_t>(24, 70000)))));
+  EXPECT_TRUE(holds<std::int16_t>(read("int64", bytesOf(std::vector<std::int64_t>(24, 12)))));
+  EXPECT_TRUE(holds<std::int16_t>(read("double", bytesOf(std::vector<double>(24, -1024.0)))));
+  const auto half = read("double", bytesOf(std::vector<double>(24, 0.5)));
+  EXPECT_TRUE(holds<float>(half));
+  EXPECT_EQ(half.volume->at(3, 2, 1), 0.5);
+}
+
+TEST(ImageFile, ReadsBigEndianVoxels)
+{
+  const TestFolder folder;
+  std::string bytes = nrrd("short", std::string(48, '\0'));
+  bytes.replace(bytes.find("little"), 6, "big");
+  bytes[bytes.size() - 48] = 1; // the first voxel's high byte
+  EXPECT_EQ(readImageFile(putFile(folder / "a.nrrd", bytes)).volume->at(0, 0, 0), 256);
+}
+
+TEST(ImageFile, ReadsNiftiAsLps)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  // First axis to the left, second to the front, third up; RAS mm.
+  nifti.srow = {-2.0F, 0.0F, 0.0F, 90.0F, 0.0F, 3.0F, 0.0F, -126.0F, 0.0F, 0.0F, 4.0F, -72.0F};
+  nifti.pixdim = {1.0F, 2.0F, 3.0F, 4.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+  for (const bool packed : {false, true})
+  {
+    const auto path = packed ? putGzip(folder / "a.nii.gz", nifti.bytes())
+                             : putFile(folder / "a.nii", nifti.bytes());
+    const auto image = readImageFile(path);
+    const auto& grid = image.volume->geometry();
+    // RAS (90 - 2 i, -126 + 3 j, -72 + 4 k); LPS negates the first two.
+    const Eigen::Vector3d p = grid.patientFromVoxel({3.0, 2.0, 1.0});
+    EXPECT_TRUE(p.isApprox(Eigen::Vector3d(-84.0, 120.0, -68.0), 1e-9)) << p.transpose();
+    EXPECT_EQ(image.volume->at(3, 2, 1), 23);
+    EXPECT_TRUE(image.notes.empty());
+  }
+}
+
+TEST(ImageFile, ReadsTheQformByTheStandard)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.sform = 0;
+  nifti.qform = 1;
+  // 90 degrees about z: x goes to y; qfac -1 mirrors the third axis.
+  const float s = std::sqrt(0.5F);
+  nifti.quaternion = {0.0F, 0.0F, s};
+  nifti.pixdim = {-1.0F, 2.0F, 3.0F, 4.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+  nifti.offset = {5.0F, 6.0F, 7.0F};
+  const auto image = readImageFile(putFile(folder / "a.nii", nifti.bytes()));
+  // RAS: (5 - 3 j, 6 + 2 i, 7 - 4 k).
+  const Eigen::Vector3d p = image.volume->geometry().patientFromVoxel({1.0, 1.0, 1.0});
+  EXPECT_TRUE(p.isApprox(Eigen::Vector3d(-2.0, -8.0, 3.0), 1e-6)) << p.transpose();
+}
+
+TEST(ImageFile, AppliesTheRescaleOfNifti)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.intercept = -1024.0F;
+  const auto ct = readImageFile(putFile(folder / "a.nii", nifti.bytes()));
+  EXPECT_TRUE(holds<std::int16_t>(ct));
+  EXPECT_EQ(ct.volume->at(3, 2, 1), 23 - 1024);
+  nifti.slope = 0.1F;
+  const auto mr = readImageFile(putFile(folder / "b.nii", nifti.bytes()));
+  EXPECT_TRUE(holds<float>(mr));
+  EXPECT_NEAR(mr.volume->at(3, 2, 1), 2.3 - 1024.0, 1e-3);
+  nifti.slope = std::numeric_limits<float>::quiet_NaN();
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nii", nifti.bytes())); }),
+                Reason::Unreadable, "slope");
+}
+
+TEST(ImageFile, TurnsUnitsIntoMillimetresAndNotesThem)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.srow = {0.5F, 0.0F, 0.0F, 1.0F, 0.0F, 0.5F, 0.0F, 2.0F, 0.0F, 0.0F, 0.5F, 4.0F};
+  nifti.units = 0;
+  const auto unknown = readImageFile(putFile(folder / "a.nii", nifti.bytes()));
+  EXPECT_TRUE(noted(unknown, "taken as mm"));
+  EXPECT_NEAR(unknown.volume->geometry().spacing()[0], 0.5, 1e-9);
+  nifti.units = 1;
+  const auto metres = readImageFile(putFile(folder / "b.nii", nifti.bytes()));
+  EXPECT_TRUE(noted(metres, "metres"));
+  EXPECT_NEAR(metres.volume->geometry().spacing()[0], 500.0, 1e-9);
+  EXPECT_NEAR(metres.volume->geometry().origin()[2], 4000.0, 1e-9);
+  nifti.units = 3;
+  const auto micro = readImageFile(putFile(folder / "c.nii", nifti.bytes()));
+  EXPECT_TRUE(noted(micro, "micrometres"));
+  EXPECT_NEAR(micro.volume->geometry().spacing()[1], 0.0005, 1e-12);
+  const auto nrrdMetres =
+      readImageFile(putFile(folder / "d.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24)),
+                                                    "(0.0005,0,0) (0,0.0005,0) (0,0,0.0005)",
+                                                    "space units: \"m\" \"m\" \"m\"\n")));
+  EXPECT_NEAR(nrrdMetres.volume->geometry().spacing()[2], 0.5, 1e-12);
+  EXPECT_NEAR(nrrdMetres.volume->geometry().origin()[0], 10000.0, 1e-9);
+}
+
+TEST(ImageFile, RefusesShearWithTheMillimetresAtStake)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.dims = {3, 101, 101, 11, 1, 1, 1, 1};
+  nifti.voxels.assign(std::size_t{2} * 101 * 101 * 11, '\0');
+  nifti.srow[8 + 1] = 0.1F; // z leans along y, 5.7 degrees
+  const Refusal refusal =
+      refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); });
+  expectRefused(refusal, Reason::NoGeometry, "degrees");
+  EXPECT_NE(refusal.text.find(" mm"), std::string::npos);
+  nifti.srow[8 + 1] = 5e-4F; // costs less than 0.1 mm: straightened and noted
+  const auto image = readImageFile(putFile(folder / "b.nii", nifti.bytes()));
+  EXPECT_TRUE(noted(image, "straightened"));
+  const auto& grid = image.volume->geometry();
+  const Eigen::Vector3d far = grid.patientFromVoxel({100.0, 100.0, 10.0});
+  EXPECT_NEAR((far - Eigen::Vector3d(-100.0, -100.0, 10.0 + 100.0 * 5e-4)).norm(), 0.0, 0.04);
+  expectRefused(refusalOf(
+                    [&]
+                    {
+                      readImageFile(putFile(folder / "c.nrrd",
+                                            nrrd("short", bytesOf(counting<std::int16_t>(24)),
+                                                 "(0.5,0,0) (0.1,0.25,0) (0,0,2)")));
+                    }),
+                Reason::NoGeometry, "perpendicular");
+  expectRefused(refusalOf(
+                    [&]
+                    {
+                      readImageFile(putFile(folder / "d.nrrd",
+                                            nrrd("short", bytesOf(counting<std::int16_t>(24)),
+                                                 "(0.5,0,0) (0,0,0) (0,0,2)")));
+                    }),
+                Reason::NoGeometry);
+}
+
+TEST(ImageFile, RotatedCosinesAreNoFault)
+{
+  const TestFolder folder;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.3, -0.2, 0.9).normalized()).toRotationMatrix();
+  const core::GridGeometry grid({4, 3, 2}, {0.4, 0.5, 0.6}, {-80.0, 12.5, 3.0}, turn);
+  const volume::Volume<std::int16_t> voxels(grid, 7);
+  for (const char* name : {"a.nrrd", "a.nii", "a.nii.gz", "a.mha"})
+  {
+    writeVolume(folder / name, voxels);
+    const auto image = readImageFile(folder / name);
+    EXPECT_TRUE(core::sameGrid(image.volume->geometry(), grid, 1e-4)) << name;
+    EXPECT_TRUE(image.notes.empty()) << name << " " << image.notes.front();
+  }
+}
+
+TEST(ImageFile, NotesWhenQformAndSformDisagree)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.qform = 1;
+  EXPECT_TRUE(readImageFile(putFile(folder / "a.nii", nifti.bytes())).notes.empty());
+  nifti.offset = {0.0F, 0.0F, 3.0F};
+  const auto image = readImageFile(putFile(folder / "b.nii", nifti.bytes()));
+  EXPECT_TRUE(noted(image, "3 mm apart"));
+  EXPECT_EQ(image.volume->geometry().origin()[2], 0.0);
+}
+
+TEST(ImageFile, NotesAMissingPlaceAndVoxelsThatAreNoNumber)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.sform = 0;
+  EXPECT_TRUE(noted(readImageFile(putFile(folder / "a.nii", nifti.bytes())), "no place"));
+  std::vector<float> values = counting<float>(24);
+  values[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(noted(readImageFile(putFile(folder / "b.nrrd", nrrd("float", bytesOf(values)))),
+                    "1 voxels that are no number"));
+  EXPECT_TRUE(noted(
+      readImageFile(putFile(folder / "c.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24))))),
+      "unit"));
+}
+
+TEST(ImageFile, ReadsRasNrrdAndDetachedFiles)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const auto ras =
+      readImageFile(putFile(folder / "a.nrrd", nrrd("short", voxels, "(0.5,0,0) (0,0.25,0) (0,0,2)",
+                                                    "", "right-anterior-superior")));
+  EXPECT_TRUE(ras.volume->geometry()
+                  .patientFromVoxel({1.0, 1.0, 1.0})
+                  .isApprox(Eigen::Vector3d(-10.5, -20.25, 32.0)));
+  putFile(folder / "b.raw", voxels);
+  std::string header = nrrd("short", "");
+  header.insert(header.find("endian"), "data file: b.raw\n");
+  EXPECT_EQ(readImageFile(putFile(folder / "b.nhdr", header)).volume->at(3, 2, 1), 23);
+  const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                           "BinaryDataByteOrderMSB = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+                           "Offset = 1 2 3\nElementSpacing = 1 1 2\nDimSize = 4 3 2\n"
+                           "ElementType = MET_SHORT\nElementDataFile = ";
+  const auto mhd = readImageFile(putFile(folder / "b.mhd", meta + "b.raw\n"));
+  EXPECT_EQ(mhd.volume->at(3, 2, 1), 23);
+  EXPECT_TRUE(mhd.volume->geometry()
+                  .patientFromVoxel({0.0, 0.0, 1.0})
+                  .isApprox(Eigen::Vector3d(1.0, 2.0, 5.0)));
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.mhd", meta + "none.raw\n")); }),
+                Reason::NotFound, "one folder");
+}
+
+TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
+{
+  const TestFolder folder;
+  const core::GridGeometry grid({40, 30, 20}, {0.5, 0.5, 1.0}, {-10.0, 5.0, 100.0});
+  volume::Volume<std::int16_t> voxels(grid);
+  std::iota(voxels.data(), voxels.data() + voxels.size(), std::int16_t{0});
+  const PatientBox box{Eigen::Vector3d(-7.0, 6.0, 103.0), Eigen::Vector3d(-3.0, 9.0, 109.0)};
+  for (const char* name : {"a.nrrd", "a.nii.gz", "a.mha"})
+  {
+    writeVolume(folder / name, voxels);
+    const auto image = readImageFile(folder / name, box);
+    const auto& cut = image.volume->geometry();
+    EXPECT_EQ(cut.dims(), (core::Index3{9, 7, 7})) << name;
+    EXPECT_TRUE(cut.origin().isApprox(Eigen::Vector3d(-7.0, 6.0, 103.0))) << name;
+    EXPECT_EQ(image.volume->bytes(), 9U * 7 * 7 * 2);
+    for (const core::Index3& v : {core::Index3{0, 0, 0}, core::Index3{8, 6, 6}, {3, 2, 1}})
+      EXPECT_EQ(image.volume->at(v[0], v[1], v[2]), voxels.at(v[0] + 6, v[1] + 2, v[2] + 3))
+          << name;
+  }
+  const PatientBox outside{Eigen::Vector3d(50.0, 6.0, 103.0), Eigen::Vector3d(60.0, 9.0, 109.0)};
+  expectRefused(refusalOf([&] { readImageFile(folder / "a.nrrd", outside); }), Reason::Unsupported,
+                "region of interest");
+}
+
+TEST(ImageFile, AcceptsAFourthDimensionOfOneOnly)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.dims = {4, 4, 3, 2, 1, 1, 1, 1};
+  EXPECT_EQ(readImageFile(putFile(folder / "a.nii", nifti.bytes())).volume->at(3, 2, 1), 23);
+  nifti.dims = {4, 4, 3, 2, 5, 1, 1, 1};
+  nifti.voxels.assign(240, '\0');
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "b.nii", nifti.bytes())); }),
+                Reason::Unsupported, "4 x 3 x 2 x 5");
+  nifti.dims = {2, 4, 3, 1, 1, 1, 1, 1};
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nii", nifti.bytes())); }),
+                Reason::Unsupported);
+  nifti.dims = {3, 4, 3, 1, 1, 1, 1, 1};
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "d.nii", nifti.bytes())); }),
+                Reason::Unsupported, "single slice");
+  const std::string colour = "NRRD0004\ntype: uchar\ndimension: 4\nspace: left-posterior-superior\n"
+                             "sizes: 3 4 3 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+                             "kinds: RGB-color domain domain domain\nencoding: raw\n"
+                             "space origin: (0,0,0)\n\n" +
+                             std::string(72, '\1');
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "e.nrrd", colour)); }),
+                Reason::Unsupported, "3 numbers a voxel");
+}
+
+TEST(ImageFile, RefusesBrokenAndHostileFiles)
+{
+  const TestFolder folder;
+  const std::string nii = shortNifti().bytes();
+  const std::string raw = nrrd("short", bytesOf(counting<std::int16_t>(24)));
+  const core::GridGeometry grid({30, 30, 30}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  volume::Volume<std::int16_t> voxels(grid);
+  for (std::size_t v = 0; v < voxels.size(); ++v)
+    voxels.data()[v] = static_cast<std::int16_t>(v * 2654435761U >> 7);
+  for (const char* name : {"w.nrrd", "w.nii.gz", "w.mha"})
+    writeVolume(folder / name, voxels);
+  const std::pair<const char*, std::string> whole[] = {{"a.nii", nii},
+                                                       {"a.nrrd", raw},
+                                                       {"b.nrrd", fileBytes(folder / "w.nrrd")},
+                                                       {"a.nii.gz", fileBytes(folder / "w.nii.gz")},
+                                                       {"a.mha", fileBytes(folder / "w.mha")}};
+  for (const auto& [name, bytes] : whole)
+  {
+    ASSERT_NO_THROW(readImageFile(putFile(folder / name, bytes))) << name;
+    for (const double share : {0.0, 0.003, 0.1, 0.5, 0.9, 0.97})
+    {
+      const auto length = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
+      putFile(folder / name, bytes.substr(0, length));
+      const Refusal refusal = refusalOf([&, n = name] { readImageFile(folder / n); });
+      EXPECT_TRUE(refusal.thrown) << name << " cut to " << length;
+      EXPECT_EQ(refusal.text.find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(ImageFile, NeverBelievesAbsurdDimensions)
+{
+  const TestFolder folder;
+  std::string bytes = nrrd("short", bytesOf(counting<std::int16_t>(24)));
+  for (const char* sizes : {"1000000000 1000000000 1000000000", "100000 100000 4", "4 3 -2",
+                            "4 3 99999999999999999999", "0 3 2"})
+  {
+    std::string hostile = bytes;
+    hostile.replace(hostile.find("4 3 2"), 5, sizes);
+    EXPECT_TRUE(refusalOf([&] { readImageFile(putFile(folder / "a.nrrd", hostile)); }).thrown)
+        << sizes;
+  }
+  TestNifti nifti = shortNifti();
+  nifti.dims = {3, 32767, 32767, 32767, 1, 1, 1, 1};
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
+                Reason::Unreadable, "too short");
+  nifti.dims = {3, 4, -3, 2, 1, 1, 1, 1};
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
+                Reason::Unreadable, "-3");
+  nifti = shortNifti();
+  nifti.srow[3] = std::numeric_limits<float>::quiet_NaN();
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
+                Reason::NoGeometry);
+  const std::string meta =
+      "ObjectType = Image\nNDims = 3\nElementSpacing = 1 1 1\nDimSize = "
+      "100000 100000 100000\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.mha", meta + "x")); }),
+                Reason::Unreadable, "too short");
+}
+
+TEST(ImageFile, NamesWhatIsWrongWithAPath)
+{
+  const TestFolder folder;
+  expectRefused(refusalOf([&] { readImageFile(folder / "none.nii"); }), Reason::NotFound);
+  expectRefused(refusalOf([&] { readImageFile(folder.path()); }), Reason::NotFound, "folder");
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.png", "x")); }),
+                Reason::UnknownFormat, ".nrrd");
+  const std::string raw = nrrd("short", bytesOf(counting<std::int16_t>(24)));
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", raw + raw)); }),
+                Reason::UnknownFormat, "NIfTI");
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.mha", raw)); }),
+                Reason::UnknownFormat, "MetaImage");
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nrrd", shortNifti().bytes())); }),
+                Reason::UnknownFormat, "NRRD");
+  expectRefused(refusalOf([&] { readImageFile(putGzip(folder / "b.nii", shortNifti().bytes())); }),
+                Reason::UnknownFormat, ".nii.gz");
+  const std::string secret = "NRRD0004\nDoe^John\ntype: what\n\n";
+  const Refusal refusal = refusalOf([&] { readImageFile(putFile(folder / "b.nrrd", secret)); });
+  ASSERT_TRUE(refusal.thrown);
+  EXPECT_EQ(refusal.text.find("Doe"), std::string::npos); // no text of the file in a message
+}
+
+TEST(ImageFile, StopsWhenAsked)
+{
+  const TestFolder folder;
+  const auto path = putFile(folder / "a.nii", shortNifti().bytes());
+  const auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  EXPECT_THROW(readImageFile(path, {}, core::Progress({}, token)), core::CancelledError);
+}
+
+} // namespace
+} // namespace petrous::imaging

@@ -1,0 +1,285 @@
+#include "petrous/Imaging/LabelFile.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "LabelNames.h"
+#include "NrrdHeader.h"
+#include "TestFiles.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Reason = FileError::Reason;
+
+template <class T>
+std::string nrrd(const std::string& type, const std::vector<T>& voxels,
+                 const std::string& more = "")
+{
+  return "NRRD0004\ntype: " + type +
+         "\ndimension: 3\nspace: left-posterior-superior\nsizes: 3 2 2\n"
+         "space directions: (0.5,0,0) (0,0.5,0) (0,0,1)\nkinds: domain domain domain\n"
+         "endian: little\nencoding: raw\nspace origin: (1,2,3)\n" +
+         more + "\n" + bytesOf(voxels);
+}
+
+std::string slicerKeys(int number, const std::string& name, int value, int layer)
+{
+  const std::string prefix = "Segment" + std::to_string(number) + "_";
+  return prefix + "ID:=Segment_" + std::to_string(number + 1) + "\n" + prefix + "Name:=" + name +
+         "\n" + prefix + "Color:=0.5 0.25 1\n" + prefix + "LabelValue:=" + std::to_string(value) +
+         "\n" + prefix + "Layer:=" + std::to_string(layer) + "\n";
+}
+
+const volume::Segment* find(const volume::LabelMap& map, const std::string& name)
+{
+  const auto at = std::find_if(map.segments.begin(), map.segments.end(),
+                               [&name](const auto& segment) { return segment.name == name; });
+  return at == map.segments.end() ? nullptr : &*at;
+}
+
+volume::LabelMap sample(std::uint16_t second)
+{
+  const core::GridGeometry grid({5, 4, 3}, {0.5, 0.6, 0.7}, {-10.0, 20.0, 30.0});
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  voxels->at(1, 2, 1) = 2;
+  voxels->at(3, 2, 2) = 2;
+  voxels->at(4, 0, 0) = second;
+  volume::Segment facial;
+  facial.name = "facial nerve \\ left";
+  facial.index = 2;
+  facial.color = {1.0F, 0.5F, 0.1F};
+  volume::Segment other;
+  other.name = "cochlea";
+  other.index = second;
+  volume::Segment empty;
+  empty.name = "empty";
+  empty.index = 9;
+  return volume::makeLabelMap(voxels, {facial, other, empty});
+}
+
+TEST(LabelFile, OneStructureIsNamedAfterTheFile)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> mask{0, 255, 255, 0, 0, 0, 0, 0, 0, 0, 0, 255};
+  const auto map = readLabelFile(putFile(folder / "facial_nerve.nrrd", nrrd("uchar", mask)));
+  ASSERT_EQ(map.segments.size(), 1U);
+  EXPECT_EQ(map.segments[0].name, "facial_nerve");
+  EXPECT_EQ(map.segments[0].index, 1);
+  EXPECT_EQ(map.segments[0].voxels, 3U);
+  EXPECT_NEAR(map.volume(map.segments[0]), 3 * 0.25, 1e-12);
+  EXPECT_EQ(map.voxels->at(1, 0, 0), 1);
+
+  TestNifti nifti;
+  nifti.dims = {3, 3, 2, 2, 1, 1, 1, 1};
+  nifti.dataType = 2;
+  nifti.bits = 8;
+  nifti.voxels = bytesOf(mask);
+  EXPECT_EQ(readLabelFile(putGzip(folder / "stapes.nii.gz", nifti.bytes())).segments[0].name,
+            "stapes");
+}
+
+TEST(LabelFile, TakesEveryTypeOfWholeNumber)
+{
+  const TestFolder folder;
+  const auto read = [&folder](const std::string& type, const auto& values)
+  {
+    const auto map = readLabelFile(putFile(folder / "a.nrrd", nrrd(type, values)));
+    EXPECT_EQ(map.segments.size(), 2U) << type;
+    EXPECT_EQ(map.segments[1].name, "label 7") << type;
+    EXPECT_EQ(map.voxels->at(2, 1, 1), 7) << type;
+  };
+  const auto fill = [](auto value)
+  {
+    std::vector<decltype(value)> values(12, value);
+    values[0] = 3;
+    values[11] = 7;
+    return values;
+  };
+  read("uchar", fill(std::uint8_t{0}));
+  read("signed char", fill(std::int8_t{0}));
+  read("short", fill(std::int16_t{0}));
+  read("ushort", fill(std::uint16_t{0}));
+  read("int", fill(std::int32_t{0}));
+  read("uint", fill(std::uint32_t{0}));
+  read("int64", fill(std::int64_t{0}));
+  read("uint64", fill(std::uint64_t{0}));
+  read("float", fill(0.0F));
+  read("double", fill(0.0));
+}
+
+TEST(LabelFile, RefusesWhatIsNoLabel)
+{
+  const TestFolder folder;
+  const auto refused = [&folder](const std::string& type, auto value)
+  {
+    std::vector<decltype(value)> values(12, value);
+    values[0] = 0;
+    return refusalOf([&] { readLabelFile(putFile(folder / "a.nrrd", nrrd(type, values))); });
+  };
+  expectRefused(refused("short", std::int16_t{-1024}), Reason::Unsupported, "-1024");
+  expectRefused(refused("int", std::int32_t{65536}), Reason::Unsupported, "65536");
+  expectRefused(refused("int64", std::numeric_limits<std::int64_t>::min()), Reason::Unsupported);
+  expectRefused(refused("float", 0.5F), Reason::Unsupported, "no whole number");
+  expectRefused(refused("float", std::numeric_limits<float>::quiet_NaN()), Reason::Unsupported,
+                "no whole number");
+  expectRefused(refused("double", 1e300), Reason::Unsupported);
+  expectRefused(refused("short", std::int16_t{0}), Reason::Unsupported, "no structure");
+  expectRefused(refusalOf([&] { readLabelFile(folder / "none.nrrd"); }), Reason::NotFound);
+  expectRefused(refusalOf([&] { readLabelFile(folder.path()); }), Reason::NotFound);
+}
+
+TEST(LabelFile, ReadsNamesAndColoursOfSlicersSegmentation)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 3};
+  const auto map = readLabelFile(putFile(
+      folder / "a.seg.nrrd",
+      nrrd("uchar", values, slicerKeys(0, "sigmoid sinus", 7, 0) + slicerKeys(1, "incus", 4, 0))));
+  ASSERT_EQ(map.segments.size(), 3U);
+  ASSERT_NE(find(map, "sigmoid sinus"), nullptr);
+  EXPECT_EQ(find(map, "sigmoid sinus")->index, 7);
+  EXPECT_EQ(find(map, "sigmoid sinus")->color, (std::array<float, 3>{0.5F, 0.25F, 1.0F}));
+  EXPECT_EQ(find(map, "incus")->voxels, 2U);
+  EXPECT_NE(find(map, "label 3"), nullptr);
+  expectRefused(
+      refusalOf(
+          [&]
+          {
+            readLabelFile(putFile(
+                folder / "b.seg.nrrd",
+                nrrd("uchar", values, slicerKeys(0, "a", 7, 0) + slicerKeys(1, "b", 7, 0))));
+          }),
+      Reason::Unreadable, "label value 7");
+  expectRefused(refusalOf(
+                    [&]
+                    {
+                      readLabelFile(putFile(folder / "c.seg.nrrd",
+                                            nrrd("uchar", values, slicerKeys(0, "a", 0, 0))));
+                    }),
+                Reason::Unreadable, "1 to 65535");
+}
+
+TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
+{
+  const TestFolder folder;
+  // Two layers side by side in each voxel.
+  std::vector<std::uint8_t> values(24, 0);
+  values[0] = 1;          // layer 0, voxel 0
+  values[1] = 1;          // layer 1, voxel 0: overlaps
+  values[2 * 11 + 1] = 2; // layer 1, last voxel
+  std::string bytes = nrrd("uchar", values,
+                           slicerKeys(0, "bone", 1, 0) + slicerKeys(1, "canal", 1, 1) +
+                               slicerKeys(2, "drum", 2, 1));
+  const auto replace = [&bytes](const std::string& from, const std::string& to)
+  { bytes.replace(bytes.find(from), from.size(), to); };
+  replace("dimension: 3", "dimension: 4");
+  replace("sizes: 3", "sizes: 2 3");
+  replace("directions: ", "directions: none ");
+  replace("kinds: ", "kinds: list ");
+  const auto path = putFile(folder / "a.seg.nrrd", bytes);
+  const auto maps = readLabelFiles(path);
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_EQ(maps[0].segments.size(), 1U);
+  EXPECT_EQ(maps[0].segments[0].name, "bone");
+  ASSERT_EQ(maps[1].segments.size(), 2U);
+  EXPECT_EQ(maps[1].segments[0].name, "canal");
+  EXPECT_EQ(maps[1].voxels->at(0, 0, 0), 1);
+  EXPECT_EQ(maps[1].voxels->at(2, 1, 1), 2);
+  EXPECT_NEAR(maps[1].voxels->geometry().spacing()[2], 1.0, 1e-12);
+  expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
+}
+
+TEST(LabelFile, TakesNamesFromATableBesideIt)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 3};
+  const auto path = putFile(folder / "HeadAtlas-labels.nrrd", nrrd("uchar", values));
+  EXPECT_NE(find(readLabelFile(path), "label 4"), nullptr);
+
+  putFile(folder / "OtherThing.ctbl", "4 wrong 1 2 3 255\n");
+  EXPECT_EQ(find(readLabelFile(path), "wrong"), nullptr); // shares no word
+  std::filesystem::remove(folder / "OtherThing.ctbl");
+
+  putFile(folder / "BrainAtlas-colors.ctbl",
+          "# Color table\n0 Background 0 0 0 0\n4 incus 255 0 51 255\n7 stapes 0 0 0 255\n"
+          "8 absent 0 0 0 255\n");
+  auto map = readLabelFile(path);
+  ASSERT_NE(find(map, "incus"), nullptr);
+  EXPECT_NEAR(find(map, "incus")->color[2], 0.2F, 1e-6F);
+  EXPECT_NE(find(map, "stapes"), nullptr);
+  EXPECT_NE(find(map, "label 3"), nullptr);
+  EXPECT_EQ(find(map, "absent"), nullptr);
+
+  putFile(folder / "HeadAtlas-labels.label",
+          "# ITK-SNAP\n    4  255  128 0   1  1  1  \"the anvil\"\n");
+  EXPECT_NE(find(readLabelFile(path), "the anvil"), nullptr); // its own name goes first
+}
+
+TEST(LabelFile, ParsesTablesLineByLine)
+{
+  const auto segments = parseLabelTable("# c\n\nnonsense\n70000 a 1 2 3 4\n-1 b 1 2 3 4\n"
+                                        "5 first 255 0 0 255\n5 second 0 0 0 0\n6 \"two words\" "
+                                        "0 255 0 255\n7 short 1\n");
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].name, "first");
+  EXPECT_EQ(segments[1].name, "two words");
+  EXPECT_EQ(segments[1].color, (std::array<float, 3>{0.0F, 1.0F, 0.0F}));
+}
+
+TEST(LabelFile, RoundTripKeepsNamesColoursAndVoxels)
+{
+  const TestFolder folder;
+  for (const std::uint16_t second : {std::uint16_t{200}, std::uint16_t{60000}})
+    for (const char* name : {"a.seg.nrrd", "a.nrrd"})
+    {
+      const volume::LabelMap map = sample(second);
+      writeLabelFile(folder / name, map);
+      const volume::LabelMap back = readLabelFile(folder / name);
+      ASSERT_EQ(back.segments.size(), 3U);
+      for (std::size_t s = 0; s < 3; ++s)
+      {
+        EXPECT_EQ(back.segments[s].name, map.segments[s].name);
+        EXPECT_EQ(back.segments[s].index, map.segments[s].index);
+        EXPECT_EQ(back.segments[s].color, map.segments[s].color);
+        EXPECT_EQ(back.segments[s].voxels, map.segments[s].voxels);
+      }
+      EXPECT_TRUE(core::sameGrid(back.voxels->geometry(), map.voxels->geometry(), 1e-12));
+      EXPECT_EQ(std::memcmp(back.voxels->data(), map.voxels->data(), map.voxels->bytes()), 0);
+      const NrrdHeader header = readNrrdHeader(folder / name);
+      EXPECT_EQ(*header.field("type"), second > 255 ? "unsigned short" : "unsigned char");
+      EXPECT_EQ(*header.key("Segment0_Extent"), "1 3 2 2 1 2");
+      EXPECT_EQ(*header.key("Segment1_Extent"), "0 -1 0 -1 0 -1");
+      EXPECT_EQ(*header.key("Segmentation_MasterRepresentation"), "Binary labelmap");
+    }
+}
+
+TEST(LabelFile, EqualMapsGiveEqualBytes)
+{
+  const TestFolder folder;
+  for (const std::string end : {".seg.nrrd", ".nii.gz", ".nii", ".nrrd"})
+  {
+    writeLabelFile(folder / ("a" + end), sample(3));
+    writeLabelFile(folder / ("b" + end), sample(3));
+    EXPECT_EQ(fileBytes(folder / ("a" + end)), fileBytes(folder / ("b" + end))) << end;
+    EXPECT_EQ(readLabelFile(folder / ("a" + end)).voxels->at(4, 0, 0), 3) << end;
+  }
+}
+
+TEST(LabelFile, RefusesToWriteInWords)
+{
+  const TestFolder folder;
+  expectRefused(refusalOf([&] { writeLabelFile(folder / "a.mha", sample(3)); }),
+                Reason::UnknownFormat, ".seg.nrrd");
+  expectRefused(refusalOf([&] { writeLabelFile(folder / "none/a.nrrd", sample(3)); }),
+                Reason::Unwritable);
+  EXPECT_THROW(writeLabelFile(folder / "a.nrrd", {}), core::InvalidParameter);
+  EXPECT_EQ(folder.fileCount(), 0U);
+}
+
+} // namespace
+} // namespace petrous::imaging

@@ -1,10 +1,12 @@
 #include "petrous/Imaging/NrrdFile.h"
 
+#include <csignal>
 #include <cstdint>
 #include <numeric>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "petrous/Imaging/VolumeFile.h"
 
@@ -216,17 +218,25 @@ TEST(VolumeFile, RefusesOtherNamesAndNamesTheAllowedOnes)
   EXPECT_EQ(folder.fileCount(), 1U);
 }
 
-TEST(VolumeFile, SaysThatTheDiskIsFullAndLeavesNothing)
+TEST(VolumeFile, SaysThatThereIsNoRoomAndLeavesNothing)
 {
-  const char* small = std::getenv("PETROUS_SMALL_DISK");
-  if (!small)
-    GTEST_SKIP() << "PETROUS_SMALL_DISK names no folder on a disk of less than 4 MB";
-  const std::filesystem::path target = std::filesystem::path(small) / "full.nrrd";
-  const core::GridGeometry grid({200, 200, 100}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  // A limit on the size of files stands for a full disk: the write stops half way.
+  const TestFolder folder;
+  const core::GridGeometry grid({64, 64, 64}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
   const volume::Volume<std::uint16_t> voxels(grid, 7);
-  const Refusal refusal = refusalOf([&] { writeRawNrrd(target, voxels); });
-  expectRefused(refusal, Reason::Unwritable, "disk is full");
-  EXPECT_TRUE(std::filesystem::is_empty(small));
+  rlimit before = {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 65536;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Refusal raw = refusalOf([&] { writeRawNrrd(folder / "a.nrrd", voxels); });
+  const Refusal nifti = refusalOf([&] { writeVolume(folder / "a.nii", voxels); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  expectRefused(raw, Reason::Unwritable, "a.nrrd");
+  expectRefused(nifti, Reason::Unwritable, "a.nii");
+  EXPECT_EQ(folder.fileCount(), 0U);
 }
 
 } // namespace

@@ -108,11 +108,6 @@ std::optional<Component> ItkReader::component() const
   return componentOf(m_io->reader->GetComponentType());
 }
 
-bool ItkReader::canReadPart() const
-{
-  return m_io->reader->CanStreamRead() && m_dims.size() == 3;
-}
-
 std::array<double, 3> ItkReader::axis(unsigned index) const
 {
   const std::vector<double> axis = m_io->reader->GetDirection(index);

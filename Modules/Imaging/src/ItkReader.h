@@ -63,7 +63,7 @@ class ItkReader
 public:
   enum class Format
   {
-    Nifti,
+    Nifti, ///< for comparison only: ITK accepts NIfTI files that break off
     Nrrd,
     Meta
   };
@@ -82,14 +82,13 @@ public:
   }
   std::size_t components() const;             ///< numbers a voxel
   std::optional<Component> component() const; ///< nothing for a type that is not read
-  bool canReadPart() const;
 
   /// As ITK gives them, LPS, for axes 0 to 2.
   std::array<double, 3> axis(unsigned index) const;
   double spacing(unsigned index) const;
   double origin(unsigned index) const;
 
-  /// The voxels from `lower` on; the whole file unless canReadPart. Further axes are 1 long.
+  /// The voxels of the box, further axes 1 long. Only MetaImage reads less than the whole file.
   bool read(const std::array<int, 3>& lower, const std::array<int, 3>& size, void* memory);
 
 private:

@@ -19,6 +19,8 @@ namespace
 
 constexpr std::size_t kHeaderBytes = 348;
 constexpr std::size_t kDataOffset = 352;
+constexpr double kLargestOffset = 1e9;
+constexpr const char* kGzipStart = "\x1f\x8b";
 constexpr double kPlacementsDiffer = 0.1; // mm; see "No silent guess"
 // NIfTI counts right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
@@ -52,6 +54,8 @@ public:
   {
   }
 
+  bool swapped() const noexcept { return m_swapped; }
+
   template <class T>
   T get(std::size_t offset, std::size_t index = 0) const
   {
@@ -72,9 +76,7 @@ private:
 std::string headerBytes(const std::filesystem::path& path)
 {
   checkedFileSize(path);
-  const std::string start = readBytes(path, 2);
-  const bool packed = start == "\x1f\x8b";
-  if (packed && !endsWith(lowerName(path), ".gz"))
+  if (readBytes(path, 2) == kGzipStart && !endsWith(lowerName(path), ".gz"))
     fail(FileError::Reason::UnknownFormat, path, "is compressed; name it .nii.gz");
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   std::string bytes(kHeaderBytes, '\0');
@@ -217,6 +219,14 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& path)
          "holds a picture of " + std::to_string(header.dims.size()) +
              " dimensions; a volume of 3 is needed");
   header.dataType = fields.get<std::int16_t>(kDataType);
+  header.swapped = fields.swapped();
+  header.packed = readBytes(path, 2) == kGzipStart;
+  const double offset = fields.get<float>(kVoxOffset);
+  if (!(offset <= kLargestOffset))
+    fail(FileError::Reason::Unreadable, path,
+         "its voxels should start beyond any sense; export it again from where it came");
+  // Some writers leave 0 here; the voxels never start within the header.
+  header.voxelOffset = static_cast<std::uint64_t>(std::max(offset, double{kDataOffset}));
   header.slope = fields.get<float>(kSlope);
   header.intercept = fields.get<float>(kIntercept);
   if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))

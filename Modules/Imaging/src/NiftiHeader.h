@@ -16,6 +16,9 @@ struct NiftiHeader
   std::vector<std::uint64_t> dims; ///< without trailing ones, at least 3 long
   int storedDims = 0;              ///< as counted by the file
   int dataType = 0;                ///< DT_ code
+  bool swapped = false;            ///< numbers are big-endian
+  bool packed = false;             ///< the whole file is gzip
+  std::uint64_t voxelOffset = 0;   ///< in bytes, of the unpacked file
   double slope = 0.0;              ///< scl_slope; 0 is none
   double intercept = 0.0;
   Eigen::Matrix3d linear; ///< d patient / d voxel, LPS mm

@@ -9,6 +9,7 @@
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
 #include "NiftiHeader.h"
+#include "VoxelStream.h"
 
 namespace petrous::imaging
 {
@@ -42,6 +43,36 @@ std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::str
     if (entry->is_regular_file(error))
       sum += entry->file_size(error);
   return sum;
+}
+
+/// DT_ codes of nifti1.h.
+std::optional<Component> niftiComponent(int dataType)
+{
+  switch (dataType)
+  {
+  case 2:
+    return Component::UInt8;
+  case 4:
+    return Component::Int16;
+  case 8:
+    return Component::Int32;
+  case 16:
+    return Component::Float;
+  case 64:
+    return Component::Double;
+  case 256:
+    return Component::Int8;
+  case 512:
+    return Component::UInt16;
+  case 768:
+    return Component::UInt32;
+  case 1024:
+    return Component::Int64;
+  case 1280:
+    return Component::UInt64;
+  default:
+    return std::nullopt;
+  }
 }
 
 std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
@@ -121,15 +152,26 @@ void VoxelSource::openNifti()
 {
   NiftiHeader header = readNiftiHeader(m_path);
   m_notes = std::move(header.notes);
-  m_rescaled = header.rescaled();
   if (header.dims.size() > 3)
     fail(FileError::Reason::Unsupported, m_path,
          "holds " + dimsText(header.dims) +
-             " values; one volume of 3 dimensions is needed, so "
-             "save one of them alone");
-  m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
-  readItkHeader(ItkReader::Format::Nifti);
+             " voxels; one volume of 3 dimensions is needed, so save one of them alone");
+  const auto stored = niftiComponent(header.dataType);
+  if (!stored)
+    fail(FileError::Reason::Unsupported, m_path,
+         "its voxels are of a type that is not read (colours, complex or long double); save them "
+         "as whole numbers or float");
+  m_stored = *stored;
+  if (header.rescaled())
+  {
+    m_slope = header.slope;
+    m_intercept = header.intercept;
+  }
+  m_dims = header.dims;
+  m_place = Place{m_path, header.packed ? 0 : header.voxelOffset,
+                  header.packed ? header.voxelOffset : 0, header.packed, header.swapped};
   checkRoom();
+  m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
 }
 
 void VoxelSource::openNrrd()
@@ -170,8 +212,6 @@ void VoxelSource::openMeta()
   if (!data || !valueOf(fields, "NDims"))
     fail(FileError::Reason::UnknownFormat, m_path,
          "is no MetaImage file although its name says so; give it the name of the format it is in");
-  if (*data != "LOCAL" && *data != "Local" && *data != "local")
-    m_dataBytes = detachedBytes(m_path, *data);
   const std::string* units = valueOf(fields, "DistanceUnits");
   const double scale = unitInMillimetres(units ? *units : "", m_notes);
   if (!valueOf(fields, "ElementSpacing") && !valueOf(fields, "ElementSize"))
@@ -180,8 +220,52 @@ void VoxelSource::openMeta()
   if (!valueOf(fields, "Offset") && !valueOf(fields, "Position") && !valueOf(fields, "Origin"))
     m_notes.emplace_back("states no place in the patient; its first voxel is taken as at 0, 0, 0");
   readItkHeader(ItkReader::Format::Meta);
-  checkRoom();
+  findMetaVoxels(fields);
   takeItkGeometry(scale);
+}
+
+void VoxelSource::findMetaVoxels(const std::vector<std::pair<std::string, std::string>>& fields)
+{
+  const auto isTrue = [&fields](const char* name)
+  {
+    const std::string* value = valueOf(fields, name);
+    return value && !value->empty() &&
+           (value->front() == 'T' || value->front() == 't' || value->front() == '1');
+  };
+  const std::string data = *valueOf(fields, "ElementDataFile");
+  const std::string* skip = valueOf(fields, "HeaderSize");
+  const bool stated = valueOf(fields, "BinaryData") != nullptr;
+  const auto refuse = [this]
+  {
+    fail(FileError::Reason::Unsupported, m_path,
+         "keeps its voxels as text, in several files or behind a foreign header; save it as one "
+         "binary .mha");
+  };
+  if ((stated && !isTrue("BinaryData")) || data.rfind("LIST", 0) == 0 ||
+      data.find('%') != data.npos || (skip && *skip != "0"))
+    refuse();
+  Place place;
+  place.packed = isTrue("CompressedData");
+  place.swapped = isTrue("BinaryDataByteOrderMSB") || isTrue("ElementByteOrderMSB");
+  place.file = m_path;
+  if (data == "LOCAL" || data == "Local" || data == "local")
+  {
+    const std::string start = readBytes(m_path, kLargestMetaHeader);
+    const std::size_t at = start.find('\n', start.find("ElementDataFile"));
+    place.offset = at == start.npos ? start.size() : at + 1;
+  }
+  else
+  {
+    m_dataBytes = detachedBytes(m_path, data);
+    place.file = m_path.parent_path() / data;
+  }
+  m_place = place;
+  checkRoom();
+  // Not said to be binary, the voxels may be text, unless their length fits to the byte.
+  if (!stated && !place.packed &&
+      voxelBytes() !=
+          static_cast<long double>(m_dataBytes) - static_cast<long double>(place.offset))
+    refuse();
 }
 
 void VoxelSource::readItkHeader(ItkReader::Format format)
@@ -196,7 +280,7 @@ void VoxelSource::readItkHeader(ItkReader::Format format)
   if (!component || m_components < 1)
     fail(FileError::Reason::Unsupported, m_path,
          "its voxels are of a type that is not read; save them as whole numbers or float");
-  m_component = *component;
+  m_stored = *component;
   std::vector<std::uint64_t> kept = m_dims;
   while (kept.size() > 3 && kept.back() == 1)
     kept.pop_back();
@@ -219,28 +303,57 @@ void VoxelSource::takeItkGeometry(double unit)
   m_geometry = gridFromAffine(m_path, m_dims, linear, origin, m_notes);
 }
 
-void VoxelSource::checkRoom() const
+long double VoxelSource::voxelBytes() const
 {
+  // Not in whole numbers: absurd dimensions would overflow their product.
   long double bytes = static_cast<long double>(m_components);
   for (const std::uint64_t n : m_dims)
     bytes *= static_cast<long double>(n);
-  // A rescaled voxel takes 4 bytes in memory, but may take one on the disk.
-  if (!m_rescaled)
-    bytes *= visitComponent(m_component, [](auto type) { return sizeof type; });
-  if (bytes > kTightestPacking * static_cast<long double>(m_dataBytes))
+  return bytes * visitComponent(m_stored, [](auto type) { return sizeof type; });
+}
+
+void VoxelSource::checkRoom() const
+{
+  const long double packing = m_place && !m_place->packed ? 1.0L : kTightestPacking;
+  if (voxelBytes() > packing * static_cast<long double>(m_dataBytes))
     fail(FileError::Reason::Unreadable, m_path,
          "its header speaks of " + dimsText(m_dims) +
              " voxels, which the file is too short to hold; copy it again from where it came");
 }
 
+std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count) const
+{
+  auto copy = allocate(m_path, count * sizeof(float));
+  auto* out = static_cast<float*>(copy.get());
+  visitComponent(m_stored,
+                 [&](auto type)
+                 {
+                   const auto* in = static_cast<const decltype(type)*>(stored);
+                   std::transform(in, in + count, out,
+                                  [this](auto value) {
+                                    return static_cast<float>(m_slope * static_cast<double>(value) +
+                                                              m_intercept);
+                                  });
+                 });
+  return copy;
+}
+
 std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
                                         const core::Progress& progress) const
 {
-  const std::size_t voxelBytes =
-      m_components * visitComponent(m_component, [](auto type) { return sizeof type; });
-  const core::IndexBox loaded = m_reader->canReadPart() ? box : m_geometry->fullBox();
+  const std::size_t numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
+  const std::size_t perVoxel = m_components * numberBytes;
   progress.report(0.0, "reading voxels");
-  auto memory = allocate(m_path, loaded.count() * voxelBytes);
+  if (m_place)
+  {
+    auto memory = allocate(m_path, box.count() * perVoxel);
+    VoxelStream stream(m_place->file, m_place->offset, m_place->packed);
+    stream.skip(m_place->packedOffset);
+    readBox(stream, m_geometry->dims(), box, perVoxel, m_place->swapped, memory.get(), progress);
+    return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
+  }
+  const core::IndexBox loaded = m_geometry->fullBox();
+  auto memory = allocate(m_path, loaded.count() * perVoxel);
   if (!m_reader->read(loaded.lower, loaded.size(), memory.get()))
     fail(FileError::Reason::Unreadable, m_path,
          "breaks off or is damaged within its voxels; copy it again from where it came");
@@ -248,16 +361,16 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
   if (loaded == box)
     return memory;
 
-  auto kept = allocate(m_path, box.count() * voxelBytes);
+  auto kept = allocate(m_path, box.count() * perVoxel);
   const core::Index3 part = box.size();
-  const std::size_t row = static_cast<std::size_t>(part[0]) * voxelBytes;
+  const std::size_t row = static_cast<std::size_t>(part[0]) * perVoxel;
   auto* out = static_cast<char*>(kept.get());
   for (int k = 0; k < part[2]; ++k)
     for (int j = 0; j < part[1]; ++j, out += row)
       std::memcpy(out,
                   static_cast<const char*>(memory.get()) +
                       m_geometry->linearIndex(box.lower[0], box.lower[1] + j, box.lower[2] + k) *
-                          voxelBytes,
+                          perVoxel,
                   row);
   return kept;
 }

@@ -18,19 +18,19 @@ namespace petrous::imaging
 {
 
 /// A NIfTI, NRRD or MetaImage file whose header has been read and found sound: its dimensions
-/// can be held by the file, its axes are perpendicular. ITK reads the voxels; no ITK text ever
-/// reaches a message. Everything throws FileError.
+/// can be held by the file, its axes are perpendicular. No text of ITK or of the file
+/// ever reaches a message. Everything throws FileError.
 class VoxelSource
 {
 public:
   explicit VoxelSource(const std::filesystem::path& path);
 
   const core::GridGeometry& geometry() const noexcept { return *m_geometry; }
-  Component component() const noexcept { return m_component; }
+  Component component() const noexcept { return rescaled() ? Component::Float : m_stored; }
   /// Numbers a voxel: above 1 for vectors, colours, and the layers of a segmentation.
   std::size_t components() const noexcept { return m_components; }
   /// Whether whole numbers were turned into float by a rescale slope and intercept.
-  bool rescaled() const noexcept { return m_rescaled; }
+  bool rescaled() const noexcept { return m_slope != 0.0; }
   const std::vector<std::string>& notes() const noexcept { return m_notes; }
   /// The text header of a NRRD; nothing for other formats.
   const std::optional<NrrdHeader>& nrrd() const noexcept { return m_nrrd; }
@@ -40,20 +40,34 @@ public:
   std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
 
 private:
+  /// Where the voxels lie, in formats whose voxels ITK would not check.
+  struct Place
+  {
+    std::filesystem::path file;
+    std::uint64_t offset = 0;       ///< on the disk
+    std::uint64_t packedOffset = 0; ///< within the unpacked stream
+    bool packed = false;
+    bool swapped = false;
+  };
   void openNifti();
   void openNrrd();
   void openMeta();
   void readItkHeader(ItkReader::Format format);
   void takeItkGeometry(double unit);
+  void findMetaVoxels(const std::vector<std::pair<std::string, std::string>>& fields);
+  long double voxelBytes() const;
   void checkRoom() const;
+  std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count) const;
 
   std::filesystem::path m_path;
   std::unique_ptr<ItkReader> m_reader;
   std::vector<std::uint64_t> m_dims;
   std::optional<core::GridGeometry> m_geometry;
-  Component m_component = Component::Int16;
+  std::optional<Place> m_place;
+  Component m_stored = Component::Int16; ///< before the rescale
   std::size_t m_components = 1;
-  bool m_rescaled = false;
+  double m_slope = 0.0; ///< 0: no rescale
+  double m_intercept = 0.0;
   std::vector<std::string> m_notes;
   std::optional<NrrdHeader> m_nrrd;
   std::uintmax_t m_dataBytes = 0; ///< most bytes on disk that can hold the voxels

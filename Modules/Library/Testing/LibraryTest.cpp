@@ -12,10 +12,10 @@
 
 using namespace petrous;
 using namespace petrous::library;
-using testing::contentOf;
-using testing::drill;
-using testing::smallCase;
-using testing::TemporaryFolder;
+using test::contentOf;
+using test::drill;
+using test::smallCase;
+using test::TemporaryFolder;
 
 namespace
 {

@@ -4,7 +4,7 @@
 #include "petrous/Library/ObjectStore.h"
 
 using namespace petrous::library;
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 namespace
 {
@@ -30,7 +30,7 @@ TEST(ObjectStore, KeepsTheSameContentOnce)
   const TemporaryFolder folder;
   ObjectStore store(folder.path());
   EXPECT_EQ(store.add("bin", bytesOf("x")), store.add("bin", bytesOf("x")));
-  EXPECT_EQ(testing::contentOf(folder.path()).size(), 1u);
+  EXPECT_EQ(test::contentOf(folder.path()).size(), 1u);
 }
 
 TEST(ObjectStore, LeavesNothingWhenAWriterFails)
@@ -43,7 +43,7 @@ TEST(ObjectStore, LeavesNothingWhenAWriterFails)
                            throw petrous::core::InvalidParameter("writer failed");
                          }),
                petrous::core::InvalidParameter);
-  EXPECT_TRUE(testing::contentOf(folder.path()).empty());
+  EXPECT_TRUE(test::contentOf(folder.path()).empty());
 }
 
 TEST(ObjectStore, DiscardsOnlyWhatIsNew)
@@ -56,7 +56,7 @@ TEST(ObjectStore, DiscardsOnlyWhatIsNew)
   store.add("bin", bytesOf("old"));
   store.discardNew();
   EXPECT_EQ(store.read(old), bytesOf("old"));
-  EXPECT_EQ(testing::contentOf(folder.path()).size(), 1u);
+  EXPECT_EQ(test::contentOf(folder.path()).size(), 1u);
 }
 
 TEST(ObjectStore, RefusesNamesThatAreNoHashes)

@@ -11,7 +11,7 @@
 
 #include "petrous/Library/Library.h"
 
-namespace petrous::library::testing
+namespace petrous::library::test
 {
 
 /// A folder that goes with the test.
@@ -95,4 +95,4 @@ inline std::map<std::string, std::string> contentOf(const std::filesystem::path&
   return files;
 }
 
-} // namespace petrous::library::testing
+} // namespace petrous::library::test

@@ -69,13 +69,18 @@ core::CameraPose standardCamera(StandardView view, const core::GridGeometry& gri
       grid.patientFromVoxelLinear() *
       Eigen::Vector3d(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
   // The grid's axes are perpendicular, so every corner lies on this sphere round the centre.
-  const double radius = std::max(0.5 * extent.norm(), kSmallestRadius);
+  return standardCamera(view, grid, grid.center(), 0.5 * extent.norm());
+}
+
+core::CameraPose standardCamera(StandardView view, const core::GridGeometry& grid,
+                                const Eigen::Vector3d& center, double radius)
+{
   constexpr double degree = 3.14159265358979323846 / 180.0;
-  const double distance = radius / std::sin(0.5 * kViewAngle * degree);
+  const double distance = std::max(radius, kSmallestRadius) / std::sin(0.5 * kViewAngle * degree);
 
   core::CameraPose pose;
-  pose.focalPoint = grid.center();
-  const Eigen::Vector3d eye = towardsEye(view, pose.focalPoint);
+  pose.focalPoint = center;
+  const Eigen::Vector3d eye = towardsEye(view, grid.center());
   pose.position = pose.focalPoint + distance * eye;
   const bool alongBody = std::abs(eye.z()) > 0.5;
   pose.viewUp = alongBody ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 0.0, 1.0);

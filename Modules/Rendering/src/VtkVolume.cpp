@@ -4,7 +4,6 @@
 
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCommand.h>
-#include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
@@ -39,9 +38,9 @@ vtkSmartPointer<vtkImageData> wrap(const std::shared_ptr<const volume::Volume<T>
   image->SetDimensions(grid.dims().data());
   image->SetSpacing(grid.spacing()[0], grid.spacing()[1], grid.spacing()[2]);
   image->SetOrigin(grid.origin()[0], grid.origin()[1], grid.origin()[2]);
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      image->GetDirectionMatrix()->SetElement(row, column, grid.direction()(row, column));
+  // VTK reads a row-major matrix; setting its elements one by one would not reach the transforms.
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> direction = grid.direction();
+  image->SetDirectionMatrix(direction.data());
   image->GetPointData()->SetScalars(array);
   return image;
 }

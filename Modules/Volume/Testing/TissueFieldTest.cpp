@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "petrous/Volume/NearestSurface.h"
 #include "petrous/Volume/SmoothedUnion.h"
 #include "petrous/Volume/TissueField.h"
 
@@ -122,7 +123,7 @@ TEST(TissueField, SolidStructureInAirIsTissue)
   EXPECT_GT(field.normal({4.75, 7.25, 7.25}).dot(-Vector3d::UnitX()), 0.999);
 }
 
-TEST(TissueField, NearestSurfaceOfASphereIsItsRadiusAway)
+TEST(NearestSurface, LiesARadiusFromTheCentreOfASphere)
 {
   const auto grid = obliqueGrid();
   const Vector3d c = grid.center();
@@ -130,12 +131,12 @@ TEST(TissueField, NearestSurfaceOfASphereIsItsRadiusAway)
   const Vector3d n = Vector3d(1, -2, 0.5).normalized();
   for (const double r : {3.1, 4.6, 5.0, 5.4, 7.2})
   {
-    const auto nearest = field.nearestSurface(c + r * n, 10.0);
+    const auto nearest = volume::NearestSurfaceSearch(field, 10.0).find(c + r * n);
     ASSERT_TRUE(nearest) << r;
     EXPECT_NEAR(nearest->distance, r - 5.0, 0.01) << r;
     EXPECT_GT(nearest->normal.dot(n), 0.995) << r;
   }
-  EXPECT_FALSE(field.nearestSurface(c, 1.0));
+  EXPECT_FALSE(volume::NearestSurfaceSearch(field, 1.0).find(c));
 }
 
 TEST(TissueField, RefusesAMaskOfAnotherGrid)

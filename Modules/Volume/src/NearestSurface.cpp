@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "petrous/Volume/TissueField.h"
+#include "petrous/Volume/NearestSurface.h"
 
 namespace petrous::volume
 {
@@ -10,52 +10,14 @@ namespace petrous::volume
 namespace
 {
 
+constexpr int kBlock = 8; // cells along the edge of a block
 constexpr int kSubdivisions = 3; // of a cell that the surface crosses
 constexpr int kRefinements = 12;
 
-struct Nearest
+struct Nearest // the best so far
 {
   double distance;
   Eigen::Vector3d point;
-};
-
-// Values of f on a block of lattice points of the CT grid, each computed once.
-class CornerBlock
-{
-public:
-  CornerBlock(const TissueField& field, const core::IndexBox& box)
-    : m_box(box), m_size(box.size()), m_values(box.count())
-  {
-    std::size_t n = 0;
-    for (int k = box.lower[2]; k < box.upper[2]; ++k)
-      for (int j = box.lower[1]; j < box.upper[1]; ++j)
-        for (int i = box.lower[0]; i < box.upper[0]; ++i)
-          m_values[n++] = field.value(field.geometry().patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
-  }
-
-  bool crossed(int i, int j, int k) const
-  {
-    const bool first = solid(i, j, k);
-    for (int corner = 1; corner < 8; ++corner)
-      if (solid(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2 & 1)) != first)
-        return true;
-    return false;
-  }
-
-private:
-  bool solid(int i, int j, int k) const
-  {
-    const std::size_t n =
-      static_cast<std::size_t>(i - m_box.lower[0]) +
-      static_cast<std::size_t>(m_size[0]) *
-        (static_cast<std::size_t>(j - m_box.lower[1]) +
-         static_cast<std::size_t>(m_size[1]) * static_cast<std::size_t>(k - m_box.lower[2]));
-    return m_values[n] > 0.0;
-  }
-
-  core::IndexBox m_box;
-  core::Index3 m_size;
-  std::vector<double> m_values;
 };
 
 // Nearest crossing of f on the lines of a finer lattice inside one cell.
@@ -130,44 +92,100 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
 
 } // namespace
 
-std::optional<TissueField::NearestSurface>
-TissueField::nearestSurface(const Eigen::Vector3d& patient, double reach) const
+NearestSurfaceSearch::NearestSurfaceSearch(const TissueField& field, double reach)
+  : m_field(field), m_reach(reach)
 {
-  const core::GridGeometry& grid = geometry();
-  const double h = grid.minSpacing();
-  Nearest best{reach, patient};
-  bool found = false;
-  // Growing balls: most questions are asked near a surface, and cost little there.
-  for (double radius = 2.0 * h;; radius *= 2.0)
+}
+
+std::vector<NearestSurfaceSearch::Candidate>
+NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient) const
+{
+  const core::GridGeometry& grid = m_field.geometry();
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(m_reach);
+  const core::IndexBox box = grid.boxCovering(patient - reach, patient + reach);
+  std::vector<Candidate> blocks;
+  if (box.empty())
+    return blocks;
+  const double blockRadius = 0.5 * kBlock * grid.spacing().norm();
+  const auto last = [&box](std::size_t a) { return (box.upper[a] - 1) / kBlock; };
+  for (int k = box.lower[2] / kBlock; k <= last(2); ++k)
+    for (int j = box.lower[1] / kBlock; j <= last(1); ++j)
+      for (int i = box.lower[0] / kBlock; i <= last(0); ++i)
+      {
+        const Eigen::Vector3d center =
+          grid.patientFromVoxel({(i + 0.5) * kBlock, (j + 0.5) * kBlock, (k + 0.5) * kBlock});
+        const double distance = (center - patient).norm() - blockRadius;
+        if (distance < m_reach)
+          blocks.push_back({distance, {i, j, k}});
+      }
+  std::sort(blocks.begin(), blocks.end(),
+            [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  return blocks;
+}
+
+const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::Index3& block)
+{
+  const std::uint64_t key = static_cast<std::uint64_t>(block[0]) |
+                            static_cast<std::uint64_t>(block[1]) << 21 |
+                            static_cast<std::uint64_t>(block[2]) << 42;
+  const auto [entry, isNew] = m_crossed.try_emplace(key);
+  if (!isNew)
+    return entry->second;
+
+  const core::GridGeometry& grid = m_field.geometry();
+  constexpr int n = kBlock + 1;
+  core::IndexBox corners;
+  for (std::size_t a = 0; a < 3; ++a)
   {
-    const double r = std::min(radius, reach);
-    const Eigen::Vector3d reachBox = Eigen::Vector3d::Constant(r);
-    const core::IndexBox box = grid.boxCovering(patient - reachBox, patient + reachBox);
-    if (!box.empty())
-    {
-      const CornerBlock corners(*this, box);
-      const double cellRadius = 0.5 * grid.spacing().norm();
-      for (int k = box.lower[2]; k + 1 < box.upper[2]; ++k)
-        for (int j = box.lower[1]; j + 1 < box.upper[1]; ++j)
-          for (int i = box.lower[0]; i + 1 < box.upper[0]; ++i)
-          {
-            const double toCenter =
-              (grid.patientFromVoxel({i + 0.5, j + 0.5, k + 0.5}) - patient).norm();
-            if (toCenter - cellRadius > best.distance || !corners.crossed(i, j, k))
-              continue;
-            const double before = best.distance;
-            searchCell(*this, patient, {i, j, k}, best);
-            found = found || best.distance < before;
-          }
-    }
-    if ((found && best.distance <= r) || r >= reach)
-      break;
+    corners.lower[a] = block[a] * kBlock;
+    corners.upper[a] = std::min(corners.lower[a] + n, grid.dims()[a]);
   }
-  if (!found)
+  std::array<bool, n * n * n> solid{};
+  const auto at = [](int i, int j, int k) { return static_cast<std::size_t>(i + n * (j + n * k)); };
+  const core::Index3 size = corners.size();
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i)
+        solid[at(i, j, k)] =
+          m_field.value(grid.patientFromVoxel({1.0 * (corners.lower[0] + i),
+                                               1.0 * (corners.lower[1] + j),
+                                               1.0 * (corners.lower[2] + k)})) > 0.0;
+  for (int k = 0; k + 1 < size[2]; ++k)
+    for (int j = 0; j + 1 < size[1]; ++j)
+      for (int i = 0; i + 1 < size[0]; ++i)
+      {
+        int count = 0;
+        for (int corner = 0; corner < 8; ++corner)
+          count += solid[at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2 & 1))];
+        if (count > 0 && count < 8)
+          entry->second.push_back(
+            {corners.lower[0] + i, corners.lower[1] + j, corners.lower[2] + k});
+      }
+  return entry->second;
+}
+
+std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& patient)
+{
+  const core::GridGeometry& grid = m_field.geometry();
+  const double cellRadius = 0.5 * grid.spacing().norm();
+  Nearest best{m_reach, patient};
+  for (const Candidate& block : blocksWithinReach(patient))
+  {
+    if (block.distance > best.distance)
+      break;
+    for (const core::Index3& cell : crossedCells(block.block))
+    {
+      const Eigen::Vector3d center =
+        grid.patientFromVoxel({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5});
+      if ((center - patient).norm() - cellRadius <= best.distance)
+        searchCell(m_field, patient, cell, best);
+    }
+  }
+  if (best.distance >= m_reach)
     return std::nullopt;
-  refine(*this, patient, best);
-  return NearestSurface{value(patient) > 0.0 ? -best.distance : best.distance, best.point,
-                        normal(best.point, 0.5)};
+  refine(m_field, patient, best);
+  return NearestSurface{m_field.value(patient) > 0.0 ? -best.distance : best.distance, best.point,
+                        m_field.normal(best.point, 0.5)};
 }
 
 } // namespace petrous::volume

@@ -32,4 +32,8 @@ std::string nameOf(StandardView view);
 /// holds the head. Lateral is left where the hull's centre has LPS x > 10 mm, else right.
 core::CameraPose standardCamera(StandardView view, const core::GridGeometry& grid);
 
+/// The same with a ball of its own to frame, patient LPS mm; the grid decides what is lateral.
+core::CameraPose standardCamera(StandardView view, const core::GridGeometry& grid,
+                                const Eigen::Vector3d& center, double radius);
+
 } // namespace petrous::rendering

@@ -65,17 +65,6 @@ public:
   /// 1e-4 of it. Zero when the start lies in tissue.
   std::optional<double> firstHit(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
 
-  struct NearestSurface
-  {
-    double distance;        ///< mm; negative in tissue
-    Eigen::Vector3d point;  ///< on the surface, patient LPS mm
-    Eigen::Vector3d normal; ///< there, out of the tissue, patient axes
-  };
-
-  /// The nearest point of the surface f = 0 within `reach` mm, found by search on f itself;
-  /// nothing when no surface lies within reach. A wall thinner than a voxel may be missed.
-  std::optional<NearestSurface> nearestSurface(const Eigen::Vector3d& patient, double reach) const;
-
   static constexpr double kAir = -1.0;
 
 private:

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "petrous/Library/Library.h"
+
+namespace petrous::presenters
+{
+
+/// A name that checkCaseName accepts, from that of a folder or file: endings of image formats, and
+/// what may not stand in a case's name, are left out. "case" where nothing is left.
+std::string caseNameFrom(const std::filesystem::path& source);
+
+/// `name`, or "name 2", "name 3", ... when the library has one of that name.
+std::string freeCaseName(const library::Library& library, const std::string& name);
+
+} // namespace petrous::presenters

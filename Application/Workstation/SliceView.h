@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+
+#include <QImage>
+#include <QWidget>
+
+#include "petrous/Presenters/SlicePresenter.h"
+
+namespace petrous::workstation
+{
+
+/// One slice with its crosshair, letters, scale bar and read-out; painted, no OpenGL.
+///
+/// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
+/// zooms, middle drag moves the picture.
+class SliceView : public QWidget
+{
+  Q_OBJECT
+public:
+  explicit SliceView(presenters::SliceOrientation orientation, QWidget* parent = nullptr);
+
+  /// Another case, or another look of it. Null: nothing to show.
+  void setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
+                    const core::GridGeometry& grid);
+  void fit(); ///< the whole slice
+  void setCrosshair(const Eigen::Vector3d& patient);
+  void setGreyWindow(const presenters::GreyWindow& window);
+  void setReadout(const QString& text); ///< what is under the crosshair
+  void maskChanged(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper); ///< patient box
+
+  /// Of what is on the screen; only with a presenter.
+  presenters::SliceGeometry geometry() const;
+
+signals:
+  void crosshairMoved(const Eigen::Vector3d& patient);
+  void greyWindowChanged(const petrous::presenters::GreyWindow& window);
+  void pointed(const Eigen::Vector3d& patient);
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+private:
+  Eigen::Vector3d patientAt(const QPointF& position) const;
+  void scroll(int slices);
+  void zoom(double factor);
+  void stale();
+  void paintCrosshair(QPainter& painter) const;
+  void paintLetters(QPainter& painter) const;
+  void paintScaleBar(QPainter& painter) const;
+
+  presenters::SliceOrientation m_orientation;
+  std::shared_ptr<const presenters::SlicePresenter> m_presenter;
+  core::GridGeometry m_grid;
+  Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
+  Eigen::Vector3d m_offset = Eigen::Vector3d::Zero(); // of the picture's middle, in the plane, mm
+  double m_zoom = 1.0;
+  presenters::GreyWindow m_window;
+  QString m_readout;
+  QImage m_image;
+  bool m_stale = true;
+  QPointF m_dragged;
+};
+
+} // namespace petrous::workstation

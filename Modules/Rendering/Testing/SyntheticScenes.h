@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+#include <Eigen/Geometry>
+
+#include "petrous/Rendering/SceneContents.h"
+#include "petrous/Volume/TissueField.h"
+
+/// Volumes whose surfaces are known in closed form.
+namespace petrous::rendering::synthetic
+{
+
+constexpr double kIso = 300.0; // HU
+
+inline core::GridGeometry cube(int samples, double spacing,
+                               const Eigen::Matrix3d& direction = Eigen::Matrix3d::Identity(),
+                               const Eigen::Vector3d& center = Eigen::Vector3d::Zero())
+{
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * spacing * (samples - 1));
+  return {{samples, samples, samples},
+          Eigen::Vector3d::Constant(spacing),
+          center - direction * half,
+          direction};
+}
+
+inline Eigen::Matrix3d oblique()
+{
+  return Eigen::AngleAxisd(0.6, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+}
+
+inline Eigen::Matrix3d obliqueMirrored()
+{
+  Eigen::Matrix3d direction = oblique();
+  direction.col(0) *= -1.0;
+  return direction;
+}
+
+/// CT of which `tissue(patient)` is the signed distance into bone, mm.
+template <class T, class Tissue>
+std::shared_ptr<const volume::IntensityVolume> ct(const core::GridGeometry& grid,
+                                                  const Tissue& tissue)
+{
+  auto voxels = std::make_shared<volume::Volume<T>>(grid);
+  const core::Index3& n = grid.dims();
+  const double lowest = std::is_same_v<T, std::uint16_t> ? 0.0 : -1000.0;
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+      {
+        const double depth = tissue(grid.patientFromVoxel(Eigen::Vector3d(i, j, k)));
+        const double value = std::clamp(kIso + 120.0 * depth / grid.minSpacing(), lowest, 2500.0);
+        voxels->at(i, j, k) =
+            std::is_integral_v<T> ? static_cast<T>(std::lround(value)) : static_cast<T>(value);
+      }
+  return std::make_shared<volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<T>>(voxels));
+}
+
+template <class T = std::int16_t>
+std::shared_ptr<const volume::IntensityVolume>
+ball(const core::GridGeometry& grid, double radius,
+     const Eigen::Vector3d& center = Eigen::Vector3d::Zero())
+{
+  return ct<T>(grid, [&](const Eigen::Vector3d& p) { return radius - (p - center).norm(); });
+}
+
+/// What is left where `kept(patient)` is the signed distance into what stays, mm.
+template <class Kept>
+std::shared_ptr<volume::CutMask> cut(const core::GridGeometry& grid, const Kept& kept)
+{
+  auto mask = std::make_shared<volume::CutMask>(grid);
+  for (std::size_t b = 0; b < mask->brickCount(); ++b)
+  {
+    auto brick = std::make_shared<volume::CutMask::Brick>();
+    brick->fill(volume::CutMask::kUntouched);
+    bool touched = false;
+    const core::IndexBox box = mask->brickBox(b);
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        {
+          const double depth =
+              kept(grid.patientFromVoxel(Eigen::Vector3d(i, j, k))) / grid.minSpacing();
+          const double left = std::clamp(0.5 + 0.5 * depth, 0.0, 1.0);
+          constexpr int edge = volume::CutMask::kBrickEdge;
+          const int at =
+              (i - box.lower[0]) + edge * ((j - box.lower[1]) + edge * (k - box.lower[2]));
+          (*brick)[static_cast<std::size_t>(at)] =
+              static_cast<std::uint16_t>(std::lround(65535.0 * left));
+          touched = touched || left < 1.0;
+        }
+    if (touched)
+      mask->setBrick(b, brick);
+  }
+  return mask;
+}
+
+template <class Inside>
+std::shared_ptr<const volume::LabelMap> labels(const core::GridGeometry& grid, const Inside& inside)
+{
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
+  const core::Index3& n = grid.dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        voxels->at(i, j, k) = inside(grid.patientFromVoxel(Eigen::Vector3d(i, j, k)))
+                                  ? std::uint16_t{1}
+                                  : std::uint16_t{0};
+  return std::make_shared<volume::LabelMap>(
+      volume::makeLabelMap(voxels, {volume::Segment{"marker", 1, {}, 0}}));
+}
+
+inline volume::TissueField field(const SceneContents& contents,
+                                 std::vector<volume::TissueField::SolidUnion> solids = {})
+{
+  return {contents.ct, std::move(solids), contents.mask, {contents.iso, 1000.0}};
+}
+
+/// First intersection of a ray with a sphere, mm; negative where none.
+inline double raySphere(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                        const Eigen::Vector3d& center, double radius)
+{
+  const Eigen::Vector3d to = center - origin;
+  const double along = to.dot(direction);
+  const double inside = radius * radius - (to.squaredNorm() - along * along);
+  return inside < 0.0 ? -1.0 : along - std::sqrt(inside);
+}
+
+} // namespace petrous::rendering::synthetic

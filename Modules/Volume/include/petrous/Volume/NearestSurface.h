@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "petrous/Volume/TissueField.h"
+
+namespace petrous::volume
+{
+
+struct NearestSurface
+{
+  double distance = 0.0;                  ///< mm; negative in tissue
+  Eigen::Vector3d point{0.0, 0.0, 0.0};   ///< on the surface, patient LPS mm
+  Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< there, out of the tissue, patient axes
+};
+
+/// Searches the nearest point of the surface f = 0, on f itself.
+///
+/// The grid is looked at in blocks of cells, the nearest first; which cells of a block the surface
+/// crosses is kept, so that many questions cost little. The field must outlive the search and must
+/// not change meanwhile. A wall between two neighbouring voxel centres is not seen, as both
+/// lie in air. Not thread-safe.
+class NearestSurfaceSearch
+{
+public:
+  /// reach  how far a surface is looked for, mm
+  NearestSurfaceSearch(const TissueField& field, double reach);
+
+  /// Nothing when no surface lies within reach.
+  std::optional<NearestSurface> find(const Eigen::Vector3d& patient);
+
+private:
+  struct Candidate
+  {
+    double distance;
+    core::Index3 block;
+  };
+  std::vector<Candidate> blocksWithinReach(const Eigen::Vector3d& patient) const;
+  const std::vector<core::Index3>& crossedCells(const core::Index3& block);
+
+  const TissueField& m_field;
+  double m_reach;
+  std::unordered_map<std::uint64_t, std::vector<core::Index3>> m_crossed;
+};
+
+} // namespace petrous::volume

@@ -53,10 +53,14 @@ TEST_F(CommandLine, GoesFromThePhantomToADrilledSavedCase)
   const auto truth = nlohmann::json::parse(textOf(patient / "truth.json"));
   for (const auto& structure : truth["structures"])
     for (const auto& label : info["labels"])
-      if (label["name"] == structure["name"] && structure["volume_mm3"] > 100.0)
-        EXPECT_NEAR(label["volume_mm3"].get<double>() / structure["volume_mm3"].get<double>(), 1.0,
-                    0.15)
-          << label["name"];
+    {
+      // A structure much larger than the voxel of 1 mm, so that counting voxels measures it.
+      if (label["name"] != structure["name"] || structure["volume_mm3"] < 1000.0)
+        continue;
+      EXPECT_NEAR(label["volume_mm3"].get<double>() / structure["volume_mm3"].get<double>(), 1.0,
+                  0.1)
+        << label["name"];
+    }
   EXPECT_EQ(json("library list")["cases"][0]["name"], "ear");
 }
 
@@ -141,7 +145,7 @@ TEST_F(CommandLine, ExportsWhatOtherProgramsOpen)
   {
     const std::string what = file.substr(0, file.find('.'));
     EXPECT_EQ(json("export ear --what " + what + " --out " + quoted(m_folder / file))["what"], what);
-    EXPECT_GT(std::filesystem::file_size(m_folder / file), 1000u) << file;
+    EXPECT_GT(std::filesystem::file_size(m_folder / file), 500u) << file;
   }
   // What is exported comes in again, voxel for voxel.
   json("new again --ct " + quoted(m_folder / "ct.nrrd") + " --labels " +
@@ -251,7 +255,7 @@ TEST_F(CommandLine, ReferenceEngineWritesDepthAlongEachRay)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));
   std::ofstream(m_folder / "camera.json")
-    << R"({"position_mm":[-135,0,0],"focal_point_mm":[-35,0,0],"view_up":[0,0,1],"view_angle_deg":20})";
+    << R"({"position_mm":[-135,0,0],"focal_point_mm":[-35,0,0],"view_up":[0,0,1],"view_angle_deg":30})";
   json("render bone --engine reference --size 33x33 --camera " + quoted(m_folder / "camera.json") +
        " --out " + quoted(m_folder / "r.png") + " --depth " + quoted(m_folder / "d.npy"));
   const std::string npy = textOf(m_folder / "d.npy");

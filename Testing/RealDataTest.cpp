@@ -56,12 +56,12 @@ protected:
 
 TEST_F(RealData, VisibleHumanHeadIsBuiltDrilledUndoneAndDrawnAgain)
 {
-  walk(m_data / "ct_head_vhm/vhm_1080-1245", PETROUS_VHM_ROI);
+  walk(m_data / "ct_head_vhm/vhm_1080-1245", "150,330,150,330,1090,1190");
 }
 
 TEST_F(RealData, PhilipsPhantomIsBuiltDrilledUndoneAndDrawnAgain)
 {
-  walk(m_data / "ct_phantom/philips_S21570_S2020_notilt_1mm", PETROUS_PHILIPS_ROI);
+  walk(m_data / "ct_phantom/philips_S21570_S2020_notilt_1mm", "-90,90,-90,60,-400,1000");
 }
 
 TEST_F(RealData, TiltedPhilipsScanIsRefusedWithTheMillimetres)

@@ -84,6 +84,10 @@ int runCommand(int argc, char** argv)
   cli::addExportCommand(app, context);
   cli::addBenchCommand(app, context);
   cli::addDoctorCommand(app, context);
+  const std::string first = argv[1];
+  const auto isFirst = [&first](const CLI::App* command) { return command->get_name() == first; };
+  if (first[0] != '-' && app.get_subcommands(isFirst).empty())
+    return complain("'" + first + "' is no subcommand; see 'petrous --help'", kUsage);
   try
   {
     app.parse(argc, argv);

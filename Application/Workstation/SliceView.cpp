@@ -111,7 +111,7 @@ void SliceView::stale()
   update();
 }
 
-presenters::SliceGeometry SliceView::geometry() const
+presenters::SliceGeometry SliceView::slice() const
 {
   const auto whole = presenters::SliceGeometry::fitting(m_orientation, m_grid, m_crosshair,
                                                         std::max(width(), 1), std::max(height(), 1));
@@ -121,7 +121,7 @@ presenters::SliceGeometry SliceView::geometry() const
 
 Eigen::Vector3d SliceView::patientAt(const QPointF& position) const
 {
-  return geometry().patientFromPixel(position.x() - 0.5, position.y() - 0.5);
+  return slice().patientFromPixel(position.x() - 0.5, position.y() - 0.5);
 }
 
 void SliceView::paintEvent(QPaintEvent*)
@@ -130,10 +130,10 @@ void SliceView::paintEvent(QPaintEvent*)
   painter.fillRect(rect(), QColor("#0b0d10"));
   if (!m_presenter)
     return;
-  const auto slice = geometry();
+  const auto picture = slice();
   if (m_stale)
   {
-    const auto pixels = m_presenter->draw(slice, m_window);
+    const auto pixels = m_presenter->draw(picture, m_window);
     m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
                      QImage::Format_RGB888)
                 .copy();
@@ -154,7 +154,7 @@ void SliceView::paintEvent(QPaintEvent*)
 
 void SliceView::paintCrosshair(QPainter& painter) const
 {
-  const Eigen::Vector2d at = geometry().pixelFromPatient(m_crosshair) + Eigen::Vector2d(0.5, 0.5);
+  const Eigen::Vector2d at = slice().pixelFromPatient(m_crosshair) + Eigen::Vector2d(0.5, 0.5);
   const auto [vertical, horizontal] = linesOf(m_orientation);
   const auto pen = [](SliceOrientation plane) {
     QColor color = planeColor(plane);
@@ -177,7 +177,7 @@ void SliceView::paintLetters(QPainter& painter) const
   painter.setFont(font);
   const QFontMetricsF metrics(font);
   const QColor color("#f2f5f8");
-  const auto letters = geometry().edgeLetters();
+  const auto letters = slice().edgeLetters();
   const double middle = 0.5 * height() + 0.35 * metrics.ascent();
   const auto letter = [](char c) { return QString(QLatin1Char(c)); };
   drawText(painter, {double(kMargin), middle}, letter(letters.left), color);
@@ -205,11 +205,11 @@ void SliceView::paintLetters(QPainter& painter) const
 
 void SliceView::paintScaleBar(QPainter& painter) const
 {
-  const auto slice = geometry();
-  const double length = presenters::scaleBarLength(0.28 * width() * slice.mmPerPixel());
+  const auto picture = slice();
+  const double length = presenters::scaleBarLength(0.28 * width() * picture.mmPerPixel());
   if (length <= 0.0)
     return;
-  const double pixels = length / slice.mmPerPixel();
+  const double pixels = length / picture.mmPerPixel();
   const double right = width() - kMargin - 1.0;
   const double bottom = height() - kMargin - 1.0;
   QPainterPath bar;
@@ -256,7 +256,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   else if (event->buttons() & Qt::MiddleButton)
   {
     const auto axes = presenters::axesOf(m_orientation);
-    m_offset -= geometry().mmPerPixel() * (step.x() * axes.right + step.y() * axes.down);
+    m_offset -= slice().mmPerPixel() * (step.x() * axes.right + step.y() * axes.down);
     stale();
   }
   emit pointed(patientAt(event->localPos()));
@@ -288,12 +288,12 @@ void SliceView::zoom(double factor)
   if (!m_presenter)
     return;
   // What is under the crosshair stays there.
-  const Eigen::Vector2d before = geometry().pixelFromPatient(m_crosshair);
+  const Eigen::Vector2d before = slice().pixelFromPatient(m_crosshair);
   m_zoom = std::clamp(m_zoom * factor, 1.0, 40.0);
-  const auto slice = geometry();
-  const Eigen::Vector2d off = slice.pixelFromPatient(m_crosshair) - before;
+  const auto picture = slice();
+  const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - before;
   const auto axes = presenters::axesOf(m_orientation);
-  m_offset += slice.mmPerPixel() * (off[0] * axes.right + off[1] * axes.down);
+  m_offset += picture.mmPerPixel() * (off[0] * axes.right + off[1] * axes.down);
   if (m_zoom == 1.0)
     m_offset.setZero();
   stale();

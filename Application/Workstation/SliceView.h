@@ -30,7 +30,7 @@ public:
   void maskChanged(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper); ///< patient box
 
   /// Of what is on the screen; only with a presenter.
-  presenters::SliceGeometry geometry() const;
+  presenters::SliceGeometry slice() const;
 
 signals:
   void crosshairMoved(const Eigen::Vector3d& patient);

@@ -35,7 +35,6 @@ ThreeDView::ThreeDView(QWidget* parent)
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setMinimumSize(240, 240);
-  setToolTip({});
   m_window->SetMultiSamples(0);
   m_window->AddRenderer(m_renderer);
   setRenderWindow(m_window);

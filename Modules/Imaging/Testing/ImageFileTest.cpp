@@ -286,6 +286,44 @@ TEST(ImageFile, ReadsRasNrrdAndDetachedFiles)
                 Reason::NotFound, "one folder");
 }
 
+TEST(ImageFile, ReadsCompressedMetaImageAndChecksItsEnd)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  std::string packed(200, '\0');
+  uLongf size = packed.size();
+  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                     reinterpret_cast<const Bytef*>(voxels.data()), voxels.size()),
+            Z_OK);
+  packed.resize(size);
+  const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                           "CompressedData = True\nTransformMatrix = 0 1 0 -1 0 0 0 0 1\n"
+                           "Offset = 1 2 3\nElementSpacing = 1 4 2\nDimSize = 4 3 2\n"
+                           "DistanceUnits = mm\nElementType = MET_SHORT\n"
+                           "ElementDataFile = LOCAL\n";
+  const auto image = readImageFile(putFile(folder / "a.mha", meta + packed));
+  EXPECT_EQ(image.volume->at(3, 2, 1), 23);
+  EXPECT_TRUE(image.notes.empty());
+  // The first axis runs along y, the second against x.
+  EXPECT_TRUE(image.volume->geometry()
+                  .patientFromVoxel({1.0, 1.0, 0.0})
+                  .isApprox(Eigen::Vector3d(-3.0, 3.0, 3.0)));
+  packed.back() = static_cast<char>(packed.back() ^ 1); // the checksum
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "b.mha", meta + packed)); }),
+                Reason::Unreadable, "damaged");
+  packed.resize(packed.size() - 4);
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "b.mha", meta + packed)); }),
+                Reason::Unreadable, "breaks off");
+  expectRefused(refusalOf(
+                    [&]
+                    {
+                      readImageFile(putFile(folder / "c.mha",
+                                            "NDims = 2\nDimSize = 4 3\nElementType = "
+                                            "MET_SHORT\nElementDataFile = LOCAL\n"));
+                    }),
+                Reason::Unsupported, "2 dimensions");
+}
+
 TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
 {
   const TestFolder folder;

@@ -228,7 +228,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
   std::error_code fault;
   std::filesystem::create_directories(folder, fault);
   if (fault)
-    throw core::Error(core::Fault::Internal,
+    throw core::Error(core::Fault::Refused,
                       folder.string() + ": cannot be made: " + fault.message());
 
   image.visit(
@@ -298,7 +298,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             stream.write(content.data(), static_cast<std::streamsize>(content.size()));
             stream.close();
             if (!stream)
-              throw core::Error(core::Fault::Internal,
+              throw core::Error(core::Fault::Refused,
                                 file.string() + ": cannot be written; is the disk full?");
           };
           writeSlice(0); // GDCM's dictionaries are made on first use, by one thread

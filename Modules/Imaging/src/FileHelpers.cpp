@@ -109,6 +109,28 @@ std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)
   return bytes;
 }
 
+std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name)
+{
+  std::error_code error;
+  const std::filesystem::path folder =
+      header.has_parent_path() ? header.parent_path() : std::filesystem::path(".");
+  const bool many = name.rfind("LIST", 0) == 0 || name.find('%') != name.npos;
+  if (!many)
+  {
+    const std::uintmax_t size = std::filesystem::file_size(folder / name, error);
+    if (error)
+      fail(FileError::Reason::NotFound, header,
+           "is a header whose file of voxels is not there; keep both in one folder");
+    return size;
+  }
+  std::uintmax_t sum = 0;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->is_regular_file(error))
+      sum += entry->file_size(error);
+  return sum;
+}
+
 std::string exactText(double value)
 {
   return shortest(value);

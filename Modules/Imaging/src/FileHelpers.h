@@ -34,6 +34,10 @@ std::uintmax_t checkedFileSize(const std::filesystem::path& path);
 /// The whole file, or its first `limit` bytes.
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit = UINTMAX_MAX);
 
+/// Bytes of the file of voxels that a detached header names, or of all files in its folder where
+/// it names a list or a pattern. Throws NotFound.
+std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name);
+
 /// The shortest digits that read back to the same number, whatever the locale.
 std::string exactText(double value);
 std::string exactText(float value);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -74,6 +75,24 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
     return {size, spacing, center - straight * half, straight};
   }
   return {size, spacing, origin, axes};
+}
+
+double unitInMillimetres(std::string name, std::vector<std::string>& notes)
+{
+  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  const std::string unit(trimmed(name));
+  if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit == "millimetre")
+    return 1.0;
+  for (const auto& [known, scale] :
+       {std::pair("um", 1e-3), std::pair("\xc2\xb5m", 1e-3), std::pair("micron", 1e-3),
+        std::pair("microns", 1e-3), std::pair("cm", 10.0), std::pair("m", 1e3)})
+    if (unit == known)
+    {
+      notes.push_back("counts in " + unit + ", turned into mm");
+      return scale;
+    }
+  notes.emplace_back("states no unit of length; taken as mm");
+  return 1.0;
 }
 
 } // namespace petrous::imaging

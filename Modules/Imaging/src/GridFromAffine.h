@@ -20,4 +20,8 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
                                   const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
                                   std::vector<std::string>& notes);
 
+/// Millimetres in a unit as NRRD and MetaImage name it ("mm", "um", "m"), quotes around it or
+/// not; another than mm, and one that is unknown or empty and so taken as mm, is noted.
+double unitInMillimetres(std::string name, std::vector<std::string>& notes);
+
 } // namespace petrous::imaging

@@ -63,9 +63,9 @@ class ItkReader
 public:
   enum class Format
   {
-    Nifti, ///< for comparison only: ITK accepts NIfTI files that break off
     Nrrd,
-    Meta
+    Nifti, ///< for comparison only: ITK accepts NIfTI and MetaImage files that break off
+    Meta   ///< the same
   };
 
   ItkReader(const std::filesystem::path& path, Format format);

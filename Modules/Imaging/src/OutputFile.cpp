@@ -146,21 +146,24 @@ void OutputFile::failWriting(const char* step, int error) const
   case ENOSPC:
   case EDQUOT:
     fail(FileError::Reason::Unwritable, m_path, start + ", the disk is full; free some space",
-         core::Fault::Internal);
+         core::Fault::Refused);
   case EACCES:
   case EPERM:
   case EROFS:
     fail(FileError::Reason::Unwritable, m_path,
-         start + ", its folder may not be written to; choose another or allow writing");
+         start + ", its folder may not be written to; choose another or allow writing",
+         core::Fault::Refused);
   case EFBIG:
     fail(FileError::Reason::Unwritable, m_path,
-         start + ", it is larger than this disk or user may hold; choose another disk");
+         start + ", it is larger than this disk or user may hold; choose another disk",
+         core::Fault::Refused);
   case ENAMETOOLONG:
-    fail(FileError::Reason::Unwritable, m_path, start + ", the name is too long; shorten it");
+    fail(FileError::Reason::Unwritable, m_path, start + ", the name is too long; shorten it",
+         core::Fault::Refused);
   default:
     fail(FileError::Reason::Unwritable, m_path,
          start + " (system error " + std::to_string(error) + "); check the disk",
-         core::Fault::Internal);
+         core::Fault::Refused);
   }
 }
 

@@ -95,7 +95,7 @@ void makeFolder(const fs::path& folder)
   std::error_code fault;
   fs::create_directories(folder, fault);
   if (fault)
-    throw core::Error(core::Fault::Internal,
+    throw core::Error(core::Fault::Refused,
                       folder.string() + ": cannot be made: " + fault.message());
 }
 
@@ -282,7 +282,7 @@ private:
     stream << truth.dump(1) << '\n';
     stream.close();
     if (!stream)
-      throw core::Error(core::Fault::Internal, file.string() + ": cannot be written");
+      throw core::Error(core::Fault::Refused, file.string() + ": cannot be written");
   }
 
   fs::path m_folder;

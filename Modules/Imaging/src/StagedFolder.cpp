@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void cannotWrite(const fs::path& path, const std::error_code& fault)
 {
-  throw core::Error(core::Fault::Internal,
+  throw core::Error(core::Fault::Refused,
                     path.string() + ": cannot be written: " + fault.message());
 }
 

@@ -12,7 +12,7 @@ namespace petrous::imaging
 class StagedFolder
 {
 public:
-  /// Throws Error: Refused where the target is a file or a folder that is not empty, Internal
+  /// Throws Error: Refused where the target is a file or a folder that is not empty, or
   /// where nothing can be written there.
   explicit StagedFolder(const std::filesystem::path& target);
   ~StagedFolder();
@@ -24,7 +24,7 @@ public:
     return m_staging;
   }
 
-  /// Throws Error (Internal) naming the target when it cannot be put in place.
+  /// Throws Error (Refused) naming the target when it cannot be put in place.
   void commit();
 
 private:

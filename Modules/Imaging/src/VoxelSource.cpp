@@ -8,6 +8,7 @@
 
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
+#include "MetaHeader.h"
 #include "NiftiHeader.h"
 #include "VoxelStream.h"
 
@@ -19,31 +20,6 @@ namespace
 
 // zlib cannot pack tighter than this; more is a header that does not belong to the voxels.
 constexpr long double kTightestPacking = 1032.0L;
-constexpr std::uintmax_t kLargestMetaHeader = 65536;
-
-/// Bytes of the voxels' file that a header names, or of all files in its folder where it names a
-/// list or a pattern.
-std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name)
-{
-  std::error_code error;
-  const std::filesystem::path folder =
-      header.has_parent_path() ? header.parent_path() : std::filesystem::path(".");
-  const bool many = name.rfind("LIST", 0) == 0 || name.find('%') != name.npos;
-  if (!many)
-  {
-    const std::uintmax_t size = std::filesystem::file_size(folder / name, error);
-    if (error)
-      fail(FileError::Reason::NotFound, header,
-           "is a header whose file of voxels is not there; keep both in one folder");
-    return size;
-  }
-  std::uintmax_t sum = 0;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (entry->is_regular_file(error))
-      sum += entry->file_size(error);
-  return sum;
-}
 
 /// DT_ codes of nifti1.h.
 std::optional<Component> niftiComponent(int dataType)
@@ -85,52 +61,7 @@ std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t by
        core::Fault::Internal);
 }
 
-const std::string* valueOf(const std::vector<std::pair<std::string, std::string>>& fields,
-                           const std::string& name)
-{
-  for (const auto& field : fields)
-    if (field.first == name)
-      return &field.second;
-  return nullptr;
-}
-
-double unitInMillimetres(std::string name, std::vector<std::string>& notes)
-{
-  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
-  const std::string unit(trimmed(name));
-  if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit == "millimetre")
-    return 1.0;
-  for (const auto& [known, scale] :
-       {std::pair("um", 1e-3), std::pair("\xc2\xb5m", 1e-3), std::pair("micron", 1e-3),
-        std::pair("microns", 1e-3), std::pair("cm", 10.0), std::pair("m", 1e3)})
-    if (unit == known)
-    {
-      notes.push_back("counts in " + unit + ", turned into mm");
-      return scale;
-    }
-  notes.emplace_back("states no unit of length; taken as mm");
-  return 1.0;
-}
-
 } // namespace
-
-std::vector<std::pair<std::string, std::string>> metaFields(const std::filesystem::path& path)
-{
-  const std::string bytes = readBytes(path, kLargestMetaHeader);
-  std::vector<std::pair<std::string, std::string>> fields;
-  std::string_view rest = bytes;
-  while (!rest.empty())
-  {
-    const std::string_view line = takeLine(rest);
-    const std::size_t sign = line.find('=');
-    if (sign == line.npos)
-      break;
-    fields.emplace_back(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)));
-    if (fields.back().first == "ElementDataFile")
-      break;
-  }
-  return fields;
-}
 
 VoxelSource::VoxelSource(const std::filesystem::path& path)
   : m_path(path)
@@ -200,77 +131,32 @@ void VoxelSource::openNrrd()
   else if (space->find("left") == space->npos && space->find("right") == space->npos &&
            *space != "LPS" && *space != "RAS" && *space != "LAS")
     m_notes.emplace_back("its frame is not a patient's; taken as left, posterior, superior (LPS)");
-  readItkHeader(ItkReader::Format::Nrrd);
+  readItkHeader();
   checkRoom();
   takeItkGeometry(scale);
 }
 
 void VoxelSource::openMeta()
 {
-  const auto fields = metaFields(m_path);
-  const std::string* data = valueOf(fields, "ElementDataFile");
-  if (!data || !valueOf(fields, "NDims"))
-    fail(FileError::Reason::UnknownFormat, m_path,
-         "is no MetaImage file although its name says so; give it the name of the format it is in");
-  const std::string* units = valueOf(fields, "DistanceUnits");
-  const double scale = unitInMillimetres(units ? *units : "", m_notes);
-  if (!valueOf(fields, "ElementSpacing") && !valueOf(fields, "ElementSize"))
-    fail(FileError::Reason::NoGeometry, m_path,
-         "its header gives no voxel size (ElementSpacing); export it again with its geometry");
-  if (!valueOf(fields, "Offset") && !valueOf(fields, "Position") && !valueOf(fields, "Origin"))
-    m_notes.emplace_back("states no place in the patient; its first voxel is taken as at 0, 0, 0");
-  readItkHeader(ItkReader::Format::Meta);
-  findMetaVoxels(fields);
-  takeItkGeometry(scale);
-}
-
-void VoxelSource::findMetaVoxels(const std::vector<std::pair<std::string, std::string>>& fields)
-{
-  const auto isTrue = [&fields](const char* name)
-  {
-    const std::string* value = valueOf(fields, name);
-    return value && !value->empty() &&
-           (value->front() == 'T' || value->front() == 't' || value->front() == '1');
-  };
-  const std::string data = *valueOf(fields, "ElementDataFile");
-  const std::string* skip = valueOf(fields, "HeaderSize");
-  const bool stated = valueOf(fields, "BinaryData") != nullptr;
-  const auto refuse = [this]
-  {
-    fail(FileError::Reason::Unsupported, m_path,
-         "keeps its voxels as text, in several files or behind a foreign header; save it as one "
-         "binary .mha");
-  };
-  if ((stated && !isTrue("BinaryData")) || data.rfind("LIST", 0) == 0 ||
-      data.find('%') != data.npos || (skip && *skip != "0"))
-    refuse();
-  Place place;
-  place.packed = isTrue("CompressedData");
-  place.swapped = isTrue("BinaryDataByteOrderMSB") || isTrue("ElementByteOrderMSB");
-  place.file = m_path;
-  if (data == "LOCAL" || data == "Local" || data == "local")
-  {
-    const std::string start = readBytes(m_path, kLargestMetaHeader);
-    const std::size_t at = start.find('\n', start.find("ElementDataFile"));
-    place.offset = at == start.npos ? start.size() : at + 1;
-  }
-  else
-  {
-    m_dataBytes = detachedBytes(m_path, data);
-    place.file = m_path.parent_path() / data;
-  }
-  m_place = place;
+  MetaHeader header = readMetaHeader(m_path);
+  m_notes = std::move(header.notes);
+  m_dims = std::move(header.dims);
+  requireThreeDims();
+  m_stored = header.component;
+  m_dataBytes = header.dataBytes;
+  m_place = Place{header.file, header.offset, 0, header.packed, header.swapped};
   checkRoom();
   // Not said to be binary, the voxels may be text, unless their length fits to the byte.
-  if (!stated && !place.packed &&
+  if (!header.saysBinary && !header.packed &&
       voxelBytes() !=
-          static_cast<long double>(m_dataBytes) - static_cast<long double>(place.offset))
-    refuse();
+          static_cast<long double>(m_dataBytes) - static_cast<long double>(header.offset))
+    failMetaKind(m_path);
+  m_geometry = gridFromAffine(m_path, m_dims, header.linear, header.origin, m_notes);
 }
 
-void VoxelSource::readItkHeader(ItkReader::Format format)
+void VoxelSource::readItkHeader()
 {
-  m_reader = std::make_unique<ItkReader>(m_path, format);
+  m_reader = std::make_unique<ItkReader>(m_path, ItkReader::Format::Nrrd);
   if (!m_reader->readHeader())
     fail(FileError::Reason::Unreadable, m_path,
          "its header cannot be read; it is damaged or of an unknown kind, export it again");
@@ -281,6 +167,11 @@ void VoxelSource::readItkHeader(ItkReader::Format format)
     fail(FileError::Reason::Unsupported, m_path,
          "its voxels are of a type that is not read; save them as whole numbers or float");
   m_stored = *component;
+  requireThreeDims();
+}
+
+void VoxelSource::requireThreeDims() const
+{
   std::vector<std::uint64_t> kept = m_dims;
   while (kept.size() > 3 && kept.back() == 1)
     kept.pop_back();

@@ -52,9 +52,9 @@ private:
   void openNifti();
   void openNrrd();
   void openMeta();
-  void readItkHeader(ItkReader::Format format);
+  void readItkHeader();
+  void requireThreeDims() const;
   void takeItkGeometry(double unit);
-  void findMetaVoxels(const std::vector<std::pair<std::string, std::string>>& fields);
   long double voxelBytes() const;
   void checkRoom() const;
   std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count) const;
@@ -72,8 +72,5 @@ private:
   std::optional<NrrdHeader> m_nrrd;
   std::uintmax_t m_dataBytes = 0; ///< most bytes on disk that can hold the voxels
 };
-
-/// Values of `key = value` lines at the start of a MetaImage file, up to ElementDataFile.
-std::vector<std::pair<std::string, std::string>> metaFields(const std::filesystem::path& path);
 
 } // namespace petrous::imaging

@@ -2,118 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "SyntheticScenes.h"
-#include "petrous/Rendering/OffscreenView.h"
-#include "petrous/Rendering/ReferenceRayCaster.h"
+#include "PictureComparison.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/StandardViews.h"
-#include "petrous/Volume/SmoothedUnion.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
-
-namespace
-{
-
-constexpr int kWidth = 200;
-constexpr int kHeight = 150;
-
-Picture draw(const SceneContents& contents, const core::CameraPose& pose)
-{
-  ScenePicture scene;
-  scene.setContents(contents);
-  scene.setCamera(pose);
-  OffscreenView view(kWidth, kHeight);
-  return view.render(scene);
-}
-
-bool isBackground(const std::uint8_t* pixel)
-{
-  return pixel[0] < 40 && pixel[1] < 40 && pixel[2] < 45;
-}
-
-bool isBlue(const std::uint8_t* pixel)
-{
-  return pixel[2] > pixel[0] + 60 && pixel[2] > pixel[1] + 60;
-}
-
-core::CameraPose slanting(double distance = 60.0)
-{
-  core::CameraPose pose;
-  pose.position = distance * Eigen::Vector3d(0.5, -0.8, 0.35).normalized();
-  pose.focalPoint = {0.0, 0.0, 0.0};
-  return pose;
-}
-
-/// A ball with a hollow: bone whose picture tells its sides apart.
-SceneContents hollowBall(const Eigen::Matrix3d& direction, double spacing = 0.5)
-{
-  SceneContents contents;
-  const Eigen::Vector3d bite(4.0, -6.0, 3.0);
-  contents.ct = synthetic::ct<std::int16_t>(
-      synthetic::cube(static_cast<int>(24.0 / spacing), spacing, direction),
-      [&](const Eigen::Vector3d& p) { return std::min(9.0 - p.norm(), (p - bite).norm() - 4.0); });
-  return contents;
-}
-
-struct Agreement
-{
-  double silhouette = 0.0; // share of pixels that both hit or both miss
-  double color = 0.0;      // mean difference over pixels that both hit, of 255
-};
-
-Agreement compare(const SceneContents& contents, const core::CameraPose& pose,
-                  std::vector<volume::TissueField::SolidUnion> solids = {})
-{
-  const Picture gpu = draw(contents, pose);
-  const volume::TissueField field = synthetic::field(contents, std::move(solids));
-  const ReferencePicture truth = ReferenceRayCaster(field, contents).render(pose, kWidth, kHeight);
-  int agree = 0;
-  int hits = 0;
-  double difference = 0.0;
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-    {
-      const bool gpuHit = !isBackground(gpu.pixel(column, row));
-      const bool hit = !std::isnan(truth.depth.at(column, row));
-      agree += gpuHit == hit;
-      if (!gpuHit || !hit)
-        continue;
-      ++hits;
-      for (int channel = 0; channel < 3; ++channel)
-        difference +=
-            std::abs(gpu.pixel(column, row)[channel] - truth.picture.pixel(column, row)[channel]) /
-            3.0;
-    }
-  EXPECT_GT(hits, 1000);
-  return {static_cast<double>(agree) / (kWidth * kHeight), difference / std::max(hits, 1)};
-}
-
-void expectAgreement(const SceneContents& contents, const core::CameraPose& pose,
-                     std::vector<volume::TissueField::SolidUnion> solids = {})
-{
-  const Agreement agreement = compare(contents, pose, std::move(solids));
-  EXPECT_GE(agreement.silhouette, 0.99);
-  EXPECT_LE(agreement.color, 4.0);
-}
-
-StructureContents blueMarker(const std::shared_ptr<const volume::LabelMap>& labels)
-{
-  StructureContents marker{"marker", labels, 1, {}};
-  marker.look.color = {0.1F, 0.15F, 0.9F};
-  return marker;
-}
-
-int countBlue(const Picture& picture)
-{
-  int blue = 0;
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-      blue += isBlue(picture.pixel(column, row));
-  return blue;
-}
-
-} // namespace
+using namespace petrous::rendering::synthetic;
 
 TEST(ScenePicture, AgreesWithTheReference)
 {
@@ -159,46 +54,6 @@ TEST(ScenePicture, DrawsTissueThatTheBorderCutsOff)
   SceneContents contents;
   contents.ct = synthetic::ball(synthetic::cube(24, 0.5), 9.0);
   expectAgreement(contents, slanting(40.0));
-}
-
-TEST(ScenePicture, ShowsACutStructureInItsColorWhereTheWallCrossesIt)
-{
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  const core::GridGeometry grid = contents.ct->geometry();
-  const auto labels = synthetic::labels(grid, [](const Eigen::Vector3d& p)
-                                        { return p.head<2>().norm() < 3.0 && p.norm() < 8.0; });
-  contents.structures.push_back(blueMarker(labels));
-  EXPECT_EQ(countBlue(draw(contents, slanting())), 0); // inside solid bone
-
-  contents.mask = synthetic::cut(grid, [](const Eigen::Vector3d& p) { return 1.0 - p.z(); });
-  core::CameraPose pose = slanting();
-  pose.position = {8.0, -15.0, 45.0};
-  const auto solid = volume::makeSmoothedUnion(*labels, [](std::uint16_t) { return true; });
-  const volume::TissueField field = synthetic::field(contents, {solid});
-  const Picture truth = ReferenceRayCaster(field, contents).render(pose, kWidth, kHeight).picture;
-  const Picture picture = draw(contents, pose);
-  EXPECT_GT(countBlue(truth), 300);
-  int different = 0;
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-      different += isBlue(picture.pixel(column, row)) != isBlue(truth.pixel(column, row));
-  EXPECT_LE(different, countBlue(truth) / 10);
-}
-
-TEST(ScenePicture, KeepsARemnantThinnerThanAVoxel)
-{
-  SceneContents contents;
-  const core::GridGeometry grid = synthetic::cube(40, 0.6);
-  contents.ct = synthetic::ct<std::int16_t>(grid, [](const Eigen::Vector3d&) { return -5.0; });
-  contents.structures.push_back(blueMarker(
-      synthetic::labels(grid, [](const Eigen::Vector3d& p) { return std::abs(p.z()) < 4.0; })));
-  // The structure's lower face lies half-way between samples at z = -4.2 mm or so.
-  contents.mask = synthetic::cut(grid, [](const Eigen::Vector3d& p) { return -3.9 - p.z(); });
-  core::CameraPose pose = slanting();
-  pose.position = {0.0, -10.0, 60.0};
-  const Picture picture = draw(contents, pose);
-  for (int column = 70; column < 130; column += 3)
-    EXPECT_TRUE(isBlue(picture.pixel(column, kHeight / 2))) << column;
 }
 
 TEST(ScenePicture, ShowsThePatientsLeftOnTheRightFromAnterior)
@@ -294,54 +149,6 @@ TEST(ScenePicture, HoldsNothingThatTheSceneDoesNotNeed)
     EXPECT_EQ(name.rfind("ct.", 0), 0U) << name;
     EXPECT_GT(bytes, 0U) << name;
   }
-}
-
-TEST(ScenePicture, MakesAHiddenStructureOnlyWhenItIsShown)
-{
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      contents.ct->geometry(), [](const Eigen::Vector3d& p) { return p.norm() < 11.0; })));
-  contents.structures[0].look.shown = false;
-  ScenePicture scene;
-  scene.setContents(contents);
-  scene.setCamera(slanting());
-  OffscreenView view(kWidth, kHeight);
-  EXPECT_EQ(countBlue(view.render(scene)), 0);
-  EXPECT_EQ(scene.resources().count("labels.marker"), 0U);
-  contents.structures[0].look.shown = true;
-  scene.setContents(contents);
-  EXPECT_GT(countBlue(view.render(scene)), 1000);
-  EXPECT_EQ(scene.resources().count("labels.marker"), 1U);
-}
-
-TEST(ScenePicture, DrawsATranslucentStructureThinner)
-{
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      contents.ct->geometry(), [](const Eigen::Vector3d& p) { return p.norm() < 11.0; })));
-  const int opaque = countBlue(draw(contents, slanting()));
-  contents.structures[0].look.opacity = 0.5F;
-  const int half = countBlue(draw(contents, slanting()));
-  EXPECT_NEAR(half, opaque / 2, opaque / 20);
-}
-
-TEST(ScenePicture, DrawsAMeshUnlessALabelVolumeOfItsNameReplacesIt)
-{
-  core::TriangleMesh tetrahedron;
-  tetrahedron.vertices = {{11, -11, -11}, {-11, 11, -11}, {-11, -11, 11}, {11, 11, 11}};
-  tetrahedron.triangles = {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}};
-  SceneContents contents;
-  MeshContents mesh{"marker", std::make_shared<core::TriangleMesh>(tetrahedron), {}};
-  mesh.look.color = {0.1F, 0.15F, 0.9F};
-  contents.meshes.push_back(mesh);
-  EXPECT_GT(countBlue(draw(contents, slanting())), 1000);
-
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      synthetic::cube(24, 1.0), [](const Eigen::Vector3d& p) { return p.norm() < 2.0; })));
-  ScenePicture scene;
-  scene.setContents(contents);
-  EXPECT_EQ(scene.resources().count("meshes.marker"), 0U);
-  EXPECT_LT(countBlue(draw(contents, slanting())), 500);
 }
 
 TEST(ScenePicture, DrawsFromInsideTheVolumeAndTheBone)

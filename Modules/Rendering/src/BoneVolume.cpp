@@ -285,7 +285,7 @@ void BoneVolume::addResources(std::map<std::string, std::size_t>& resources) con
   resources["ct.voxels"] = m_ct->bytes();
   if (m_cells)
     resources["ct.macrocells"] = m_cells->bytes();
-  if (m_mask)
+  if (isCut())
     resources["mask.bricks"] = m_mask->residentBytes();
   if (m_combined)
     resources["mask.combined"] = 2 * m_ct->bytes();

@@ -5,6 +5,7 @@
 
 #include <vtkNew.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
@@ -46,20 +47,25 @@ public:
                            "a picture of " + std::to_string(width) + " x " +
                                std::to_string(height) + " pixels; " + rendererName +
                                " draws up to " + std::to_string(largest));
+    window->ReleaseCurrent();
+  }
+
+  ~Implementation() { window->MakeCurrent(); }
+
+  // A renderer for one scene: with it go the last scene's props, lamp and textures.
+  void takeNewRenderer()
+  {
+    window->MakeCurrent();
+    if (renderer)
+      window->RemoveRenderer(renderer);
+    renderer = vtkSmartPointer<vtkRenderer>::New();
     renderer->SetUseFXAA(false);
     window->AddRenderer(renderer);
   }
 
-  ~Implementation()
-  {
-    if (scene)
-      scene->attach(nullptr);
-  }
-
   vtkNew<vtkPetrousEGLRenderWindow> window;
-  vtkNew<vtkRenderer> renderer;
+  vtkSmartPointer<vtkRenderer> renderer;
   std::string rendererName;
-  ScenePicture* scene = nullptr;
   double milliseconds = 0.0;
   double firstFrame = 0.0;
 };
@@ -74,13 +80,11 @@ OffscreenView::~OffscreenView() = default;
 Picture OffscreenView::render(ScenePicture& scene)
 {
   Implementation& my = *m_implementation;
-  const bool first = my.scene != &scene;
+  const bool first = !my.renderer || scene.renderer() != my.renderer;
   const auto start = std::chrono::steady_clock::now();
   if (first)
   {
-    if (my.scene)
-      my.scene->attach(nullptr);
-    my.scene = &scene;
+    my.takeNewRenderer();
     scene.attach(my.renderer);
   }
   my.window->Render();
@@ -99,6 +103,8 @@ Picture OffscreenView::render(ScenePicture& scene)
   for (int y = 0; y < size[1]; ++y) // OpenGL's rows run from the bottom
     std::memcpy(&picture.rgb[row * static_cast<std::size_t>(size[1] - 1 - y)],
                 pixels->GetPointer(static_cast<vtkIdType>(row) * y), row);
+  // GLX refuses a thread on which an EGL context is still current.
+  my.window->ReleaseCurrent();
   my.milliseconds = since(start);
   if (first)
     my.firstFrame = my.milliseconds;

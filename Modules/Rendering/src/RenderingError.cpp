@@ -12,8 +12,9 @@ core::Fault faultOf(RenderingError::Reason reason)
   case RenderingError::Reason::BadSize:
   case RenderingError::Reason::BadContents:
     return core::Fault::BadInput;
-  case RenderingError::Reason::NoOpenGL:
   case RenderingError::Reason::CannotWrite:
+    return core::Fault::Refused;
+  case RenderingError::Reason::NoOpenGL:
     break;
   }
   return core::Fault::Internal;

@@ -143,6 +143,7 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
   {
     vtkRenderer* last = renderer;
     vtkRenderWindow* window = last->GetRenderWindow();
+    const bool wasCurrent = window && window->IsCurrent();
     forEachProp(
         [last, window](vtkProp* prop)
         {
@@ -153,6 +154,8 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
     tool.removeFrom(last);
     last->RemoveLight(m_lamp);
     last->RemoveObserver(m_observer);
+    if (window && !wasCurrent)
+      window->ReleaseCurrent(); // which freeing the textures made current
   }
   renderer = next;
   if (!next)
@@ -266,6 +269,11 @@ void ScenePicture::attach(vtkRenderer* renderer)
   if (m_implementation->renderer)
     m_implementation->pose = camera();
   m_implementation->attach(renderer);
+}
+
+vtkRenderer* ScenePicture::renderer() const
+{
+  return m_implementation->renderer;
 }
 
 void ScenePicture::setContents(const SceneContents& contents)

@@ -9,7 +9,8 @@
 namespace petrous::rendering
 {
 
-/// Draws scenes without a display, on an EGL context of its own.
+/// Draws scenes without a display, on an EGL context of its own, which is current only during its
+/// calls. On a thread where a window's context is current, release that one first.
 class OffscreenView
 {
 public:
@@ -20,7 +21,8 @@ public:
   OffscreenView& operator=(const OffscreenView&) = delete;
 
   /// Draws the scene as it stands. The scene stays attached until another one is drawn or the
-  /// view ends. The same scene and camera give the same pixels, also in a fresh process.
+  /// view ends; either may end first. The same scene and camera give the same pixels, also in a
+  /// fresh process.
   Picture render(ScenePicture& scene);
 
   double milliseconds() const;           ///< of the last render

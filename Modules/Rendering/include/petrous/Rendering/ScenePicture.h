@@ -30,6 +30,7 @@ public:
   /// Adds the props, the background and the light to a renderer, leaving the previous one; the
   /// camera goes along. Null detaches: to be called while the renderer's context still exists.
   void attach(vtkRenderer* renderer);
+  vtkRenderer* renderer() const; ///< null where detached, or where the renderer has gone
 
   /// Shows other contents; what did not change is kept. The camera stays.
   /// Throws RenderingError BadContents where the contents contradict each other.

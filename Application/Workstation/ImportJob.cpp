@@ -1,0 +1,90 @@
+#include "ImportJob.h"
+
+#include <atomic>
+#include <new>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+ImportJob::ImportJob(library::Library library, std::string caseName, Prepare prepare)
+  : m_library(std::move(library))
+  , m_name(std::move(caseName))
+  , m_prepare(std::move(prepare))
+  , m_token(std::make_shared<core::CancelToken>())
+{
+  qRegisterMetaType<std::shared_ptr<scene::Case>>();
+  qRegisterMetaType<std::shared_ptr<scene::Case>>("std::shared_ptr<petrous::scene::Case>");
+}
+
+ImportJob::~ImportJob()
+{
+  cancel();
+  wait();
+}
+
+void ImportJob::start()
+{
+  m_thread = std::thread([this] { run(); });
+}
+
+void ImportJob::cancel()
+{
+  m_token->cancel();
+}
+
+void ImportJob::wait()
+{
+  if (m_thread.joinable())
+    m_thread.join();
+}
+
+void ImportJob::run()
+{
+  bool wasBuilt = false;
+  try
+  {
+    const auto percent = std::make_shared<std::atomic<int>>(-1);
+    const core::Progress progress(
+      [this, percent](double fraction, const std::string& text) {
+        const int now = static_cast<int>(100.0 * fraction);
+        if (percent->exchange(now) != now)
+          emit progressed(fraction, words(text));
+      },
+      m_token);
+    const auto sources = m_prepare(progress.part(0.0, 0.5));
+    // What was prepared quickly does not count as half of the work.
+    const bool prepared = percent->load() >= 0;
+    auto value = std::make_shared<scene::Case>(
+      presenters::buildCase(m_name, sources, prepared ? progress.part(0.5, 1.0) : progress));
+    progress.check("import");
+    auto stored = std::make_shared<scene::Case>(*value);
+    wasBuilt = true;
+    emit built(value);
+    m_library.save(*stored);
+    emit saved(stored);
+  }
+  catch (const core::Error& error)
+  {
+    if (error.fault() == core::Fault::Cancelled)
+      emit cancelled();
+    else
+      emit failed(inWords(error), wasBuilt);
+  }
+  catch (const std::exception& error)
+  {
+    emit failed(inWords(error), wasBuilt);
+  }
+}
+
+QString inWords(const std::exception& error)
+{
+  if (dynamic_cast<const core::Error*>(&error))
+    return words(error.what());
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return QObject::tr("There is not enough memory; close other programs.");
+  return QObject::tr("An unexpected fault; the library is as it was before.");
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,317 @@
+#include "MainWindow.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QAction>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QLabel>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QUrl>
+
+#include "CaseKeeper.h"
+#include "DrillBar.h"
+#include "DrillController.h"
+#include "SliceColumn.h"
+#include "StartPage.h"
+#include "StructuresPanel.h"
+#include "Theme.h"
+#include "ThreeDView.h"
+#include "WindowActions.h"
+#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kMessage = 8000; // ms
+
+// "R 32.1  P 12.0  S 45.3 mm": the letters of the directions from the scanner's zero.
+QString positionText(const Eigen::Vector3d& patient)
+{
+  constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
+  QString text;
+  for (int a = 0; a < 3; ++a)
+    text += QString("%1 %2  ")
+              .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
+              .arg(std::abs(patient[a]), 0, 'f', 1);
+  return text + "mm";
+}
+
+QString dropped(const QMimeData& data)
+{
+  if (data.hasUrls())
+    return data.urls().size() == 1 ? data.urls().front().toLocalFile() : QString();
+  return data.hasText() ? data.text().trimmed() : QString();
+}
+} // namespace
+
+MainWindow::MainWindow(library::Library library)
+  : m_model(std::move(library))
+  , m_bar(new DrillBar)
+  , m_view(new ThreeDView)
+  , m_slices(new SliceColumn(m_model))
+  , m_panel(new StructuresPanel(m_model))
+  , m_pages(new QStackedWidget)
+  , m_place(new QLabel)
+  , m_sum(new QLabel)
+  , m_actions(new WindowActions(*this, *m_bar))
+  , m_keeper(new CaseKeeper(m_model, *this))
+  , m_drill(new DrillController(m_model, *m_view, *m_bar, this))
+{
+  m_keeper->setParent(this);
+  m_keeper->camera = [this] { return m_view->picture().camera(); };
+  setAcceptDrops(true);
+  resize(1440, 900);
+  layOut();
+  connectModel();
+  connectActions();
+  stateChanged();
+}
+
+MainWindow::~MainWindow()
+{
+  m_model.events = {};
+  delete m_keeper; // its thread must not outlive the model
+}
+
+void MainWindow::layOut()
+{
+  auto* start = new StartPage;
+  connect(start, &StartPage::sampleAsked, m_keeper, &CaseKeeper::makeSample);
+  connect(start, &StartPage::openFolderAsked, m_keeper, &CaseKeeper::openFolder);
+  connect(start, &StartPage::openCaseAsked, m_keeper, &CaseKeeper::chooseCase);
+
+  auto* across = new QSplitter(Qt::Horizontal);
+  across->setHandleWidth(3);
+  across->addWidget(m_view);
+  across->addWidget(m_slices);
+  across->setStretchFactor(0, 3);
+  across->setStretchFactor(1, 1);
+  across->setSizes({780, 340});
+  m_pages->addWidget(start);
+  m_pages->addWidget(across);
+  setCentralWidget(m_pages);
+
+  auto* dock = new QDockWidget(tr("Structures"), this);
+  dock->setObjectName("structuresDock");
+  dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
+  dock->setWidget(m_panel);
+  addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->toggleViewAction()->setShortcut(Qt::Key_F9);
+  m_actions->addPanelToggle(dock->toggleViewAction());
+  dock->hide();
+
+  m_place->setObjectName("place");
+  m_place->setToolTip(tr("Under the pointer: patient position from the scanner's zero (mm; R right, "
+                         "L left, A anterior, P posterior, I inferior, S superior), density, "
+                         "structure"));
+  m_place->setContentsMargins(8, 0, 8, 0);
+  m_sum->setObjectName("dim");
+  m_sum->setToolTip(tr("What was drilled so far"));
+  m_sum->setContentsMargins(8, 0, 8, 0);
+  statusBar()->addPermanentWidget(m_place);
+  statusBar()->addPermanentWidget(m_sum);
+}
+
+void MainWindow::connectModel()
+{
+  m_model.events.caseChanged = [this] { caseChanged(); };
+  m_model.events.appearanceChanged = [this] {
+    m_view->picture().setContents(presenters::sceneContents(m_model.value()));
+    m_view->redraw(true);
+    m_slices->appearanceChanged();
+    m_panel->appearanceChanged();
+  };
+  m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
+  m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
+  m_model.events.stateChanged = [this] { stateChanged(); };
+  connect(m_slices, &SliceColumn::pointed, this, &MainWindow::showPlace);
+  connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
+  connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
+  connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
+  connect(m_keeper, &CaseKeeper::said, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+}
+
+void MainWindow::connectActions()
+{
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
+  on(m_actions->openImage, [this] { m_keeper->openImage(); });
+  on(m_actions->openCase, [this] { m_keeper->chooseCase(); });
+  on(m_actions->sample, [this] { m_keeper->makeSample(); });
+  on(m_actions->save, [this] { m_keeper->save(); });
+  on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
+  on(m_actions->quit, [this] { close(); });
+  on(m_actions->undo, [this] { step(true); });
+  on(m_actions->redo, [this] { step(false); });
+  on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
+  on(m_actions->softWindow, [this] { m_slices->softWindow(); });
+  on(m_actions->fitSlices, [this] { m_slices->fit(); });
+  on(m_actions->smallerBurr, [this] { m_bar->stepDiameter(-1); });
+  on(m_actions->largerBurr, [this] { m_bar->stepDiameter(1); });
+  on(m_actions->about, [this] { about(); });
+  connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
+  connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
+}
+
+void MainWindow::begin(const QString& what)
+{
+  if (!what.isEmpty())
+    return m_keeper->open(what);
+  if (const auto latest = m_model.latestCase())
+    m_keeper->open(words(*latest));
+}
+
+bool MainWindow::importing() const
+{
+  return m_keeper->importing();
+}
+
+void MainWindow::caseChanged()
+{
+  const scene::Case& value = m_model.value();
+  const bool first = m_pages->currentIndex() == 0;
+  m_pages->setCurrentIndex(1);
+  if (first)
+    findChild<QDockWidget*>("structuresDock")->show();
+  m_bar->drillAction()->setChecked(false);
+  m_view->picture().setTool(std::nullopt);
+  try
+  {
+    m_view->picture().setContents(presenters::sceneContents(value));
+  }
+  catch (const rendering::RenderingError& error) // too large to draw; the slices still show it
+  {
+    m_view->picture().setContents({});
+    statusBar()->showMessage(words(error.what()));
+  }
+  m_view->setCamera(value.camera.value_or(
+    rendering::standardCamera(rendering::StandardView::Lateral, value.ct.geometry)));
+  m_slices->caseChanged();
+  m_panel->caseChanged();
+  m_view->setFocus();
+  QString notes;
+  for (const std::string& note : value.ct.notes)
+    notes += (notes.isEmpty() ? "" : "  ") + words(note);
+  if (!notes.isEmpty() && value.revision == 0)
+    statusBar()->showMessage(notes, 2 * kMessage);
+}
+
+void MainWindow::maskChanged(const core::IndexBox& box)
+{
+  const auto& value = m_model.value();
+  // Shared with the dissection: one thread writes and draws.
+  m_view->picture().maskChanged({value.dissection, &std::as_const(*value.dissection).mask()}, box);
+  m_view->redraw(true);
+  m_slices->maskChanged(box);
+}
+
+void MainWindow::stateChanged()
+{
+  const bool open = m_model.hasCase();
+  m_actions->setCaseOpen(open);
+  m_actions->undo->setEnabled(m_model.canUndo());
+  m_actions->redo->setEnabled(m_model.canRedo());
+  if (!open)
+    return setWindowTitle("Petrous");
+  const scene::Case& value = m_model.value();
+  const bool unsaved = m_model.unsaved() || m_model.beingStored();
+  setWindowTitle((unsaved ? QString::fromUtf8("• ") : QString()) + words(value.name) +
+                 QString::fromUtf8(" — Petrous"));
+  m_sum->setText(value.applied == 0
+                   ? tr("nothing drilled")
+                   : tr("%n stroke(s), %1 mm³ removed", nullptr, static_cast<int>(value.applied))
+                       .arg(value.removedVolume(), 0, 'f', 1));
+}
+
+void MainWindow::showPlace(const Eigen::Vector3d& patient)
+{
+  QString text = positionText(patient);
+  if (const auto hounsfield = m_model.hounsfieldAt(patient))
+    text += tr("   %1 HU").arg(std::lround(*hounsfield));
+  const std::string structure = m_model.structureAt(patient);
+  if (!structure.empty())
+    text += "   " + words(structure).replace('_', ' ');
+  m_place->setText(text);
+}
+
+void MainWindow::showView(rendering::StandardView view)
+{
+  if (m_model.hasCase())
+    m_view->setCamera(rendering::standardCamera(view, m_model.value().ct.geometry));
+}
+
+void MainWindow::step(bool back)
+{
+  if (m_view->drilling())
+    return;
+  const scene::Case& value = m_model.value();
+  const std::size_t stroke = back ? value.applied - 1 : value.applied;
+  back ? m_model.undo() : m_model.redo();
+  if (m_actions->strokeCamera->isChecked() && stroke < value.strokes.size() &&
+      value.strokes[stroke].info.camera)
+    m_view->setCamera(*value.strokes[stroke].info.camera);
+  statusBar()->showMessage(back ? tr("Stroke %1 undone").arg(stroke + 1)
+                                : tr("Stroke %1 drilled again").arg(stroke + 1),
+                           kMessage);
+}
+
+void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)
+{
+  if (!stroke)
+    return statusBar()->showMessage(tr("Nothing was cut"), kMessage);
+  if (!m_keeper->save())
+    return;
+  QString text = tr("Removed %1 mm³").arg(stroke->info.removed, 0, 'f', 2);
+  for (const auto& touched : stroke->info.structures)
+    text += tr("  ·  %1 %2 mm³")
+              .arg(words(touched.name).replace('_', ' '))
+              .arg(touched.volume, 0, 'f', 2);
+  statusBar()->showMessage(text);
+}
+
+void MainWindow::about()
+{
+  QMessageBox::about(this, tr("About Petrous"),
+                     tr("<h3>Petrous %1</h3><p>Rehearsal of operations on the temporal bone and the "
+                        "skull base on the patient's own images.</p><p>For rehearsal and teaching; "
+                        "not a medical device, and no guide for an instrument in a patient.</p>"
+                        "<p>Apache License 2.0. Made with VTK, ITK, GDCM and Qt.</p>")
+                       .arg(PETROUS_VERSION));
+}
+
+void MainWindow::closeEvent(QCloseEvent* event)
+{
+  m_view->setDrillMode(false); // ends an open stroke
+  event->setAccepted(m_keeper->mayLeave());
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (!dropped(*event->mimeData()).isEmpty())
+    event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event)
+{
+  const QString what = dropped(*event->mimeData());
+  if (what.isEmpty())
+    return;
+  event->acceptProposedAction();
+  // The program that it comes from must not wait for us.
+  QMetaObject::invokeMethod(this, [this, what] { m_keeper->open(what); }, Qt::QueuedConnection);
+}
+
+} // namespace petrous::workstation

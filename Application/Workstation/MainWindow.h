@@ -1,0 +1,70 @@
+#pragma once
+
+#include <QMainWindow>
+
+#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Rendering/StandardViews.h"
+
+class QLabel;
+class QStackedWidget;
+
+namespace petrous::workstation
+{
+
+class CaseKeeper;
+class DrillBar;
+class DrillController;
+class SliceColumn;
+class StructuresPanel;
+class ThreeDView;
+class WindowActions;
+
+/// The workstation's window: puts model, views and panels together and passes on what happens.
+class MainWindow : public QMainWindow
+{
+  Q_OBJECT
+public:
+  explicit MainWindow(library::Library library);
+  ~MainWindow() override;
+
+  /// What was asked for on the command line: a case or a path; empty: the latest case, if any.
+  void begin(const QString& what);
+
+  const presenters::WorkstationModel& model() const noexcept
+  {
+    return m_model;
+  }
+  bool importing() const;
+
+protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  void layOut();
+  void connectModel();
+  void connectActions();
+  void caseChanged();
+  void maskChanged(const core::IndexBox& box);
+  void stateChanged();
+  void showPlace(const Eigen::Vector3d& patient);
+  void showView(rendering::StandardView view);
+  void step(bool back); // undo, or redo
+  void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
+  void about();
+
+  presenters::WorkstationModel m_model;
+  DrillBar* m_bar;
+  ThreeDView* m_view;
+  SliceColumn* m_slices;
+  StructuresPanel* m_panel;
+  QStackedWidget* m_pages;
+  QLabel* m_place;
+  QLabel* m_sum;
+  WindowActions* m_actions;
+  CaseKeeper* m_keeper;
+  DrillController* m_drill;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,92 @@
+#include "SliceColumn.h"
+
+#include <cmath>
+
+#include "SliceView.h"
+
+namespace petrous::workstation
+{
+
+using presenters::SliceOrientation;
+
+SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
+  : QSplitter(Qt::Vertical, parent)
+  , m_model(model)
+  , m_views{new SliceView(SliceOrientation::Axial), new SliceView(SliceOrientation::Coronal),
+            new SliceView(SliceOrientation::Sagittal)}
+{
+  setChildrenCollapsible(true);
+  setHandleWidth(3);
+  for (SliceView* view : m_views)
+  {
+    view->setToolTip(tr("Drag: move the crosshair.  Wheel: scroll.  Right drag: grey window (HU).\n"
+                        "Ctrl+wheel: zoom.  Middle drag: move.  Red and hatched: drilled away."));
+    addWidget(view);
+    connect(view, &SliceView::crosshairMoved, this,
+            [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
+    connect(view, &SliceView::greyWindowChanged, this, &SliceColumn::setGreyWindow);
+    connect(view, &SliceView::pointed, this, &SliceColumn::pointed);
+  }
+}
+
+void SliceColumn::caseChanged()
+{
+  fit();
+  boneWindow();
+  appearanceChanged();
+  crosshairMoved();
+}
+
+void SliceColumn::appearanceChanged()
+{
+  const auto presenter = std::make_shared<const presenters::SlicePresenter>(m_model.value());
+  for (SliceView* view : m_views)
+    view->setPresenter(presenter, m_model.value().ct.geometry);
+}
+
+void SliceColumn::crosshairMoved()
+{
+  const auto hounsfield = m_model.hounsfieldAt(m_model.crosshair());
+  QString text = hounsfield ? tr("%1 HU").arg(std::lround(*hounsfield)) : QString();
+  const std::string structure = m_model.structureAt(m_model.crosshair());
+  if (!structure.empty())
+    text += "  " + QString::fromStdString(structure).replace('_', ' ');
+  for (SliceView* view : m_views)
+  {
+    view->setCrosshair(m_model.crosshair());
+    view->setReadout(text);
+  }
+}
+
+void SliceColumn::maskChanged(const core::IndexBox& box)
+{
+  if (box.empty())
+    return;
+  const auto [lower, upper] = m_model.value().ct.geometry.cropped(box).patientBounds();
+  for (SliceView* view : m_views)
+    view->maskChanged(lower, upper);
+}
+
+void SliceColumn::setGreyWindow(const presenters::GreyWindow& window)
+{
+  for (SliceView* view : m_views)
+    view->setGreyWindow(window);
+}
+
+void SliceColumn::boneWindow()
+{
+  setGreyWindow({});
+}
+
+void SliceColumn::softWindow()
+{
+  setGreyWindow({400.0, 40.0});
+}
+
+void SliceColumn::fit()
+{
+  for (SliceView* view : m_views)
+    view->fit();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+
+#include <QSplitter>
+
+#include "petrous/Presenters/SlicePresenter.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+class SliceView;
+
+/// The axial, coronal and sagittal view under one another, with one crosshair and grey window.
+class SliceColumn : public QSplitter
+{
+  Q_OBJECT
+public:
+  explicit SliceColumn(presenters::WorkstationModel& model, QWidget* parent = nullptr);
+
+  void caseChanged();
+  void appearanceChanged();
+  void crosshairMoved();
+  void maskChanged(const core::IndexBox& box); ///< of CT voxels
+
+  void boneWindow(); ///< width 4000, level 700 HU
+  void softWindow(); ///< width 400, level 40 HU
+  void fit();
+
+signals:
+  void pointed(const Eigen::Vector3d& patient);
+
+private:
+  void setGreyWindow(const presenters::GreyWindow& window);
+
+  presenters::WorkstationModel& m_model;
+  std::array<SliceView*, 3> m_views;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,165 @@
+#include "StructuresModel.h"
+
+#include <QColor>
+#include <QPainter>
+#include <QPixmap>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+QColor colorOf(const appearance::StructureLook& look)
+{
+  return QColor::fromRgbF(double(look.color[0]), double(look.color[1]), double(look.color[2]));
+}
+
+QPixmap swatch(const appearance::StructureLook& look)
+{
+  QPixmap pixmap(12, 12);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QColor(0, 0, 0, 160));
+  painter.setBrush(colorOf(look));
+  painter.drawRoundedRect(QRectF(0.5, 0.5, 11.0, 11.0), 3.0, 3.0);
+  return pixmap;
+}
+
+bool flagOf(const appearance::StructureLook& look, int column)
+{
+  return column == StructuresModel::Shown       ? look.shown
+         : column == StructuresModel::Touchable ? look.touchable
+                                                : look.drillable;
+}
+} // namespace
+
+StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* parent)
+  : QAbstractTableModel(parent)
+  , m_model(model)
+{
+}
+
+std::vector<StructuresModel::Row> StructuresModel::rows() const
+{
+  std::vector<Row> rows;
+  if (!m_model.hasCase())
+    return rows;
+  for (const auto& part : m_model.value().labels)
+    for (const auto& structure : part.structures)
+      rows.push_back({structure.name, structure.volume, false, structure.look});
+  for (const auto& mesh : m_model.value().meshes)
+    if (!scene::findStructure(m_model.value(), mesh.name))
+      rows.push_back({mesh.name, 0.0, true, mesh.look});
+  return rows;
+}
+
+void StructuresModel::caseChanged()
+{
+  beginResetModel();
+  m_rows = rows();
+  endResetModel();
+}
+
+void StructuresModel::appearanceChanged()
+{
+  auto next = rows();
+  if (next.size() != m_rows.size())
+    return caseChanged();
+  m_rows = std::move(next);
+  if (!m_rows.empty())
+    emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+}
+
+int StructuresModel::rowCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+}
+
+int StructuresModel::columnCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(ColumnCount);
+}
+
+QVariant StructuresModel::data(const QModelIndex& index, int role) const
+{
+  if (!index.isValid() || index.row() >= rowCount())
+    return {};
+  const Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  switch (index.column())
+  {
+  case Name:
+    if (role == Qt::DisplayRole)
+      return words(row.name).replace('_', ' ');
+    if (role == Qt::DecorationRole)
+      return swatch(row.look);
+    if (role == Qt::ToolTipRole)
+      return row.look.solid ? words(row.name) : tr("%1 (a space without tissue)").arg(words(row.name));
+    return {};
+  case VolumeColumn:
+    if (role == Qt::DisplayRole && !row.isMesh)
+      return QString::number(row.volume, 'f', row.volume < 10.0 ? 2 : row.volume < 100.0 ? 1 : 0);
+    if (role == Qt::TextAlignmentRole)
+      return int(Qt::AlignRight | Qt::AlignVCenter);
+    if (role == Qt::ToolTipRole)
+      return tr("Volume in mm³");
+    return {};
+  default:
+    if (role == Qt::CheckStateRole && (flags(index) & Qt::ItemIsUserCheckable))
+      return flagOf(row.look, index.column()) ? Qt::Checked : Qt::Unchecked;
+    return {};
+  }
+}
+
+QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+  if (orientation != Qt::Horizontal)
+    return {};
+  static const char* const titles[] = {"Structure", "mm³", "Show", "Touch", "Drill"};
+  static const char* const tips[] = {
+    "Name and colour", "Volume, mm³", "Drawn in 3D and outlined in the slices",
+    "Felt by the burr: part of the tissue it rests on",
+    "Taken by the drill; without the mark the drill leaves it whole"};
+  if (section < 0 || section >= ColumnCount)
+    return {};
+  if (role == Qt::DisplayRole)
+    return tr(titles[section]);
+  if (role == Qt::ToolTipRole)
+    return tr(tips[section]);
+  if (role == Qt::TextAlignmentRole)
+    return int((section == Name ? Qt::AlignLeft : section == VolumeColumn ? Qt::AlignRight
+                                                                          : Qt::AlignHCenter) |
+               Qt::AlignVCenter);
+  return {};
+}
+
+Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
+{
+  if (!index.isValid())
+    return Qt::NoItemFlags;
+  Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+  const Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  // A mesh is only looked at: the tissue field is made of voxels.
+  if (index.column() == Shown || (index.column() > Shown && !row.isMesh))
+    flags |= Qt::ItemIsUserCheckable;
+  return flags;
+}
+
+bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, int role)
+{
+  if (role != Qt::CheckStateRole || !(flags(index) & Qt::ItemIsUserCheckable) ||
+      m_model.drilling())
+    return false;
+  Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  const bool on = value.toInt() == Qt::Checked;
+  (index.column() == Shown       ? row.look.shown
+   : index.column() == Touchable ? row.look.touchable
+                                 : row.look.drillable) = on;
+  m_model.setLook(row.name, row.look);
+  emit dataChanged(index, index);
+  return true;
+}
+
+} // namespace petrous::workstation

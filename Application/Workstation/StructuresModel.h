@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <QAbstractTableModel>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+/// The structures and meshes of the open case as rows; the check boxes change the case.
+class StructuresModel : public QAbstractTableModel
+{
+  Q_OBJECT
+public:
+  enum Column
+  {
+    Name,
+    VolumeColumn, ///< mm^3; empty for a mesh
+    Shown,
+    Touchable,
+    Drillable,
+    ColumnCount
+  };
+
+  explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
+
+  void caseChanged();
+  void appearanceChanged();
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+
+private:
+  struct Row
+  {
+    std::string name;
+    double volume = 0.0; ///< mm^3
+    bool isMesh = false;
+    appearance::StructureLook look;
+  };
+  std::vector<Row> rows() const;
+
+  presenters::WorkstationModel& m_model;
+  std::vector<Row> m_rows;
+};
+
+} // namespace petrous::workstation

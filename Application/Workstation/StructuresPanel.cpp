@@ -1,0 +1,108 @@
+#include "StructuresPanel.h"
+
+#include <cmath>
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSpinBox>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include "StructuresModel.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kLowest = -500; // HU
+constexpr int kHighest = 2500;
+constexpr int kApplyAfter = 60; // ms
+} // namespace
+
+StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
+  : QWidget(parent)
+  , m_model(model)
+  , m_structures(new StructuresModel(model, this))
+  , m_list(new QTreeView)
+  , m_slider(new QSlider(Qt::Horizontal))
+  , m_box(new QSpinBox)
+{
+  m_slider->setRange(kLowest, kHighest);
+  m_slider->setPageStep(50);
+  m_slider->setObjectName("isoSlider");
+  m_box->setRange(kLowest, kHighest);
+  m_box->setSingleStep(10);
+  m_box->setSuffix(tr(" HU"));
+  m_box->setObjectName("isoBox");
+  const QString tip = tr("Bone is what is denser than this, in Hounsfield units (HU)");
+  m_slider->setToolTip(tip);
+  m_box->setToolTip(tip);
+  connect(m_slider, &QSlider::valueChanged, m_box, &QSpinBox::setValue);
+  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this, [this](int value) {
+    const QSignalBlocker quiet(m_slider);
+    m_slider->setValue(value);
+    m_apply.start();
+  });
+  m_apply.setSingleShot(true);
+  m_apply.setInterval(kApplyAfter);
+  connect(&m_apply, &QTimer::timeout, this, [this] { m_model.setIso(m_box->value()); });
+
+  m_list->setModel(m_structures);
+  m_list->setObjectName("structures");
+  m_list->setRootIsDecorated(false);
+  m_list->setUniformRowHeights(true);
+  m_list->setAlternatingRowColors(true);
+  m_list->setAllColumnsShowFocus(true);
+  m_list->header()->setStretchLastSection(false);
+  m_list->header()->setSectionsMovable(false);
+  m_list->header()->setMinimumSectionSize(20);
+  m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(StructuresModel::Name, QHeaderView::Stretch);
+
+  auto* threshold = new QLabel(tr("&Bone threshold"));
+  threshold->setBuddy(m_box);
+  auto* top = new QHBoxLayout;
+  top->addWidget(threshold);
+  top->addStretch();
+  top->addWidget(m_box);
+  auto* head = new QVBoxLayout;
+  head->setContentsMargins(10, 8, 10, 6);
+  head->addLayout(top);
+  head->addWidget(m_slider);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addLayout(head);
+  layout->addWidget(m_list, 1);
+  setMinimumWidth(290);
+}
+
+void StructuresPanel::showIso()
+{
+  if (!m_model.hasCase() || m_apply.isActive())
+    return;
+  const QSignalBlocker quietBox(m_box);
+  const QSignalBlocker quietSlider(m_slider);
+  const int iso = static_cast<int>(std::lround(m_model.value().iso));
+  m_box->setValue(iso);
+  m_slider->setValue(iso);
+}
+
+void StructuresPanel::caseChanged()
+{
+  m_apply.stop();
+  m_structures->caseChanged();
+  showIso();
+}
+
+void StructuresPanel::appearanceChanged()
+{
+  m_structures->appearanceChanged();
+  showIso();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,138 @@
+#include "WindowActions.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "DrillBar.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+struct ViewEntry
+{
+  rendering::StandardView view;
+  const char* name;
+  const char* tip;
+};
+using rendering::StandardView;
+constexpr ViewEntry kViews[] = {
+  {StandardView::Lateral, "&Lateral", "From the side of the ear"},
+  {StandardView::Anterior, "&Anterior", "From the face"},
+  {StandardView::Posterior, "&Posterior", "From the back of the head"},
+  {StandardView::Superior, "&Superior", "From above, the face up"},
+  {StandardView::Inferior, "&Inferior", "From below, the face up"},
+  {StandardView::Left, "L&eft", "From the patient's left"},
+  {StandardView::Right, "&Right", "From the patient's right"},
+};
+} // namespace
+
+QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequence& keys,
+                             const QString& tip)
+{
+  QAction* action = menu->addAction(text);
+  action->setShortcut(keys);
+  const QString key = keys.toString(QKeySequence::NativeText);
+  action->setToolTip(key.isEmpty() ? tip : tip + " (" + key + ")");
+  action->setStatusTip(tip);
+  return action;
+}
+
+WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
+  : QObject(&window)
+{
+  QMenu* file = window.menuBar()->addMenu(tr("&File"));
+  openDicom = make(file, tr("Open &DICOM…"), QKeySequence::Open, tr("A folder of CT slices"));
+  openImage = make(file, tr("Open &image…"), {}, tr("A CT as NRRD, NIfTI or MetaImage"));
+  openCase = make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O,
+                  tr("A case of the library"));
+  sample = make(file, tr("&Make the sample patient"), {}, tr("An artificial temporal bone"));
+  file->addSeparator();
+  save = make(file, tr("&Save"), QKeySequence::Save, tr("Save the case in the library"));
+  saveAs = make(file, tr("Save &as…"), Qt::CTRL + Qt::ALT + Qt::Key_S,
+                tr("Save as a new case; the one it came from stays as it was saved"));
+  file->addSeparator();
+  quit = make(file, tr("&Quit"), QKeySequence::Quit, tr("Save and quit"));
+
+  QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
+  undo = make(edit, tr("&Undo"), Qt::CTRL + Qt::Key_Z, tr("Put back what the last stroke took"));
+  redo = make(edit, tr("&Redo"), Qt::CTRL + Qt::SHIFT + Qt::Key_Z, tr("Drill the stroke again"));
+  edit->addSeparator();
+  strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
+                      tr("Turn the patient as they lay when the stroke was drilled"));
+  strokeCamera->setCheckable(true);
+
+  m_view = window.menuBar()->addMenu(tr("&View"));
+  int number = 1;
+  auto* viewMenu = new QMenu(&window);
+  for (const ViewEntry& entry : kViews)
+  {
+    QAction* action =
+      make(m_view, tr(entry.name), QKeySequence(QString::number(number++)), tr(entry.tip));
+    connect(action, &QAction::triggered, this, [this, view = entry.view] { emit viewChosen(view); });
+    m_needCase.push_back(action);
+    viewMenu->addAction(action);
+  }
+  m_view->addSeparator();
+  boneWindow = make(m_view, tr("&Bone window"), Qt::Key_B, tr("Grey from -1300 to 2700 HU"));
+  softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
+  fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
+  m_view->addSeparator();
+
+  QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
+  drill->addAction(drillBar.drillAction());
+  smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft, tr("0.5 mm less"));
+  largerBurr = make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("0.5 mm more"));
+  drill->addSeparator();
+  slicesFollow = make(drill, tr("Slices &follow the burr"), {},
+                      tr("The crosshair goes along while the drill is on"));
+  slicesFollow->setCheckable(true);
+  slicesFollow->setChecked(true);
+
+  QMenu* help = window.menuBar()->addMenu(tr("&Help"));
+  about = make(help, tr("&About Petrous"), {}, tr("What this program is"));
+
+  auto* bar = new QToolBar(tr("Case"), &window);
+  bar->setObjectName("caseBar");
+  bar->setMovable(false);
+  const auto addShort = [bar](QAction* action, const QString& text) {
+    action->setIconText(text);
+    bar->addAction(action);
+  };
+  addShort(openDicom, tr("Open…"));
+  addShort(openCase, tr("Cases…"));
+  addShort(save, tr("Save"));
+  bar->addSeparator();
+  addShort(undo, tr("Undo"));
+  addShort(redo, tr("Redo"));
+  bar->addSeparator();
+  auto* views = new QToolButton;
+  views->setText(tr("View"));
+  views->setToolTip(tr("Look at the patient from a standard side (1 to 7)"));
+  views->setMenu(viewMenu);
+  views->setPopupMode(QToolButton::InstantPopup);
+  bar->addWidget(views);
+  window.addToolBar(bar);
+  window.addToolBar(&drillBar);
+
+  m_needCase.insert(m_needCase.end(), {save, saveAs, boneWindow, softWindow, fitSlices,
+                                       drillBar.drillAction()});
+}
+
+void WindowActions::addPanelToggle(QAction* action)
+{
+  m_view->addAction(action);
+}
+
+void WindowActions::setCaseOpen(bool open)
+{
+  for (QAction* action : m_needCase)
+    action->setEnabled(open);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include <QObject>
+
+#include "petrous/Rendering/StandardViews.h"
+
+class QAction;
+class QMainWindow;
+class QMenu;
+
+namespace petrous::workstation
+{
+
+class DrillBar;
+
+/// What the window can do, as actions with their keys, in the menus and the tool bar. What they do
+/// is connected by the window.
+class WindowActions : public QObject
+{
+  Q_OBJECT
+public:
+  /// Fills the window's menu bar and adds a tool bar and `drillBar` on top.
+  WindowActions(QMainWindow& window, DrillBar& drillBar);
+
+  void addPanelToggle(QAction* action); ///< to the View menu
+  void setCaseOpen(bool open);          ///< greys out what needs a case
+
+  QAction* openDicom;
+  QAction* openImage;
+  QAction* openCase;
+  QAction* sample;
+  QAction* save;
+  QAction* saveAs;
+  QAction* quit;
+  QAction* undo;
+  QAction* redo;
+  QAction* boneWindow;
+  QAction* softWindow;
+  QAction* fitSlices;
+  QAction* slicesFollow; ///< checkable
+  QAction* strokeCamera; ///< checkable
+  QAction* smallerBurr;
+  QAction* largerBurr;
+  QAction* about;
+
+signals:
+  void viewChosen(petrous::rendering::StandardView view);
+
+private:
+  QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
+
+  QMenu* m_view = nullptr;
+  std::vector<QAction*> m_needCase;
+};
+
+} // namespace petrous::workstation

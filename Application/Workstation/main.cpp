@@ -1,0 +1,60 @@
+#include <filesystem>
+#include <iostream>
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QFile>
+#include <QStandardPaths>
+#include <QSurfaceFormat>
+
+#include <QVTKOpenGLNativeWidget.h>
+
+#include "MainWindow.h"
+#include "Theme.h"
+
+namespace
+{
+
+std::filesystem::path libraryFolder(const QCommandLineParser& parser)
+{
+  QString folder = parser.value("library");
+  if (folder.isEmpty())
+    folder = qEnvironmentVariable("PETROUS_LIBRARY");
+  if (folder.isEmpty()) // the same place as the petrous command
+    folder =
+      QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
+  return QFile::encodeName(folder).toStdString();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  using namespace petrous;
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QApplication application(argc, argv);
+  QApplication::setApplicationName("petrous-workstation");
+  QApplication::setApplicationVersion(PETROUS_VERSION);
+  workstation::applyTheme(application);
+
+  QCommandLineParser parser;
+  parser.setApplicationDescription(
+    "Rehearse an operation on the temporal bone on the patient's own CT.");
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addOption({"library", "Folder of the library.", "DIR"});
+  parser.addPositionalArgument("what", "A case of the library, a DICOM folder or an image file.",
+                               "[CASE | PATH]");
+  parser.process(application);
+  if (parser.positionalArguments().size() > 1)
+  {
+    std::cerr << "petrous-workstation: one case or path at a time; see --help\n";
+    return 2;
+  }
+
+  workstation::MainWindow window{library::Library(libraryFolder(parser))};
+  window.show();
+  window.begin(parser.positionalArguments().value(0));
+  return QApplication::exec();
+}

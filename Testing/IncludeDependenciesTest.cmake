@@ -8,10 +8,11 @@ cmake_minimum_required(VERSION 3.25)
 function(write_sound_tree)
   file(REMOVE_RECURSE ${WORK})
   file(WRITE ${WORK}/declared.cmake
-    "set(PETROUS_MODULES \"Core;Volume;Imaging\")\n"
+    "set(PETROUS_MODULES \"Core;Volume;Imaging;Presenters\")\n"
     "set(PETROUS_DEPENDS_Core \"\")\n"
     "set(PETROUS_DEPENDS_Volume \"Core\")\n"
-    "set(PETROUS_DEPENDS_Imaging \"Core;Volume\")\n")
+    "set(PETROUS_DEPENDS_Imaging \"Core;Volume\")\n"
+    "set(PETROUS_DEPENDS_Presenters \"Core\")\n")
   file(WRITE ${WORK}/Modules/Core/include/petrous/Core/Grid.h "#include <vector>\n")
   file(WRITE ${WORK}/Modules/Volume/src/Volume.cpp
     "// array[1]; \"quoted\"\n#include \"petrous/Core/Grid.h\"\n#include \"petrous/Volume/Volume.h\"\n")
@@ -67,7 +68,7 @@ foreach(header vtkImageData.h itkImage.h gdcmTag.h QString QtCore/QObject QVTKOp
     Modules/Volume/src/Slice.cpp "#include <${header}>\n")
 endforeach()
 expect_failure(
-  "Application/Presenters/CasePresenter.h:1: includes QString, but presenters do not use Qt"
+  "Application/Presenters/CasePresenter.h:1: includes QString, but module Presenters must not include headers of Qt"
   Application/Presenters/CasePresenter.h "#include <QString>\n")
 expect_failure("Modules/Core/CMakeLists.txt: Core must not depend on Volume"
   declared.cmake "set(PETROUS_MODULES \"Core\")\nset(PETROUS_DEPENDS_Core \"Volume\")\n")

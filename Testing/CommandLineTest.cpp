@@ -43,8 +43,8 @@ TEST_F(CommandLine, GoesFromThePhantomToADrilledSavedCase)
   EXPECT_EQ(scan["series"][0]["verdict"], "ok");
   EXPECT_EQ(scan["series"][0]["dims"], (std::vector<int>{64, 64, 60}));
 
-  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") +
-       " --labels " + quoted(patient / "labels.seg.nrrd"));
+  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") + " --labels " +
+       quoted(patient / "labels.seg.nrrd"));
   const auto info = json("info ear");
   EXPECT_EQ(info["ct"]["dims"], (std::vector<int>{64, 64, 60}));
   EXPECT_GT(info["labels"].size(), 5u);
@@ -59,7 +59,7 @@ TEST_F(CommandLine, GoesFromThePhantomToADrilledSavedCase)
         continue;
       EXPECT_NEAR(label["volume_mm3"].get<double>() / structure["volume_mm3"].get<double>(), 1.0,
                   0.1)
-        << label["name"];
+          << label["name"];
     }
   EXPECT_EQ(json("library list")["cases"][0]["name"], "ear");
 }
@@ -91,9 +91,10 @@ TEST_F(CommandLine, DrillsASphereOfTheRightVolumeAndTakesItBack)
 TEST_F(CommandLine, RendersTheSamePixelsInAFreshProcess)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));
-  const auto render = [this](const std::string& name) {
+  const auto render = [this](const std::string& name)
+  {
     const auto result =
-      json("render bone --size 160x120 --out " + quoted(m_folder / name) + " --view lateral");
+        json("render bone --size 160x120 --out " + quoted(m_folder / name) + " --view lateral");
     EXPECT_EQ(result["size"], (std::vector<int>{160, 120}));
     for (const auto& [resource, bytes] : result["resources"].items())
       for (const std::string family : {"labels.", "mr.", "devices.", "registration."})
@@ -137,14 +138,14 @@ TEST_F(CommandLine, ExportsWhatOtherProgramsOpen)
 {
   makePatient();
   const auto patient = m_folder / "patient";
-  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") +
-       " --labels " + quoted(patient / "labels.seg.nrrd"));
-  for (const std::string file :
-       {"ct.nrrd", "mr.nii.gz", "labels.seg.nrrd", "mask.nrrd", "dissected.nii.gz", "surface.stl",
-        "surface.obj"})
+  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") + " --labels " +
+       quoted(patient / "labels.seg.nrrd"));
+  for (const std::string file : {"ct.nrrd", "mr.nii.gz", "labels.seg.nrrd", "mask.nrrd",
+                                 "dissected.nii.gz", "surface.stl", "surface.obj"})
   {
     const std::string what = file.substr(0, file.find('.'));
-    EXPECT_EQ(json("export ear --what " + what + " --out " + quoted(m_folder / file))["what"], what);
+    EXPECT_EQ(json("export ear --what " + what + " --out " + quoted(m_folder / file))["what"],
+              what);
     EXPECT_GT(std::filesystem::file_size(m_folder / file), 500u) << file;
   }
   // What is exported comes in again, voxel for voxel.
@@ -165,7 +166,8 @@ TEST_F(CommandLine, CropsToARegionOnLoad)
   EXPECT_EQ(info["ct"]["min"], 1500.0);
   expectRefused("new far --ct " + quoted(m_folder / "bone.nrrd") + " --roi 500,510,0,9,0,9", 3,
                 "bone.nrrd");
-  expectRefused("new far --ct " + quoted(m_folder / "bone.nrrd") + " --roi 5,1,0,9,0,9", 2, "--roi");
+  expectRefused("new far --ct " + quoted(m_folder / "bone.nrrd") + " --roi 5,1,0,9,0,9", 2,
+                "--roi");
 }
 
 TEST_F(CommandLine, RefusesATiltedScanInWords)
@@ -183,7 +185,8 @@ TEST_F(CommandLine, RefusesBadInputInOneLineAndLeavesTheLibrary)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));
   const auto before = libraryContent();
-  const auto folder = [this](const std::string& name) {
+  const auto folder = [this](const std::string& name)
+  {
     std::filesystem::create_directories(m_folder / name);
     return m_folder / name;
   };
@@ -255,7 +258,7 @@ TEST_F(CommandLine, ReferenceEngineWritesDepthAlongEachRay)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));
   std::ofstream(m_folder / "camera.json")
-    << R"({"position_mm":[-135,0,0],"focal_point_mm":[-35,0,0],"view_up":[0,0,1],"view_angle_deg":30})";
+      << R"({"position_mm":[-135,0,0],"focal_point_mm":[-35,0,0],"view_up":[0,0,1],"view_angle_deg":30})";
   json("render bone --engine reference --size 33x33 --camera " + quoted(m_folder / "camera.json") +
        " --out " + quoted(m_folder / "r.png") + " --depth " + quoted(m_folder / "d.npy"));
   const std::string npy = textOf(m_folder / "d.npy");

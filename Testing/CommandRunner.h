@@ -43,9 +43,9 @@ class CommandLine : public ::testing::Test
 protected:
   void SetUp() override
   {
-    m_folder = std::filesystem::temp_directory_path() /
-               ("petrous-command-" + std::to_string(::getpid()) + "-" +
-                std::to_string(std::random_device{}()));
+    m_folder =
+        std::filesystem::temp_directory_path() / ("petrous-command-" + std::to_string(::getpid()) +
+                                                  "-" + std::to_string(std::random_device{}()));
     std::filesystem::create_directories(m_folder);
   }
   void TearDown() override
@@ -79,7 +79,7 @@ protected:
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, code) << arguments << ": " << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1)
-      << arguments << ": " << outcome.err;
+        << arguments << ": " << outcome.err;
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
   }
@@ -103,10 +103,7 @@ protected:
     return path;
   }
 
-  std::filesystem::path library() const
-  {
-    return m_folder / "library";
-  }
+  std::filesystem::path library() const { return m_folder / "library"; }
 
   /// Every file of the library with its content, without its lock and index.
   std::map<std::string, std::string> libraryContent() const

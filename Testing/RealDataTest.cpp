@@ -31,7 +31,8 @@ protected:
     for (std::size_t a = 0; a < 3; ++a)
       middle[a] = info["ct"]["origin_mm"][a].get<double>() +
                   0.5 * (dims[a].get<int>() - 1) * info["ct"]["spacing_mm"][a].get<double>();
-    const auto render = [this](const std::string& name) {
+    const auto render = [this](const std::string& name)
+    {
       json("render head --size 160x120 --out " + quoted(m_folder / name));
       return textOf(m_folder / name);
     };

@@ -11,8 +11,9 @@ namespace
 void list(const Context& context, const scene::Case& value)
 {
   nlohmann::json parts = nlohmann::json::array();
-  const auto add = [&](const std::string& name, const std::string& kind,
-                       const appearance::StructureLook& look) {
+  const auto add =
+      [&](const std::string& name, const std::string& kind, const appearance::StructureLook& look)
+  {
     parts.push_back({{"name", name},
                      {"kind", kind},
                      {"preset", look.preset},
@@ -20,8 +21,8 @@ void list(const Context& context, const scene::Case& value)
                      {"opacity", look.opacity},
                      {"flags", appearance::flagsOf(look)},
                      {"solid", look.solid}});
-    context.say("  " + name + " (" + kind + "): " + look.preset + ", " +
-                appearance::flagsOf(look) + (look.solid ? "" : ", a lumen"));
+    context.say("  " + name + " (" + kind + "): " + look.preset + ", " + appearance::flagsOf(look) +
+                (look.solid ? "" : ", a lumen"));
   };
   context.say("surface at " + fixed(value.iso, 1) + " HU");
   for (const auto& part : value.labels)
@@ -68,34 +69,35 @@ void addAppearanceCommand(CLI::App& app, Context& context)
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-    app, "appearance", "Surface threshold, and what a structure is to eye, hand and drill",
-    [options, &context] {
-      if (!options->set.empty())
-        notBuiltYet("--set");
-      if (!options->tf.empty())
-        notBuiltYet("--tf");
-      if (!options->tissue.empty())
-        notBuiltYet("--tissue");
-      if (!options->iso && options->flags.empty() && !options->list)
-        throw UsageError("appearance: nothing to do; give --iso, --flags or --list");
-      library::Library library = context.openLibrary();
-      scene::Case value = library.open(options->name);
-      if (options->iso)
+      app, "appearance", "Surface threshold, and what a structure is to eye, hand and drill",
+      [options, &context]
       {
-        if (!std::isfinite(*options->iso) || std::abs(*options->iso) > 32767.0)
-          throw UsageError("--iso: must lie within -32767 to 32767 HU");
-        value.iso = *options->iso;
-      }
-      for (const std::string& flags : options->flags)
-        setPartFlags(value, flags);
-      if (options->iso || !options->flags.empty())
-        library.save(value);
-      list(context, value);
-    });
+        if (!options->set.empty())
+          notBuiltYet("--set");
+        if (!options->tf.empty())
+          notBuiltYet("--tf");
+        if (!options->tissue.empty())
+          notBuiltYet("--tissue");
+        if (!options->iso && options->flags.empty() && !options->list)
+          throw UsageError("appearance: nothing to do; give --iso, --flags or --list");
+        library::Library library = context.openLibrary();
+        scene::Case value = library.open(options->name);
+        if (options->iso)
+        {
+          if (!std::isfinite(*options->iso) || std::abs(*options->iso) > 32767.0)
+            throw UsageError("--iso: must lie within -32767 to 32767 HU");
+          value.iso = *options->iso;
+        }
+        for (const std::string& flags : options->flags)
+          setPartFlags(value, flags);
+        if (options->iso || !options->flags.empty())
+          library.save(value);
+        list(context, value);
+      });
   command->add_option("CASE", options->name)->required();
   command->add_option("--iso", options->iso, "Surface of bone (300)")->type_name("HU");
   command->add_option("--flags", options->flags, "The flags that hold; 'none' for none of them")
-    ->type_name("PART=shown,touchable,drillable");
+      ->type_name("PART=shown,touchable,drillable");
   command->add_flag("--list", options->list, "List what there is");
   // In the contract, not built yet: refused when asked for, not offered.
   command->add_option("--set", options->set)->group("");

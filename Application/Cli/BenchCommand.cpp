@@ -20,7 +20,8 @@ namespace
 struct Benchmark
 {
   const char* name;
-  core::BenchmarkReport (*run)(const std::filesystem::path& work, bool quick, const core::Progress&);
+  core::BenchmarkReport (*run)(const std::filesystem::path& work, bool quick,
+                               const core::Progress&);
 };
 
 constexpr Benchmark kBenchmarks[] = {{"import", &imaging::runImportBenchmark},
@@ -60,13 +61,13 @@ nlohmann::json reportJson(const core::BenchmarkReport& report)
     nlohmann::json setting{{"scene", point.scene}, {"default", point.isDefault}};
     for (const auto& [name, value] : point.setting)
       setting[name] = value;
-    points.push_back({{"setting", std::move(setting)},
-                      {"seconds", point.seconds},
-                      {"error", point.error},
-                      {"error_unit", point.errorUnit},
-                      {"peer", point.peer.empty() ? nlohmann::json(nullptr)
-                                                  : nlohmann::json(point.peer)},
-                      {"extra", point.extra}});
+    points.push_back(
+        {{"setting", std::move(setting)},
+         {"seconds", point.seconds},
+         {"error", point.error},
+         {"error_unit", point.errorUnit},
+         {"peer", point.peer.empty() ? nlohmann::json(nullptr) : nlohmann::json(point.peer)},
+         {"extra", point.extra}});
   }
   return {{"name", report.name},
           {"title", report.title},
@@ -105,8 +106,8 @@ void bench(const Context& context, const std::string& name, const std::string& o
     context.say(report.title);
     for (const auto& point : report.points)
     {
-      std::string line = "  " + (point.peer.empty() ? std::string("petrous") : point.peer) + "  " +
-                         point.scene;
+      std::string line =
+          "  " + (point.peer.empty() ? std::string("petrous") : point.peer) + "  " + point.scene;
       for (const auto& [key, value] : point.setting)
         line += "  " + key + " " + value;
       char figures[96];
@@ -131,15 +132,13 @@ void addBenchCommand(CLI::App& app, Context& context)
     bool quick = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-    context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
-                       [options, &context] {
-                         bench(context, options->name, options->out, options->quick);
-                       });
+  CLI::App* command = context.addCommand(
+      app, "bench", "Benchmarks: run time against error, as JSON and SVG",
+      [options, &context] { bench(context, options->name, options->out, options->quick); });
   command->add_option("NAME", options->name, "import, cut, save or all")->required();
   command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
-    ->type_name("DIR")
-    ->required();
+      ->type_name("DIR")
+      ->required();
   command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
 }
 

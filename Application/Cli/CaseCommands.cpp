@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
@@ -19,15 +21,16 @@ struct PartOptions
   {
     command.add_option("--mr", mr, "MR: DICOM folder or image file")->type_name("[NAME=]PATH");
     command.add_option("--labels", labels, "Structures: one a file, or one an index")
-      ->type_name("[NAME=]FILE");
+        ->type_name("[NAME=]FILE");
     command.add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS")
-      ->type_name("[NAME=]FILE");
+        ->type_name("[NAME=]FILE");
   }
 
   presenters::PartSources sources() const
   {
     presenters::PartSources result;
-    const auto parse = [](const std::vector<std::string>& from, auto& to) {
+    const auto parse = [](const std::vector<std::string>& from, auto& to)
+    {
       for (const std::string& text : from)
         to.push_back(presenters::PartSource::parse(text));
     };
@@ -49,9 +52,8 @@ std::string sizeText(const core::GridGeometry& grid)
 void sayCase(const Context& context, const scene::Case& value)
 {
   context.say("case '" + value.name + "'");
-  context.say("  CT " + sizeText(value.ct.geometry) + ", " + fixed(value.ct.range.min, 0) +
-              " to " + fixed(value.ct.range.max, 0) + " HU, surface at " + fixed(value.iso, 0) +
-              " HU");
+  context.say("  CT " + sizeText(value.ct.geometry) + ", " + fixed(value.ct.range.min, 0) + " to " +
+              fixed(value.ct.range.max, 0) + " HU, surface at " + fixed(value.iso, 0) + " HU");
   for (const auto& mr : value.mr)
     context.say("  MR '" + mr.name + "' " + sizeText(mr.geometry) +
                 (mr.registered ? "" : ", not registered"));
@@ -66,10 +68,17 @@ void sayCase(const Context& context, const scene::Case& value)
               fixed(value.removedVolume(), 1) + " mm3 removed");
 }
 
-void remarkNotes(const Context& context, const scene::ImagePart& image)
+// What was accepted or assumed when the parts were read.
+void remarkNotes(const Context& context, const scene::Case& value)
 {
-  for (const std::string& note : image.notes)
-    context.remark(image.name + ": " + note);
+  const auto remark = [&context](const auto& part)
+  {
+    for (const std::string& note : part.notes)
+      context.remark(part.name + ": " + note);
+  };
+  remark(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), remark);
+  std::for_each(value.meshes.begin(), value.meshes.end(), remark);
 }
 
 void addNew(CLI::App& app, Context& context)
@@ -82,43 +91,44 @@ void addNew(CLI::App& app, Context& context)
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-    app, "new", "Build a case from a CT and what belongs to it", [options, &context] {
-      if (options->repair)
-        notBuiltYet("--repair");
-      presenters::CaseSources sources;
-      sources.ct = options->ct;
-      sources.seriesUid = options->series;
-      if (!options->roi.empty())
+      app, "new", "Build a case from a CT and what belongs to it",
+      [options, &context]
       {
-        const auto b = parseNumbers(options->roi, 6, "--roi x0,x1,y0,y1,z0,z1");
-        for (int axis = 0; axis < 3; ++axis)
-          if (!(b[2 * axis] < b[2 * axis + 1]))
-            throw UsageError("--roi x0,x1,y0,y1,z0,z1: each first number must be the smaller one");
-        sources.roi = {Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5])};
-      }
-      sources.parts = options->parts.sources();
-      library::Library library = context.openLibrary();
-      scene::checkCaseName(options->name);
-      if (library.contains(options->name)) // before minutes of reading
-        throw library::LibraryError(library::LibraryError::Reason::NameTaken,
-                                    "case '" + options->name + "' is there already in " +
-                                      library.folder().string() + "; choose another name");
-      const core::Progress progress = context.progress();
-      scene::Case value = presenters::buildCase(options->name, sources, progress.part(0.0, 0.8));
-      library.save(value, progress.part(0.8, 1.0));
-      remarkNotes(context, value.ct);
-      for (const auto& mr : value.mr)
-        remarkNotes(context, mr);
-      sayCase(context, value);
-      context.give(infoJson(value));
-    });
+        if (options->repair)
+          notBuiltYet("--repair");
+        presenters::CaseSources sources;
+        sources.ct = options->ct;
+        sources.seriesUid = options->series;
+        if (!options->roi.empty())
+        {
+          const auto b = parseNumbers(options->roi, 6, "--roi x0,x1,y0,y1,z0,z1");
+          for (int axis = 0; axis < 3; ++axis)
+            if (!(b[2 * axis] < b[2 * axis + 1]))
+              throw UsageError(
+                  "--roi x0,x1,y0,y1,z0,z1: each first number must be the smaller one");
+          sources.roi = {Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5])};
+        }
+        sources.parts = options->parts.sources();
+        library::Library library = context.openLibrary();
+        scene::checkCaseName(options->name);
+        if (library.contains(options->name)) // before minutes of reading
+          throw library::LibraryError(library::LibraryError::Reason::NameTaken,
+                                      "case '" + options->name + "' is there already in " +
+                                          library.folder().string() + "; choose another name");
+        const core::Progress progress = context.progress();
+        scene::Case value = presenters::buildCase(options->name, sources, progress.part(0.0, 0.8));
+        library.save(value, progress.part(0.8, 1.0));
+        remarkNotes(context, value);
+        sayCase(context, value);
+        context.give(infoJson(value));
+      });
   command->add_option("CASE", options->name, "Name of the new case")->required();
   command->add_option("--ct", options->ct, "DICOM folder, or NIfTI, NRRD or MetaImage file")
-    ->type_name("PATH")
-    ->required();
+      ->type_name("PATH")
+      ->required();
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command->add_option("--roi", options->roi, "Part of the CT to load, patient LPS mm")
-    ->type_name("x0,x1,y0,y1,z0,z1");
+      ->type_name("x0,x1,y0,y1,z0,z1");
   // In the contract, not built yet: refused when asked for, not offered.
   command->add_flag("--repair", options->repair)->group("");
   options->parts.addTo(*command);
@@ -132,18 +142,21 @@ void addAdd(CLI::App& app, Context& context)
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-    context.addCommand(app, "add", "Add MR, structures or meshes to a case", [options, &context] {
-      const auto sources = options->parts.sources();
-      if (sources.mr.empty() && sources.labels.empty() && sources.meshes.empty())
-        throw UsageError("add: nothing to add; give --mr, --labels or --mesh");
-      library::Library library = context.openLibrary();
-      scene::Case value = library.open(options->name);
-      presenters::addParts(value, sources, context.progress());
-      library.save(value);
-      sayCase(context, value);
-      context.give(infoJson(value));
-    });
+  CLI::App* command = context.addCommand(
+      app, "add", "Add MR, structures or meshes to a case",
+      [options, &context]
+      {
+        const auto sources = options->parts.sources();
+        if (sources.mr.empty() && sources.labels.empty() && sources.meshes.empty())
+          throw UsageError("add: nothing to add; give --mr, --labels or --mesh");
+        library::Library library = context.openLibrary();
+        scene::Case value = library.open(options->name);
+        presenters::addParts(value, sources, context.progress());
+        library.save(value);
+        remarkNotes(context, value);
+        sayCase(context, value);
+        context.give(infoJson(value));
+      });
   command->add_option("CASE", options->name)->required();
   options->parts.addTo(*command);
 }
@@ -155,15 +168,17 @@ void addRemove(CLI::App& app, Context& context)
     std::string name, part;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = context.addCommand(
-    app, "remove", "Take an MR, a structure or a mesh out of a case", [options, &context] {
-      library::Library library = context.openLibrary();
-      scene::Case value = library.open(options->name);
-      scene::removePart(value, options->part);
-      library.save(value);
-      sayCase(context, value);
-      context.give(infoJson(value));
-    });
+  CLI::App* command =
+      context.addCommand(app, "remove", "Take an MR, a structure or a mesh out of a case",
+                         [options, &context]
+                         {
+                           library::Library library = context.openLibrary();
+                           scene::Case value = library.open(options->name);
+                           scene::removePart(value, options->part);
+                           library.save(value);
+                           sayCase(context, value);
+                           context.give(infoJson(value));
+                         });
   command->add_option("CASE", options->name)->required();
   command->add_option("--part", options->part, "Its name")->type_name("NAME")->required();
 }
@@ -172,47 +187,49 @@ void addInfo(CLI::App& app, Context& context)
 {
   auto name = std::make_shared<std::string>();
   context
-    .addCommand(app, "info", "What a case holds",
-                [name, &context] {
-                  const scene::Case value = context.openLibrary().open(*name);
-                  sayCase(context, value);
-                  context.give(infoJson(value));
-                })
-    ->add_option("CASE", *name)
-    ->required();
+      .addCommand(app, "info", "What a case holds",
+                  [name, &context]
+                  {
+                    const scene::Case value = context.openLibrary().open(*name);
+                    sayCase(context, value);
+                    context.give(infoJson(value));
+                  })
+      ->add_option("CASE", *name)
+      ->required();
 }
 
 void addLibrary(CLI::App& app, Context& context)
 {
   auto action = std::make_shared<std::string>();
-  CLI::App* command = context.addCommand(app, "library", "The cases on this machine",
-                                         [action, &context] {
-    if (*action == "search" || *action == "verify" || *action == "gc")
-      notBuiltYet("'library " + *action + "'");
-    if (*action != "list")
-      throw UsageError("library: '" + *action + "' is unknown; there is 'list'");
-    const library::Library library = context.openLibrary();
-    nlohmann::json cases = nlohmann::json::array();
-    for (const auto& summary : library.list())
-    {
-      cases.push_back({{"name", summary.name},
-                       {"modified", summary.modified},
-                       {"dims", summary.dims},
-                       {"structures", summary.structures},
-                       {"strokes", summary.strokes},
-                       {"removed_mm3", summary.removed},
-                       {"damaged", summary.damaged}});
-      context.say(summary.name + "  " + summary.modified + "  " +
-                  (summary.damaged
-                     ? "damaged: its manifest cannot be read"
-                     : std::to_string(summary.structures) + " structures, " +
-                         std::to_string(summary.strokes) + " strokes, " +
-                         fixed(summary.removed, 1) + " mm3 removed"));
-    }
-    if (cases.empty())
-      context.say("no case in " + library.folder().string());
-    context.give({{"library", library.folder().string()}, {"cases", std::move(cases)}});
-  });
+  CLI::App* command = context.addCommand(
+      app, "library", "The cases on this machine",
+      [action, &context]
+      {
+        if (*action == "search" || *action == "verify" || *action == "gc")
+          notBuiltYet("'library " + *action + "'");
+        if (*action != "list")
+          throw UsageError("library: '" + *action + "' is unknown; there is 'list'");
+        const library::Library library = context.openLibrary();
+        nlohmann::json cases = nlohmann::json::array();
+        for (const auto& summary : library.list())
+        {
+          cases.push_back({{"name", summary.name},
+                           {"modified", summary.modified},
+                           {"dims", summary.dims},
+                           {"structures", summary.structures},
+                           {"strokes", summary.strokes},
+                           {"removed_mm3", summary.removed},
+                           {"damaged", summary.damaged}});
+          context.say(summary.name + "  " + summary.modified + "  " +
+                      (summary.damaged ? "damaged: its manifest cannot be read"
+                                       : std::to_string(summary.structures) + " structures, " +
+                                             std::to_string(summary.strokes) + " strokes, " +
+                                             fixed(summary.removed, 1) + " mm3 removed"));
+        }
+        if (cases.empty())
+          context.say("no case in " + library.folder().string());
+        context.give({{"library", library.folder().string()}, {"cases", std::move(cases)}});
+      });
   command->add_option("ACTION", *action, "list")->required();
 }
 

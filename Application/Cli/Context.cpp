@@ -43,7 +43,8 @@ library::Library Context::openLibrary() const
 {
   if (!m_library.empty())
     return library::Library(m_library);
-  const auto fromEnvironment = [](const char* name) {
+  const auto fromEnvironment = [](const char* name)
+  {
     const char* value = std::getenv(name);
     return std::filesystem::path(value ? value : "");
   };
@@ -90,15 +91,16 @@ core::Progress Context::progress() const
     }
   };
   return core::Progress(
-    [bar = std::make_shared<Bar>()](double fraction, const std::string& text) {
-      const std::lock_guard<std::mutex> lock(bar->mutex);
-      const int percent = static_cast<int>(100.0 * fraction);
-      if (percent == bar->shown)
-        return;
-      bar->shown = percent;
-      std::cerr << '\r' << percent << " % " << text << "\033[K" << std::flush;
-    },
-    interruptToken());
+      [bar = std::make_shared<Bar>()](double fraction, const std::string& text)
+      {
+        const std::lock_guard<std::mutex> lock(bar->mutex);
+        const int percent = static_cast<int>(100.0 * fraction);
+        if (percent == bar->shown)
+          return;
+        bar->shown = percent;
+        std::cerr << '\r' << percent << " % " << text << "\033[K" << std::flush;
+      },
+      interruptToken());
 }
 
 void notBuiltYet(const std::string& what)
@@ -109,7 +111,7 @@ void notBuiltYet(const std::string& what)
 void writeTextFile(const std::filesystem::path& path, const std::string& bytes)
 {
   const std::filesystem::path temporary =
-    path.parent_path() / (".tmp-" + std::to_string(::getpid()) + "-" + path.filename().string());
+      path.parent_path() / (".tmp-" + std::to_string(::getpid()) + "-" + path.filename().string());
   std::ofstream file(temporary, std::ios::binary);
   file << bytes;
   file.close();

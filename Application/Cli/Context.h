@@ -32,10 +32,7 @@ public:
   /// $PETROUS_LIBRARY, else the user's data folder, unless --library was given.
   library::Library openLibrary() const;
 
-  bool json() const noexcept
-  {
-    return m_json;
-  }
+  bool json() const noexcept { return m_json; }
 
   /// Words for a person on stdout; nothing with --json or --quiet.
   void say(const std::string& line) const;

@@ -90,7 +90,8 @@ void doctor(const Context& context)
 
 void addDoctorCommand(CLI::App& app, Context& context)
 {
-  context.addCommand(app, "doctor", "What this machine offers, and what to do about what is missing",
+  context.addCommand(app, "doctor",
+                     "What this machine offers, and what to do about what is missing",
                      [&context] { doctor(context); });
 }
 

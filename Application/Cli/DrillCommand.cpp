@@ -42,14 +42,12 @@ double wallSeconds()
 class TickTimes
 {
 public:
-  void add(double seconds)
-  {
-    m_micros.push_back(1e6 * seconds);
-  }
+  void add(double seconds) { m_micros.push_back(1e6 * seconds); }
   nlohmann::json json()
   {
     std::sort(m_micros.begin(), m_micros.end());
-    const auto at = [this](double share) {
+    const auto at = [this](double share)
+    {
       const auto n = static_cast<std::size_t>(share * static_cast<double>(m_micros.size() - 1));
       return m_micros.empty() ? 0.0 : m_micros[n];
     };
@@ -104,20 +102,22 @@ void drill(const Context& context, const Options& options)
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
   const double length = std::max(path.samples().back().time - start, 1e-9);
-  path.play(options.rate, [&](const dissection::ToolSample& tick) {
-    if (ticks++ % 256 == 0)
-      progress.report(0.9 * (tick.time - start) / length, "drilling");
-    const double cpuStart = threadSeconds();
-    const double wallStart = wallSeconds();
-    if (tick.drill && !session.drilling())
-      session.begin(burr, presenters::utcNow(), tick.time, camera);
-    // At drill-off the way since the last tick was still drilled.
-    session.moveTo(tick.pose.translation(), tick.time);
-    cpu.add(threadSeconds() - cpuStart);
-    wall.add(wallSeconds() - wallStart);
-    if (!tick.drill && session.drilling())
-      session.end();
-  });
+  path.play(options.rate,
+            [&](const dissection::ToolSample& tick)
+            {
+              if (ticks++ % 256 == 0)
+                progress.report(0.9 * (tick.time - start) / length, "drilling");
+              const double cpuStart = threadSeconds();
+              const double wallStart = wallSeconds();
+              if (tick.drill && !session.drilling())
+                session.begin(burr, presenters::utcNow(), tick.time, camera);
+              // At drill-off the way since the last tick was still drilled.
+              session.moveTo(tick.pose.translation(), tick.time);
+              cpu.add(threadSeconds() - cpuStart);
+              wall.add(wallSeconds() - wallStart);
+              if (!tick.drill && session.drilling())
+                session.end();
+            });
   session.end();
   const std::size_t strokes = value.applied - before;
   if (strokes > 0)
@@ -158,14 +158,15 @@ void drill(const Context& context, const Options& options)
 void addDrillCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-    context.addCommand(app, "drill", "Play a tool path: what the burr sweeps with the drill on is cut",
-                       [options, &context] { drill(context, *options); });
+  CLI::App* command = context.addCommand(
+      app, "drill", "Play a tool path: what the burr sweeps with the drill on is cut",
+      [options, &context] { drill(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command
-    ->add_option("--path", options->path, "CSV: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill; patient LPS")
-    ->type_name("F.csv")
-    ->required();
+      ->add_option("--path", options->path,
+                   "CSV: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill; patient LPS")
+      ->type_name("F.csv")
+      ->required();
   command->add_option("--burr", options->kind, "cutting or diamond (cutting)");
   command->add_option("--diameter", options->diameter, "Of the burr, mm (4)");
   command->add_option("--rpm", options->rpm, "Spindle speed, turns a minute (60000)");

@@ -28,8 +28,8 @@ template <class T>
 T rounded(double value)
 {
   if constexpr (std::is_integral_v<T>)
-    return static_cast<T>(std::lround(
-      std::clamp(value, double{std::numeric_limits<T>::min()}, double{std::numeric_limits<T>::max()})));
+    return static_cast<T>(std::lround(std::clamp(value, double{std::numeric_limits<T>::min()},
+                                                 double{std::numeric_limits<T>::max()})));
   else
     return static_cast<T>(value);
 }
@@ -88,16 +88,15 @@ volume::LabelMap mergedLabels(const scene::Case& value, const std::string& only)
         continue;
       const auto& source = *part.labels.get()->voxels;
       if (!voxels)
-        voxels = std::make_shared<volume::Volume<std::uint16_t>>(source.geometry(),
-                                                                 std::uint16_t{0});
+        voxels =
+            std::make_shared<volume::Volume<std::uint16_t>>(source.geometry(), std::uint16_t{0});
       if (!core::sameGrid(voxels->geometry(), source.geometry()))
         throw UsageError("export labels: '" + structure.name +
                          "' lies on another grid; export it alone with --part");
       const auto index = static_cast<std::uint16_t>(segments.size() + 1);
       std::transform(voxels->data(), voxels->data() + voxels->size(), source.data(), voxels->data(),
-                     [&structure, index](std::uint16_t present, std::uint16_t own) {
-                       return present == 0 && own == structure.index ? index : present;
-                     });
+                     [&structure, index](std::uint16_t present, std::uint16_t own)
+                     { return present == 0 && own == structure.index ? index : present; });
       volume::Segment segment;
       segment.name = structure.name;
       segment.index = index;
@@ -115,7 +114,8 @@ void exportCase(const Context& context, const Options& options)
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
-  const auto mask = [&]() -> const volume::CutMask& {
+  const auto mask = [&]() -> const volume::CutMask&
+  {
     library.loadDissection(value);
     return std::as_const(*value.dissection).mask();
   };
@@ -128,9 +128,9 @@ void exportCase(const Context& context, const Options& options)
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);
   else if (options.what == "dissected")
-    value.ct.volume.get()->visit([&](const auto& ct) {
-      imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress);
-    });
+    value.ct.volume.get()->visit(
+        [&](const auto& ct)
+        { imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress); });
   else if (options.what == "surface")
   {
     mask();
@@ -150,17 +150,17 @@ void exportCase(const Context& context, const Options& options)
 void addExportCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-    context.addCommand(app, "export", "Voxels or a surface for other programs",
-                       [options, &context] { exportCase(context, *options); });
+  CLI::App* command = context.addCommand(app, "export", "Voxels or a surface for other programs",
+                                         [options, &context] { exportCase(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("--what", options->what, "ct, mr, labels, mask, dissected or surface")
-    ->required();
+      ->required();
   command
-    ->add_option("--out", options->out,
-                 "Voxels: .nrrd, .nii.gz (labels also .seg.nrrd); surface: .stl, .obj, .ply; mm LPS")
-    ->type_name("F")
-    ->required();
+      ->add_option(
+          "--out", options->out,
+          "Voxels: .nrrd, .nii.gz (labels also .seg.nrrd); surface: .stl, .obj, .ply; mm LPS")
+      ->type_name("F")
+      ->required();
   command->add_option("--part", options->part, "One MR or structure of several")->type_name("NAME");
 }
 

@@ -17,27 +17,30 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
     int count = 1;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = context.addCommand(app, name, text, [options, step, name, &context] {
-    if (options->count < 1)
-      throw UsageError(name + ": N must be at least 1");
-    library::Library library = context.openLibrary();
-    scene::Case value = library.open(options->caseName);
-    const std::size_t steps = step(value, static_cast<std::size_t>(options->count));
-    if (steps == 0)
-      context.remark("nothing to " + name + " in case '" + value.name + "'");
-    else
-      library.save(value);
-    context.say(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
-                std::to_string(value.applied) + " done, " +
-                std::to_string(value.strokes.size() - value.applied) + " to redo, " +
-                fixed(value.removedVolume(), 1) + " mm3 removed");
-    context.give({{"case", value.name},
-                  {"steps", steps},
-                  {"strokes", value.strokes.size()},
-                  {"undo", value.applied},
-                  {"redo", value.strokes.size() - value.applied},
-                  {"removed_mm3", value.removedVolume()}});
-  });
+  CLI::App* command = context.addCommand(
+      app, name, text,
+      [options, step, name, &context]
+      {
+        if (options->count < 1)
+          throw UsageError(name + ": N must be at least 1");
+        library::Library library = context.openLibrary();
+        scene::Case value = library.open(options->caseName);
+        const std::size_t steps = step(value, static_cast<std::size_t>(options->count));
+        if (steps == 0)
+          context.remark("nothing to " + name + " in case '" + value.name + "'");
+        else
+          library.save(value);
+        context.say(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
+                    std::to_string(value.applied) + " done, " +
+                    std::to_string(value.strokes.size() - value.applied) + " to redo, " +
+                    fixed(value.removedVolume(), 1) + " mm3 removed");
+        context.give({{"case", value.name},
+                      {"steps", steps},
+                      {"strokes", value.strokes.size()},
+                      {"undo", value.applied},
+                      {"redo", value.strokes.size() - value.applied},
+                      {"removed_mm3", value.removedVolume()}});
+      });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("N", options->count, "How many strokes (1)");
 }
@@ -67,18 +70,19 @@ void addHistoryCommands(CLI::App& app, Context& context)
   addStep(app, context, "redo", "Do again what was taken back", &scene::redo);
   auto name = std::make_shared<std::string>();
   context
-    .addCommand(app, "history", "The strokes of a case",
-                [name, &context] {
-                  const scene::Case value = context.openLibrary().open(*name);
-                  sayHistory(context, value);
-                  context.give({{"case", value.name},
-                                {"branch", "main"},
-                                {"strokes", strokesJson(value)},
-                                {"undo", value.applied},
-                                {"redo", value.strokes.size() - value.applied}});
-                })
-    ->add_option("CASE", *name)
-    ->required();
+      .addCommand(app, "history", "The strokes of a case",
+                  [name, &context]
+                  {
+                    const scene::Case value = context.openLibrary().open(*name);
+                    sayHistory(context, value);
+                    context.give({{"case", value.name},
+                                  {"branch", "main"},
+                                  {"strokes", strokesJson(value)},
+                                  {"undo", value.applied},
+                                  {"redo", value.strokes.size() - value.applied}});
+                  })
+      ->add_option("CASE", *name)
+      ->required();
 }
 
 } // namespace petrous::cli

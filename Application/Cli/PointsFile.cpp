@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "petrous/Core/Error.h"
 #include "petrous/Core/CsvTable.h"
+#include "petrous/Core/Error.h"
 
 namespace petrous::cli
 {
@@ -15,9 +15,8 @@ std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path)
     throw core::InvalidParameter(path.string() + ": not there or not readable");
   std::vector<Eigen::Vector3d> points;
   core::readCsv(file, path.string(), {"x_mm", "y_mm", "z_mm"},
-                      [&points](std::size_t, const std::vector<double>& row) {
-                        points.emplace_back(row[0], row[1], row[2]);
-                      });
+                [&points](std::size_t, const std::vector<double>& row)
+                { points.emplace_back(row[0], row[1], row[2]); });
   return points;
 }
 

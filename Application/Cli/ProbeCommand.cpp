@@ -66,15 +66,14 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
       hu = ct->sample(voxel);
     const auto nearest = surface.find(p);
     const std::string structure = structureAt(value, p);
-    const auto component = [&](int axis) {
-      return nearest ? std::optional<double>(nearest->normal[axis]) : std::nullopt;
-    };
+    const auto component = [&](int axis)
+    { return nearest ? std::optional<double>(nearest->normal[axis]) : std::nullopt; };
     const auto distance = nearest ? std::optional<double>(nearest->distance) : std::nullopt;
     csv += number(p[0]) + "," + number(p[1]) + "," + number(p[2]) + "," + number(field.value(p)) +
            "," + number(hu) + "," + structure + "," + number(distance) + "," +
            number(component(0)) + "," + number(component(1)) + "," + number(component(2)) + "\n";
-    nlohmann::json row{{"x_mm", p[0]},       {"y_mm", p[1]},         {"z_mm", p[2]},
-                       {"f", field.value(p)}, {"structure", structure}, {"hu", nullptr},
+    nlohmann::json row{{"x_mm", p[0]},           {"y_mm", p[1]},           {"z_mm", p[2]},
+                       {"f", field.value(p)},    {"structure", structure}, {"hu", nullptr},
                        {"distance_mm", nullptr}, {"normal", nullptr}};
     if (hu)
       row["hu"] = *hu;
@@ -102,14 +101,14 @@ void addProbeCommand(CLI::App& app, Context& context)
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-    app, "probe", "The tissue field, HU, structure and nearest surface at points",
-    [options, &context] { probe(context, options->name, options->points, options->out); });
+      app, "probe", "The tissue field, HU, structure and nearest surface at points",
+      [options, &context] { probe(context, options->name, options->points, options->out); });
   command->add_option("CASE", options->name)->required();
   command->add_option("--points", options->points, "CSV with x_mm,y_mm,z_mm, patient LPS")
-    ->type_name("F.csv")
-    ->required();
+      ->type_name("F.csv")
+      ->required();
   command->add_option("--out", options->out, "CSV to write; without it the rows go to stdout")
-    ->type_name("F.csv");
+      ->type_name("F.csv");
 }
 
 } // namespace petrous::cli

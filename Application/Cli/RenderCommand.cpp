@@ -26,8 +26,8 @@ std::pair<int, int> parseSize(const std::string& text)
   int width = 0;
   int height = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 || height < 8 ||
-      width > 8192 || height > 8192)
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
+      height < 8 || width > 8192 || height > 8192)
     throw UsageError("--size: WIDTHxHEIGHT with 8 to 8192 pixels each, not '" + text + "'");
   return {width, height};
 }
@@ -58,13 +58,13 @@ core::CameraPose readCamera(const std::string& path)
   catch (const nlohmann::json::exception&)
   {
     throw core::InvalidParameter(
-      path + ": no camera; it must be {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
-             "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\")");
+        path + ": no camera; it must be {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
+               "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\")");
   }
   const Eigen::Vector3d view = camera.focalPoint - camera.position;
-  const bool angleOk =
-    camera.parallelScale ? *camera.parallelScale > 0.0 && std::isfinite(*camera.parallelScale)
-                         : camera.viewAngle > 0.1 && camera.viewAngle < 170.0;
+  const bool angleOk = camera.parallelScale
+                           ? *camera.parallelScale > 0.0 && std::isfinite(*camera.parallelScale)
+                           : camera.viewAngle > 0.1 && camera.viewAngle < 170.0;
   if (!view.allFinite() || !camera.viewUp.allFinite() || view.norm() < 1e-9 ||
       view.cross(camera.viewUp).norm() < 1e-9 * view.norm() || !angleOk)
     throw core::InvalidParameter(path + ": the camera must look somewhere, view_up must not lie "
@@ -83,8 +83,9 @@ core::CameraPose chooseCamera(const Options& options, const scene::Case& value)
     return presenters::currentCamera(value);
   const auto view = rendering::parseView(options.view);
   if (!view)
-    throw UsageError("--view: lateral, left, right, superior, inferior, anterior or posterior, not '" +
-                     options.view + "'");
+    throw UsageError(
+        "--view: lateral, left, right, superior, inferior, anterior or posterior, not '" +
+        options.view + "'");
   return presenters::standardCamera(value, *view);
 }
 
@@ -126,7 +127,7 @@ void render(const Context& context, const Options& options)
     const auto start = std::chrono::steady_clock::now();
     const auto truth = caster.render(camera, width, height, progress);
     const std::chrono::duration<double, std::milli> elapsed =
-      std::chrono::steady_clock::now() - start;
+        std::chrono::steady_clock::now() - start;
     if (options.engine == "reference")
     {
       rendering::writePng(options.out, truth.picture);
@@ -160,7 +161,7 @@ void addRenderCommand(CLI::App& app, Context& context)
   command->add_option("--engine", options->engine,
                       "gpu, or reference: double precision on the CPU, slow (gpu)");
   command->add_option("--depth", options->depth, "Also write the distance to the first surface, mm")
-    ->type_name("F.npy");
+      ->type_name("F.npy");
   // In the contract, not built yet: refused when asked for, not offered.
   command->add_option("--stereo", options->stereo)->group("");
 }

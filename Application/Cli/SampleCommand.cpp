@@ -18,28 +18,31 @@ void addSampleCommand(CLI::App& app, Context& context)
     std::uint64_t seed = 1;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-    context.addCommand(app, "sample", "Write the built-in phantom patient", [options, &context] {
-      imaging::SampleOptions sample;
-      sample.spacing = options->spacing;
-      if (!options->dims.empty())
+  CLI::App* command = context.addCommand(
+      app, "sample", "Write the built-in phantom patient",
+      [options, &context]
       {
-        const auto n = parseNumbers(options->dims, 3, "--dims I,J,K");
-        sample.dims = core::Index3{toInt(n[0], "--dims"), toInt(n[1], "--dims"),
-                                   toInt(n[2], "--dims")};
-      }
-      sample.noise = options->noise;
-      sample.tilt = options->tilt;
-      sample.seed = options->seed;
-      imaging::writeSamplePatient(options->out, sample, context.progress());
-      const std::filesystem::path out(options->out);
-      context.say("The sample patient is in " + options->out + ": ct, mr, labels, meshes, truth.json");
-      context.give({{"out", out.string()},
-                    {"ct", (out / "ct").string()},
-                    {"mr", (out / "mr").string()},
-                    {"labels", (out / "labels.seg.nrrd").string()},
-                    {"truth", (out / "truth.json").string()}});
-    });
+        imaging::SampleOptions sample;
+        sample.spacing = options->spacing;
+        if (!options->dims.empty())
+        {
+          const auto n = parseNumbers(options->dims, 3, "--dims I,J,K");
+          sample.dims =
+              core::Index3{toInt(n[0], "--dims"), toInt(n[1], "--dims"), toInt(n[2], "--dims")};
+        }
+        sample.noise = options->noise;
+        sample.tilt = options->tilt;
+        sample.seed = options->seed;
+        imaging::writeSamplePatient(options->out, sample, context.progress());
+        const std::filesystem::path out(options->out);
+        context.say("The sample patient is in " + options->out +
+                    ": ct, mr, labels, meshes, truth.json");
+        context.give({{"out", out.string()},
+                      {"ct", (out / "ct").string()},
+                      {"mr", (out / "mr").string()},
+                      {"labels", (out / "labels.seg.nrrd").string()},
+                      {"truth", (out / "truth.json").string()}});
+      });
   command->add_option("OUT", options->out, "A new or empty folder")->required();
   command->add_option("--spacing", options->spacing, "Voxel size of the CT, mm (0.3)");
   command->add_option("--dims", options->dims, "Voxels of the CT along x,y,z")->type_name("I,J,K");

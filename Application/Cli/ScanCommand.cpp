@@ -80,10 +80,10 @@ void addScanCommand(CLI::App& app, Context& context)
 {
   auto path = std::make_shared<std::string>();
   context
-    .addCommand(app, "scan", "Judge the geometry of each DICOM series below a path",
-                [path, &context] { scan(context, *path); })
-    ->add_option("PATH", *path, "Folder or file")
-    ->required();
+      .addCommand(app, "scan", "Judge the geometry of each DICOM series below a path",
+                  [path, &context] { scan(context, *path); })
+      ->add_option("PATH", *path, "Folder or file")
+      ->required();
 }
 
 } // namespace petrous::cli

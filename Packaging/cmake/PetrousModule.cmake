@@ -29,7 +29,8 @@ function(petrous_add_tests target)
     PROPERTIES
       LABELS "${ARG_LABELS}"
       TIMEOUT 600
-      ENVIRONMENT "PETROUS_DATA=${data_dir};${ARG_ENVIRONMENT}")
+      ENVIRONMENT
+        "PETROUS_DATA=${data_dir};PETROUS_DATA_ARCHIVES=${data_dir};${ARG_ENVIRONMENT}")
 endfunction()
 
 # petrous_add_module(<Name>

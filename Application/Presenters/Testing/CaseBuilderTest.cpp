@@ -10,8 +10,8 @@
 #include "petrous/Presenters/CaseBuilder.h"
 
 using namespace petrous;
-using presenters::PartSource;
 using Eigen::Vector3d;
+using presenters::PartSource;
 
 namespace
 {
@@ -21,8 +21,8 @@ class CaseBuilder : public ::testing::Test
 protected:
   void SetUp() override
   {
-    m_folder = std::filesystem::temp_directory_path() /
-               ("petrous-builder-" + std::to_string(::getpid()));
+    m_folder =
+        std::filesystem::temp_directory_path() / ("petrous-builder-" + std::to_string(::getpid()));
     std::filesystem::create_directories(m_folder);
     const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
     auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{-1000});
@@ -38,10 +38,7 @@ protected:
     imaging::writeMesh(m_folder / "incus.obj", mesh);
     m_sources.ct = m_folder / "ct.nrrd";
   }
-  void TearDown() override
-  {
-    std::filesystem::remove_all(m_folder);
-  }
+  void TearDown() override { std::filesystem::remove_all(m_folder); }
 
   std::filesystem::path m_folder;
   presenters::CaseSources m_sources;

@@ -14,10 +14,9 @@ scene::Case boneCase()
 {
   scene::Case value;
   value.name = "bone";
-  value.ct.geometry =
-    core::GridGeometry({50, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+  value.ct.geometry = core::GridGeometry({50, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry, std::int16_t{1500}));
+      std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry, std::int16_t{1500}));
   value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
   return value;
 }
@@ -67,15 +66,15 @@ TEST(DrillSession, DoesNotCutTheWayBetweenTwoStrokes)
 TEST(DrillSession, LeavesAStructureThatIsNotDrillable)
 {
   scene::Case value = boneCase();
-  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry,
-                                                                std::uint16_t{0});
+  auto labels =
+      std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
   for (int k = 18; k < 22; ++k)
     for (int j = 18; j < 22; ++j)
       for (int i = 0; i < 50; ++i)
         labels->at(i, j, k) = 1;
   scene::LabelPart part;
   part.labels =
-    std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
   scene::StructurePart nerve;
   nerve.name = "nerve";
   nerve.index = 1;

@@ -68,7 +68,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
     options.roi = roi;
     std::vector<std::string> notes = series.geometry.notes;
     part.volume = std::make_shared<const volume::IntensityVolume>(
-      readNamed(path, series, options, progress.part(0.2, 0.9), notes));
+        readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
   }
   const auto image = part.volume.get();
@@ -85,7 +85,8 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
 
 void addMr(scene::Case& value, const PartSource& source, const core::Progress& progress)
 {
-  const auto taken = [&value](const std::string& name) {
+  const auto taken = [&value](const std::string& name)
+  {
     return std::any_of(value.mr.begin(), value.mr.end(),
                        [&name](const auto& mr) { return mr.name == name; });
   };
@@ -114,7 +115,7 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
       if (segment.voxels == 0)
         continue;
       scene::StructurePart structure;
-      structure.name = source.name.empty() ? segment.name
+      structure.name = source.name.empty()        ? segment.name
                        : map.segments.size() == 1 ? source.name
                                                   : source.name + " " + segment.name;
       structure.index = segment.index;
@@ -146,7 +147,9 @@ void addMesh(scene::Case& value, const PartSource& source)
   part.name = source.name.empty() ? baseName(source.path) : source.name;
   if (scene::findMesh(value, part.name))
     nameTaken(source.path, "mesh", part.name);
-  auto mesh = std::make_shared<core::TriangleMesh>(imaging::readMesh(source.path));
+  auto loaded = imaging::loadMesh(source.path);
+  part.notes = std::move(loaded.notes);
+  auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));
   part.triangles = mesh->triangles.size();
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
@@ -180,7 +183,8 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   scene::Case next = value;
   const std::size_t count = parts.mr.size() + parts.labels.size() + parts.meshes.size();
   std::size_t done = 0;
-  const auto share = [&] {
+  const auto share = [&]
+  {
     const double size = 1.0 / static_cast<double>(std::max<std::size_t>(count, 1));
     const double first = static_cast<double>(done++) * size;
     return progress.part(first, first + size);

@@ -63,12 +63,13 @@ std::string caseNameFrom(const std::filesystem::path& source)
                name.end());
   const std::string unwanted = "/\\:*?\"<>|";
   std::replace_if(
-    name.begin(), name.end(),
-    [&unwanted](char c) {
-      const auto u = static_cast<unsigned char>(c);
-      return u < 0x20 || u == 0x7f || unwanted.find(c) != std::string::npos;
-    },
-    ' ');
+      name.begin(), name.end(),
+      [&unwanted](char c)
+      {
+        const auto u = static_cast<unsigned char>(c);
+        return u < 0x20 || u == 0x7f || unwanted.find(c) != std::string::npos;
+      },
+      ' ');
   if (name.size() > kLongest)
   {
     std::size_t end = kLongest;

@@ -18,7 +18,7 @@ rendering::SceneContents sceneContents(const scene::Case& value)
     for (const auto& structure : part.structures)
       if (structure.look.shown)
         contents.structures.push_back(
-          {structure.name, part.labels.get(), structure.index, structure.look});
+            {structure.name, part.labels.get(), structure.index, structure.look});
   for (const auto& mesh : value.meshes)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))
       contents.meshes.push_back({mesh.name, mesh.mesh.get(), mesh.look});

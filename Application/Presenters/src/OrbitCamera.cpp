@@ -11,7 +11,7 @@ namespace petrous::presenters
 namespace
 {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kNearest = 1.0;     // mm
+constexpr double kNearest = 1.0;      // mm
 constexpr double kFarthest = 10000.0; // mm
 
 struct Frame
@@ -44,8 +44,8 @@ core::CameraPose shifted(const core::CameraPose& camera, double right, double do
   const Frame frame = frameOf(camera);
   const double distance = (camera.focalPoint - camera.position).norm();
   const double height = camera.parallelScale
-                          ? 2.0 * *camera.parallelScale
-                          : 2.0 * distance * std::tan(0.5 * camera.viewAngle * kDegree);
+                            ? 2.0 * *camera.parallelScale
+                            : 2.0 * distance * std::tan(0.5 * camera.viewAngle * kDegree);
   const Eigen::Vector3d offset = height * (down * frame.up - right * frame.right);
   core::CameraPose next = camera;
   next.position += offset;

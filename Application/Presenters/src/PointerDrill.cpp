@@ -56,8 +56,8 @@ std::array<Eigen::Vector2d, 24> discOffsets()
   std::size_t n = 0;
   for (const auto& [ring, count] : {std::pair{0.28, 6}, std::pair{0.55, 8}, std::pair{0.78, 10}})
     for (int k = 0; k < count; ++k, ++n)
-      offsets[n] = ring * Eigen::Vector2d(std::cos(2.0 * kPi * k / count),
-                                          std::sin(2.0 * kPi * k / count));
+      offsets[n] =
+          ring * Eigen::Vector2d(std::cos(2.0 * kPi * k / count), std::sin(2.0 * kPi * k / count));
   return offsets;
 }
 
@@ -87,7 +87,8 @@ std::optional<double> burrRest(const volume::TissueField& field, const SightLine
   const Eigen::Vector3d right = line.direction.unitOrthogonal();
   const Eigen::Vector3d up = right.cross(line.direction);
   std::optional<double> nearest;
-  const auto feel = [&](const Eigen::Vector2d& offset) {
+  const auto feel = [&](const Eigen::Vector2d& offset)
+  {
     const SightLine parallel{line.origin + radius * (offset[0] * right + offset[1] * up),
                              line.direction};
     if (const auto hit = firstTissue(field, parallel))
@@ -141,8 +142,8 @@ bool PointerDrill::moveTo(const SightLine& line, double seconds)
   }
   bool changed = false;
   for (int n = 1; n <= steps; ++n)
-    changed = step(between(from, line, static_cast<double>(n) / steps), feed / steps, seconds) ||
-              changed;
+    changed =
+        step(between(from, line, static_cast<double>(n) / steps), feed / steps, seconds) || changed;
   return changed;
 }
 

@@ -68,7 +68,7 @@ SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const core::G
   const double across = extent.dot(axes.right.cwiseAbs());
   const double down = extent.dot(axes.down.cwiseAbs());
   const double mmPerPixel =
-    std::max({kMargin * across / width, kMargin * down / height, 1e-3 * grid.minSpacing()});
+      std::max({kMargin * across / width, kMargin * down / height, 1e-3 * grid.minSpacing()});
   const Eigen::Vector3d middle = 0.5 * (lower + upper);
   const Eigen::Vector3d center = middle + axes.next * axes.next.dot(through - middle);
   return {orientation, center, mmPerPixel, width, height};
@@ -85,7 +85,8 @@ Eigen::Vector2d SliceGeometry::pixelFromPatient(const Eigen::Vector3d& patient) 
 {
   const SliceAxes axes = axesOf(m_orientation);
   const Eigen::Vector3d offset = (patient - m_center) / m_mmPerPixel;
-  return {offset.dot(axes.right) + 0.5 * (m_width - 1), offset.dot(axes.down) + 0.5 * (m_height - 1)};
+  return {offset.dot(axes.right) + 0.5 * (m_width - 1),
+          offset.dot(axes.down) + 0.5 * (m_height - 1)};
 }
 
 SliceGeometry::EdgeLetters SliceGeometry::edgeLetters() const

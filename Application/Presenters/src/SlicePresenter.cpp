@@ -23,9 +23,8 @@ constexpr float kCutTint = 0.62F;
 template <class Body>
 void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, const Body& body)
 {
-  const auto voxelAt = [&](double column, double row) {
-    return grid.voxelFromPatient(slice.patientFromPixel(column, row));
-  };
+  const auto voxelAt = [&](double column, double row)
+  { return grid.voxelFromPatient(slice.patientFromPixel(column, row)); };
   const Eigen::Vector3d origin = voxelAt(0.0, 0.0);
   const Eigen::Vector3d across = voxelAt(1.0, 0.0) - origin;
   const Eigen::Vector3d down = voxelAt(0.0, 1.0) - origin;
@@ -77,7 +76,7 @@ SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& w
   pixels.width = slice.width();
   pixels.height = slice.height();
   const std::size_t count =
-    static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
+      static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
   pixels.rgb.resize(3 * count);
   for (std::size_t n = 0; n < pixels.rgb.size(); ++n)
     pixels.rgb[n] = kOutside[n % 3];
@@ -99,14 +98,17 @@ void SlicePresenter::drawGrey(const volume::Volume<T>& ct, const SliceGeometry& 
   const double width = std::max(window.width, 1.0);
   const double scale = 255.0 / width;
   const double black = window.level - 0.5 * width;
-  forEachPixel(slice, grid, [&](std::size_t pixel, const Eigen::Vector3d& voxel) {
-    if (!grid.hullContains(voxel))
-      return;
-    const double grey = (volume::sampleTrilinear(ct, voxel) - black) * scale;
-    // NaN, as a float image may hold, is black.
-    const auto value = static_cast<std::uint8_t>(grey > 0.0 ? std::min(grey, 255.0) + 0.5 : 0.0);
-    std::fill_n(&pixels.rgb[3 * pixel], 3, value);
-  });
+  forEachPixel(slice, grid,
+               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+               {
+                 if (!grid.hullContains(voxel))
+                   return;
+                 const double grey = (volume::sampleTrilinear(ct, voxel) - black) * scale;
+                 // NaN, as a float image may hold, is black.
+                 const auto value =
+                     static_cast<std::uint8_t>(grey > 0.0 ? std::min(grey, 255.0) + 0.5 : 0.0);
+                 std::fill_n(&pixels.rgb[3 * pixel], 3, value);
+               });
 }
 
 void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
@@ -115,18 +117,21 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
   const auto& voxels = *layer.labels->voxels;
   const core::Index3& dims = voxels.geometry().dims();
   std::vector<std::uint16_t> found(pixels.rgb.size() / 3, 0);
-  forEachPixel(slice, voxels.geometry(), [&](std::size_t pixel, const Eigen::Vector3d& voxel) {
-    core::Index3 nearest;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      nearest[a] = static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
-      if (nearest[a] < 0 || nearest[a] >= dims[a])
-        return;
-    }
-    const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
-    if (index < layer.shown.size() && layer.shown[index])
-      found[pixel] = index;
-  });
+  forEachPixel(slice, voxels.geometry(),
+               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+               {
+                 core::Index3 nearest;
+                 for (std::size_t a = 0; a < 3; ++a)
+                 {
+                   nearest[a] =
+                       static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
+                   if (nearest[a] < 0 || nearest[a] >= dims[a])
+                     return;
+                 }
+                 const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
+                 if (index < layer.shown.size() && layer.shown[index])
+                   found[pixel] = index;
+               });
   const int width = slice.width();
   for (int row = 0; row < slice.height(); ++row)
     for (int column = 0; column < width; ++column)
@@ -136,11 +141,11 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
       const std::uint16_t index = found[pixel];
       if (index == 0)
         continue;
-      const bool border = (column > 0 && found[pixel - 1] != index) ||
-                          (column + 1 < width && found[pixel + 1] != index) ||
-                          (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
-                          (row + 1 < slice.height() &&
-                           found[pixel + static_cast<std::size_t>(width)] != index);
+      const bool border =
+          (column > 0 && found[pixel - 1] != index) ||
+          (column + 1 < width && found[pixel + 1] != index) ||
+          (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
+          (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
       blend(&pixels.rgb[3 * pixel], layer.colors[index], border ? kOutline : kTint);
     }
 }
@@ -148,14 +153,17 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
 void SlicePresenter::drawCut(const SliceGeometry& slice, SlicePixels& pixels) const
 {
   const core::GridGeometry& grid = m_mask->geometry();
-  forEachPixel(slice, grid, [&](std::size_t pixel, const Eigen::Vector3d& voxel) {
-    if (!grid.hullContains(voxel) || m_mask->sample(voxel) >= 0.5)
-      return;
-    const int column = static_cast<int>(pixel % static_cast<std::size_t>(slice.width()));
-    const int row = static_cast<int>(pixel / static_cast<std::size_t>(slice.width()));
-    const bool hatch = (column + row) % kHatchPeriod < kHatchWidth;
-    blend(&pixels.rgb[3 * pixel], hatch ? kHatchColor : kCutColor, hatch ? 0.8F : kCutTint);
-  });
+  forEachPixel(
+      slice, grid,
+      [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+      {
+        if (!grid.hullContains(voxel) || m_mask->sample(voxel) >= 0.5)
+          return;
+        const int column = static_cast<int>(pixel % static_cast<std::size_t>(slice.width()));
+        const int row = static_cast<int>(pixel / static_cast<std::size_t>(slice.width()));
+        const bool hatch = (column + row) % kHatchPeriod < kHatchWidth;
+        blend(&pixels.rgb[3 * pixel], hatch ? kHatchColor : kCutColor, hatch ? 0.8F : kCutTint);
+      });
 }
 
 } // namespace petrous::presenters

@@ -1,0 +1,117 @@
+#include "GuiTest.h"
+
+#include <QMessageBox>
+#include <QPushButton>
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+using Drill = GuiTest;
+
+TEST_F(Drill, AStrokeRemovesBoneAndIsSavedAtOnce)
+{
+  saveBall("ball");
+  openWindow();
+  const QImage before = picture();
+  drill(800, 30);
+  const QImage after = picture();
+  EXPECT_GT(differentPixels(before, after, 12), 200);
+  const auto saved = library().open("ball");
+  ASSERT_EQ(saved.strokes.size(), 1u);
+  EXPECT_EQ(saved.applied, 1u);
+  EXPECT_GT(saved.strokes.front().info.removed, 0.5);
+  EXPECT_TRUE(saved.strokes.front().info.camera.has_value());
+  EXPECT_GT(saved.strokes.front().info.duration, 0.5);
+  EXPECT_FALSE(window().model().unsaved());
+}
+
+TEST_F(Drill, ADragWithoutDrillModeCutsNothing)
+{
+  saveBall("ball");
+  openWindow();
+  const QPoint middle = view().rect().center();
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::qWait(200);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(window().model().value().strokes.empty());
+}
+
+TEST_F(Drill, UndoBringsThePictureBackAndRedoTheHole)
+{
+  saveBall("ball");
+  openWindow();
+  const QImage whole = picture();
+  drill(700, 20);
+  QTest::keyClick(&view(), Qt::Key_D); // the tool leaves the picture
+  const QImage drilled = picture();
+  ASSERT_GT(differentPixels(whole, drilled, 12), 100);
+  ASSERT_TRUE(action("Undo")->isEnabled());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(differentPixels(whole, picture()), 0);
+  EXPECT_EQ(window().model().value().applied, 0u);
+  ASSERT_TRUE(action("Redo")->isEnabled());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(differentPixels(drilled, picture()), 0);
+}
+
+TEST_F(Drill, AFreshWindowShowsTheSameHole)
+{
+  saveBall("ball");
+  openWindow();
+  drill(700, 20);
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QImage before = picture();
+  closeWindow();
+  openWindow("ball");
+  ASSERT_EQ(window().model().value().applied, 1u);
+  EXPECT_EQ(differentPixels(before, picture()), 0);
+}
+
+TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::keyPress(&view(), Qt::Key_Space);
+  QTest::qWait(500);
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  ASSERT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_GT(window().model().value().removedVolume(), 0.0);
+}
+
+TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
+{
+  saveBall("ball");
+  openWindow();
+  auto other = library().open("ball");
+  library().save(other); // somebody else
+  QString why;
+  onMessage([&why](QMessageBox& box) {
+    why = box.text();
+    box.reject();
+  });
+  drill(500);
+  EXPECT_TRUE(why.contains("ball")) << why.toStdString();
+  EXPECT_TRUE(window().model().unsaved());
+  EXPECT_TRUE(window().windowTitle().startsWith(QString::fromUtf8("•")));
+  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_TRUE(library().open("ball").strokes.empty());
+
+  // Quitting asks again; now the work goes under another name.
+  onMessage([this](QMessageBox& box) {
+    auto* answer = new QTimer(&window());
+    QObject::connect(answer, &QTimer::timeout, answer, [answer] {
+      auto* ask = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      if (!ask || qobject_cast<QMessageBox*>(ask))
+        return;
+      answer->stop();
+      ask->accept(); // with the name that is offered
+    });
+    answer->start(20);
+    for (QAbstractButton* button : box.buttons())
+      if (button->text().contains("name"))
+        return button->click();
+  });
+  EXPECT_TRUE(window().close());
+  EXPECT_EQ(library().open("ball copy").strokes.size(), 1u);
+}

@@ -1,0 +1,208 @@
+#include "GuiTest.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSurfaceFormat>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+const Eigen::Vector3d GuiTest::kBallCenter{-30.0, 12.0, 45.0};
+
+GuiTest::GuiTest() = default;
+GuiTest::~GuiTest() = default;
+
+std::filesystem::path GuiTest::folder() const
+{
+  return m_folder.path().toStdString();
+}
+
+library::Library GuiTest::library() const
+{
+  return library::Library(folder() / "library");
+}
+
+scene::Case GuiTest::ballCase(const std::string& name)
+{
+  scene::Case value;
+  value.name = name;
+  const Eigen::Vector3d origin = kBallCenter - Eigen::Vector3d::Constant(0.5 * 63 * 0.5);
+  value.ct.geometry = core::GridGeometry({64, 64, 64}, Eigen::Vector3d::Constant(0.5), origin);
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+  for (int k = 0; k < 64; ++k)
+    for (int j = 0; j < 64; ++j)
+      for (int i = 0; i < 64; ++i)
+      {
+        const Eigen::Vector3d at = value.ct.geometry.patientFromVoxel(Eigen::Vector3d(i, j, k));
+        const double depth = kBallRadius - (at - kBallCenter).norm(); // mm
+        ct->at(i, j, k) = static_cast<std::int16_t>(
+          std::clamp(300.0 + 1000.0 * depth, -1000.0, 1600.0));
+        if ((at - kBallCenter).norm() < 4.0)
+          labels->at(i, j, k) = 1;
+      }
+  value.ct.name = "ct";
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+    std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  value.ct.range = {-1000.0, 1600.0};
+  scene::LabelPart part;
+  auto map = std::make_shared<const volume::LabelMap>(
+    volume::makeLabelMap(labels, {{"nerve", 1, {1.0F, 0.8F, 0.1F}, 0}}));
+  scene::StructurePart nerve;
+  nerve.name = "nerve";
+  nerve.index = 1;
+  nerve.voxels = map->segments.front().voxels;
+  nerve.volume = map->volume(map->segments.front());
+  part.structures.push_back(nerve);
+  part.labels = map;
+  value.labels.push_back(part);
+  return value;
+}
+
+void GuiTest::saveBall(const std::string& name)
+{
+  scene::Case value = ballCase(name);
+  library().save(value);
+}
+
+void GuiTest::openWindow(const QString& what)
+{
+  m_window = std::make_unique<MainWindow>(library());
+  m_window->resize(1200, 760);
+  m_window->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(m_window.get()));
+  m_window->begin(what);
+  QTest::qWait(50);
+}
+
+void GuiTest::closeWindow()
+{
+  m_window->close();
+  m_window.reset();
+}
+
+ThreeDView& GuiTest::view()
+{
+  return *m_window->findChild<ThreeDView*>("threeDView");
+}
+
+QAction* GuiTest::action(const QString& text)
+{
+  for (QAction* candidate : m_window->findChildren<QAction*>())
+    if (candidate->text().remove('&') == text)
+      return candidate;
+  ADD_FAILURE() << "no action " << text.toStdString();
+  return nullptr;
+}
+
+QImage GuiTest::picture()
+{
+  QTest::qWait(600); // the fine picture comes 300 ms after the last move
+  const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+  if (!pictures.isEmpty()) // for the eye
+  {
+    static int number = 0;
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    m_window->screen()
+      ->grabWindow(m_window->winId())
+      .save(QString("%1/%2-%3.png").arg(pictures, test->name()).arg(++number));
+  }
+  return view().grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+}
+
+void GuiTest::drop(const QMimeData& data)
+{
+  QDragEnterEvent enter({300, 300}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(m_window.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent event(QPointF(300, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(m_window.get(), &event);
+  QTest::qWait(10);
+}
+
+void GuiTest::dropPath(const std::filesystem::path& path)
+{
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(QString::fromStdString(path.string()))});
+  drop(data);
+}
+
+void GuiTest::drill(int milliseconds, int pixels)
+{
+  if (!action("Drill")->isChecked())
+    QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(action("Drill")->isChecked());
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  QPoint at = middle;
+  constexpr int parts = 10;
+  for (int n = 1; n <= parts; ++n)
+  {
+    QTest::qWait(milliseconds / parts);
+    at = middle + QPoint(pixels * n / parts, 0);
+    QMouseEvent move(QEvent::MouseMove, at, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&view(), &move);
+  }
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, at);
+}
+
+void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)
+{
+  auto* poll = new QTimer(m_window.get());
+  QObject::connect(poll, &QTimer::timeout, poll, [poll, react] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box)
+      return;
+    poll->stop();
+    poll->deleteLater();
+    react(*box);
+  });
+  poll->start(20);
+}
+
+bool GuiTest::waitFor(const std::function<bool()>& done, int milliseconds)
+{
+  return QTest::qWaitFor(done, milliseconds);
+}
+
+int differentPixels(const QImage& a, const QImage& b, int tolerance)
+{
+  if (a.size() != b.size())
+    return a.width() * a.height();
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x)
+    {
+      const QRgb p = a.pixel(x, y);
+      const QRgb q = b.pixel(x, y);
+      count += std::abs(qRed(p) - qRed(q)) > tolerance ||
+               std::abs(qGreen(p) - qGreen(q)) > tolerance ||
+               std::abs(qBlue(p) - qBlue(q)) > tolerance;
+    }
+  return count;
+}
+
+int pixelsUnlikeTheCorner(const QImage& image)
+{
+  QImage empty(image.size(), image.format());
+  empty.fill(image.pixel(0, 0));
+  return differentPixels(image, empty, 6);
+}
+
+} // namespace petrous::workstation
+
+int main(int argc, char** argv)
+{
+  ::testing::InitGoogleTest(&argc, argv);
+  if (::testing::GTEST_FLAG(list_tests)) // needs no display
+    return RUN_ALL_TESTS();
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QApplication application(argc, argv);
+  petrous::workstation::applyTheme(application);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,165 @@
+#include "GuiTest.h"
+
+#include <QAbstractItemModelTester>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTreeView>
+
+#include "SliceView.h"
+#include "StartPage.h"
+#include "StructuresModel.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+using Window = GuiTest;
+
+TEST_F(Window, WithoutACaseTellsHowToBegin)
+{
+  openWindow();
+  const auto* page = window().findChild<StartPage*>();
+  ASSERT_TRUE(page && page->isVisible());
+  const auto* sample = page->findChild<QPushButton*>("primary");
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->text(), "Make the sample patient");
+  EXPECT_FALSE(action("Save")->isEnabled());
+}
+
+TEST_F(Window, OpensTheLatestCaseAndShowsItsBone)
+{
+  saveBall("older");
+  QTest::qWait(1100); // the library's clock has seconds
+  saveBall("ball");
+  openWindow();
+  ASSERT_TRUE(window().model().hasCase());
+  EXPECT_EQ(window().windowTitle(), QString::fromUtf8("ball — Petrous"));
+  const QImage image = picture();
+  EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
+  // A ball in the middle: bone there, none in the corners.
+  EXPECT_NE(image.pixel(image.rect().center()), image.pixel(0, 0));
+}
+
+TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)
+{
+  openWindow();
+  QString text;
+  onMessage([&text](QMessageBox& box) {
+    text = box.text();
+    box.accept();
+  });
+  window().begin("nobody");
+  EXPECT_TRUE(text.contains("no case 'nobody'")) << text.toStdString();
+  EXPECT_FALSE(text.contains('\n'));
+}
+
+TEST_F(Window, ADragTurnsThePatientAndAWheelZooms)
+{
+  saveBall("ball");
+  openWindow();
+  const QPoint middle = view().rect().center();
+  const auto before = view().picture().camera();
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  QMouseEvent move(QEvent::MouseMove, middle + QPoint(60, 20), Qt::LeftButton, Qt::LeftButton,
+                   Qt::NoModifier);
+  QApplication::sendEvent(&view(), &move);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(60, 20));
+  const auto after = view().picture().camera();
+  EXPECT_GT((after.position - before.position).norm(), 5.0);
+  EXPECT_LT((after.focalPoint - before.focalPoint).norm(), 1e-9);
+  EXPECT_NEAR((after.position - after.focalPoint).norm(),
+              (before.position - before.focalPoint).norm(), 1e-6);
+
+  QWheelEvent wheel(middle, view().mapToGlobal(middle), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
+                    Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&view(), &wheel);
+  EXPECT_LT((view().picture().camera().position - after.focalPoint).norm(),
+            0.95 * (after.position - after.focalPoint).norm());
+}
+
+TEST_F(Window, ANumberKeyShowsAStandardView)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_2);
+  const auto camera = view().picture().camera();
+  const Eigen::Vector3d eye = (camera.position - camera.focalPoint).normalized();
+  EXPECT_LT((eye - Eigen::Vector3d(0, -1, 0)).norm(), 1e-6);
+}
+
+TEST_F(Window, ADoubleClickPutsTheCrosshairOnTheSurface)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::mouseDClick(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  const Eigen::Vector3d offset = window().model().crosshair() - kBallCenter;
+  EXPECT_NEAR(offset.norm(), kBallRadius, 0.1);
+  EXPECT_LT(offset.x(), -11.0); // lateral view of a right ear
+}
+
+TEST_F(Window, SlicesMoveTheCrosshair)
+{
+  saveBall("ball");
+  openWindow();
+  auto* axial = window().findChild<SliceView*>("axialView");
+  ASSERT_TRUE(axial);
+  const auto slice = axial->slice();
+  QTest::mouseClick(axial, Qt::LeftButton, Qt::NoModifier, {40, 50});
+  const Eigen::Vector3d wanted = slice.patientFromPixel(39.5, 49.5);
+  EXPECT_LT((window().model().crosshair() - wanted).cwiseAbs().maxCoeff(), 0.6);
+
+  const double height = window().model().crosshair().z();
+  QWheelEvent wheel(QPointF(40, 50), axial->mapToGlobal(QPoint(40, 50)), {}, {0, 120}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(axial, &wheel);
+  EXPECT_NEAR(window().model().crosshair().z(), height + 0.5, 1e-9);
+}
+
+TEST_F(Window, SlicesShowBoneAndStructure)
+{
+  saveBall("ball");
+  openWindow();
+  auto* coronal = window().findChild<SliceView*>("coronalView");
+  const QImage image = coronal->grab().toImage();
+  const auto slice = coronal->slice();
+  const auto colorAt = [&](const Eigen::Vector3d& patient) {
+    const Eigen::Vector2d pixel = slice.pixelFromPatient(patient);
+    return QColor(image.pixel(static_cast<int>(pixel[0] + 0.5), static_cast<int>(pixel[1] + 0.5)));
+  };
+  const QColor bone = colorAt(kBallCenter + Eigen::Vector3d(6.3, 0, 6.3));
+  EXPECT_NEAR(bone.red(), 255.0 * (1600.0 + 1300.0) / 4000.0, 2.0);
+  EXPECT_EQ(bone.red(), bone.blue());
+  const QColor nerve = colorAt(kBallCenter + Eigen::Vector3d(2, 0, 2));
+  EXPECT_GT(nerve.green(), nerve.blue());
+}
+
+TEST_F(Window, TheThresholdTakesTheBoneAway)
+{
+  saveBall("ball");
+  openWindow();
+  const int before = pixelsUnlikeTheCorner(picture());
+  window().findChild<QSpinBox*>("isoBox")->setValue(2400);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 2400.0; }));
+  EXPECT_LT(pixelsUnlikeTheCorner(picture()), before / 2); // the structure stays
+  EXPECT_TRUE(window().windowTitle().startsWith(QString::fromUtf8("•")));
+  closeWindow();
+  EXPECT_EQ(library().open("ball").iso, 2400.0);
+}
+
+TEST_F(Window, TheListOfStructuresChangesTheCase)
+{
+  saveBall("ball");
+  openWindow();
+  auto* list = window().findChild<QTreeView*>("structures");
+  QAbstractItemModelTester tester(list->model(),
+                                  QAbstractItemModelTester::FailureReportingMode::Warning);
+  ASSERT_EQ(list->model()->rowCount(), 1);
+  EXPECT_EQ(list->model()->index(0, StructuresModel::Name).data().toString(), "nerve");
+  EXPECT_TRUE(list->model()->setData(list->model()->index(0, StructuresModel::Drillable),
+                                     Qt::Unchecked, Qt::CheckStateRole));
+  const auto* nerve = scene::findStructure(window().model().value(), "nerve");
+  EXPECT_FALSE(nerve->look.drillable);
+  EXPECT_TRUE(nerve->look.shown);
+  QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  const auto saved = library().open("ball");
+  EXPECT_FALSE(scene::findStructure(saved, "nerve")->look.drillable);
+}

@@ -30,7 +30,8 @@ void setFlags(StructureLook& look, const std::string& flags)
 std::string flagsOf(const StructureLook& look)
 {
   std::string flags;
-  const auto add = [&flags](bool holds, const char* name) {
+  const auto add = [&flags](bool holds, const char* name)
+  {
     if (holds)
       flags += (flags.empty() ? "" : ",") + std::string(name);
   };

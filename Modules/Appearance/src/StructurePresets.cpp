@@ -30,9 +30,11 @@ StructureLook lookFrom(const nlohmann::json& entry)
 
 std::string plainWords(std::string name)
 {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
-    return c == '_' || c == '-' || c == '.' ? ' ' : static_cast<char>(std::tolower(c));
-  });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) {
+                   return c == '_' || c == '-' || c == '.' ? ' '
+                                                           : static_cast<char>(std::tolower(c));
+                 });
   return name;
 }
 

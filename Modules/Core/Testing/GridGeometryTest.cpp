@@ -15,7 +15,7 @@ namespace
 GridGeometry oblique()
 {
   const Eigen::Matrix3d direction =
-    Eigen::AngleAxisd(0.4, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+      Eigen::AngleAxisd(0.4, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   return {{40, 30, 20}, {0.45, 0.5, 1.25}, {-100.0, 35.5, 712.25}, direction};
 }
 
@@ -79,8 +79,7 @@ TEST(GridGeometry, CropsWithoutMovingAVoxel)
 TEST(GridGeometry, CoversAPatientBoxTightly)
 {
   const GridGeometry grid({11, 11, 11}, Vector3d::Constant(2.0), Vector3d::Zero());
-  EXPECT_EQ(grid.boxCovering({4.0, 4.1, 3.9}, {8.0, 8.0, 8.1}),
-            (IndexBox{{2, 2, 1}, {5, 5, 6}}));
+  EXPECT_EQ(grid.boxCovering({4.0, 4.1, 3.9}, {8.0, 8.0, 8.1}), (IndexBox{{2, 2, 1}, {5, 5, 6}}));
   EXPECT_TRUE(grid.boxCovering({21, 0, 0}, {30, 5, 5}).empty());
   EXPECT_EQ(grid.boxCovering({-9, -9, -9}, {99, 99, 99}), grid.fullBox());
 }

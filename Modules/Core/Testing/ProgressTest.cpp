@@ -40,10 +40,12 @@ TEST(Progress, StopsWorkThatWasCancelled)
 TEST(Lazy, MakesItsValueOnceAndOnlyWhenAsked)
 {
   int made = 0;
-  const Lazy<int> lazy([&made] {
-    ++made;
-    return std::make_shared<const int>(7);
-  });
+  const Lazy<int> lazy(
+      [&made]
+      {
+        ++made;
+        return std::make_shared<const int>(7);
+      });
   const Lazy<int> copy = lazy;
   EXPECT_EQ(lazy.peek(), nullptr);
   EXPECT_EQ(made, 0);
@@ -56,11 +58,13 @@ TEST(Lazy, MakesItsValueOnceAndOnlyWhenAsked)
 TEST(Lazy, TriesAgainAfterAFailure)
 {
   int calls = 0;
-  const Lazy<int> lazy([&calls]() -> std::shared_ptr<const int> {
-    if (++calls == 1)
-      throw InvalidParameter("first time");
-    return std::make_shared<const int>(1);
-  });
+  const Lazy<int> lazy(
+      [&calls]() -> std::shared_ptr<const int>
+      {
+        if (++calls == 1)
+          throw InvalidParameter("first time");
+        return std::make_shared<const int>(1);
+      });
   EXPECT_THROW(lazy.get(), InvalidParameter);
   EXPECT_EQ(*lazy.get(), 1);
 }

@@ -3,11 +3,14 @@
 namespace petrous::core
 {
 
-Error::Error(Fault fault, const std::string& message) : std::runtime_error(message), m_fault(fault)
+Error::Error(Fault fault, const std::string& message)
+  : std::runtime_error(message)
+  , m_fault(fault)
 {
 }
 
-InvalidParameter::InvalidParameter(const std::string& message) : Error(Fault::BadInput, message)
+InvalidParameter::InvalidParameter(const std::string& message)
+  : Error(Fault::BadInput, message)
 {
 }
 

@@ -84,7 +84,10 @@ GridGeometry::GridGeometry()
 
 GridGeometry::GridGeometry(const Index3& dims, const Eigen::Vector3d& spacing,
                            const Eigen::Vector3d& origin, const Eigen::Matrix3d& direction)
-  : m_dims(dims), m_spacing(spacing), m_origin(origin), m_direction(direction)
+  : m_dims(dims)
+  , m_spacing(spacing)
+  , m_origin(origin)
+  , m_direction(direction)
 {
   if (dims[0] < 1 || dims[1] < 1 || dims[2] < 1)
     throw InvalidParameter("grid: every dimension must be at least 1, not " +
@@ -96,7 +99,7 @@ GridGeometry::GridGeometry(const Index3& dims, const Eigen::Vector3d& spacing,
     throw InvalidParameter("grid: the origin is not finite");
   if (!direction.allFinite() ||
       (direction.transpose() * direction - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() >
-        kOrthonormalTolerance)
+          kOrthonormalTolerance)
     throw InvalidParameter("grid: the direction cosines are not perpendicular unit vectors");
   m_patientFromVoxel = direction * spacing.asDiagonal();
   m_voxelFromPatient = m_patientFromVoxel.inverse();
@@ -128,15 +131,15 @@ Eigen::Vector3d GridGeometry::voxelFromPatient(const Eigen::Vector3d& patient) c
 bool GridGeometry::hullContains(const Eigen::Vector3d& voxel) const noexcept
 {
   for (int a = 0; a < 3; ++a)
-    if (!(voxel[a] >= -kVoxelSlack && voxel[a] <= m_dims[static_cast<std::size_t>(a)] - 1 + kVoxelSlack))
+    if (!(voxel[a] >= -kVoxelSlack &&
+          voxel[a] <= m_dims[static_cast<std::size_t>(a)] - 1 + kVoxelSlack))
       return false;
   return true;
 }
 
 Eigen::Vector3d GridGeometry::center() const noexcept
 {
-  return patientFromVoxel(
-    0.5 * Eigen::Vector3d(m_dims[0] - 1.0, m_dims[1] - 1.0, m_dims[2] - 1.0));
+  return patientFromVoxel(0.5 * Eigen::Vector3d(m_dims[0] - 1.0, m_dims[1] - 1.0, m_dims[2] - 1.0));
 }
 
 std::array<Eigen::Vector3d, 2> GridGeometry::patientBounds() const noexcept
@@ -145,9 +148,9 @@ std::array<Eigen::Vector3d, 2> GridGeometry::patientBounds() const noexcept
   Eigen::Vector3d upper = m_origin;
   for (int corner = 1; corner < 8; ++corner)
   {
-    const Eigen::Vector3d p =
-      patientFromVoxel({(corner & 1) ? m_dims[0] - 1.0 : 0.0, (corner & 2) ? m_dims[1] - 1.0 : 0.0,
-                        (corner & 4) ? m_dims[2] - 1.0 : 0.0});
+    const Eigen::Vector3d p = patientFromVoxel({(corner & 1) ? m_dims[0] - 1.0 : 0.0,
+                                                (corner & 2) ? m_dims[1] - 1.0 : 0.0,
+                                                (corner & 4) ? m_dims[2] - 1.0 : 0.0});
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   }
@@ -167,8 +170,8 @@ IndexBox GridGeometry::boxCovering(const Eigen::Vector3d& lower,
   for (int corner = 0; corner < 8; ++corner)
   {
     const Eigen::Vector3d v =
-      voxelFromPatient({(corner & 1) ? upper[0] : lower[0], (corner & 2) ? upper[1] : lower[1],
-                        (corner & 4) ? upper[2] : lower[2]});
+        voxelFromPatient({(corner & 1) ? upper[0] : lower[0], (corner & 2) ? upper[1] : lower[1],
+                          (corner & 4) ? upper[2] : lower[2]});
     first = first.cwiseMin(v);
     last = last.cwiseMax(v);
   }

@@ -9,7 +9,8 @@ namespace petrous::core
 {
 
 Progress::Progress(Listener listener, std::shared_ptr<const CancelToken> token)
-  : m_listener(std::move(listener)), m_token(std::move(token))
+  : m_listener(std::move(listener))
+  , m_token(std::move(token))
 {
 }
 

@@ -7,7 +7,8 @@ namespace petrous::core
 
 RigidTransform::RigidTransform(const Eigen::Quaterniond& rotation,
                                const Eigen::Vector3d& translation)
-  : m_rotation(rotation), m_translation(translation)
+  : m_rotation(rotation)
+  , m_translation(translation)
 {
   const double norm = rotation.norm();
   if (!(norm > 1e-12) || !std::isfinite(norm))
@@ -21,7 +22,7 @@ RigidTransform RigidTransform::fromMatrix(const Eigen::Matrix4d& matrix)
 {
   const Eigen::Matrix3d r = matrix.topLeftCorner<3, 3>();
   const bool orthonormal =
-    matrix.allFinite() && (r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-6;
+      matrix.allFinite() && (r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-6;
   if (!orthonormal || r.determinant() < 0.0)
     throw InvalidParameter("rigid transform: the matrix is no rotation (sheared, scaled or "
                            "mirrored); only rigid motions are accepted");

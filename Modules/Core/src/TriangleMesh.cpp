@@ -39,9 +39,12 @@ bool TriangleMesh::isClosed() const
   std::sort(edges.begin(), edges.end());
   if (std::adjacent_find(edges.begin(), edges.end()) != edges.end())
     return false;
-  return std::all_of(edges.begin(), edges.end(), [&edges](const auto& edge) {
-    return std::binary_search(edges.begin(), edges.end(), std::make_pair(edge.second, edge.first));
-  });
+  return std::all_of(edges.begin(), edges.end(),
+                     [&edges](const auto& edge)
+                     {
+                       return std::binary_search(edges.begin(), edges.end(),
+                                                 std::make_pair(edge.second, edge.first));
+                     });
 }
 
 std::array<Eigen::Vector3f, 2> TriangleMesh::bounds() const

@@ -95,7 +95,7 @@ core::BenchmarkReport runCutBenchmark(const std::filesystem::path&, bool quick,
     const core::GridGeometry grid({n, n, n}, Eigen::Vector3d::Constant(h),
                                   Eigen::Vector3d::Constant(-0.5 * h * (n - 1)));
     const auto bone = std::make_shared<const volume::IntensityVolume>(
-      std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500}));
+        std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500}));
     const volume::TissueField tissue(bone, {}, nullptr, {});
     std::mt19937 random(7);
     std::uniform_real_distribution<double> shift(-0.5 * h, 0.5 * h);
@@ -103,7 +103,7 @@ core::BenchmarkReport runCutBenchmark(const std::filesystem::path&, bool quick,
     for (int place = 0; place < places; ++place)
     {
       progress.report((static_cast<double>(s) + place / static_cast<double>(places)) /
-                        static_cast<double>(spacings.size()),
+                          static_cast<double>(spacings.size()),
                       "cutting spheres");
       const Eigen::Vector3d center(shift(random), shift(random), shift(random));
       const volume::CutMask before(grid);

@@ -21,7 +21,7 @@ volume::TissueField halfSpace()
       for (int i = 0; i < 50; ++i)
         v->at(i, j, k) = static_cast<std::int16_t>(std::lround(300.0 - 1000.0 * (0.2 * k - 4.9)));
   return {std::make_shared<const volume::IntensityVolume>(
-            std::shared_ptr<const volume::Volume<std::int16_t>>(v)),
+              std::shared_ptr<const volume::Volume<std::int16_t>>(v)),
           {},
           nullptr,
           {}};

@@ -52,10 +52,10 @@ TEST(StrokeCodec, RefusesEveryTruncation)
   dissection::Dissection work(kGrid);
   const auto bytes = dissection::encodeDeltas(strokeOf(work)->deltas);
   for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 50)
-    EXPECT_THROW(dissection::decodeDeltas({bytes.begin(), bytes.begin() + size},
-                                          volume::CutMask(kGrid)),
-                 core::InvalidParameter)
-      << size;
+    EXPECT_THROW(
+        dissection::decodeDeltas({bytes.begin(), bytes.begin() + size}, volume::CutMask(kGrid)),
+        core::InvalidParameter)
+        << size;
 }
 
 TEST(StrokeCodec, SurvivesDamageWithoutACrash)

@@ -25,7 +25,7 @@ core::GridGeometry cube(int n, double h)
 volume::TissueField solidBone(const core::GridGeometry& grid)
 {
   return {std::make_shared<const volume::IntensityVolume>(
-            std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500})),
+              std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500})),
           {},
           nullptr,
           {}};
@@ -78,7 +78,7 @@ TEST(SweptSphereCut, CapsuleIsRightWithinHalfAPercent)
 TEST(SweptSphereCut, HoldsOnAnObliqueAnisotropicGrid)
 {
   const Eigen::Matrix3d direction =
-    Eigen::AngleAxisd(0.6, Vector3d(1, 3, -2).normalized()).toRotationMatrix();
+      Eigen::AngleAxisd(0.6, Vector3d(1, 3, -2).normalized()).toRotationMatrix();
   const core::GridGeometry grid({40, 40, 24}, {0.25, 0.25, 0.5}, {3, 4, 5}, direction);
   const double truth = 4.0 / 3.0 * kPi * 8.0;
   EXPECT_NEAR(removed(grid, {grid.center(), grid.center(), 2.0}) / truth, 1.0, 0.01);
@@ -123,10 +123,11 @@ TEST(SweptSphereCut, ManySmallStepsCutWhatOneSweepCuts)
   dissection::cut(once, {from, to, 1.5});
   volume::CutMask often(grid);
   for (int n = 0; n < 200; ++n)
-    dissection::cut(often, {from + (to - from) * n / 200.0, from + (to - from) * (n + 1) / 200.0,
-                            1.5});
+    dissection::cut(often,
+                    {from + (to - from) * n / 200.0, from + (to - from) * (n + 1) / 200.0, 1.5});
   const volume::CutMask untouched(grid);
-  const auto all = [](const volume::CutMask& m) {
+  const auto all = [](const volume::CutMask& m)
+  {
     std::vector<std::size_t> bricks(m.brickCount());
     for (std::size_t n = 0; n < bricks.size(); ++n)
       bricks[n] = n;
@@ -175,8 +176,7 @@ TEST(SweptSphereCut, RefusesABurrThatIsNone)
 {
   volume::CutMask mask(cube(16, 0.3));
   EXPECT_THROW(dissection::cut(mask, {{0, 0, 0}, {0, 0, 0}, 0.0}), core::InvalidParameter);
-  EXPECT_THROW(dissection::cut(mask, {{0, 0, 0},
-                                      {0, std::numeric_limits<double>::quiet_NaN(), 0},
-                                      1.0}),
-               core::InvalidParameter);
+  EXPECT_THROW(
+      dissection::cut(mask, {{0, 0, 0}, {0, std::numeric_limits<double>::quiet_NaN(), 0}, 1.0}),
+      core::InvalidParameter);
 }

@@ -48,7 +48,7 @@ TEST(ToolPath, ReachesAnEndBetweenTwoTicks)
 TEST(ToolPath, DrillHoldsUntilTheNextRow)
 {
   const auto ticks =
-    ticksOf(pathOf("0,0,0,0,1,0,0,0,1\n1,1,0,0,1,0,0,0,0\n2,2,0,0,1,0,0,0,1\n"), 4);
+      ticksOf(pathOf("0,0,0,0,1,0,0,0,1\n1,1,0,0,1,0,0,0,0\n2,2,0,0,1,0,0,0,1\n"), 4);
   const std::vector<bool> expected{true, true, true, true, false, false, false, false, true};
   ASSERT_EQ(ticks.size(), expected.size());
   for (std::size_t n = 0; n < ticks.size(); ++n)
@@ -69,7 +69,8 @@ TEST(ToolPath, OneRowIsOneTick)
 
 TEST(ToolPath, NamesTheLineThatIsWrong)
 {
-  const auto complaint = [](const std::string& rows) -> std::string {
+  const auto complaint = [](const std::string& rows) -> std::string
+  {
     try
     {
       pathOf(rows);

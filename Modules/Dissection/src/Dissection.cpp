@@ -6,7 +6,9 @@
 namespace petrous::dissection
 {
 
-Dissection::Dissection(const core::GridGeometry& geometry) : m_mask(geometry), m_before(geometry)
+Dissection::Dissection(const core::GridGeometry& geometry)
+  : m_mask(geometry)
+  , m_before(geometry)
 {
 }
 

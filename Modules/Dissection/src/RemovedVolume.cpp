@@ -51,7 +51,10 @@ class Quadrature
 public:
   Quadrature(const volume::TissueField& tissue, const CutMask& before, const CutMask& after,
              const std::vector<NamedStructure>& structures)
-    : m_tissue(tissue), m_before(before), m_after(after), m_structures(structures)
+    : m_tissue(tissue)
+    , m_before(before)
+    , m_after(after)
+    , m_structures(structures)
   {
   }
 
@@ -127,14 +130,16 @@ RemovedVolume measureRemoved(const volume::TissueField& tissue, const CutMask& b
   const auto all = withNeighbours(after, bricks);
   const Quadrature quadrature(tissue, before, after, structures);
   std::vector<Count> counts(all.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t n) {
-    counts[n].structures.resize(structures.size());
-    const core::IndexBox box = after.brickBox(all[n]);
-    for (int k = box.lower[2]; k < box.upper[2]; ++k)
-      for (int j = box.lower[1]; j < box.upper[1]; ++j)
-        for (int i = box.lower[0]; i < box.upper[0]; ++i)
-          quadrature.addVoxel({i, j, k}, counts[n]);
-  });
+  tbb::parallel_for(std::size_t{0}, all.size(),
+                    [&](std::size_t n)
+                    {
+                      counts[n].structures.resize(structures.size());
+                      const core::IndexBox box = after.brickBox(all[n]);
+                      for (int k = box.lower[2]; k < box.upper[2]; ++k)
+                        for (int j = box.lower[1]; j < box.upper[1]; ++j)
+                          for (int i = box.lower[0]; i < box.upper[0]; ++i)
+                            quadrature.addVoxel({i, j, k}, counts[n]);
+                    });
 
   // Summed as whole numbers in brick order: the same result whatever the threads did.
   Count sum;
@@ -151,7 +156,7 @@ RemovedVolume measureRemoved(const volume::TissueField& tissue, const CutMask& b
   for (std::size_t s = 0; s < structures.size(); ++s)
     if (sum.structures[s] > 0)
       result.structures.push_back(
-        {structures[s].name, static_cast<double>(sum.structures[s]) * point});
+          {structures[s].name, static_cast<double>(sum.structures[s]) * point});
   return result;
 }
 

@@ -83,7 +83,7 @@ std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas)
   }
   std::vector<std::uint8_t> packed(ZSTD_compressBound(raw.size()));
   const std::size_t size =
-    ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
+      ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
   if (ZSTD_isError(size))
     throw core::Error(core::Fault::Internal, "stroke: could not be compressed");
   packed.resize(size);

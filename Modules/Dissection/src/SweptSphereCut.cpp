@@ -16,23 +16,23 @@ class Coverage
 {
 public:
   Coverage(const SweptSphere& burr, const core::GridGeometry& grid)
-    : m_burr(burr), m_axis(burr.to - burr.from), m_axisSquared(m_axis.squaredNorm()),
-      m_direction(grid.direction()), m_halfWidth(grid.spacing().norm()),
-      m_bias(grid.spacing().cwiseAbs2() / 12.0), m_biasLimit(0.25 * grid.minSpacing())
+    : m_burr(burr)
+    , m_axis(burr.to - burr.from)
+    , m_axisSquared(m_axis.squaredNorm())
+    , m_direction(grid.direction())
+    , m_halfWidth(grid.spacing().norm())
+    , m_bias(grid.spacing().cwiseAbs2() / 12.0)
+    , m_biasLimit(0.25 * grid.minSpacing())
   {
   }
 
-  double reach() const
-  {
-    return m_burr.radius + m_halfWidth + m_biasLimit;
-  }
+  double reach() const { return m_burr.radius + m_halfWidth + m_biasLimit; }
 
   double at(const Eigen::Vector3d& p) const
   {
-    const double along =
-      m_axisSquared > 0.0
-        ? std::clamp((p - m_burr.from).dot(m_axis) / m_axisSquared, 0.0, 1.0)
-        : 0.0;
+    const double along = m_axisSquared > 0.0
+                             ? std::clamp((p - m_burr.from).dot(m_axis) / m_axisSquared, 0.0, 1.0)
+                             : 0.0;
     const Eigen::Vector3d offset = p - (m_burr.from + along * m_axis);
     const double rho = offset.norm();
     const double d = rho - m_burr.radius;
@@ -82,7 +82,7 @@ double protection(const ProtectedTissue& keep, const Eigen::Vector3d& patient)
 std::uint16_t quantised(double share)
 {
   return static_cast<std::uint16_t>(
-    std::lround(std::clamp(share, 0.0, 1.0) * double{CutMask::kUntouched}));
+      std::lround(std::clamp(share, 0.0, 1.0) * double{CutMask::kUntouched}));
 }
 
 // Null when no voxel of the brick is lowered.
@@ -106,9 +106,11 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
         if (!keep.empty())
           left = std::max(left, protection(keep, p));
         const std::size_t n =
-          static_cast<std::size_t>(i % edge + edge * (j % edge + edge * (k % edge)));
+            static_cast<std::size_t>(i % edge + edge * (j % edge + edge * (k % edge)));
         const std::uint16_t value = quantised(left);
-        const std::uint16_t present = changed ? (*changed)[n] : old ? (*old)[n] : CutMask::kUntouched;
+        const std::uint16_t present = changed ? (*changed)[n]
+                                      : old   ? (*old)[n]
+                                              : CutMask::kUntouched;
         if (value >= present)
           continue;
         if (!changed)

@@ -61,7 +61,7 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   value.ct.name = "ct";
   value.ct.geometry = grid;
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500}));
+      std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500}));
   Library library(work / "library");
   library.save(value);
   library.loadDissection(value);
@@ -97,8 +97,7 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   ours.scene = scene;
   ours.isDefault = true;
   ours.seconds = median(seconds);
-  ours.error =
-    static_cast<double>(differences(value.dissection->mask(), again.dissection->mask()));
+  ours.error = static_cast<double>(differences(value.dissection->mask(), again.dissection->mask()));
   ours.errorUnit = "voxels that differ after reopening";
   ours.extra["slowest_ms"] = 1e3 * *std::max_element(seconds.begin(), seconds.end());
   ours.extra["written_kb"] = median(written) / 1e3;

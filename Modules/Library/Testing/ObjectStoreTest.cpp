@@ -38,7 +38,8 @@ TEST(ObjectStore, LeavesNothingWhenAWriterFails)
   const TemporaryFolder folder;
   ObjectStore store(folder.path());
   EXPECT_THROW(store.add("bin",
-                         [](const std::filesystem::path& path) {
+                         [](const std::filesystem::path& path)
+                         {
                            std::ofstream(path) << "half";
                            throw petrous::core::InvalidParameter("writer failed");
                          }),

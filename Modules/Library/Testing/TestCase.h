@@ -32,10 +32,7 @@ public:
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const
-  {
-    return m_path;
-  }
+  const std::filesystem::path& path() const { return m_path; }
 
 private:
   std::filesystem::path m_path;
@@ -57,7 +54,7 @@ inline scene::Case smallCase(const std::string& name, int n = 24)
   value.ct.name = "ct";
   value.ct.geometry = grid;
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::shared_ptr<const volume::Volume<std::int16_t>>(std::move(ct)), -2000.0);
+      std::shared_ptr<const volume::Volume<std::int16_t>>(std::move(ct)), -2000.0);
   value.ct.range = value.ct.volume.get()->range();
   scene::LabelPart part;
   auto map = volume::makeLabelMap(std::move(labels), {});
@@ -67,7 +64,7 @@ inline scene::Case smallCase(const std::string& name, int n = 24)
   auto mesh = std::make_shared<core::TriangleMesh>();
   mesh->vertices = {{0, 0, 0}, {1.25F, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  value.meshes.push_back({"incus", "", 4, std::shared_ptr<const core::TriangleMesh>(mesh), {}});
+  value.meshes.push_back({"incus", "", 4, {}, std::shared_ptr<const core::TriangleMesh>(mesh), {}});
   return value;
 }
 

@@ -25,11 +25,13 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
 
 } // namespace
 
-Catalogue::Catalogue(std::filesystem::path file) : m_file(std::move(file))
+Catalogue::Catalogue(std::filesystem::path file)
+  : m_file(std::move(file))
 {
 }
 
-std::optional<CaseSummary> Catalogue::find(const std::string& name, const Stamp& stamp) const noexcept
+std::optional<CaseSummary> Catalogue::find(const std::string& name,
+                                           const Stamp& stamp) const noexcept
 try
 {
   if (!std::filesystem::exists(m_file))

@@ -21,21 +21,16 @@ namespace
 class Descriptor
 {
 public:
-  Descriptor(const fs::path& path, int flags) : m_fd(::open(path.c_str(), flags | O_CLOEXEC, 0644))
+  Descriptor(const fs::path& path, int flags)
+    : m_fd(::open(path.c_str(), flags | O_CLOEXEC, 0644))
   {
     if (m_fd < 0)
       throwForErrno(errno, path);
   }
-  ~Descriptor()
-  {
-    ::close(m_fd);
-  }
+  ~Descriptor() { ::close(m_fd); }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
-  int get() const
-  {
-    return m_fd;
-  }
+  int get() const { return m_fd; }
 
 private:
   int m_fd;
@@ -72,7 +67,7 @@ void throwForErrno(int error, const fs::path& path)
     throw LibraryError(Reason::NotFound, name + ": not there");
   default:
     throw LibraryError(Reason::Unwritable, name + ": cannot be written (system error " +
-                                             std::to_string(error) + "); nothing was changed");
+                                               std::to_string(error) + "); nothing was changed");
   }
 }
 

@@ -6,9 +6,9 @@
 namespace petrous::library
 {
 
-/// Replaces `path` with `bytes`: temporary file beside it, fsync, rename, fsync of the folder. Under
-/// a kill or a power cut the file is the old one or the new one.
-/// Throws LibraryError (DiskFull, Unwritable) and leaves the old file and no temporary one.
+/// Replaces `path` with `bytes`: temporary file beside it, fsync, rename, fsync of the folder.
+/// Under a kill or a power cut the file is the old one or the new one. Throws LibraryError
+/// (DiskFull, Unwritable) and leaves the old file and no temporary one.
 void replaceDurably(const std::filesystem::path& path, std::string_view bytes);
 
 /// A new file with its bytes on the disk; not yet its folder's entry.

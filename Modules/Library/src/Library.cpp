@@ -46,17 +46,19 @@ struct FileState
 
 std::optional<FileState> stateOf(const fs::path& path)
 {
-  struct stat info{};
+  struct stat info
+  {
+  };
   if (::stat(path.c_str(), &info) != 0)
     return std::nullopt;
   std::tm utc{};
   ::gmtime_r(&info.st_mtim.tv_sec, &utc);
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return FileState{{static_cast<std::uintmax_t>(info.st_size),
-                    static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1000000000 +
-                      info.st_mtim.tv_nsec},
-                   text};
+  return FileState{
+      {static_cast<std::uintmax_t>(info.st_size),
+       static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1000000000 + info.st_mtim.tv_nsec},
+      text};
 }
 
 CaseSummary summaryOf(const scene::Case& value, const std::string& modified)
@@ -75,25 +77,24 @@ CaseSummary summaryOf(const scene::Case& value, const std::string& modified)
 // Puts the voxels of every part that has no object yet into the store.
 void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& progress)
 {
-  const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part) {
+  const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
+  {
     if (image.object.empty())
-      image.object = store.add("nrrd", [&](const fs::path& path) {
-        imaging::writeRawNrrd(path, *image.volume.get(), part);
-      });
+      image.object = store.add("nrrd", [&](const fs::path& path)
+                               { imaging::writeRawNrrd(path, *image.volume.get(), part); });
   };
   storeImage(value.ct, progress.part(0.0, 0.7));
   for (auto& mr : value.mr)
     storeImage(mr, progress.part(0.7, 0.8));
   for (auto& part : value.labels)
     if (part.object.empty())
-      part.object = store.add("seg.nrrd", [&](const fs::path& path) {
-        imaging::writeLabelFile(path, *part.labels.get());
-      });
+      part.object = store.add("seg.nrrd", [&](const fs::path& path)
+                              { imaging::writeLabelFile(path, *part.labels.get()); });
   progress.report(0.9, "saving");
   for (auto& mesh : value.meshes)
     if (mesh.object.empty())
-      mesh.object = store.add(
-        "obj", [&](const fs::path& path) { imaging::writeMesh(path, *mesh.mesh.get()); });
+      mesh.object = store.add("obj", [&](const fs::path& path)
+                              { imaging::writeMesh(path, *mesh.mesh.get()); });
   for (std::size_t n = 0; n < value.strokes.size(); ++n)
   {
     scene::StrokePart& stroke = value.strokes[n];
@@ -107,7 +108,8 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
 
 } // namespace
 
-Library::Library(fs::path folder) : m_folder(std::move(folder))
+Library::Library(fs::path folder)
+  : m_folder(std::move(folder))
 {
 }
 
@@ -141,7 +143,8 @@ std::vector<CaseSummary> Library::list() const
     }
     try
     {
-      cases.push_back(summaryOf(scene::fromManifest(readText(path), path.string()), state->modified));
+      cases.push_back(
+          summaryOf(scene::fromManifest(readText(path), path.string()), state->modified));
     }
     catch (const core::Error&)
     {
@@ -172,9 +175,9 @@ scene::Case Library::open(const std::string& name) const
     std::string there;
     for (const CaseSummary& summary : list())
       there += (there.empty() ? "" : ", ") + summary.name;
-    throw LibraryError(Reason::NotFound, "no case '" + name + "' in " + m_folder.string() + "; " +
-                                           (there.empty() ? "the library is empty"
-                                                          : "there are: " + there));
+    throw LibraryError(Reason::NotFound,
+                       "no case '" + name + "' in " + m_folder.string() + "; " +
+                           (there.empty() ? "the library is empty" : "there are: " + there));
   }
   scene::Case value = scene::fromManifest(readText(path), path.string());
   attach(value);
@@ -184,21 +187,25 @@ scene::Case Library::open(const std::string& name) const
 void Library::attach(scene::Case& value) const
 {
   const ObjectStore store(objectFolder());
-  const auto attachImage = [&store](scene::ImagePart& image) {
+  const auto attachImage = [&store](scene::ImagePart& image)
+  {
     image.volume = core::Lazy<volume::IntensityVolume>(
-      [store, object = image.object] { return imaging::mapRawNrrd(store.path(object)); });
+        [store, object = image.object] { return imaging::mapRawNrrd(store.path(object)); });
   };
   attachImage(value.ct);
   for (auto& mr : value.mr)
     attachImage(mr);
   for (auto& part : value.labels)
-    part.labels = core::Lazy<volume::LabelMap>([store, object = part.object] {
-      return std::make_shared<const volume::LabelMap>(imaging::readLabelFile(store.path(object)));
-    });
+    part.labels = core::Lazy<volume::LabelMap>(
+        [store, object = part.object] {
+          return std::make_shared<const volume::LabelMap>(
+              imaging::readLabelFile(store.path(object)));
+        });
   for (auto& mesh : value.meshes)
-    mesh.mesh = core::Lazy<core::TriangleMesh>([store, object = mesh.object] {
-      return std::make_shared<const core::TriangleMesh>(imaging::readMesh(store.path(object)));
-    });
+    mesh.mesh = core::Lazy<core::TriangleMesh>(
+        [store, object = mesh.object] {
+          return std::make_shared<const core::TriangleMesh>(imaging::readMesh(store.path(object)));
+        });
 }
 
 void Library::loadDissection(scene::Case& value) const
@@ -237,16 +244,16 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   const fs::path path = manifestPath(value.name);
   if (value.revision == 0 && fs::exists(path))
     throw LibraryError(Reason::NameTaken, "case '" + value.name + "' is there already in " +
-                                            m_folder.string() + "; choose another name");
+                                              m_folder.string() + "; choose another name");
   if (value.revision != 0)
   {
     const bool there = fs::exists(path);
     const auto present =
-      there ? scene::fromManifest(readText(path), path.string()).revision : std::uint64_t{0};
+        there ? scene::fromManifest(readText(path), path.string()).revision : std::uint64_t{0};
     if (present != value.revision)
       throw LibraryError(Reason::Conflict,
                          "case '" + value.name + "' was " + (there ? "changed" : "removed") +
-                           " by another program since it was opened; save under another name");
+                             " by another program since it was opened; save under another name");
   }
 
   ObjectStore store(objectFolder());

@@ -52,7 +52,8 @@ std::string sha256OfFile(const fs::path& path)
   while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
     EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(file.gcount()));
   if (file.bad())
-    throw LibraryError(LibraryError::Reason::Damaged, path.string() + ": cannot be read to its end");
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       path.string() + ": cannot be read to its end");
   std::array<unsigned char, 32> digest{};
   EVP_DigestFinal_ex(context.get(), digest.data(), nullptr);
   std::string text;
@@ -65,7 +66,8 @@ std::string sha256OfFile(const fs::path& path)
   return text;
 }
 
-ObjectStore::ObjectStore(fs::path folder) : m_folder(std::move(folder))
+ObjectStore::ObjectStore(fs::path folder)
+  : m_folder(std::move(folder))
 {
 }
 
@@ -87,9 +89,10 @@ std::string ObjectStore::add(const std::string& ending,
 
 std::string ObjectStore::add(const std::string& ending, const std::vector<std::uint8_t>& bytes)
 {
-  return add(ending, [&bytes](const fs::path& path) {
-    writeDurably(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  });
+  return add(ending,
+             [&bytes](const fs::path& path) {
+               writeDurably(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+             });
 }
 
 fs::path ObjectStore::path(const std::string& object) const

@@ -72,7 +72,7 @@ struct Operands
 {
   const volume::Volume<float>& occupancy;
   const volume::CutMask* mask;
-  static constexpr double kReach = 0.75; // voxels, as in the tissue field
+  static constexpr double kReach = 1.0; // voxels, as in the tissue field
 
   double inside(const Eigen::Vector3d& patient) const
   {

@@ -16,7 +16,7 @@ scene::Case cubeInAir(bool solid, bool touchable)
   value.name = "cube";
   value.ct.geometry = grid;
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{-1000}));
+      std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{-1000}));
   auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
   for (int k = 8; k < 16; ++k)
     for (int j = 8; j < 16; ++j)
@@ -24,7 +24,7 @@ scene::Case cubeInAir(bool solid, bool touchable)
         labels->at(i, j, k) = 5;
   scene::LabelPart part;
   part.labels =
-    std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
   scene::StructurePart s;
   s.name = "cube";
   s.index = 5;
@@ -64,10 +64,12 @@ TEST(CaseField, LoadsNoLabelsWhereNoneIsTouchable)
 {
   scene::Case value = cubeInAir(true, false);
   bool loaded = false;
-  value.labels[0].labels = core::Lazy<volume::LabelMap>([&loaded]() {
-    loaded = true;
-    return std::make_shared<const volume::LabelMap>();
-  });
+  value.labels[0].labels = core::Lazy<volume::LabelMap>(
+      [&loaded]()
+      {
+        loaded = true;
+        return std::make_shared<const volume::LabelMap>();
+      });
   scene::tissueField(value);
   EXPECT_FALSE(loaded);
 }

@@ -12,8 +12,7 @@ scene::Case drilledCase(int strokes)
 {
   scene::Case value;
   value.name = "ear";
-  value.ct.geometry =
-    core::GridGeometry({32, 32, 32}, Vector3d::Constant(0.3), Vector3d::Zero());
+  value.ct.geometry = core::GridGeometry({32, 32, 32}, Vector3d::Constant(0.3), Vector3d::Zero());
   value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
   for (int n = 0; n < strokes; ++n)
   {
@@ -104,8 +103,9 @@ TEST(Case, NamesMustFitAFile)
 {
   for (const std::string good : {"ear", "Ohr links 2", "ohr_1", "ünïcode", "a.b"})
     EXPECT_NO_THROW(scene::checkCaseName(good)) << good;
-  for (const std::string& bad : {std::string(), std::string("../x"), std::string(".hidden"),
-                                 std::string("a/b"), std::string("tab\t"), std::string("-x"),
-                                 std::string("end "), std::string(101, 'a'), std::string("a\0b", 3)})
+  for (const std::string& bad :
+       {std::string(), std::string("../x"), std::string(".hidden"), std::string("a/b"),
+        std::string("tab\t"), std::string("-x"), std::string("end "), std::string(101, 'a'),
+        std::string("a\0b", 3)})
     EXPECT_THROW(scene::checkCaseName(bad), core::InvalidParameter) << bad;
 }

@@ -80,7 +80,8 @@ std::vector<std::string> partNames(const Case& value)
 
 void removePart(Case& value, const std::string& name)
 {
-  const auto removeNamed = [&name](auto& parts) {
+  const auto removeNamed = [&name](auto& parts)
+  {
     const auto found = std::find_if(parts.begin(), parts.end(),
                                     [&name](const auto& part) { return part.name == name; });
     if (found == parts.end())
@@ -108,9 +109,10 @@ void removePart(Case& value, const std::string& name)
 
 void checkCaseName(const std::string& name)
 {
-  const auto bad = [](unsigned char c) {
-    return c < 0x20 || c == 0x7f || std::string("/\\:*?\"<>|").find(static_cast<char>(c)) !=
-                                      std::string::npos;
+  const auto bad = [](unsigned char c)
+  {
+    return c < 0x20 || c == 0x7f ||
+           std::string("/\\:*?\"<>|").find(static_cast<char>(c)) != std::string::npos;
   };
   const auto ragged = [](char c) { return c == '.' || c == ' '; };
   if (name.empty() || name.size() > 100)
@@ -119,8 +121,8 @@ void checkCaseName(const std::string& name)
   if (std::any_of(name.begin(), name.end(), bad) || ragged(name.front()) || ragged(name.back()) ||
       name.front() == '-')
     throw core::InvalidParameter(
-      "case name: must be a plain name without / \\ : * ? \" < > |, control characters, a dot or "
-      "space at its ends, or a dash in front");
+        "case name: must be a plain name without / \\ : * ? \" < > |, control characters, a dot or "
+        "space at its ends, or a dash in front");
 }
 
 } // namespace petrous::scene

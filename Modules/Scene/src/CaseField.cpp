@@ -23,9 +23,9 @@ std::vector<volume::TissueField::SolidUnion> unionsOf(const Case& value, const W
         indices.push_back(structure.index);
     if (indices.empty())
       continue;
-    auto field = volume::makeSmoothedUnion(*part.labels.get(), [&indices](std::uint16_t index) {
-      return std::find(indices.begin(), indices.end(), index) != indices.end();
-    });
+    auto field = volume::makeSmoothedUnion(
+        *part.labels.get(), [&indices](std::uint16_t index)
+        { return std::find(indices.begin(), indices.end(), index) != indices.end(); });
     if (field)
       unions.push_back(std::move(field));
   }

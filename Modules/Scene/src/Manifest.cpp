@@ -57,12 +57,8 @@ core::RigidTransform poseIn(const json& j)
 
 json imageOut(const ImagePart& image)
 {
-  return {{"name", image.name},
-          {"object", image.object},
-          {"grid", gridOut(image.geometry)},
-          {"min", image.range.min},
-          {"max", image.range.max},
-          {"notes", image.notes}};
+  return {{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
+          {"min", image.range.min}, {"max", image.range.max}, {"notes", image.notes}};
 }
 
 ImagePart imageIn(const json& j)
@@ -78,8 +74,10 @@ ImagePart imageIn(const json& j)
 
 json lookOut(const appearance::StructureLook& look)
 {
-  return {{"preset", look.preset}, {"color", look.color},
-          {"opacity", look.opacity}, {"flags", appearance::flagsOf(look)},
+  return {{"preset", look.preset},
+          {"color", look.color},
+          {"opacity", look.opacity},
+          {"flags", appearance::flagsOf(look)},
           {"solid", look.solid}};
 }
 
@@ -147,14 +145,14 @@ StrokePart strokeIn(const json& j)
   stroke.info.startedAt = j.at("started_at").get<std::string>();
   stroke.info.duration = j.at("duration_s").get<double>();
   stroke.info.burr.kind = j.at("burr").get<std::string>() == "diamond"
-                            ? dissection::Burr::Kind::Diamond
-                            : dissection::Burr::Kind::Cutting;
+                              ? dissection::Burr::Kind::Diamond
+                              : dissection::Burr::Kind::Cutting;
   stroke.info.burr.diameter = j.at("diameter_mm").get<double>();
   stroke.info.burr.rpm = j.at("rpm").get<double>();
   stroke.info.removed = j.at("removed_mm3").get<double>();
   for (const json& touched : j.at("structures"))
     stroke.info.structures.push_back(
-      {touched.at("name").get<std::string>(), touched.at("removed_mm3").get<double>()});
+        {touched.at("name").get<std::string>(), touched.at("removed_mm3").get<double>()});
   if (j.contains("camera"))
     stroke.info.camera = cameraIn(j.at("camera"));
   return stroke;
@@ -177,8 +175,7 @@ LabelPart labelsIn(const json& j)
   LabelPart part;
   part.object = j.at("object").get<std::string>();
   for (const json& s : j.at("structures"))
-    part.structures.push_back({s.at("name").get<std::string>(),
-                               s.at("index").get<std::uint16_t>(),
+    part.structures.push_back({s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
                                s.at("voxels").get<std::uint64_t>(),
                                s.at("volume_mm3").get<double>(), lookIn(s.at("look"))});
   return part;
@@ -206,6 +203,7 @@ Case caseIn(const json& j)
     mesh.name = m.at("name").get<std::string>();
     mesh.object = m.at("object").get<std::string>();
     mesh.triangles = m.at("triangles").get<std::size_t>();
+    mesh.notes = m.at("notes").get<std::vector<std::string>>();
     mesh.look = lookIn(m.at("look"));
     value.meshes.push_back(std::move(mesh));
   }
@@ -223,20 +221,17 @@ Case caseIn(const json& j)
 } // namespace
 
 ManifestError::ManifestError(Reason r, const std::string& message)
-  : Error(core::Fault::BadInput, message), reason(r)
+  : Error(core::Fault::BadInput, message)
+  , reason(r)
 {
 }
 
 std::string toManifest(const Case& value)
 {
-  json j{{"petrous_case", kManifestFormat},
-         {"name", value.name},
-         {"revision", value.revision},
-         {"iso_hu", value.iso},
-         {"ct", imageOut(value.ct)},
-         {"mr", json::array()},
-         {"labels", json::array()},
-         {"meshes", json::array()}};
+  json j{{"petrous_case", kManifestFormat}, {"name", value.name},
+         {"revision", value.revision},      {"iso_hu", value.iso},
+         {"ct", imageOut(value.ct)},        {"mr", json::array()},
+         {"labels", json::array()},         {"meshes", json::array()}};
   for (const ImagePart& image : value.mr)
   {
     json mr = imageOut(image);
@@ -250,6 +245,7 @@ std::string toManifest(const Case& value)
     j["meshes"].push_back({{"name", mesh.name},
                            {"object", mesh.object},
                            {"triangles", mesh.triangles},
+                           {"notes", mesh.notes},
                            {"look", lookOut(mesh.look)}});
   if (value.camera)
     j["camera"] = cameraOut(*value.camera);
@@ -270,7 +266,7 @@ Case fromManifest(std::string_view text, const std::string& source)
     if (format > kManifestFormat)
       throw ManifestError(Reason::NewerFormat,
                           source + ": written by format " + std::to_string(format) +
-                            "; this program reads up to " + std::to_string(kManifestFormat));
+                              "; this program reads up to " + std::to_string(kManifestFormat));
     return caseIn(j);
   }
   catch (const json::exception&)

@@ -3,8 +3,8 @@
 #include "petrous/Volume/CutMask.h"
 
 using namespace petrous;
-using volume::CutMask;
 using Eigen::Vector3d;
+using volume::CutMask;
 
 namespace
 {

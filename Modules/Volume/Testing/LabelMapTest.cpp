@@ -16,7 +16,7 @@ using Labels = volume::Volume<std::uint16_t>;
 std::shared_ptr<Labels> emptyLabels(int n)
 {
   return std::make_shared<Labels>(
-    core::GridGeometry({n, n, n}, Vector3d::Constant(0.5), Vector3d(1, 2, 3)), std::uint16_t{0});
+      core::GridGeometry({n, n, n}, Vector3d::Constant(0.5), Vector3d(1, 2, 3)), std::uint16_t{0});
 }
 
 volume::Segment named(const std::string& name, std::uint16_t index)
@@ -81,7 +81,7 @@ TEST(SmoothedUnion, HasNoVoxelStepsOnAnObliquePlane)
         const double middle = 0.5 * (inside + outside);
         const Vector3d p = voxels->geometry().patientFromVoxel(base + middle * normal);
         const bool in =
-          volume::sampleTrilinear(*field, field->geometry().voxelFromPatient(p)) > 0.5;
+            volume::sampleTrilinear(*field, field->geometry().voxelFromPatient(p)) > 0.5;
         (in ? inside : outside) = middle;
       }
       low = std::min(low, inside);

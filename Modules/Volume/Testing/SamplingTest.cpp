@@ -18,7 +18,7 @@ volume::Volume<float> linearVolume(const core::GridGeometry& grid, const Vector3
     for (int j = 0; j < grid.dims()[1]; ++j)
       for (int i = 0; i < grid.dims()[0]; ++i)
         v.at(i, j, k) =
-          static_cast<float>(slope.dot(grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})));
+            static_cast<float>(slope.dot(grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})));
   return v;
 }
 
@@ -57,7 +57,7 @@ TEST(Sampling, ReachesTheLastVoxelAndClampsBeyond)
 TEST(Sampling, GradientOfALinearFieldIsItsSlopeInPatientAxes)
 {
   const Eigen::Matrix3d direction =
-    Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
+      Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
   const core::GridGeometry grid({9, 9, 9}, {0.4, 0.5, 1.2}, {10, -20, 30}, direction);
   const Vector3d slope(3.0, -1.0, 2.0);
   const auto v = linearVolume(grid, slope);
@@ -70,8 +70,8 @@ TEST(Volume, SharesTheMemoryItAdopts)
   auto memory = std::shared_ptr<short>(new short[8](), std::default_delete<short[]>());
   const std::weak_ptr<short> watch = memory;
   {
-    const volume::Volume<short> v(
-      core::GridGeometry({2, 2, 2}, Vector3d::Ones(), Vector3d::Zero()), std::move(memory));
+    const volume::Volume<short> v(core::GridGeometry({2, 2, 2}, Vector3d::Ones(), Vector3d::Zero()),
+                                  std::move(memory));
     EXPECT_EQ(v.data(), watch.lock().get());
   }
   EXPECT_TRUE(watch.expired());

@@ -8,8 +8,8 @@
 #include "petrous/Volume/TissueField.h"
 
 using namespace petrous;
-using volume::TissueField;
 using Eigen::Vector3d;
+using volume::TissueField;
 
 namespace
 {
@@ -27,13 +27,13 @@ std::shared_ptr<const volume::IntensityVolume> ball(const core::GridGeometry& gr
         v->at(i, j, k) = static_cast<float>(300.0 + 400.0 * (radius - (p - center).norm()));
       }
   return std::make_shared<const volume::IntensityVolume>(
-    std::shared_ptr<const volume::Volume<float>>(v));
+      std::shared_ptr<const volume::Volume<float>>(v));
 }
 
 core::GridGeometry obliqueGrid()
 {
   const Eigen::Matrix3d direction =
-    Eigen::AngleAxisd(0.5, Vector3d(3, 1, 2).normalized()).toRotationMatrix();
+      Eigen::AngleAxisd(0.5, Vector3d(3, 1, 2).normalized()).toRotationMatrix();
   return {{60, 60, 60}, Vector3d::Constant(0.3), {5, -7, 11}, direction};
 }
 
@@ -74,7 +74,7 @@ TEST(TissueField, SeesAThinWallBetweenTwoAirPoints)
     for (int j = 0; j < 8; ++j)
       v->at(40, j, k) = 2000;
   const TissueField field(std::make_shared<const volume::IntensityVolume>(
-                            std::shared_ptr<const volume::Volume<std::int16_t>>(v)),
+                              std::shared_ptr<const volume::Volume<std::int16_t>>(v)),
                           {}, nullptr, {});
   const auto hit = field.firstHit({0, 1, 1}, {19, 1, 1});
   ASSERT_TRUE(hit);
@@ -89,7 +89,7 @@ TEST(TissueField, MaskDoesNotMoveWithTheDensityOfBone)
   {
     const core::GridGeometry grid({32, 16, 16}, Vector3d::Ones(), Vector3d::Zero());
     const auto bone = std::make_shared<const volume::IntensityVolume>(
-      std::make_shared<const volume::Volume<std::int16_t>>(grid, hu));
+        std::make_shared<const volume::Volume<std::int16_t>>(grid, hu));
     auto mask = std::make_shared<volume::CutMask>(grid);
     auto brick = std::make_shared<volume::CutMask::Brick>();
     brick->fill(0);
@@ -106,7 +106,7 @@ TEST(TissueField, SolidStructureInAirIsTissue)
 {
   const core::GridGeometry grid({30, 30, 30}, Vector3d::Constant(0.5), Vector3d::Zero());
   const auto air = std::make_shared<const volume::IntensityVolume>(
-    std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{-1000}));
+      std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{-1000}));
   auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
   for (int k = 10; k < 20; ++k)
     for (int j = 10; j < 20; ++j)
@@ -143,9 +143,9 @@ TEST(TissueField, RefusesAMaskOfAnotherGrid)
 {
   const auto grid = obliqueGrid();
   const core::GridGeometry other({60, 60, 60}, Vector3d::Constant(0.3), {0, 0, 0});
-  EXPECT_THROW(TissueField(ball(grid, grid.center(), 5.0), {},
-                           std::make_shared<volume::CutMask>(other), {}),
-               core::InvalidParameter);
+  EXPECT_THROW(
+      TissueField(ball(grid, grid.center(), 5.0), {}, std::make_shared<volume::CutMask>(other), {}),
+      core::InvalidParameter);
   EXPECT_THROW(TissueField(ball(grid, grid.center(), 5.0), {}, nullptr, {300.0, 0.0}),
                core::InvalidParameter);
 }

@@ -17,7 +17,8 @@ std::size_t offsetInBrick(int i, int j, int k) noexcept
 }
 } // namespace
 
-CutMask::CutMask(const core::GridGeometry& geometry) : m_geometry(geometry)
+CutMask::CutMask(const core::GridGeometry& geometry)
+  : m_geometry(geometry)
 {
   for (std::size_t a = 0; a < 3; ++a)
     m_brickDims[a] = (geometry.dims()[a] + kBrickEdge - 1) / kBrickEdge;
@@ -32,8 +33,8 @@ std::size_t CutMask::brickIndex(const core::Index3& brick) const noexcept
 {
   return static_cast<std::size_t>(brick[0]) +
          static_cast<std::size_t>(m_brickDims[0]) *
-           (static_cast<std::size_t>(brick[1]) +
-            static_cast<std::size_t>(m_brickDims[1]) * static_cast<std::size_t>(brick[2]));
+             (static_cast<std::size_t>(brick[1]) +
+              static_cast<std::size_t>(m_brickDims[1]) * static_cast<std::size_t>(brick[2]));
 }
 
 core::IndexBox CutMask::brickBox(std::size_t brick) const noexcept
@@ -78,7 +79,7 @@ void CutMask::setBrick(std::size_t index, BrickVersion version)
 std::uint16_t CutMask::at(int i, int j, int k) const noexcept
 {
   const BrickVersion& version =
-    m_bricks[brickIndex({i / kBrickEdge, j / kBrickEdge, k / kBrickEdge})];
+      m_bricks[brickIndex({i / kBrickEdge, j / kBrickEdge, k / kBrickEdge})];
   return version ? (*version)[offsetInBrick(i, j, k)] : kUntouched;
 }
 
@@ -94,11 +95,12 @@ double CutMask::sample(const Eigen::Vector3d& voxel) const noexcept
     const Brick* brick = m_bricks[first].get();
     if (!brick)
       return 1.0;
-    return cell.interpolate([brick](int i, int j, int k) {
-      return static_cast<double>((*brick)[offsetInBrick(i, j, k)]);
-    }) / kFull;
+    return cell.interpolate([brick](int i, int j, int k)
+                            { return static_cast<double>((*brick)[offsetInBrick(i, j, k)]); }) /
+           kFull;
   }
-  return cell.interpolate([this](int i, int j, int k) { return static_cast<double>(at(i, j, k)); }) /
+  return cell.interpolate([this](int i, int j, int k)
+                          { return static_cast<double>(at(i, j, k)); }) /
          kFull;
 }
 

@@ -10,7 +10,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr int kBlock = 8; // cells along the edge of a block
+constexpr int kBlock = 8;        // cells along the edge of a block
 constexpr int kSubdivisions = 3; // of a cell that the surface crosses
 constexpr int kRefinements = 12;
 
@@ -38,7 +38,8 @@ void searchCell(const TissueField& field, const Eigen::Vector3d& from, const cor
         points[at(i, j, k)] = field.geometry().patientFromVoxel(voxel);
         values[at(i, j, k)] = field.value(points[at(i, j, k)]);
       }
-  const auto edge = [&](std::size_t a, std::size_t b) {
+  const auto edge = [&](std::size_t a, std::size_t b)
+  {
     if ((values[a] > 0.0) == (values[b] > 0.0))
       return;
     const double t = values[a] / (values[a] - values[b]);
@@ -73,7 +74,7 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
     const Eigen::Vector3d offset = from - best.point;
     const Eigen::Vector3d slide = stride * (offset - n * n.dot(offset));
     const Eigen::Vector3d moved =
-      best.point + slide * std::min(1.0, 0.5 * h / std::max(slide.norm(), 1e-12));
+        best.point + slide * std::min(1.0, 0.5 * h / std::max(slide.norm(), 1e-12));
     const Eigen::Vector3d in = moved - 0.5 * h * n;
     const auto hit = field.firstHit(moved + 0.5 * h * n, in);
     if (!hit || *hit <= 0.0)
@@ -93,7 +94,8 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
 } // namespace
 
 NearestSurfaceSearch::NearestSurfaceSearch(const TissueField& field, double reach)
-  : m_field(field), m_reach(reach)
+  : m_field(field)
+  , m_reach(reach)
 {
 }
 
@@ -113,7 +115,7 @@ NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient) const
       for (int i = box.lower[0] / kBlock; i <= last(0); ++i)
       {
         const Eigen::Vector3d center =
-          grid.patientFromVoxel({(i + 0.5) * kBlock, (j + 0.5) * kBlock, (k + 0.5) * kBlock});
+            grid.patientFromVoxel({(i + 0.5) * kBlock, (j + 0.5) * kBlock, (k + 0.5) * kBlock});
         const double distance = (center - patient).norm() - blockRadius;
         if (distance < m_reach)
           blocks.push_back({distance, {i, j, k}});
@@ -146,10 +148,9 @@ const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::
   for (int k = 0; k < size[2]; ++k)
     for (int j = 0; j < size[1]; ++j)
       for (int i = 0; i < size[0]; ++i)
-        solid[at(i, j, k)] =
-          m_field.value(grid.patientFromVoxel({1.0 * (corners.lower[0] + i),
-                                               1.0 * (corners.lower[1] + j),
-                                               1.0 * (corners.lower[2] + k)})) > 0.0;
+        solid[at(i, j, k)] = m_field.value(grid.patientFromVoxel(
+                                 {1.0 * (corners.lower[0] + i), 1.0 * (corners.lower[1] + j),
+                                  1.0 * (corners.lower[2] + k)})) > 0.0;
   for (int k = 0; k + 1 < size[2]; ++k)
     for (int j = 0; j + 1 < size[1]; ++j)
       for (int i = 0; i + 1 < size[0]; ++i)
@@ -159,7 +160,7 @@ const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::
           count += solid[at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2 & 1))];
         if (count > 0 && count < 8)
           entry->second.push_back(
-            {corners.lower[0] + i, corners.lower[1] + j, corners.lower[2] + k});
+              {corners.lower[0] + i, corners.lower[1] + j, corners.lower[2] + k});
       }
   return entry->second;
 }
@@ -176,7 +177,7 @@ std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& 
     for (const core::Index3& cell : crossedCells(block.block))
     {
       const Eigen::Vector3d center =
-        grid.patientFromVoxel({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5});
+          grid.patientFromVoxel({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5});
       if ((center - patient).norm() - cellRadius <= best.distance)
         searchCell(m_field, patient, cell, best);
     }

@@ -13,7 +13,8 @@ namespace
 // Two voxels beyond the structure the filtered union is 0 for certain.
 constexpr int kMargin = 2;
 
-std::vector<bool> wantedTable(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted)
+std::vector<bool> wantedTable(const LabelMap& labels,
+                              const std::function<bool(std::uint16_t)>& wanted)
 {
   std::vector<bool> table(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, false);
   for (const Segment& segment : labels.segments)
@@ -85,24 +86,25 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
   const core::Index3 size = box.size();
   // May reach beyond the label grid, so that a structure cut off by its border is closed there.
   const core::GridGeometry geometry(
-    {size[0] + 2 * kMargin, size[1] + 2 * kMargin, size[2] + 2 * kMargin}, grid.spacing(),
-    grid.patientFromVoxel(Eigen::Vector3d(box.lower[0] - kMargin, box.lower[1] - kMargin,
-                                          box.lower[2] - kMargin)),
-    grid.direction());
+      {size[0] + 2 * kMargin, size[1] + 2 * kMargin, size[2] + 2 * kMargin}, grid.spacing(),
+      grid.patientFromVoxel(
+          Eigen::Vector3d(box.lower[0] - kMargin, box.lower[1] - kMargin, box.lower[2] - kMargin)),
+      grid.direction());
   auto field = std::make_shared<Volume<float>>(geometry, 0.0F);
-  const auto forEachInside = [&](const auto& visit) {
+  const auto forEachInside = [&](const auto& visit)
+  {
     for (int k = 0; k < size[2]; ++k)
       for (int j = 0; j < size[1]; ++j)
         for (int i = 0; i < size[0]; ++i)
-          visit(field->at(i + kMargin, j + kMargin, k + kMargin),
-                bool{table[labels.voxels->at(box.lower[0] + i, box.lower[1] + j,
-                                             box.lower[2] + k)]});
+          visit(
+              field->at(i + kMargin, j + kMargin, k + kMargin),
+              bool{table[labels.voxels->at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k)]});
   };
   forEachInside([](float& value, bool inside) { value = inside ? 1.0F : 0.0F; });
   filter(*field);
-  forEachInside([](float& value, bool inside) {
-    value = inside ? std::max(value, kInsideFloor) : std::min(value, 1.0F - kInsideFloor);
-  });
+  forEachInside(
+      [](float& value, bool inside)
+      { value = inside ? std::max(value, kInsideFloor) : std::min(value, 1.0F - kInsideFloor); });
   return field;
 }
 

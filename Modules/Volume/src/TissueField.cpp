@@ -41,8 +41,10 @@ std::pair<double, double> clipToHull(const core::GridGeometry& grid, const Eigen
 
 TissueField::TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<SolidUnion> solids,
                          std::shared_ptr<const CutMask> mask, const Parameters& parameters)
-  : m_ct(std::move(ct)), m_solids(std::move(solids)), m_mask(std::move(mask)),
-    m_parameters(parameters)
+  : m_ct(std::move(ct))
+  , m_solids(std::move(solids))
+  , m_mask(std::move(mask))
+  , m_parameters(parameters)
 {
   if (!m_ct)
     throw core::InvalidParameter("tissue field: no CT given");

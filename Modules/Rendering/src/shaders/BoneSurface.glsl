@@ -34,12 +34,12 @@ float boneField(vec3 p)
 }
 #endif
 
-// Difference over +-0.75 voxel along one axis, one-sided at the border, per mm.
+// Difference over +-1 voxel along one axis, one-sided at the border, per mm.
 float boneSlope(vec3 p, int axis, bool cut)
 {
   vec3 low = p;
   vec3 high = p;
-  float reach = 0.75 / p_dims[axis];
+  float reach = 1.0 / p_dims[axis];
   low[axis] = max(p[axis] - reach, in_texMin[0][axis]);
   high[axis] = min(p[axis] + reach, in_texMax[0][axis]);
   float run = (high[axis] - low[axis]) * p_dims[axis] * p_spacing[axis];

@@ -22,10 +22,7 @@ public:
   explicit DrillSession(scene::Case& value);
 
   /// The field as it stands now; follows the cut.
-  const volume::TissueField& field() const noexcept
-  {
-    return m_field;
-  }
+  const volume::TissueField& field() const noexcept { return m_field; }
 
   /// Drill on: opens a stroke at time `seconds`. `startedAt` is UTC, ISO 8601.
   void begin(const dissection::Burr& burr, const std::string& startedAt, double seconds,

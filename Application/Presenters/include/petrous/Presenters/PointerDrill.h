@@ -43,10 +43,7 @@ public:
   std::shared_ptr<const dissection::Stroke> end();
 
   /// The burr's centre; nothing before the pointer met tissue.
-  const std::optional<Eigen::Vector3d>& center() const noexcept
-  {
-    return m_center;
-  }
+  const std::optional<Eigen::Vector3d>& center() const noexcept { return m_center; }
 
 private:
   bool step(const SightLine& line, double feed, double seconds);

@@ -32,29 +32,15 @@ public:
   static SliceGeometry fitting(SliceOrientation orientation, const core::GridGeometry& grid,
                                const Eigen::Vector3d& through, int width, int height);
 
-  SliceOrientation orientation() const noexcept
-  {
-    return m_orientation;
-  }
-  const Eigen::Vector3d& center() const noexcept
-  {
-    return m_center;
-  }
-  double mmPerPixel() const noexcept
-  {
-    return m_mmPerPixel;
-  }
-  int width() const noexcept
-  {
-    return m_width;
-  }
-  int height() const noexcept
-  {
-    return m_height;
-  }
+  SliceOrientation orientation() const noexcept { return m_orientation; }
+  const Eigen::Vector3d& center() const noexcept { return m_center; }
+  double mmPerPixel() const noexcept { return m_mmPerPixel; }
+  int width() const noexcept { return m_width; }
+  int height() const noexcept { return m_height; }
 
   Eigen::Vector3d patientFromPixel(double column, double row) const;
-  Eigen::Vector2d pixelFromPatient(const Eigen::Vector3d& patient) const; ///< projected on the slice
+  Eigen::Vector2d
+  pixelFromPatient(const Eigen::Vector3d& patient) const; ///< projected on the slice
 
   /// The letters of the patient's directions at the picture's left, right, top and bottom edge.
   struct EdgeLetters

@@ -23,10 +23,7 @@ class Error : public std::runtime_error
 {
 public:
   Error(Fault fault, const std::string& message);
-  Fault fault() const noexcept
-  {
-    return m_fault;
-  }
+  Fault fault() const noexcept { return m_fault; }
 
 private:
   Fault m_fault;

@@ -47,29 +47,14 @@ public:
   GridGeometry(const Index3& dims, const Eigen::Vector3d& spacing, const Eigen::Vector3d& origin,
                const Eigen::Matrix3d& direction = Eigen::Matrix3d::Identity());
 
-  const Index3& dims() const noexcept
-  {
-    return m_dims;
-  }
-  const Eigen::Vector3d& spacing() const noexcept
-  {
-    return m_spacing;
-  }
-  const Eigen::Vector3d& origin() const noexcept
-  {
-    return m_origin;
-  }
-  const Eigen::Matrix3d& direction() const noexcept
-  {
-    return m_direction;
-  }
+  const Index3& dims() const noexcept { return m_dims; }
+  const Eigen::Vector3d& spacing() const noexcept { return m_spacing; }
+  const Eigen::Vector3d& origin() const noexcept { return m_origin; }
+  const Eigen::Matrix3d& direction() const noexcept { return m_direction; }
 
   std::size_t voxelCount() const noexcept;
   std::size_t linearIndex(int i, int j, int k) const noexcept;
-  double minSpacing() const noexcept
-  {
-    return m_spacing.minCoeff();
-  }
+  double minSpacing() const noexcept { return m_spacing.minCoeff(); }
   double voxelVolume() const noexcept ///< mm^3
   {
     return m_spacing.prod();
@@ -79,14 +64,8 @@ public:
   Eigen::Vector3d voxelFromPatient(const Eigen::Vector3d& patient) const noexcept;
 
   /// d patient / d voxel (mm a voxel), and its inverse.
-  const Eigen::Matrix3d& patientFromVoxelLinear() const noexcept
-  {
-    return m_patientFromVoxel;
-  }
-  const Eigen::Matrix3d& voxelFromPatientLinear() const noexcept
-  {
-    return m_voxelFromPatient;
-  }
+  const Eigen::Matrix3d& patientFromVoxelLinear() const noexcept { return m_patientFromVoxel; }
+  const Eigen::Matrix3d& voxelFromPatientLinear() const noexcept { return m_voxelFromPatient; }
 
   /// Whether a continuous voxel position lies in the hull of the voxel centres.
   bool hullContains(const Eigen::Vector3d& voxel) const noexcept;

@@ -19,19 +19,18 @@ public:
   using Maker = std::function<std::shared_ptr<const T>()>;
 
   Lazy() = default;
-  Lazy(std::shared_ptr<const T> value) : m_state(std::make_shared<State>())
+  Lazy(std::shared_ptr<const T> value)
+    : m_state(std::make_shared<State>())
   {
     m_state->value = std::move(value);
   }
-  explicit Lazy(Maker maker) : m_state(std::make_shared<State>())
+  explicit Lazy(Maker maker)
+    : m_state(std::make_shared<State>())
   {
     m_state->maker = std::move(maker);
   }
 
-  explicit operator bool() const noexcept
-  {
-    return m_state != nullptr;
-  }
+  explicit operator bool() const noexcept { return m_state != nullptr; }
 
   /// The value; null only for a default-constructed Lazy.
   std::shared_ptr<const T> get() const

@@ -12,14 +12,8 @@ namespace petrous::core
 class CancelToken
 {
 public:
-  void cancel() noexcept
-  {
-    m_cancelled.store(true);
-  }
-  bool isCancelled() const noexcept
-  {
-    return m_cancelled.load();
-  }
+  void cancel() noexcept { m_cancelled.store(true); }
+  bool isCancelled() const noexcept { return m_cancelled.load(); }
 
 private:
   std::atomic<bool> m_cancelled{false};

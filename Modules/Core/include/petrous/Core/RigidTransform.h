@@ -22,14 +22,8 @@ public:
   /// mirror) and whose last row is 0 0 0 1; throws InvalidParameter otherwise.
   static RigidTransform fromMatrix(const Eigen::Matrix4d& matrix);
 
-  const Eigen::Quaterniond& rotation() const noexcept
-  {
-    return m_rotation;
-  }
-  const Eigen::Vector3d& translation() const noexcept
-  {
-    return m_translation;
-  }
+  const Eigen::Quaterniond& rotation() const noexcept { return m_rotation; }
+  const Eigen::Vector3d& translation() const noexcept { return m_translation; }
   Eigen::Matrix4d matrix() const;
   RigidTransform inverse() const;
 

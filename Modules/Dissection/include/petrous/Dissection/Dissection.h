@@ -18,54 +18,36 @@ class Dissection
 public:
   explicit Dissection(const core::GridGeometry& geometry);
 
-  const volume::CutMask& mask() const noexcept
-  {
-    return m_mask;
-  }
+  const volume::CutMask& mask() const noexcept { return m_mask; }
   volume::CutMask& mask() noexcept ///< for takeDirty
   {
     return m_mask;
   }
 
   /// All strokes; the first `applied()` of them are in the mask, the rest can be redone.
-  const std::vector<std::shared_ptr<const Stroke>>& strokes() const noexcept
-  {
-    return m_strokes;
-  }
-  std::size_t applied() const noexcept
-  {
-    return m_applied;
-  }
+  const std::vector<std::shared_ptr<const Stroke>>& strokes() const noexcept { return m_strokes; }
+  std::size_t applied() const noexcept { return m_applied; }
 
   /// One stroke back or forth; false when there is none. Not during a stroke.
   bool undo();
   bool redo();
 
-  /// Opens a stroke; the strokes that were undone are given up once it cuts. Throws InvalidParameter when one is
-  /// open already.
+  /// Opens a stroke; the strokes that were undone are given up once it cuts. Throws
+  /// InvalidParameter when one is open already.
   void beginStroke(const StrokeInfo& info);
-  bool strokeOpen() const noexcept
-  {
-    return m_open;
-  }
+  bool strokeOpen() const noexcept { return m_open; }
 
   /// Cuts within the open stroke; true when a voxel changed.
   bool cut(const SweptSphere& burr, const ProtectedTissue& keep = {});
 
   /// The mask as it was when the open stroke began.
-  const volume::CutMask& maskBeforeStroke() const noexcept
-  {
-    return m_before;
-  }
+  const volume::CutMask& maskBeforeStroke() const noexcept { return m_before; }
 
   /// Bricks that the open stroke has changed so far, sorted.
   std::vector<std::size_t> openBricks() const;
 
   /// Information of the open stroke, to be completed before it ends.
-  StrokeInfo& openInfo() noexcept
-  {
-    return m_info;
-  }
+  StrokeInfo& openInfo() noexcept { return m_info; }
 
   /// Closes the stroke; null (and no entry) when it changed nothing.
   std::shared_ptr<const Stroke> endStroke();

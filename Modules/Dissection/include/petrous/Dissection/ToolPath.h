@@ -1,7 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <istream>
 #include <string>
@@ -15,7 +15,7 @@ namespace petrous::dissection
 /// A pose of the tool in time: origin at the burr's centre, +z along the shaft to the hand.
 struct ToolSample
 {
-  double time = 0.0; ///< s
+  double time = 0.0;         ///< s
   core::RigidTransform pose; ///< X_PT, patient LPS mm
   bool drill = false;        ///< holds until the next sample
 };
@@ -29,10 +29,7 @@ public:
   /// a quaternion is zero, time does not rise or drill is neither 0 nor 1.
   static ToolPath read(std::istream& csv, const std::string& name);
 
-  const std::vector<ToolSample>& samples() const noexcept
-  {
-    return m_samples;
-  }
+  const std::vector<ToolSample>& samples() const noexcept { return m_samples; }
 
   /// Calls `tick` at every 1/rate s from the first sample to the last one, both included, with
   /// the position interpolated linearly and the rotation on the shortest arc.

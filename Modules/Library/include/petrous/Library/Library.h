@@ -22,8 +22,8 @@ struct CaseSummary
   bool damaged = false;    ///< the manifest cannot be read; the other fields are then empty
 };
 
-/// The cases on this machine: a folder with cases/NAME.json (the truth), objects/ (the voxels, named
-/// by their hash) and library.sqlite (an index that can be made again).
+/// The cases on this machine: a folder with cases/NAME.json (the truth), objects/ (the voxels,
+/// named by their hash) and library.sqlite (an index that can be made again).
 ///
 /// A case on disk is always the old state or the new one: objects first, then the manifest by
 /// temporary file, fsync and rename. Several programs may use one library: a save is refused where
@@ -34,10 +34,7 @@ public:
   /// The folder is made when something is first saved.
   explicit Library(std::filesystem::path folder);
 
-  const std::filesystem::path& folder() const noexcept
-  {
-    return m_folder;
-  }
+  const std::filesystem::path& folder() const noexcept { return m_folder; }
 
   std::vector<CaseSummary> list() const; ///< by name
   bool contains(const std::string& name) const;

@@ -22,8 +22,8 @@ struct LibraryError : core::Error
   LibraryError(Reason r, const std::string& message)
     : Error(r == Reason::NotFound || r == Reason::Damaged ? core::Fault::BadInput
                                                           : core::Fault::Refused,
-            message),
-      reason(r)
+            message)
+    , reason(r)
   {
   }
   Reason reason;

@@ -27,7 +27,8 @@ struct ImagePart
   volume::ValueRange range;
   std::vector<std::string> notes; ///< what was accepted when the image was read, in words
   core::Lazy<volume::IntensityVolume> volume;
-  /// X_MC: takes CT patient points to this image's patient points, LPS mm; identity until registered.
+  /// X_MC: takes CT patient points to this image's patient points, LPS mm; identity until
+  /// registered.
   core::RigidTransform mrFromCt;
   bool registered = false;
 };
@@ -55,6 +56,7 @@ struct MeshPart
   std::string name;
   std::string object;
   std::size_t triangles = 0;
+  std::vector<std::string> notes; ///< what was assumed when the file was read, in words
   core::Lazy<core::TriangleMesh> mesh;
   appearance::StructureLook look;
 };

@@ -30,18 +30,9 @@ public:
 
   explicit CutMask(const core::GridGeometry& geometry);
 
-  const core::GridGeometry& geometry() const noexcept
-  {
-    return m_geometry;
-  }
-  const core::Index3& brickDims() const noexcept
-  {
-    return m_brickDims;
-  }
-  std::size_t brickCount() const noexcept
-  {
-    return m_bricks.size();
-  }
+  const core::GridGeometry& geometry() const noexcept { return m_geometry; }
+  const core::Index3& brickDims() const noexcept { return m_brickDims; }
+  std::size_t brickCount() const noexcept { return m_bricks.size(); }
   std::size_t brickIndex(const core::Index3& brick) const noexcept;
 
   /// The voxels of a brick, cut to the grid.
@@ -50,10 +41,7 @@ public:
   /// The bricks (half-open box of brick positions) that a box of voxels touches.
   core::IndexBox bricksCovering(const core::IndexBox& voxels) const noexcept;
 
-  const BrickVersion& brick(std::size_t index) const noexcept
-  {
-    return m_bricks[index];
-  }
+  const BrickVersion& brick(std::size_t index) const noexcept { return m_bricks[index]; }
 
   /// Replaces a brick's version and marks it dirty. Voxels beyond the grid must be untouched.
   void setBrick(std::size_t index, BrickVersion version);

@@ -23,21 +23,15 @@ struct ValueRange
 class IntensityVolume
 {
 public:
-  using Voxels =
-    std::variant<std::shared_ptr<const Volume<std::int16_t>>,
-                 std::shared_ptr<const Volume<std::uint16_t>>, std::shared_ptr<const Volume<float>>>;
+  using Voxels = std::variant<std::shared_ptr<const Volume<std::int16_t>>,
+                              std::shared_ptr<const Volume<std::uint16_t>>,
+                              std::shared_ptr<const Volume<float>>>;
 
   /// Throws InvalidParameter when the pointer is null.
   explicit IntensityVolume(Voxels voxels, std::optional<double> padding = std::nullopt);
 
-  const Voxels& voxels() const noexcept
-  {
-    return m_voxels;
-  }
-  std::optional<double> padding() const noexcept
-  {
-    return m_padding;
-  }
+  const Voxels& voxels() const noexcept { return m_voxels; }
+  std::optional<double> padding() const noexcept { return m_padding; }
   const core::GridGeometry& geometry() const noexcept;
   std::size_t bytes() const noexcept;
 
@@ -49,8 +43,8 @@ public:
   template <class Visitor>
   decltype(auto) visit(Visitor&& visitor) const
   {
-    return std::visit([&visitor](const auto& pointer) -> decltype(auto) { return visitor(*pointer); },
-                      m_voxels);
+    return std::visit(
+        [&visitor](const auto& pointer) -> decltype(auto) { return visitor(*pointer); }, m_voxels);
   }
 
   double at(int i, int j, int k) const;

@@ -15,9 +15,9 @@ namespace petrous::volume
 struct Segment
 {
   std::string name;
-  std::uint16_t index = 0;         ///< its voxel value, >= 1
-  std::array<float, 3> color{};    ///< 0 to 1; black where the file gives none
-  std::uint64_t voxels = 0;        ///< how many voxels carry the index
+  std::uint16_t index = 0;      ///< its voxel value, >= 1
+  std::array<float, 3> color{}; ///< 0 to 1; black where the file gives none
+  std::uint64_t voxels = 0;     ///< how many voxels carry the index
 };
 
 /// Structures drawn on a grid of their own (which need not be the CT's): voxel value 0 is

@@ -12,9 +12,9 @@ namespace petrous::volume
 
 struct NearestSurface
 {
-  double distance = 0.0;                  ///< mm; negative in tissue
-  Eigen::Vector3d point{0.0, 0.0, 0.0};   ///< on the surface, patient LPS mm
-  Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< there, out of the tissue, patient axes
+  double distance = 0.0;                 ///< mm; negative in tissue
+  Eigen::Vector3d point{0.0, 0.0, 0.0};  ///< on the surface, patient LPS mm
+  Eigen::Vector3d normal{0.0, 0.0, 0.0}; ///< there, out of the tissue, patient axes
 };
 
 /// Searches the nearest point of the surface f = 0, on f itself.

@@ -35,9 +35,8 @@ struct TrilinearCell
   double interpolate(const Corner& value) const
   {
     const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
-    const auto row = [&](int j, int k) {
-      return mix(value(lower[0], j, k), value(upper[0], j, k), weight[0]);
-    };
+    const auto row = [&](int j, int k)
+    { return mix(value(lower[0], j, k), value(upper[0], j, k), weight[0]); };
     return mix(mix(row(lower[1], lower[2]), row(upper[1], lower[2]), weight[1]),
                mix(row(lower[1], upper[2]), row(upper[1], upper[2]), weight[1]), weight[2]);
   }
@@ -49,8 +48,8 @@ template <class T>
 double sampleTrilinear(const Volume<T>& volume, const Eigen::Vector3d& voxel) noexcept
 {
   const TrilinearCell cell(voxel, volume.geometry().dims());
-  return cell.interpolate(
-    [&volume](int i, int j, int k) { return static_cast<double>(volume.at(i, j, k)); });
+  return cell.interpolate([&volume](int i, int j, int k)
+                          { return static_cast<double>(volume.at(i, j, k)); });
 }
 
 /// Gradient by central differences of `sample(voxel) -> double` over +-step voxels, turned into

@@ -13,8 +13,8 @@ struct TissueExtent
 };
 
 /// The ball round the box that holds the voxels above `iso` but for the outermost hundredth along
-/// each axis, so that a table's edge or a few noisy voxels do not shrink the patient in the picture.
-/// The hull's own ball where nothing lies above `iso`. Looks at every second voxel.
+/// each axis, so that a table's edge or a few noisy voxels do not shrink the patient in the
+/// picture. The hull's own ball where nothing lies above `iso`. Looks at every second voxel.
 TissueExtent tissueExtent(const IntensityVolume& image, double iso);
 
 } // namespace petrous::volume

@@ -41,14 +41,8 @@ public:
   TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<SolidUnion> solids,
               std::shared_ptr<const CutMask> mask, const Parameters& parameters);
 
-  const core::GridGeometry& geometry() const noexcept
-  {
-    return m_ct->geometry();
-  }
-  const Parameters& parameters() const noexcept
-  {
-    return m_parameters;
-  }
+  const core::GridGeometry& geometry() const noexcept { return m_ct->geometry(); }
+  const Parameters& parameters() const noexcept { return m_parameters; }
 
   /// f at a patient point (LPS mm); kAir outside the grid.
   double value(const Eigen::Vector3d& patient) const;
@@ -58,7 +52,7 @@ public:
 
   /// Unit vector towards decreasing f (out of the tissue), patient axes; zero where the field
   /// is flat or outside the grid. Central differences over +-`step` voxels.
-  Eigen::Vector3d normal(const Eigen::Vector3d& patient, double step = 0.75) const;
+  Eigen::Vector3d normal(const Eigen::Vector3d& patient, double step = 1.0) const;
 
   /// First point on the segment from `start` to `end` where f rises above 0, in mm from start;
   /// nothing when there is none. Steps of at most half the smallest spacing, then bisection to

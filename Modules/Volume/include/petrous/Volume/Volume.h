@@ -23,47 +23,32 @@ public:
 
   /// Allocates geometry.voxelCount() voxels, not initialised.
   explicit Volume(const core::GridGeometry& geometry)
-    : m_geometry(geometry), m_data(new T[geometry.voxelCount()], std::default_delete<T[]>())
+    : m_geometry(geometry)
+    , m_data(new T[geometry.voxelCount()], std::default_delete<T[]>())
   {
   }
 
-  Volume(const core::GridGeometry& geometry, T fill) : Volume(geometry)
+  Volume(const core::GridGeometry& geometry, T fill)
+    : Volume(geometry)
   {
     std::fill_n(data(), size(), fill);
   }
 
   /// Adopts memory of at least geometry.voxelCount() voxels.
   Volume(const core::GridGeometry& geometry, std::shared_ptr<T> data)
-    : m_geometry(geometry), m_data(std::move(data))
+    : m_geometry(geometry)
+    , m_data(std::move(data))
   {
     if (!m_data)
       throw core::InvalidParameter("volume: no voxel memory given");
   }
 
-  const core::GridGeometry& geometry() const noexcept
-  {
-    return m_geometry;
-  }
-  std::size_t size() const noexcept
-  {
-    return m_geometry.voxelCount();
-  }
-  std::size_t bytes() const noexcept
-  {
-    return size() * sizeof(T);
-  }
-  T* data() noexcept
-  {
-    return m_data.get();
-  }
-  const T* data() const noexcept
-  {
-    return m_data.get();
-  }
-  T& at(int i, int j, int k) noexcept
-  {
-    return m_data.get()[m_geometry.linearIndex(i, j, k)];
-  }
+  const core::GridGeometry& geometry() const noexcept { return m_geometry; }
+  std::size_t size() const noexcept { return m_geometry.voxelCount(); }
+  std::size_t bytes() const noexcept { return size() * sizeof(T); }
+  T* data() noexcept { return m_data.get(); }
+  const T* data() const noexcept { return m_data.get(); }
+  T& at(int i, int j, int k) noexcept { return m_data.get()[m_geometry.linearIndex(i, j, k)]; }
   const T& at(int i, int j, int k) const noexcept
   {
     return m_data.get()[m_geometry.linearIndex(i, j, k)];

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <QImage>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "MainWindow.h"
+#include "ThreeDView.h"
+#include "petrous/Library/Library.h"
+
+namespace petrous::workstation
+{
+
+/// A window on a library of its own. The patient is a ball of bone, 12 mm in radius, at
+/// kBallCenter, with a structure "nerve" inside.
+class GuiTest : public ::testing::Test
+{
+protected:
+  GuiTest();
+  ~GuiTest() override;
+
+  static const Eigen::Vector3d kBallCenter;
+  static constexpr double kBallRadius = 12.0;
+
+  std::filesystem::path folder() const; ///< empty, goes with the test
+  library::Library library() const;
+  static scene::Case ballCase(const std::string& name);
+  void saveBall(const std::string& name); ///< into the library
+
+  void openWindow(const QString& what = {});
+  void closeWindow();
+  MainWindow& window()
+  {
+    return *m_window;
+  }
+  ThreeDView& view();
+  QAction* action(const QString& text); ///< by its words, without the ampersand
+  QImage picture();                     ///< of the 3D view, when it has come to rest
+
+  void drop(const QMimeData& data);
+  void dropPath(const std::filesystem::path& path);
+  /// Drills from the view's middle for `milliseconds`, moving right by `pixels`.
+  void drill(int milliseconds, int pixels = 0);
+
+  /// Calls `react` with the next message box (polling), which must close it.
+  void onMessage(const std::function<void(class QMessageBox&)>& react);
+  static bool waitFor(const std::function<bool()>& done, int milliseconds = 60000);
+
+private:
+  QTemporaryDir m_folder;
+  std::unique_ptr<MainWindow> m_window;
+};
+
+/// Pixels that differ by more than `tolerance` in a channel.
+int differentPixels(const QImage& a, const QImage& b, int tolerance = 2);
+int pixelsUnlikeTheCorner(const QImage& image);
+
+} // namespace petrous::workstation

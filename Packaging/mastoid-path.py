@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-BEHIND, ABOVE = 10.0, 3.0  # centre of the window from the centre of the scan: +y, +z
+BEHIND, ABOVE = 8.0, 5.0  # centre of the window from the centre of the scan: +y, +z
 WINDOW = 9.0               # edge of the window
 ROW, STEP = 1.5, 0.5       # between rows, and between points of a row
 RADIUS = 2.0               # of the burr: the command's default

@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include <unistd.h>
+
+#include "petrous/Library/LibraryError.h"
+#include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+
+namespace
+{
+
+class WorkstationModelTest : public ::testing::Test
+{
+protected:
+  WorkstationModelTest()
+  {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::temp_directory_path() /
+             ("petrous-model-" + std::to_string(::getpid()) + "-" + test->name());
+    std::filesystem::remove_all(folder);
+  }
+  ~WorkstationModelTest() override
+  {
+    std::filesystem::remove_all(folder);
+  }
+
+  static scene::Case block(const std::string& name) // bone where z < 6 mm
+  {
+    scene::Case value;
+    value.name = name;
+    value.ct.name = "ct";
+    value.ct.geometry =
+      core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+    for (int k = 0; k < 40; ++k)
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i)
+          ct->at(i, j, k) = k < 20 ? std::int16_t{1500} : std::int16_t{-900};
+    value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+    return value;
+  }
+
+  static void stroke(WorkstationModel& model)
+  {
+    model.beginStroke(line(), {}, 2.0, 0.0, {});
+    for (int n = 1; n <= 20; ++n)
+      model.drill(line(), 0.05 * n);
+    EXPECT_TRUE(model.endStroke());
+  }
+  static SightLine line()
+  {
+    return {{6, 6, 30}, {0, 0, -1}};
+  }
+
+  std::filesystem::path folder;
+};
+
+} // namespace
+
+TEST_F(WorkstationModelTest, OpensSavesAndFindsTheStrokeAgain)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  EXPECT_EQ(model.latestCase(), "block");
+  model.open("block");
+  int cuts = 0;
+  model.events.maskChanged = [&cuts](const core::IndexBox& box) {
+    EXPECT_FALSE(box.empty());
+    ++cuts;
+  };
+  stroke(model);
+  EXPECT_GT(cuts, 5);
+  EXPECT_TRUE(model.unsaved());
+  model.save();
+  EXPECT_FALSE(model.unsaved());
+  EXPECT_EQ(library.open("block").strokes.size(), 1u);
+}
+
+TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  EXPECT_FALSE(model.canUndo());
+  stroke(model);
+  core::IndexBox box;
+  model.events.maskChanged = [&box](const core::IndexBox& changed) { box = changed; };
+  ASSERT_TRUE(model.canUndo());
+  model.undo();
+  EXPECT_TRUE(box.contains({20, 20, 19}));
+  EXPECT_TRUE(model.value().dissection->mask().untouched());
+  EXPECT_FALSE(model.canUndo());
+  box = {};
+  model.redo();
+  EXPECT_TRUE(box.contains({20, 20, 19}));
+  EXPECT_FALSE(model.canRedo());
+}
+
+TEST_F(WorkstationModelTest, WorkGoesOnWhileSomebodyElseStoresTheCase)
+{
+  library::Library library(folder);
+  WorkstationModel model{library};
+  scene::Case made = block("block");
+  scene::Case stored = made;
+  model.adopt(made);
+  EXPECT_TRUE(model.beingStored());
+  stroke(model);
+  library.save(stored);
+  model.stored(stored);
+  EXPECT_FALSE(model.beingStored());
+  EXPECT_TRUE(model.unsaved()); // the stroke
+  model.save();
+  EXPECT_EQ(library.open("block").strokes.size(), 1u);
+}
+
+TEST_F(WorkstationModelTest, ARefusedSaveChangesNothingAndAnotherNameHelps)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  model.open("block");
+  library.save(value); // by someone else
+  stroke(model);
+  EXPECT_THROW(model.save(), library::LibraryError);
+  EXPECT_TRUE(model.unsaved());
+  EXPECT_EQ(model.value().strokes.size(), 1u);
+  EXPECT_THROW(model.saveAs("block"), library::LibraryError);
+  EXPECT_EQ(freeCaseName(library, "block"), "block 2");
+  model.saveAs("block 2");
+  EXPECT_FALSE(model.unsaved());
+  EXPECT_EQ(library.open("block 2").strokes.size(), 1u);
+  EXPECT_TRUE(library.open("block").strokes.empty());
+}
+
+TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
+{
+  library::Library library(folder / "one");
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  model.open("block");
+  stroke(model);
+  model.saveElsewhere(folder / "two", "block");
+  std::filesystem::remove_all(folder / "one");
+  library::Library two(folder / "two");
+  auto opened = two.open("block");
+  two.loadDissection(opened);
+  EXPECT_EQ(opened.applied, 1u);
+  EXPECT_EQ(opened.ct.volume.get()->at(1, 1, 1), 1500.0);
+  EXPECT_EQ(model.library().folder(), folder / "two");
+}
+
+TEST_F(WorkstationModelTest, HoldsTheCrosshairInTheCt)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.setCrosshair({-100, 3, 100});
+  EXPECT_LT((model.crosshair() - Vector3d(0, 3, 11.7)).norm(), 1e-9);
+  EXPECT_EQ(model.hounsfieldAt({3, 3, 3}), 1500.0);
+  EXPECT_FALSE(model.hounsfieldAt({-3, 3, 3}).has_value());
+}
+
+TEST_F(WorkstationModelTest, AnotherThresholdMovesTheSurface)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  const auto low = model.surfaceAt(line());
+  ASSERT_TRUE(low);
+  model.setIso(1400.0);
+  const auto high = model.surfaceAt(line());
+  ASSERT_TRUE(high);
+  EXPECT_LT(high->z(), low->z());
+  model.setIso(1501.0);
+  EXPECT_FALSE(model.surfaceAt(line()).has_value());
+}

@@ -1,6 +1,5 @@
 #include "GuiTest.h"
 
-#include <QMessageBox>
 #include <QPushButton>
 
 using namespace petrous;

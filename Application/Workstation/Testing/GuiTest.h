@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <QAction>
 #include <QImage>
+#include <QMessageBox>
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -48,7 +50,7 @@ protected:
   void drill(int milliseconds, int pixels = 0);
 
   /// Calls `react` with the next message box (polling), which must close it.
-  void onMessage(const std::function<void(class QMessageBox&)>& react);
+  void onMessage(const std::function<void(QMessageBox&)>& react);
   static bool waitFor(const std::function<bool()>& done, int milliseconds = 60000);
 
 private:

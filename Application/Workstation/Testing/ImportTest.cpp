@@ -2,7 +2,6 @@
 
 #include <fstream>
 
-#include <QMessageBox>
 #include <QMimeData>
 #include <QProgressDialog>
 #include <QPushButton>

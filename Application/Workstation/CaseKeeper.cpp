@@ -70,14 +70,42 @@ void CaseKeeper::open(const QString& what)
   try
   {
     if (fs::exists(path, error))
-      import(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(path)),
-             [path](const core::Progress&) {
-               presenters::CaseSources sources;
-               sources.ct = path;
-               return sources;
-             });
+      openPath(path);
     else
       openCase(bytes(what));
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(inWords(fault));
+  }
+}
+
+void CaseKeeper::openPath(const fs::path& path, const std::string& seriesUid)
+{
+  m_source = path;
+  import(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(path)),
+         [path, seriesUid](const core::Progress&) {
+           presenters::CaseSources sources;
+           sources.ct = path;
+           sources.seriesUid = seriesUid;
+           return sources;
+         });
+}
+
+void CaseKeeper::chooseSeries(const QStringList& uids, const QStringList& descriptions)
+{
+  endJob();
+  bool chosen = false;
+  const QString text =
+    QInputDialog::getItem(&m_window, tr("Which series?"),
+                          tr("There is more than one series; the case is made from:"), descriptions,
+                          0, false, &chosen);
+  const int index = descriptions.indexOf(text);
+  if (!chosen || index < 0)
+    return;
+  try
+  {
+    openPath(m_source, bytes(uids[index]));
   }
   catch (const std::exception& fault)
   {
@@ -93,7 +121,8 @@ void CaseKeeper::openCase(const std::string& name)
   {
     const WaitCursor wait;
     m_model.open(name);
-    emit said(tr("Opened %1").arg(words(name)));
+    emit said(tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
+                .arg(words(name)));
   }
   catch (const std::exception& fault)
   {
@@ -179,6 +208,7 @@ void CaseKeeper::import(const std::string& name, ImportJob::Prepare prepare)
     endJob();
     emit said(tr("Import cancelled; nothing was changed"));
   });
+  connect(m_job.get(), &ImportJob::severalSeries, this, &CaseKeeper::chooseSeries);
   m_job->start();
 }
 

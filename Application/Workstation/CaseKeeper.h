@@ -51,6 +51,8 @@ signals:
 
 private:
   void openCase(const std::string& name);
+  void openPath(const std::filesystem::path& path, const std::string& seriesUid = {});
+  void chooseSeries(const QStringList& uids, const QStringList& descriptions);
   void import(const std::string& name, ImportJob::Prepare prepare);
   void showProgress(const std::string& name);
   void built(const std::shared_ptr<scene::Case>& value);
@@ -72,6 +74,7 @@ private:
   QWidget& m_window;
   std::unique_ptr<ImportJob> m_job;
   std::unique_ptr<QProgressDialog> m_progress;
+  std::filesystem::path m_source; // of the import
   bool m_saveWanted = false; // a stroke ended while the case was being stored
 };
 

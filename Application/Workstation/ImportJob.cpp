@@ -4,6 +4,7 @@
 #include <new>
 
 #include "Theme.h"
+#include "petrous/Imaging/DicomScan.h"
 
 namespace petrous::workstation
 {
@@ -43,6 +44,8 @@ void ImportJob::wait()
 void ImportJob::run()
 {
   bool wasBuilt = false;
+  std::filesystem::path folder;
+  const core::Progress quiet(nullptr, m_token);
   try
   {
     const auto percent = std::make_shared<std::atomic<int>>(-1);
@@ -54,6 +57,7 @@ void ImportJob::run()
       },
       m_token);
     const auto sources = m_prepare(progress.part(0.0, 0.5));
+    folder = sources.ct;
     // What was prepared quickly does not count as half of the work.
     const bool prepared = percent->load() >= 0;
     auto value = std::make_shared<scene::Case>(
@@ -65,6 +69,13 @@ void ImportJob::run()
     m_library.save(*stored);
     emit saved(stored);
   }
+  catch (const imaging::DicomError& error)
+  {
+    if (error.reason() == imaging::DicomError::Reason::Ambiguous)
+      offerSeries(folder, quiet);
+    else
+      emit failed(inWords(error), wasBuilt);
+  }
   catch (const core::Error& error)
   {
     if (error.fault() == core::Fault::Cancelled)
@@ -75,6 +86,37 @@ void ImportJob::run()
   catch (const std::exception& error)
   {
     emit failed(inWords(error), wasBuilt);
+  }
+}
+
+void ImportJob::offerSeries(const std::filesystem::path& folder, const core::Progress& progress)
+{
+  try
+  {
+    QStringList uids;
+    QStringList descriptions;
+    for (const auto& series : imaging::scanDicom(folder, progress).series)
+    {
+      if (series.geometry.verdict != imaging::Verdict::Ok || !series.geometry.grid)
+        continue;
+      const auto& spacing = series.geometry.grid->spacing();
+      uids << words(series.uid);
+      descriptions << tr("%1.  %2  %3  (%4 slices, %5 × %6 × %7 mm)")
+                        .arg(uids.size())
+                        .arg(words(series.modality), words(series.description))
+                        .arg(series.geometry.slices.size())
+                        .arg(spacing[0], 0, 'g', 3)
+                        .arg(spacing[1], 0, 'g', 3)
+                        .arg(spacing[2], 0, 'g', 3);
+    }
+    emit severalSeries(uids, descriptions);
+  }
+  catch (const core::Error& error)
+  {
+    if (error.fault() == core::Fault::Cancelled)
+      emit cancelled();
+    else
+      emit failed(inWords(error), false);
   }
 }
 

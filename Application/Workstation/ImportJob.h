@@ -5,6 +5,7 @@
 #include <thread>
 
 #include <QObject>
+#include <QStringList>
 
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/CaseBuilder.h"
@@ -15,8 +16,8 @@ namespace petrous::workstation
 /// Makes a case from files and saves it, on a thread of its own. The case is handed out as soon as
 /// it can be looked at; saving goes on behind it.
 ///
-/// Signals arrive on the thread of the receiver. Exactly one of failed, cancelled and saved ends
-/// the job.
+/// Signals arrive on the thread of the receiver. Exactly one of failed, cancelled, severalSeries
+/// and saved ends the job.
 class ImportJob : public QObject
 {
   Q_OBJECT
@@ -37,9 +38,12 @@ signals:
   void saved(const std::shared_ptr<petrous::scene::Case>& value);
   void failed(const QString& why, bool wasBuilt);
   void cancelled();
+  /// The folder holds more than one good series: their UIDs, and what tells them apart.
+  void severalSeries(const QStringList& uids, const QStringList& descriptions);
 
 private:
   void run();
+  void offerSeries(const std::filesystem::path& folder, const core::Progress& progress);
 
   library::Library m_library;
   std::string m_name;

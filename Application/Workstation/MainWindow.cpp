@@ -43,7 +43,7 @@ QString positionText(const Eigen::Vector3d& patient)
     text += QString("%1 %2  ")
               .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
               .arg(std::abs(patient[a]), 0, 'f', 1);
-  return text + "mm";
+  return text.trimmed() + " mm";
 }
 
 QString dropped(const QMimeData& data)
@@ -185,7 +185,11 @@ void MainWindow::caseChanged()
   const bool first = m_pages->currentIndex() == 0;
   m_pages->setCurrentIndex(1);
   if (first)
-    findChild<QDockWidget*>("structuresDock")->show();
+  {
+    auto* dock = findChild<QDockWidget*>("structuresDock");
+    dock->show();
+    resizeDocks({dock}, {370}, Qt::Horizontal);
+  }
   m_bar->drillAction()->setChecked(false);
   m_view->picture().setTool(std::nullopt);
   try
@@ -232,7 +236,9 @@ void MainWindow::stateChanged()
                  QString::fromUtf8(" — Petrous"));
   m_sum->setText(value.applied == 0
                    ? tr("nothing drilled")
-                   : tr("%n stroke(s), %1 mm³ removed", nullptr, static_cast<int>(value.applied))
+                   : tr("%1 %2, %3 mm³ removed")
+                       .arg(value.applied)
+                       .arg(value.applied == 1 ? tr("stroke") : tr("strokes"))
                        .arg(value.removedVolume(), 0, 'f', 1));
 }
 

@@ -129,9 +129,7 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
   if (role == Qt::ToolTipRole)
     return tr(tips[section]);
   if (role == Qt::TextAlignmentRole)
-    return int((section == Name ? Qt::AlignLeft : section == VolumeColumn ? Qt::AlignRight
-                                                                          : Qt::AlignHCenter) |
-               Qt::AlignVCenter);
+    return int((section == VolumeColumn ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
   return {};
 }
 

@@ -62,7 +62,7 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   m_list->header()->setMinimumSectionSize(20);
   m_list->header()->setSectionResizeMode(QHeaderView::Fixed);
   for (int column = StructuresModel::VolumeColumn; column < StructuresModel::ColumnCount; ++column)
-    m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 52 : 44);
+    m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 56 : 50);
   m_list->header()->setSectionResizeMode(StructuresModel::Name, QHeaderView::Stretch);
 
   auto* threshold = new QLabel(tr("&Bone threshold"));
@@ -80,7 +80,7 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   layout->setSpacing(0);
   layout->addLayout(head);
   layout->addWidget(m_list, 1);
-  setMinimumWidth(340);
+  setMinimumWidth(280);
 }
 
 void StructuresPanel::showIso()

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <QKeyEvent>
+#include <QLabel>
 #include <QMouseEvent>
 
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -42,6 +43,12 @@ ThreeDView::ThreeDView(QWidget* parent)
   m_window->GetInteractor()->SetInteractorStyle(nullptr);
   m_picture->attach(m_renderer);
 
+  for (QLabel*& letter : m_letters)
+  {
+    letter = new QLabel(this);
+    letter->setObjectName("direction");
+    letter->setAttribute(Qt::WA_TransparentForMouseEvents);
+  }
   m_tick.setInterval(kTick);
   connect(&m_tick, &QTimer::timeout, this, [this] { emit drillHeld(sightLine(m_pointer)); });
   m_settle.setSingleShot(true);
@@ -79,9 +86,37 @@ void ThreeDView::redraw(bool moving)
   m_redrawPending = true;
   QTimer::singleShot(0, this, [this] {
     m_redrawPending = false;
-    if (isVisible())
-      m_window->Render();
+    if (!isVisible())
+      return;
+    placeLetters();
+    m_window->Render();
   });
+}
+
+void ThreeDView::placeLetters()
+{
+  constexpr int margin = 10;
+  const auto edges = presenters::edgeDirections(m_picture->camera());
+  const std::string* const texts[] = {&edges.left, &edges.right, &edges.top, &edges.bottom};
+  for (std::size_t n = 0; n < m_letters.size(); ++n)
+  {
+    m_letters[n]->setText(QString::fromStdString(*texts[n]));
+    m_letters[n]->adjustSize();
+  }
+  const auto middle = [](int whole, int part) { return (whole - part) / 2; };
+  const auto put = [this](std::size_t n, int x, int y) { m_letters[n]->move(x, y); };
+  const int across = width();
+  const int down = height();
+  put(0, margin, middle(down, m_letters[0]->height()));
+  put(1, across - margin - m_letters[1]->width(), middle(down, m_letters[1]->height()));
+  put(2, middle(across, m_letters[2]->width()), margin);
+  put(3, middle(across, m_letters[3]->width()), down - margin - m_letters[3]->height());
+}
+
+void ThreeDView::resizeEvent(QResizeEvent* event)
+{
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  placeLetters();
 }
 
 void ThreeDView::setCamera(const core::CameraPose& pose)

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
-#include <QElapsedTimer>
 #include <QTimer>
 
 #include <QVTKOpenGLNativeWidget.h>
@@ -12,6 +12,7 @@
 #include "petrous/Rendering/ScenePicture.h"
 
 class vtkGenericOpenGLRenderWindow;
+class QLabel;
 class vtkRenderer;
 
 namespace petrous::workstation
@@ -62,14 +63,17 @@ protected:
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
 private:
   void startDrilling(const QPointF& position);
   void stopDrilling();
+  void placeLetters();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
   vtkNew<vtkRenderer> m_renderer;
   std::unique_ptr<rendering::ScenePicture> m_picture;
+  std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QTimer m_tick;   // while drilling
   QTimer m_settle; // back to the fine picture
   QPointF m_pointer{-1.0, -1.0};

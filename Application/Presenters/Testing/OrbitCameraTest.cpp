@@ -7,8 +7,7 @@ using Eigen::Vector3d;
 
 namespace
 {
-// Looks along -y (from posterior), superior up: right on the screen is patient -x... from behind,
-// the patient's right is on the right.
+// Looks from posterior, superior up: the patient's right is on the right.
 core::CameraPose fromBehind()
 {
   core::CameraPose camera;
@@ -55,4 +54,15 @@ TEST(OrbitCamera, ShiftMovesThePatientWithThePointer)
   const auto next = presenters::shifted(camera, 0.25, 0.5);
   EXPECT_LT((next.focalPoint - Vector3d(25, 0, 50)).norm(), 1e-9);
   EXPECT_LT((next.position - next.focalPoint - Vector3d(0, 100, 0)).norm(), 1e-9);
+}
+
+TEST(OrbitCamera, NamesThePatientsDirectionsAtThePicturesEdges)
+{
+  const auto edges = presenters::edgeDirections(fromBehind());
+  EXPECT_EQ(edges.right, "R");
+  EXPECT_EQ(edges.left, "L");
+  EXPECT_EQ(edges.top, "S");
+  EXPECT_EQ(edges.bottom, "I");
+  EXPECT_EQ(presenters::directionLetters({0.1, -0.6, 0.8}), "SA");
+  EXPECT_EQ(presenters::directionLetters({0, 0, 0}), "");
 }

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/OrbitCamera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -51,6 +52,29 @@ core::CameraPose shifted(const core::CameraPose& camera, double right, double do
   next.position += offset;
   next.focalPoint += offset;
   return next;
+}
+
+std::string directionLetters(const Eigen::Vector3d& direction)
+{
+  constexpr double kShare = 0.4; // of the length, to be named
+  constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
+  const Eigen::Vector3d unit = direction.stableNormalized();
+  std::array<Eigen::Index, 3> axes{0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&unit](Eigen::Index a, Eigen::Index b) {
+    return std::abs(unit[a]) > std::abs(unit[b]);
+  });
+  std::string letters;
+  for (const Eigen::Index axis : axes)
+    if (std::abs(unit[axis]) >= kShare)
+      letters += towards[axis][unit[axis] > 0.0 ? 1 : 0];
+  return letters;
+}
+
+EdgeDirections edgeDirections(const core::CameraPose& camera)
+{
+  const Frame frame = frameOf(camera);
+  return {directionLetters(-frame.right), directionLetters(frame.right), directionLetters(frame.up),
+          directionLetters(-frame.up)};
 }
 
 core::CameraPose zoomed(const core::CameraPose& camera, double factor)

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include <QInputDialog>
 #include <QMimeData>
 #include <QProgressDialog>
 #include <QPushButton>
@@ -45,6 +46,34 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
   ASSERT_TRUE(waitFor([this] { return !window().importing(); }));
   QTest::qWait(50);
   EXPECT_EQ(library().open("ct").strokes.size(), 1u);
+}
+
+TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
+{
+  imaging::SampleOptions options;
+  options.spacing = 1.5;
+  imaging::writeSamplePatient(folder() / "visit", options);
+  fs::remove_all(folder() / "visit" / "labels");
+  openWindow();
+  QStringList offered;
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer, [&] {
+    auto* ask = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+    if (!ask)
+      return;
+    answer.stop();
+    offered = ask->comboBoxItems();
+    for (const QString& item : offered)
+      if (item.contains("CT"))
+        ask->setTextValue(item);
+    ask->accept();
+  });
+  answer.start(20);
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().importing(); }));
+  EXPECT_EQ(offered.size(), 2);
+  EXPECT_EQ(window().model().value().name, "visit");
+  EXPECT_GT(window().model().value().ct.range.max, 1000.0); // HU: the CT, not the MR
 }
 
 TEST_F(Import, ADroppedWordOpensTheCaseOfThatName)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "petrous/Core/CameraPose.h"
 
 namespace petrous::presenters
@@ -15,5 +17,15 @@ core::CameraPose shifted(const core::CameraPose& camera, double right, double do
 
 /// Nearer (factor > 1) to, or farther from, the focal point; never beyond 1 mm to 10 m.
 core::CameraPose zoomed(const core::CameraPose& camera, double factor);
+
+/// The patient's directions that a vector (LPS) points to, the strongest first: "L", "AS".
+std::string directionLetters(const Eigen::Vector3d& direction);
+
+/// The same for the picture's edges.
+struct EdgeDirections
+{
+  std::string left, right, top, bottom;
+};
+EdgeDirections edgeDirections(const core::CameraPose& camera);
 
 } // namespace petrous::presenters

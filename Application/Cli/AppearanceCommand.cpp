@@ -45,10 +45,15 @@ void setPartFlags(scene::Case& value, const std::string& assignment)
   if (!structure && !mesh)
   {
     std::string there;
-    for (const std::string& name : scene::partNames(value))
-      there += (there.empty() ? "" : ", ") + name;
+    const auto list = [&there](const std::string& name)
+    { there += (there.empty() ? "" : ", ") + name; };
+    for (const auto& labels : value.labels)
+      for (const auto& other : labels.structures)
+        list(other.name);
+    for (const auto& other : value.meshes)
+      list(other.name);
     throw core::InvalidParameter("case '" + value.name + "' has no structure or mesh '" + part +
-                                 "'; its parts are " + there);
+                                 "'; it has " + (there.empty() ? "none" : there));
   }
   if (structure)
     appearance::setFlags(structure->look, flags);

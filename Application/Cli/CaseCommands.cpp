@@ -201,6 +201,7 @@ void addInfo(CLI::App& app, Context& context)
 void addLibrary(CLI::App& app, Context& context)
 {
   auto action = std::make_shared<std::string>();
+  auto text = std::make_shared<std::string>();
   CLI::App* command = context.addCommand(
       app, "library", "The cases on this machine",
       [action, &context]
@@ -231,6 +232,8 @@ void addLibrary(CLI::App& app, Context& context)
         context.give({{"library", library.folder().string()}, {"cases", std::move(cases)}});
       });
   command->add_option("ACTION", *action, "list")->required();
+  // In the contract for 'search', not built yet.
+  command->add_option("TEXT", *text)->group("");
 }
 
 } // namespace

@@ -114,7 +114,7 @@ std::map<std::string, std::size_t> residentResources(const scene::Case& value)
       resources["mr." + image.name] = mr->bytes();
   for (const auto& part : value.labels)
     if (const auto labels = part.labels.peek())
-      resources["labels." + part.structures.front().name] = labels->voxels->bytes();
+      resources["labels.voxels." + part.structures.front().name] = labels->voxels->bytes();
   for (const auto& part : value.meshes)
     if (const auto mesh = part.mesh.peek())
       resources["meshes." + part.name] = mesh->vertices.size() * sizeof(Eigen::Vector3f) +

@@ -108,6 +108,16 @@ void notBuiltYet(const std::string& what)
   throw UsageError(what + " is not built yet");
 }
 
+std::ifstream openForReading(const std::filesystem::path& path)
+{
+  std::error_code error;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path, error))
+    throw core::InvalidParameter(path.string() +
+                                 ": not there, a folder or not readable; give a file");
+  return file;
+}
+
 void writeTextFile(const std::filesystem::path& path, const std::string& bytes)
 {
   const std::filesystem::path temporary =

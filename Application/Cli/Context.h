@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -54,6 +55,9 @@ private:
 
 /// Text for an option that is in the contract and not built yet.
 [[noreturn]] void notBuiltYet(const std::string& what);
+
+/// A file to read; InvalidParameter naming it when it is not there, a folder or not readable.
+std::ifstream openForReading(const std::filesystem::path& path);
 
 /// Makes `bytes` the file's content, by a temporary file and rename.
 void writeTextFile(const std::filesystem::path& path, const std::string& bytes);

@@ -42,20 +42,20 @@ double wallSeconds()
 class TickTimes
 {
 public:
-  void add(double seconds) { m_micros.push_back(1e6 * seconds); }
+  void add(double seconds) { m_micros.push_back(static_cast<float>(1e6 * seconds)); }
   nlohmann::json json()
   {
     std::sort(m_micros.begin(), m_micros.end());
     const auto at = [this](double share)
     {
       const auto n = static_cast<std::size_t>(share * static_cast<double>(m_micros.size() - 1));
-      return m_micros.empty() ? 0.0 : m_micros[n];
+      return m_micros.empty() ? 0.0 : double{m_micros[n]};
     };
     return {{"p50", at(0.5)}, {"p99", at(0.99)}, {"p999", at(0.999)}, {"max", at(1.0)}};
   }
 
 private:
-  std::vector<double> m_micros;
+  std::vector<float> m_micros;
 };
 
 dissection::Burr burrFrom(const Options& options)
@@ -85,9 +85,7 @@ void drill(const Context& context, const Options& options)
   if (!options.log.empty())
     notBuiltYet("--log");
   const dissection::Burr burr = burrFrom(options);
-  std::ifstream file(options.path);
-  if (!file)
-    throw core::InvalidParameter(options.path + ": not there or not readable");
+  std::ifstream file = openForReading(options.path);
   const auto path = dissection::ToolPath::read(file, options.path);
 
   library::Library library = context.openLibrary();

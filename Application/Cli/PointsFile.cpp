@@ -1,18 +1,14 @@
 #include "PointsFile.h"
 
-#include <fstream>
-
+#include "Context.h"
 #include "petrous/Core/CsvTable.h"
-#include "petrous/Core/Error.h"
 
 namespace petrous::cli
 {
 
 std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path)
 {
-  std::ifstream file(path);
-  if (!file)
-    throw core::InvalidParameter(path.string() + ": not there or not readable");
+  std::ifstream file = openForReading(path);
   std::vector<Eigen::Vector3d> points;
   core::readCsv(file, path.string(), {"x_mm", "y_mm", "z_mm"},
                 [&points](std::size_t, const std::vector<double>& row)

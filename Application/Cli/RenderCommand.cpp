@@ -40,9 +40,7 @@ Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
 
 core::CameraPose readCamera(const std::string& path)
 {
-  std::ifstream file(path);
-  if (!file)
-    throw core::InvalidParameter(path + ": not there or not readable");
+  std::ifstream file = openForReading(path);
   core::CameraPose camera;
   try
   {

@@ -91,7 +91,10 @@ int runCommand(int argc, char** argv)
   try
   {
     app.parse(argc, argv);
-    return kDone;
+    std::cout.flush();
+    return std::cout
+               ? kDone
+               : complain("the answer could not be written to stdout (a full disk?)", kRefused);
   }
   catch (const CLI::Success& asked) // --help, --version
   {
@@ -123,6 +126,12 @@ int main(int argc, char** argv)
   catch (const core::Error& error)
   {
     return complain(error.what(), exitCodeOf(error.fault()));
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    return complain(error.path1().string() + ": cannot be read or written; check that it is there "
+                                             "and its permissions",
+                    kRefused);
   }
   catch (const std::bad_alloc&)
   {

@@ -31,14 +31,8 @@ fs::path pathOf(const QString& text)
 class WaitCursor
 {
 public:
-  WaitCursor()
-  {
-    QApplication::setOverrideCursor(Qt::WaitCursor);
-  }
-  ~WaitCursor()
-  {
-    QApplication::restoreOverrideCursor();
-  }
+  WaitCursor() { QApplication::setOverrideCursor(Qt::WaitCursor); }
+  ~WaitCursor() { QApplication::restoreOverrideCursor(); }
   WaitCursor(const WaitCursor&) = delete;
   WaitCursor& operator=(const WaitCursor&) = delete;
 };
@@ -86,20 +80,19 @@ void CaseKeeper::openPath(const fs::path& path, const std::string& seriesUid)
   import(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(path)),
          [path, seriesUid](const core::Progress&) {
            presenters::CaseSources sources;
-           sources.ct = path;
-           sources.seriesUid = seriesUid;
-           return sources;
-         });
-}
+  sources.ct = path;
+  sources.seriesUid = seriesUid;
+  return sources;
+});
+} // namespace petrous::workstation
 
 void CaseKeeper::chooseSeries(const QStringList& uids, const QStringList& descriptions)
 {
   endJob();
   bool chosen = false;
-  const QString text =
-    QInputDialog::getItem(&m_window, tr("Which series?"),
-                          tr("There is more than one series; the case is made from:"), descriptions,
-                          0, false, &chosen);
+  const QString text = QInputDialog::getItem(
+      &m_window, tr("Which series?"), tr("There is more than one series; the case is made from:"),
+      descriptions, 0, false, &chosen);
   const int index = descriptions.indexOf(text);
   if (!chosen || index < 0)
     return;
@@ -122,7 +115,7 @@ void CaseKeeper::openCase(const std::string& name)
     const WaitCursor wait;
     m_model.open(name);
     emit said(tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
-                .arg(words(name)));
+                  .arg(words(name)));
   }
   catch (const std::exception& fault)
   {
@@ -140,8 +133,8 @@ void CaseKeeper::openFolder()
 void CaseKeeper::openImage()
 {
   const QString file = QFileDialog::getOpenFileName(
-    &m_window, tr("Open an image"), {},
-    tr("CT images (*.nrrd *.nhdr *.nii *.nii.gz *.mha *.mhd *.dcm);;All files (*)"));
+      &m_window, tr("Open an image"), {},
+      tr("CT images (*.nrrd *.nhdr *.nii *.nii.gz *.mha *.mhd *.dcm);;All files (*)"));
   if (!file.isEmpty())
     open(file);
 }
@@ -170,17 +163,17 @@ void CaseKeeper::makeSample()
     import(presenters::freeCaseName(m_model.library(), "sample patient"),
            [folder](const core::Progress& progress) {
              const fs::path out = pathOf(folder->filePath("sample patient"));
-             imaging::writeSamplePatient(out, {}, progress);
-             presenters::CaseSources sources;
-             sources.ct = out / "ct";
-             sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
-             return sources;
-           });
-  }
-  catch (const std::exception& fault)
-  {
-    refuse(inWords(fault));
-  }
+    imaging::writeSamplePatient(out, {}, progress);
+    presenters::CaseSources sources;
+    sources.ct = out / "ct";
+    sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
+    return sources;
+  });
+}
+catch (const std::exception& fault)
+{
+  refuse(inWords(fault));
+}
 }
 
 void CaseKeeper::import(const std::string& name, ImportJob::Prepare prepare)
@@ -190,24 +183,30 @@ void CaseKeeper::import(const std::string& name, ImportJob::Prepare prepare)
   m_job = std::make_unique<ImportJob>(m_model.library(), name, std::move(prepare));
   showProgress(name);
   connect(m_job.get(), &ImportJob::built, this, &CaseKeeper::built);
-  connect(m_job.get(), &ImportJob::saved, this, [this](const std::shared_ptr<scene::Case>& saved) {
-    endJob();
-    m_model.stored(*saved);
-    emit said(tr("Saved in the library as %1").arg(words(saved->name)));
-    if (m_saveWanted)
-      save();
-  });
-  connect(m_job.get(), &ImportJob::failed, this, [this](const QString& why, bool wasBuilt) {
-    endJob();
-    if (!wasBuilt)
-      return refuse(why);
-    m_model.notStored();
-    save(); // tells why not, and what can be done
-  });
-  connect(m_job.get(), &ImportJob::cancelled, this, [this] {
-    endJob();
-    emit said(tr("Import cancelled; nothing was changed"));
-  });
+  connect(m_job.get(), &ImportJob::saved, this,
+          [this](const std::shared_ptr<scene::Case>& saved)
+          {
+            endJob();
+            m_model.stored(*saved);
+            emit said(tr("Saved in the library as %1").arg(words(saved->name)));
+            if (m_saveWanted)
+              save();
+          });
+  connect(m_job.get(), &ImportJob::failed, this,
+          [this](const QString& why, bool wasBuilt)
+          {
+            endJob();
+            if (!wasBuilt)
+              return refuse(why);
+            m_model.notStored();
+            save(); // tells why not, and what can be done
+          });
+  connect(m_job.get(), &ImportJob::cancelled, this,
+          [this]
+          {
+            endJob();
+            emit said(tr("Import cancelled; nothing was changed"));
+          });
   connect(m_job.get(), &ImportJob::severalSeries, this, &CaseKeeper::chooseSeries);
   m_job->start();
 }
@@ -227,14 +226,17 @@ void CaseKeeper::showProgress(const std::string& name)
   // The box stays until the work has really stopped.
   disconnect(m_progress.get(), &QProgressDialog::canceled, m_progress.get(),
              &QProgressDialog::cancel);
-  connect(m_progress.get(), &QProgressDialog::canceled, this, [this] {
-    if (m_job)
-      m_job->cancel();
-    if (m_progress)
-      m_progress->setLabelText(tr("Stopping…"));
-  });
+  connect(m_progress.get(), &QProgressDialog::canceled, this,
+          [this]
+          {
+            if (m_job)
+              m_job->cancel();
+            if (m_progress)
+              m_progress->setLabelText(tr("Stopping…"));
+          });
   connect(m_job.get(), &ImportJob::progressed, m_progress.get(),
-          [this](double fraction, const QString& text) {
+          [this](double fraction, const QString& text)
+          {
             if (!m_progress)
               return;
             m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
@@ -305,8 +307,7 @@ bool CaseKeeper::keepTrying(bool leaving)
       why = inWords(fault);
     }
     const QString name = words(m_model.value().name);
-    const std::string next =
-      bytes(name.left(80)) + " copy";
+    const std::string next = bytes(name.left(80)) + " copy";
     switch (askAfterFailure(why, leaving))
     {
     case Choice::Retry:
@@ -314,9 +315,9 @@ bool CaseKeeper::keepTrying(bool leaving)
       break;
     case Choice::OtherName:
     {
-      const QString other = QInputDialog::getText(&m_window, tr("Save under another name"),
-                                                  tr("Name of the case:"), QLineEdit::Normal,
-                                                  words(next));
+      const QString other =
+          QInputDialog::getText(&m_window, tr("Save under another name"), tr("Name of the case:"),
+                                QLineEdit::Normal, words(next));
       if (!other.isEmpty())
         attempt = [this, other] { m_model.saveAs(bytes(other.trimmed())); };
       break;
@@ -324,12 +325,13 @@ bool CaseKeeper::keepTrying(bool leaving)
     case Choice::OtherFolder:
     {
       const QString folder =
-        QFileDialog::getExistingDirectory(&m_window, tr("Library in another folder"));
+          QFileDialog::getExistingDirectory(&m_window, tr("Library in another folder"));
       if (!folder.isEmpty())
-        attempt = [this, folder] {
+        attempt = [this, folder]
+        {
           const library::Library elsewhere(pathOf(folder));
-          m_model.saveElsewhere(elsewhere.folder(), presenters::freeCaseName(
-                                                      elsewhere, m_model.value().name));
+          m_model.saveElsewhere(elsewhere.folder(),
+                                presenters::freeCaseName(elsewhere, m_model.value().name));
         };
       break;
     }
@@ -351,7 +353,7 @@ CaseKeeper::Choice CaseKeeper::askAfterFailure(const QString& why, bool leaving)
   const auto* name = box.addButton(tr("Another name…"), QMessageBox::ActionRole);
   const auto* folder = box.addButton(tr("Another folder…"), QMessageBox::ActionRole);
   const auto* quit =
-    leaving ? box.addButton(tr("Quit without saving"), QMessageBox::DestructiveRole) : nullptr;
+      leaving ? box.addButton(tr("Quit without saving"), QMessageBox::DestructiveRole) : nullptr;
   auto* stay = box.addButton(tr("Go on working"), QMessageBox::RejectRole);
   box.setEscapeButton(stay);
   box.exec();
@@ -370,9 +372,9 @@ void CaseKeeper::saveAs()
   if (!m_model.hasCase() || !settle())
     return;
   const std::string present = m_model.value().name;
-  const QString name =
-    QInputDialog::getText(&m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
-                          words(presenters::freeCaseName(m_model.library(), present)));
+  const QString name = QInputDialog::getText(
+      &m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
+      words(presenters::freeCaseName(m_model.library(), present)));
   if (name.isEmpty())
     return;
   try

@@ -40,10 +40,7 @@ public:
   /// Ends imports, saves what is unsaved. False when the user wants to stay.
   bool mayLeave();
 
-  bool importing() const noexcept
-  {
-    return m_job != nullptr;
-  }
+  bool importing() const noexcept { return m_job != nullptr; }
 
 signals:
   void said(const QString& line); ///< for the status bar
@@ -75,7 +72,7 @@ private:
   std::unique_ptr<ImportJob> m_job;
   std::unique_ptr<QProgressDialog> m_progress;
   std::filesystem::path m_source; // of the import
-  bool m_saveWanted = false; // a stroke ended while the case was being stored
+  bool m_saveWanted = false;      // a stroke ended while the case was being stored
 };
 
 } // namespace petrous::workstation

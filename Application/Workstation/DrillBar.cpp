@@ -44,7 +44,8 @@ DrillBar::DrillBar(QWidget* parent)
   m_feed->setObjectName("feedRate");
   m_feed->setToolTip(tr("How fast the burr goes into the bone while the drill is on, mm/s"));
 
-  const auto addNamed = [this](const QString& name, QWidget* widget) {
+  const auto addNamed = [this](const QString& name, QWidget* widget)
+  {
     auto* label = new QLabel(name);
     label->setObjectName("dim");
     label->setContentsMargins(8, 0, 2, 0);

@@ -17,20 +17,26 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
 {
   m_clock.start();
   connect(bar.drillAction(), &QAction::toggled, this, &DrillController::setMode);
-  connect(&bar, &DrillBar::burrChanged, this, [this] {
-    if (m_line && m_mode && !m_model.drilling())
-      hover(*m_line);
-  });
+  connect(&bar, &DrillBar::burrChanged, this,
+          [this]
+          {
+            if (m_line && m_mode && !m_model.drilling())
+              hover(*m_line);
+          });
   connect(&view, &ThreeDView::pointed, this, &DrillController::hover);
-  connect(&view, &ThreeDView::pointerLeft, this, [this] {
-    m_line.reset();
-    showBurr(std::nullopt, false);
-    emit pointedNowhere();
-  });
-  connect(&view, &ThreeDView::picked, this, [this](const presenters::SightLine& line) {
-    if (const auto hit = m_model.surfaceAt(line))
-      m_model.setCrosshair(*hit);
-  });
+  connect(&view, &ThreeDView::pointerLeft, this,
+          [this]
+          {
+            m_line.reset();
+            showBurr(std::nullopt, false);
+            emit pointedNowhere();
+          });
+  connect(&view, &ThreeDView::picked, this,
+          [this](const presenters::SightLine& line)
+          {
+            if (const auto hit = m_model.surfaceAt(line))
+              m_model.setCrosshair(*hit);
+          });
   connect(&view, &ThreeDView::drillPressed, this, &DrillController::press);
   connect(&view, &ThreeDView::drillHeld, this, &DrillController::hold);
   connect(&view, &ThreeDView::drillReleased, this, &DrillController::release);

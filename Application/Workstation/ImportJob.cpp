@@ -50,18 +50,19 @@ void ImportJob::run()
   {
     const auto percent = std::make_shared<std::atomic<int>>(-1);
     const core::Progress progress(
-      [this, percent](double fraction, const std::string& text) {
-        const int now = static_cast<int>(100.0 * fraction);
-        if (percent->exchange(now) != now)
-          emit progressed(fraction, words(text));
-      },
-      m_token);
+        [this, percent](double fraction, const std::string& text)
+        {
+          const int now = static_cast<int>(100.0 * fraction);
+          if (percent->exchange(now) != now)
+            emit progressed(fraction, words(text));
+        },
+        m_token);
     const auto sources = m_prepare(progress.part(0.0, 0.5));
     folder = sources.ct;
     // What was prepared quickly does not count as half of the work.
     const bool prepared = percent->load() >= 0;
     auto value = std::make_shared<scene::Case>(
-      presenters::buildCase(m_name, sources, prepared ? progress.part(0.5, 1.0) : progress));
+        presenters::buildCase(m_name, sources, prepared ? progress.part(0.5, 1.0) : progress));
     progress.check("import");
     auto stored = std::make_shared<scene::Case>(*value);
     wasBuilt = true;
@@ -102,12 +103,12 @@ void ImportJob::offerSeries(const std::filesystem::path& folder, const core::Pro
       const auto& spacing = series.geometry.grid->spacing();
       uids << words(series.uid);
       descriptions << tr("%1.  %2  %3  (%4 slices, %5 × %6 × %7 mm)")
-                        .arg(uids.size())
-                        .arg(words(series.modality), words(series.description))
-                        .arg(series.geometry.slices.size())
-                        .arg(spacing[0], 0, 'g', 3)
-                        .arg(spacing[1], 0, 'g', 3)
-                        .arg(spacing[2], 0, 'g', 3);
+                          .arg(uids.size())
+                          .arg(words(series.modality), words(series.description))
+                          .arg(series.geometry.slices.size())
+                          .arg(spacing[0], 0, 'g', 3)
+                          .arg(spacing[1], 0, 'g', 3)
+                          .arg(spacing[2], 0, 'g', 3);
     }
     emit severalSeries(uids, descriptions);
   }

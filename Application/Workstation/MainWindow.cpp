@@ -41,8 +41,8 @@ QString positionText(const Eigen::Vector3d& patient)
   QString text;
   for (int a = 0; a < 3; ++a)
     text += QString("%1 %2  ")
-              .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
-              .arg(std::abs(patient[a]), 0, 'f', 1);
+                .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
+                .arg(std::abs(patient[a]), 0, 'f', 1);
   return text.trimmed() + " mm";
 }
 
@@ -96,7 +96,7 @@ void MainWindow::layOut()
   across->addWidget(m_slices);
   across->setStretchFactor(0, 3);
   across->setStretchFactor(1, 1);
-  across->setSizes({780, 340});
+  across->setSizes({700, 380});
   m_pages->addWidget(start);
   m_pages->addWidget(across);
   setCentralWidget(m_pages);
@@ -111,9 +111,10 @@ void MainWindow::layOut()
   dock->hide();
 
   m_place->setObjectName("place");
-  m_place->setToolTip(tr("Under the pointer: patient position from the scanner's zero (mm; R right, "
-                         "L left, A anterior, P posterior, I inferior, S superior), density, "
-                         "structure"));
+  m_place->setToolTip(
+      tr("Under the pointer: patient position from the scanner's zero (mm; R right, "
+         "L left, A anterior, P posterior, I inferior, S superior), density, "
+         "structure"));
   m_place->setContentsMargins(8, 0, 8, 0);
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
@@ -125,7 +126,8 @@ void MainWindow::layOut()
 void MainWindow::connectModel()
 {
   m_model.events.caseChanged = [this] { caseChanged(); };
-  m_model.events.appearanceChanged = [this] {
+  m_model.events.appearanceChanged = [this]
+  {
     m_view->picture().setContents(presenters::sceneContents(m_model.value()));
     m_view->redraw(true);
     m_slices->appearanceChanged();
@@ -144,9 +146,8 @@ void MainWindow::connectModel()
 
 void MainWindow::connectActions()
 {
-  const auto on = [this](QAction* action, auto what) {
-    connect(action, &QAction::triggered, this, what);
-  };
+  const auto on = [this](QAction* action, auto what)
+  { connect(action, &QAction::triggered, this, what); };
   on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
   on(m_actions->openImage, [this] { m_keeper->openImage(); });
   on(m_actions->openCase, [this] { m_keeper->chooseCase(); });
@@ -156,6 +157,14 @@ void MainWindow::connectActions()
   on(m_actions->quit, [this] { close(); });
   on(m_actions->undo, [this] { step(true); });
   on(m_actions->redo, [this] { step(false); });
+  on(m_actions->centerView,
+     [this]
+     {
+       core::CameraPose camera = m_view->picture().camera();
+       camera.position += m_model.crosshair() - camera.focalPoint;
+       camera.focalPoint = m_model.crosshair();
+       m_view->setCamera(camera);
+     });
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
@@ -188,7 +197,7 @@ void MainWindow::caseChanged()
   {
     auto* dock = findChild<QDockWidget*>("structuresDock");
     dock->show();
-    resizeDocks({dock}, {370}, Qt::Horizontal);
+    resizeDocks({dock}, {395}, Qt::Horizontal);
   }
   m_bar->drillAction()->setChecked(false);
   m_view->picture().setTool(std::nullopt);
@@ -202,7 +211,7 @@ void MainWindow::caseChanged()
     statusBar()->showMessage(words(error.what()));
   }
   m_view->setCamera(value.camera.value_or(
-    rendering::standardCamera(rendering::StandardView::Lateral, value.ct.geometry)));
+      rendering::standardCamera(rendering::StandardView::Lateral, value.ct.geometry)));
   m_slices->caseChanged();
   m_panel->caseChanged();
   m_view->setFocus();
@@ -234,12 +243,11 @@ void MainWindow::stateChanged()
   const bool unsaved = m_model.unsaved() || m_model.beingStored();
   setWindowTitle((unsaved ? QString::fromUtf8("• ") : QString()) + words(value.name) +
                  QString::fromUtf8(" — Petrous"));
-  m_sum->setText(value.applied == 0
-                   ? tr("nothing drilled")
-                   : tr("%1 %2, %3 mm³ removed")
-                       .arg(value.applied)
-                       .arg(value.applied == 1 ? tr("stroke") : tr("strokes"))
-                       .arg(value.removedVolume(), 0, 'f', 1));
+  m_sum->setText(value.applied == 0 ? tr("nothing drilled")
+                                    : tr("%1 %2, %3 mm³ removed")
+                                          .arg(value.applied)
+                                          .arg(value.applied == 1 ? tr("stroke") : tr("strokes"))
+                                          .arg(value.removedVolume(), 0, 'f', 1));
 }
 
 void MainWindow::showPlace(const Eigen::Vector3d& patient)
@@ -283,19 +291,20 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   QString text = tr("Removed %1 mm³").arg(stroke->info.removed, 0, 'f', 2);
   for (const auto& touched : stroke->info.structures)
     text += tr("  ·  %1 %2 mm³")
-              .arg(words(touched.name).replace('_', ' '))
-              .arg(touched.volume, 0, 'f', 2);
+                .arg(words(touched.name).replace('_', ' '))
+                .arg(touched.volume, 0, 'f', 2);
   statusBar()->showMessage(text);
 }
 
 void MainWindow::about()
 {
-  QMessageBox::about(this, tr("About Petrous"),
-                     tr("<h3>Petrous %1</h3><p>Rehearsal of operations on the temporal bone and the "
-                        "skull base on the patient's own images.</p><p>For rehearsal and teaching; "
-                        "not a medical device, and no guide for an instrument in a patient.</p>"
-                        "<p>Apache License 2.0. Made with VTK, ITK, GDCM and Qt.</p>")
-                       .arg(PETROUS_VERSION));
+  QMessageBox::about(
+      this, tr("About Petrous"),
+      tr("<h3>Petrous %1</h3><p>Rehearsal of operations on the temporal bone and the "
+         "skull base on the patient's own images.</p><p>For rehearsal and teaching; "
+         "not a medical device, and no guide for an instrument in a patient.</p>"
+         "<p>Apache License 2.0. Made with VTK, ITK, GDCM and Qt.</p>")
+          .arg(PETROUS_VERSION));
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)
@@ -317,7 +326,8 @@ void MainWindow::dropEvent(QDropEvent* event)
     return;
   event->acceptProposedAction();
   // The program that it comes from must not wait for us.
-  QMetaObject::invokeMethod(this, [this, what] { m_keeper->open(what); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this, [this, what] { m_keeper->open(what); }, Qt::QueuedConnection);
 }
 
 } // namespace petrous::workstation

@@ -30,10 +30,7 @@ public:
   /// What was asked for on the command line: a case or a path; empty: the latest case, if any.
   void begin(const QString& what);
 
-  const presenters::WorkstationModel& model() const noexcept
-  {
-    return m_model;
-  }
+  const presenters::WorkstationModel& model() const noexcept { return m_model; }
   bool importing() const;
 
 protected:

@@ -19,8 +19,8 @@ OpenCaseDialog::OpenCaseDialog(const library::Library& library, QWidget* parent)
   setWindowTitle(tr("Open case"));
   resize(680, 380);
   m_list->setRootIsDecorated(false);
-  m_list->setHeaderLabels(
-    {tr("Case"), tr("Changed"), tr("Voxels"), tr("Structures"), tr("Strokes"), tr("Removed mm³")});
+  m_list->setHeaderLabels({tr("Case"), tr("Changed"), tr("Voxels"), tr("Structures"), tr("Strokes"),
+                           tr("Removed mm³")});
   for (const auto& summary : library.list())
   {
     auto* item = new QTreeWidgetItem(m_list);
@@ -33,10 +33,8 @@ OpenCaseDialog::OpenCaseDialog(const library::Library& library, QWidget* parent)
       item->setDisabled(true);
       continue;
     }
-    item->setText(2, QString("%1 × %2 × %3")
-                       .arg(summary.dims[0])
-                       .arg(summary.dims[1])
-                       .arg(summary.dims[2]));
+    item->setText(
+        2, QString("%1 × %2 × %3").arg(summary.dims[0]).arg(summary.dims[1]).arg(summary.dims[2]));
     item->setText(3, QString::number(summary.structures));
     item->setText(4, QString::number(summary.strokes));
     item->setText(5, QString::number(summary.removed, 'f', 1));
@@ -53,9 +51,8 @@ OpenCaseDialog::OpenCaseDialog(const library::Library& library, QWidget* parent)
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(m_list, &QTreeWidget::itemActivated, this, &QDialog::accept);
-  const auto update = [this, buttons] {
-    buttons->button(QDialogButtonBox::Open)->setEnabled(!chosen().empty());
-  };
+  const auto update = [this, buttons]
+  { buttons->button(QDialogButtonBox::Open)->setEnabled(!chosen().empty()); };
   connect(m_list, &QTreeWidget::currentItemChanged, this, update);
   update();
   auto* layout = new QVBoxLayout(this);

@@ -113,8 +113,8 @@ void SliceView::stale()
 
 presenters::SliceGeometry SliceView::slice() const
 {
-  const auto whole = presenters::SliceGeometry::fitting(m_orientation, m_grid, m_crosshair,
-                                                        std::max(width(), 1), std::max(height(), 1));
+  const auto whole = presenters::SliceGeometry::fitting(
+      m_orientation, m_grid, m_crosshair, std::max(width(), 1), std::max(height(), 1));
   return {m_orientation, whole.center() + m_offset, whole.mmPerPixel() / m_zoom, whole.width(),
           whole.height()};
 }
@@ -136,7 +136,7 @@ void SliceView::paintEvent(QPaintEvent*)
     const auto pixels = m_presenter->draw(picture, m_window);
     m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
                      QImage::Format_RGB888)
-                .copy();
+                  .copy();
     m_stale = false;
   }
   painter.drawImage(rect(), m_image);
@@ -156,7 +156,8 @@ void SliceView::paintCrosshair(QPainter& painter) const
 {
   const Eigen::Vector2d at = slice().pixelFromPatient(m_crosshair) + Eigen::Vector2d(0.5, 0.5);
   const auto [vertical, horizontal] = linesOf(m_orientation);
-  const auto pen = [](SliceOrientation plane) {
+  const auto pen = [](SliceOrientation plane)
+  {
     QColor color = planeColor(plane);
     color.setAlpha(190);
     return QPen(color, 1.0);
@@ -197,7 +198,7 @@ void SliceView::paintLetters(QPainter& painter) const
   if (underMouse())
   {
     const QString grey =
-      QString("W %1  L %2").arg(std::lround(m_window.width)).arg(std::lround(m_window.level));
+        QString("W %1  L %2").arg(std::lround(m_window.width)).arg(std::lround(m_window.level));
     const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
     drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
   }

@@ -96,7 +96,8 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::DecorationRole)
       return swatch(row.look);
     if (role == Qt::ToolTipRole)
-      return row.look.solid ? words(row.name) : tr("%1 (a space without tissue)").arg(words(row.name));
+      return row.look.solid ? words(row.name)
+                            : tr("%1 (a space without tissue)").arg(words(row.name));
     return {};
   case VolumeColumn:
     if (role == Qt::DisplayRole && !row.isMesh)
@@ -119,9 +120,9 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
     return {};
   static const char* const titles[] = {"Structure", "mm³", "Show", "Touch", "Drill"};
   static const char* const tips[] = {
-    "Name and colour", "Volume, mm³", "Drawn in 3D and outlined in the slices",
-    "Felt by the burr: part of the tissue it rests on",
-    "Taken by the drill; without the mark the drill leaves it whole"};
+      "Name and colour", "Volume, mm³", "Drawn in 3D and outlined in the slices",
+      "Felt by the burr: part of the tissue it rests on",
+      "Taken by the drill; without the mark the drill leaves it whole"};
   if (section < 0 || section >= ColumnCount)
     return {};
   if (role == Qt::DisplayRole)
@@ -147,8 +148,7 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
 
 bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, int role)
 {
-  if (role != Qt::CheckStateRole || !(flags(index) & Qt::ItemIsUserCheckable) ||
-      m_model.drilling())
+  if (role != Qt::CheckStateRole || !(flags(index) & Qt::ItemIsUserCheckable) || m_model.drilling())
     return false;
   Row& row = m_rows[static_cast<std::size_t>(index.row())];
   const bool on = value.toInt() == Qt::Checked;

@@ -42,11 +42,13 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   m_slider->setToolTip(tip);
   m_box->setToolTip(tip);
   connect(m_slider, &QSlider::valueChanged, m_box, &QSpinBox::setValue);
-  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this, [this](int value) {
-    const QSignalBlocker quiet(m_slider);
-    m_slider->setValue(value);
-    m_apply.start();
-  });
+  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this,
+          [this](int value)
+          {
+            const QSignalBlocker quiet(m_slider);
+            m_slider->setValue(value);
+            m_apply.start();
+          });
   m_apply.setSingleShot(true);
   m_apply.setInterval(kApplyAfter);
   connect(&m_apply, &QTimer::timeout, this, [this] { m_model.setIso(m_box->value()); });
@@ -62,7 +64,7 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   m_list->header()->setMinimumSectionSize(20);
   m_list->header()->setSectionResizeMode(QHeaderView::Fixed);
   for (int column = StructuresModel::VolumeColumn; column < StructuresModel::ColumnCount; ++column)
-    m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 56 : 50);
+    m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 54 : 48);
   m_list->header()->setSectionResizeMode(StructuresModel::Name, QHeaderView::Stretch);
 
   auto* threshold = new QLabel(tr("&Bone threshold"));

@@ -45,7 +45,8 @@ QPushButton#primary { background: #2f79b5; border: 1px solid #4a98d6; border-rad
                       color: #ffffff; padding: 9px 22px; font-weight: 600; }
 QPushButton#primary:hover { background: #3a8acb; }
 QPushButton#primary:focus { border-color: #b9dcf8; }
-QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700; background: transparent; }
+QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700;
+                   background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
 QLabel#dim { color: #9aa4af; }
 QLabel#big { font-size: 20px; color: #e4e8ed; }
 )";

@@ -21,8 +21,8 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kTick = 16;               // ms
-constexpr int kSettle = 300;            // ms
+constexpr int kTick = 16;    // ms
+constexpr int kSettle = 300; // ms
 constexpr double kDegreesPerPixel = 0.4;
 constexpr double kDegreesPerKey = 7.5;
 constexpr double kZoomPerNotch = 1.15;
@@ -53,10 +53,12 @@ ThreeDView::ThreeDView(QWidget* parent)
   connect(&m_tick, &QTimer::timeout, this, [this] { emit drillHeld(sightLine(m_pointer)); });
   m_settle.setSingleShot(true);
   m_settle.setInterval(kSettle);
-  connect(&m_settle, &QTimer::timeout, this, [this] {
-    m_picture->setInteractive(false);
-    redraw();
-  });
+  connect(&m_settle, &QTimer::timeout, this,
+          [this]
+          {
+            m_picture->setInteractive(false);
+            redraw();
+          });
 }
 
 ThreeDView::~ThreeDView()
@@ -84,13 +86,15 @@ void ThreeDView::redraw(bool moving)
   if (m_redrawPending)
     return;
   m_redrawPending = true;
-  QTimer::singleShot(0, this, [this] {
-    m_redrawPending = false;
-    if (!isVisible())
-      return;
-    placeLetters();
-    m_window->Render();
-  });
+  QTimer::singleShot(0, this,
+                     [this]
+                     {
+                       m_redrawPending = false;
+                       if (!isVisible())
+                         return;
+                       placeLetters();
+                       m_window->Render();
+                     });
 }
 
 void ThreeDView::placeLetters()
@@ -190,8 +194,7 @@ void ThreeDView::mouseMoveEvent(QMouseEvent* event)
   if (event->modifiers() & Qt::ShiftModifier)
     setCamera(presenters::shifted(camera, step.x() / height(), step.y() / height()));
   else
-    setCamera(
-      presenters::turned(camera, kDegreesPerPixel * step.x(), kDegreesPerPixel * step.y()));
+    setCamera(presenters::turned(camera, kDegreesPerPixel * step.x(), kDegreesPerPixel * step.y()));
 }
 
 void ThreeDView::mouseReleaseEvent(QMouseEvent* event)

@@ -28,15 +28,9 @@ public:
   explicit ThreeDView(QWidget* parent = nullptr);
   ~ThreeDView() override;
 
-  rendering::ScenePicture& picture() noexcept
-  {
-    return *m_picture;
-  }
+  rendering::ScenePicture& picture() noexcept { return *m_picture; }
   void setDrillMode(bool on);
-  bool drilling() const noexcept
-  {
-    return m_drilling;
-  }
+  bool drilling() const noexcept { return m_drilling; }
 
   /// Draws soon; several calls make one picture. `moving`: coarser until 300 ms after the last one.
   void redraw(bool moving = false);
@@ -74,8 +68,8 @@ private:
   vtkNew<vtkRenderer> m_renderer;
   std::unique_ptr<rendering::ScenePicture> m_picture;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
-  QTimer m_tick;   // while drilling
-  QTimer m_settle; // back to the fine picture
+  QTimer m_tick;                    // while drilling
+  QTimer m_settle;                  // back to the fine picture
   QPointF m_pointer{-1.0, -1.0};
   QPointF m_dragged;
   bool m_drillMode = false;

@@ -22,13 +22,13 @@ struct ViewEntry
 };
 using rendering::StandardView;
 constexpr ViewEntry kViews[] = {
-  {StandardView::Lateral, "&Lateral", "From the side of the ear"},
-  {StandardView::Anterior, "&Anterior", "From the face"},
-  {StandardView::Posterior, "&Posterior", "From the back of the head"},
-  {StandardView::Superior, "&Superior", "From above, the face up"},
-  {StandardView::Inferior, "&Inferior", "From below, the face up"},
-  {StandardView::Left, "L&eft", "From the patient's left"},
-  {StandardView::Right, "&Right", "From the patient's right"},
+    {StandardView::Lateral, "&Lateral", "From the side of the ear"},
+    {StandardView::Anterior, "&Anterior", "From the face"},
+    {StandardView::Posterior, "&Posterior", "From the back of the head"},
+    {StandardView::Superior, "&Superior", "From above, the face up"},
+    {StandardView::Inferior, "&Inferior", "From below, the face up"},
+    {StandardView::Left, "L&eft", "From the patient's left"},
+    {StandardView::Right, "&Right", "From the patient's right"},
 };
 } // namespace
 
@@ -49,8 +49,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
   QMenu* file = window.menuBar()->addMenu(tr("&File"));
   openDicom = make(file, tr("Open &DICOM…"), QKeySequence::Open, tr("A folder of CT slices"));
   openImage = make(file, tr("Open &image…"), {}, tr("A CT as NRRD, NIfTI or MetaImage"));
-  openCase = make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O,
-                  tr("A case of the library"));
+  openCase =
+      make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O, tr("A case of the library"));
   sample = make(file, tr("&Make the sample patient"), {}, tr("An artificial temporal bone"));
   file->addSeparator();
   save = make(file, tr("&Save"), QKeySequence::Save, tr("Save the case in the library"));
@@ -73,11 +73,14 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
   for (const ViewEntry& entry : kViews)
   {
     QAction* action =
-      make(m_view, tr(entry.name), QKeySequence(QString::number(number++)), tr(entry.tip));
-    connect(action, &QAction::triggered, this, [this, view = entry.view] { emit viewChosen(view); });
+        make(m_view, tr(entry.name), QKeySequence(QString::number(number++)), tr(entry.tip));
+    connect(action, &QAction::triggered, this,
+            [this, view = entry.view] { emit viewChosen(view); });
     m_needCase.push_back(action);
     viewMenu->addAction(action);
   }
+  centerView = make(m_view, tr("&Centre on the crosshair"), Qt::Key_C,
+                    tr("The 3D view turns and zooms about the crosshair from now on"));
   m_view->addSeparator();
   boneWindow = make(m_view, tr("&Bone window"), Qt::Key_B, tr("Grey from -1300 to 2700 HU"));
   softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
@@ -100,7 +103,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
   auto* bar = new QToolBar(tr("Case"), &window);
   bar->setObjectName("caseBar");
   bar->setMovable(false);
-  const auto addShort = [bar](QAction* action, const QString& text) {
+  const auto addShort = [bar](QAction* action, const QString& text)
+  {
     action->setIconText(text);
     bar->addAction(action);
   };
@@ -120,7 +124,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
   window.addToolBar(bar);
   window.addToolBar(&drillBar);
 
-  m_needCase.insert(m_needCase.end(), {save, saveAs, boneWindow, softWindow, fitSlices,
+  m_needCase.insert(m_needCase.end(), {save, saveAs, centerView, boneWindow, softWindow, fitSlices,
                                        drillBar.drillAction()});
 }
 

@@ -36,6 +36,7 @@ public:
   QAction* quit;
   QAction* undo;
   QAction* redo;
+  QAction* centerView;
   QAction* boneWindow;
   QAction* softWindow;
   QAction* fitSlices;

@@ -21,8 +21,7 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
   if (folder.isEmpty())
     folder = qEnvironmentVariable("PETROUS_LIBRARY");
   if (folder.isEmpty()) // the same place as the petrous command
-    folder =
-      QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
+    folder = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
   return QFile::encodeName(folder).toStdString();
 }
 
@@ -40,7 +39,7 @@ int main(int argc, char** argv)
 
   QCommandLineParser parser;
   parser.setApplicationDescription(
-    "Rehearse an operation on the temporal bone on the patient's own CT.");
+      "Rehearse an operation on the temporal bone on the patient's own CT.");
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addOption({"library", "Folder of the library.", "DIR"});

@@ -17,11 +17,10 @@ TEST(CaseNaming, TakesTheFoldersOrFilesName)
 
 TEST(CaseNaming, AlwaysGivesANameThatACaseMayHave)
 {
-  for (const std::string& odd :
-       {std::string("..."), std::string("-x"), std::string("a:b*c?"), std::string(" . "),
-        std::string("a\tb"), std::string("\xff\xfe"), std::string(300, 'x'),
-        std::string(89, 'x') + "\xC3\xBC\xC3\xBC", std::string("a\xC3"), std::string("--.nrrd"),
-        std::string("/")})
+  for (const std::string& odd : {std::string("..."), std::string("-x"), std::string("a:b*c?"),
+                                 std::string(" . "), std::string("a\tb"), std::string("\xff\xfe"),
+                                 std::string(300, 'x'), std::string(89, 'x') + "\xC3\xBC\xC3\xBC",
+                                 std::string("a\xC3"), std::string("--.nrrd"), std::string("/")})
   {
     const std::string name = caseNameFrom(odd);
     EXPECT_NO_THROW(scene::checkCaseName(name)) << odd;

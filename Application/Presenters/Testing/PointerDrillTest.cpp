@@ -27,7 +27,7 @@ scene::Case stepCase()
         ct->at(i, j, k) = static_cast<std::int16_t>(std::clamp(hounsfield, -1000.0, 1600.0));
       }
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
   value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
   return value;
 }

@@ -29,7 +29,7 @@ scene::Case planeCase(const core::GridGeometry& grid)
   scene::Case value;
   value.ct.geometry = grid;
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::shared_ptr<const volume::Volume<float>>(ct));
+      std::shared_ptr<const volume::Volume<float>>(ct));
   return value;
 }
 
@@ -75,7 +75,7 @@ void expectPlane(const core::GridGeometry& grid, SliceOrientation orientation)
       }
       ++inside;
       const double grey =
-        std::clamp(255.0 * (plane(patient) - window.level + 300.0) / 600.0, 0.0, 255.0);
+          std::clamp(255.0 * (plane(patient) - window.level + 300.0) / 600.0, 0.0, 255.0);
       ASSERT_NEAR(rgb[0], grey, 0.51) << column << ' ' << row;
       ASSERT_EQ(rgb[0], rgb[1]);
       ASSERT_EQ(rgb[0], rgb[2]);
@@ -119,8 +119,7 @@ TEST_P(SliceOfGrid, ShowsAllOfTheGridAndPixelsInvertThePatientPoints)
   const auto pixel = slice.pixelFromPatient(slice.patientFromPixel(12.25, 77.5));
   EXPECT_NEAR(pixel[0], 12.25, 1e-9);
   EXPECT_NEAR(pixel[1], 77.5, 1e-9);
-  const double step =
-    (slice.patientFromPixel(1, 0) - slice.patientFromPixel(0, 0)).norm();
+  const double step = (slice.patientFromPixel(1, 0) - slice.patientFromPixel(0, 0)).norm();
   EXPECT_NEAR(step, slice.mmPerPixel(), 1e-12);
 }
 
@@ -131,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Orientations, SliceOfGrid,
 
 TEST(SliceGeometry, HasThePatientsRightOnThePicturesLeft)
 {
-  const auto letters = [](SliceOrientation orientation) {
+  const auto letters = [](SliceOrientation orientation)
+  {
     const auto l = SliceGeometry(orientation, Vector3d::Zero(), 1.0, 10, 10).edgeLetters();
     return std::string{l.left, l.right, l.top, l.bottom};
   };

@@ -25,25 +25,21 @@ protected:
              ("petrous-model-" + std::to_string(::getpid()) + "-" + test->name());
     std::filesystem::remove_all(folder);
   }
-  ~WorkstationModelTest() override
-  {
-    std::filesystem::remove_all(folder);
-  }
+  ~WorkstationModelTest() override { std::filesystem::remove_all(folder); }
 
   static scene::Case block(const std::string& name) // bone where z < 6 mm
   {
     scene::Case value;
     value.name = name;
     value.ct.name = "ct";
-    value.ct.geometry =
-      core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+    value.ct.geometry = core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
     auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
     for (int k = 0; k < 40; ++k)
       for (int j = 0; j < 40; ++j)
         for (int i = 0; i < 40; ++i)
           ct->at(i, j, k) = k < 20 ? std::int16_t{1500} : std::int16_t{-900};
     value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+        std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
     return value;
   }
 
@@ -54,10 +50,7 @@ protected:
       model.drill(line(), 0.05 * n);
     EXPECT_TRUE(model.endStroke());
   }
-  static SightLine line()
-  {
-    return {{6, 6, 30}, {0, 0, -1}};
-  }
+  static SightLine line() { return {{6, 6, 30}, {0, 0, -1}}; }
 
   std::filesystem::path folder;
 };
@@ -73,7 +66,8 @@ TEST_F(WorkstationModelTest, OpensSavesAndFindsTheStrokeAgain)
   EXPECT_EQ(model.latestCase(), "block");
   model.open("block");
   int cuts = 0;
-  model.events.maskChanged = [&cuts](const core::IndexBox& box) {
+  model.events.maskChanged = [&cuts](const core::IndexBox& box)
+  {
     EXPECT_FALSE(box.empty());
     ++cuts;
   };

@@ -77,6 +77,18 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
   return part;
 }
 
+void checkName(const fs::path& path, const std::string& name)
+{
+  try
+  {
+    scene::checkPartName(name);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw core::InvalidParameter(path.string() + ": " + error.what());
+  }
+}
+
 [[noreturn]] void nameTaken(const fs::path& path, const std::string& what, const std::string& name)
 {
   throw core::InvalidParameter(path.string() + ": " + what + " '" + name +
@@ -99,6 +111,7 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   }
   else if (taken(name))
     nameTaken(source.path, "MR", name);
+  checkName(source.path, name);
   scene::ImagePart part = readImage(source.path, {}, std::nullopt, progress);
   part.name = name;
   value.mr.push_back(std::move(part));
@@ -125,6 +138,7 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
       const bool colored = segment.color != std::array<float, 3>{};
       if (colored && structure.look.preset == "other")
         structure.look.color = segment.color;
+      checkName(source.path, structure.name);
       if (scene::findStructure(value, structure.name))
         nameTaken(source.path, "structure", structure.name);
       part.structures.push_back(std::move(structure));
@@ -145,6 +159,7 @@ void addMesh(scene::Case& value, const PartSource& source)
 {
   scene::MeshPart part;
   part.name = source.name.empty() ? baseName(source.path) : source.name;
+  checkName(source.path, part.name);
   if (scene::findMesh(value, part.name))
     nameTaken(source.path, "mesh", part.name);
   auto loaded = imaging::loadMesh(source.path);

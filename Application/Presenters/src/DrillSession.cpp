@@ -11,7 +11,7 @@ DrillSession::DrillSession(scene::Case& value)
   : m_case(value)
   , m_field(scene::tissueField(value))
   , m_keep(scene::protectedTissue(value))
-  , m_structures(scene::namedStructures(value))
+  , m_structures(scene::drillableStructures(value))
 {
   if (!value.dissection)
     throw core::InvalidParameter("drill: the case's dissection is not loaded");

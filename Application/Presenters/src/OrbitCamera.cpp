@@ -60,9 +60,9 @@ std::string directionLetters(const Eigen::Vector3d& direction)
   constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
   const Eigen::Vector3d unit = direction.stableNormalized();
   std::array<Eigen::Index, 3> axes{0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&unit](Eigen::Index a, Eigen::Index b) {
-    return std::abs(unit[a]) > std::abs(unit[b]);
-  });
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&unit](Eigen::Index a, Eigen::Index b)
+                   { return std::abs(unit[a]) > std::abs(unit[b]); });
   std::string letters;
   for (const Eigen::Index axis : axes)
     if (std::abs(unit[axis]) >= kShare)

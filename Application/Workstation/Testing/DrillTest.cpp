@@ -85,10 +85,12 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   auto other = library().open("ball");
   library().save(other); // somebody else
   QString why;
-  onMessage([&why](QMessageBox& box) {
-    why = box.text();
-    box.reject();
-  });
+  onMessage(
+      [&why](QMessageBox& box)
+      {
+        why = box.text();
+        box.reject();
+      });
   drill(500);
   EXPECT_TRUE(why.contains("ball")) << why.toStdString();
   EXPECT_TRUE(window().model().unsaved());
@@ -97,20 +99,24 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_TRUE(library().open("ball").strokes.empty());
 
   // Quitting asks again; now the work goes under another name.
-  onMessage([this](QMessageBox& box) {
-    auto* answer = new QTimer(&window());
-    QObject::connect(answer, &QTimer::timeout, answer, [answer] {
-      auto* ask = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-      if (!ask || qobject_cast<QMessageBox*>(ask))
-        return;
-      answer->stop();
-      ask->accept(); // with the name that is offered
-    });
-    answer->start(20);
-    for (QAbstractButton* button : box.buttons())
-      if (button->text().contains("name"))
-        return button->click();
-  });
+  onMessage(
+      [this](QMessageBox& box)
+      {
+        auto* answer = new QTimer(&window());
+        QObject::connect(answer, &QTimer::timeout, answer,
+                         [answer]
+                         {
+                           auto* ask = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+                           if (!ask || qobject_cast<QMessageBox*>(ask))
+                             return;
+                           answer->stop();
+                           ask->accept(); // with the name that is offered
+                         });
+        answer->start(20);
+        for (QAbstractButton* button : box.buttons())
+          if (button->text().contains("name"))
+            return button->click();
+      });
   EXPECT_TRUE(window().close());
   EXPECT_EQ(library().open("ball copy").strokes.size(), 1u);
 }

@@ -32,25 +32,26 @@ scene::Case GuiTest::ballCase(const std::string& name)
   const Eigen::Vector3d origin = kBallCenter - Eigen::Vector3d::Constant(0.5 * 63 * 0.5);
   value.ct.geometry = core::GridGeometry({64, 64, 64}, Eigen::Vector3d::Constant(0.5), origin);
   auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
-  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+  auto labels =
+      std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
   for (int k = 0; k < 64; ++k)
     for (int j = 0; j < 64; ++j)
       for (int i = 0; i < 64; ++i)
       {
         const Eigen::Vector3d at = value.ct.geometry.patientFromVoxel(Eigen::Vector3d(i, j, k));
         const double depth = kBallRadius - (at - kBallCenter).norm(); // mm
-        ct->at(i, j, k) = static_cast<std::int16_t>(
-          std::clamp(300.0 + 1000.0 * depth, -1000.0, 1600.0));
+        ct->at(i, j, k) =
+            static_cast<std::int16_t>(std::clamp(300.0 + 1000.0 * depth, -1000.0, 1600.0));
         if ((at - kBallCenter).norm() < 4.0)
           labels->at(i, j, k) = 1;
       }
   value.ct.name = "ct";
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-    std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
   value.ct.range = {-1000.0, 1600.0};
   scene::LabelPart part;
   auto map = std::make_shared<const volume::LabelMap>(
-    volume::makeLabelMap(labels, {{"nerve", 1, {1.0F, 0.8F, 0.1F}, 0}}));
+      volume::makeLabelMap(labels, {{"nerve", 1, {1.0F, 0.8F, 0.1F}, 0}}));
   scene::StructurePart nerve;
   nerve.name = "nerve";
   nerve.index = 1;
@@ -109,8 +110,8 @@ QImage GuiTest::picture()
     static int number = 0;
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     m_window->screen()
-      ->grabWindow(m_window->winId())
-      .save(QString("%1/%2-%3.png").arg(pictures, test->name()).arg(++number));
+        ->grabWindow(m_window->winId())
+        .save(QString("%1/%2-%3.png").arg(pictures, test->name()).arg(++number));
   }
   return view().grabFramebuffer().convertToFormat(QImage::Format_RGB32);
 }
@@ -155,14 +156,16 @@ void GuiTest::drill(int milliseconds, int pixels)
 void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)
 {
   auto* poll = new QTimer(m_window.get());
-  QObject::connect(poll, &QTimer::timeout, poll, [poll, react] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (!box)
-      return;
-    poll->stop();
-    poll->deleteLater();
-    react(*box);
-  });
+  QObject::connect(poll, &QTimer::timeout, poll,
+                   [poll, react]
+                   {
+                     auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+                     if (!box)
+                       return;
+                     poll->stop();
+                     poll->deleteLater();
+                     react(*box);
+                   });
   poll->start(20);
 }
 

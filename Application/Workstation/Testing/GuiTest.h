@@ -36,10 +36,7 @@ protected:
 
   void openWindow(const QString& what = {});
   void closeWindow();
-  MainWindow& window()
-  {
-    return *m_window;
-  }
+  MainWindow& window() { return *m_window; }
   ThreeDView& view();
   QAction* action(const QString& text); ///< by its words, without the ampersand
   QImage picture();                     ///< of the 3D view, when it has come to rest

@@ -57,17 +57,19 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
   openWindow();
   QStringList offered;
   QTimer answer;
-  QObject::connect(&answer, &QTimer::timeout, &answer, [&] {
-    auto* ask = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
-    if (!ask)
-      return;
-    answer.stop();
-    offered = ask->comboBoxItems();
-    for (const QString& item : offered)
-      if (item.contains("CT"))
-        ask->setTextValue(item);
-    ask->accept();
-  });
+  QObject::connect(&answer, &QTimer::timeout, &answer,
+                   [&]
+                   {
+                     auto* ask = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+                     if (!ask)
+                       return;
+                     answer.stop();
+                     offered = ask->comboBoxItems();
+                     for (const QString& item : offered)
+                       if (item.contains("CT"))
+                         ask->setTextValue(item);
+                     ask->accept();
+                   });
   answer.start(20);
   dropPath(folder() / "visit");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().importing(); }));
@@ -95,10 +97,12 @@ TEST_F(Import, AFolderWithoutImagesIsRefusedInOneLine)
   std::ofstream(folder() / "holiday" / "beach.jpg") << "no image";
   openWindow();
   QString text;
-  onMessage([&text](QMessageBox& box) {
-    text = box.text();
-    box.accept();
-  });
+  onMessage(
+      [&text](QMessageBox& box)
+      {
+        text = box.text();
+        box.accept();
+      });
   dropPath(folder() / "holiday");
   ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
   EXPECT_TRUE(text.contains("holiday")) << text.toStdString();
@@ -113,10 +117,12 @@ TEST_F(Import, CancelLeavesNoCase)
   openWindow();
   window().findChild<QPushButton*>("primary")->click(); // the sample patient takes seconds
   QProgressDialog* progress = nullptr;
-  ASSERT_TRUE(waitFor([&] {
-    progress = window().findChild<QProgressDialog*>("importProgress");
-    return progress && progress->isVisible() && progress->value() > 0;
-  }));
+  ASSERT_TRUE(waitFor(
+      [&]
+      {
+        progress = window().findChild<QProgressDialog*>("importProgress");
+        return progress && progress->isVisible() && progress->value() > 0;
+      }));
   QElapsedTimer clock;
   clock.start();
   progress->findChild<QPushButton*>()->click();

@@ -43,10 +43,12 @@ TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)
 {
   openWindow();
   QString text;
-  onMessage([&text](QMessageBox& box) {
-    text = box.text();
-    box.accept();
-  });
+  onMessage(
+      [&text](QMessageBox& box)
+      {
+        text = box.text();
+        box.accept();
+      });
   window().begin("nobody");
   EXPECT_TRUE(text.contains("no case 'nobody'")) << text.toStdString();
   EXPECT_FALSE(text.contains('\n'));
@@ -94,6 +96,8 @@ TEST_F(Window, ADoubleClickPutsTheCrosshairOnTheSurface)
   const Eigen::Vector3d offset = window().model().crosshair() - kBallCenter;
   EXPECT_NEAR(offset.norm(), kBallRadius, 0.1);
   EXPECT_LT(offset.x(), -11.0); // lateral view of a right ear
+  QTest::keyClick(&window(), Qt::Key_C);
+  EXPECT_LT((view().picture().camera().focalPoint - window().model().crosshair()).norm(), 1e-9);
 }
 
 TEST_F(Window, SlicesMoveTheCrosshair)
@@ -121,7 +125,8 @@ TEST_F(Window, SlicesShowBoneAndStructure)
   auto* coronal = window().findChild<SliceView*>("coronalView");
   const QImage image = coronal->grab().toImage();
   const auto slice = coronal->slice();
-  const auto colorAt = [&](const Eigen::Vector3d& patient) {
+  const auto colorAt = [&](const Eigen::Vector3d& patient)
+  {
     const Eigen::Vector2d pixel = slice.pixelFromPatient(patient);
     return QColor(image.pixel(static_cast<int>(pixel[0] + 0.5), static_cast<int>(pixel[1] + 0.5)));
   };

@@ -13,6 +13,8 @@ TEST(StructurePresets, KnowsTheStructuresOfTheTemporalBone)
   EXPECT_EQ(presets.lookFor("lateral-semicircular-canal").preset, "inner-ear");
   EXPECT_EQ(presets.lookFor("Cholesteatoma").preset, "cholesteatoma");
   EXPECT_EQ(presets.lookFor("zebra").preset, "other");
+  EXPECT_EQ(presets.lookFor("left sternocleidomastoideus muscle").preset, "muscle");
+  EXPECT_EQ(presets.lookFor("maxillary_sinus").preset, "air-cells");
 }
 
 TEST(StructurePresets, TakesALumenForNoTissue)

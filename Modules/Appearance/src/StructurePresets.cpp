@@ -62,10 +62,11 @@ StructurePresets::StructurePresets(std::string_view json)
 
 StructureLook StructurePresets::lookFor(const std::string& structureName) const
 {
-  const std::string name = plainWords(structureName);
+  const std::string name = " " + plainWords(structureName);
   for (const Entry& entry : m_entries)
     for (const std::string& word : entry.words)
-      if (name.find(word) != std::string::npos)
+      // At a word's start: "mastoid", not "sternocleidomastoid".
+      if (name.find(" " + word) != std::string::npos)
         return entry.look;
   return m_other;
 }

@@ -55,6 +55,27 @@ TEST(ToolPath, DrillHoldsUntilTheNextRow)
     EXPECT_EQ(ticks[n].drill, expected[n]) << n;
 }
 
+TEST(ToolPath, SwitchesTheDrillAtItsRowAlsoBetweenTwoTicks)
+{
+  // On from 0.5 to 0.6 s, at one tick a second; the tool moves on afterwards.
+  const auto ticks = ticksOf(pathOf("0,0,0,0,1,0,0,0,0\n0.5,5,0,0,1,0,0,0,1\n"
+                                    "0.6,6,0,0,1,0,0,0,0\n2,20,0,0,1,0,0,0,0\n"),
+                             1);
+  ASSERT_EQ(ticks.size(), 5u);
+  EXPECT_TRUE(ticks[1].drill);
+  EXPECT_DOUBLE_EQ(ticks[1].pose.translation()[0], 5.0);
+  EXPECT_FALSE(ticks[2].drill);
+  EXPECT_DOUBLE_EQ(ticks[2].pose.translation()[0], 6.0);
+  EXPECT_DOUBLE_EQ(ticks[3].time, 1.0);
+}
+
+TEST(ToolPath, RefusesAPathWithoutEnd)
+{
+  EXPECT_THROW(ticksOf(pathOf("0,0,0,0,1,0,0,0,0\n1e17,0,0,0,1,0,0,0,0\n"), 1000),
+               core::InvalidParameter);
+  EXPECT_THROW(pathOf("0,1e308,0,0,1,0,0,0,0\n"), core::InvalidParameter);
+}
+
 TEST(ToolPath, TurnsOnTheShortArc)
 {
   // -q is the same rotation as q: the way between them is none.

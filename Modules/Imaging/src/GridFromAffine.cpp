@@ -91,7 +91,8 @@ double unitInMillimetres(std::string name, std::vector<std::string>& notes)
       notes.push_back("counts in " + unit + ", turned into mm");
       return scale;
     }
-  notes.emplace_back("states no unit of length; taken as mm");
+  notes.emplace_back(unit.empty() ? "states no unit of length; taken as mm"
+                                  : "states a unit of length that is not known; taken as mm");
   return 1.0;
 }
 

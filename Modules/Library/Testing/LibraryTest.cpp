@@ -300,5 +300,5 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
   scene::Case last = library.open("ear");
   library.save(last);
   for (const auto& [name, content] : contentOf(folder.path()))
-    EXPECT_EQ(name.find("objects/.tmp-"), std::string::npos) << name;
+    EXPECT_EQ(name.find("objects/."), std::string::npos) << name;
 }

@@ -1,5 +1,8 @@
 #include "Catalogue.h"
 
+#include <cctype>
+#include <cstring>
+
 #include <SQLiteCpp/SQLiteCpp.h>
 
 namespace petrous::library
@@ -23,6 +26,21 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
   return database;
 }
 
+// Read as it lies on the disk: asking leaves no -wal and -shm files behind. What a writer has not
+// brought into the file yet is then read from the manifests.
+std::string readOnlyUri(const std::filesystem::path& file)
+{
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string uri = "file:";
+  for (const char byte : std::filesystem::absolute(file).string())
+  {
+    const auto c = static_cast<unsigned char>(byte);
+    const bool plain = std::isalnum(c) != 0 || (c != 0 && std::strchr("/._-", c) != nullptr);
+    uri += plain ? std::string(1, byte) : std::string{'%', kDigits[c >> 4], kDigits[c & 15]};
+  }
+  return uri + "?immutable=1";
+}
+
 } // namespace
 
 Catalogue::Catalogue(std::filesystem::path file)
@@ -36,7 +54,7 @@ try
 {
   if (!std::filesystem::exists(m_file))
     return std::nullopt;
-  SQLite::Database database(m_file.string(), SQLite::OPEN_READONLY, kBusyMilliseconds);
+  SQLite::Database database(readOnlyUri(m_file), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
   SQLite::Statement query(database, "SELECT modified, nx, ny, nz, structures, strokes, removed_mm3 "
                                     "FROM cases WHERE name = ? AND size = ? AND changed = ?");
   query.bind(1, name);

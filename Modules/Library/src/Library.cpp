@@ -128,8 +128,13 @@ std::vector<CaseSummary> Library::list() const
   std::vector<CaseSummary> cases;
   const Catalogue catalogue(m_folder / "library.sqlite");
   std::error_code error;
-  for (fs::directory_iterator entry(m_folder / "cases", error), end; !error && entry != end;
-       entry.increment(error))
+  fs::directory_iterator entry(m_folder / "cases", error);
+  // A library that was never saved to has no folder yet; anything else is a fault to be told.
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw LibraryError(Reason::Damaged,
+                       (m_folder / "cases").string() + ": cannot be read (" + error.message() +
+                           "); give the library's folder and check its permissions");
+  for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
   {
     const fs::path& path = entry->path();
     const auto state = stateOf(path);
@@ -251,9 +256,10 @@ void Library::save(scene::Case& value, const core::Progress& progress)
     const auto present =
         there ? scene::fromManifest(readText(path), path.string()).revision : std::uint64_t{0};
     if (present != value.revision)
-      throw LibraryError(Reason::Conflict,
-                         "case '" + value.name + "' was " + (there ? "changed" : "removed") +
-                             " by another program since it was opened; save under another name");
+      throw LibraryError(
+          Reason::Conflict,
+          "case '" + value.name + "' was " + (there ? "changed" : "removed") +
+              " by another program since it was opened; open it again and repeat what you did");
   }
 
   ObjectStore store(objectFolder());
@@ -264,7 +270,9 @@ void Library::save(scene::Case& value, const core::Progress& progress)
     storeParts(next, store, progress);
     ++next.revision;
     progress.report(0.95, "saving");
-    replaceDurably(path, scene::toManifest(next));
+    const std::string manifest = scene::toManifest(next);
+    scene::fromManifest(manifest, path.string()); // what cannot be read again is never written
+    replaceDurably(path, manifest);
     store.forget();
     value = std::move(next);
   }

@@ -138,7 +138,7 @@ void ObjectStore::removeLeftovers() noexcept
   std::error_code error;
   for (fs::directory_iterator entry(m_folder, error), end; !error && entry != end;
        entry.increment(error))
-    if (entry->path().filename().string().rfind(".tmp-", 0) == 0)
+    if (entry->path().filename().string().rfind(".", 0) == 0)
     {
       std::error_code ignored;
       fs::remove(entry->path(), ignored);

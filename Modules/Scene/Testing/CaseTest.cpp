@@ -106,6 +106,6 @@ TEST(Case, NamesMustFitAFile)
   for (const std::string& bad :
        {std::string(), std::string("../x"), std::string(".hidden"), std::string("a/b"),
         std::string("tab\t"), std::string("-x"), std::string("end "), std::string(101, 'a'),
-        std::string("a\0b", 3)})
+        std::string("a\0b", 3), std::string("\xff\xfe"), std::string("\xc0\xaf"), std::string("\xed\xa0\x80")})
     EXPECT_THROW(scene::checkCaseName(bad), core::InvalidParameter) << bad;
 }

@@ -49,12 +49,13 @@ dissection::ProtectedTissue protectedTissue(const Case& value)
   return unionsOf(value, [](const auto& look) { return !look.drillable; });
 }
 
-std::vector<dissection::NamedStructure> namedStructures(const Case& value)
+std::vector<dissection::NamedStructure> drillableStructures(const Case& value)
 {
   std::vector<dissection::NamedStructure> structures;
   for (const LabelPart& part : value.labels)
     for (const StructurePart& structure : part.structures)
-      structures.push_back({structure.name, part.labels.get(), structure.index});
+      if (structure.look.drillable)
+        structures.push_back({structure.name, part.labels.get(), structure.index});
   return structures;
 }
 

@@ -33,7 +33,7 @@ TEST(IntensityVolume, RangeLeavesPaddingAndNanOut)
   const auto padded = image<std::int16_t>({-2000, -1000, 700, -2000}, -2000.0).range();
   EXPECT_DOUBLE_EQ(padded.min, -1000.0);
   EXPECT_DOUBLE_EQ(padded.max, 700.0);
-  const auto holes = image<float>({NAN, 1.5F, -2.5F, NAN}).range();
+  const auto holes = image<float>({NAN, 1.5F, -2.5F, INFINITY}).range();
   EXPECT_DOUBLE_EQ(holes.min, -2.5);
   EXPECT_DOUBLE_EQ(holes.max, 1.5);
   const auto nothing = image<float>({NAN, NAN, NAN, NAN}).range();

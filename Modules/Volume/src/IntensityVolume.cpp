@@ -46,7 +46,7 @@ ValueRange IntensityVolume::range() const
               for (std::size_t i = part.begin(); i != part.end(); ++i)
               {
                 const auto value = static_cast<double>(data[i]);
-                if (value == padding || std::isnan(value))
+                if (value == padding || !std::isfinite(value))
                   continue;
                 sofar.min = std::min(sofar.min, value);
                 sofar.max = std::max(sofar.max, value);

@@ -31,14 +31,8 @@ public:
 
   Events events;
 
-  const library::Library& library() const noexcept
-  {
-    return m_library;
-  }
-  bool hasCase() const noexcept
-  {
-    return m_case != nullptr;
-  }
+  const library::Library& library() const noexcept { return m_library; }
+  bool hasCase() const noexcept { return m_case != nullptr; }
   const scene::Case& value() const noexcept ///< only with a case
   {
     return *m_case;
@@ -54,15 +48,9 @@ public:
   void adopt(scene::Case value);
   void stored(const scene::Case& saved); ///< names and revision are taken over
   void notStored();
-  bool beingStored() const noexcept
-  {
-    return m_beingStored;
-  }
+  bool beingStored() const noexcept { return m_beingStored; }
 
-  bool unsaved() const noexcept
-  {
-    return m_unsaved;
-  }
+  bool unsaved() const noexcept { return m_unsaved; }
   void setCamera(const core::CameraPose& camera); ///< kept with the next save
   void save();                                    ///< throws as Library::save does
   void saveAs(const std::string& name);           ///< a new case; on an exception nothing changed
@@ -77,10 +65,7 @@ public:
   void setIso(double hounsfield);
   void setLook(const std::string& structure, const appearance::StructureLook& look);
 
-  const Eigen::Vector3d& crosshair() const noexcept
-  {
-    return m_crosshair;
-  }
+  const Eigen::Vector3d& crosshair() const noexcept { return m_crosshair; }
   void setCrosshair(const Eigen::Vector3d& patient); ///< held within the CT
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
@@ -92,10 +77,7 @@ public:
 
   void beginStroke(const SightLine& line, const dissection::Burr& burr, double feed, double seconds,
                    const core::CameraPose& camera);
-  bool drilling() const noexcept
-  {
-    return m_drill.has_value();
-  }
+  bool drilling() const noexcept { return m_drill.has_value(); }
   /// The burr's centre; nothing in the air.
   std::optional<Eigen::Vector3d> drill(const SightLine& line, double seconds);
   std::shared_ptr<const dissection::Stroke> endStroke(); ///< not saved yet

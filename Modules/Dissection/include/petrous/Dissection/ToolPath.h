@@ -31,8 +31,10 @@ public:
 
   const std::vector<ToolSample>& samples() const noexcept { return m_samples; }
 
-  /// Calls `tick` at every 1/rate s from the first sample to the last one, both included, with
-  /// the position interpolated linearly and the rotation on the shortest arc.
+  /// Calls `tick` at every 1/rate s from the first sample to the last one, both included, and at
+  /// each sample where the drill goes on or off; the position is interpolated linearly, the
+  /// rotation on the shortest arc. Throws InvalidParameter for a rate that is not above 0 Hz and
+  /// for a path of more than 1e8 ticks.
   void play(double rate, const std::function<void(const ToolSample&)>& tick) const;
 
 private:

@@ -38,7 +38,7 @@ public:
   void discardNew() noexcept;
   void forget() noexcept;
 
-  /// Temporary files that a killed writer left.
+  /// Removes the temporary files (names with a dot in front) that a killed writer left.
   void removeLeftovers() noexcept;
 
 private:

@@ -114,4 +114,8 @@ void removePart(Case& value, const std::string& name);
 /// control characters, none of / \ : * ? " < > |, no dot or space at the ends, not a leading dash.
 void checkCaseName(const std::string& name);
 
+/// Throws InvalidParameter unless a part can go by this name: 1 to 200 bytes of UTF-8 without
+/// control characters, and not "ct".
+void checkPartName(const std::string& name);
+
 } // namespace petrous::scene

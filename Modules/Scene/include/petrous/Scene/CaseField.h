@@ -21,7 +21,8 @@ volume::TissueField tissueField(const Case& value);
 /// Structures that the drill must leave (`drillable` off).
 dissection::ProtectedTissue protectedTissue(const Case& value);
 
-/// All structures with their voxels, for measuring what a stroke took of them. Loads the labels.
-std::vector<dissection::NamedStructure> namedStructures(const Case& value);
+/// The structures that a stroke can take something of (`drillable` on), with their voxels. Loads
+/// the labels.
+std::vector<dissection::NamedStructure> drillableStructures(const Case& value);
 
 } // namespace petrous::scene

@@ -35,7 +35,7 @@ public:
   const core::GridGeometry& geometry() const noexcept;
   std::size_t bytes() const noexcept;
 
-  /// Smallest and largest value without padding and without NaN; both 0 when nothing is left.
+  /// Smallest and largest value without padding, NaN and infinities; both 0 when nothing is left.
   /// Reads every voxel.
   ValueRange range() const;
 

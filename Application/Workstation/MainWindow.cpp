@@ -210,8 +210,7 @@ void MainWindow::caseChanged()
     m_view->picture().setContents({});
     statusBar()->showMessage(words(error.what()));
   }
-  m_view->setCamera(value.camera.value_or(
-      rendering::standardCamera(rendering::StandardView::Lateral, value.ct.geometry)));
+  m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
   m_panel->caseChanged();
   m_view->setFocus();
@@ -264,7 +263,7 @@ void MainWindow::showPlace(const Eigen::Vector3d& patient)
 void MainWindow::showView(rendering::StandardView view)
 {
   if (m_model.hasCase())
-    m_view->setCamera(rendering::standardCamera(view, m_model.value().ct.geometry));
+    m_view->setCamera(presenters::standardCamera(m_model.value(), view));
 }
 
 void MainWindow::step(bool back)

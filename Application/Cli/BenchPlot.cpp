@@ -91,6 +91,7 @@ std::string plotSvg(const core::BenchmarkReport& report)
     if (std::find(programs.begin(), programs.end(), program) == programs.end())
       programs.push_back(program);
   }
+  const bool hasZero = std::any_of(errors.begin(), errors.end(), [](double e) { return e <= 0.0; });
   const LogAxis xAxis(seconds);
   const LogAxis yAxis(errors);
   const double plotWidth = kWidth - kLeft - kRight;
@@ -111,7 +112,9 @@ std::string plotSvg(const core::BenchmarkReport& report)
   for (int e = static_cast<int>(yAxis.low); e <= static_cast<int>(yAxis.high); ++e)
   {
     const double y = py((e - yAxis.low) / (yAxis.high - yAxis.low));
-    svg += line(px(0), y, px(1), y) + text(px(0) - 8, y + 4, power(e), "text-anchor=\"end\"");
+    const bool isFloor = e == static_cast<int>(yAxis.low) && hasZero;
+    svg += line(px(0), y, px(1), y) +
+           text(px(0) - 8, y + 4, isFloor ? "0" : power(e), "text-anchor=\"end\"");
   }
   svg += text(px(0.5), kHeight - 16, "time, s", "text-anchor=\"middle\"");
   const std::string unit = report.points.empty() ? "" : report.points.front().errorUnit;

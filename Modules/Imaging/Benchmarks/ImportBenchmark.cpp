@@ -246,7 +246,7 @@ core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
   ours.extra["difference_from_peer_hu"] = own.fromPeer;
   core::BenchmarkPoint theirs = makePoint(scene, peer);
   theirs.setting["reader"] = "itk";
-  theirs.peer = "ITK GDCMSeriesFileNames + ImageSeriesReader";
+  theirs.peer = "ITK series reader";
   report.points = {ours, theirs};
   return report;
 }

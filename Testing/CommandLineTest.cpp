@@ -241,6 +241,18 @@ TEST_F(CommandLine, AppearanceSetsThresholdAndFlags)
   expectRefused("appearance ear --flags '" + name + "=loud'", 3, "loud");
 }
 
+TEST_F(CommandLine, TakesOptionsBeforeAndAfterTheCase)
+{
+  makePatient("--dims 40,40,40 --spacing 1.5");
+  const auto labels = m_folder / "patient/labels";
+  json("new --ct " + quoted(m_folder / "patient/ct") + " --labels " +
+       quoted(labels / "cochlea.nii.gz") +
+       " --labels inner=" + quoted(labels / "vestibule.nii.gz") + " ear");
+  EXPECT_EQ(json("info ear")["labels"].size(), 2u);
+  json("remove --part inner ear");
+  EXPECT_EQ(json("info ear")["labels"][0]["name"], "cochlea");
+}
+
 TEST_F(CommandLine, SampleIsTheSameForTheSameSeed)
 {
   for (const std::string name : {"a", "b"})

@@ -102,12 +102,13 @@ void addAppearanceCommand(CLI::App& app, Context& context)
   command->add_option("CASE", options->name)->required();
   command->add_option("--iso", options->iso, "Surface of bone (300)")->type_name("HU");
   command->add_option("--flags", options->flags, "The flags that hold; 'none' for none of them")
+      ->allow_extra_args(false)
       ->type_name("PART=shown,touchable,drillable");
   command->add_flag("--list", options->list, "List what there is");
   // In the contract, not built yet: refused when asked for, not offered.
-  command->add_option("--set", options->set)->group("");
-  command->add_option("--tf", options->tf)->group("");
-  command->add_option("--tissue", options->tissue)->group("");
+  command->add_option("--set", options->set)->allow_extra_args(false)->group("");
+  command->add_option("--tf", options->tf)->allow_extra_args(false)->group("");
+  command->add_option("--tissue", options->tissue)->allow_extra_args(false)->group("");
 }
 
 } // namespace petrous::cli

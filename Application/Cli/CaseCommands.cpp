@@ -19,10 +19,14 @@ struct PartOptions
 
   void addTo(CLI::App& command)
   {
-    command.add_option("--mr", mr, "MR: DICOM folder or image file")->type_name("[NAME=]PATH");
+    command.add_option("--mr", mr, "MR: DICOM folder or image file")
+        ->allow_extra_args(false)
+        ->type_name("[NAME=]PATH");
     command.add_option("--labels", labels, "Structures: one a file, or one an index")
+        ->allow_extra_args(false)
         ->type_name("[NAME=]FILE");
     command.add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS")
+        ->allow_extra_args(false)
         ->type_name("[NAME=]FILE");
   }
 

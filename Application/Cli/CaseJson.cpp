@@ -1,5 +1,7 @@
 #include "CaseJson.h"
 
+#include "petrous/Dissection/BurrName.h"
+
 namespace petrous::cli
 {
 
@@ -89,17 +91,16 @@ json strokesJson(const scene::Case& value)
     for (const auto& touched : stroke.info.structures)
       structures.push_back({{"label", touched.name}, {"volume_mm3", touched.volume}});
     const auto& burr = stroke.info.burr;
-    strokes.push_back(
-        {{"number", n + 1},
-         {"done", n < value.applied},
-         {"started_at", stroke.info.startedAt},
-         {"duration_s", stroke.info.duration},
-         {"burr", burr.kind == dissection::Burr::Kind::Cutting ? "cutting" : "diamond"},
-         {"diameter_mm", burr.diameter},
-         {"rpm", burr.rpm},
-         {"removed_mm3", stroke.info.removed},
-         {"structures_touched", std::move(structures)},
-         {"bytes", stroke.bytes}});
+    strokes.push_back({{"number", n + 1},
+                       {"done", n < value.applied},
+                       {"started_at", stroke.info.startedAt},
+                       {"duration_s", stroke.info.duration},
+                       {"burr", dissection::nameOf(burr.kind)},
+                       {"diameter_mm", burr.diameter},
+                       {"rpm", burr.rpm},
+                       {"removed_mm3", stroke.info.removed},
+                       {"structures_touched", std::move(structures)},
+                       {"bytes", stroke.bytes}});
   }
   return strokes;
 }

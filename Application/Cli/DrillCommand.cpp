@@ -5,6 +5,7 @@
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/DrillSession.h"
@@ -61,9 +62,8 @@ private:
 dissection::Burr burrFrom(const Options& options)
 {
   dissection::Burr burr;
-  if (options.kind == "diamond")
-    burr.kind = dissection::Burr::Kind::Diamond;
-  else if (options.kind != "cutting")
+  const auto kind = dissection::parseBurrKind(options.kind);
+  if (!kind)
     throw UsageError("--burr: 'cutting' or 'diamond', not '" + options.kind + "'");
   if (!(options.diameter >= 0.1 && options.diameter <= 20.0))
     throw UsageError("--diameter: must lie within 0.1 to 20 mm");
@@ -71,6 +71,7 @@ dissection::Burr burrFrom(const Options& options)
     throw UsageError("--rpm: must lie within 0 to 200000");
   if (!(options.rate >= 1.0 && options.rate <= 100000.0))
     throw UsageError("--tick-hz: must lie within 1 to 100000");
+  burr.kind = *kind;
   burr.diameter = options.diameter;
   burr.rpm = options.rpm;
   return burr;

@@ -1,6 +1,7 @@
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Dissection/BurrName.h"
 
 namespace petrous::cli
 {
@@ -52,8 +53,8 @@ void sayHistory(const Context& context, const scene::Case& value)
     const auto& info = value.strokes[n].info;
     std::string line = std::to_string(n + 1) + (n < value.applied ? "  done    " : "  undone  ") +
                        info.startedAt + "  " + fixed(info.burr.diameter, 1) + " mm " +
-                       (info.burr.kind == dissection::Burr::Kind::Cutting ? "cutting" : "diamond") +
-                       ", " + fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
+                       dissection::nameOf(info.burr.kind) + ", " + fixed(info.duration, 1) +
+                       " s, " + fixed(info.removed, 2) + " mm3";
     for (const auto& touched : info.structures)
       line += "; " + touched.name + " " + fixed(touched.volume, 2) + " mm3";
     context.say(line);

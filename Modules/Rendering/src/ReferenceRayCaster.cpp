@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "BoneColor.h"
+#include "petrous/Core/HullClip.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Volume/Sampling.h"
 #include "petrous/Volume/SmoothedUnion.h"
@@ -28,25 +29,9 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [first, last] mm along the ray inside the hull, or last < first.
 std::pair<double, double> insideHull(const core::GridGeometry& grid, const PixelRay& ray)
 {
-  const Eigen::Vector3d start = grid.voxelFromPatient(ray.origin);
-  const Eigen::Vector3d run = grid.voxelFromPatientLinear() * ray.direction;
-  double first = 0.0;
-  double last = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double top = grid.dims()[static_cast<std::size_t>(axis)] - 1.0;
-    if (std::abs(run[axis]) < 1e-14)
-    {
-      if (start[axis] < 0.0 || start[axis] > top)
-        return {1.0, 0.0};
-      continue;
-    }
-    const double a = -start[axis] / run[axis];
-    const double b = (top - start[axis]) / run[axis];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
-  return {first, last};
+  return core::clipToHull(grid, grid.voxelFromPatient(ray.origin),
+                          grid.voxelFromPatientLinear() * ray.direction, 0.0,
+                          std::numeric_limits<double>::infinity());
 }
 
 // The first point of the ray where f > 0, mm; NaN where none.

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "petrous/Dissection/BurrName.h"
+
 namespace petrous::scene
 {
 
@@ -127,7 +129,7 @@ json strokeOut(const StrokePart& stroke)
          {"bytes", stroke.bytes},
          {"started_at", stroke.info.startedAt},
          {"duration_s", stroke.info.duration},
-         {"burr", burr.kind == dissection::Burr::Kind::Cutting ? "cutting" : "diamond"},
+         {"burr", dissection::nameOf(burr.kind)},
          {"diameter_mm", burr.diameter},
          {"rpm", burr.rpm},
          {"removed_mm3", stroke.info.removed},
@@ -144,9 +146,8 @@ StrokePart strokeIn(const json& j)
   stroke.bytes = j.at("bytes").get<std::size_t>();
   stroke.info.startedAt = j.at("started_at").get<std::string>();
   stroke.info.duration = j.at("duration_s").get<double>();
-  stroke.info.burr.kind = j.at("burr").get<std::string>() == "diamond"
-                              ? dissection::Burr::Kind::Diamond
-                              : dissection::Burr::Kind::Cutting;
+  stroke.info.burr.kind = dissection::parseBurrKind(j.at("burr").get<std::string>())
+                              .value_or(dissection::Burr::Kind::Cutting);
   stroke.info.burr.diameter = j.at("diameter_mm").get<double>();
   stroke.info.burr.rpm = j.at("rpm").get<double>();
   stroke.info.removed = j.at("removed_mm3").get<double>();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "petrous/Core/HullClip.h"
+
 namespace petrous::volume
 {
 
@@ -12,31 +14,6 @@ namespace
 // Surfaces are bracketed in steps of half a voxel: a wall thinner than that is not in the samples.
 constexpr double kMarchStep = 0.5;
 constexpr double kHitTolerance = 1e-4; // of the smallest spacing
-
-// The part [first, last] of a segment (parameters 0 to 1) inside the hull; empty when last < first.
-std::pair<double, double> clipToHull(const core::GridGeometry& grid, const Eigen::Vector3d& start,
-                                     const Eigen::Vector3d& end)
-{
-  const Eigen::Vector3d a = grid.voxelFromPatient(start);
-  const Eigen::Vector3d run = grid.voxelFromPatient(end) - a;
-  double first = 0.0;
-  double last = 1.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double top = grid.dims()[static_cast<std::size_t>(axis)] - 1.0;
-    if (std::abs(run[axis]) < 1e-14)
-    {
-      if (a[axis] < 0.0 || a[axis] > top)
-        return {1.0, 0.0};
-      continue;
-    }
-    const double t0 = -a[axis] / run[axis];
-    const double t1 = (top - a[axis]) / run[axis];
-    first = std::max(first, std::min(t0, t1));
-    last = std::min(last, std::max(t0, t1));
-  }
-  return {first, last};
-}
 } // namespace
 
 TissueField::TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<SolidUnion> solids,
@@ -145,7 +122,9 @@ std::optional<double> TissueField::firstHit(const Eigen::Vector3d& start,
                                             const Eigen::Vector3d& end) const
 {
   const double length = (end - start).norm();
-  const auto [first, last] = clipToHull(geometry(), start, end);
+  const Eigen::Vector3d voxel = geometry().voxelFromPatient(start);
+  const auto [first, last] =
+      core::clipToHull(geometry(), voxel, geometry().voxelFromPatient(end) - voxel, 0.0, 1.0);
   if (last < first)
     return std::nullopt;
   if (length == 0.0)

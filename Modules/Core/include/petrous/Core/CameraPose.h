@@ -15,6 +15,9 @@ struct CameraPose
   Eigen::Vector3d viewUp{0.0, 0.0, 1.0};
   double viewAngle = 30.0;             ///< vertical, degrees; perspective
   std::optional<double> parallelScale; ///< half the picture's height, mm: parallel when set
+  /// How far to the right of the view axis the picture's centre lies, in half heights of the
+  /// picture: the off-axis frustum of one eye of a stereo pair. Not part of a saved view.
+  double lensShift = 0.0;
 };
 
 } // namespace petrous::core

@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Appearance/Material.h"
 #include "petrous/Appearance/StructureLook.h"
+#include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Volume/CutMask.h"
 #include "petrous/Volume/IntensityVolume.h"
+#include "petrous/Volume/LabelField.h"
 #include "petrous/Volume/LabelMap.h"
 
 namespace petrous::rendering
@@ -40,13 +43,29 @@ struct ToolPose
   bool drilling = false;                     ///< drawn brighter
 };
 
-/// The lamp sits at the camera.
+/// The lamp sits at the camera, as in a microscope.
 struct LightSettings
 {
   double intensity = 1.0;
-  double ambient = 0.16;  ///< share of the surface's colour that needs no light
-  double specular = 0.18; ///< strength of the highlight, 0 to 1
-  double shininess = 18.0;
+  double ambient = 0.16;   ///< share of the surface's colour that needs no light
+  double specular = 0.18;  ///< strength of the highlight, 0 to 1
+  double shininess = 18.0; ///< of meshes and tools; the volume's tissues have their own
+  double falloff = 0.0; ///< mm from the lamp to where its light is halved; 0: everywhere the same
+  double wetness = 0.0; ///< strength of the narrow highlight of a wet surface, 0 to 1; 0: dry
+};
+
+/// A second image in the same scene, sampled where a material asks for it.
+struct SecondImage
+{
+  std::shared_ptr<const volume::IntensityVolume> volume; ///< null: none
+  core::RigidTransform secondFromCt; ///< takes CT patient points to its patient points, LPS mm
+};
+
+/// What lies on the negative side is not drawn; patient LPS mm.
+struct ClippingPlane
+{
+  Eigen::Vector3d point{0.0, 0.0, 0.0};
+  Eigen::Vector3d normal{0.0, 0.0, 1.0}; ///< unit, towards what stays
 };
 
 /// Everything that a picture shows, as a value; voxels and triangles are shared.
@@ -56,7 +75,13 @@ struct SceneContents
   double iso = 300.0;                                ///< HU
   std::shared_ptr<const volume::CutMask> mask;       ///< null: nothing cut
   std::vector<StructureContents> structures;
-  std::vector<MeshContents> meshes; ///< one that a structure of the same name replaces is skipped
+  bool boneShown = true;                            ///< false: the CT's surface is not drawn
+  std::shared_ptr<const volume::LabelField> labels; ///< null: none
+  std::vector<appearance::Material> materials;      ///< row 0: bone; row i: index i of `labels`
+  SecondImage second;
+  std::vector<ClippingPlane> clipping;
+  std::optional<core::IndexBox> crop; ///< voxels of the CT that are drawn; none: all
+  std::vector<MeshContents> meshes;   ///< one that a structure of the same name replaces is skipped
   std::optional<ToolPose> tool;
   LightSettings light;
 };

@@ -1,0 +1,37 @@
+#include "OpticalModel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petrous::rendering::optics
+{
+
+double lightAt(const LightSettings& light, double distance)
+{
+  if (!(light.falloff > 0.0))
+    return light.intensity;
+  const double ratio = distance / light.falloff;
+  return light.intensity / (1.0 + ratio * ratio);
+}
+
+Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
+                             double cosine, const LightSettings& light, double distance)
+{
+  const double facing = std::clamp(std::abs(cosine), 0.0, 1.0);
+  const double diffuse = light.ambient + (1.0 - light.ambient) * facing;
+  const double highlight = optics.specular * light.specular * std::pow(facing, shininess) +
+                           light.wetness * std::pow(facing, kWetShininess);
+  const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
+  return (lightAt(light, distance) * (color * diffuse + Eigen::Vector3d::Constant(highlight)))
+      .cwiseMax(0.0)
+      .cwiseMin(1.0);
+}
+
+Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
+                              double distance)
+{
+  const double diffuse = light.ambient + (1.0 - light.ambient) * kInteriorFacing;
+  return (lightAt(light, distance) * diffuse * color).cwiseMax(0.0).cwiseMin(1.0);
+}
+
+} // namespace petrous::rendering::optics

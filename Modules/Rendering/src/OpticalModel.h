@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "petrous/Appearance/Material.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::rendering
+{
+
+/// What a ray sees: the one definition behind the GPU's picture (shaders/RayCast.glsl) and the
+/// reference (ReferenceRayCaster), after [Chan2013, 2.2] and [Chan2016, "Visual rendering"].
+///
+/// At a point x the ray is in one of these states, f being the tissue field of what is shown:
+///   air              f <= 0, outside the hull of the CT's voxel centres, the crop box or a plane
+///   bone             f > 0 and share <= 0.5
+///   structure i      f > 0 and share > 0.5, i = label index of the voxel nearest to x
+/// Where the state changes from air to anything, or from bone to a structure, there is a surface;
+/// all other changes only change the material. A surface adds its lit colour with the material's
+/// surface opacity; along the way through a tissue colour and extinction of the material's transfer
+/// function are integrated:
+///   C = sum_surfaces T a_s c_s + integral T sigma(v) c(v) l ds,  T the transmittance so far
+/// A ray ends at opaque polygons; what is left of T shows what is behind.
+///
+/// Surface at x, unit normal n (out of the tissue; -grad of the operand that decides: c_CT, share
+/// or mask, central differences over +-1 voxel of its grid; for bone -> structure that of share):
+///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
+///   c_s     surfaceColor(transfer(v), |n . ray|, distance to the eye)
+///   opacity material.surfaceOpacity
+/// The material is the structure's where share > 0.5 - 1e-3 at x, else a lumen's where the index at
+/// x is one of a lumen, else bone. Where tissue is cut off by the hull, the crop box or a clipping
+/// plane, n is that face's normal and v is taken at x itself. A flat field (n = 0) faces the eye.
+namespace optics
+{
+
+/// How far below the surface the intensity is taken that colours it, in smallest spacings.
+constexpr double kColorDepth = 1.0;
+
+/// Cosine that stands for all directions inside a scattering tissue (no normal is taken there).
+constexpr double kInteriorFacing = 2.0 / 3.0;
+
+/// Exponent of the highlight of a wet surface.
+constexpr double kWetShininess = 120.0;
+
+constexpr double kShareThreshold = 0.5 - 1e-3;
+
+/// Light that arrives at a distance (mm) from the lamp at the eye: intensity / (1 + (d /
+/// falloff)^2), or intensity where falloff is 0.
+double lightAt(const LightSettings& light, double distance);
+
+/// light (c (ambient + (1 - ambient) facing) + k_s specular facing^shininess
+///        + wetness facing^kWetShininess), clamped to 0..1; k_s of the transfer function.
+Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
+                             double cosine, const LightSettings& light, double distance);
+
+/// light c (ambient + (1 - ambient) kInteriorFacing), clamped to 0..1.
+Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
+                              double distance);
+
+/// What is behind everything; RGB, 0 to 1.
+constexpr double kBackground[3] = {0.105, 0.115, 0.130};
+
+} // namespace optics
+} // namespace petrous::rendering

@@ -1,6 +1,13 @@
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::cli
 {
@@ -8,106 +15,361 @@ namespace petrous::cli
 namespace
 {
 
-void list(const Context& context, const scene::Case& value)
+using appearance::StructureLook;
+
+struct Options
 {
-  nlohmann::json parts = nlohmann::json::array();
-  const auto add =
-      [&](const std::string& name, const std::string& kind, const appearance::StructureLook& look)
+  std::string name, iso;
+  std::vector<std::string> set, tf, color, opacity, source, flags, tissue;
+  bool list = false;
+  bool presets = false;
+
+  bool changes() const
   {
-    parts.push_back({{"name", name},
-                     {"kind", kind},
-                     {"preset", look.preset},
-                     {"color", look.color},
-                     {"opacity", look.opacity},
-                     {"flags", appearance::flagsOf(look)},
-                     {"solid", look.solid}});
-    context.say("  " + name + " (" + kind + "): " + look.preset + ", " + appearance::flagsOf(look) +
-                (look.solid ? "" : ", a lumen"));
-  };
-  context.say("surface at " + fixed(value.iso, 1) + " HU");
-  for (const auto& part : value.labels)
-    for (const auto& structure : part.structures)
-      add(structure.name, "structure", structure.look);
-  for (const auto& mesh : value.meshes)
-    add(mesh.name, "mesh", mesh.look);
-  context.give({{"case", value.name}, {"iso_hu", value.iso}, {"parts", std::move(parts)}});
+    return !iso.empty() || !set.empty() || !tf.empty() || !color.empty() || !opacity.empty() ||
+           !source.empty() || !flags.empty();
+  }
+};
+
+/// What goes by one name in the case: a structure, a mesh, both, or bone.
+struct Part
+{
+  std::string name;
+  std::vector<StructureLook*> looks;
+  bool bone = false;
+  bool meshOnly = false;
+};
+
+std::optional<Part> findPart(scene::Case& value, const std::string& name)
+{
+  Part part;
+  part.name = name;
+  if (scene::meansBone(value, name))
+  {
+    part.bone = true;
+    part.looks = {&value.boneLook};
+    return part;
+  }
+  if (auto* structure = scene::findStructure(value, name))
+    part.looks.push_back(&structure->look);
+  part.meshOnly = part.looks.empty();
+  if (auto* mesh = scene::findMesh(value, name))
+    part.looks.push_back(&mesh->look);
+  return part.looks.empty() ? std::nullopt : std::optional(part);
 }
 
-void setPartFlags(scene::Case& value, const std::string& assignment)
+std::string lookedAtParts(const scene::Case& value)
 {
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw UsageError("--flags PART=shown,touchable,drillable: there is no PART= in it");
-  const std::string part = assignment.substr(0, equals);
-  const std::string flags = assignment.substr(equals + 1);
-  auto* structure = scene::findStructure(value, part);
-  auto* mesh = scene::findMesh(value, part);
-  if (!structure && !mesh)
+  std::string there = "ct";
+  for (const auto& labels : value.labels)
+    for (const auto& structure : labels.structures)
+      there += ", " + structure.name;
+  for (const auto& mesh : value.meshes)
+    if (!scene::findStructure(value, mesh.name))
+      there += ", " + mesh.name;
+  return there;
+}
+
+/// "PART=VALUE" in its two halves. A name may have an '=' in it, so the first split that names a
+/// part counts.
+std::pair<Part, std::string> split(scene::Case& value, const std::string& assignment,
+                                   const std::string& usage)
+{
+  const auto first = assignment.find('=');
+  if (first == std::string::npos || first == 0)
+    throw UsageError(usage + ": there is no PART= in '" + assignment + "'");
+  for (auto at = first; at != std::string::npos; at = assignment.find('=', at + 1))
+    if (auto part = findPart(value, assignment.substr(0, at)))
+      return {std::move(*part), assignment.substr(at + 1)};
+  throw core::InvalidParameter("case '" + value.name + "' has no structure or mesh '" +
+                               assignment.substr(0, first) + "'; it has " + lookedAtParts(value));
+}
+
+/// The points as they lie among the intensities of an image.
+std::string valuesOf(const StructureLook& look, const volume::IntensityScale& scale)
+{
+  if (!look.transfer)
+    return "one colour";
+  const auto transfer = look.relative ? onScale(*look.transfer, scale) : *look.transfer;
+  const auto& points = transfer.points();
+  const std::string from = fixed(points.front().value, 0);
+  return (look.relative ? "" : "own values, ") +
+         (points.size() == 1 ? "1 point at " + from
+                             : std::to_string(points.size()) + " points from " + from + " to " +
+                                   fixed(points.back().value, 0));
+}
+
+std::string hex(const std::array<float, 3>& color)
+{
+  char text[8];
+  const auto byte = [&color](std::size_t c)
+  { return static_cast<unsigned>(std::lround(color[c] * 255.0F)) & 0xFFU; };
+  std::snprintf(text, sizeof(text), "#%02x%02x%02x", byte(0), byte(1), byte(2));
+  return text;
+}
+
+std::string describe(const StructureLook& look, const volume::IntensityScale& scale)
+{
+  return look.preset + " " + hex(look.color) + ", " + appearance::flagsOf(look) +
+         (look.solid ? "" : ", a lumen") + ", opacity " +
+         fixed(static_cast<double>(look.opacity), 2) + ", " + valuesOf(look, scale) +
+         (look.sourceImage.empty() ? "" : ", from " + look.sourceImage);
+}
+
+void list(const Context& context, const scene::Case& value)
+{
+  const auto entry = [&context, scale = value.intensityScale()](const std::string& name,
+                                                                const std::string& kind,
+                                                                const StructureLook& look)
+  {
+    nlohmann::json j = lookJson(look);
+    j["name"] = name;
+    j["kind"] = kind;
+    context.say("  " + name + " (" + kind + "): " + describe(look, scale));
+    return j;
+  };
+  context.say("surface at " + fixed(value.iso, 1) + " HU, dense bone at " +
+              fixed(value.denseBone, 1) + " HU");
+  nlohmann::json bone = entry("ct", "bone", value.boneLook);
+  nlohmann::json parts = nlohmann::json::array();
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      parts.push_back(entry(structure.name, "structure", structure.look));
+  for (const auto& mesh : value.meshes)
+    parts.push_back(entry(mesh.name, "mesh", mesh.look));
+  context.give({{"case", value.name},
+                {"iso_hu", value.iso},
+                {"dense_bone_hu", value.denseBone},
+                {"bone", std::move(bone)},
+                {"parts", std::move(parts)}});
+}
+
+void listPresets(const Context& context)
+{
+  nlohmann::json presets = nlohmann::json::array();
+  for (const StructureLook& look : appearance::StructurePresets::builtIn().all())
+  {
+    nlohmann::json j = lookJson(look);
+    j.erase("preset");
+    j.erase("flags");
+    j.erase("source");
+    j["name"] = look.preset;
+    presets.push_back(std::move(j));
+    context.say("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
+                (look.solid ? "" : " (a lumen)") + ", " + valuesOf(look, {}));
+  }
+  context.give({{"presets", std::move(presets)}});
+}
+
+void setIso(const Context& context, scene::Case& value, const std::string& text)
+{
+  if (text == "auto")
+  {
+    const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+    value.iso = scale.iso;
+    value.denseBone = scale.dense;
+    if (!scale.calibrated)
+      context.remark("the image is not in Hounsfield units; bone is taken to begin at " +
+                     fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
+    return;
+  }
+  const double iso = parseNumbers(text, 1, "--iso").front();
+  if (std::abs(iso) > 32767.0)
+    throw UsageError("--iso: must lie within -32767 to 32767 HU, or be 'auto'");
+  value.iso = iso;
+}
+
+void setPreset(scene::Case& value, const std::string& assignment)
+{
+  const auto [part, name] = split(value, assignment, "--set PART=PRESET");
+  const StructureLook preset = appearance::StructurePresets::builtIn().preset(name);
+  if (part.bone && !preset.solid)
+    throw core::InvalidParameter("preset '" + preset.preset +
+                                 "' is that of a lumen and cannot be the look of bone");
+  for (StructureLook* look : part.looks)
+    appearance::applyPreset(*look, preset);
+}
+
+std::string readSmallFile(const std::string& path)
+{
+  constexpr std::size_t kLargest = 1 << 20;
+  std::ifstream file = openForReading(path);
+  std::string text(kLargest + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kLargest)
+    throw core::InvalidParameter(path + ": too large for a transfer function (over 1 MiB)");
+  return text;
+}
+
+void setTransfer(scene::Case& value, const std::string& assignment)
+{
+  const auto [part, path] = split(value, assignment, "--tf PART=F.json");
+  if (part.meshOnly)
+    throw core::InvalidParameter("'" + part.name +
+                                 "' is a mesh and has no intensities; use --color and --opacity");
+  std::optional<appearance::TransferFunction> transfer;
+  if (path != "none")
+    try
+    {
+      transfer = appearance::TransferFunction::fromJson(readSmallFile(path));
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      const std::string what = error.what();
+      throw core::InvalidParameter(what.find(path) == std::string::npos ? path + ": " + what
+                                                                        : what);
+    }
+  for (StructureLook* look : part.looks)
+  {
+    look->transfer = transfer;
+    look->relative = false;
+  }
+}
+
+std::array<float, 3> parseColor(const std::string& text)
+{
+  std::array<float, 3> color{};
+  if (!text.empty() && text.front() == '#')
+  {
+    if (text.size() != 7 || text.find_first_not_of("0123456789abcdefABCDEF", 1) != text.npos)
+      throw UsageError("--color: '" + text + "' is not #rrggbb");
+    for (std::size_t c = 0; c < 3; ++c)
+      color[c] = static_cast<float>(std::stoi(text.substr(1 + 2 * c, 2), nullptr, 16)) / 255.0F;
+    return color;
+  }
+  const auto numbers = parseNumbers(text, 3, "--color PART=r,g,b");
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    if (numbers[c] < 0.0 || numbers[c] > 1.0)
+      throw UsageError("--color: red, green and blue go from 0 to 1; or give #rrggbb");
+    color[c] = static_cast<float>(numbers[c]);
+  }
+  return color;
+}
+
+void setColors(scene::Case& value, const std::string& assignment)
+{
+  const auto [part, text] = split(value, assignment, "--color PART=r,g,b");
+  const auto color = parseColor(text);
+  for (StructureLook* look : part.looks)
+    appearance::setColor(*look, color);
+}
+
+void setOpacity(scene::Case& value, const std::string& assignment)
+{
+  const auto [part, text] = split(value, assignment, "--opacity PART=0..1");
+  const double opacity = parseNumbers(text, 1, "--opacity").front();
+  if (opacity < 0.0 || opacity > 1.0)
+    throw UsageError("--opacity: goes from 0 to 1, not " + text);
+  for (StructureLook* look : part.looks)
+    look->opacity = static_cast<float>(opacity);
+}
+
+void setSource(const Context& context, scene::Case& value, const std::string& assignment)
+{
+  const auto [part, name] = split(value, assignment, "--source PART=ct|MRNAME");
+  if (part.meshOnly)
+    throw core::InvalidParameter("'" + part.name + "' is a mesh and reads no image");
+  StructureLook& look = *part.looks.front();
+  const scene::ImagePart* mr = scene::findMr(value, name);
+  if (name == "ct")
+    look.sourceImage.clear();
+  else if (!mr)
   {
     std::string there;
-    const auto list = [&there](const std::string& name)
-    { there += (there.empty() ? "" : ", ") + name; };
-    for (const auto& labels : value.labels)
-      for (const auto& other : labels.structures)
-        list(other.name);
-    for (const auto& other : value.meshes)
-      list(other.name);
-    throw core::InvalidParameter("case '" + value.name + "' has no structure or mesh '" + part +
-                                 "'; it has " + (there.empty() ? "none" : there));
+    for (const auto& image : value.mr)
+      there += ", " + image.name;
+    throw core::InvalidParameter("case '" + value.name + "' has no MR '" + name +
+                                 "'; a part can read ct" + there);
   }
-  if (structure)
-    appearance::setFlags(structure->look, flags);
-  if (mesh)
-    appearance::setFlags(mesh->look, flags);
+  else if (!look.solid)
+    throw core::InvalidParameter("'" + part.name +
+                                 "' is a lumen: it tints the bone around it and reads the CT");
+  else
+  {
+    look.sourceImage = name;
+    if (!mr->registered)
+      context.remark("'" + name + "' is not registered with the CT; until it is, '" + part.name +
+                     "' is drawn in one colour");
+    if (!look.transfer || look.relative)
+      context.remark("presets are made for CT; '" + part.name +
+                     "' is drawn in one colour until --tf gives it values of '" + name + "'");
+  }
+}
+
+void setPartFlags(const Context& context, scene::Case& value, const std::string& assignment)
+{
+  const auto [part, flags] = split(value, assignment, "--flags PART=shown,touchable,drillable");
+  for (StructureLook* look : part.looks)
+    appearance::setFlags(*look, flags);
+  if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
+    return;
+  value.boneLook.touchable = value.boneLook.drillable = true;
+  context.remark("bone stays touchable and drillable; of its flags only 'shown' can be changed");
+}
+
+void run(const Context& context, const Options& options)
+{
+  if (!options.tissue.empty())
+    notBuiltYet("--tissue");
+  if (options.presets)
+  {
+    if (options.changes() || options.list)
+      throw UsageError("appearance: --presets stands alone");
+    return listPresets(context);
+  }
+  if (options.name.empty())
+    throw UsageError("appearance: CASE is required");
+  if (!options.changes() && !options.list)
+    throw UsageError("appearance: nothing to do; give --iso, --set, --tf, --color, --opacity, "
+                     "--source, --flags, --list or --presets");
+  library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.name);
+  if (!options.iso.empty())
+    setIso(context, value, options.iso);
+  // A preset first, then what deviates from it.
+  for (const std::string& assignment : options.set)
+    setPreset(value, assignment);
+  for (const std::string& assignment : options.tf)
+    setTransfer(value, assignment);
+  for (const std::string& assignment : options.color)
+    setColors(value, assignment);
+  for (const std::string& assignment : options.opacity)
+    setOpacity(value, assignment);
+  for (const std::string& assignment : options.source)
+    setSource(context, value, assignment);
+  for (const std::string& assignment : options.flags)
+    setPartFlags(context, value, assignment);
+  if (options.changes())
+    library.save(value);
+  list(context, value);
 }
 
 } // namespace
 
 void addAppearanceCommand(CLI::App& app, Context& context)
 {
-  struct Options
-  {
-    std::string name;
-    std::optional<double> iso;
-    std::vector<std::string> flags, set, tf, tissue;
-    bool list = false;
-  };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
       app, "appearance", "Surface threshold, and what a structure is to eye, hand and drill",
-      [options, &context]
-      {
-        if (!options->set.empty())
-          notBuiltYet("--set");
-        if (!options->tf.empty())
-          notBuiltYet("--tf");
-        if (!options->tissue.empty())
-          notBuiltYet("--tissue");
-        if (!options->iso && options->flags.empty() && !options->list)
-          throw UsageError("appearance: nothing to do; give --iso, --flags or --list");
-        library::Library library = context.openLibrary();
-        scene::Case value = library.open(options->name);
-        if (options->iso)
-        {
-          if (!std::isfinite(*options->iso) || std::abs(*options->iso) > 32767.0)
-            throw UsageError("--iso: must lie within -32767 to 32767 HU");
-          value.iso = *options->iso;
-        }
-        for (const std::string& flags : options->flags)
-          setPartFlags(value, flags);
-        if (options->iso || !options->flags.empty())
-          library.save(value);
-        list(context, value);
-      });
-  command->add_option("CASE", options->name)->required();
-  command->add_option("--iso", options->iso, "Surface of bone (300)")->type_name("HU");
-  command->add_option("--flags", options->flags, "The flags that hold; 'none' for none of them")
-      ->allow_extra_args(false)
-      ->type_name("PART=shown,touchable,drillable");
-  command->add_flag("--list", options->list, "List what there is");
+      [options, &context] { run(context, *options); });
+  const auto perPart = [command](const std::string& option, std::vector<std::string>& values,
+                                 const std::string& text, const std::string& type)
+  { command->add_option(option, values, text)->allow_extra_args(false)->type_name(type); };
+  command->add_option("CASE", options->name);
+  command->add_option("--iso", options->iso, "Surface of bone (300); auto: from the histogram")
+      ->type_name("HU|auto");
+  perPart("--set", options->set, "A look of the catalogue (--presets)", "PART=PRESET");
+  perPart("--tf", options->tf, "Transfer function; 'none' for one colour", "PART=F.json");
+  perPart("--color", options->color, "Colour, 0 to 1 each, or #rrggbb", "PART=r,g,b");
+  perPart("--opacity", options->opacity, "Opacity of the surface", "PART=0..1");
+  perPart("--source", options->source, "The image whose intensities are read", "PART=ct|MRNAME");
+  perPart("--flags", options->flags, "The flags that hold; 'none' for none of them",
+          "PART=shown,touchable,drillable");
+  command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
+  command->add_flag("--presets", options->presets, "List the looks of the catalogue");
   // In the contract, not built yet: refused when asked for, not offered.
-  command->add_option("--set", options->set)->allow_extra_args(false)->group("");
-  command->add_option("--tf", options->tf)->allow_extra_args(false)->group("");
   command->add_option("--tissue", options->tissue)->allow_extra_args(false)->group("");
 }
 

@@ -1,6 +1,7 @@
-#include <ctime>
+#include <cmath>
 #include <fstream>
 #include <thread>
+#include <vector>
 
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "CutBenchmark.h"
 #include "ImportBenchmark.h"
 #include "Numbers.h"
+#include "RendererBenchmark.h"
 #include "SaveBenchmark.h"
 
 namespace petrous::cli
@@ -17,16 +19,30 @@ namespace petrous::cli
 namespace
 {
 
+struct BenchOptions
+{
+  std::string name, out, data;
+  std::vector<int> edges;
+  bool quick = false;
+};
+
 struct Benchmark
 {
   const char* name;
-  core::BenchmarkReport (*run)(const std::filesystem::path& work, bool quick,
+  core::BenchmarkReport (*run)(const std::filesystem::path& work, const BenchOptions&,
                                const core::Progress&);
 };
 
-constexpr Benchmark kBenchmarks[] = {{"import", &imaging::runImportBenchmark},
-                                     {"cut", &dissection::runCutBenchmark},
-                                     {"save", &library::runSaveBenchmark}};
+constexpr Benchmark kBenchmarks[] = {
+    {"import", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return imaging::runImportBenchmark(work, options.quick, progress); }},
+    {"cut", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return dissection::runCutBenchmark(work, options.quick, progress); }},
+    {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return library::runSaveBenchmark(work, options.quick, progress); }},
+    {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
+       return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
+     }}};
 
 std::string processorName()
 {
@@ -61,23 +77,47 @@ nlohmann::json reportJson(const core::BenchmarkReport& report)
     nlohmann::json setting{{"scene", point.scene}, {"default", point.isDefault}};
     for (const auto& [name, value] : point.setting)
       setting[name] = value;
+    if (!point.series.empty())
+      setting["varied"] = point.series;
     points.push_back(
         {{"setting", std::move(setting)},
          {"seconds", point.seconds},
-         {"error", point.error},
+         {"error", std::isnan(point.error) ? nlohmann::json(nullptr) : nlohmann::json(point.error)},
          {"error_unit", point.errorUnit},
          {"peer", point.peer.empty() ? nlohmann::json(nullptr) : nlohmann::json(point.peer)},
          {"extra", point.extra}});
   }
+  nlohmann::json machine{{"processor", processorName()},
+                         {"threads", std::thread::hardware_concurrency()}};
+  for (const auto& [name, value] : report.machine)
+    machine[name] = value;
   return {{"name", report.name},
           {"title", report.title},
-          {"machine",
-           {{"processor", processorName()}, {"threads", std::thread::hardware_concurrency()}}},
+          {"machine", std::move(machine)},
           {"points", std::move(points)}};
 }
 
-void bench(const Context& context, const std::string& name, const std::string& out, bool quick)
+std::string lineOf(const core::BenchmarkPoint& point)
 {
+  std::string line =
+      "  " + (point.peer.empty() ? std::string("petrous") : point.peer) + "  " + point.scene;
+  for (const auto& [key, value] : point.setting)
+    line += "  " + key + " " + value;
+  char figures[64];
+  std::snprintf(figures, sizeof figures, "  %.3f ms  error %.3g ", 1e3 * point.seconds,
+                point.error);
+  line += (std::isnan(point.error) ? "  " + fixed(1e3 * point.seconds, 3) + " ms  error "
+                                   : std::string(figures)) +
+          point.errorUnit;
+  for (const auto& [key, value] : point.extra)
+    line += "  " + key + " " + fixed(value, 3);
+  return line + (point.isDefault ? "  (default)" : "");
+}
+
+void bench(const Context& context, const BenchOptions& options)
+{
+  const std::string& name = options.name;
+  const std::string& out = options.out;
   std::string names;
   bool any = false;
   for (const Benchmark& benchmark : kBenchmarks)
@@ -97,27 +137,18 @@ void bench(const Context& context, const std::string& name, const std::string& o
     if (name != "all" && name != benchmark.name)
       continue;
     const WorkFolder work(out);
-    const auto report = benchmark.run(work.path, quick, context.progress());
+    const auto report = benchmark.run(work.path, options, context.progress());
     const auto json = reportJson(report);
     const std::filesystem::path base = std::filesystem::path(out) / report.name;
     writeTextFile(base.string() + ".json", json.dump(1) + "\n");
-    writeTextFile(base.string() + ".svg", plotSvg(report));
+    for (const auto& [part, svg] : plotsOf(report))
+      writeTextFile(base.string() + part + ".svg", svg);
     all.push_back(json);
     context.say(report.title);
+    for (const auto& [key, value] : report.machine)
+      context.say("  " + key + ": " + value);
     for (const auto& point : report.points)
-    {
-      std::string line =
-          "  " + (point.peer.empty() ? std::string("petrous") : point.peer) + "  " + point.scene;
-      for (const auto& [key, value] : point.setting)
-        line += "  " + key + " " + value;
-      char figures[96];
-      std::snprintf(figures, sizeof figures, "  %.3f ms  error %.3g %s", 1e3 * point.seconds,
-                    point.error, point.errorUnit.c_str());
-      line += figures;
-      for (const auto& [key, value] : point.extra)
-        line += "  " + key + " " + fixed(value, 3);
-      context.say(line + (point.isDefault ? "  (default)" : ""));
-    }
+      context.say(lineOf(point));
   }
   context.give(name == "all" ? nlohmann::json{{"benchmarks", all}} : all.front());
 }
@@ -126,19 +157,20 @@ void bench(const Context& context, const std::string& name, const std::string& o
 
 void addBenchCommand(CLI::App& app, Context& context)
 {
-  struct Options
-  {
-    std::string name, out;
-    bool quick = false;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command = context.addCommand(
-      app, "bench", "Benchmarks: run time against error, as JSON and SVG",
-      [options, &context] { bench(context, options->name, options->out, options->quick); });
-  command->add_option("NAME", options->name, "import, cut, save or all")->required();
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* command =
+      context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
+                         [options, &context] { bench(context, *options); });
+  command->add_option("NAME", options->name, "import, cut, save, renderer or all")->required();
   command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
       ->type_name("DIR")
       ->required();
+  command->add_option("--data", options->data, "Folder that holds a real CT, for renderer")
+      ->type_name("DIR");
+  command
+      ->add_option("--edge", options->edges, "Voxels of the phantom's edge, for renderer (256,512)")
+      ->delimiter(',')
+      ->check(CLI::Range(16, 1024));
   command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
 }
 

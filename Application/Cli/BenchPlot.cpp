@@ -1,12 +1,12 @@
 #include "BenchPlot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "Numbers.h"
+#include "SvgParts.h"
 
 namespace petrous::cli
 {
@@ -14,142 +14,214 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kWidth = 760.0;
-constexpr double kHeight = 460.0;
-constexpr double kLeft = 90.0;
-constexpr double kRight = 230.0;
-constexpr double kTop = 50.0;
-constexpr double kBottom = 60.0;
-constexpr std::array<const char*, 6> kColors{"#1b6ca8", "#c8553d", "#588157",
-                                             "#7b4b94", "#b08900", "#555555"};
+using Points = std::vector<core::BenchmarkPoint>;
 
-std::string escaped(const std::string& text)
+constexpr double kLeft = 90.0;
+constexpr double kTop = 50.0;
+
+std::string programOf(const core::BenchmarkPoint& point)
 {
-  std::string result;
-  for (const char c : text)
-    result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return point.peer.empty() ? "petrous" : point.peer;
+}
+
+std::string hintOf(const core::BenchmarkPoint& point)
+{
+  std::string words = programOf(point) + ", " + point.scene;
+  for (const auto& [name, value] : point.setting)
+    words += ", " + name + " " + value;
+  words += ": " + fixed(1e3 * point.seconds, 2) + " ms";
+  if (std::isnan(point.error))
+    return words;
+  char error[32];
+  std::snprintf(error, sizeof error, "%.3g", point.error);
+  return words + ", " + error + " " + point.errorUnit;
+}
+
+template <class Get>
+std::vector<double> valuesOf(const Points& points, const Get& get)
+{
+  std::vector<double> result;
+  for (const auto& point : points)
+    result.push_back(get(point));
   return result;
 }
 
-// Whole decades around positive values.
-struct LogAxis
+std::vector<double> secondsOf(const Points& points)
 {
-  double low = 0.0;
-  double high = 1.0;
+  return valuesOf(points, [](const auto& point) { return point.seconds; });
+}
 
-  explicit LogAxis(const std::vector<double>& values)
+// A rectangle in which time runs to the right and error upwards.
+class Panel
+{
+public:
+  Panel(const Points& all, double left, double top, double width, double height)
+    : m_x(secondsOf(all))
+    , m_y(valuesOf(all, [](const auto& point) { return point.error; }))
+    , m_hasZero(std::any_of(all.begin(), all.end(), [](const auto& p) { return p.error <= 0.0; }))
+    , m_left(left)
+    , m_top(top)
+    , m_width(width)
+    , m_height(height)
   {
-    double least = 1e300;
-    double most = 0.0;
-    for (const double v : values)
-      if (v > 0.0)
-      {
-        least = std::min(least, v);
-        most = std::max(most, v);
-      }
-    if (most <= 0.0)
-      least = most = 1.0;
-    low = std::floor(std::log10(least) - 0.05);
-    high = std::max(std::ceil(std::log10(most) + 0.05), low + 1.0);
   }
-  double share(double value) const
+
+  double px(double share) const { return m_left + share * m_width; }
+  double py(double share) const { return m_top + (1.0 - share) * m_height; }
+  double x(const core::BenchmarkPoint& point) const { return px(m_x.share(point.seconds)); }
+  double y(const core::BenchmarkPoint& point) const { return py(m_y.share(point.error)); }
+
+  std::string axes() const
   {
-    return value > 0.0 ? (std::log10(value) - low) / (high - low) : 0.0;
+    std::string result;
+    for (const auto& tick : m_x.ticks())
+      result += svg::line(px(tick.share), py(0), px(tick.share), py(1)) +
+                svg::text(px(tick.share), py(0) + 18, tick.label, "text-anchor=\"middle\"");
+    for (const auto& tick : m_y.ticks())
+      result += svg::line(px(0), py(tick.share), px(1), py(tick.share)) +
+                svg::text(px(0) - 8, py(tick.share) + 4,
+                          tick.share <= 0.0 && m_hasZero ? "0" : tick.label, "text-anchor=\"end\"");
+    return result;
   }
+
+private:
+  svg::LogAxis m_x;
+  svg::LogAxis m_y;
+  bool m_hasZero;
+  double m_left, m_top, m_width, m_height;
 };
 
-std::string text(double x, double y, const std::string& words, const std::string& style)
+std::string upwards(double x, double y, const std::string& words)
 {
-  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" " + style + ">" +
-         escaped(words) + "</text>\n";
+  return "<g transform=\"translate(" + fixed(x, 1) + "," + fixed(y, 1) + ") rotate(-90)\">" +
+         svg::text(0, 0, words, "text-anchor=\"middle\"") + "</g>\n";
 }
 
-std::string line(double x0, double y0, double x1, double y1)
+Points chosen(const core::BenchmarkReport& report, const std::string& series)
 {
-  return "<line x1=\"" + fixed(x0, 1) + "\" y1=\"" + fixed(y0, 1) + "\" x2=\"" + fixed(x1, 1) +
-         "\" y2=\"" + fixed(y1, 1) + "\" stroke=\"#ddd\"/>\n";
+  Points points;
+  for (const auto& point : report.points)
+    if (point.series == series && !std::isnan(point.error))
+      points.push_back(point);
+  return points;
 }
 
-std::string power(int exponent)
+// The values that were varied, joined.
+std::string joined(const Points& points, const Panel& panel, const std::string& color)
 {
-  char words[16];
-  std::snprintf(words, sizeof words, "1e%d", exponent);
-  return words;
+  std::string result;
+  for (std::size_t n = 1; n < points.size(); ++n)
+    result += svg::line(panel.x(points[n - 1]), panel.y(points[n - 1]), panel.x(points[n]),
+                        panel.y(points[n]), color);
+  bool above = true; // in turns, so that neighbours have room
+  for (const auto& point : points)
+  {
+    result += svg::dot(panel.x(point), panel.y(point), color, hintOf(point), point.isDefault);
+    result += svg::text(panel.x(point) + (above ? 7 : -7), panel.y(point) + (above ? -8 : 17),
+                        point.setting.at(point.series),
+                        above ? "font-size=\"10\"" : "font-size=\"10\" text-anchor=\"end\"");
+    above = !above;
+  }
+  return result;
+}
+
+// Times of other programs beside our default's.
+std::string strip(const Points& points, double top, double width)
+{
+  const svg::LogAxis axis(secondsOf(points));
+  const double bottom = top + 20.0 * static_cast<double>(points.size());
+  const auto px = [&](double share) { return kLeft + share * width; };
+  std::string result;
+  for (const auto& tick : axis.ticks())
+    result += svg::line(px(tick.share), top, px(tick.share), bottom) +
+              svg::text(px(tick.share), bottom + 18, tick.label, "text-anchor=\"middle\"");
+  double row = top + 10.0;
+  for (const auto& point : points)
+  {
+    const double x = px(axis.share(point.seconds));
+    const bool right = axis.share(point.seconds) > 0.5;
+    const std::string words = programOf(point) + ": " + fixed(1e3 * point.seconds, 0) + " ms";
+    result += svg::dot(x, row, point.peer.empty() ? svg::color(0) : svg::color(7), words) +
+              svg::text(x + (right ? -10 : 10), row + 4, words,
+                        right ? "text-anchor=\"end\" font-size=\"11\"" : "font-size=\"11\"");
+    row += 20.0;
+  }
+  return result;
 }
 
 } // namespace
 
 std::string plotSvg(const core::BenchmarkReport& report)
 {
-  std::vector<double> seconds, errors;
+  constexpr double width = 760.0;
+  constexpr double height = 460.0;
+  constexpr double right = 230.0;
+  const Panel panel(report.points, kLeft, kTop, width - kLeft - right, height - kTop - 60.0);
+  const std::string unit = report.points.empty() ? "" : report.points.front().errorUnit;
+  std::string result = svg::start(width, height, report.title) + panel.axes() +
+                       svg::text(panel.px(0.5), height - 16, "time, s", "text-anchor=\"middle\"") +
+                       upwards(22, panel.py(0.5), "error, " + unit);
   std::vector<std::string> programs;
   for (const auto& point : report.points)
-  {
-    seconds.push_back(point.seconds);
-    errors.push_back(point.error);
-    const std::string program = point.peer.empty() ? "petrous" : point.peer;
-    if (std::find(programs.begin(), programs.end(), program) == programs.end())
-      programs.push_back(program);
-  }
-  const bool hasZero = std::any_of(errors.begin(), errors.end(), [](double e) { return e <= 0.0; });
-  const LogAxis xAxis(seconds);
-  const LogAxis yAxis(errors);
-  const double plotWidth = kWidth - kLeft - kRight;
-  const double plotHeight = kHeight - kTop - kBottom;
-  const auto px = [&](double share) { return kLeft + share * plotWidth; };
-  const auto py = [&](double share) { return kHeight - kBottom - share * plotHeight; };
-
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed(kWidth, 0) +
-                    "\" height=\"" + fixed(kHeight, 0) +
-                    "\" font-family=\"sans-serif\" font-size=\"12\">\n"
-                    "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  svg += text(kLeft, 28, report.title, "font-size=\"15\"");
-  for (int e = static_cast<int>(xAxis.low); e <= static_cast<int>(xAxis.high); ++e)
-  {
-    const double x = px((e - xAxis.low) / (xAxis.high - xAxis.low));
-    svg += line(x, py(0), x, py(1)) + text(x, py(0) + 18, power(e), "text-anchor=\"middle\"");
-  }
-  for (int e = static_cast<int>(yAxis.low); e <= static_cast<int>(yAxis.high); ++e)
-  {
-    const double y = py((e - yAxis.low) / (yAxis.high - yAxis.low));
-    const bool isFloor = e == static_cast<int>(yAxis.low) && hasZero;
-    svg += line(px(0), y, px(1), y) +
-           text(px(0) - 8, y + 4, isFloor ? "0" : power(e), "text-anchor=\"end\"");
-  }
-  svg += text(px(0.5), kHeight - 16, "time, s", "text-anchor=\"middle\"");
-  const std::string unit = report.points.empty() ? "" : report.points.front().errorUnit;
-  svg += "<g transform=\"translate(22," + fixed(py(0.5), 1) + ") rotate(-90)\">" +
-         text(0, 0, "error, " + unit, "text-anchor=\"middle\"") + "</g>\n";
-
+    if (std::find(programs.begin(), programs.end(), programOf(point)) == programs.end())
+      programs.push_back(programOf(point));
   for (const auto& point : report.points)
   {
-    const std::string program = point.peer.empty() ? "petrous" : point.peer;
-    const auto at = std::find(programs.begin(), programs.end(), program) - programs.begin();
-    const std::string color = kColors[static_cast<std::size_t>(at) % kColors.size()];
-    std::string words = program + ", " + point.scene;
-    for (const auto& [name, value] : point.setting)
-      words += ", " + name + " " + value;
-    char error[32];
-    std::snprintf(error, sizeof error, "%.3g", point.error);
-    words += ": " + fixed(1e3 * point.seconds, 2) + " ms, " + error + " " + point.errorUnit;
-    const std::string x = fixed(px(xAxis.share(point.seconds)), 1);
-    const std::string y = fixed(py(yAxis.share(point.error)), 1);
-    if (point.isDefault)
-      svg += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"9\" fill=\"none\" stroke=\"" + color +
-             "\"/>\n";
-    svg += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"5\" fill=\"" + color + "\"><title>" +
-           escaped(words) + "</title></circle>\n";
+    const auto at = std::find(programs.begin(), programs.end(), programOf(point));
+    result += svg::dot(panel.x(point), panel.y(point),
+                       svg::color(static_cast<std::size_t>(at - programs.begin())), hintOf(point),
+                       point.isDefault);
   }
-  for (std::size_t n = 0; n < programs.size(); ++n)
+  double row = kTop + 16.0;
+  for (std::size_t n = 0; n < programs.size(); ++n, row += 20.0)
+    result += svg::dot(width - right + 20, row - 4, svg::color(n), programs[n]) +
+              svg::text(width - right + 32, row, programs[n]);
+  return result + svg::text(width - right + 12, row + 8, "ringed: the default", "fill=\"#666\"") +
+         "</svg>\n";
+}
+
+std::string seriesSvg(const core::BenchmarkReport& report)
+{
+  constexpr std::size_t columns = 3;
+  constexpr double wide = 290.0;
+  constexpr double high = 210.0;
+  constexpr double stepX = wide + 60.0;
+  constexpr double stepY = high + 70.0;
+  std::vector<std::string> names;
+  Points all, others;
+  for (const auto& point : report.points)
+    if (point.series.empty())
+      others.push_back(point);
+    else if (!std::isnan(point.error))
+    {
+      all.push_back(point);
+      if (std::find(names.begin(), names.end(), point.series) == names.end())
+        names.push_back(point.series);
+    }
+  const std::size_t rows = (names.size() + columns - 1) / columns;
+  const double stripTop = kTop + 30.0 + stepY * static_cast<double>(rows);
+  const double height = stripTop + 20.0 * static_cast<double>(others.size()) + 60.0;
+  const double width = kLeft + stepX * columns;
+  std::string result = svg::start(width, height, report.title);
+  for (std::size_t n = 0; n < names.size(); ++n)
   {
-    const double y = kTop + 16.0 + 20.0 * static_cast<double>(n);
-    svg += "<circle cx=\"" + fixed(kWidth - kRight + 20, 1) + "\" cy=\"" + fixed(y - 4, 1) +
-           "\" r=\"5\" fill=\"" + kColors[n % kColors.size()] + "\"/>\n";
-    svg += text(kWidth - kRight + 32, y, programs[n], "");
+    const Panel panel(all, kLeft + stepX * static_cast<double>(n % columns),
+                      kTop + 24.0 + stepY * static_cast<double>(n / columns), wide, high);
+    result += panel.axes() + svg::text(panel.px(0.5), panel.py(1) - 8, names[n],
+                                       "text-anchor=\"middle\" font-weight=\"bold\"");
+    result += joined(chosen(report, names[n]), panel, svg::color(n));
   }
-  svg += text(kWidth - kRight + 12, kTop + 24.0 + 20.0 * static_cast<double>(programs.size()),
-              "ringed: the default", "fill=\"#666\"");
-  return svg + "</svg>\n";
+  const std::string unit = all.empty() ? "" : all.front().errorUnit;
+  result += upwards(22, kTop + 0.5 * stepY * static_cast<double>(rows), "error, " + unit);
+  if (!others.empty())
+    result += svg::text(kLeft, stripTop - 8,
+                        "The same scene by other programs, which draw other "
+                        "optics: time alone") +
+              strip(others, stripTop, stepX * columns - 60.0);
+  return result +
+         svg::text(width - 60, height - 10, "time, s; ringed: the default",
+                   "text-anchor=\"end\" fill=\"#666\"") +
+         "</svg>\n";
 }
 
 } // namespace petrous::cli

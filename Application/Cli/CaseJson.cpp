@@ -29,6 +29,25 @@ json gridJson(const core::GridGeometry& grid)
           {"direction", directionJson(grid.direction())}};
 }
 
+json lookJson(const appearance::StructureLook& look)
+{
+  json transfer;
+  if (look.transfer)
+  {
+    transfer = json::parse(look.transfer->toJson());
+    transfer["relative"] = look.relative;
+  }
+  return {{"preset", look.preset},
+          {"color", look.color},
+          {"opacity", look.opacity},
+          {"flags", appearance::flagsOf(look)},
+          {"solid", look.solid},
+          {"shininess", look.shininess},
+          {"priority", look.priority},
+          {"source", look.sourceImage.empty() ? "ct" : look.sourceImage},
+          {"transfer", std::move(transfer)}};
+}
+
 json infoJson(const scene::Case& value)
 {
   json ct = gridJson(value.ct.geometry);
@@ -68,6 +87,8 @@ json infoJson(const scene::Case& value)
                       {"touchable", scene::findStructure(value, mesh.name) != nullptr}});
   return {{"case", value.name},
           {"iso_hu", value.iso},
+          {"dense_bone_hu", value.denseBone},
+          {"bone", lookJson(value.boneLook)},
           {"ct", std::move(ct)},
           {"mr", std::move(mr)},
           {"labels", std::move(labels)},

@@ -18,6 +18,10 @@ nlohmann::json directionJson(const Eigen::Matrix3d& direction);
 /// dims, spacing_mm, origin_mm, direction.
 nlohmann::json gridJson(const core::GridGeometry& grid);
 
+/// preset, color, opacity, flags, solid, shininess, priority, source ("ct" or an MR's name) and
+/// transfer: null, or {"relative", "points"} as a --tf file has them.
+nlohmann::json lookJson(const appearance::StructureLook& look);
+
 /// What `petrous info` gives.
 nlohmann::json infoJson(const scene::Case& value);
 

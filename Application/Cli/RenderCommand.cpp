@@ -8,7 +8,6 @@
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
-#include "petrous/Scene/CaseField.h"
 
 namespace petrous::cli
 {
@@ -120,8 +119,7 @@ void render(const Context& context, const Options& options)
   }
   if (options.engine == "reference" || !options.depth.empty())
   {
-    const volume::TissueField field = scene::tissueField(value);
-    const rendering::ReferenceRayCaster caster(field, contents);
+    const rendering::ReferenceRayCaster caster(contents);
     const auto start = std::chrono::steady_clock::now();
     const auto truth = caster.render(camera, width, height, progress);
     const std::chrono::duration<double, std::milli> elapsed =

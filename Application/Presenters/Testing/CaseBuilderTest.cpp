@@ -68,6 +68,30 @@ TEST_F(CaseBuilder, PutsACaseTogether)
   EXPECT_FALSE(value.mr.at(0).registered);
 }
 
+TEST_F(CaseBuilder, PutsTheSurfaceWhereBoneIsInUnitsOfItsOwn)
+{
+  // A dry bone of 16 bits without calibration: a ball of 42000 in air of 8000.
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Constant(0.05), Vector3d::Zero());
+  auto scan = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{8000});
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i)
+        if (Vector3d(i - 20, j - 20, k - 20).norm() < 12.0)
+          scan->at(i, j, k) = 42000;
+  imaging::writeVolume(m_folder / "specimen.nrrd", *scan);
+  m_sources.ct = m_folder / "specimen.nrrd";
+  const auto value = presenters::buildCase("specimen", m_sources, {});
+  EXPECT_NEAR(value.iso, 25000.0, 0.03 * 34000.0);
+  ASSERT_FALSE(value.ct.notes.empty());
+  EXPECT_NE(value.ct.notes.back().find("not Hounsfield units"), std::string::npos);
+
+  m_sources.ct = m_folder / "ct.nrrd";
+  const auto calibrated = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(calibrated.iso, 300.0);
+  for (const std::string& note : calibrated.ct.notes)
+    EXPECT_EQ(note.find("Hounsfield"), std::string::npos);
+}
+
 TEST_F(CaseBuilder, CropsToTheRegionAsked)
 {
   m_sources.roi = {Vector3d(-2, 6, 6), Vector3d(2, 10, 10)};

@@ -176,3 +176,24 @@ TEST_F(WorkstationModelTest, AnotherThresholdMovesTheSurface)
   model.setIso(1501.0);
   EXPECT_FALSE(model.surfaceAt(line()).has_value());
 }
+
+TEST_F(WorkstationModelTest, BoneCanBeHiddenAndMadeTranslucent)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  model.open("block");
+  int changes = 0;
+  model.events.appearanceChanged = [&changes] { ++changes; };
+  appearance::StructureLook look = model.value().boneLook;
+  look.opacity = 0.4F;
+  model.setBoneLook(look);
+  EXPECT_EQ(changes, 1);
+  EXPECT_TRUE(model.unsaved());
+  const auto contents = model.sceneContents();
+  EXPECT_EQ(contents.materials.at(0).surfaceOpacity, 0.4F);
+  EXPECT_EQ(contents.labels, nullptr);
+  model.save();
+  EXPECT_EQ(library.open("block").boneLook.opacity, 0.4F);
+}

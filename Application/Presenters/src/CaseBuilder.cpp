@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
 {
@@ -75,6 +77,21 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
   part.geometry = image->geometry();
   part.range = image->range();
   return part;
+}
+
+// Cone-beam and micro-CT count in units of their own, in which 300 may be air or nothing at all.
+void placeSurface(scene::Case& value)
+{
+  const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+  if (scale.calibrated)
+    return;
+  value.iso = scale.iso;
+  value.denseBone = scale.dense;
+  std::ostringstream note;
+  note << "The intensities are not Hounsfield units: the surface of bone is put at " << scale.iso
+       << ", and dense bone taken for " << scale.dense
+       << ", by the image's histogram; 'petrous appearance --iso' moves the surface.";
+  value.ct.notes.push_back(note.str());
 }
 
 void checkName(const fs::path& path, const std::string& name)
@@ -189,6 +206,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   value.name = name;
   value.ct = readImage(sources.ct, sources.seriesUid, sources.roi, progress.part(0.0, 0.7));
   value.ct.name = "ct";
+  placeSurface(value);
   addParts(value, sources.parts, progress.part(0.7, 1.0));
   return value;
 }

@@ -73,6 +73,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   m_drill.reset();
   m_session.reset();
+  m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
   m_unsaved = unsaved;
   m_crosshair = m_case->ct.geometry.center();
@@ -181,6 +182,15 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
     mesh->look = look;
   else
     return;
+  tell(events.appearanceChanged);
+  setUnsaved(true);
+}
+
+void WorkstationModel::setBoneLook(const appearance::StructureLook& look)
+{
+  if (!m_case || m_drill)
+    return;
+  m_case->boneLook = look;
   tell(events.appearanceChanged);
   setUnsaved(true);
 }

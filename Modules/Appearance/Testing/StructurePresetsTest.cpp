@@ -39,6 +39,112 @@ TEST(StructurePresets, RefusesAColourOutOfRangeByName)
   }
 }
 
+TEST(StructurePresets, KnowsTheNamesThatSegmentationProgramsGive)
+{
+  const auto presets = StructurePresets::builtIn();
+  const std::vector<std::pair<const char*, const char*>> names{
+      // TotalSegmentator
+      {"internal_carotid_artery_left", "artery"},
+      {"internal_jugular_vein_right", "vein"},
+      {"auditory_canal_right", "ear-canal"},
+      {"sinus_maxillary", "air-cells"},
+      {"venous_sinuses", "vein"},
+      {"brainstem", "dura"},
+      {"styloid_process_left", "bone"},
+      {"teeth_lower", "bone"},
+      {"sternocleidomastoid_right", "muscle"},
+      {"optic_nerve_left", "nerve"},
+      // head and neck atlas of 3D Slicer
+      {"right_internal_carotid", "artery"},
+      {"left_internal_jugular_vein", "vein"},
+      {"left_zygomatic_muscle", "muscle"},
+      {"superior_vena_cava", "vein"},
+      {"skull", "bone"},
+      {"thyroid_gland", "other"},
+      // temporal-bone atlases
+      {"ICA", "artery"},
+      {"EAC", "ear-canal"},
+      {"IAC", "inner-ear"},
+      {"Internal Auditory Canal", "inner-ear"},
+      {"Bony_Labyrinth", "inner-ear"},
+      {"Superior_Vestibular_Nerve", "nerve"},
+      {"Chorda_Tympani", "nerve"},
+      {"facial artery", "artery"},
+      {"facial recess", "air-cells"},
+      {"Sinus_&_Dura", "vein"},
+      {"stapedius muscle", "muscle"},
+      {"Stapes", "ossicle"},
+      {"vestibular schwannoma", "tumour"},
+      {"Segment_1", "other"}};
+  for (const auto& [name, preset] : names)
+    EXPECT_EQ(presets.lookFor(name).preset, preset) << name;
+}
+
+TEST(StructurePresets, AWholeWordIsNoBeginningOfAnother)
+{
+  EXPECT_EQ(StructurePresets::builtIn().lookFor("icarus").preset, "other");
+}
+
+TEST(StructurePresets, FindsAPresetByItsNameOrByAWord)
+{
+  const auto presets = StructurePresets::builtIn();
+  EXPECT_EQ(presets.preset("bone-translucent").preset, "bone-translucent");
+  EXPECT_LT(presets.preset("bone-translucent").opacity, 0.5F);
+  EXPECT_EQ(presets.preset("vessel").preset, "artery");
+  EXPECT_EQ(presets.preset("other").preset, "other");
+  try
+  {
+    presets.preset("zebra");
+    FAIL() << "accepted";
+  }
+  catch (const petrous::core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("zebra"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("cholesteatoma"), std::string::npos);
+  }
+}
+
+TEST(StructurePresets, EachTissueHasATransferFunctionThatFollowsTheCase)
+{
+  for (const StructureLook& look : StructurePresets::builtIn().all())
+    if (look.preset != "other")
+    {
+      ASSERT_TRUE(look.transfer.has_value()) << look.preset;
+      EXPECT_TRUE(look.relative) << look.preset;
+      EXPECT_FALSE(look.transfer->transparent()) << look.preset;
+    }
+}
+
+TEST(StructurePresets, WhatMustNotBeHurtWinsOverlapsAndLumensLose)
+{
+  const auto presets = StructurePresets::builtIn();
+  int last = -1;
+  for (const char* name : {"nerve", "artery", "vein", "ossicle", "inner-ear", "tumour",
+                           "cholesteatoma", "dura", "other", "muscle", "bone", "ear-canal"})
+  {
+    EXPECT_GT(presets.preset(name).priority, last) << name;
+    last = presets.preset(name).priority;
+  }
+  for (const StructureLook& look : presets.all())
+  {
+    if (!look.solid)
+    {
+      EXPECT_GT(look.priority, presets.preset("bone").priority) << look.preset;
+    }
+  }
+}
+
+TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
+{
+  const TransferFunction bone = *boneLook().transfer;
+  // Cellular bone at the surface's 300 HU, cortical bone 1100 HU above.
+  EXPECT_FLOAT_EQ(float(bone.at(300.0).color[2]), 0.42F);
+  EXPECT_FLOAT_EQ(float(bone.at(1400.0).color[2]), 0.80F);
+  EXPECT_LT(bone.at(300.0).specular, bone.at(1400.0).specular);
+  EXPECT_LT(bone.at(300.0).extinction, bone.at(1400.0).extinction);
+  EXPECT_EQ(boneLook().opacity, 1.0F);
+}
+
 TEST(StructureLook, FlagsGoThereAndBack)
 {
   StructureLook look;

@@ -1,6 +1,9 @@
 #include "petrous/Appearance/StructureLook.h"
 
+#include <algorithm>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "petrous/Core/Error.h"
 
@@ -39,6 +42,37 @@ std::string flagsOf(const StructureLook& look)
   add(look.touchable, "touchable");
   add(look.drillable, "drillable");
   return flags.empty() ? "none" : flags;
+}
+
+void setColor(StructureLook& look, const std::array<float, 3>& color)
+{
+  if (std::any_of(color.begin(), color.end(), [](float x) { return !(x >= 0.0F && x <= 1.0F); }))
+    throw core::InvalidParameter("colour: red, green and blue must lie in 0 to 1");
+  if (look.transfer)
+  {
+    const auto brightness = [](const std::array<float, 3>& c)
+    { return 0.299F * c[0] + 0.587F * c[1] + 0.114F * c[2]; };
+    const float before = brightness(look.color);
+    std::vector<ControlPoint> points = look.transfer->points();
+    for (ControlPoint& point : points)
+    {
+      const float share = before > 0.0F ? brightness(point.color) / before : 1.0F;
+      for (std::size_t c = 0; c < 3; ++c)
+        point.color[c] = std::min(color[c] * share, 1.0F);
+    }
+    look.transfer = TransferFunction(std::move(points));
+  }
+  look.color = color;
+}
+
+void applyPreset(StructureLook& look, const StructureLook& preset)
+{
+  StructureLook result = preset;
+  result.shown = look.shown;
+  result.touchable = look.touchable;
+  result.drillable = look.drillable;
+  result.sourceImage = look.sourceImage;
+  look = std::move(result);
 }
 
 } // namespace petrous::appearance

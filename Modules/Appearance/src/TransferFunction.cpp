@@ -1,8 +1,12 @@
 #include "petrous/Appearance/TransferFunction.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "petrous/Core/Error.h"
 
@@ -35,6 +39,69 @@ void check(const std::vector<ControlPoint>& points)
     if (outside(point.specular))
       refuse(i, "specular must lie in 0 to 1");
   }
+}
+
+using nlohmann::json;
+
+// A file with more is no transfer function; each would cost the renderer.
+constexpr std::size_t kMostPoints = 1024;
+
+[[noreturn]] void refuseJson(const std::string& what)
+{
+  throw core::InvalidParameter("transfer function: " + what);
+}
+
+// A misspelled key would silently mean something else.
+void checkKeys(const json& object, std::initializer_list<const char*> known,
+               const std::string& where)
+{
+  for (const auto& entry : object.items())
+    if (std::find(known.begin(), known.end(), entry.key()) == known.end())
+    {
+      std::string list;
+      for (const char* name : known)
+        list += (list.empty() ? "" : ", ") + std::string(name);
+      refuseJson(where + "'" + entry.key().substr(0, 40) + "' means nothing here; use " + list);
+    }
+}
+
+double numberIn(const json& point, const char* key, const std::string& where)
+{
+  const auto found = point.find(key);
+  if (found == point.end())
+    refuseJson(where + "'" + key + "' is missing");
+  if (!found->is_number())
+    refuseJson(where + "'" + key + "' must be a number");
+  return found->get<double>();
+}
+
+ControlPoint pointIn(const json& j, const std::string& where)
+{
+  if (!j.is_object())
+    refuseJson(where + "must be {\"value\", \"color\", \"opacity\", \"specular\"}");
+  checkKeys(j, {"value", "color", "opacity", "specular"}, where);
+  ControlPoint point;
+  point.value = numberIn(j, "value", where);
+  point.opacity = static_cast<float>(numberIn(j, "opacity", where));
+  if (j.contains("specular"))
+    point.specular = static_cast<float>(numberIn(j, "specular", where));
+  const auto color = j.find("color");
+  if (color == j.end() || !color->is_array() || color->size() != 3 ||
+      !std::all_of(color->begin(), color->end(), [](const json& c) { return c.is_number(); }))
+    refuseJson(where + "'color' must be [red, green, blue], each 0 to 1");
+  for (std::size_t c = 0; c < 3; ++c)
+    point.color[c] = (*color)[c].get<float>();
+  return point;
+}
+
+// The double that is written as shortly as the float is: 0.9, not 0.8999999761581421.
+double shortest(float value)
+{
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
+  double result = 0.0;
+  std::from_chars(text, end, result);
+  return result;
 }
 
 double extinctionOf(double opacity)
@@ -77,6 +144,44 @@ bool TransferFunction::transparent() const noexcept
 {
   return std::all_of(m_points.begin(), m_points.end(),
                      [](const ControlPoint& point) { return point.opacity == 0.0F; });
+}
+
+TransferFunction TransferFunction::fromJson(std::string_view text)
+{
+  json j;
+  try
+  {
+    j = json::parse(text);
+  }
+  catch (const json::exception& error)
+  {
+    const std::string what = error.what(); // "[json.exception...] parse error at line 1, ..."
+    const auto begin = what.find("] ");
+    refuseJson("not JSON: " + (begin == std::string::npos ? what : what.substr(begin + 2)));
+  }
+  if (!j.is_object() || !j.contains("points") || !j["points"].is_array())
+    refuseJson("must be {\"points\": [{\"value\": 300, \"color\": [r, g, b], \"opacity\": 0.2, "
+               "\"specular\": 0.5}, ...]}");
+  checkKeys(j, {"points"}, "");
+  if (j["points"].size() > kMostPoints)
+    refuseJson("has " + std::to_string(j["points"].size()) + " points; at most " +
+               std::to_string(kMostPoints) + " are taken");
+  std::vector<ControlPoint> points;
+  for (const json& point : j["points"])
+    points.push_back(pointIn(point, "point " + std::to_string(points.size() + 1) + ": "));
+  return TransferFunction(std::move(points));
+}
+
+std::string TransferFunction::toJson() const
+{
+  json points = json::array();
+  for (const ControlPoint& point : m_points)
+    points.push_back(
+        {{"value", point.value},
+         {"color", {shortest(point.color[0]), shortest(point.color[1]), shortest(point.color[2])}},
+         {"opacity", shortest(point.opacity)},
+         {"specular", shortest(point.specular)}});
+  return json{{"points", std::move(points)}}.dump();
 }
 
 bool operator==(const ControlPoint& a, const ControlPoint& b) noexcept

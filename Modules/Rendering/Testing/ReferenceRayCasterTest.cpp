@@ -1,91 +1,126 @@
 #include "petrous/Rendering/ReferenceRayCaster.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
-#include "SyntheticScenes.h"
+#include "ReferenceScenes.h"
 #include "petrous/Rendering/RenderingError.h"
-#include "petrous/Volume/SmoothedUnion.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
 
 namespace
 {
 
-constexpr int kWidth = 96;
-constexpr int kHeight = 72;
-constexpr double kSpacing = 0.5; // mm
-constexpr double kRadius = 11.3; // mm
-
-core::CameraPose camera()
-{
-  core::CameraPose pose;
-  pose.position = {50.0, -60.0, 25.0};
-  pose.focalPoint = {1.0, 0.5, -0.5};
-  pose.viewAngle = 24.0;
-  return pose;
-}
-
-SceneContents ballScene(const Eigen::Matrix3d& direction)
-{
-  SceneContents contents;
-  contents.ct = synthetic::ball(synthetic::cube(64, kSpacing, direction), kRadius);
-  contents.iso = synthetic::kIso;
-  return contents;
-}
-
-// Largest error of the depth against the analytic sphere, in voxels, away from the silhouette,
-// where the ray meets the surface at a grazing angle.
+// Largest error of the depth against the analytic sphere, mm, away from the silhouette, where the
+// ray meets the surface at a grazing angle.
 double depthError(const SceneContents& contents, const core::CameraPose& pose)
 {
-  const volume::TissueField field = synthetic::field(contents);
-  const DepthImage depth = ReferenceRayCaster(field, contents).render(pose, kWidth, kHeight).depth;
-  const PixelRays rays(pose, kWidth, kHeight);
+  const DepthImage depth = see(contents, pose).depth;
   double worst = 0.0;
   int compared = 0;
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-    {
-      const PixelRay ray = rays.through(column, row);
-      const double inner =
-          synthetic::raySphere(ray.origin, ray.direction, {0, 0, 0}, 0.75 * kRadius);
-      if (inner < 0.0)
-        continue;
-      const double truth = synthetic::raySphere(ray.origin, ray.direction, {0, 0, 0}, kRadius);
-      worst = std::max(worst, std::abs(static_cast<double>(depth.at(column, row)) - truth));
-      ++compared;
-    }
-  EXPECT_GT(compared, 500);
-  return worst / kSpacing;
+  forEachRay(pose,
+             [&](int column, int row, const PixelRay& ray)
+             {
+               if (raySphere(ray.origin, ray.direction, {0, 0, 0}, 0.75 * kRadius) < 0.0)
+                 return;
+               const double truth = raySphere(ray.origin, ray.direction, {0, 0, 0}, kRadius);
+               worst =
+                   std::max(worst, std::abs(static_cast<double>(depth.at(column, row)) - truth));
+               ++compared;
+             });
+  EXPECT_GT(compared, 120);
+  return worst;
 }
 
 } // namespace
 
 TEST(ReferenceRayCaster, FindsASphereWithinTwoHundredthsOfAVoxel)
 {
-  EXPECT_LE(depthError(ballScene(Eigen::Matrix3d::Identity()), camera()), 0.02);
+  EXPECT_LE(depthError(ballScene(Eigen::Matrix3d::Identity()), sideCamera()), 0.02 * kSpacing);
 }
 
 TEST(ReferenceRayCaster, FindsASphereInAnObliqueMirroredGrid)
 {
-  EXPECT_LE(depthError(ballScene(synthetic::obliqueMirrored()), camera()), 0.02);
+  EXPECT_LE(depthError(ballScene(obliqueMirrored()), sideCamera()), 0.02 * kSpacing);
 }
 
 TEST(ReferenceRayCaster, MeasuresParallelDepthFromTheCameraPlane)
 {
-  core::CameraPose pose = camera();
+  core::CameraPose pose = sideCamera();
   pose.parallelScale = 15.0;
-  EXPECT_LE(depthError(ballScene(synthetic::oblique()), pose), 0.02);
+  EXPECT_LE(depthError(ballScene(oblique()), pose), 0.02 * kSpacing);
+}
+
+TEST(ReferenceRayCaster, ErrorOnASphereFallsWithTheSquareOfTheSpacing)
+{
+  // Of trilinear interpolation of a smooth field; rounding to whole HU would hide it.
+  const auto errorAt = [](double spacing)
+  {
+    SceneContents contents;
+    contents.ct = ball<float>(cube(static_cast<int>(30.0 / spacing), spacing), kRadius);
+    return depthError(contents, sideCamera());
+  };
+  const double coarse = errorAt(1.2);
+  const double fine = errorAt(0.6);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);
+}
+
+TEST(ReferenceRayCaster, FindsAPlaneWhereItIs)
+{
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.6, -1.0, 0.3).normalized();
+  SceneContents contents;
+  contents.ct = image(cube(64, kSpacing, oblique()), [&](const Eigen::Vector3d& p)
+                      { return kIso - 200.0 * (p.dot(normal) - 1.0); });
+  const DepthImage depth = see(contents, sideCamera()).depth;
+  int compared = 0;
+  forEachRay(sideCamera(),
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const double plane = (1.0 - ray.origin.dot(normal)) / ray.direction.dot(normal);
+               if ((ray.origin + plane * ray.direction).norm() > 14.0)
+                 return; // beyond the grid
+               EXPECT_NEAR(static_cast<double>(depth.at(column, row)), plane, 1e-4 * kSpacing);
+               ++compared;
+             });
+  EXPECT_GT(compared, 120);
 }
 
 TEST(ReferenceRayCaster, LeavesNaNWhereNothingIsHit)
 {
-  const SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
-  const volume::TissueField field = synthetic::field(contents);
-  const DepthImage depth =
-      ReferenceRayCaster(field, contents).render(camera(), kWidth, kHeight).depth;
+  const DepthImage depth = see(ballScene(Eigen::Matrix3d::Identity()), sideCamera()).depth;
   EXPECT_TRUE(std::isnan(depth.at(0, 0)));
   EXPECT_FALSE(std::isnan(depth.at(kWidth / 2, kHeight / 2)));
+}
+
+TEST(ReferenceRayCaster, HitsWhatTheTissueFieldHits)
+{
+  SceneContents contents = ballScene(oblique());
+  contents.labels = labelField(
+      cube(30, 0.8), [](const Eigen::Vector3d& p) { return 4.0 - (p - kBump).norm(); },
+      [](const Eigen::Vector3d&) { return 1; });
+  contents.materials.resize(2);
+  contents.mask = cut(contents.ct->geometry(),
+                      [](const Eigen::Vector3d& p) { return 5.0 - p.dot(kBump.normalized()); });
+  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const DepthImage depth = see(contents, sideCamera()).depth;
+  int hits = 0;
+  int different = 0; // where a ray grazes the surface, half-voxel steps may leap over it
+  forEachRay(sideCamera(),
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const auto hit = hand.firstHit(ray.origin, ray.origin + 200.0 * ray.direction);
+               const double seen = depth.at(column, row);
+               if (hit && !std::isnan(seen) && std::abs(seen - *hit) < 2e-4 * kSpacing)
+                 ++hits;
+               else if (hit || !std::isnan(seen))
+                 ++different;
+             });
+  EXPECT_GT(hits, 370);
+  EXPECT_LE(different, hits / 100);
 }
 
 TEST(ReferenceRayCaster, SeesTheWallOfACutWhereTheMaskIsHalf)
@@ -93,91 +128,165 @@ TEST(ReferenceRayCaster, SeesTheWallOfACutWhereTheMaskIsHalf)
   SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d normal = Eigen::Vector3d(1.0, -1.0, 0.4).normalized();
   constexpr double offset = 4.2; // mm; what lies beyond this plane is cut away
-  contents.mask = synthetic::cut(contents.ct->geometry(),
-                                 [&](const Eigen::Vector3d& p) { return offset - p.dot(normal); });
-  const volume::TissueField field = synthetic::field(contents);
-  const DepthImage depth =
-      ReferenceRayCaster(field, contents).render(camera(), kWidth, kHeight).depth;
-  const PixelRays rays(camera(), kWidth, kHeight);
+  contents.mask = cut(contents.ct->geometry(),
+                      [&](const Eigen::Vector3d& p) { return offset - p.dot(normal); });
+  contents.materials = {flat({0.5F, 0.5F, 0.5F})};
+  const ReferencePicture picture = see(contents, sideCamera());
   int compared = 0;
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-    {
-      const PixelRay ray = rays.through(column, row);
-      const double wall = (offset - ray.origin.dot(normal)) / ray.direction.dot(normal);
-      if ((ray.origin + wall * ray.direction).norm() > 0.85 * kRadius)
-        continue;
-      EXPECT_NEAR(static_cast<double>(depth.at(column, row)), wall, 0.02 * kSpacing);
-      ++compared;
-    }
-  EXPECT_GT(compared, 300);
+  forEachRay(sideCamera(),
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const double wall = (offset - ray.origin.dot(normal)) / ray.direction.dot(normal);
+               if ((ray.origin + wall * ray.direction).norm() > 0.85 * kRadius)
+                 return;
+               EXPECT_NEAR(static_cast<double>(picture.depth.at(column, row)), wall,
+                           0.02 * kSpacing);
+               EXPECT_NEAR(rgbOf(picture, column, row)[0], 0.5 * lambert(ray.direction.dot(normal)),
+                           1.0 / 255.0);
+               ++compared;
+             });
+  EXPECT_GT(compared, 75);
 }
 
-TEST(ReferenceRayCaster, PaintsAStructureInItsColor)
+TEST(ReferenceRayCaster, LightsASphereByTheCosineOfItsNormal)
 {
   SceneContents contents;
-  const core::GridGeometry grid = synthetic::cube(48, kSpacing);
-  contents.ct = synthetic::ct<std::int16_t>(grid, [](const Eigen::Vector3d&) { return -5.0; });
-  StructureContents marker{
-      "marker",
-      synthetic::labels(grid, [](const Eigen::Vector3d& p) { return p.norm() < 6; }),
-      1,
-      {}};
-  marker.look.color = {0.0F, 0.0F, 1.0F};
-  contents.structures.push_back(marker);
-  const auto solid = volume::makeSmoothedUnion(*marker.labels, [](std::uint16_t) { return true; });
-  const volume::TissueField field = synthetic::field(contents, {solid});
-  const Picture picture =
-      ReferenceRayCaster(field, contents).render(camera(), kWidth, kHeight).picture;
-  const std::uint8_t* center = picture.pixel(kWidth / 2, kHeight / 2);
-  EXPECT_GT(center[2], 3 * center[0]);
+  contents.ct = ball<float>(cube(64, kSpacing, oblique()), kRadius);
+  contents.materials = {flat({0.9F, 0.6F, 0.3F})};
+  const ReferencePicture picture = see(contents, sideCamera());
+  int compared = 0;
+  forEachRay(sideCamera(),
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const double truth = raySphere(ray.origin, ray.direction, {0, 0, 0}, kRadius);
+               if (raySphere(ray.origin, ray.direction, {0, 0, 0}, 0.95 * kRadius) < 0.0)
+                 return;
+               const double cosine =
+                   (ray.origin + truth * ray.direction).normalized().dot(ray.direction);
+               const Eigen::Vector3d expected = lambert(cosine) * Eigen::Vector3d(0.9F, 0.6F, 0.3F);
+               EXPECT_LT((rgbOf(picture, column, row) - expected).cwiseAbs().maxCoeff(), 2e-3);
+               ++compared;
+             });
+  EXPECT_GT(compared, 220);
+}
+
+TEST(ReferenceRayCaster, CutsTissueAtAClippingPlaneAndLightsTheFace)
+{
+  SceneContents contents = ballScene(oblique());
+  contents.materials = {flat({0.5F, 0.5F, 0.5F})};
+  const Eigen::Vector3d normal = Eigen::Vector3d(-0.7, 0.8, -0.2).normalized();
+  contents.clipping = {{-3.0 * normal, normal}};
+  const ReferencePicture picture = see(contents, sideCamera());
+  int compared = 0;
+  forEachRay(sideCamera(),
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const double cosine = ray.direction.dot(normal);
+               const double face = (-3.0 - ray.origin.dot(normal)) / cosine;
+               if ((ray.origin + face * ray.direction).norm() > 0.98 * kRadius)
+                 return;
+               EXPECT_NEAR(static_cast<double>(picture.depth.at(column, row)), face, 1e-5);
+               EXPECT_NEAR(rgbOf(picture, column, row)[0], 0.5 * lambert(cosine), 1e-6);
+               ++compared;
+             });
+  EXPECT_GT(compared, 120);
+}
+
+TEST(ReferenceRayCaster, CutsTissueAtTheOutermostVoxelCentresOfTheCropBox)
+{
+  SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
+  contents.materials = {flat({0.5F, 0.5F, 0.5F})};
+  contents.crop = core::IndexBox{{20, 28, 16}, {50, 40, 52}};
+  const core::GridGeometry& grid = contents.ct->geometry();
+  const Eigen::Vector3d corner = grid.patientFromVoxel({20.0, 28.0, 16.0});
+  core::CameraPose pose;
+  pose.position = {0.5, -60.0, 1.0};
+  pose.focalPoint = {0.0, 0.0, 0.0};
+  const ReferencePicture picture = see(contents, pose);
+  int compared = 0;
+  forEachRay(pose,
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const double face = (corner.y() - ray.origin.y()) / ray.direction.y();
+               const Eigen::Vector3d voxel =
+                   grid.voxelFromPatient(ray.origin + face * ray.direction);
+               const bool inside = voxel[0] > 20.0 && voxel[0] < 49.0 && voxel[2] > 16.0 &&
+                                   voxel[2] < 51.0 &&
+                                   (ray.origin + face * ray.direction).norm() < 0.98 * kRadius;
+               if (!inside)
+                 return;
+               EXPECT_NEAR(static_cast<double>(picture.depth.at(column, row)), face, 1e-5);
+               EXPECT_NEAR(rgbOf(picture, column, row)[1], 0.5 * lambert(ray.direction.y()), 1e-6);
+               ++compared;
+             });
+  EXPECT_GT(compared, 75);
+  contents.crop = core::IndexBox{{70, 0, 0}, {80, 64, 64}};
+  EXPECT_TRUE(std::isnan(see(contents, pose).depth.at(kWidth / 2, kHeight / 2)));
+}
+
+TEST(ReferenceRayCaster, TakesVoxelsWithoutAValueForAir)
+{
+  SceneContents contents;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const core::GridGeometry grid = cube(33, kSpacing);
+  contents.ct = image(grid, [](const Eigen::Vector3d& p) { return p.z() < -2.0 ? nan : 900.0; });
+  core::CameraPose pose = along({0.0, 0.0, 1.0}, 50.0);
+  const ReferencePicture picture = see(contents, pose);
+  // The samples at z = -2 and above have a value, and so have the cells between them.
+  EXPECT_NEAR(static_cast<double>(picture.depth.at(kWidth / 2, kHeight / 2)), 48.0,
+              2e-5 * kSpacing);
+  for (const float value : picture.rgb)
+    EXPECT_TRUE(std::isfinite(value));
+}
+
+TEST(ReferenceRayCaster, SeesNothingInAGridOneSampleThin)
+{
+  SceneContents contents;
+  contents.ct = image({{32, 32, 1}, {0.5, 0.5, 0.5}, {-8.0, -8.0, 0.0}},
+                      [](const Eigen::Vector3d&) { return 2000.0; });
+  for (const core::CameraPose& pose : {along({0.0, 0.0, 1.0}, 40.0), along({1.0, 0.0, 0.0}, 40.0)})
+    for (const float depth : see(contents, pose).depth.millimetres)
+      EXPECT_TRUE(std::isnan(depth));
+}
+
+TEST(ReferenceRayCaster, DrawsTheBackgroundWithoutACt)
+{
+  const ReferencePicture picture = see({}, sideCamera());
+  EXPECT_TRUE(std::isnan(picture.depth.at(3, 3)));
+  EXPECT_LT((rgbOf(picture, 3, 3) - background()).norm(), 1e-6);
 }
 
 TEST(ReferenceRayCaster, StopsWhenCancelled)
 {
-  const SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
-  const volume::TissueField field = synthetic::field(contents);
   auto token = std::make_shared<core::CancelToken>();
   token->cancel();
-  EXPECT_THROW(ReferenceRayCaster(field, contents)
-                   .render(camera(), kWidth, kHeight, core::Progress({}, token)),
+  EXPECT_THROW(ReferenceRayCaster(ballScene(Eigen::Matrix3d::Identity()))
+                   .render(sideCamera(), kWidth, kHeight, core::Progress({}, token)),
                core::CancelledError);
 }
 
 TEST(ReferenceRayCaster, RefusesAPictureOfNoPixels)
 {
-  const SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
-  const volume::TissueField field = synthetic::field(contents);
-  EXPECT_THROW(ReferenceRayCaster(field, contents).render(camera(), 0, 10), RenderingError);
+  const ReferenceRayCaster caster(ballScene(Eigen::Matrix3d::Identity()));
+  EXPECT_THROW(caster.render(sideCamera(), 0, 10), RenderingError);
 }
 
-TEST(PixelRays, SpanTheAngleVertically)
+TEST(ReferenceRayCaster, RefusesContentsThatContradictThemselves)
 {
-  const core::CameraPose pose = camera();
-  const PixelRays rays(pose, kWidth, kHeight);
-  const double middle = 0.5 * (kWidth - 1);
-  const Eigen::Vector3d top = rays.through(middle, -0.5).direction;
-  const Eigen::Vector3d bottom = rays.through(middle, kHeight - 0.5).direction;
-  EXPECT_NEAR(std::acos(top.dot(bottom)) * 180.0 / M_PI, pose.viewAngle, 1e-9);
-  EXPECT_GT(top.z(), bottom.z());
-}
-
-TEST(PixelRays, SpanTwiceTheParallelScaleVertically)
-{
-  core::CameraPose pose = camera();
-  pose.parallelScale = 17.0;
-  const PixelRays rays(pose, kWidth, kHeight);
-  const double height =
-      (rays.through(3.0, -0.5).origin - rays.through(3.0, kHeight - 0.5).origin).norm();
-  EXPECT_NEAR(height, 34.0, 1e-9);
-}
-
-TEST(PixelRays, RefuseACameraWithoutDirection)
-{
-  core::CameraPose pose = camera();
-  pose.focalPoint = pose.position;
-  EXPECT_THROW(PixelRays(pose, 10, 10), core::InvalidParameter);
-  pose = camera();
-  pose.viewUp = pose.focalPoint - pose.position;
-  EXPECT_THROW(PixelRays(pose, 10, 10), core::InvalidParameter);
+  SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
+  EXPECT_THROW(ReferenceRayCaster(contents, {0.0}), core::InvalidParameter);
+  contents.materials = {{}, {}};
+  contents.materials[1].source = appearance::IntensitySource::Second;
+  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // there is no second image
+  contents.materials.resize(1);
+  contents.labels = labelField(
+      cube(8, 1.0), [](const Eigen::Vector3d&) { return 1.0; },
+      [](const Eigen::Vector3d&) { return 3; });
+  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // there is no material 3
+  contents.labels = nullptr;
+  contents.mask = std::make_shared<volume::CutMask>(cube(20, 1.0));
+  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // on another grid
+  contents.mask = nullptr;
+  contents.clipping = {{{0, 0, 0}, {0, 0, 0}}};
+  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // a plane without a normal
 }

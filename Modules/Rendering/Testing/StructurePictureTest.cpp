@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "LabelScenes.h"
 #include "PictureComparison.h"
 #include "petrous/Volume/SmoothedUnion.h"
 
@@ -22,8 +23,11 @@ TEST(StructurePicture, ShowsACutStructureInItsColorWhereTheWallCrossesIt)
   core::CameraPose pose = slanting();
   pose.position = {8.0, -15.0, 45.0};
   const auto solid = volume::makeSmoothedUnion(*labels, [](std::uint16_t) { return true; });
-  const volume::TissueField field = synthetic::field(contents, {solid});
-  const Picture truth = ReferenceRayCaster(field, contents).render(pose, kWidth, kHeight).picture;
+  SceneContents labelled = contents;
+  labelled.labels = synthetic::oneStructure(solid);
+  labelled.materials = {
+      {}, {appearance::TransferFunction::constant(contents.structures[0].look.color, 1.0F)}};
+  const Picture truth = truthOf(labelled, pose).picture;
   const Picture picture = draw(contents, pose);
   EXPECT_GT(countBlue(truth), 300);
   int different = 0;

@@ -115,6 +115,22 @@ std::shared_ptr<const volume::LabelMap> labels(const core::GridGeometry& grid, c
       volume::makeLabelMap(voxels, {volume::Segment{"marker", 1, {}, 0}}));
 }
 
+/// A CT of which `value(patient)` is the intensity, HU, unrounded.
+template <class Value>
+std::shared_ptr<const volume::IntensityVolume> image(const core::GridGeometry& grid,
+                                                     const Value& value)
+{
+  auto voxels = std::make_shared<volume::Volume<float>>(grid);
+  const core::Index3& n = grid.dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        voxels->at(i, j, k) =
+            static_cast<float>(value(grid.patientFromVoxel(Eigen::Vector3d(i, j, k))));
+  return std::make_shared<volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<float>>(voxels));
+}
+
 inline volume::TissueField field(const SceneContents& contents,
                                  std::vector<volume::TissueField::SolidUnion> solids = {})
 {

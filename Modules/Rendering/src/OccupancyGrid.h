@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "petrous/Volume/CutMask.h"
@@ -10,11 +11,12 @@
 namespace petrous::rendering
 {
 
-/// What a ray can skip: bricks of kEdge^3 cells of the CT's grid, each with what it holds and how
+/// What a ray can skip: bricks of edge^3 cells of the CT's grid, each with what it holds and how
 /// far the next brick is that a ray must look into. Plain data on the CPU; one texel a brick.
 ///
-/// Brick b covers the positions [b kEdge, (b + 1) kEdge] between voxel centres on each axis; what
-/// interpolation there can reach (one voxel more) is counted in.
+/// Brick b covers the positions [b edge, (b + 1) edge] between voxel centres on each axis; what
+/// interpolation there can reach (one voxel more) is counted in. Flags err to one side only: one
+/// that is not set rules out what it stands for. A distance is 0 exactly where its flag is set.
 class OccupancyGrid
 {
 public:
@@ -23,9 +25,10 @@ public:
   enum Flag : std::uint8_t
   {
     Mixed = 1,  ///< the mask is not 1 throughout
-    Labels = 2, ///< an index or a share of a label
+    Labels = 2, ///< a share of a label above 0.499
     Tissue = 4, ///< f may exceed 0
-    Inside = 8  ///< a ray inside tissue has something to see: air, a label, or opacity
+    Inside = 8, ///< a ray inside tissue has something to see: air, a label, or opacity
+    Border = 16 ///< a ray inside bone may come to an end of it: air, or a label
   };
 
   struct Texel
@@ -42,16 +45,17 @@ public:
   {
     double iso = 300.0;
     bool bone = true;     ///< whether the CT takes part in f
-    bool interior = true; ///< false: rays end at the first surface; Inside is not needed
+    bool interior = true; ///< false: rays end at the first surface; every brick is then Inside
     /// Intensities at which bone has opacity, closed ranges, rising; empty: nowhere.
     std::vector<volume::ValueRange> opaque;
     bool interiorEverywhere = false; ///< bone's look does not come from the CT: never skip inside
   };
 
-  /// Reads every voxel once (in parallel). edge: 4, 8 or 16 voxels.
+  /// Reads every voxel once (in parallel); the texels are those of the default rules, without
+  /// labels and mask. edge: 4, 8 or 16 voxels, else InvalidParameter.
   OccupancyGrid(const volume::IntensityVolume& ct, int edge);
 
-  /// Judges every brick anew.
+  /// Judges every brick anew; the label field is read only when it is another one than before.
   void rebuild(const Rules& rules, const volume::LabelField* labels, const volume::CutMask* mask);
 
   /// The mask changed in a box of voxels, to less or to more. Returns the box of bricks whose
@@ -63,14 +67,34 @@ public:
   const std::vector<Texel>& texels() const noexcept { return m_texels; } ///< first axis fastest
   std::size_t bytes() const noexcept;
 
+  /// The intensities that occur, without those that are no numbers; 0 to 0 where none is left.
+  volume::ValueRange range() const noexcept;
+
 private:
+  struct Changes
+  {
+    core::IndexBox added; // bricks that the flag of one distance came to, or left
+    core::IndexBox removed;
+  };
+
+  template <class T>
+  void readIntensities(const volume::Volume<T>& ct);
+  void readLabels(const volume::LabelField* labels);
+  std::size_t texelIndex(int i, int j, int k) const noexcept;
+  core::IndexBox reach(int i, int j, int k) const noexcept;
+  std::uint8_t judge(std::size_t brick, const volume::CutMask* mask,
+                     const core::IndexBox& voxels) const;
+  core::IndexBox affected(const Changes& changes, std::uint8_t Texel::*distance) const;
+  core::IndexBox measure(const core::IndexBox& box, Flag flag, std::uint8_t Texel::*distance);
+
   core::GridGeometry m_grid;
   int m_edge;
   core::Index3 m_dims{};
-  std::vector<float> m_min; // of the CT, per brick
+  std::vector<float> m_min; // of the CT, per brick; -inf where a voxel has no value
   std::vector<float> m_max;
   std::vector<Texel> m_texels;
-  std::vector<std::uint8_t> m_labelFlags;
+  std::vector<std::uint8_t> m_solid;                  // LabelBricks.h; empty: no labels
+  std::weak_ptr<const volume::Volume<float>> m_share; // that m_solid is of
   Rules m_rules;
 };
 

@@ -88,6 +88,7 @@ Picture OffscreenView::render(ScenePicture& scene)
     scene.attach(my.renderer);
   }
   my.window->Render();
+  scene.throwLastError();
 
   const int* size = my.window->GetSize();
   Picture picture;

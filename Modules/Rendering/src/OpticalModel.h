@@ -8,11 +8,12 @@
 namespace petrous::rendering
 {
 
-/// What a ray sees: the one definition behind the GPU's picture (shaders/RayCast.glsl) and the
+/// What a ray sees: the one definition behind the GPU's picture (shaders/RayCast.frag.glsl) and the
 /// reference (ReferenceRayCaster), after [Chan2013, 2.2] and [Chan2016, "Visual rendering"].
 ///
 /// At a point x the ray is in one of these states, f being the tissue field of what is shown:
-///   air              f <= 0, outside the hull of the CT's voxel centres, the crop box or a plane
+///   air              f <= 0, outside the hull of the CT's voxel centres, that of the crop box's or
+///                    a clipping plane; a hull without thickness is air
 ///   bone             f > 0 and share <= 0.5
 ///   structure i      f > 0 and share > 0.5, i = label index of the voxel nearest to x
 /// Where the state changes from air to anything, or from bone to a structure, there is a surface;
@@ -25,16 +26,20 @@ namespace petrous::rendering
 /// Surface at x, unit normal n (out of the tissue; -grad of the operand that decides: c_CT, share
 /// or mask, central differences over +-1 voxel of its grid; for bone -> structure that of share):
 ///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
-///   c_s     surfaceColor(transfer(v), |n . ray|, distance to the eye)
+///           of the image that is read
+///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
 ///   opacity material.surfaceOpacity
 /// The material is the structure's where share > 0.5 - 1e-3 at x, else a lumen's where the index at
 /// x is one of a lumen, else bone. Where tissue is cut off by the hull, the crop box or a clipping
-/// plane, n is that face's normal and v is taken at x itself. A flat field (n = 0) faces the eye.
+/// plane, n is that face's normal and v is taken at x itself. A flat field (n = 0) faces the eye,
+/// and so does tissue that the eye stands in. The first surface gives the depth, whatever its
+/// opacity.
 namespace optics
 {
 
-/// How far below the surface the intensity is taken that colours it, in smallest spacings.
-constexpr double kColorDepth = 1.0;
+/// How far below the surface the intensity is taken that colours it, in smallest spacings. Nearer
+/// to it partial volume with air draws the voxels' contour lines on smooth bone.
+constexpr double kColorDepth = 2.0;
 
 /// Cosine that stands for all directions inside a scattering tissue (no normal is taken there).
 constexpr double kInteriorFacing = 2.0 / 3.0;

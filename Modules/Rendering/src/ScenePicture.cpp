@@ -1,6 +1,8 @@
 #include "petrous/Rendering/ScenePicture.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -13,21 +15,22 @@
 #include <vtkRenderer.h>
 #include <vtkVolume.h>
 #include <vtkWeakPointer.h>
+#include <vtk_glew.h>
 
-#include "BoneColor.h"
-#include "BoneVolume.h"
-#include "StructureSurface.h"
+#include "OpticalModel.h"
+#include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "ToolProps.h"
+#include "petrous/Rendering/InteractionQuality.h"
+#include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/VolumeMapper.h"
 
 namespace petrous::rendering
 {
 
 namespace
 {
-
-constexpr int kLargestAxis = 2048; // what every OpenGL 4 driver takes as a 3D texture
 
 void refuse(const std::string& what)
 {
@@ -36,24 +39,35 @@ void refuse(const std::string& what)
 
 void check(const SceneContents& contents)
 {
-  if (contents.ct)
-  {
-    const core::Index3& dims = contents.ct->geometry().dims();
-    if (*std::max_element(dims.begin(), dims.end()) > kLargestAxis)
-      refuse("the CT has " + std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
-             std::to_string(dims[2]) + " voxels; at most " + std::to_string(kLargestAxis) +
-             " along an axis can be drawn");
-    if (contents.mask && !core::sameGrid(contents.mask->geometry(), contents.ct->geometry()))
-      refuse("the mask does not lie on the CT's grid");
-  }
-  else if (contents.mask)
+  if (contents.mask && !contents.ct)
     refuse("there is a mask but no CT");
-  for (const StructureContents& structure : contents.structures)
-    if (!structure.labels || !structure.labels->voxels || structure.index == 0)
-      refuse("structure " + structure.name + " has no label volume");
+  if (contents.mask && !core::sameGrid(contents.mask->geometry(), contents.ct->geometry()))
+    refuse("the mask does not lie on the CT's grid");
+  if (contents.labels && !contents.ct)
+    refuse("there are structures but no CT");
+  const bool asksForSecond =
+      std::any_of(contents.materials.begin(), contents.materials.end(),
+                  [](const appearance::Material& material)
+                  { return material.source == appearance::IntensitySource::Second; });
+  if (asksForSecond && !contents.second.volume)
+    refuse("a material reads a second image, and there is none");
+  if (contents.clipping.size() > 6)
+    refuse("at most 6 clipping planes can be drawn, not " +
+           std::to_string(contents.clipping.size()));
   for (const MeshContents& mesh : contents.meshes)
     if (!mesh.mesh)
       refuse("mesh " + mesh.name + " has no triangles");
+}
+
+// The texture's rows are looked up by index: each one that occurs needs its material.
+void checkMaterials(const SceneContents& contents)
+{
+  const std::size_t rows = std::max<std::size_t>(contents.materials.size(), 1);
+  const volume::Volume<std::uint8_t>& index = *contents.labels->index;
+  const std::uint8_t largest = *std::max_element(index.data(), index.data() + index.size());
+  if (largest >= rows)
+    refuse("structure " + std::to_string(int{largest}) + " has no material; there are " +
+           std::to_string(rows - 1) + " beside bone's");
 }
 
 struct MeshActor
@@ -75,12 +89,6 @@ struct MeshActor
   }
 };
 
-struct NamedStructure
-{
-  std::string name;
-  std::unique_ptr<StructureSurface> surface;
-};
-
 } // namespace
 
 class ScenePicture::Implementation
@@ -90,15 +98,22 @@ public:
   ~Implementation();
 
   void attach(vtkRenderer* renderer);
-  void setStructures(const SceneContents& contents);
   void setMeshes(const SceneContents& contents);
+  void setVolume(const SceneContents& contents);
   void applyCamera();
+  void startFrame();
+  void endFrame();
 
   vtkWeakPointer<vtkRenderer> renderer;
   core::CameraPose pose;
-  std::shared_ptr<const volume::CutMask> mask;
-  BoneVolume bone;
-  std::vector<NamedStructure> structures;
+  std::shared_ptr<const volume::LabelField> labels; // whose indices have their materials
+  std::size_t materials = 0;
+  vtkNew<vtkPetrousVolumeMapper> mapper;
+  vtkNew<vtkVolume> volume;
+  RenderQuality quality;
+  RenderQuality drawn; // of the last frame
+  InteractionQuality interaction;
+  bool interactive = false;
   std::vector<std::unique_ptr<MeshActor>> meshes;
   ToolProps tool;
 
@@ -108,18 +123,55 @@ private:
 
   vtkNew<vtkLight> m_lamp;
   vtkNew<vtkCallbackCommand> m_onStart;
-  unsigned long m_observer = 0;
+  vtkNew<vtkCallbackCommand> m_onEnd;
+  unsigned long m_startObserver = 0;
+  unsigned long m_endObserver = 0;
+  std::chrono::steady_clock::time_point m_started;
 };
 
 ScenePicture::Implementation::Implementation()
 {
   m_lamp->SetLightTypeToHeadlight();
-  m_onStart->SetCallback(
-      [](vtkObject* caller, unsigned long, void*, void*)
-      {
-        // Near and far follow the props, whoever moved the camera or them.
-        static_cast<vtkRenderer*>(caller)->ResetCameraClippingRange();
-      });
+  m_onStart->SetClientData(this);
+  m_onStart->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                         { static_cast<Implementation*>(self)->startFrame(); });
+  m_onEnd->SetClientData(this);
+  m_onEnd->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                       { static_cast<Implementation*>(self)->endFrame(); });
+  volume->SetMapper(mapper);
+  volume->PickableOff();
+}
+
+void ScenePicture::Implementation::startFrame()
+{
+  // Near and far follow the props, whoever moved the camera or them.
+  renderer->ResetCameraClippingRange();
+  renderer->GetActiveCamera()->SetWindowCenter(pose.lensShift / renderer->GetTiledAspectRatio(),
+                                               0.0);
+  drawn = interactive ? interaction.coarser(quality) : quality;
+  mapper->SetQuality(drawn);
+  m_started = std::chrono::steady_clock::now();
+}
+
+void ScenePicture::Implementation::endFrame()
+{
+  if (!interactive)
+    return;
+  glFinish(); // else the time would be that of giving orders
+  interaction.frameTook(
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_started)
+          .count(),
+      drawn);
+}
+
+void ScenePicture::Implementation::setVolume(const SceneContents& contents)
+{
+  if (contents.labels && (contents.labels != labels || contents.materials.size() != materials))
+    checkMaterials(contents);
+  labels = contents.labels;
+  materials = contents.materials.size();
+  mapper->SetContents(contents);
+  volume->SetVisibility(contents.ct ? 1 : 0);
 }
 
 ScenePicture::Implementation::~Implementation()
@@ -130,9 +182,7 @@ ScenePicture::Implementation::~Implementation()
 template <class Visit>
 void ScenePicture::Implementation::forEachProp(const Visit& visit)
 {
-  visit(bone.prop());
-  for (const NamedStructure& structure : structures)
-    visit(structure.surface->prop());
+  visit(volume);
   for (const auto& mesh : meshes)
     visit(mesh->actor.prop());
 }
@@ -153,14 +203,15 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
         });
     tool.removeFrom(last);
     last->RemoveLight(m_lamp);
-    last->RemoveObserver(m_observer);
+    last->RemoveObserver(m_startObserver);
+    last->RemoveObserver(m_endObserver);
     if (window && !wasCurrent)
       window->ReleaseCurrent(); // which freeing the textures made current
   }
   renderer = next;
   if (!next)
     return;
-  next->SetBackground(kBackground[0], kBackground[1], kBackground[2]);
+  next->SetBackground(optics::kBackground[0], optics::kBackground[1], optics::kBackground[2]);
   next->GradientBackgroundOff();
   next->AutomaticLightCreationOff();
   next->RemoveAllLights();
@@ -168,7 +219,8 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
   next->SetTwoSidedLighting(1);
   forEachProp([next](vtkProp* prop) { next->AddViewProp(prop); });
   tool.addTo(next);
-  m_observer = next->AddObserver(vtkCommand::StartEvent, m_onStart);
+  m_startObserver = next->AddObserver(vtkCommand::StartEvent, m_onStart);
+  m_endObserver = next->AddObserver(vtkCommand::EndEvent, m_onEnd);
   applyCamera();
 }
 
@@ -187,51 +239,12 @@ void ScenePicture::Implementation::applyCamera()
     camera->SetParallelScale(*pose.parallelScale);
 }
 
-void ScenePicture::Implementation::setStructures(const SceneContents& contents)
-{
-  std::vector<NamedStructure> next;
-  int pattern = 0;
-  for (const StructureContents& wanted : contents.structures)
-  {
-    const auto found = std::find_if(structures.begin(), structures.end(),
-                                    [&wanted](const NamedStructure& structure) {
-                                      return structure.surface && structure.surface->shows(wanted);
-                                    });
-    NamedStructure entry;
-    entry.name = wanted.name;
-    if (found != structures.end())
-      entry.surface = std::move(found->surface);
-    else
-    {
-      entry.surface = std::make_unique<StructureSurface>(wanted, pattern);
-      if (renderer)
-        renderer->AddViewProp(entry.surface->prop());
-    }
-    ++pattern;
-    const core::IndexBox everywhere =
-        contents.ct ? contents.ct->geometry().fullBox() : core::IndexBox{};
-    entry.surface->maskChanged(contents.mask, everywhere);
-    entry.surface->setLook(wanted.look, contents.light);
-    next.push_back(std::move(entry));
-  }
-  if (renderer)
-    for (const NamedStructure& old : structures)
-      if (old.surface)
-        renderer->RemoveViewProp(old.surface->prop());
-  structures = std::move(next);
-}
-
 void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
 {
   std::vector<std::unique_ptr<MeshActor>> next;
-  int pattern = static_cast<int>(contents.structures.size());
+  int pattern = 0;
   for (const MeshContents& wanted : contents.meshes)
   {
-    const bool replaced = std::any_of(contents.structures.begin(), contents.structures.end(),
-                                      [&wanted](const StructureContents& structure)
-                                      { return structure.name == wanted.name; });
-    if (replaced)
-      continue;
     const auto found =
         std::find_if(meshes.begin(), meshes.end(),
                      [&wanted](const std::unique_ptr<MeshActor>& old)
@@ -279,9 +292,7 @@ vtkRenderer* ScenePicture::renderer() const
 void ScenePicture::setContents(const SceneContents& contents)
 {
   check(contents);
-  m_implementation->mask = contents.mask;
-  m_implementation->bone.setContents(contents.ct, contents.iso, contents.mask, contents.light);
-  m_implementation->setStructures(contents);
+  m_implementation->setVolume(contents);
   m_implementation->setMeshes(contents);
   m_implementation->tool.setPose(contents.tool);
 }
@@ -289,10 +300,7 @@ void ScenePicture::setContents(const SceneContents& contents)
 void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
                                const core::IndexBox& box)
 {
-  m_implementation->bone.maskChanged(mask, box);
-  for (const NamedStructure& structure : m_implementation->structures)
-    structure.surface->maskChanged(mask, box);
-  m_implementation->mask = std::move(mask);
+  m_implementation->mapper->MaskChanged(std::move(mask), box);
 }
 
 void ScenePicture::setTool(const std::optional<ToolPose>& tool)
@@ -324,16 +332,60 @@ core::CameraPose ScenePicture::camera() const
 
 void ScenePicture::setInteractive(bool interactive)
 {
-  m_implementation->bone.setInteractive(interactive);
+  m_implementation->interactive = interactive;
+}
+
+void ScenePicture::setInteractionRate(double hz)
+{
+  m_implementation->interaction = InteractionQuality(hz);
+}
+
+void ScenePicture::setQuality(const RenderQuality& quality)
+{
+  m_implementation->quality = quality;
+}
+
+const RenderQuality& ScenePicture::quality() const
+{
+  return m_implementation->quality;
+}
+
+void ScenePicture::setCounting(bool counting)
+{
+  m_implementation->mapper->SetCounting(counting);
+}
+
+const RenderStatistics& ScenePicture::statistics() const
+{
+  return m_implementation->mapper->GetStatistics();
+}
+
+void ScenePicture::throwLastError()
+{
+  if (const std::exception_ptr error = m_implementation->mapper->TakeError())
+    std::rethrow_exception(error);
+}
+
+DepthImage ScenePicture::depth() const
+{
+  return m_implementation->mapper->GetDepth();
+}
+
+std::optional<Eigen::Vector3d> ScenePicture::pick(double column, double row) const
+{
+  if (!m_implementation->renderer)
+    return std::nullopt;
+  const double distance = static_cast<double>(m_implementation->mapper->GetDepthAt(column, row));
+  if (std::isnan(distance))
+    return std::nullopt;
+  const int* size = m_implementation->renderer->GetSize();
+  const PixelRay ray = PixelRays(camera(), size[0], size[1]).through(column, row);
+  return ray.origin + distance * ray.direction;
 }
 
 std::map<std::string, std::size_t> ScenePicture::resources() const
 {
-  std::map<std::string, std::size_t> resources;
-  m_implementation->bone.addResources(resources);
-  for (const NamedStructure& structure : m_implementation->structures)
-    if (const std::size_t bytes = structure.surface->bytes())
-      resources["labels." + structure.name] = bytes;
+  std::map<std::string, std::size_t> resources = statistics().resources;
   for (const auto& mesh : m_implementation->meshes)
     resources["meshes." + mesh->name] = mesh->bytes;
   return resources;

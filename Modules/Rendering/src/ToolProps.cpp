@@ -1,6 +1,6 @@
 #include "ToolProps.h"
 
-#include <algorithm>
+#include <array>
 
 #include <Eigen/Geometry>
 
@@ -12,17 +12,12 @@
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
 
+#include "ToolShape.h"
+
 namespace petrous::rendering
 {
 
-namespace
-{
-// The tool of the tissue field's shell (PHYSICS): shaft <= 0.6 R for 30 mm, the handpiece beyond.
-constexpr double kShaftRatio = 0.5;
-constexpr double kShaftLength = 30.0;     // mm from the burr's centre
-constexpr double kHandpieceLength = 90.0; // mm
-constexpr double kHandpieceRadius = 5.0;  // mm
-} // namespace
+using namespace tool;
 
 ToolProps::ToolProps()
 {
@@ -31,7 +26,7 @@ ToolProps::ToolProps()
   m_shaft->SetResolution(32);
   m_handpiece->SetResolution(48);
   vtkAlgorithm* const sources[3] = {m_burr, m_shaft, m_handpiece};
-  const double colors[3][3] = {{0.85, 0.72, 0.35}, {0.72, 0.74, 0.77}, {0.50, 0.56, 0.64}};
+  const std::array<std::array<double, 3>, 3> colors{kBurrColor, kShaftColor, kHandpieceColor};
   for (std::size_t part = 0; part < m_actors.size(); ++part)
   {
     vtkNew<vtkPolyDataMapper> mapper;
@@ -43,10 +38,10 @@ ToolProps::ToolProps()
     vtkProperty* property = m_actors[part]->GetProperty();
     property->SetColor(colors[part][0], colors[part][1], colors[part][2]);
     property->SetInterpolationToPhong();
-    property->SetAmbient(0.25);
-    property->SetDiffuse(0.75);
-    property->SetSpecular(0.45);
-    property->SetSpecularPower(40.0);
+    property->SetAmbient(kAmbient);
+    property->SetDiffuse(1.0 - kAmbient);
+    property->SetSpecular(kSpecular);
+    property->SetSpecularPower(kShininess);
   }
 }
 
@@ -66,7 +61,7 @@ void ToolProps::removeFrom(vtkRenderer* renderer) const
 
 void ToolProps::setPose(const std::optional<ToolPose>& tool)
 {
-  const bool shown = tool && tool->radius > 0.0 && tool->axisToHand.norm() > 0.0;
+  const bool shown = tool && isShown(*tool);
   for (const auto& actor : m_actors)
     actor->SetVisibility(shown ? 1 : 0);
   if (!shown)
@@ -76,13 +71,11 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
   m_shaft->SetRadius(kShaftRatio * tool->radius);
   m_shaft->SetHeight(kShaftLength);
   m_shaft->SetCenter(0.0, 0.5 * kShaftLength, 0.0);
-  m_handpiece->SetRadius(std::max(kHandpieceRadius, tool->radius));
+  m_handpiece->SetRadius(handpieceRadius(*tool));
   m_handpiece->SetHeight(kHandpieceLength);
   m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
-  if (tool->drilling)
-    m_actors[0]->GetProperty()->SetColor(1.0, 0.55, 0.15);
-  else
-    m_actors[0]->GetProperty()->SetColor(0.85, 0.72, 0.35);
+  const auto& burr = tool->drilling ? kDrillingColor : kBurrColor;
+  m_actors[0]->GetProperty()->SetColor(burr[0], burr[1], burr[2]);
 
   const Eigen::Matrix3d turn =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), tool->axisToHand)

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Volume/Sampling.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -72,4 +74,129 @@ TEST(CaseField, LoadsNoLabelsWhereNoneIsTouchable)
       });
   scene::tissueField(value);
   EXPECT_FALSE(loaded);
+}
+
+namespace
+{
+
+// Structures side by side in one map, with volumes that fall with the index.
+scene::Case caseOf(const std::vector<appearance::StructureLook>& looks)
+{
+  const core::GridGeometry grid({static_cast<int>(looks.size()) + 1, 3, 3}, Vector3d::Constant(0.5),
+                                Vector3d::Zero());
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  scene::Case value;
+  value.name = "row";
+  scene::LabelPart part;
+  for (std::size_t n = 0; n < looks.size(); ++n)
+  {
+    scene::StructurePart s;
+    s.index = static_cast<std::uint16_t>(n + 1);
+    s.name = looks[n].preset + " " + std::to_string(s.index);
+    s.volume = 1000.0 - static_cast<double>(n);
+    s.look = looks[n];
+    part.structures.push_back(s);
+    labels->at(static_cast<int>(n), 1, 1) = s.index;
+  }
+  part.labels =
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
+  value.labels = {part};
+  return value;
+}
+
+bool all(const appearance::StructureLook&)
+{
+  return true;
+}
+
+} // namespace
+
+TEST(CaseField, OrdersStructuresByPresetThenSmallerFirstAndLumensLast)
+{
+  const auto presets = appearance::StructurePresets::builtIn();
+  std::vector<appearance::StructureLook> looks;
+  for (const char* name :
+       {"air_cells", "skull", "masseter_muscle", "blob", "dura", "cholesteatoma", "schwannoma",
+        "cochlea", "incus", "jugular_vein", "carotid_artery", "facial_nerve", "chorda"})
+    looks.push_back(presets.lookFor(name));
+  appearance::StructureLook urgentLumen = looks.front();
+  urgentLumen.priority = 0;
+  looks.push_back(urgentLumen);
+
+  const scene::Case value = caseOf(looks);
+  const auto labels = scene::labelSources(value, all);
+  std::vector<std::string> names;
+  for (const scene::StructurePart* structure : labels.structures)
+    names.push_back(structure->name);
+  EXPECT_EQ(names, (std::vector<std::string>{"nerve 13", "nerve 12", "artery 11", "vein 10",
+                                             "ossicle 9", "inner-ear 8", "tumour 7",
+                                             "cholesteatoma 6", "dura 5", "other 4", "muscle 3",
+                                             "bone 2", "air-cells 14", "air-cells 1"}));
+  ASSERT_EQ(labels.sources.size(), names.size());
+  for (std::size_t n = 0; n < names.size(); ++n)
+  {
+    EXPECT_EQ(labels.sources[n].material, n + 1);
+    EXPECT_EQ(labels.sources[n].segment, labels.structures[n]->index);
+    EXPECT_EQ(labels.sources[n].solid, labels.structures[n]->look.solid);
+    EXPECT_EQ(labels.sources[n].labels, value.labels[0].labels.get());
+  }
+}
+
+TEST(CaseField, LeavesOutWhatIsNotWanted)
+{
+  std::vector<appearance::StructureLook> looks(3);
+  looks[1].shown = false;
+  const scene::Case value = caseOf(looks);
+  const auto labels = scene::labelSources(value, [](const auto& look) { return look.shown; });
+  ASSERT_EQ(labels.structures.size(), 2u);
+  EXPECT_EQ(labels.structures[1], &value.labels[0].structures[0]) << "the smaller first";
+}
+
+TEST(CaseField, SaysWhenThereAreMoreStructuresThanMaterials)
+{
+  EXPECT_EQ(scene::labelSources(caseOf(std::vector<appearance::StructureLook>(255)), all)
+                .sources.back()
+                .material,
+            255);
+  try
+  {
+    scene::labelSources(caseOf(std::vector<appearance::StructureLook>(256)), all);
+    FAIL() << "256 structures";
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("at most 255"), std::string::npos);
+  }
+}
+
+TEST(CaseField, IsTheSameForHandAndEye)
+{
+  scene::Case value = cubeInAir(true, true);
+  scene::LabelPart lumen = cubeInAir(false, true).labels[0];
+  lumen.structures[0].name = "lumen";
+  value.labels.push_back(lumen);
+  const auto eye = volume::makeLabelField(scene::labelSources(value, all).sources);
+  const auto hand = scene::tissueField(value);
+  for (double x = 2.0; x < 10.0; x += 0.13)
+    for (double y = 2.0; y < 10.0; y += 0.17)
+    {
+      const Vector3d p(x, y, 4.1);
+      const Vector3d voxel = eye->share->geometry().voxelFromPatient(p);
+      const double share = eye->share->geometry().hullContains(voxel)
+                               ? volume::sampleTrilinear(*eye->share, voxel)
+                               : 0.0;
+      EXPECT_NEAR(hand.value(p), std::max(share - 0.5, (-1000.0 - 300.0) / scene::kFieldScale),
+                  1e-9);
+    }
+}
+
+TEST(CaseField, ProtectsWhatMayNotBeDrilledAlsoWhereItIsALumen)
+{
+  scene::Case value = cubeInAir(false, true);
+  EXPECT_TRUE(scene::protectedTissue(value).empty());
+  value.labels[0].structures[0].look.drillable = false;
+  const auto keep = scene::protectedTissue(value);
+  ASSERT_EQ(keep.size(), 1u);
+  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep[0], keep[0]->geometry().voxelFromPatient(kInside)),
+                   1.0);
 }

@@ -99,6 +99,43 @@ TEST(Case, RefusesToRemoveWhatIsNotThereOrTheCt)
   EXPECT_THROW(scene::removePart(value, "ct"), core::InvalidParameter);
 }
 
+TEST(Case, BoneIsTheCtUnlessAStructureIsCalledBone)
+{
+  scene::Case value;
+  EXPECT_TRUE(scene::meansBone(value, "ct"));
+  EXPECT_TRUE(scene::meansBone(value, "bone"));
+  EXPECT_FALSE(scene::meansBone(value, "sinus"));
+  value.labels = {labelsNamed({"bone"})};
+  EXPECT_TRUE(scene::meansBone(value, "ct"));
+  EXPECT_FALSE(scene::meansBone(value, "bone"));
+}
+
+TEST(Case, BoneIsDrawnOpaqueToBeginWith)
+{
+  const scene::Case value;
+  EXPECT_TRUE(value.boneLook.shown);
+  EXPECT_EQ(value.boneLook.opacity, 1.0F);
+  EXPECT_EQ(value.boneLook.preset, "bone");
+}
+
+TEST(Case, LooksReadTheCtAgainWhenTheirMrIsRemoved)
+{
+  scene::Case value;
+  value.labels = {labelsNamed({"nerve", "sinus"})};
+  for (const char* name : {"t1", "t2"})
+  {
+    scene::ImagePart mr;
+    mr.name = name;
+    value.mr.push_back(mr);
+  }
+  scene::findStructure(value, "nerve")->look.sourceImage = "t1";
+  scene::findStructure(value, "sinus")->look.sourceImage = "t2";
+  scene::removePart(value, "t1");
+  EXPECT_EQ(scene::findMr(value, "t1"), nullptr);
+  EXPECT_EQ(scene::findStructure(value, "nerve")->look.sourceImage, "");
+  EXPECT_EQ(scene::findStructure(value, "sinus")->look.sourceImage, "t2");
+}
+
 TEST(Case, NamesMustFitAFile)
 {
   for (const std::string good : {"ear", "Ohr links 2", "ohr_1", "ünïcode", "a.b"})
@@ -106,6 +143,7 @@ TEST(Case, NamesMustFitAFile)
   for (const std::string& bad :
        {std::string(), std::string("../x"), std::string(".hidden"), std::string("a/b"),
         std::string("tab\t"), std::string("-x"), std::string("end "), std::string(101, 'a'),
-        std::string("a\0b", 3), std::string("\xff\xfe"), std::string("\xc0\xaf"), std::string("\xed\xa0\x80")})
+        std::string("a\0b", 3), std::string("\xff\xfe"), std::string("\xc0\xaf"),
+        std::string("\xed\xa0\x80")})
     EXPECT_THROW(scene::checkCaseName(bad), core::InvalidParameter) << bad;
 }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -14,6 +16,9 @@ scene::Case fullCase()
   value.name = "Ohr links ü";
   value.revision = 41;
   value.iso = 287.123456789012345;
+  value.denseBone = 21034.7;
+  value.boneLook.opacity = 0.3F;
+  value.boneLook.shown = false;
   value.ct.name = "ct";
   value.ct.object = "abc.nrrd";
   value.ct.geometry = core::GridGeometry({512, 512, 166}, {1.0 / 3.0, 0.45, 0.7000000001},
@@ -34,6 +39,11 @@ scene::Case fullCase()
   s.volume = 0.1;
   s.look.color = {0.1F, 0.2F, 0.3F};
   s.look.touchable = false;
+  s.look.transfer = appearance::TransferFunction({{-100.5, {0.1F, 1.0F / 3.0F, 0.7F}, 0.2F, 0.9F},
+                                                  {1.0 / 3.0, {1.0F, 0.0F, 0.5F}, 1.0F, 0.0F}});
+  s.look.sourceImage = "t2";
+  s.look.shininess = 47.5F;
+  s.look.priority = 3;
   part.structures = {s};
   value.labels = {part};
   scene::MeshPart mesh;
@@ -72,6 +82,64 @@ TEST(Manifest, ComesBackAsItWent)
   EXPECT_FALSE(back.labels[0].structures[0].look.touchable);
   EXPECT_EQ(back.labels[0].structures[0].voxels, 123456789012ULL);
   EXPECT_LT((back.mr[0].mrFromCt.matrix() - value.mr[0].mrFromCt.matrix()).norm(), 1e-15);
+}
+
+TEST(Manifest, KeepsLooksToTheLastBit)
+{
+  const scene::Case value = fullCase();
+  const scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+  const auto& look = back.labels[0].structures[0].look;
+  EXPECT_EQ(look.transfer, value.labels[0].structures[0].look.transfer);
+  EXPECT_FALSE(look.relative);
+  EXPECT_EQ(look.sourceImage, "t2");
+  EXPECT_EQ(look.shininess, 47.5F);
+  EXPECT_EQ(look.priority, 3);
+  EXPECT_EQ(back.denseBone, 21034.7);
+  EXPECT_EQ(back.boneLook.transfer, value.boneLook.transfer);
+  EXPECT_TRUE(back.boneLook.relative);
+  EXPECT_EQ(back.boneLook.opacity, 0.3F);
+  EXPECT_FALSE(back.boneLook.shown);
+  EXPECT_FALSE(back.meshes[0].look.transfer.has_value());
+}
+
+// Looks as the first manifests had them: no bone, no transfer functions.
+TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
+{
+  auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
+  for (const char* key : {"bone", "dense_bone_hu"})
+    j.erase(key);
+  auto& look = j["labels"][0]["structures"][0]["look"];
+  look = {{"preset", "nerve"},
+          {"color", {0.98, 0.82, 0.16}},
+          {"opacity", 1.0},
+          {"flags", "shown"},
+          {"solid", true}};
+  const scene::Case back = scene::fromManifest(j.dump(), "m.json");
+  EXPECT_TRUE(back.boneLook.shown);
+  EXPECT_EQ(back.boneLook.preset, "bone");
+  EXPECT_EQ(back.boneLook.opacity, 1.0F);
+  EXPECT_EQ(back.denseBone, 1800.0);
+  const auto& nerve = back.labels[0].structures[0].look;
+  EXPECT_FALSE(nerve.transfer.has_value());
+  EXPECT_EQ(nerve.shininess, 18.0F);
+  EXPECT_EQ(nerve.sourceImage, "");
+  EXPECT_LT(nerve.priority, appearance::StructureLook{}.priority) << "as its preset";
+}
+
+TEST(Manifest, RefusesADamagedTransferFunctionByName)
+{
+  auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
+  j["bone"]["transfer"]["points"][0]["opacity"] = 7;
+  try
+  {
+    scene::fromManifest(j.dump(), "m.json");
+    FAIL() << "accepted";
+  }
+  catch (const scene::ManifestError& error)
+  {
+    EXPECT_EQ(error.reason, scene::ManifestError::Reason::Damaged);
+    EXPECT_NE(std::string(error.what()).find("point 1"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Manifest, RefusesANewerFormatInWords)

@@ -65,6 +65,20 @@ MeshPart* findMesh(Case& value, const std::string& name)
   return found == value.meshes.end() ? nullptr : &*found;
 }
 
+const ImagePart* findMr(const Case& value, const std::string& name)
+{
+  const auto found = std::find_if(value.mr.begin(), value.mr.end(),
+                                  [&name](const ImagePart& mr) { return mr.name == name; });
+  return found == value.mr.end() ? nullptr : &*found;
+}
+
+bool meansBone(const Case& value, const std::string& name)
+{
+  const auto called = [&name](const MeshPart& mesh) { return mesh.name == name; };
+  return name == "ct" || (name == "bone" && !findStructure(value, name) &&
+                          std::none_of(value.meshes.begin(), value.meshes.end(), called));
+}
+
 std::vector<std::string> partNames(const Case& value)
 {
   std::vector<std::string> names{"ct"};
@@ -78,6 +92,26 @@ std::vector<std::string> partNames(const Case& value)
   return names;
 }
 
+namespace
+{
+
+void readCtInsteadOf(Case& value, const std::string& image)
+{
+  const auto change = [&image](appearance::StructureLook& look)
+  {
+    if (look.sourceImage == image)
+      look.sourceImage.clear();
+  };
+  change(value.boneLook);
+  for (LabelPart& part : value.labels)
+    for (StructurePart& structure : part.structures)
+      change(structure.look);
+  for (MeshPart& mesh : value.meshes)
+    change(mesh.look);
+}
+
+} // namespace
+
 void removePart(Case& value, const std::string& name)
 {
   const auto removeNamed = [&name](auto& parts)
@@ -90,6 +124,8 @@ void removePart(Case& value, const std::string& name)
     return true;
   };
   bool removed = removeNamed(value.mr);
+  if (removed)
+    readCtInsteadOf(value, name);
   for (auto part = value.labels.begin(); part != value.labels.end();)
   {
     removed = removeNamed(part->structures) || removed;

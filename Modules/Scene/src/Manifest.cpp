@@ -76,14 +76,22 @@ ImagePart imageIn(const json& j)
 
 json lookOut(const appearance::StructureLook& look)
 {
-  return {{"preset", look.preset},
-          {"color", look.color},
-          {"opacity", look.opacity},
-          {"flags", appearance::flagsOf(look)},
-          {"solid", look.solid}};
+  json j{{"preset", look.preset},    {"color", look.color},
+         {"opacity", look.opacity},  {"flags", appearance::flagsOf(look)},
+         {"solid", look.solid},      {"shininess", look.shininess},
+         {"priority", look.priority}};
+  if (look.transfer)
+  {
+    j["transfer"] = json::parse(look.transfer->toJson());
+    j["transfer"]["relative"] = look.relative;
+  }
+  if (!look.sourceImage.empty())
+    j["source_image"] = look.sourceImage;
+  return j;
 }
 
-appearance::StructureLook lookIn(const json& j)
+// What came after the first manifests may be missing; such a look is as it was before.
+appearance::StructureLook lookIn(const json& j, const appearance::StructurePresets& presets)
 {
   appearance::StructureLook look;
   look.preset = j.at("preset").get<std::string>();
@@ -91,6 +99,17 @@ appearance::StructureLook lookIn(const json& j)
   look.opacity = j.at("opacity").get<float>();
   look.solid = j.at("solid").get<bool>();
   appearance::setFlags(look, j.at("flags").get<std::string>());
+  look.shininess = j.value("shininess", look.shininess);
+  look.priority =
+      j.contains("priority") ? j.at("priority").get<int>() : presets.lookFor(look.preset).priority;
+  look.sourceImage = j.value("source_image", std::string());
+  if (j.contains("transfer"))
+  {
+    json transfer = j.at("transfer");
+    look.relative = transfer.value("relative", false);
+    transfer.erase("relative");
+    look.transfer = appearance::TransferFunction::fromJson(transfer.dump());
+  }
   return look;
 }
 
@@ -171,24 +190,28 @@ json labelsOut(const LabelPart& part)
   return {{"object", part.object}, {"structures", structures}};
 }
 
-LabelPart labelsIn(const json& j)
+LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
 {
   LabelPart part;
   part.object = j.at("object").get<std::string>();
   for (const json& s : j.at("structures"))
     part.structures.push_back({s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
                                s.at("voxels").get<std::uint64_t>(),
-                               s.at("volume_mm3").get<double>(), lookIn(s.at("look"))});
+                               s.at("volume_mm3").get<double>(), lookIn(s.at("look"), presets)});
   return part;
 }
 
 Case caseIn(const json& j)
 {
+  const auto presets = appearance::StructurePresets::builtIn();
   Case value;
   value.name = j.at("name").get<std::string>();
   value.revision = j.at("revision").get<std::uint64_t>();
   value.iso = j.at("iso_hu").get<double>();
+  value.denseBone = j.value("dense_bone_hu", value.denseBone);
   value.ct = imageIn(j.at("ct"));
+  if (j.contains("bone"))
+    value.boneLook = lookIn(j.at("bone"), presets);
   for (const json& m : j.at("mr"))
   {
     ImagePart mr = imageIn(m);
@@ -197,7 +220,7 @@ Case caseIn(const json& j)
     value.mr.push_back(std::move(mr));
   }
   for (const json& part : j.at("labels"))
-    value.labels.push_back(labelsIn(part));
+    value.labels.push_back(labelsIn(part, presets));
   for (const json& m : j.at("meshes"))
   {
     MeshPart mesh;
@@ -205,7 +228,7 @@ Case caseIn(const json& j)
     mesh.object = m.at("object").get<std::string>();
     mesh.triangles = m.at("triangles").get<std::size_t>();
     mesh.notes = m.at("notes").get<std::vector<std::string>>();
-    mesh.look = lookIn(m.at("look"));
+    mesh.look = lookIn(m.at("look"), presets);
     value.meshes.push_back(std::move(mesh));
   }
   if (j.contains("camera"))
@@ -229,10 +252,11 @@ ManifestError::ManifestError(Reason r, const std::string& message)
 
 std::string toManifest(const Case& value)
 {
-  json j{{"petrous_case", kManifestFormat}, {"name", value.name},
-         {"revision", value.revision},      {"iso_hu", value.iso},
-         {"ct", imageOut(value.ct)},        {"mr", json::array()},
-         {"labels", json::array()},         {"meshes", json::array()}};
+  json j{{"petrous_case", kManifestFormat},  {"name", value.name},
+         {"revision", value.revision},       {"iso_hu", value.iso},
+         {"dense_bone_hu", value.denseBone}, {"ct", imageOut(value.ct)},
+         {"bone", lookOut(value.boneLook)},  {"mr", json::array()},
+         {"labels", json::array()},          {"meshes", json::array()}};
   for (const ImagePart& image : value.mr)
   {
     json mr = imageOut(image);

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "BinomialShare.h"
 
 namespace petrous::volume
 {
@@ -42,35 +47,8 @@ core::IndexBox boxOf(const Volume<std::uint16_t>& voxels, const std::vector<bool
   return box;
 }
 
-// [1 2 1]/4 along one axis; beyond the ends there is nothing.
-void filterLine(float* first, int count, std::ptrdiff_t stride)
-{
-  float before = 0.0F;
-  for (int i = 0; i < count; ++i)
-  {
-    float& value = first[i * stride];
-    const float after = i + 1 < count ? first[(i + 1) * stride] : 0.0F;
-    const float own = value;
-    value = 0.25F * (before + 2.0F * own + after);
-    before = own;
-  }
-}
-
-void filter(Volume<float>& field)
-{
-  const core::Index3 n = field.geometry().dims();
-  const std::ptrdiff_t row = n[0];
-  const std::ptrdiff_t slice = row * n[1];
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      filterLine(&field.at(0, j, k), n[0], 1);
-  for (int k = 0; k < n[2]; ++k)
-    for (int i = 0; i < n[0]; ++i)
-      filterLine(&field.at(i, 0, k), n[1], row);
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i)
-      filterLine(&field.at(i, j, 0), n[2], slice);
-}
+// Slices that one task filters.
+constexpr int kSlab = 16;
 
 } // namespace
 
@@ -90,21 +68,42 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
       grid.patientFromVoxel(
           Eigen::Vector3d(box.lower[0] - kMargin, box.lower[1] - kMargin, box.lower[2] - kMargin)),
       grid.direction());
-  auto field = std::make_shared<Volume<float>>(geometry, 0.0F);
-  const auto forEachInside = [&](const auto& visit)
+  auto field = std::make_shared<Volume<float>>(geometry);
+  const core::Index3 dims = geometry.dims();
+  std::array<std::array<float, BinomialBlock::kWeight + 1>, 2> tables;
+  for (int sum = 0; sum <= BinomialBlock::kWeight; ++sum)
+    for (const bool inside : {false, true})
+      tables[inside ? 1 : 0][static_cast<std::size_t>(sum)] = smoothedShare(sum, inside);
+  const auto filterSlab = [&](int first, int last)
   {
-    for (int k = 0; k < size[2]; ++k)
+    BinomialBlock block;
+    block.resize({dims[0], dims[1], last - first});
+    constexpr int apron = BinomialBlock::kApron;
+    const int from = std::max(first - apron, kMargin);
+    const int to = std::min(last + apron, dims[2] - kMargin);
+    for (int k = from; k < to; ++k)
       for (int j = 0; j < size[1]; ++j)
+      {
+        const std::uint16_t* labelRow =
+            &labels.voxels->at(box.lower[0], box.lower[1] + j, box.lower[2] + k - kMargin);
+        std::uint8_t* inside = block.row(j + kMargin, k - first) + apron + kMargin;
         for (int i = 0; i < size[0]; ++i)
-          visit(
-              field->at(i + kMargin, j + kMargin, k + kMargin),
-              bool{table[labels.voxels->at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k)]});
+          inside[i] = table[labelRow[i]] ? 1 : 0;
+      }
+    block.filter();
+    for (int k = first; k < last; ++k)
+      for (int j = 0; j < dims[1]; ++j)
+      {
+        const std::uint8_t* sums = block.sums(j, k - first);
+        const std::uint8_t* inside = block.row(j, k - first) + apron;
+        float* shares = &field->at(0, j, k);
+        for (int i = 0; i < dims[0]; ++i)
+          shares[i] = tables[inside[i]][sums[i]];
+      }
   };
-  forEachInside([](float& value, bool inside) { value = inside ? 1.0F : 0.0F; });
-  filter(*field);
-  forEachInside(
-      [](float& value, bool inside)
-      { value = inside ? std::max(value, kInsideFloor) : std::min(value, 1.0F - kInsideFloor); });
+  tbb::parallel_for(0, (dims[2] + kSlab - 1) / kSlab,
+                    [&](int slab)
+                    { filterSlab(slab * kSlab, std::min((slab + 1) * kSlab, dims[2])); });
   return field;
 }
 

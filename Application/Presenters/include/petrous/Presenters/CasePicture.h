@@ -1,5 +1,6 @@
 #pragma once
 
+#include "petrous/Core/Progress.h"
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Rendering/StandardViews.h"
 #include "petrous/Scene/Case.h"
@@ -7,10 +8,9 @@
 namespace petrous::presenters
 {
 
-/// What a picture of the case shows. Loads the CT, and label maps and meshes only where something
-/// of them is shown. The mask is shared with the case's dissection where that is loaded and
-/// something was cut.
-rendering::SceneContents sceneContents(const scene::Case& value);
+/// What one picture of the case shows (SceneAssembly.h, for those who draw it again and again).
+rendering::SceneContents sceneContents(const scene::Case& value,
+                                       const core::Progress& progress = {});
 
 /// A standard view that frames the case's bone (TissueExtent.h), drilled or not. Loads the CT.
 core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view);

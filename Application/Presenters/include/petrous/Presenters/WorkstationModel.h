@@ -8,6 +8,7 @@
 
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/PointerDrill.h"
+#include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
@@ -64,6 +65,10 @@ public:
 
   void setIso(double hounsfield);
   void setLook(const std::string& structure, const appearance::StructureLook& look);
+  void setBoneLook(const appearance::StructureLook& look);
+
+  /// What a picture of the case shows, only with a case; see SceneAssembly.
+  rendering::SceneContents sceneContents() { return m_assembly.contents(*m_case); }
 
   const Eigen::Vector3d& crosshair() const noexcept { return m_crosshair; }
   void setCrosshair(const Eigen::Vector3d& patient); ///< held within the CT
@@ -90,6 +95,7 @@ private:
 
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
+  SceneAssembly m_assembly;
   std::optional<DrillSession> m_session; ///< made when first asked for
   std::optional<PointerDrill> m_drill;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
+
+#include "petrous/Appearance/TransferFunction.h"
 
 namespace petrous::appearance
 {
@@ -11,12 +14,21 @@ struct StructureLook
 {
   std::string preset = "other";
   std::array<float, 3> color{0.4F, 0.72F, 0.45F}; ///< RGB, 0 to 1
-  float opacity = 1.0F;                           ///< 0 to 1
+  float opacity = 1.0F; ///< of its surface, 0 to 1; of a lumen, how much it tints the bone
   bool shown = true;
   bool touchable = true; ///< part of the tissue field of the hand
   bool drillable = true;
   bool solid = true; ///< false: a lumen, coloured and named but no tissue
+
+  std::optional<TransferFunction> transfer; ///< absent: `color` at every intensity
+  bool relative = false;   ///< the values of `transfer` are stretched to the case (onScale)
+  std::string sourceImage; ///< the MR whose intensities `transfer` reads; empty: the CT
+  float shininess = 18.0F; ///< exponent of the highlight, 1 to 200
+  int priority = 90; ///< where structures overlap, the one with the lowest number has the voxel
 };
+
+constexpr float kSmallestShininess = 1.0F;
+constexpr float kLargestShininess = 200.0F;
 
 /// Sets shown, touchable and drillable from a comma-separated list of the flags that hold, e.g.
 /// "shown,drillable"; "none" clears all. Throws InvalidParameter naming an unknown flag.
@@ -24,5 +36,13 @@ void setFlags(StructureLook& look, const std::string& flags);
 
 /// The flags that hold, as `setFlags` takes them.
 std::string flagsOf(const StructureLook& look);
+
+/// Gives the look another colour; its transfer function takes that colour too and keeps how bright
+/// each of its points is beside the look's colour. Throws InvalidParameter outside 0 to 1.
+void setColor(StructureLook& look, const std::array<float, 3>& color);
+
+/// Takes over how `preset` looks, whether it is a lumen, and its priority; flags and the image that
+/// is read stay.
+void applyPreset(StructureLook& look, const StructureLook& preset);
 
 } // namespace petrous::appearance

@@ -9,7 +9,7 @@
 namespace petrous::appearance
 {
 
-/// The catalogue of looks by a structure's name (Resources/structures.json).
+/// The catalogue of looks, and which one a structure's name asks for (Resources/structures.json).
 class StructurePresets
 {
 public:
@@ -22,14 +22,28 @@ public:
   /// The look that a structure of this name starts with, e.g. "facial_nerve" -> nerve.
   StructureLook lookFor(const std::string& structureName) const;
 
+  /// The preset of this name, or the one that the name would get as a structure's, e.g. "vessel" ->
+  /// artery. Throws InvalidParameter listing the presets.
+  StructureLook preset(const std::string& name) const;
+
+  /// Every preset, "other" last.
+  std::vector<StructureLook> all() const;
+
 private:
-  struct Entry
+  struct Words
   {
     std::vector<std::string> words;
-    StructureLook look;
+    std::size_t preset; ///< index in `m_presets`
   };
-  std::vector<Entry> m_entries;
+  const StructureLook* find(const std::string& name) const; ///< null: no such preset
+  const StructureLook* lookByWord(const std::string& structureName) const;
+
+  std::vector<StructureLook> m_presets;
+  std::vector<Words> m_words;
   StructureLook m_other;
 };
+
+/// What bone starts with: the preset "bone".
+StructureLook boneLook();
 
 } // namespace petrous::appearance

@@ -17,7 +17,8 @@ struct BenchmarkPoint
   double seconds = 0.0;                       ///< median wall time of the operation
   double error = 0.0;                         ///< in errorUnit, against the stated truth
   std::string errorUnit;
-  std::string peer; ///< the other program or rule measured in the same run; empty for ours
+  std::string peer;   ///< the other program or rule measured in the same run; empty for ours
+  std::string series; ///< the parameter that is varied; its points are joined in the plot
   std::map<std::string, double> extra; ///< further figures, unit in the name
 };
 
@@ -27,6 +28,7 @@ struct BenchmarkReport
   std::string name;
   std::string title;
   std::vector<BenchmarkPoint> points;
+  std::map<std::string, std::string> machine = {}; ///< beside the processor, e.g. the GPU
 };
 
 } // namespace petrous::core

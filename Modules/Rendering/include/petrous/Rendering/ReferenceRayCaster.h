@@ -1,78 +1,54 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Rendering/Picture.h"
+#include "petrous/Rendering/PixelRays.h"
 #include "petrous/Rendering/SceneContents.h"
-#include "petrous/Volume/TissueField.h"
 
 namespace petrous::rendering
 {
 
-/// The ray through a pixel's centre, patient LPS mm.
-struct PixelRay
-{
-  Eigen::Vector3d origin;    ///< perspective: the camera; parallel: on the camera's plane
-  Eigen::Vector3d direction; ///< unit
-};
-
-/// Rays of a camera for a picture of width x height, rows from the top. The angle is vertical and
-/// the parallel scale half the height; pixels are square.
-class PixelRays
-{
-public:
-  /// Throws InvalidParameter for a camera without direction, up or extent.
-  PixelRays(const core::CameraPose& camera, int width, int height);
-  PixelRay through(double column, double row) const; ///< 0, 0 is the centre of the first pixel
-
-private:
-  core::CameraPose m_camera;
-  Eigen::Vector3d m_right;
-  Eigen::Vector3d m_down;
-  Eigen::Vector3d m_forward;
-  double m_pixel; // edge of a pixel at distance 1 mm (perspective), or in mm
-  double m_centerColumn;
-  double m_centerRow;
-};
-
 struct ReferencePicture
 {
   Picture picture;
-  DepthImage depth;
+  std::vector<float> rgb; ///< the same before rounding: 0 to 1, 3 a pixel, rows from the top
+  DepthImage depth;       ///< to the first surface of the tissue, however transparent it is
 };
 
-/// The truth that pictures are held against: the first surface of f along each pixel's ray, in
-/// double precision, by constant small steps and bisection, without skipping or early end.
+/// The truth that pictures are held against: the optical model of src/OpticalModel.h followed along
+/// each pixel's ray in double precision, by constant small steps and bisection, without skipping.
+/// Meshes and the tool end a ray; a translucent mesh, which the GPU draws as a screen door, is the
+/// mean over its pixels. Depth is that of the tissue in front of what is opaque.
 ///
-/// Only the CPU is used. Lit like the picture: a lamp at the camera. A point that lies inside a
-/// shown structure of `contents` has that structure's colour. Translucency is not drawn: f has
-/// one first surface.
+/// Only the CPU is used, so it also draws where OpenGL is missing.
 class ReferenceRayCaster
 {
 public:
-  /// The field must outlive the caster; `contents` gives iso, structures and light.
-  ReferenceRayCaster(const volume::TissueField& field, const SceneContents& contents);
+  struct Quality
+  {
+    /// Of the smallest spacing of the CT, in (0, 1]. At the default, half of it changes a picture
+    /// by less than 0.1 of an 8-bit level (RMS).
+    double step = 1.0 / 16.0;
+  };
+
+  /// Shares the voxels of `contents` and reads the mask as it stands when `render` is called.
+  /// Throws RenderingError BadContents where the contents contradict themselves (a material that is
+  /// missing, a mask on another grid), InvalidParameter for a bad step.
+  explicit ReferenceRayCaster(const SceneContents& contents);
+  ReferenceRayCaster(const SceneContents& contents, const Quality& quality);
   ~ReferenceRayCaster();
 
-  /// Throws RenderingError BadSize, InvalidParameter, CancelledError.
+  /// Throws RenderingError BadSize, InvalidParameter (a bad camera), CancelledError.
   ReferencePicture render(const core::CameraPose& camera, int width, int height,
                           const core::Progress& progress = {}) const;
 
 private:
-  struct Structure
-  {
-    std::shared_ptr<const volume::Volume<float>> inside;
-    std::array<float, 3> color;
-  };
-  Eigen::Vector3d colorAt(const Eigen::Vector3d& patient, const Eigen::Vector3d& normal) const;
-
-  const volume::TissueField& m_field;
-  SceneContents m_contents;
-  std::vector<Structure> m_structures;
+  class Implementation;
+  std::unique_ptr<Implementation> m_implementation;
 };
 
 } // namespace petrous::rendering

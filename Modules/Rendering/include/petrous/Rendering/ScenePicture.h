@@ -7,6 +7,8 @@
 #include <string>
 
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Rendering/Picture.h"
+#include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/SceneContents.h"
 
 class vtkRenderer;
@@ -16,9 +18,9 @@ namespace petrous::rendering
 
 /// The scene as props in a VTK renderer: the window's and the command's picture alike.
 ///
-/// Bone is the surface of min(c_CT, mask - 0.5), a structure that of
-/// min(smoothed occupancy - 0.5, mask - 0.5): the operands of the tissue field, so cut walls lie
-/// where the hand feels them. Main thread only; the renderer draws when its window is rendered.
+/// CT, structures, cut and second image are drawn by vtkPetrousVolumeMapper from the tissue field
+/// itself, so cut walls lie where the hand feels them; meshes and tool are polygons in the same
+/// picture. Main thread only; the renderer draws when its window is rendered.
 class ScenePicture
 {
 public:
@@ -45,8 +47,28 @@ public:
   void setCamera(const core::CameraPose& pose);
   core::CameraPose camera() const;
 
-  /// Coarser while something moves, so that it stays fluent on a machine without a GPU.
+  /// Coarser while something moves, so that frames come at the wanted rate (30 Hz unless set, which
+  /// throws InvalidParameter outside 1 to 240); fine again in the next frame after it.
   void setInteractive(bool interactive);
+  void setInteractionRate(double hz);
+
+  void setQuality(const RenderQuality& quality);
+  const RenderQuality& quality() const;
+
+  /// Counts fetches and samples of the frames that follow, at the price of their time.
+  void setCounting(bool counting);
+  const RenderStatistics& statistics() const; ///< of the last frame
+
+  /// Throws what went wrong in the last frame (RenderingError), once.
+  void throwLastError();
+
+  /// Of the last frame: distance to the first surface of the volume along each pixel's ray, mm,
+  /// rows from the top; polygons end a ray. Makes the window's context current.
+  DepthImage depth() const;
+
+  /// The first surface of the volume at a pixel of the last frame (column and row from the top left
+  /// of the renderer's part of the window), patient LPS mm; nothing where there is none.
+  std::optional<Eigen::Vector3d> pick(double column, double row) const;
 
   /// What is held for the picture, in bytes: ct.*, mask.*, labels.*, meshes.*.
   std::map<std::string, std::size_t> resources() const;

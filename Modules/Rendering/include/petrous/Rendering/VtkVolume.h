@@ -18,4 +18,8 @@ vtkSmartPointer<vtkImageData> wrap(const std::shared_ptr<const volume::Volume<T>
 /// The same for a CT or MR image of any of its types.
 vtkSmartPointer<vtkImageData> wrap(const volume::IntensityVolume& volume);
 
+/// The other way: an image of VTK as a volume of the same memory, kept alive. One component of
+/// int16, uint16 or float, else InvalidParameter saying what is needed.
+std::shared_ptr<const volume::IntensityVolume> unwrap(vtkImageData* image);
+
 } // namespace petrous::rendering

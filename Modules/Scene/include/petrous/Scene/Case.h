@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "petrous/Appearance/StructureLook.h"
+#include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/Lazy.h"
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
+#include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelMap.h"
 
@@ -78,7 +79,11 @@ struct Case
   std::string name;
   std::uint64_t revision = 0; ///< of the manifest on disk; 0: never saved
   double iso = 300.0;         ///< HU
+  /// HU of dense bone, where presets put their densest look; another number in an image that is not
+  /// calibrated.
+  double denseBone = volume::IntensityScale{}.dense;
   ImagePart ct;
+  appearance::StructureLook boneLook = appearance::boneLook(); ///< of the CT's own tissue
   std::vector<ImagePart> mr;
   std::vector<LabelPart> labels;
   std::vector<MeshPart> meshes;
@@ -89,6 +94,7 @@ struct Case
   std::shared_ptr<dissection::Dissection> dissection;
 
   double removedVolume() const; ///< mm^3, of the strokes that are done
+  volume::IntensityScale intensityScale() const { return {iso, denseBone}; }
 };
 
 /// Steps `count` strokes back (or forth) in the list and in the voxels where they are loaded.
@@ -103,11 +109,17 @@ std::shared_ptr<const dissection::Stroke> endStroke(Case& value);
 StructurePart* findStructure(Case& value, const std::string& name);
 const StructurePart* findStructure(const Case& value, const std::string& name);
 MeshPart* findMesh(Case& value, const std::string& name);
+const ImagePart* findMr(const Case& value, const std::string& name);
+
+/// Whether the name means the CT's own tissue: "ct", and "bone" where no structure or mesh is
+/// called that.
+bool meansBone(const Case& value, const std::string& name);
 
 /// Every name a part of the case goes by, to keep new ones apart. "ct" is always among them.
 std::vector<std::string> partNames(const Case& value);
 
-/// Removes an MR, a structure or a mesh. Throws InvalidParameter naming the parts there are.
+/// Removes an MR, a structure or a mesh; looks that read a removed MR read the CT again. Throws
+/// InvalidParameter naming the parts there are.
 void removePart(Case& value, const std::string& name);
 
 /// Throws InvalidParameter unless the name fits a file on every system: 1 to 100 bytes of UTF-8, no

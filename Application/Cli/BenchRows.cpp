@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "BenchPlot.h"
+#include "Numbers.h"
+#include "SvgParts.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+constexpr double kWidth = 1040.0;
+constexpr double kLeft = 400.0;
+constexpr double kRight = 30.0;
+constexpr double kTop = 110.0;
+constexpr double kRow = 24.0;
+
+std::size_t placeOf(std::vector<std::string>& names, const std::string& name)
+{
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto place = static_cast<std::size_t>(found - names.begin());
+  if (found == names.end())
+    names.push_back(name);
+  return place;
+}
+
+} // namespace
+
+std::string rowsSvg(const core::BenchmarkReport& report)
+{
+  std::vector<std::string> scenes, programs{"petrous"};
+  std::vector<double> seconds;
+  for (const auto& point : report.points)
+    if (point.series.empty())
+    {
+      placeOf(scenes, point.scene);
+      placeOf(programs, point.peer.empty() ? "petrous" : point.peer);
+      seconds.push_back(point.seconds);
+    }
+  const svg::LogAxis axis(seconds);
+  const double bottom = kTop + kRow * static_cast<double>(scenes.size());
+  const auto px = [&](double share) { return kLeft + share * (kWidth - kLeft - kRight); };
+  std::string result = svg::start(kWidth, bottom + 50.0, "Median time of a frame, s");
+  for (std::size_t n = 0; n < programs.size(); ++n)
+  {
+    const double x = 30.0 + 330.0 * static_cast<double>(n % 3);
+    const double y = 52.0 + 20.0 * static_cast<double>(n / 3);
+    result += svg::dot(x, y - 4, svg::color(n), programs[n]) + svg::text(x + 12, y, programs[n]);
+  }
+  for (const auto& tick : axis.ticks())
+    result += svg::line(px(tick.share), kTop, px(tick.share), bottom) +
+              svg::text(px(tick.share), bottom + 18, tick.label, "text-anchor=\"middle\"");
+  for (std::size_t n = 0; n < scenes.size(); ++n)
+    result += svg::text(kLeft - 12, kTop + kRow * (static_cast<double>(n) + 0.5) + 4, scenes[n],
+                        "text-anchor=\"end\" font-size=\"11\"");
+  for (const auto& point : report.points)
+  {
+    if (!point.series.empty())
+      continue;
+    const double x = px(axis.share(point.seconds));
+    const double y = kTop + kRow * (static_cast<double>(placeOf(scenes, point.scene)) + 0.5);
+    const std::string program = point.peer.empty() ? "petrous" : point.peer;
+    const std::string milliseconds = fixed(1e3 * point.seconds, point.seconds < 0.01 ? 2 : 0);
+    result += svg::dot(x, y, svg::color(placeOf(programs, program)),
+                       program + ", " + point.scene + ": " + milliseconds + " ms");
+    if (point.peer.empty())
+      result += svg::text(x, y - 8, milliseconds + " ms", "text-anchor=\"middle\" font-size=\"9\"");
+  }
+  return result + "</svg>\n";
+}
+
+std::map<std::string, std::string> plotsOf(const core::BenchmarkReport& report)
+{
+  std::vector<std::string> scenes;
+  for (const auto& point : report.points)
+    if (!point.series.empty())
+      placeOf(scenes, point.scene);
+  if (scenes.empty())
+    return {{"", plotSvg(report)}};
+  std::map<std::string, std::string> plots;
+  for (std::size_t n = 0; n < scenes.size(); ++n)
+  {
+    core::BenchmarkReport part{report.name, report.title + ": " + scenes[n], {}};
+    for (const auto& point : report.points)
+      if (point.scene == scenes[n] &&
+          (!point.series.empty() || std::isnan(point.error) || point.isDefault))
+        part.points.push_back(point);
+    plots[n == 0 ? "" : "-" + std::to_string(n + 1)] = seriesSvg(part);
+  }
+  plots["-frames"] = rowsSvg(report);
+  return plots;
+}
+
+} // namespace petrous::cli

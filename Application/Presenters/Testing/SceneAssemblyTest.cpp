@@ -1,0 +1,217 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/SceneAssembly.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+
+namespace
+{
+
+const core::GridGeometry kGrid({24, 24, 24}, Vector3d::Constant(0.5), Vector3d::Zero());
+
+std::shared_ptr<const volume::IntensityVolume> air()
+{
+  return std::make_shared<const volume::IntensityVolume>(
+      std::make_shared<const volume::Volume<std::int16_t>>(kGrid, std::int16_t{-1000}));
+}
+
+// Two overlapping slabs of 8 voxels, "low" and "high", in maps of their own, and a third elsewhere.
+scene::Case slabs()
+{
+  scene::Case value;
+  value.name = "slabs";
+  value.ct.geometry = kGrid;
+  value.ct.volume = air();
+  for (const auto& [name, first] :
+       {std::pair{"low", 4}, std::pair{"high", 8}, std::pair{"far", 18}})
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(kGrid, std::uint16_t{0});
+    for (int k = first; k < std::min(first + 8, 24); ++k)
+      for (int j = 4; j < 20; ++j)
+        for (int i = 4; i < 20; ++i)
+          voxels->at(i, j, k) = 7;
+    scene::LabelPart part;
+    part.labels =
+        std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(voxels), {}));
+    scene::StructurePart s;
+    s.name = name;
+    s.index = 7;
+    part.structures = {s};
+    value.labels.push_back(std::move(part));
+  }
+  return value;
+}
+
+appearance::StructureLook& look(scene::Case& value, const char* name)
+{
+  return scene::findStructure(value, name)->look;
+}
+
+scene::ImagePart mr(const char* name, bool registered, bool& loaded)
+{
+  scene::ImagePart part;
+  part.name = name;
+  part.registered = registered;
+  part.mrFromCt = {Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0}};
+  part.volume = core::Lazy<volume::IntensityVolume>(
+      [&loaded]
+      {
+        loaded = true;
+        return air();
+      });
+  return part;
+}
+
+int materialAt(const rendering::SceneContents& contents, const Vector3d& patient)
+{
+  const auto& index = *contents.labels->index;
+  const Vector3d voxel = index.geometry().voxelFromPatient(patient);
+  return index.at(int(std::lround(voxel[0])), int(std::lround(voxel[1])),
+                  int(std::lround(voxel[2])));
+}
+
+const Vector3d kOverlap(6.0, 6.0, 5.0);
+
+} // namespace
+
+TEST(SceneAssembly, KeepsTheLabelFieldWhileTheSameVoxelsAreShown)
+{
+  scene::Case value = slabs();
+  SceneAssembly assembly;
+  const auto first = assembly.contents(value).labels;
+  ASSERT_NE(first, nullptr);
+  look(value, "low").color = {1.0F, 0.0F, 0.0F};
+  look(value, "low").opacity = 0.3F;
+  look(value, "low").transfer = appearance::TransferFunction::constant({0, 1, 0}, 0.5F);
+  look(value, "high").touchable = false;
+  value.boneLook.shown = false;
+  value.iso = 500.0;
+  const auto contents = assembly.contents(value);
+  EXPECT_EQ(contents.labels, first);
+  EXPECT_EQ(contents.materials.at(1).surfaceOpacity, 0.3F);
+  EXPECT_FALSE(contents.boneShown);
+  look(value, "far").shown = false;
+  EXPECT_NE(assembly.contents(value).labels, first);
+  for (const char* name : {"low", "high"})
+    look(value, name).shown = false;
+  EXPECT_EQ(assembly.contents(value).labels, nullptr);
+}
+
+TEST(SceneAssembly, GivesAnOverlapToTheLowerPriority)
+{
+  scene::Case value = slabs();
+  SceneAssembly assembly;
+  const auto shininessThere = [&]
+  {
+    const auto contents = assembly.contents(value);
+    return contents.materials.at(std::size_t(materialAt(contents, kOverlap))).shininess;
+  };
+  look(value, "low").shininess = 11.0F;
+  look(value, "high").shininess = 22.0F;
+  look(value, "low").priority = 80;
+  look(value, "high").priority = 10;
+  EXPECT_EQ(shininessThere(), 22.0F);
+  look(value, "low").priority = 5;
+  EXPECT_EQ(shininessThere(), 11.0F);
+}
+
+TEST(SceneAssembly, NumbersMaterialsByTheShownStructuresAfterBone)
+{
+  scene::Case value = slabs();
+  look(value, "low").shown = false;
+  look(value, "high").shininess = 31.0F;
+  look(value, "far").shininess = 77.0F;
+  const auto contents = sceneContents(value);
+  ASSERT_EQ(contents.materials.size(), 3u);
+  EXPECT_EQ(contents.materials[1].shininess, 31.0F);
+  EXPECT_EQ(contents.materials[2].shininess, 77.0F);
+  EXPECT_EQ(materialAt(contents, {6.0, 6.0, 10.0}), 2);
+  EXPECT_EQ(materialAt(contents, kOverlap), 1) << "of what is shown";
+}
+
+TEST(SceneAssembly, LoadsNoLabelsWhereNothingOfThemIsShown)
+{
+  scene::Case value = slabs();
+  look(value, "far").shown = false;
+  bool loaded = false;
+  value.labels[2].labels = core::Lazy<volume::LabelMap>(
+      [&loaded]
+      {
+        loaded = true;
+        return std::make_shared<const volume::LabelMap>();
+      });
+  sceneContents(value);
+  EXPECT_FALSE(loaded);
+}
+
+TEST(SceneAssembly, PresetsFollowWhereBoneLies)
+{
+  scene::Case value = slabs();
+  value.iso = 9000.0;
+  value.denseBone = 21000.0;
+  const auto points = sceneContents(value).materials.at(0).transfer.points();
+  EXPECT_DOUBLE_EQ(points.front().value, 9000.0) << "bone begins at 300 HU";
+  value.boneLook.relative = false;
+  const auto absolute = sceneContents(value).materials.at(0).transfer.points();
+  EXPECT_DOUBLE_EQ(absolute.front().value, 300.0);
+}
+
+TEST(SceneAssembly, DrawsTheFirstRegisteredMrThatALookAsksFor)
+{
+  scene::Case value = slabs();
+  bool t1 = false;
+  bool t2 = false;
+  bool t3 = false;
+  value.mr = {mr("t1", false, t1), mr("t2", true, t2), mr("t3", true, t3)};
+  for (const char* name : {"low", "high", "far"})
+    look(value, name).transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
+  EXPECT_EQ(sceneContents(value).second.volume, nullptr);
+  look(value, "low").sourceImage = "t1";  // not registered
+  look(value, "high").sourceImage = "t3"; // and t2 is not asked for
+  const auto contents = sceneContents(value);
+  EXPECT_NE(contents.second.volume, nullptr);
+  EXPECT_EQ(contents.second.secondFromCt.translation(), Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(contents.materials.at(1).source, appearance::IntensitySource::Ct);
+  EXPECT_FALSE(contents.materials.at(1).transfer == *look(value, "low").transfer)
+      << "values of an MR are not read from the CT";
+  EXPECT_EQ(contents.materials.at(2).source, appearance::IntensitySource::Second);
+  EXPECT_TRUE(t3);
+  EXPECT_FALSE(t1 || t2);
+}
+
+TEST(SceneAssembly, AHiddenStructureAsksForNoMr)
+{
+  scene::Case value = slabs();
+  bool loaded = false;
+  value.mr = {mr("t1", true, loaded)};
+  look(value, "low").transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
+  look(value, "low").sourceImage = "t1";
+  look(value, "low").shown = false;
+  sceneContents(value);
+  EXPECT_FALSE(loaded);
+}
+
+TEST(SceneAssembly, ALumenTintsBone)
+{
+  scene::Case value = slabs();
+  look(value, "low").solid = false;
+  look(value, "low").opacity = 0.35F;
+  value.boneLook.opacity = 0.7F;
+  const auto contents = sceneContents(value);
+  EXPECT_TRUE(contents.materials.back().lumen);
+  EXPECT_EQ(contents.materials.back().surfaceOpacity, 0.7F);
+}
+
+TEST(SceneAssembly, RefusesMoreStructuresThanAnIndexHolds)
+{
+  scene::Case value = slabs();
+  value.labels.resize(1);
+  auto& structures = value.labels[0].structures;
+  structures.resize(256, structures.front());
+  EXPECT_THROW(sceneContents(value), core::InvalidParameter);
+  structures.back().look.shown = false;
+  EXPECT_EQ(sceneContents(value).materials.size(), 256u);
+}

@@ -1,0 +1,114 @@
+#include "petrous/Presenters/SceneAssembly.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Scene/CaseField.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using appearance::IntensitySource;
+using appearance::Material;
+using appearance::StructureLook;
+
+using Structures = std::vector<const scene::StructurePart*>;
+
+bool sameVoxels(const std::vector<volume::LabelSource>& a,
+                const std::vector<volume::LabelSource>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y)
+                    {
+                      return x.labels == y.labels && x.segment == y.segment &&
+                             x.material == y.material && x.solid == y.solid;
+                    });
+}
+
+bool readsSecond(const StructureLook& look)
+{
+  return appearance::materialOf(look).source == IntensitySource::Second;
+}
+
+const scene::ImagePart* secondImage(const scene::Case& value, const Structures& structures)
+{
+  for (const scene::ImagePart& mr : value.mr)
+  {
+    const auto asks = [&mr](const StructureLook& look)
+    { return look.sourceImage == mr.name && readsSecond(look); };
+    const auto asksToo = [&asks](const auto* structure)
+    { return structure->look.solid && asks(structure->look); };
+    if (mr.registered && ((value.boneLook.shown && asks(value.boneLook)) ||
+                          std::any_of(structures.begin(), structures.end(), asksToo)))
+      return &mr;
+  }
+  return nullptr;
+}
+
+// What asks for an image that is not drawn must not read its values from the CT.
+StructureLook drawn(StructureLook look, const scene::ImagePart* second)
+{
+  if (readsSecond(look) && !(second && look.sourceImage == second->name))
+  {
+    look.sourceImage.clear();
+    look.transfer.reset();
+  }
+  return look;
+}
+
+std::vector<Material> materialsOf(const scene::Case& value, const Structures& structures,
+                                  const scene::ImagePart* second)
+{
+  const volume::IntensityScale scale = value.intensityScale();
+  std::vector<Material> materials{materialOf(drawn(value.boneLook, second), scale)};
+  for (const auto* structure : structures)
+  {
+    const StructureLook& look = structure->look;
+    materials.push_back(look.solid ? materialOf(drawn(look, second), scale)
+                                   : lumenMaterial(look, materials.front(), scale));
+  }
+  return materials;
+}
+
+} // namespace
+
+rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
+                                                 const core::Progress& progress)
+{
+  rendering::SceneContents contents;
+  contents.ct = value.ct.volume.get();
+  contents.iso = value.iso;
+  if (value.dissection && !std::as_const(*value.dissection).mask().untouched())
+    contents.mask = {value.dissection, &std::as_const(*value.dissection).mask()};
+
+  auto shown = scene::labelSources(value, [](const auto& look) { return look.shown; });
+  if (!sameVoxels(shown.sources, m_sources))
+  {
+    m_sources.clear(); // what follows may throw
+    m_labels = nullptr;
+    m_labels = shown.sources.empty() ? nullptr : volume::makeLabelField(shown.sources, progress);
+    m_sources = std::move(shown.sources);
+  }
+  contents.labels = m_labels;
+  const scene::ImagePart* second = secondImage(value, shown.structures);
+  if (second)
+    contents.second = {second->volume.get(), second->mrFromCt};
+  contents.boneShown = value.boneLook.shown;
+  contents.materials = materialsOf(value, shown.structures, second);
+
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      if (structure.look.shown)
+        contents.structures.push_back(
+            {structure.name, part.labels.get(), structure.index, structure.look});
+  for (const auto& mesh : value.meshes)
+    if (mesh.look.shown && !scene::findStructure(value, mesh.name))
+      contents.meshes.push_back({mesh.name, mesh.mesh.get(), mesh.look});
+  return contents;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,109 @@
+#include "GlProgram.h"
+
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+[[noreturn]] void refuse(const std::string& what, const std::string& log)
+{
+  throw RenderingError(RenderingError::Reason::NoOpenGL,
+                       "the graphics driver refuses " + what + ": " + log);
+}
+
+GLuint compile(GLenum kind, const std::string& source)
+{
+  const GLuint shader = glCreateShader(kind);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint done = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  if (done)
+    return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  glDeleteShader(shader);
+  refuse("the renderer's shader", log);
+}
+
+} // namespace
+
+void GlProgram::build(const std::string& vertex, const std::string& fragment)
+{
+  release();
+  const GLuint first = compile(GL_VERTEX_SHADER, vertex);
+  const GLuint second = compile(GL_FRAGMENT_SHADER, fragment);
+  m_name = glCreateProgram();
+  glAttachShader(m_name, first);
+  glAttachShader(m_name, second);
+  glLinkProgram(m_name);
+  glDeleteShader(first);
+  glDeleteShader(second);
+  GLint done = 0;
+  glGetProgramiv(m_name, GL_LINK_STATUS, &done);
+  if (done)
+    return;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(m_name, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  release();
+  refuse("to link the renderer's shaders", log);
+}
+
+void GlProgram::release()
+{
+  if (m_name)
+    glDeleteProgram(m_name);
+  m_name = 0;
+  m_locations.clear();
+}
+
+GLint GlProgram::location(const char* name)
+{
+  const auto found = m_locations.find(name);
+  if (found != m_locations.end())
+    return found->second;
+  return m_locations.emplace(name, glGetUniformLocation(m_name, name)).first->second;
+}
+
+void GlProgram::set(const char* name, int value)
+{
+  glUniform1i(location(name), value);
+}
+
+void GlProgram::set(const char* name, double value)
+{
+  glUniform1f(location(name), static_cast<float>(value));
+}
+
+void GlProgram::set(const char* name, const Eigen::Vector3d& value)
+{
+  const Eigen::Vector3f single = value.cast<float>();
+  glUniform3fv(location(name), 1, single.data());
+}
+
+void GlProgram::set(const char* name, const Eigen::Vector4d& value)
+{
+  const Eigen::Vector4f single = value.cast<float>();
+  glUniform4fv(location(name), 1, single.data());
+}
+
+void GlProgram::set(const char* name, const Eigen::Matrix3d& value)
+{
+  const Eigen::Matrix3f single = value.cast<float>();
+  glUniformMatrix3fv(location(name), 1, GL_FALSE, single.data());
+}
+
+void GlProgram::setArray(const char* name, const float* vectors4, int count)
+{
+  glUniform4fv(location(name), count, vectors4);
+}
+
+} // namespace petrous::rendering

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <vtk_glew.h>
+
+#include "GlProgram.h"
+#include "RayView.h"
+#include "SceneTextures.h"
+#include "petrous/Rendering/Picture.h"
+#include "petrous/Rendering/RenderQuality.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::rendering
+{
+
+/// Casts the rays of RayCast.frag.glsl into a picture of its own: the graphics side of
+/// vtkPetrousVolumeMapper, without VTK.
+///
+/// `draw`, `present`, `release` and the read-backs need the context current in which the first
+/// frame was drawn; the setters do not touch OpenGL.
+class RayCaster
+{
+public:
+  /// What else a frame needs. `opaque`: depth of opaque polygons in the window, or 0.
+  struct Frame
+  {
+    RayView view;
+    int width = 0; ///< of the window's part, pixels
+    int height = 0;
+    GLuint opaque = 0;
+  };
+
+  /// Keeps on the card what did not change. Throws RenderingError BadContents.
+  void setContents(const SceneContents& contents);
+  void setQuality(const RenderQuality& quality);
+
+  /// Marks a box of CT voxels of the mask as changed, to less or to more; null: nothing is cut.
+  void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
+
+  /// Into the own picture; counting is slower. Throws RenderingError NoOpenGL.
+  void draw(const Frame& frame, bool count);
+
+  /// The own picture over the bound frame buffer; blending is set up by the caller.
+  void present(int width, int height);
+
+  /// Distance to the first surface, mm along each pixel's ray, rows from the top.
+  DepthImage readDepth() const;
+  /// At one pixel, rows from the top; NaN where none.
+  float readDepth(double column, double row, int width, int height) const;
+
+  void release();
+  const RenderStatistics& statistics() const noexcept { return m_statistics; }
+
+private:
+  enum Feature : unsigned
+  {
+    Bone = 1,
+    Labels = 2,
+    Mask = 4,
+    Second = 8,
+    Interior = 16,
+    Clip = 32
+  };
+  struct Target
+  {
+    GlTexture color, depth, count;
+    GLuint framebuffer = 0;
+    bool counting = false;
+  };
+
+  unsigned features() const;
+  OccupancyGrid::Rules rules() const;
+  void upload();
+  void uploadMaterials();
+  void prepareTarget(int width, int height, bool count);
+  GlProgram& program(unsigned features, bool count);
+  void bindTextures(GlProgram& program, const Frame& frame) const;
+  void setRays(GlProgram& program, const Frame& frame) const;
+  void setVolume(GlProgram& program) const;
+  void readCounts();
+  void drawTriangle();
+
+  SceneContents m_contents;
+  RenderQuality m_quality;
+  RenderStatistics m_statistics;
+  std::unique_ptr<OccupancyGrid> m_occupancy;
+
+  bool m_newCt = false, m_newLabels = false, m_newMaterials = false, m_newSecond = false;
+  bool m_newRules = false;
+  core::IndexBox m_dirtyBricks;
+  volume::ValueRange m_ctRange, m_secondRange;
+
+  IntensityTexture m_ct, m_second;
+  MaskTexture m_mask;
+  LabelTextures m_labels;
+  MaterialTables m_materials;
+  GlTexture m_bricks;
+  Target m_target;
+  GLuint m_vertexArray = 0;
+  std::unordered_map<unsigned, GlProgram> m_programs;
+  GlProgram m_present;
+};
+
+} // namespace petrous::rendering

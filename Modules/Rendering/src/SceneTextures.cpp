@@ -1,0 +1,367 @@
+#include "SceneTextures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+std::size_t voxelsOf(const core::IndexBox& box)
+{
+  const core::Index3 size = box.size();
+  return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+         static_cast<std::size_t>(size[2]);
+}
+
+core::IndexBox wholeBox(const core::Index3& dims)
+{
+  return {{0, 0, 0}, dims};
+}
+
+// What no value is to a texture: far below every threshold, finite, so that it cannot spread.
+constexpr float kNoValue = -1e30F;
+
+template <class T>
+TexelFormat formatOf()
+{
+  if constexpr (std::is_same_v<T, std::int16_t>)
+    return texel::kShort;
+  else if constexpr (std::is_same_v<T, std::uint16_t>)
+    return texel::kUnsignedShort;
+  else
+    return texel::kFloat;
+}
+
+template <class T>
+double unitOf()
+{
+  return std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
+}
+
+// A copy without values that are no numbers; empty where there are none.
+std::vector<float> cleaned(const float* values, std::size_t count)
+{
+  if (std::all_of(values, values + count, [](float v) { return std::isfinite(v); }))
+    return {};
+  std::vector<float> copy(values, values + count);
+  for (float& value : copy)
+    value = std::isnan(value) ? kNoValue : std::clamp(value, kNoValue, -kNoValue);
+  return copy;
+}
+
+} // namespace
+
+void IntensityTexture::upload(const volume::IntensityVolume& volume)
+{
+  volume.visit(
+      [this](const auto& voxels)
+      {
+        using T = typename std::decay_t<decltype(voxels)>::Value;
+        const core::Index3& dims = voxels.geometry().dims();
+        const TexelFormat format = formatOf<T>();
+        reduction = reductionFor(format, dims);
+        map = textureMap(dims, reduction);
+        unit = unitOf<T>();
+        if (reduction != core::Index3{1, 1, 1})
+        {
+          const core::Index3 texels = reducedDims(dims, reduction);
+          const auto reduced = reduceBox<T>(dims, reduction, wholeBox(texels),
+                                            [&voxels](int i, int j, int k)
+                                            {
+                                              const T value = voxels.at(i, j, k);
+                                              if constexpr (std::is_same_v<T, float>)
+                                                return std::isfinite(value) ? value : kNoValue;
+                                              else
+                                                return value;
+                                            });
+          texture.create(format, texels, reduced.data(), GL_LINEAR);
+          return;
+        }
+        if constexpr (std::is_same_v<T, float>)
+          if (const auto copy = cleaned(voxels.data(), voxels.size()); !copy.empty())
+          {
+            texture.create(format, dims, copy.data(), GL_LINEAR);
+            return;
+          }
+        texture.create(format, dims, voxels.data(), GL_LINEAR);
+      });
+}
+
+// ---- mask
+
+void MaskTexture::reset(std::shared_ptr<const volume::CutMask> mask, int bits)
+{
+  m_mask = std::move(mask);
+  m_bits = bits;
+  m_pending.clear();
+  m_reduction = {0, 0, 0}; // to be made
+}
+
+void MaskTexture::changed(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
+{
+  m_mask = std::move(mask);
+  if (!m_mask || m_reduction[0] == 0)
+    return; // nothing to show, or all of it is uploaded anyway
+  core::IndexBox merged = box.intersected(m_mask->geometry().fullBox());
+  if (merged.empty())
+    return;
+  // A union is worth it where it is hardly more than its parts.
+  for (auto other = m_pending.begin(); other != m_pending.end();)
+  {
+    const core::IndexBox both = merged.united(*other);
+    if (voxelsOf(both) <= (voxelsOf(merged) + voxelsOf(*other)) * 5 / 4)
+    {
+      merged = both;
+      m_pending.erase(other);
+      other = m_pending.begin();
+    }
+    else
+      ++other;
+  }
+  m_pending.push_back(merged);
+}
+
+void MaskTexture::compare()
+{
+  if (!m_mask || m_reduction[0] == 0)
+    return;
+  for (std::size_t brick = 0; brick < m_uploaded.size(); ++brick)
+    if (m_uploaded[brick] != m_mask->brick(brick))
+      changed(m_mask, m_mask->brickBox(brick));
+}
+
+std::size_t MaskTexture::pendingVoxels() const noexcept
+{
+  std::size_t voxels = 0;
+  for (const core::IndexBox& box : m_pending)
+    voxels += voxelsOf(box);
+  return voxels;
+}
+
+template <class T>
+void MaskTexture::uploadAs(const core::IndexBox& texels)
+{
+  const volume::CutMask& mask = *m_mask;
+  const core::Index3& dims = mask.geometry().dims();
+  if (m_reduction != core::Index3{1, 1, 1})
+  {
+    const auto reduced = reduceBox<T>(dims, m_reduction, texels,
+                                      [&mask](int i, int j, int k)
+                                      {
+                                        constexpr int shift = sizeof(T) == 1 ? 8 : 0;
+                                        return mask.at(i, j, k) >> shift;
+                                      });
+    m_texture.update(texels, reduced.data());
+    return;
+  }
+  std::vector<T> values(voxelsOf(texels), std::numeric_limits<T>::max());
+  const core::Index3 size = texels.size();
+  const core::IndexBox bricks = mask.bricksCovering(texels);
+  constexpr int edge = volume::CutMask::kBrickEdge;
+  for (int bk = bricks.lower[2]; bk < bricks.upper[2]; ++bk)
+    for (int bj = bricks.lower[1]; bj < bricks.upper[1]; ++bj)
+      for (int bi = bricks.lower[0]; bi < bricks.upper[0]; ++bi)
+      {
+        const std::size_t index = mask.brickIndex({bi, bj, bk});
+        const auto& brick = mask.brick(index);
+        if (!brick)
+          continue;
+        const core::IndexBox part = mask.brickBox(index).intersected(texels);
+        for (int k = part.lower[2]; k < part.upper[2]; ++k)
+          for (int j = part.lower[1]; j < part.upper[1]; ++j)
+          {
+            const std::uint16_t* from = brick->data() + (part.lower[0] - bi * edge) +
+                                        edge * ((j - bj * edge) + edge * (k - bk * edge));
+            T* to = values.data() + (part.lower[0] - texels.lower[0]) +
+                    static_cast<std::ptrdiff_t>(size[0]) *
+                        ((j - texels.lower[1]) +
+                         static_cast<std::ptrdiff_t>(size[1]) * (k - texels.lower[2]));
+            for (int i = part.lower[0]; i < part.upper[0]; ++i, ++from, ++to)
+              *to = sizeof(T) == 1 ? static_cast<T>((*from + 128U) / 257U) : static_cast<T>(*from);
+          }
+      }
+  m_texture.update(texels, values.data());
+}
+
+void MaskTexture::uploadBox(const core::IndexBox& box)
+{
+  core::IndexBox texels;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    texels.lower[a] = box.lower[a] / m_reduction[a];
+    texels.upper[a] = (box.upper[a] + m_reduction[a] - 1) / m_reduction[a];
+  }
+  if (m_bits == 8)
+    uploadAs<std::uint8_t>(texels);
+  else
+    uploadAs<std::uint16_t>(texels);
+  const core::IndexBox bricks = m_mask->bricksCovering(box);
+  for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
+    for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+      for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+      {
+        const std::size_t brick = m_mask->brickIndex({i, j, k});
+        m_uploaded[brick] = m_mask->brick(brick);
+      }
+}
+
+void MaskTexture::upload()
+{
+  if (!m_mask)
+    return;
+  if (m_reduction[0] == 0)
+  {
+    const TexelFormat format = m_bits == 8 ? texel::kByte : texel::kUnsignedShort;
+    const core::Index3& dims = m_mask->geometry().dims();
+    m_reduction = reductionFor(format, dims);
+    m_map = textureMap(dims, m_reduction);
+    m_texture.create(format, reducedDims(dims, m_reduction), nullptr, GL_LINEAR);
+    const std::uint16_t untouched = volume::CutMask::kUntouched;
+    m_texture.fill(&untouched);
+    m_pending.clear();
+    m_uploaded.assign(m_mask->brickCount(), nullptr);
+    for (std::size_t brick = 0; brick < m_mask->brickCount(); ++brick)
+      if (m_mask->brick(brick))
+        uploadBox(m_mask->brickBox(brick));
+    return;
+  }
+  std::size_t room = kVoxelsPerFrame;
+  while (!m_pending.empty() && room > 0)
+  {
+    core::IndexBox& box = m_pending.front();
+    const core::Index3 size = box.size();
+    const std::size_t slice = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+    const int slices = static_cast<int>(std::min<std::size_t>(
+        std::max<std::size_t>(room / slice, 1), static_cast<std::size_t>(size[2])));
+    core::IndexBox part = box;
+    part.upper[2] = part.lower[2] + slices;
+    uploadBox(part);
+    room -= std::min(room, slice * static_cast<std::size_t>(slices));
+    box.lower[2] += slices;
+    if (box.empty())
+      m_pending.erase(m_pending.begin());
+  }
+}
+
+void MaskTexture::release()
+{
+  m_texture.release();
+  m_reduction = {0, 0, 0};
+  m_pending.clear();
+}
+
+// ---- labels
+
+void LabelTextures::upload(const volume::LabelField& labels)
+{
+  const volume::Volume<float>& shares = *labels.share;
+  const core::Index3& dims = shares.geometry().dims();
+  // Sixteen bits hold a share exactly: it comes in steps of 1/65535.
+  std::vector<std::uint16_t> values(shares.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
+                    [&](const tbb::blocked_range<std::size_t>& range)
+                    {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        values[i] = static_cast<std::uint16_t>(
+                            std::lround(65535.0F * std::clamp(shares.data()[i], 0.0F, 1.0F)));
+                    });
+  share.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
+  index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
+}
+
+void LabelTextures::release()
+{
+  share.release();
+  index.release();
+}
+
+// ---- materials
+
+void MaterialTables::upload(const std::vector<appearance::Material>& materials, int tableSize,
+                            const volume::ValueRange& ct, const volume::ValueRange& second)
+{
+  const std::size_t rows = materials.size();
+  const auto width = static_cast<std::size_t>(tableSize);
+  std::vector<float> looks(rows * width * 4);
+  std::vector<float> integrals(rows * width * 4);
+  std::vector<float> parameters(rows * 8, 0.0F);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    const appearance::Material& tissue = materials[row];
+    const auto& points = tissue.transfer.points();
+    const bool other = tissue.source == appearance::IntensitySource::Second;
+    const volume::ValueRange& range = other ? second : ct;
+    double lower = points.front().value;
+    double upper = points.back().value;
+    if (points.size() > 1)
+    {
+      // Beyond its points a function is constant, but a stretch may begin there. Where the image
+      // goes far beyond, resolution matters more.
+      const double most = 4.0 * (upper - lower);
+      lower = std::max(std::min(lower, range.min), lower - most);
+      upper = std::min(std::max(upper, range.max), upper + most);
+    }
+    else
+    {
+      lower -= 1.0;
+      upper += 1.0;
+    }
+    const auto optics = [&](double x)
+    { return tissue.transfer.at(lower + (upper - lower) * x / (tableSize - 1.0)); };
+    std::array<double, 4> sum{};
+    for (std::size_t i = 0; i < width; ++i)
+    {
+      const auto here = optics(static_cast<double>(i));
+      float* color = &looks[(row * width + i) * 4];
+      float* integral = &integrals[(row * width + i) * 4];
+      if (i > 0)
+      {
+        // Simpson's rule over eight parts of the interval: colour times extinction is not linear.
+        constexpr int parts = 8;
+        for (int p = 0; p <= parts; ++p)
+        {
+          const auto at = optics(static_cast<double>(i - 1) + static_cast<double>(p) / parts);
+          const double weight = (p == 0 || p == parts ? 1.0 : (p % 2 ? 4.0 : 2.0)) /
+                                (3.0 * parts * (tableSize - 1.0));
+          for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += weight * at.extinction * at.color[c];
+          sum[3] += weight * at.extinction;
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        color[c] = static_cast<float>(here.color[c]);
+        integral[c] = static_cast<float>(sum[c]);
+      }
+      color[3] = static_cast<float>(here.specular);
+      integral[3] = static_cast<float>(sum[3]);
+    }
+    float* parameter = &parameters[row * 8];
+    parameter[0] = static_cast<float>(lower);
+    parameter[1] = static_cast<float>(1.0 / (upper - lower));
+    parameter[2] = tissue.surfaceOpacity;
+    parameter[3] = tissue.shininess;
+    parameter[4] = tissue.lumen ? 1.0F : 0.0F;
+    parameter[5] = other ? 1.0F : 0.0F;
+  }
+  const int height = static_cast<int>(rows);
+  look.create(texel::kColor, tableSize, height, looks.data(), GL_LINEAR);
+  depth.create(texel::kFloat4, tableSize, height, integrals.data(), GL_NEAREST);
+  material.create(texel::kFloat4, 2, height, parameters.data(), GL_NEAREST);
+}
+
+void MaterialTables::release()
+{
+  look.release();
+  depth.release();
+  material.release();
+}
+
+} // namespace petrous::rendering

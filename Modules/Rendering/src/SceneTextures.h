@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "GlTexture.h"
+#include "OccupancyGrid.h"
+#include "TextureReduction.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::rendering
+{
+
+/// A CT or a second image in its own type; intensity = texel * unit.
+struct IntensityTexture
+{
+  GlTexture texture;
+  TextureMap map;
+  core::Index3 reduction{1, 1, 1};
+  double unit = 1.0;
+
+  void upload(const volume::IntensityVolume& volume);
+};
+
+/// The cut on the CT's grid. Edits are collected and brought to the card at the next frame, at most
+/// so many voxels of them; the rest waits.
+class MaskTexture
+{
+public:
+  static constexpr std::size_t kVoxelsPerFrame = std::size_t{4} << 20U;
+
+  /// Takes over another mask (null: none) or another precision; everything is uploaded anew.
+  void reset(std::shared_ptr<const volume::CutMask> mask, int bits);
+
+  /// The voxels of a box changed. Boxes that meet are merged.
+  void changed(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
+
+  /// Finds by itself what changed in a mask whose changes nobody told: compares brick versions.
+  void compare();
+
+  /// On the render thread, before a frame.
+  void upload();
+  void release();
+
+  const GlTexture& texture() const noexcept { return m_texture; }
+  const TextureMap& map() const noexcept { return m_map; }
+  std::size_t pendingVoxels() const noexcept;
+  bool inUse() const noexcept { return static_cast<bool>(m_mask); }
+
+private:
+  void uploadBox(const core::IndexBox& box);
+  template <class T>
+  void uploadAs(const core::IndexBox& texels);
+
+  std::shared_ptr<const volume::CutMask> m_mask;
+  int m_bits = 16;
+  GlTexture m_texture;
+  TextureMap m_map;
+  core::Index3 m_reduction{1, 1, 1};
+  std::vector<core::IndexBox> m_pending;
+  std::vector<volume::CutMask::BrickVersion> m_uploaded;
+};
+
+struct LabelTextures
+{
+  GlTexture share;
+  GlTexture index;
+
+  void upload(const volume::LabelField& labels);
+  void release();
+};
+
+/// Materials as tables over their intensities; see RayCast.frag.glsl.
+struct MaterialTables
+{
+  GlTexture look;
+  GlTexture depth;
+  GlTexture material;
+
+  /// `ct`, `second`: the intensities that occur.
+  void upload(const std::vector<appearance::Material>& materials, int tableSize,
+              const volume::ValueRange& ct, const volume::ValueRange& second);
+  void release();
+};
+
+} // namespace petrous::rendering

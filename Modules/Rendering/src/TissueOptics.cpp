@@ -1,0 +1,164 @@
+#include "TissueOptics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "petrous/Rendering/RenderingError.h"
+#include "petrous/Volume/Sampling.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+constexpr double kScale = 1000.0; // HU; only the unit of f
+constexpr double kNoBone = 1e300; // HU; an iso that no bone reaches
+
+void require(bool holds, const std::string& what)
+{
+  if (!holds)
+    throw RenderingError(RenderingError::Reason::BadContents, "picture: " + what);
+}
+
+const SceneContents& checked(const SceneContents& contents)
+{
+  require(contents.ct != nullptr, "there is no CT");
+  require(std::isfinite(contents.iso), "the surface's intensity is not a number");
+  require(!contents.mask || core::sameGrid(contents.mask->geometry(), contents.ct->geometry()),
+          "the mask does not lie on the CT's grid");
+  if (contents.labels)
+    require(
+        contents.labels->share && contents.labels->index &&
+            core::sameGrid(contents.labels->share->geometry(), contents.labels->index->geometry()),
+        "the labels need a share and an index on one grid");
+  return contents;
+}
+
+volume::TissueField makeField(const SceneContents& contents)
+{
+  std::vector<volume::TissueField::SolidUnion> solids;
+  if (contents.labels)
+    solids.push_back(contents.labels->share);
+  return {contents.ct,
+          std::move(solids),
+          contents.mask,
+          {contents.boneShown ? contents.iso : kNoBone, kScale}};
+}
+
+} // namespace
+
+TissueOptics::TissueOptics(const SceneContents& contents)
+  : m_ct(checked(contents).ct)
+  , m_share(contents.labels ? contents.labels->share : nullptr)
+  , m_index(contents.labels ? contents.labels->index : nullptr)
+  , m_second(contents.second)
+  , m_materials(contents.materials)
+  , m_light(contents.light)
+  , m_field(makeField(contents))
+{
+  if (m_materials.empty())
+    m_materials.emplace_back();
+  if (m_index)
+  {
+    const std::size_t largest =
+        *std::max_element(m_index->data(), m_index->data() + m_index->size());
+    require(largest < m_materials.size(), "the labels name material " + std::to_string(largest) +
+                                              "; there are " + std::to_string(m_materials.size()) +
+                                              ", counted from 0");
+  }
+  for (std::size_t row = 0; row < m_materials.size(); ++row)
+    require(m_materials[row].source == appearance::IntensitySource::Ct || m_second.volume,
+            "material " + std::to_string(row) + " reads a second image, and there is none");
+}
+
+double TissueOptics::shareAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_share)
+    return 0.0;
+  const Eigen::Vector3d voxel = m_share->geometry().voxelFromPatient(patient);
+  return m_share->geometry().hullContains(voxel) ? volume::sampleTrilinear(*m_share, voxel) : 0.0;
+}
+
+std::size_t TissueOptics::indexAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_index)
+    return 0;
+  const Eigen::Vector3d voxel = m_index->geometry().voxelFromPatient(patient);
+  core::Index3 nearest{};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double rounded = std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5);
+    if (!(rounded >= 0.0 && rounded < m_index->geometry().dims()[a]))
+      return 0;
+    nearest[a] = static_cast<int>(rounded);
+  }
+  return m_index->at(nearest[0], nearest[1], nearest[2]);
+}
+
+TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
+{
+  const double f = m_field.value(patient);
+  if (!(f > 0.0))
+    return {kAir, -f};
+  const double inside = shareAt(patient) - 0.5;
+  if (inside > 0.0)
+    return {kBone + 1 + static_cast<State>(indexAt(patient)), std::min(f, inside)};
+  return {kBone, std::min(f, -inside)};
+}
+
+bool TissueOptics::isSurface(State from, State to)
+{
+  return from != to && (from == kAir || (from == kBone && to != kAir));
+}
+
+const appearance::Material& TissueOptics::materialOf(State state) const
+{
+  return m_materials[state == kBone ? 0 : static_cast<std::size_t>(state - kBone - 1)];
+}
+
+const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d& patient) const
+{
+  const appearance::Material& material = m_materials[indexAt(patient)];
+  const bool structure = shareAt(patient) > optics::kShareThreshold;
+  return structure || material.lumen ? material : m_materials.front();
+}
+
+double TissueOptics::intensity(const appearance::Material& material,
+                               const Eigen::Vector3d& patient) const
+{
+  if (material.source == appearance::IntensitySource::Second)
+    return m_second.volume->sample(
+        m_second.volume->geometry().voxelFromPatient(m_second.secondFromCt * patient));
+  return m_ct->sample(m_ct->geometry().voxelFromPatient(patient));
+}
+
+Eigen::Vector3d TissueOptics::shareNormal(const Eigen::Vector3d& patient) const
+{
+  const Eigen::Vector3d voxel = m_share->geometry().voxelFromPatient(patient);
+  const Eigen::Vector3d slope = volume::sampleGradient(*m_share, voxel, 1.0);
+  return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
+}
+
+TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
+                                              const std::optional<Eigen::Vector3d>& face) const
+{
+  const Eigen::Vector3d point = ray.origin + t * ray.direction;
+  Eigen::Vector3d normal;
+  Eigen::Vector3d below = point;
+  if (face)
+    normal = *face;
+  else
+  {
+    normal = from == kBone && to > kBone ? shareNormal(point) : m_field.normal(point);
+    below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;
+  }
+  const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
+  const appearance::Material& material = surfaceMaterial(point);
+  return {optics::surfaceColor(material.transfer.at(intensity(material, below)), material.shininess,
+                               cosine, m_light, t),
+          material.surfaceOpacity};
+}
+
+} // namespace petrous::rendering

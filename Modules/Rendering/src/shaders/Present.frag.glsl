@@ -1,0 +1,14 @@
+// The rays' picture onto the window's: pixel by pixel where their sizes agree, else smoothly.
+
+in vec2 ndc;
+layout(location = 0) out vec4 outColor;
+
+uniform sampler2D picture;
+uniform bool sameSize;
+
+void main()
+{
+  outColor = sameSize ? texelFetch(picture, ivec2((0.5 * ndc + 0.5) * vec2(textureSize(picture, 0))),
+                                   0)
+                      : texture(picture, 0.5 * ndc + 0.5);
+}

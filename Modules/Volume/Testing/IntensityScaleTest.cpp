@@ -1,0 +1,180 @@
+#include "petrous/Volume/IntensityScale.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace petrous;
+using volume::IntensityHistogram;
+using volume::IntensityScale;
+
+namespace
+{
+
+using Random = std::mt19937;
+
+struct Tissue
+{
+  double share;
+  double low; // spread evenly from low to high, then blurred by the noise
+  double high;
+};
+
+// A head as a CT sees it, in Hounsfield units: partial volume between the tissues, and bone from
+// marrow to the otic capsule.
+const std::vector<Tissue> kHead = {{0.42, -1000, -1000}, {0.03, -1000, 40}, {0.06, -110, -90},
+                                   {0.33, 20, 60},       {0.06, 60, 700},   {0.07, 400, 1300},
+                                   {0.03, 1300, 1900}};
+
+std::vector<double> draw(const std::vector<Tissue>& tissues, double noise, Random& random)
+{
+  std::vector<double> values;
+  for (const Tissue& tissue : tissues)
+    for (int n = 0; n < static_cast<int>(200000 * tissue.share); ++n)
+      values.push_back(std::uniform_real_distribution<double>(tissue.low, tissue.high)(random) +
+                       std::normal_distribution<double>(0.0, noise)(random));
+  return values;
+}
+
+template <class T>
+IntensityScale scaleOf(const std::vector<double>& values, double gain = 1.0, double offset = 0.0,
+                       double least = std::numeric_limits<T>::lowest(),
+                       double most = std::numeric_limits<T>::max())
+{
+  const core::GridGeometry grid({static_cast<int>(values.size()), 1, 1}, Eigen::Vector3d::Ones(),
+                                Eigen::Vector3d::Zero());
+  auto v = std::make_shared<volume::Volume<T>>(grid);
+  std::transform(values.begin(), values.end(), v->data(),
+                 [&](double value)
+                 {
+                   const double scaled = std::clamp(gain * value + offset, least, most);
+                   return static_cast<T>(std::is_integral_v<T> ? std::round(scaled) : scaled);
+                 });
+  return volume::suggestScale(
+      IntensityHistogram(volume::IntensityVolume(std::shared_ptr<const volume::Volume<T>>(v))));
+}
+
+void expectHounsfield(const IntensityScale& scale)
+{
+  EXPECT_TRUE(scale.calibrated);
+  EXPECT_EQ(scale.iso, 300.0);
+  EXPECT_EQ(scale.dense, 1800.0);
+}
+
+} // namespace
+
+TEST(IntensityScale, LeavesHounsfieldUnitsAsTheyAre)
+{
+  Random random(1);
+  for (const double noise : {10.0, 40.0, 90.0})
+    expectHounsfield(scaleOf<std::int16_t>(draw(kHead, noise, random), 1, 0, -1024, 3071));
+  // A region inside the head, and a dry skull.
+  expectHounsfield(
+      scaleOf<std::int16_t>(draw({{0.1, -110, -90}, {0.5, 20, 60}, {0.4, 60, 1800}}, 20, random)));
+  expectHounsfield(scaleOf<float>(draw({{0.8, -1000, -1000}, {0.2, -900, 1700}}, 20, random)));
+  std::vector<double> lonely(2000, -1000.0);
+  expectHounsfield(scaleOf<std::int16_t>(lonely));
+  lonely.front() = 1200.0;
+  expectHounsfield(scaleOf<std::int16_t>(lonely));
+  expectHounsfield(scaleOf<float>(lonely));
+}
+
+TEST(IntensityScale, FindsTheBoneOfAHeadUnderAnyGainAndOffset)
+{
+  Random random(2);
+  for (int n = 0; n < 40; ++n)
+  {
+    const double noise = std::uniform_real_distribution<double>(10.0, 70.0)(random);
+    const double gain = std::exp(std::uniform_real_distribution<double>(-7.0, 3.0)(random));
+    const double offset = gain * std::uniform_real_distribution<double>(1300.0, 9000.0)(random);
+    const auto values = draw(kHead, noise, random);
+    const auto check = [&](const IntensityScale& scale, double g, double o)
+    {
+      EXPECT_FALSE(scale.calibrated);
+      // 3 % of the way from air to dense bone.
+      EXPECT_NEAR((scale.iso - o) / g, 300.0, 0.03 * 2800.0) << n << ' ' << g << ' ' << o;
+      EXPECT_NEAR((scale.dense - o) / g, 1800.0, 0.1 * 2800.0);
+    };
+    check(scaleOf<float>(values, gain, offset), gain, offset);
+    const double wide = std::uniform_real_distribution<double>(0.05, 10.0)(random);
+    check(scaleOf<std::uint16_t>(values, wide, 1400.0 * wide), wide, 1400.0 * wide);
+  }
+}
+
+TEST(IntensityScale, TakesNoFrameAroundTheScannedFieldForAir)
+{
+  Random random(3);
+  auto values = draw(kHead, 40.0, random);
+  values.insert(values.end(), 60000, -3000.0);
+  const auto scale = scaleOf<std::uint16_t>(values, 2.0, 6000.0);
+  EXPECT_NEAR((scale.iso - 6000.0) / 2.0, 300.0, 0.03 * 2800.0);
+}
+
+TEST(IntensityScale, KeepsSoftTissueOutWhereAirIsCutOff)
+{
+  Random random(4);
+  // 8 bits from -400 to 2200 HU: no telling where air lies.
+  const double gain = 255.0 / 2600.0;
+  const auto scale = scaleOf<std::uint16_t>(draw(kHead, 30, random), gain, 400 * gain, 0, 255);
+  EXPECT_FALSE(scale.calibrated);
+  EXPECT_GT(scale.iso / gain - 400.0, 130.0); // three times the noise above soft tissue
+  EXPECT_LT(scale.iso / gain - 400.0, 600.0);
+}
+
+TEST(IntensityScale, HalvesTheWayBetweenAirAndBoneOfADrySpecimen)
+{
+  Random random(5);
+  for (const double bone : {0.1, 0.3, 0.7})
+    for (const double noise : {3.0, 12.0})
+    {
+      const auto values =
+          draw({{0.95 - bone, 30, 30}, {0.05, 30, 180}, {bone, 175, 185}}, noise, random);
+      EXPECT_NEAR(scaleOf<std::uint16_t>(values, 1, 0, 0, 255).iso, 105.0, 0.05 * 150.0);
+      EXPECT_NEAR(scaleOf<std::uint16_t>(values, 200, 5000).iso, 26000.0, 0.05 * 30000.0);
+      EXPECT_NEAR(scaleOf<float>(values, 1e-3, 0.2).iso, 0.305, 0.05 * 0.15);
+    }
+  std::vector<double> drawn(10000, 8000.0); // without noise and partial volume
+  std::fill_n(drawn.begin(), 1500, 42000.0);
+  EXPECT_NEAR(scaleOf<std::uint16_t>(drawn).iso, 25000.0, 0.03 * 34000.0);
+}
+
+TEST(IntensityScale, PartsFluidFromBoneInMicroCt)
+{
+  Random random(6);
+  // Peaks of an 8-bit scan in formalin; with air in the cells, and without any.
+  for (const double air : {0.3, 0.0})
+    for (const double noise : {4.0, 9.0})
+    {
+      const auto values = draw(
+          {{air, 20, 20}, {0.6 - air, 62, 62}, {0.05, 62, 190}, {0.35, 180, 200}}, noise, random);
+      const auto scale = scaleOf<std::uint16_t>(values, 1, 0, 0, 255);
+      EXPECT_GT(scale.iso, 62.0 + 2.0 * noise);
+      EXPECT_LT(scale.iso, 190.0 - 4.0 * noise);
+      EXPECT_NEAR(scale.dense, 205.0, 25.0);
+    }
+}
+
+TEST(IntensityScale, StaysSaneWhereThereIsNoBone)
+{
+  Random random(7);
+  for (const double mean : {-5000.0, 0.0, 1e-6, 30000.0})
+  {
+    const auto values = draw({{1.0, mean, mean}}, 0.1 * std::abs(mean) + 1e-9, random);
+    const auto scale = scaleOf<float>(values);
+    EXPECT_TRUE(scale.iso > *std::min_element(values.begin(), values.end()) - 1e-3);
+    EXPECT_TRUE(scale.iso < *std::max_element(values.begin(), values.end()) + 1e-3 ||
+                scale.calibrated);
+    EXPECT_GT(scale.dense, scale.iso);
+    EXPECT_TRUE(std::isfinite(scale.dense));
+  }
+  for (const double value : {0.0, 7.0, 3000.0, -3e38, 3e38})
+  {
+    const auto scale = scaleOf<float>(std::vector<double>(50, value));
+    EXPECT_NEAR(scale.iso, value, 1e-6 * std::abs(value));
+    EXPECT_GT(scale.dense, scale.iso);
+    EXPECT_TRUE(std::isfinite(scale.dense));
+  }
+  expectHounsfield(scaleOf<float>({std::nan(""), std::nan("")}));
+}

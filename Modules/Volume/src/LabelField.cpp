@@ -1,0 +1,288 @@
+#include "petrous/Volume/LabelField.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "LabelResampling.h"
+
+namespace petrous::volume
+{
+
+namespace
+{
+
+constexpr float kThreshold = 0.5F - 1e-3F; // what a picture takes for inside (OpticalModel.h)
+
+// A step to another voxel, and how far that is.
+struct Step
+{
+  core::Index3 by;
+  double distance; // mm^2
+};
+
+// All steps within `reach` voxels on each axis, the nearest first.
+std::vector<Step> stepsWithin(int reach, const Eigen::Vector3d& spacing)
+{
+  std::vector<Step> steps;
+  for (int k = -reach; k <= reach; ++k)
+    for (int j = -reach; j <= reach; ++j)
+      for (int i = -reach; i <= reach; ++i)
+        if (i != 0 || j != 0 || k != 0)
+          steps.push_back(
+              {{i, j, k}, Eigen::Vector3d(i, j, k).cwiseProduct(spacing).squaredNorm()});
+  std::sort(steps.begin(), steps.end(),
+            [](const Step& a, const Step& b) { return a.distance < b.distance; });
+  return steps;
+}
+
+// The voxels of a tile with an apron as wide as an index grows.
+template <class T>
+class TileCopy
+{
+public:
+  TileCopy(const Volume<T>& volume, const core::IndexBox& tile)
+    : m_box(grown(tile, kLabelMargin))
+    , m_size(m_box.size())
+    , m_values(m_box.count(), T{0})
+  {
+    const core::IndexBox source = m_box.intersected(volume.geometry().fullBox());
+    for (int k = source.lower[2]; k < source.upper[2]; ++k)
+      for (int j = source.lower[1]; j < source.upper[1]; ++j)
+        std::copy_n(&volume.at(source.lower[0], j, k), source.size()[0],
+                    m_values.begin() + at(source.lower[0] - m_box.lower[0], j - m_box.lower[1],
+                                          k - m_box.lower[2]));
+  }
+
+  // Of a voxel of the tile, its own first voxel being (0, 0, 0).
+  std::ptrdiff_t offsetOf(int i, int j, int k) const
+  {
+    return at(i + kLabelMargin, j + kLabelMargin, k + kLabelMargin);
+  }
+  std::ptrdiff_t stride(const core::Index3& by) const { return at(by[0], by[1], by[2]); }
+  const T* data() const { return m_values.data(); }
+  std::size_t size() const { return m_values.size(); }
+
+private:
+  std::ptrdiff_t at(int i, int j, int k) const
+  {
+    return i + std::ptrdiff_t{m_size[0]} * (j + std::ptrdiff_t{m_size[1]} * k);
+  }
+
+  core::IndexBox m_box;
+  core::Index3 m_size;
+  std::vector<T> m_values;
+};
+
+class IndexTile
+{
+public:
+  IndexTile(const Volume<LabelRank>& ranks, const core::IndexBox& ranksTile,
+            const Volume<float>& share, const core::IndexBox& shareTile, const LabelOrder& order,
+            const std::vector<Step>& near, const std::vector<Step>& far)
+    : m_ranks(ranks, ranksTile)
+    , m_share(share, shareTile)
+    , m_order(order)
+    , m_near(withStrides(near))
+    , m_far(withStrides(far))
+  {
+    findKinds();
+  }
+
+  std::uint8_t indexOf(int i, int j, int k) const
+  {
+    const std::ptrdiff_t at = m_ranks.offsetOf(i, j, k);
+    const LabelRank own = m_ranks.data()[at];
+    if (m_order.isSolid(own))
+      return m_order.materialOfRank[own];
+    const std::uint8_t kinds = m_kinds[static_cast<std::size_t>(at)];
+    if (kinds == 0)
+      return 0;
+    if (kinds == kSolid)
+      return m_order.materialOfRank[nearest(at, m_far, true)];
+    if ((kinds & kSolid) != 0 && reachesThreshold(at))
+      if (const LabelRank solid = nearest(at, m_far, true))
+        return m_order.materialOfRank[solid];
+    if (own != 0)
+      return m_order.materialOfRank[own];
+    if (const LabelRank lumen = nearest(at, m_near, false))
+      return m_order.materialOfRank[lumen];
+    return m_order.materialOfRank[nearest(at, m_far, true)];
+  }
+
+private:
+  using Strides = std::vector<std::pair<std::ptrdiff_t, double>>;
+  enum Kind : std::uint8_t
+  {
+    kSolid = 1,
+    kLumen = 2
+  };
+
+  // What there is within kLabelMargin of each voxel of the tile; most have nothing to search.
+  void findKinds()
+  {
+    static_assert(kLabelMargin == 2, "the sums below reach over two voxels");
+    m_kinds.resize(m_ranks.size());
+    for (std::size_t n = 0; n < m_kinds.size(); ++n)
+    {
+      const LabelRank rank = m_ranks.data()[n];
+      m_kinds[n] = rank == 0 ? 0 : m_order.isSolid(rank) ? kSolid : kLumen;
+    }
+    std::vector<std::uint8_t> before;
+    for (const core::Index3& axis : {core::Index3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+    {
+      // Lines run on into each other; that is wrong in the apron alone, which nobody asks for.
+      before = m_kinds;
+      const auto stride = static_cast<std::size_t>(m_ranks.stride(axis));
+      const std::uint8_t* from = before.data();
+      for (std::size_t n = 2 * stride; n + 2 * stride < before.size(); ++n)
+        m_kinds[n] = static_cast<std::uint8_t>(from[n - 2 * stride] | from[n - stride] | from[n] |
+                                               from[n + stride] | from[n + 2 * stride]);
+    }
+  }
+
+  Strides withStrides(const std::vector<Step>& steps) const
+  {
+    Strides result;
+    for (const Step& step : steps)
+      result.emplace_back(m_ranks.stride(step.by), step.distance);
+    return result;
+  }
+
+  // The nearest structure of a kind; of those equally far the one that goes first.
+  LabelRank nearest(std::ptrdiff_t at, const Strides& steps, bool solid) const
+  {
+    constexpr double kTie = 1e-6;
+    LabelRank best = 0;
+    double reach = 0.0;
+    for (const auto& [stride, distance] : steps)
+    {
+      if (best != 0 && distance > reach)
+        break;
+      const LabelRank rank = m_ranks.data()[at + stride];
+      if (rank == 0 || m_order.isSolid(rank) != solid || (best != 0 && rank >= best))
+        continue;
+      best = rank;
+      reach = distance * (1.0 + kTie);
+    }
+    return best;
+  }
+
+  // Whether the share exceeds the threshold anywhere nearer to this voxel than to another. Linear
+  // along each axis between voxel centres and the planes half-way, it is largest in one of those
+  // 27 points.
+  bool reachesThreshold(std::ptrdiff_t at) const
+  {
+    const float* share = m_share.data();
+    float largest = 0.0F;
+    for (const auto& step : m_near)
+      largest = std::max(largest, share[at + step.first]);
+    if (std::max(largest, share[at]) <= kThreshold)
+      return false;
+    for (int corner = 0; corner < 27; ++corner)
+    {
+      const core::Index3 to{corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1};
+      float sum = 0.0F;
+      for (int end = 0; end < 8; ++end)
+        sum += share[at + m_share.stride({(end & 1) != 0 ? to[0] : 0, (end & 2) != 0 ? to[1] : 0,
+                                          (end & 4) != 0 ? to[2] : 0})];
+      if (sum > 8.0F * kThreshold)
+        return true;
+    }
+    return false;
+  }
+
+  TileCopy<LabelRank> m_ranks;
+  TileCopy<float> m_share;
+  const LabelOrder& m_order;
+  Strides m_near;
+  Strides m_far;
+  std::vector<std::uint8_t> m_kinds;
+};
+
+// Gives the voxels of solid structures their own index. Returns whether others are left.
+bool fillInside(const LabelRanks& ranks, const core::Index3& offset, const core::IndexBox& tile,
+                const LabelOrder& order, Volume<std::uint8_t>& index)
+{
+  const core::IndexBox source = moved(tile, offset).intersected(ranks.geometry().fullBox());
+  const int width = source.size()[0];
+  std::size_t filled = 0;
+  for (int k = source.lower[2]; k < source.upper[2]; ++k)
+    for (int j = source.lower[1]; j < source.upper[1]; ++j)
+    {
+      const LabelRank* from = &ranks.voxels->at(source.lower[0], j, k);
+      std::uint8_t* row = &index.at(source.lower[0] - offset[0], j - offset[1], k - offset[2]);
+      for (int i = 0; i < width; ++i)
+        if (order.isSolid(from[i]))
+        {
+          row[i] = order.materialOfRank[from[i]];
+          ++filled;
+        }
+    }
+  return filled < tile.count();
+}
+
+// `offset` takes voxels of the share to those of the ranks.
+std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelRanks& ranks, const core::Index3& offset,
+                                                const Volume<float>& share, const LabelOrder& order,
+                                                const core::Progress& progress)
+{
+  const auto index = makeZeroVolume<std::uint8_t>(share.geometry());
+  const std::vector<Step> near = stepsWithin(1, share.geometry().spacing());
+  const std::vector<Step> far = stepsWithin(kLabelMargin, share.geometry().spacing());
+  const auto fillTile = [&](const core::Index3&, const core::IndexBox& tile)
+  {
+    const core::IndexBox ranksTile = moved(tile, offset);
+    if (!ranks.tiles.any(grown(ranksTile, kLabelMargin)))
+      return;
+    const core::Index3 size = tile.size();
+    if (!fillInside(ranks, offset, tile, order, *index))
+      return;
+    const IndexTile source(*ranks.voxels, ranksTile, share, tile, order, near, far);
+    for (int k = 0; k < size[2]; ++k)
+      for (int j = 0; j < size[1]; ++j)
+      {
+        std::uint8_t* row = &index->at(tile.lower[0], tile.lower[1] + j, tile.lower[2] + k);
+        for (int i = 0; i < size[0]; ++i)
+          if (row[i] == 0)
+            row[i] = source.indexOf(i, j, k);
+      }
+  };
+  forEachTile(share.geometry().dims(), progress, "growing structures", fillTile);
+  return index;
+}
+
+} // namespace
+
+std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>& sources,
+                                                 const core::Progress& progress,
+                                                 std::size_t mostVoxels)
+{
+  const LabelOrder order(sources);
+  std::vector<LabelRanks> grids = rankLabels(sources, order, progress.part(0.0, 0.3));
+  if (grids.empty())
+    return nullptr;
+  auto field = std::make_shared<LabelField>();
+  LabelRanks ranks;
+  core::Index3 offset{0, 0, 0};
+  if (grids.size() == 1)
+  {
+    ranks = std::move(grids.front());
+    offset = grown(ranks.box, kLabelMargin).lower;
+    field->share = smoothRanks(ranks, order, progress.part(0.3, 0.6));
+  }
+  else
+  {
+    ResampledLabels common = resampleLabels(grids, order, mostVoxels, progress.part(0.3, 0.7));
+    ranks = std::move(common.ranks);
+    field->share = std::move(common.share);
+    field->notes = std::move(common.notes);
+  }
+  field->index = makeIndex(ranks, offset, *field->share, order, progress.part(0.7, 1.0));
+  field->hasSolid = ranks.hasSolid;
+  field->hasLumen = ranks.hasLumen;
+  progress.report(1.0, "structures");
+  return field;
+}
+
+} // namespace petrous::volume

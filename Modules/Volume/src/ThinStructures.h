@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "LabelShare.h"
+
+namespace petrous::volume
+{
+
+/// A voxel of the common grid that must be given to a structure.
+struct ThinVoxel
+{
+  core::Index3 voxel;
+  LabelRank rank;
+};
+
+/// Common voxels for what is too thin to show in them: for each voxel of `source` no common voxel
+/// of which shows its structure, all common voxels that it touches. One shows a structure when it
+/// carries its rank or one that goes before it, and for a solid a share of at least kInsideFloor.
+std::vector<ThinVoxel> findThin(const LabelRanks& source, const LabelRanks& common,
+                                const Volume<float>& share, const LabelOrder& order,
+                                const core::Progress& progress);
+
+} // namespace petrous::volume

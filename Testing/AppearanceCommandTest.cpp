@@ -1,0 +1,195 @@
+#include "CommandRunner.h"
+
+using petrous::testing::CommandLine;
+using petrous::testing::quoted;
+
+namespace
+{
+
+constexpr int kSize = 48;
+
+// A cube of voxels as NRRD; `valueAt` gives the one at a squared distance from the centre.
+template <class T, class ValueAt>
+std::filesystem::path writeCube(const std::filesystem::path& path, const char* type, double spacing,
+                                const ValueAt& valueAt)
+{
+  std::vector<T> voxels;
+  for (int k = 0; k < kSize; ++k)
+    for (int j = 0; j < kSize; ++j)
+      for (int i = 0; i < kSize; ++i)
+        voxels.push_back(static_cast<T>(
+            valueAt((i - 24) * (i - 24) + (j - 24) * (j - 24) + (k - 24) * (k - 24))));
+  const std::string mm = std::to_string(spacing);
+  std::ofstream file(path, std::ios::binary);
+  file
+      << "NRRD0004\ntype: " << type << "\ndimension: 3\nspace: left-posterior-superior\n"
+      << "sizes: 48 48 48\nspace directions: (" << mm << ",0,0) (0," << mm << ",0) (0,0," << mm
+      << ")\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (0,0,0)\n\n";
+  file.write(reinterpret_cast<const char*>(voxels.data()),
+             static_cast<std::streamsize>(voxels.size() * sizeof(T)));
+  return path;
+}
+
+// A head: soft tissue in a shell of bone in air, with noise, in Hounsfield units.
+std::filesystem::path writeHead(const std::filesystem::path& path)
+{
+  std::mt19937 noise(1);
+  return writeCube<std::int16_t>(
+      path, "short", 1.0,
+      [&noise](int r2)
+      {
+        const int tissue = r2 < 15 * 15 ? 40 : r2 < 18 * 18 ? 1300 : -1000;
+        return tissue + static_cast<int>(noise() % 60) - 30;
+      });
+}
+
+// A ball of bone in air as a micro-CT scanner may write it: not in Hounsfield units.
+std::filesystem::path writeMicroCt(const std::filesystem::path& path)
+{
+  std::mt19937 noise(1);
+  return writeCube<std::uint16_t>(
+      path, "ushort", 0.05,
+      [&noise](int r2)
+      { return (r2 < 15 * 15 ? 40000 : 12000) + static_cast<int>(noise() % 2000); });
+}
+
+/// A case "ear": CT, an MR "t2", a structure "cochlea" and a mesh "incus".
+class AppearanceCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    const auto head = writeHead(m_folder / "head.nrrd");
+    const auto cochlea = writeCube<std::uint8_t>(m_folder / "cochlea.nrrd", "uchar", 1.0,
+                                                 [](int r2) { return r2 < 25 ? 1 : 0; });
+    std::ofstream(m_folder / "incus.obj") << "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\n"
+                                             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    json("new ear --ct " + quoted(head) + " --mr t2=" + quoted(head) + " --labels cochlea=" +
+         quoted(cochlea) + " --mesh incus=" + quoted(m_folder / "incus.obj"));
+  }
+
+  /// A file with this text; returns its quoted path.
+  std::string file(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(m_folder / name) << text;
+    return quoted(m_folder / name);
+  }
+
+  nlohmann::json part(const std::string& name) const
+  {
+    const auto list = json("appearance ear --list");
+    for (const auto& entry : list["parts"])
+      if (entry["name"] == name)
+        return entry;
+    return name == "ct" ? list["bone"] : nlohmann::json();
+  }
+};
+
+const std::string kTransfer = R"({"points": [
+  {"value": -50, "color": [0.1, 0.2, 0.3], "opacity": 0, "specular": 0.25},
+  {"value": 900.5, "color": [1, 0.9, 0.8], "opacity": 0.75}]})";
+
+} // namespace
+
+TEST_F(AppearanceCommand, ListsBoneBesideTheParts)
+{
+  const auto bone = part("ct");
+  EXPECT_EQ(bone["kind"], "bone");
+  EXPECT_EQ(bone["preset"], "bone");
+  EXPECT_EQ(bone["opacity"], 1.0);
+  EXPECT_EQ(bone["transfer"]["relative"], true);
+  EXPECT_EQ(part("cochlea")["preset"], "inner-ear");
+  EXPECT_EQ(part("cochlea")["source"], "ct");
+}
+
+TEST_F(AppearanceCommand, PresetsReplaceALookAndKeepItsFlags)
+{
+  json("appearance ear --flags cochlea=touchable --set cochlea=nerve --set ct=bone-translucent");
+  EXPECT_EQ(part("cochlea")["preset"], "nerve");
+  EXPECT_EQ(part("cochlea")["flags"], "touchable");
+  EXPECT_LT(part("ct")["opacity"], 0.5);
+  EXPECT_EQ(json("info ear")["bone"]["preset"], "bone-translucent");
+  json("appearance ear --set cochlea=vessel");
+  EXPECT_EQ(part("cochlea")["preset"], "artery");
+  EXPECT_EQ(json("appearance --presets")["presets"].size(), 14u);
+}
+
+TEST_F(AppearanceCommand, ATransferFunctionIsKeptAsItWasGiven)
+{
+  json("appearance ear --tf cochlea=" + file("f.json", kTransfer) + " --iso 450");
+  const auto transfer = part("cochlea")["transfer"];
+  auto wanted = nlohmann::json::parse(kTransfer);
+  wanted["points"][1]["specular"] = 1.0;
+  EXPECT_EQ(transfer["relative"], false);
+  EXPECT_EQ(transfer["points"], wanted["points"]);
+  json("appearance ear --tf cochlea=none");
+  EXPECT_TRUE(part("cochlea")["transfer"].is_null());
+}
+
+TEST_F(AppearanceCommand, SetsColourOpacityAndSource)
+{
+  json("appearance ear --color 'cochlea=#ff8000' --opacity cochlea=0.25 --opacity bone=0.5");
+  EXPECT_NEAR(part("cochlea")["color"][1].get<double>(), 128.0 / 255.0, 1e-6);
+  EXPECT_EQ(part("cochlea")["opacity"], 0.25);
+  EXPECT_EQ(part("ct")["opacity"], 0.5);
+  json("appearance ear --color cochlea=0.5,0.25,0");
+  EXPECT_EQ(part("cochlea")["color"], (std::vector<double>{0.5, 0.25, 0.0}));
+  const auto outcome =
+      run("appearance ear --source cochlea=t2 --tf cochlea=" + file("f.json", kTransfer));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("not registered"), std::string::npos) << outcome.err;
+  EXPECT_EQ(part("cochlea")["source"], "t2");
+  json("remove ear --part t2");
+  EXPECT_EQ(part("cochlea")["source"], "ct");
+}
+
+TEST_F(AppearanceCommand, BoneCanBeHiddenButStaysTissue)
+{
+  const auto outcome = run("appearance ear --flags ct=none");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("bone stays touchable"), std::string::npos) << outcome.err;
+  EXPECT_EQ(part("ct")["flags"], "touchable,drillable");
+  EXPECT_TRUE(run("appearance ear --flags ct=shown,touchable,drillable").err.empty());
+  EXPECT_EQ(part("ct")["flags"], "shown,touchable,drillable");
+}
+
+TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
+{
+  const auto before = libraryContent();
+  const std::string good = file("f.json", kTransfer);
+  expectRefused("appearance ear --set zebra=nerve", 3, "zebra");
+  expectRefused("appearance ear --set zebra=nerve", 3, "cochlea");
+  expectRefused("appearance ear --set cochlea=zebra", 3, "bone-translucent");
+  expectRefused("appearance ear --set ct=air-cells", 3, "lumen");
+  expectRefused("appearance ear --set cochlea", 2, "PART=");
+  expectRefused("appearance ear --tf cochlea=" + quoted(m_folder / "no.json"), 3, "no.json");
+  expectRefused("appearance ear --tf cochlea=" + file("bad.json", "{"), 3, "bad.json");
+  expectRefused("appearance ear --tf cochlea=" +
+                    file("odd.json", R"({"points":[{"value":1,"color":[0,0,0],"opacity":9}]})"),
+                3, "odd.json: transfer function: point 1");
+  expectRefused("appearance ear --tf incus=" + good, 3, "is a mesh");
+  expectRefused("appearance ear --source incus=t2", 3, "is a mesh");
+  expectRefused("appearance ear --source cochlea=t9", 3, "t2");
+  expectRefused("appearance ear --color cochlea=255,0,0", 2, "0 to 1");
+  expectRefused("appearance ear --color cochlea=#12345", 2, "#rrggbb");
+  expectRefused("appearance ear --opacity cochlea=1.5", 2, "0 to 1");
+  expectRefused("appearance ear --iso much", 2, "--iso");
+  expectRefused("appearance ear --tissue cochlea=bone", 2, "not built yet");
+  expectRefused("appearance --list", 2, "CASE");
+  expectRefused("appearance ear", 2, "nothing to do");
+  EXPECT_EQ(libraryContent(), before);
+}
+
+TEST_F(AppearanceCommand, FindsBoneInAnImageWithoutHounsfieldUnits)
+{
+  json("new micro --ct " + quoted(writeMicroCt(m_folder / "micro.nrrd")));
+  const auto outcome = run("appearance micro --iso auto --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto list = nlohmann::json::parse(outcome.out);
+  // Halfway between air at 13000 and bone at 41000, by a quarter of the way at most.
+  EXPECT_NEAR(list["iso_hu"].get<double>(), 27000.0, 7000.0);
+  EXPECT_NEAR(list["dense_bone_hu"].get<double>(), 42000.0, 1500.0);
+  EXPECT_NE(outcome.err.find("not in Hounsfield units"), std::string::npos) << outcome.err;
+  EXPECT_EQ(json("appearance ear --iso auto")["iso_hu"], 300.0) << "calibrated";
+}

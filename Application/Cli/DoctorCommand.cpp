@@ -1,10 +1,12 @@
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <thread>
 
 #include "Commands.h"
 #include "Numbers.h"
-#include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/GraphicsReport.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::cli
@@ -31,24 +33,77 @@ std::filesystem::path existingFolder(std::filesystem::path path)
   return path;
 }
 
+std::string joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+bool rayCasterWorks(const rendering::GraphicsReport& graphics)
+{
+  return std::all_of(graphics.variants.begin(), graphics.variants.end(),
+                     [](const auto& variant) { return variant.compiles; });
+}
+
+std::vector<std::string> graphicsAdvice(const rendering::GraphicsReport& graphics)
+{
+  constexpr int kLargeCt = 1024;
+  std::vector<std::string> advice;
+  if (graphics.renderer.find("llvmpipe") != std::string::npos ||
+      graphics.renderer.find("softpipe") != std::string::npos)
+    advice.emplace_back("OpenGL runs on the processor: pictures are right but slow; install the "
+                        "driver of your graphics card");
+  if (!rayCasterWorks(graphics))
+    advice.emplace_back("the driver refuses a shader of the ray caster; a newer driver may take "
+                        "it, and 'render --engine reference' needs none");
+  if (graphics.largestTexture3d < kLargeCt)
+    advice.push_back("the driver takes volumes of up to " +
+                     std::to_string(graphics.largestTexture3d) +
+                     " voxels along an axis; larger ones are drawn reduced: load only the ear "
+                     "with --roi");
+  return advice;
+}
+
+nlohmann::json graphicsJson(const std::optional<rendering::GraphicsReport>& graphics)
+{
+  if (!graphics)
+    return {{"gl_renderer", nullptr},
+            {"gl_version", nullptr},
+            {"largest_3d_texture", nullptr},
+            {"ray_caster", {{"works", false}, {"variants", nlohmann::json::array()}}}};
+  nlohmann::json variants = nlohmann::json::array();
+  for (const auto& variant : graphics->variants)
+    variants.push_back({{"features", variant.features},
+                        {"compiles", variant.compiles},
+                        {"error", variant.error.empty() ? nlohmann::json(nullptr)
+                                                        : nlohmann::json(variant.error)}});
+  return {
+      {"gl_renderer", graphics->renderer},
+      {"gl_version", graphics->version},
+      {"largest_3d_texture", graphics->largestTexture3d},
+      {"ray_caster", {{"works", rayCasterWorks(*graphics)}, {"variants", std::move(variants)}}}};
+}
+
 void doctor(const Context& context)
 {
   nlohmann::json advice = nlohmann::json::array();
   const auto advise = [&](const std::string& text) { advice.push_back(text); };
 
-  std::string gl;
+  std::optional<rendering::GraphicsReport> graphics;
   try
   {
-    const rendering::OffscreenView view(16, 16);
-    gl = view.glRenderer();
-    if (gl.find("llvmpipe") != std::string::npos || gl.find("softpipe") != std::string::npos)
-      advise("OpenGL runs on the processor: pictures are right but slow; install the driver of "
-             "your graphics card");
+    graphics = rendering::reportGraphics();
   }
   catch (const rendering::RenderingError& error)
   {
-    advise(error.what());
+    advise(std::string(error.what()) +
+           "; until then 'render --engine reference' draws on the processor, slowly");
   }
+  if (graphics)
+    for (const std::string& text : graphicsAdvice(*graphics))
+      advise(text);
   const char* display = std::getenv("DISPLAY");
   const char* wayland = std::getenv("WAYLAND_DISPLAY");
   const bool hasDisplay = (display && *display) || (wayland && *wayland);
@@ -66,7 +121,16 @@ void doctor(const Context& context)
   if (available < 2048.0)
     advise("less than 2 GiB of memory are free; load only the ear with --roi");
 
-  context.say("OpenGL      " + (gl.empty() ? std::string("none") : gl));
+  context.say("OpenGL      " + (graphics ? graphics->renderer : std::string("none")));
+  if (graphics)
+  {
+    context.say("            version " + graphics->version);
+    context.say("            volumes up to " + std::to_string(graphics->largestTexture3d) +
+                " voxels along an axis");
+    for (const auto& variant : graphics->variants)
+      context.say("ray caster  " + joined(variant.features) +
+                  (variant.compiles ? "" : ": does not work: " + variant.error));
+  }
   context.say(std::string("display     ") + (hasDisplay ? "yes" : "none"));
   context.say("processors  " + std::to_string(std::thread::hardware_concurrency()));
   context.say("memory      " + fixed(total, 0) + " MiB, " + fixed(available, 0) + " MiB free");
@@ -75,15 +139,16 @@ void doctor(const Context& context)
   context.say("devices     none are supported yet; drill with the mouse");
   for (const auto& text : advice)
     context.say("* " + text.get<std::string>());
-  context.give({{"gl_renderer", gl.empty() ? nlohmann::json(nullptr) : nlohmann::json(gl)},
-                {"display", hasDisplay},
-                {"processors", std::thread::hardware_concurrency()},
-                {"memory_mib", total},
-                {"memory_free_mib", available},
-                {"library", library.folder().string()},
-                {"library_free_mib", freeMiB},
-                {"devices", nlohmann::json::array()},
-                {"advice", std::move(advice)}});
+  nlohmann::json report = graphicsJson(graphics);
+  report.update({{"display", hasDisplay},
+                 {"processors", std::thread::hardware_concurrency()},
+                 {"memory_mib", total},
+                 {"memory_free_mib", available},
+                 {"library", library.folder().string()},
+                 {"library_free_mib", freeMiB},
+                 {"devices", nlohmann::json::array()},
+                 {"advice", std::move(advice)}});
+  context.give(report);
 }
 
 } // namespace

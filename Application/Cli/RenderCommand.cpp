@@ -1,13 +1,16 @@
 #include <chrono>
-#include <fstream>
-#include <sstream>
+#include <cmath>
+#include <limits>
 
+#include "CameraFile.h"
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "RenderOptions.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
+#include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::cli
 {
@@ -15,62 +18,18 @@ namespace petrous::cli
 namespace
 {
 
-struct Options
+using rendering::StereoMode;
+
+// What came of it.
+struct Result
 {
-  std::string caseName, out, size = "800x600", view, camera, stereo = "none", engine = "gpu", depth;
+  rendering::Picture picture;
+  std::optional<rendering::DepthImage> depth; // from the camera in the middle
+  std::map<std::string, std::size_t> resources;
+  nlohmann::json report;
 };
 
-std::pair<int, int> parseSize(const std::string& text)
-{
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
-      height < 8 || width > 8192 || height > 8192)
-    throw UsageError("--size: WIDTHxHEIGHT with 8 to 8192 pixels each, not '" + text + "'");
-  return {width, height};
-}
-
-Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
-{
-  const auto v = json.at(key).get<std::array<double, 3>>();
-  return {v[0], v[1], v[2]};
-}
-
-core::CameraPose readCamera(const std::string& path)
-{
-  std::ifstream file = openForReading(path);
-  core::CameraPose camera;
-  try
-  {
-    const auto json = nlohmann::json::parse(file);
-    camera.position = vectorFrom(json, "position_mm");
-    camera.focalPoint = vectorFrom(json, "focal_point_mm");
-    camera.viewUp = vectorFrom(json, "view_up");
-    if (json.contains("parallel_scale_mm"))
-      camera.parallelScale = json.at("parallel_scale_mm").get<double>();
-    else
-      camera.viewAngle = json.at("view_angle_deg").get<double>();
-  }
-  catch (const nlohmann::json::exception&)
-  {
-    throw core::InvalidParameter(
-        path + ": no camera; it must be {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
-               "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\")");
-  }
-  const Eigen::Vector3d view = camera.focalPoint - camera.position;
-  const bool angleOk = camera.parallelScale
-                           ? *camera.parallelScale > 0.0 && std::isfinite(*camera.parallelScale)
-                           : camera.viewAngle > 0.1 && camera.viewAngle < 170.0;
-  if (!view.allFinite() || !camera.viewUp.allFinite() || view.norm() < 1e-9 ||
-      view.cross(camera.viewUp).norm() < 1e-9 * view.norm() || !angleOk)
-    throw core::InvalidParameter(path + ": the camera must look somewhere, view_up must not lie "
-                                        "along that direction, and the angle must lie within 0.1 "
-                                        "to 170 degrees (or the scale above 0 mm)");
-  return camera;
-}
-
-core::CameraPose chooseCamera(const Options& options, const scene::Case& value)
+core::CameraPose chooseCamera(const RenderOptions& options, const scene::Case& value)
 {
   if (!options.view.empty() && !options.camera.empty())
     throw UsageError("render: give --view or --camera, not both");
@@ -86,80 +45,173 @@ core::CameraPose chooseCamera(const Options& options, const scene::Case& value)
   return presenters::standardCamera(value, *view);
 }
 
-void render(const Context& context, const Options& options)
+rendering::Picture together(std::vector<rendering::Picture> pictures, StereoMode mode)
 {
-  const auto [width, height] = parseSize(options.size);
-  if (options.stereo != "none")
-    notBuiltYet("--stereo " + options.stereo);
-  if (options.engine != "gpu" && options.engine != "reference")
-    throw UsageError("--engine: gpu or reference, not '" + options.engine + "'");
+  return pictures.size() == 1 ? std::move(pictures.front())
+                              : rendering::composeStereo(pictures[0], pictures[1], mode);
+}
+
+// Nothing of the CT in the scene: no ray was cast.
+rendering::DepthImage depthOf(const rendering::ScenePicture& picture, const Shot& shot)
+{
+  rendering::DepthImage depth = picture.depth();
+  if (depth.width == shot.width && depth.height == shot.height)
+    return depth;
+  const std::size_t pixels =
+      static_cast<std::size_t>(shot.width) * static_cast<std::size_t>(shot.height);
+  return {shot.width, shot.height,
+          std::vector<float>(pixels, std::numeric_limits<float>::quiet_NaN())};
+}
+
+Result drawOnGpu(const rendering::SceneContents& contents, const Shot& shot, bool wantDepth,
+                 bool wantReport)
+{
+  Result result;
+  const auto [width, height] = rendering::eyeSize(shot.stereo, shot.width, shot.height);
+  rendering::ScenePicture picture;
+  picture.setContents(contents);
+  rendering::OffscreenView view(width, height);
+  std::vector<rendering::Picture> pictures;
+  double first = 0.0;
+  double steady = 0.0;
+  for (const core::CameraPose& eye : shot.eyes)
+  {
+    picture.setCamera(eye);
+    pictures.push_back(view.render(picture));
+    first += view.milliseconds();
+  }
+  result.picture = together(std::move(pictures), shot.stereo);
+  if (wantReport)
+  {
+    for (const core::CameraPose& eye : shot.eyes)
+    {
+      picture.setCamera(eye);
+      view.render(picture);
+      steady += view.milliseconds();
+    }
+    picture.setCounting(true);
+    view.render(picture);
+    picture.setCounting(false);
+  }
+  result.resources = picture.resources();
+  const rendering::RenderStatistics statistics = picture.statistics();
+  result.report = {{"milliseconds", wantReport ? steady : first},
+                   {"first_frame_milliseconds", first},
+                   {"gl_renderer", view.glRenderer()},
+                   {"variant", statistics.variant},
+                   {"fetches_per_pixel", statistics.fetchesPerPixel},
+                   {"samples_per_pixel", statistics.samplesPerPixel},
+                   {"notes", statistics.notes}};
+  if (wantDepth && shot.stereo == StereoMode::None)
+  {
+    if (wantReport)
+      view.render(picture);
+    result.depth = depthOf(picture, shot);
+  }
+  else if (wantDepth)
+  {
+    rendering::OffscreenView middle(shot.width, shot.height);
+    picture.setCamera(shot.camera);
+    middle.render(picture);
+    result.depth = depthOf(picture, shot);
+  }
+  return result;
+}
+
+Result drawReference(const rendering::SceneContents& contents, const Shot& shot, bool wantDepth,
+                     const core::Progress& progress)
+{
+  Result result;
+  const auto [width, height] = rendering::eyeSize(shot.stereo, shot.width, shot.height);
+  const rendering::ReferenceRayCaster caster(contents);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<rendering::Picture> pictures;
+  for (const core::CameraPose& eye : shot.eyes)
+  {
+    rendering::ReferencePicture drawn = caster.render(eye, width, height, progress);
+    pictures.push_back(std::move(drawn.picture));
+    if (wantDepth && shot.stereo == StereoMode::None)
+      result.depth = std::move(drawn.depth);
+  }
+  const double elapsed =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.picture = together(std::move(pictures), shot.stereo);
+  if (wantDepth && !result.depth)
+    result.depth = caster.render(shot.camera, shot.width, shot.height, progress).depth;
+  result.report = {{"milliseconds", elapsed},         {"first_frame_milliseconds", elapsed},
+                   {"gl_renderer", nullptr},          {"variant", nlohmann::json::array()},
+                   {"fetches_per_pixel", nullptr},    {"samples_per_pixel", nullptr},
+                   {"notes", nlohmann::json::array()}};
+  return result;
+}
+
+Result draw(const Context& context, const RenderOptions& options, const Shot& shot,
+            const rendering::SceneContents& contents)
+{
+  const bool wantDepth = !options.depth.empty();
+  if (options.engine == "reference")
+    return drawReference(contents, shot, wantDepth, context.progress());
+  try
+  {
+    return drawOnGpu(contents, shot, wantDepth, context.json());
+  }
+  catch (const rendering::RenderingError& error)
+  {
+    if (error.reason != rendering::RenderingError::Reason::NoOpenGL)
+      throw;
+    throw rendering::RenderingError(
+        error.reason,
+        std::string(error.what()) + "; '--engine reference' draws on the processor alone, slowly");
+  }
+}
+
+void render(const Context& context, const RenderOptions& options)
+{
+  Shot shot = parseShot(options);
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
-  const core::CameraPose camera = chooseCamera(options, value);
+  shot.camera = chooseCamera(options, value);
+  nlohmann::json stereo = nullptr;
+  shot.eyes = {shot.camera};
+  if (shot.stereo != StereoMode::None)
+  {
+    const auto geometry =
+        rendering::stereoGeometry(shot.camera, {options.eyeSeparation, options.convergence});
+    const rendering::EyePair eyes = rendering::eyesOf(shot.camera, geometry);
+    shot.eyes = {eyes.left, eyes.right};
+    stereo = {{"mode", options.stereo},
+              {"eye_separation_mm", geometry.eyeSeparation},
+              {"convergence_mm", geometry.convergence}};
+  }
   library.loadDissection(value);
-  const core::Progress progress = context.progress();
 
-  nlohmann::json result{{"case", value.name},
-                        {"size", {width, height}},
-                        {"engine", options.engine},
-                        {"out", options.out}};
-  std::map<std::string, std::size_t> resources;
-  const rendering::SceneContents contents = presenters::sceneContents(value);
-  if (options.engine == "gpu")
-  {
-    rendering::ScenePicture picture;
-    picture.setContents(contents);
-    picture.setCamera(camera);
-    rendering::OffscreenView view(width, height);
-    rendering::writePng(options.out, view.render(picture));
-    resources = picture.resources();
-    result["milliseconds"] = view.milliseconds();
-    result["first_frame_milliseconds"] = view.firstFrameMilliseconds();
-    result["gl_renderer"] = view.glRenderer();
-  }
-  if (options.engine == "reference" || !options.depth.empty())
-  {
-    const rendering::ReferenceRayCaster caster(contents);
-    const auto start = std::chrono::steady_clock::now();
-    const auto truth = caster.render(camera, width, height, progress);
-    const std::chrono::duration<double, std::milli> elapsed =
-        std::chrono::steady_clock::now() - start;
-    if (options.engine == "reference")
-    {
-      rendering::writePng(options.out, truth.picture);
-      result["milliseconds"] = result["first_frame_milliseconds"] = elapsed.count();
-      result["gl_renderer"] = nullptr;
-    }
-    if (!options.depth.empty())
-      rendering::writeNpy(options.depth, truth.depth);
-  }
+  Result result = draw(context, options, shot, renderContents(options, value));
+  rendering::writePng(options.out, result.picture);
+  if (result.depth)
+    rendering::writeNpy(options.depth, *result.depth);
+  for (const auto& note : result.report.at("notes"))
+    context.remark(note.get<std::string>());
   for (const auto& [name, bytes] : residentResources(value))
-    resources.emplace(name, bytes);
-  result["resources"] = resources;
+    result.resources.emplace(name, bytes);
+  result.report.update({{"case", value.name},
+                        {"size", {shot.width, shot.height}},
+                        {"engine", options.engine},
+                        {"stereo", std::move(stereo)},
+                        {"out", options.out},
+                        {"resources", result.resources}});
   context.say(options.out + ": " + options.size + ", " +
-              fixed(result["milliseconds"].get<double>(), 0) + " ms");
-  context.give(result);
+              fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
+  context.give(result.report);
 }
 
 } // namespace
 
 void addRenderCommand(CLI::App& app, Context& context)
 {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderOptions>();
   CLI::App* command = context.addCommand(app, "render", "Draw a case into a PNG, without a display",
                                          [options, &context] { render(context, *options); });
-  command->add_option("CASE", options->caseName)->required();
-  command->add_option("--out", options->out, "Picture to write")->type_name("F.png")->required();
-  command->add_option("--size", options->size, "Pixels (800x600)")->type_name("WxH");
-  command->add_option("--view", options->view,
-                      "lateral, left, right, superior, inferior, anterior or posterior");
-  command->add_option("--camera", options->camera, "Camera in patient LPS mm")->type_name("F.json");
-  command->add_option("--engine", options->engine,
-                      "gpu, or reference: double precision on the CPU, slow (gpu)");
-  command->add_option("--depth", options->depth, "Also write the distance to the first surface, mm")
-      ->type_name("F.npy");
-  // In the contract, not built yet: refused when asked for, not offered.
-  command->add_option("--stereo", options->stereo)->group("");
+  addRenderOptions(*command, *options);
 }
 
 } // namespace petrous::cli

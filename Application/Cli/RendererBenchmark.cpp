@@ -39,7 +39,7 @@ Extent extentOf(const RendererBenchmarkOptions& options)
 {
   Extent extent;
   if (options.quick)
-    extent = {{96}, {160, 120}, {80, 60}, {320, 180}, 1, 0, 5};
+    extent = {{96}, {160, 120}, {80, 60}, {320, 180}, 1, 1, 5};
   if (!options.edges.empty())
     extent.edges = options.edges;
   return extent;
@@ -167,8 +167,8 @@ void Run::scene(const BenchmarkPatient& patient, BenchmarkView view, BenchmarkLo
     ours.isDefault = true;
     enterCounts(m_view, own, 1.0 * m_extent.picture.width * m_extent.picture.height, ours);
   }
-  for (const core::BenchmarkPoint& point : theirs)
-    ours.extra["times_faster_than " + point.peer] = point.seconds / ours.seconds;
+  for (core::BenchmarkPoint& point : theirs)
+    point.extra["times_ours"] = point.seconds / ours.seconds;
   const SceneTruth truth(contents, camera, m_extent.errorPicture, progress.part(0.6, 1.0));
   truth.enter({}, ours);
   ours.setting["error_picture"] = shown(m_extent.errorPicture);
@@ -256,10 +256,10 @@ void Run::edits(const BenchmarkPatient& patient)
   };
   for (int n = 0; n < m_extent.edits; ++n)
   {
+    // Round the floor of the cavity, where there is still something to cut.
     const double angle = 0.7 * n;
-    const Eigen::Vector3d center = patient.entry - 3.0 * patient.lateral +
-                                   4.0 * Eigen::Vector3d(0.0, std::cos(angle), std::sin(angle)) -
-                                   0.05 * n * patient.lateral;
+    const Eigen::Vector3d center = patient.entry - (5.0 + 0.05 * n) * patient.lateral +
+                                   4.0 * Eigen::Vector3d(0.0, std::cos(angle), std::sin(angle));
     const volume::CutMask before = *mask;
     const auto bricks = dissection::cut(*mask, {center, center, radius});
     if (bricks.empty())

@@ -11,7 +11,7 @@ namespace petrous::cli
 
 struct RendererBenchmarkOptions
 {
-  bool quick = false;         ///< 96^3, small pictures, one frame each
+  bool quick = false;         ///< 96^3, small pictures, few frames
   std::vector<int> edges;     ///< of the phantom, voxels, 16 to 1024; empty: 256 and 512
   std::filesystem::path data; ///< folder that holds a real CT; empty: the phantom alone
 };

@@ -107,8 +107,7 @@ void DrillController::showBurr(const std::optional<Eigen::Vector3d>& center, boo
   std::optional<rendering::ToolPose> tool;
   if (center && m_mode)
     tool = rendering::ToolPose{*center, m_view.axisToHand(), 0.5 * m_bar.burr().diameter, drilling};
-  m_view.picture().setTool(tool);
-  m_view.redraw(true);
+  m_view.display().setTool(tool);
 }
 
 } // namespace petrous::workstation

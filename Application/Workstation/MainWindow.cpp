@@ -18,6 +18,8 @@
 #include "CaseKeeper.h"
 #include "DrillBar.h"
 #include "DrillController.h"
+#include "PictureController.h"
+#include "PicturePanel.h"
 #include "SliceColumn.h"
 #include "StartPage.h"
 #include "StructuresPanel.h"
@@ -25,7 +27,6 @@
 #include "ThreeDView.h"
 #include "WindowActions.h"
 #include "petrous/Presenters/CasePicture.h"
-#include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::workstation
 {
@@ -54,7 +55,7 @@ QString dropped(const QMimeData& data)
 }
 } // namespace
 
-MainWindow::MainWindow(library::Library library)
+MainWindow::MainWindow(library::Library library, bool quadBuffer)
   : m_model(std::move(library))
   , m_bar(new DrillBar)
   , m_view(new ThreeDView)
@@ -63,10 +64,12 @@ MainWindow::MainWindow(library::Library library)
   , m_pages(new QStackedWidget)
   , m_place(new QLabel)
   , m_sum(new QLabel)
-  , m_actions(new WindowActions(*this, *m_bar))
+  , m_actions(new WindowActions(*this, *m_bar, quadBuffer))
   , m_keeper(new CaseKeeper(m_model, *this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, this))
+  , m_picture(new PictureController(m_model, *m_view, *m_actions, *this, quadBuffer))
 {
+  m_picture->secure = [this] { return secure(); };
   m_keeper->setParent(this);
   m_keeper->camera = [this] { return m_view->picture().camera(); };
   setAcceptDrops(true);
@@ -80,7 +83,8 @@ MainWindow::MainWindow(library::Library library)
 MainWindow::~MainWindow()
 {
   m_model.events = {};
-  delete m_keeper; // its thread must not outlive the model
+  delete m_picture; // the surgeon's window follows the view
+  delete m_keeper;  // its thread must not outlive the model
 }
 
 void MainWindow::layOut()
@@ -101,14 +105,10 @@ void MainWindow::layOut()
   m_pages->addWidget(across);
   setCentralWidget(m_pages);
 
-  auto* dock = new QDockWidget(tr("Structures"), this);
-  dock->setObjectName("structuresDock");
-  dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
-  dock->setWidget(m_panel);
-  addDockWidget(Qt::LeftDockWidgetArea, dock);
-  dock->toggleViewAction()->setShortcut(Qt::Key_F9);
-  m_actions->addPanelToggle(dock->toggleViewAction());
-  dock->hide();
+  auto* structures = addDock(tr("Structures"), "structuresDock", m_panel, Qt::Key_F9);
+  auto* picture = addDock(tr("Picture"), "pictureDock", m_picture->panel(), Qt::Key_F8);
+  tabifyDockWidget(structures, picture);
+  structures->raise();
 
   m_place->setObjectName("place");
   m_place->setToolTip(
@@ -119,8 +119,22 @@ void MainWindow::layOut()
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
   m_sum->setContentsMargins(8, 0, 8, 0);
+  statusBar()->addPermanentWidget(m_picture->speed());
   statusBar()->addPermanentWidget(m_place);
   statusBar()->addPermanentWidget(m_sum);
+}
+
+QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget* widget, int key)
+{
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(name);
+  dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
+  dock->setWidget(widget);
+  addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->toggleViewAction()->setShortcut(key);
+  m_actions->addPanelToggle(dock->toggleViewAction());
+  dock->hide();
+  return dock;
 }
 
 void MainWindow::connectModel()
@@ -128,8 +142,7 @@ void MainWindow::connectModel()
   m_model.events.caseChanged = [this] { caseChanged(); };
   m_model.events.appearanceChanged = [this]
   {
-    m_view->picture().setContents(presenters::sceneContents(m_model.value()));
-    m_view->redraw(true);
+    m_picture->appearanceChanged();
     m_slices->appearanceChanged();
     m_panel->appearanceChanged();
   };
@@ -142,6 +155,8 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_keeper, &CaseKeeper::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_picture, &PictureController::said, this,
+          [this](const QString& line) { statusBar()->showMessage(line); });
 }
 
 void MainWindow::connectActions()
@@ -196,20 +211,13 @@ void MainWindow::caseChanged()
   if (first)
   {
     auto* dock = findChild<QDockWidget*>("structuresDock");
+    findChild<QDockWidget*>("pictureDock")->show();
     dock->show();
+    dock->raise();
     resizeDocks({dock}, {395}, Qt::Horizontal);
   }
   m_bar->drillAction()->setChecked(false);
-  m_view->picture().setTool(std::nullopt);
-  try
-  {
-    m_view->picture().setContents(presenters::sceneContents(value));
-  }
-  catch (const rendering::RenderingError& error) // too large to draw; the slices still show it
-  {
-    m_view->picture().setContents({});
-    statusBar()->showMessage(words(error.what()));
-  }
+  m_picture->caseChanged();
   m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
   m_panel->caseChanged();
@@ -225,8 +233,7 @@ void MainWindow::maskChanged(const core::IndexBox& box)
 {
   const auto& value = m_model.value();
   // Shared with the dissection: one thread writes and draws.
-  m_view->picture().maskChanged({value.dissection, &std::as_const(*value.dissection).mask()}, box);
-  m_view->redraw(true);
+  m_view->display().maskChanged({value.dissection, &std::as_const(*value.dissection).mask()}, box);
   m_slices->maskChanged(box);
 }
 
@@ -268,7 +275,7 @@ void MainWindow::showView(rendering::StandardView view)
 
 void MainWindow::step(bool back)
 {
-  if (m_view->drilling())
+  if (m_model.drilling())
     return;
   const scene::Case& value = m_model.value();
   const std::size_t stroke = back ? value.applied - 1 : value.applied;
@@ -306,10 +313,19 @@ void MainWindow::about()
           .arg(PETROUS_VERSION));
 }
 
+bool MainWindow::secure()
+{
+  m_view->setDrillMode(false); // ends an open stroke, here and in the surgeon's window
+  m_bar->drillAction()->setChecked(false);
+  return !m_model.hasCase() || !m_model.unsaved() || m_keeper->save();
+}
+
 void MainWindow::closeEvent(QCloseEvent* event)
 {
   m_view->setDrillMode(false); // ends an open stroke
   event->setAccepted(m_keeper->mayLeave());
+  if (event->isAccepted())
+    m_picture->closeSurgeonWindow();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)

@@ -5,6 +5,7 @@
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Rendering/StandardViews.h"
 
+class QDockWidget;
 class QLabel;
 class QStackedWidget;
 
@@ -14,6 +15,7 @@ namespace petrous::workstation
 class CaseKeeper;
 class DrillBar;
 class DrillController;
+class PictureController;
 class SliceColumn;
 class StructuresPanel;
 class ThreeDView;
@@ -24,7 +26,8 @@ class MainWindow : public QMainWindow
 {
   Q_OBJECT
 public:
-  explicit MainWindow(library::Library library);
+  /// `quadBuffer`: the driver offers two buffers (see quadBufferOffered).
+  explicit MainWindow(library::Library library, bool quadBuffer = false);
   ~MainWindow() override;
 
   /// What was asked for on the command line: a case or a path; empty: the latest case, if any.
@@ -48,6 +51,8 @@ private:
   void showPlace(const Eigen::Vector3d& patient);
   void showView(rendering::StandardView view);
   void step(bool back); // undo, or redo
+  QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
+  bool secure(); // what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
   void about();
 
@@ -62,6 +67,7 @@ private:
   WindowActions* m_actions;
   CaseKeeper* m_keeper;
   DrillController* m_drill;
+  PictureController* m_picture;
 };
 
 } // namespace petrous::workstation

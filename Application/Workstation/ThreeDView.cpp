@@ -11,18 +11,16 @@
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 
 #include "petrous/Presenters/OrbitCamera.h"
-#include "petrous/Rendering/ReferenceRayCaster.h"
+#include "petrous/Rendering/PixelRays.h"
 
 namespace petrous::workstation
 {
 
 namespace
 {
-constexpr int kTick = 16;    // ms
-constexpr int kSettle = 300; // ms
+constexpr int kTick = 16; // ms
 constexpr double kDegreesPerPixel = 0.4;
 constexpr double kDegreesPerKey = 7.5;
 constexpr double kZoomPerNotch = 1.15;
@@ -30,18 +28,16 @@ constexpr double kZoomPerNotch = 1.15;
 
 ThreeDView::ThreeDView(QWidget* parent)
   : QVTKOpenGLNativeWidget(parent)
-  , m_picture(std::make_unique<rendering::ScenePicture>())
+  , m_display(std::make_unique<SceneDisplay>(*m_window, [this] { return isVisible(); }))
 {
   setObjectName("threeDView");
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setMinimumSize(240, 240);
-  m_window->SetMultiSamples(0);
-  m_window->AddRenderer(m_renderer);
   setRenderWindow(m_window);
   // The view turns the camera itself; the interactor only exists because the widget makes one.
   m_window->GetInteractor()->SetInteractorStyle(nullptr);
-  m_picture->attach(m_renderer);
+  connect(m_display.get(), &SceneDisplay::aboutToDraw, this, &ThreeDView::placeLetters);
 
   for (QLabel*& letter : m_letters)
   {
@@ -51,20 +47,12 @@ ThreeDView::ThreeDView(QWidget* parent)
   }
   m_tick.setInterval(kTick);
   connect(&m_tick, &QTimer::timeout, this, [this] { emit drillHeld(sightLine(m_pointer)); });
-  m_settle.setSingleShot(true);
-  m_settle.setInterval(kSettle);
-  connect(&m_settle, &QTimer::timeout, this,
-          [this]
-          {
-            m_picture->setInteractive(false);
-            redraw();
-          });
 }
 
 ThreeDView::~ThreeDView()
 {
   makeCurrent();
-  m_picture->attach(nullptr);
+  m_display->release();
   doneCurrent();
 }
 
@@ -74,33 +62,20 @@ void ThreeDView::setDrillMode(bool on)
     stopDrilling();
   m_drillMode = on;
   setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
-}
-
-void ThreeDView::redraw(bool moving)
-{
-  if (moving)
-  {
-    m_picture->setInteractive(true);
-    m_settle.start();
-  }
-  if (m_redrawPending)
-    return;
-  m_redrawPending = true;
-  QTimer::singleShot(0, this,
-                     [this]
-                     {
-                       m_redrawPending = false;
-                       if (!isVisible())
-                         return;
-                       placeLetters();
-                       m_window->Render();
-                     });
+  emit drillModeSet(on);
 }
 
 void ThreeDView::placeLetters()
 {
   constexpr int margin = 10;
-  const auto edges = presenters::edgeDirections(m_picture->camera());
+  // In stereo they would float somewhere before or behind the patient.
+  const bool mono = m_display->stereo() == rendering::StereoMode::None;
+  for (QLabel* letter : m_letters)
+    letter->setVisible(mono);
+  m_display->setFirstRow(mapToGlobal(QPoint(0, 0)).y());
+  if (!mono)
+    return;
+  const auto edges = presenters::edgeDirections(picture().camera());
   const std::string* const texts[] = {&edges.left, &edges.right, &edges.top, &edges.bottom};
   for (std::size_t n = 0; n < m_letters.size(); ++n)
   {
@@ -125,23 +100,35 @@ void ThreeDView::resizeEvent(QResizeEvent* event)
 
 void ThreeDView::setCamera(const core::CameraPose& pose)
 {
-  m_picture->setCamera(pose);
-  redraw(true);
+  m_display->setCamera(pose);
+  emit cameraMoved(pose);
 }
 
 presenters::SightLine ThreeDView::sightLine(const QPointF& position) const
 {
-  const rendering::PixelRays rays(m_picture->camera(), std::max(width(), 1), std::max(height(), 1));
+  core::CameraPose camera = m_display->picture().camera();
+  int across = std::max(width(), 1);
   const bool inside = position.x() >= 0.0 && position.y() >= 0.0;
+  QPointF at = inside ? position : QPointF(0.5 * width(), 0.5 * height());
+  if (m_display->stereo() == rendering::StereoMode::SideBySide && inside)
+  {
+    const auto eyes =
+        rendering::eyesOf(camera, rendering::fittedStereoGeometry(camera, m_display->rig()));
+    const int half = across / 2;
+    const bool right = at.x() >= half;
+    camera = right ? eyes.right : eyes.left;
+    at.rx() -= right ? half : 0;
+    across = std::max(across - half, 1);
+  }
   // A Qt position counts from the corner of the first pixel; a ray from its centre.
-  const auto ray = inside ? rays.through(position.x() - 0.5, position.y() - 0.5)
-                          : rays.through(0.5 * (width() - 1), 0.5 * (height() - 1));
+  const auto ray = rendering::PixelRays(camera, across, std::max(height(), 1))
+                       .through(at.x() - 0.5, at.y() - 0.5);
   return {ray.origin, ray.direction};
 }
 
 Eigen::Vector3d ThreeDView::axisToHand() const
 {
-  const core::CameraPose camera = m_picture->camera();
+  const core::CameraPose camera = m_display->picture().camera();
   const Eigen::Vector3d forward = (camera.focalPoint - camera.position).normalized();
   const Eigen::Vector3d right = forward.cross(camera.viewUp).normalized();
   const Eigen::Vector3d up = right.cross(forward);
@@ -190,7 +177,7 @@ void ThreeDView::mouseMoveEvent(QMouseEvent* event)
   }
   const QPointF step = m_pointer - m_dragged;
   m_dragged = m_pointer;
-  const core::CameraPose camera = m_picture->camera();
+  const core::CameraPose camera = m_display->picture().camera();
   if (event->modifiers() & Qt::ShiftModifier)
     setCamera(presenters::shifted(camera, step.x() / height(), step.y() / height()));
   else
@@ -218,13 +205,13 @@ void ThreeDView::mouseDoubleClickEvent(QMouseEvent* event)
 void ThreeDView::wheelEvent(QWheelEvent* event)
 {
   const double notches = event->angleDelta().y() / 120.0;
-  setCamera(presenters::zoomed(m_picture->camera(), std::pow(kZoomPerNotch, notches)));
+  setCamera(presenters::zoomed(m_display->picture().camera(), std::pow(kZoomPerNotch, notches)));
   event->accept();
 }
 
 void ThreeDView::keyPressEvent(QKeyEvent* event)
 {
-  const core::CameraPose camera = m_picture->camera();
+  const core::CameraPose camera = m_display->picture().camera();
   switch (event->key())
   {
   case Qt::Key_Left:

@@ -8,12 +8,11 @@
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkNew.h>
 
+#include "SceneDisplay.h"
 #include "petrous/Presenters/PointerDrill.h"
-#include "petrous/Rendering/ScenePicture.h"
 
 class vtkGenericOpenGLRenderWindow;
 class QLabel;
-class vtkRenderer;
 
 namespace petrous::workstation
 {
@@ -28,14 +27,14 @@ public:
   explicit ThreeDView(QWidget* parent = nullptr);
   ~ThreeDView() override;
 
-  rendering::ScenePicture& picture() noexcept { return *m_picture; }
+  SceneDisplay& display() noexcept { return *m_display; }
+  rendering::ScenePicture& picture() noexcept { return m_display->picture(); }
   void setDrillMode(bool on);
+  bool drillMode() const noexcept { return m_drillMode; }
   bool drilling() const noexcept { return m_drilling; }
-
-  /// Draws soon; several calls make one picture. `moving`: coarser until 300 ms after the last one.
-  void redraw(bool moving = false);
   void setCamera(const core::CameraPose& pose);
 
+  /// Through a pixel; side by side, the ray of the eye whose half it lies in.
   presenters::SightLine sightLine(const QPointF& position) const;
   Eigen::Vector3d axisToHand() const; ///< how a right hand holds the drill, patient LPS
 
@@ -46,6 +45,8 @@ signals:
   void drillPressed(const petrous::presenters::SightLine& line);
   void drillHeld(const petrous::presenters::SightLine& line); ///< at each tick while it is on
   void drillReleased();
+  void drillModeSet(bool on);
+  void cameraMoved(const petrous::core::CameraPose& pose);
 
 protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -65,17 +66,14 @@ private:
   void placeLetters();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
-  vtkNew<vtkRenderer> m_renderer;
-  std::unique_ptr<rendering::ScenePicture> m_picture;
+  std::unique_ptr<SceneDisplay> m_display;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QTimer m_tick;                    // while drilling
-  QTimer m_settle;                  // back to the fine picture
   QPointF m_pointer{-1.0, -1.0};
   QPointF m_dragged;
   bool m_drillMode = false;
   bool m_drilling = false;
   bool m_turning = false;
-  bool m_redrawPending = false;
 };
 
 } // namespace petrous::workstation

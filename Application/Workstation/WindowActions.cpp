@@ -1,6 +1,7 @@
 #include "WindowActions.h"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
@@ -8,6 +9,7 @@
 #include <QToolButton>
 
 #include "DrillBar.h"
+#include "petrous/Rendering/Stereo.h"
 
 namespace petrous::workstation
 {
@@ -43,7 +45,7 @@ QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequenc
   return action;
 }
 
-WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
+WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadBuffer)
   : QObject(&window)
 {
   QMenu* file = window.menuBar()->addMenu(tr("&File"));
@@ -86,6 +88,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
   softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
   fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
   m_view->addSeparator();
+  addStereo(quadBuffer);
+  m_view->addSeparator();
 
   QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
   drill->addAction(drillBar.drillAction());
@@ -126,6 +130,36 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar)
 
   m_needCase.insert(m_needCase.end(), {save, saveAs, centerView, boneWindow, softWindow, fitSlices,
                                        drillBar.drillAction()});
+}
+
+void WindowActions::addStereo(bool quadBuffer)
+{
+  using rendering::StereoMode;
+  stereo = new QActionGroup(this);
+  QMenu* menu = m_view->addMenu(tr("Ste&reo"));
+  const auto add = [this, menu](const QString& text, StereoMode mode, const QString& tip)
+  {
+    QAction* action = make(menu, text, {}, tip);
+    action->setCheckable(true);
+    action->setData(static_cast<int>(mode));
+    stereo->addAction(action);
+    return action;
+  };
+  add(tr("&Off"), StereoMode::None, tr("One picture"))->setChecked(true);
+  add(tr("&Side by side"), StereoMode::SideBySide,
+      tr("The left eye's picture on the left half, for head-mounted displays and 3D screens"));
+  add(tr("&Line-interleaved"), StereoMode::Interleaved,
+      tr("Rows by turns, for screens with polarised glasses"));
+  add(tr("&Anaglyph"), StereoMode::Anaglyph, tr("For red-cyan glasses"));
+  if (quadBuffer)
+    add(tr("&Quad buffer"), StereoMode::QuadBuffer,
+        tr("For shutter glasses, in the surgeon's window"));
+  surgeonWindow = make(m_view, tr("Sur&geon's window"), Qt::Key_F11,
+                       tr("The scene on a whole screen, the second one where there is one; Esc "
+                          "closes it"));
+  surgeonWindow->setShortcuts({Qt::Key_F11, Qt::CTRL + Qt::Key_F});
+  surgeonWindow->setCheckable(true);
+  m_needCase.push_back(surgeonWindow);
 }
 
 void WindowActions::addPanelToggle(QAction* action)

@@ -7,6 +7,7 @@
 #include "petrous/Rendering/StandardViews.h"
 
 class QAction;
+class QActionGroup;
 class QMainWindow;
 class QMenu;
 
@@ -22,7 +23,8 @@ class WindowActions : public QObject
   Q_OBJECT
 public:
   /// Fills the window's menu bar and adds a tool bar and `drillBar` on top.
-  WindowActions(QMainWindow& window, DrillBar& drillBar);
+  /// `quadBuffer`: the driver offers two buffers.
+  WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadBuffer);
 
   void addPanelToggle(QAction* action); ///< to the View menu
   void setCaseOpen(bool open);          ///< greys out what needs a case
@@ -40,8 +42,10 @@ public:
   QAction* boneWindow;
   QAction* softWindow;
   QAction* fitSlices;
-  QAction* slicesFollow; ///< checkable
-  QAction* strokeCamera; ///< checkable
+  QActionGroup* stereo;   ///< checkable; each one's data is its StereoMode
+  QAction* surgeonWindow; ///< checkable
+  QAction* slicesFollow;  ///< checkable
+  QAction* strokeCamera;  ///< checkable
   QAction* smallerBurr;
   QAction* largerBurr;
   QAction* about;
@@ -51,6 +55,7 @@ signals:
 
 private:
   QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
+  void addStereo(bool quadBuffer);
 
   QMenu* m_view = nullptr;
   std::vector<QAction*> m_needCase;

@@ -5,11 +5,9 @@
 #include <QCommandLineParser>
 #include <QFile>
 #include <QStandardPaths>
-#include <QSurfaceFormat>
-
-#include <QVTKOpenGLNativeWidget.h>
 
 #include "MainWindow.h"
+#include "SceneDisplay.h"
 #include "Theme.h"
 
 namespace
@@ -30,7 +28,7 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
 int main(int argc, char** argv)
 {
   using namespace petrous;
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QSurfaceFormat::setDefaultFormat(workstation::surfaceFormat());
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication application(argc, argv);
   QApplication::setApplicationName("petrous-workstation");
@@ -52,7 +50,8 @@ int main(int argc, char** argv)
     return 2;
   }
 
-  workstation::MainWindow window{library::Library(libraryFolder(parser))};
+  workstation::MainWindow window(library::Library(libraryFolder(parser)),
+                                 workstation::quadBufferOffered());
   window.show();
   window.begin(parser.positionalArguments().value(0));
   return QApplication::exec();

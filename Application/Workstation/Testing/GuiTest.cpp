@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QMimeData>
 #include <QScreen>
-#include <QSurfaceFormat>
 
 #include "Theme.h"
 
@@ -205,7 +204,7 @@ int main(int argc, char** argv)
   ::testing::InitGoogleTest(&argc, argv);
   if (::testing::GTEST_FLAG(list_tests)) // needs no display
     return RUN_ALL_TESTS();
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QSurfaceFormat::setDefaultFormat(petrous::workstation::surfaceFormat());
   QApplication application(argc, argv);
   petrous::workstation::applyTheme(application);
   return RUN_ALL_TESTS();

@@ -1,8 +1,8 @@
 #include "petrous/Rendering/ScenePicture.h"
 
-#include <gtest/gtest.h>
-
 #include "PictureComparison.h"
+#include "PictureScenes.h"
+#include "petrous/Core/Error.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/StandardViews.h"
 
@@ -10,63 +10,15 @@ using namespace petrous;
 using namespace petrous::rendering;
 using namespace petrous::rendering::synthetic;
 
-TEST(ScenePicture, AgreesWithTheReference)
-{
-  expectAgreement(hollowBall(Eigen::Matrix3d::Identity()), slanting());
-}
-
-TEST(ScenePicture, AgreesWithTheReferenceInObliqueAndMirroredGrids)
-{
-  expectAgreement(hollowBall(synthetic::oblique()), slanting());
-  expectAgreement(hollowBall(synthetic::obliqueMirrored()), slanting());
-}
-
-TEST(ScenePicture, AgreesWithTheReferenceInParallelProjection)
-{
-  core::CameraPose pose = slanting();
-  pose.parallelScale = 13.0;
-  expectAgreement(hollowBall(synthetic::oblique()), pose);
-}
-
-TEST(ScenePicture, AgreesWithTheReferenceForEveryVoxelType)
-{
-  SceneContents contents;
-  contents.ct = synthetic::ball<std::uint16_t>(synthetic::cube(48, 0.5), 9.0);
-  expectAgreement(contents, slanting());
-  contents.ct = synthetic::ball<float>(synthetic::cube(48, 0.5), 9.0);
-  expectAgreement(contents, slanting());
-}
-
-TEST(ScenePicture, AgreesWithTheReferenceOnCutWallsForEveryVoxelType)
-{
-  const auto slab = [](const Eigen::Vector3d& p) { return 2.0 - p.z(); };
-  SceneContents contents = hollowBall(synthetic::oblique());
-  contents.mask = synthetic::cut(contents.ct->geometry(), slab);
-  expectAgreement(contents, slanting());
-  contents.ct = synthetic::ball<std::uint16_t>(contents.ct->geometry(), 9.0);
-  expectAgreement(contents, slanting());
-  contents.ct = synthetic::ball<float>(contents.ct->geometry(), 9.0);
-  expectAgreement(contents, slanting());
-}
-
-TEST(ScenePicture, DrawsTissueThatTheBorderCutsOff)
-{
-  SceneContents contents;
-  contents.ct = synthetic::ball(synthetic::cube(24, 0.5), 9.0);
-  expectAgreement(contents, slanting(40.0));
-}
-
 TEST(ScenePicture, ShowsThePatientsLeftOnTheRightFromAnterior)
 {
-  const core::GridGeometry grid = synthetic::cube(48, 0.5, synthetic::obliqueMirrored());
-  SceneContents contents;
-  contents.ct = synthetic::ct<std::int16_t>(grid, [](const Eigen::Vector3d&) { return -5.0; });
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      grid,
-      [](const Eigen::Vector3d& p)
-      {
-        return (p - Eigen::Vector3d(6.0, 0.0, 5.0)).norm() < 2.0; // left (LPS x > 0) and above
-      })));
+  const core::GridGeometry grid = cube(48, 0.5, obliqueMirrored());
+  SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+  // Left is LPS x > 0, and above z > 0.
+  const auto marker =
+      labels(grid, [](const Vector& p) { return (p - Vector(6.0, 0.0, 5.0)).norm() < 2.0; });
+  contents.labels = volume::makeLabelField({{marker, 1, 1, true}});
+  contents.materials = {boneMaterial(), blue()};
   const Picture picture = draw(contents, standardCamera(StandardView::Anterior, grid));
   double columns = 0.0;
   double rows = 0.0;
@@ -84,84 +36,79 @@ TEST(ScenePicture, ShowsThePatientsLeftOnTheRightFromAnterior)
   EXPECT_LT(rows / count, 0.45 * kHeight);
 }
 
-TEST(ScenePicture, ChangesInABoxAsItWouldFromTheStart)
+TEST(ScenePicture, SeesTheSurfaceWhereTheHandFeelsIt)
 {
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  const core::GridGeometry grid = contents.ct->geometry();
-  contents.structures.push_back(
-      blueMarker(synthetic::labels(grid, [](const Eigen::Vector3d& p) { return p.norm() < 6.0; })));
-  const auto first = synthetic::cut(grid, [](const Eigen::Vector3d& p)
-                                    { return (p - Eigen::Vector3d(0, -8, 0)).norm() - 3.0; });
-  const auto second =
-      synthetic::cut(grid,
-                     [](const Eigen::Vector3d& p)
-                     {
-                       return std::min((p - Eigen::Vector3d(0, -8, 0)).norm() - 3.0,
-                                       (p - Eigen::Vector3d(5, -5, 4)).norm() - 3.0);
-                     });
-  core::IndexBox box;
-  for (std::size_t b = 0; b < first->brickCount(); ++b)
-    if (second->brick(b))
-      box = box.united(second->brickBox(b));
-
-  contents.mask = first;
-  ScenePicture scene;
-  scene.setContents(contents);
-  scene.setCamera(slanting());
-  OffscreenView view(kWidth, kHeight);
-  const Picture before = view.render(scene);
-  scene.maskChanged(second, box);
-  const Picture after = view.render(scene);
-  contents.mask = second;
-  EXPECT_EQ(countDifferentPixels(after, draw(contents, slanting())), 0U);
-  EXPECT_GT(countDifferentPixels(after, before), 100U);
-  scene.maskChanged(first, box);
-  EXPECT_EQ(countDifferentPixels(view.render(scene), before), 0U);
+  const SceneContents contents = fullScene();
+  const double voxel = contents.ct->geometry().minSpacing();
+  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const PixelRays rays(slanting(), kWidth, kHeight);
+  ReferencePicture felt;
+  felt.rgb.resize(3 * kWidth * kHeight);
+  felt.depth = {kWidth, kHeight, {}};
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column)
+    {
+      const PixelRay ray = rays.through(column, row);
+      const auto hit = hand.firstHit(ray.origin, ray.origin + 200.0 * ray.direction);
+      felt.depth.millimetres.push_back(hit ? static_cast<float>(*hit)
+                                           : std::numeric_limits<float>::quiet_NaN());
+    }
+  const Agreement agreement = compare(shoot(contents, slanting()), felt, voxel);
+  EXPECT_GT(agreement.hits, 4000);
+  EXPECT_LE(agreement.median, 0.05);
+  EXPECT_LE(agreement.farthest, 0.05); // of those within half a voxel: all are
+  EXPECT_LE(agreement.others, 0.2);    // rays that graze; the hand steps half a voxel as well
 }
 
-TEST(ScenePicture, UndoToTheUncutBoneRestoresEveryPixel)
+TEST(ScenePicture, PicksThePointOfTheFieldInPatientMillimetres)
 {
-  SceneContents contents = hollowBall(synthetic::oblique());
-  const core::GridGeometry grid = contents.ct->geometry();
-  contents.structures.push_back(
-      blueMarker(synthetic::labels(grid, [](const Eigen::Vector3d& p) { return p.norm() < 6.0; })));
-  ScenePicture scene;
-  scene.setContents(contents);
-  scene.setCamera(slanting());
-  OffscreenView view(kWidth, kHeight);
-  const Picture before = view.render(scene);
-  const auto mask = synthetic::cut(grid, [](const Eigen::Vector3d& p)
-                                   { return (p - Eigen::Vector3d(3, -6, 0)).norm() - 5.0; });
-  scene.maskChanged(mask, grid.fullBox());
-  EXPECT_GT(countDifferentPixels(view.render(scene), before), 100U);
-  EXPECT_EQ(scene.resources().count("mask.combined"), 1U);
-  scene.maskChanged(std::make_shared<volume::CutMask>(grid), grid.fullBox());
-  EXPECT_EQ(countDifferentPixels(view.render(scene), before), 0U);
-  EXPECT_EQ(scene.resources().count("mask.combined"), 0U);
-}
-
-TEST(ScenePicture, HoldsNothingThatTheSceneDoesNotNeed)
-{
-  ScenePicture scene;
-  scene.setContents(hollowBall(Eigen::Matrix3d::Identity()));
-  for (const auto& [name, bytes] : scene.resources())
-  {
-    EXPECT_EQ(name.rfind("ct.", 0), 0U) << name;
-    EXPECT_GT(bytes, 0U) << name;
-  }
-}
-
-TEST(ScenePicture, DrawsFromInsideTheVolumeAndTheBone)
-{
-  const SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  for (const Eigen::Vector3d& eye :
-       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, -6, 3), Eigen::Vector3d(10, 0, 0)})
+  const SceneContents contents = fullScene();
+  const volume::TissueField hand = field(contents, {contents.labels->share});
+  for (const bool parallel : {false, true})
   {
     core::CameraPose pose = slanting();
-    pose.position = eye;
-    pose.focalPoint = eye + Eigen::Vector3d(-1, 1, 0);
-    EXPECT_EQ(draw(contents, pose).width, kWidth);
+    pose.lensShift = 0.1;
+    if (parallel)
+      pose.parallelScale = 13.0;
+    ScenePicture scene;
+    scene.setContents(contents);
+    scene.setCamera(pose);
+    EXPECT_FALSE(scene.pick(kWidth / 2, kHeight / 2)); // before there is a frame
+    OffscreenView view(kWidth, kHeight);
+    view.render(scene);
+    const PixelRays rays(pose, kWidth, kHeight);
+    int picked = 0;
+    for (int row = 5; row < kHeight; row += 14)
+      for (int column = 5; column < kWidth; column += 14)
+      {
+        const PixelRay ray = rays.through(column, row);
+        const auto hit = hand.firstHit(ray.origin, ray.origin + 200.0 * ray.direction);
+        const auto point = scene.pick(column, row);
+        ASSERT_EQ(hit.has_value(), point.has_value()) << column << " " << row;
+        if (!hit)
+          continue;
+        ++picked;
+        EXPECT_LT((*point - (ray.origin + *hit * ray.direction)).norm(), 0.05 * 0.5);
+      }
+    EXPECT_GT(picked, 15);
+    EXPECT_FALSE(scene.pick(-1.0, 10.0));
+    EXPECT_FALSE(scene.pick(10.0, kHeight));
   }
+}
+
+TEST(ScenePicture, GivesNoDepthOnceTheVolumeIsGone)
+{
+  ScenePicture scene;
+  scene.setContents(hollowBall());
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  view.render(scene);
+  EXPECT_TRUE(scene.pick(kWidth / 2, kHeight / 2));
+  scene.setContents({});
+  EXPECT_TRUE(isBackground(view.render(scene).pixel(kWidth / 2, kHeight / 2)));
+  EXPECT_FALSE(scene.pick(kWidth / 2, kHeight / 2));
+  EXPECT_TRUE(scene.statistics().variant.empty());
+  EXPECT_TRUE(scene.resources().empty());
 }
 
 TEST(ScenePicture, DrawsThinAndEmptyGridsAsAir)
@@ -171,7 +118,7 @@ TEST(ScenePicture, DrawsThinAndEmptyGridsAsAir)
   {
     const core::GridGeometry grid(dims, {0.5, 0.5, 0.5}, {0.0, 0.0, 0.0});
     SceneContents contents;
-    contents.ct = synthetic::ct<std::int16_t>(grid, [](const Eigen::Vector3d&) { return -3.0; });
+    contents.ct = ct<std::int16_t>(grid, [](const Vector&) { return -3.0; });
     const Picture picture = draw(contents, standardCamera(StandardView::Left, grid));
     EXPECT_TRUE(isBackground(picture.pixel(kWidth / 2, kHeight / 2)));
   }
@@ -181,33 +128,73 @@ TEST(ScenePicture, DrawsThinAndEmptyGridsAsAir)
 TEST(ScenePicture, RefusesContentsThatContradictEachOther)
 {
   ScenePicture scene;
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  contents.mask = std::make_shared<volume::CutMask>(synthetic::cube(10, 1.0));
+  SceneContents contents = hollowBall();
+  contents.mask = std::make_shared<volume::CutMask>(cube(10, 1.0));
   EXPECT_THROW(scene.setContents(contents), RenderingError);
-  contents.mask.reset();
-  contents.structures.push_back({"nothing", nullptr, 1, {}});
+
+  contents = labelledBall(cube(48, 0.5));
+  contents.materials.resize(2); // index 2 has none
+  EXPECT_THROW(scene.setContents(contents), RenderingError);
+
+  contents = hollowBall();
+  contents.materials = {waveMaterial(1.0F)}; // reads a second image
+  EXPECT_THROW(scene.setContents(contents), RenderingError);
+
+  contents = hollowBall();
+  contents.clipping.resize(7);
+  EXPECT_THROW(scene.setContents(contents), RenderingError);
+
+  contents = hollowBall();
+  contents.meshes.push_back({"nothing", nullptr, {}});
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 }
 
-TEST(ScenePicture, DrawsTheToolBeforeTheBone)
+TEST(ScenePicture, StaysAsItWasWhereContentsAreRefused)
 {
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  const Picture without = draw(contents, slanting());
-  ToolPose tool;
-  tool.center = {3.0, -11.0, 2.0};
-  tool.axisToHand = {0.3, -1.0, 0.5};
-  contents.tool = tool;
-  EXPECT_GT(countDifferentPixels(draw(contents, slanting()), without), 100U);
-  contents.tool->center = {0.0, 0.0, 0.0};
-  contents.tool->axisToHand = {0.0, 1.0, 0.0}; // away from the eye, hidden up to its end
-  contents.tool->radius = 1.0;
-  EXPECT_LT(countDifferentPixels(draw(contents, slanting()), without), 3000U);
+  ScenePicture scene;
+  scene.setContents(hollowBall());
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  const Picture before = view.render(scene);
+  SceneContents broken = translucentBall();
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
+  mesh.triangles = {{0, 1, 7}};
+  broken.meshes.push_back({"broken", std::make_shared<core::TriangleMesh>(mesh), {}});
+  EXPECT_THROW(scene.setContents(broken), core::Error);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), before), 0U);
+}
+
+TEST(ScenePicture, RefusesAQualityOutOfItsRange)
+{
+  ScenePicture scene;
+  const RenderQuality fine;
+  const auto refused = [&](auto RenderQuality::*value, auto bad)
+  {
+    RenderQuality quality;
+    quality.*value = bad;
+    EXPECT_THROW(scene.setQuality(quality), core::InvalidParameter);
+    EXPECT_EQ(scene.quality().*value, fine.*value);
+  };
+  refused(&RenderQuality::step, 0.0);
+  refused(&RenderQuality::step, -1.0);
+  refused(&RenderQuality::step, std::numeric_limits<double>::quiet_NaN());
+  refused(&RenderQuality::bisections, -1);
+  refused(&RenderQuality::bisections, 25);
+  refused(&RenderQuality::brick, 5);
+  refused(&RenderQuality::termination, -0.1);
+  refused(&RenderQuality::tableSize, 1);
+  refused(&RenderQuality::tableSize, 100000);
+  refused(&RenderQuality::maskBits, 12);
+  refused(&RenderQuality::imageScale, 0.0);
+  refused(&RenderQuality::imageScale, 1.5);
+  refused(&RenderQuality::largestTexture, -4);
 }
 
 TEST(ScenePicture, CoarsensOnlyWhileInteractive)
 {
   ScenePicture scene;
-  scene.setContents(hollowBall(Eigen::Matrix3d::Identity()));
+  scene.setContents(hollowBall());
   scene.setCamera(slanting());
   OffscreenView view(kWidth, kHeight);
   const Picture still = view.render(scene);
@@ -217,6 +204,27 @@ TEST(ScenePicture, CoarsensOnlyWhileInteractive)
   EXPECT_EQ(countDifferentPixels(view.render(scene), still), 0U);
 }
 
+TEST(ScenePicture, KeepsItsBrightnessWhileCoarse)
+{
+  for (const SceneContents& contents : {translucentBall(), fullScene(), hollowBall()})
+  {
+    RenderQuality coarse;
+    coarse.imageScale = 0.3;
+    coarse.step = 1.0;
+    const auto brightness = [](const Picture& picture)
+    {
+      double sum = 0.0;
+      for (const std::uint8_t value : picture.rgb)
+        sum += value;
+      return sum / static_cast<double>(picture.rgb.size());
+    };
+    const double fine = brightness(draw(contents, slanting(40.0)));
+    const double rough = brightness(draw(contents, slanting(40.0), coarse));
+    // 1.5 % of the light is a third of what an eye tells apart between two frames.
+    EXPECT_NEAR(rough / fine, 1.0, 0.015);
+  }
+}
+
 TEST(ScenePicture, KeepsItsCameraWithAndWithoutARenderer)
 {
   ScenePicture scene;
@@ -224,7 +232,7 @@ TEST(ScenePicture, KeepsItsCameraWithAndWithoutARenderer)
   pose.parallelScale = 12.0;
   scene.setCamera(pose);
   EXPECT_TRUE(scene.camera().position.isApprox(pose.position));
-  scene.setContents(hollowBall(Eigen::Matrix3d::Identity()));
+  scene.setContents(hollowBall());
   OffscreenView view(40, 30);
   view.render(scene);
   EXPECT_TRUE(scene.camera().position.isApprox(pose.position, 1e-9));

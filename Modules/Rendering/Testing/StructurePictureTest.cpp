@@ -1,51 +1,67 @@
-#include "petrous/Rendering/ScenePicture.h"
-
-#include <gtest/gtest.h>
-
-#include "LabelScenes.h"
 #include "PictureComparison.h"
-#include "petrous/Volume/SmoothedUnion.h"
+#include "PictureScenes.h"
+#include "petrous/Rendering/ScenePicture.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
 using namespace petrous::rendering::synthetic;
 
+namespace
+{
+
+// One blue structure of a label map.
+template <class Inside>
+void addMarker(SceneContents& contents, const core::GridGeometry& grid, const Inside& inside,
+               float surfaceOpacity = 1.0F)
+{
+  contents.labels = volume::makeLabelField({{labels(grid, inside), 1, 1, true}});
+  contents.materials.resize(1);
+  contents.materials.push_back(blue(surfaceOpacity));
+}
+
+} // namespace
+
 TEST(StructurePicture, ShowsACutStructureInItsColorWhereTheWallCrossesIt)
 {
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
+  SceneContents contents = hollowBall();
   const core::GridGeometry grid = contents.ct->geometry();
-  const auto labels = synthetic::labels(grid, [](const Eigen::Vector3d& p)
-                                        { return p.head<2>().norm() < 3.0 && p.norm() < 8.0; });
-  contents.structures.push_back(blueMarker(labels));
+  addMarker(contents, grid,
+            [](const Vector& p) { return p.head<2>().norm() < 3.0 && p.norm() < 8.0; });
   EXPECT_EQ(countBlue(draw(contents, slanting())), 0); // inside solid bone
 
-  contents.mask = synthetic::cut(grid, [](const Eigen::Vector3d& p) { return 1.0 - p.z(); });
+  contents.mask = cut(grid, [](const Vector& p) { return 1.0 - p.z(); });
   core::CameraPose pose = slanting();
   pose.position = {8.0, -15.0, 45.0};
-  const auto solid = volume::makeSmoothedUnion(*labels, [](std::uint16_t) { return true; });
-  SceneContents labelled = contents;
-  labelled.labels = synthetic::oneStructure(solid);
-  labelled.materials = {
-      {}, {appearance::TransferFunction::constant(contents.structures[0].look.color, 1.0F)}};
-  const Picture truth = truthOf(labelled, pose).picture;
-  const Picture picture = draw(contents, pose);
-  EXPECT_GT(countBlue(truth), 300);
-  int different = 0;
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-      different += isBlue(picture.pixel(column, row)) != isBlue(truth.pixel(column, row));
-  EXPECT_LE(different, countBlue(truth) / 10);
+  const ReferencePicture truth = truthOf(contents, pose);
+  const Shot shot = shoot(contents, pose);
+  EXPECT_GT(countBlue(truth.picture), 300);
+  EXPECT_NEAR(countBlue(shot.picture), countBlue(truth.picture), 2);
+  expectAgreement(compare(shot, truth, grid.minSpacing()));
+}
+
+TEST(StructurePicture, ShowsAStructureThroughTranslucentBone)
+{
+  SceneContents contents = hollowBall();
+  addMarker(contents, contents.ct->geometry(), [](const Vector& p) { return p.norm() < 3.0; });
+  const Picture opaque = draw(contents, slanting());
+  contents.materials[0] = boneMaterial(0.2F);
+  const Picture translucent = draw(contents, slanting());
+  const auto blueness = [](const Picture& picture)
+  {
+    const std::uint8_t* middle = picture.pixel(kWidth / 2, kHeight / 2);
+    return middle[2] - middle[0];
+  };
+  EXPECT_LT(blueness(opaque), 0);
+  EXPECT_GT(blueness(translucent), blueness(opaque) + 20);
 }
 
 TEST(StructurePicture, KeepsARemnantThinnerThanAVoxel)
 {
-  SceneContents contents;
-  const core::GridGeometry grid = synthetic::cube(40, 0.6);
-  contents.ct = synthetic::ct<std::int16_t>(grid, [](const Eigen::Vector3d&) { return -5.0; });
-  contents.structures.push_back(blueMarker(
-      synthetic::labels(grid, [](const Eigen::Vector3d& p) { return std::abs(p.z()) < 4.0; })));
+  const core::GridGeometry grid = cube(40, 0.6);
+  SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+  addMarker(contents, grid, [](const Vector& p) { return std::abs(p.z()) < 4.0; });
   // The structure's lower face lies half-way between samples at z = -4.2 mm or so.
-  contents.mask = synthetic::cut(grid, [](const Eigen::Vector3d& p) { return -3.9 - p.z(); });
+  contents.mask = cut(grid, [](const Vector& p) { return -3.9 - p.z(); });
   core::CameraPose pose = slanting();
   pose.position = {0.0, -10.0, 60.0};
   const Picture picture = draw(contents, pose);
@@ -53,36 +69,79 @@ TEST(StructurePicture, KeepsARemnantThinnerThanAVoxel)
     EXPECT_TRUE(isBlue(picture.pixel(column, kHeight / 2))) << column;
 }
 
-TEST(StructurePicture, MakesAHiddenStructureOnlyWhenItIsShown)
+TEST(StructurePicture, KeepsAThreadThinnerThanAVoxel)
 {
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      contents.ct->geometry(), [](const Eigen::Vector3d& p) { return p.norm() < 11.0; })));
-  contents.structures[0].look.shown = false;
+  // A nerve of 0.3 mm on a grid of 1 mm, met by one voxel at a time.
+  const core::GridGeometry grid = cube(24, 1.0);
+  SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+  addMarker(contents, grid,
+            [](const Vector& p)
+            { return p.x() > 0.0 && p.x() < 1.0 && p.y() > 0.0 && p.y() < 1.0; });
+  const Shot shot = shoot(contents, slanting());
+  expectAgreement(compare(shot, truthOf(contents, slanting()), grid.minSpacing()));
+  const Picture& picture = shot.picture;
+  for (int row = 50; row < 100; ++row)
+  {
+    bool seen = false;
+    for (int column = 0; column < kWidth; ++column)
+      seen = seen || isBlue(picture.pixel(column, row));
+    EXPECT_TRUE(seen) << row;
+  }
+}
+
+TEST(StructurePicture, HoldsLabelsOnlyWhileThereAreAny)
+{
+  SceneContents contents = hollowBall();
+  SceneContents labelled = contents;
+  addMarker(labelled, contents.ct->geometry(), [](const Vector& p) { return p.norm() < 11.0; });
   ScenePicture scene;
   scene.setContents(contents);
   scene.setCamera(slanting());
   OffscreenView view(kWidth, kHeight);
-  EXPECT_EQ(countBlue(view.render(scene)), 0);
-  EXPECT_EQ(scene.resources().count("labels.marker"), 0U);
-  contents.structures[0].look.shown = true;
-  scene.setContents(contents);
+  const Picture bare = view.render(scene);
+  EXPECT_EQ(countBlue(bare), 0);
+  EXPECT_EQ(scene.resources().count("labels.texture"), 0U);
+  scene.setContents(labelled);
   EXPECT_GT(countBlue(view.render(scene)), 1000);
-  EXPECT_EQ(scene.resources().count("labels.marker"), 1U);
+  EXPECT_EQ(scene.resources().count("labels.texture"), 1U);
+  scene.setContents(contents);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), bare), 0U);
+  EXPECT_EQ(scene.resources().count("labels.texture"), 0U);
 }
 
-TEST(StructurePicture, DrawsATranslucentStructureThinner)
+TEST(StructurePicture, BlendsATranslucentStructureWithWhatLiesBehindIt)
 {
-  SceneContents contents = hollowBall(Eigen::Matrix3d::Identity());
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      contents.ct->geometry(), [](const Eigen::Vector3d& p) { return p.norm() < 11.0; })));
-  const int opaque = countBlue(draw(contents, slanting()));
-  contents.structures[0].look.opacity = 0.5F;
-  const int half = countBlue(draw(contents, slanting()));
-  EXPECT_NEAR(half, opaque / 2, opaque / 20);
+  const core::GridGeometry grid = cube(48, 0.5);
+  SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+  const auto inside = [](const Vector& p) { return p.norm() < 9.0; };
+  addMarker(contents, grid, inside);
+  contents.materials[1].transfer =
+      appearance::TransferFunction::constant({0.1F, 0.15F, 0.9F}, 0.0F, 0.0F);
+  const std::uint8_t opaque = draw(contents, slanting()).pixel(kWidth / 2, kHeight / 2)[2];
+  contents.materials[1].surfaceOpacity = 0.5F;
+  const std::uint8_t half = draw(contents, slanting()).pixel(kWidth / 2, kHeight / 2)[2];
+  EXPECT_NEAR(half, 0.5 * opaque + 0.5 * 255.0 * optics::kBackground[2], 1.0);
 }
 
-TEST(StructurePicture, DrawsAMeshUnlessALabelVolumeOfItsNameReplacesIt)
+TEST(StructurePicture, DrawsOneOfTwoHundredAndFiftyFiveStructures)
+{
+  const core::GridGeometry grid = cube(48, 0.5);
+  SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+  // Slabs along x, all grey but the 255th.
+  contents.labels = labelField(
+      grid, [](const Vector& p) { return 9.0 - p.norm(); },
+      [](const Vector& p)
+      { return p.z() > 4.0 ? 255 : std::clamp(static_cast<int>(127.0 + 12.0 * p.x()), 1, 254); });
+  contents.materials.assign(
+      256, {appearance::TransferFunction::constant({0.5F, 0.5F, 0.5F}, 1.0F)});
+  contents.materials[255] = blue();
+  const Shot shot = shoot(contents, slanting());
+  const ReferencePicture truth = truthOf(contents, slanting());
+  EXPECT_GT(countBlue(truth.picture), 300);
+  expectAgreement(compare(shot, truth, grid.minSpacing()));
+}
+
+TEST(StructurePicture, DrawsAMesh)
 {
   core::TriangleMesh tetrahedron;
   tetrahedron.vertices = {{11, -11, -11}, {-11, 11, -11}, {-11, -11, 11}, {11, 11, 11}};
@@ -91,12 +150,13 @@ TEST(StructurePicture, DrawsAMeshUnlessALabelVolumeOfItsNameReplacesIt)
   MeshContents mesh{"marker", std::make_shared<core::TriangleMesh>(tetrahedron), {}};
   mesh.look.color = {0.1F, 0.15F, 0.9F};
   contents.meshes.push_back(mesh);
-  EXPECT_GT(countBlue(draw(contents, slanting())), 1000);
-
-  contents.structures.push_back(blueMarker(synthetic::labels(
-      synthetic::cube(24, 1.0), [](const Eigen::Vector3d& p) { return p.norm() < 2.0; })));
   ScenePicture scene;
   scene.setContents(contents);
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  EXPECT_GT(countBlue(view.render(scene)), 1000);
+  EXPECT_EQ(scene.resources().count("meshes.marker"), 1U);
+  scene.setContents({});
+  EXPECT_EQ(countBlue(view.render(scene)), 0);
   EXPECT_EQ(scene.resources().count("meshes.marker"), 0U);
-  EXPECT_LT(countBlue(draw(contents, slanting())), 500);
 }

@@ -45,7 +45,7 @@ RenderQuality InteractionQuality::coarser(const RenderQuality& full) const noexc
   }
   // In steps of a twentieth, so that the picture's size does not change with every frame.
   scale = std::floor(20.0 * scale) / 20.0;
-  quality.imageScale = std::clamp(scale, kSmallestScale, full.imageScale);
+  quality.imageScale = std::min(std::max(scale, kSmallestScale), full.imageScale);
   return quality;
 }
 

@@ -12,6 +12,8 @@
 #include "PresentShader.h"
 #include "RayCastShader.h"
 #include "RayCastVertexShader.h"
+#include "RayOpticsShader.h"
+#include "RaySceneShader.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -20,30 +22,23 @@ namespace petrous::rendering
 namespace
 {
 
-constexpr double kFieldScale = 1000.0; // unit of c_CT, as the tissue field's default
-constexpr std::size_t kMostPlanes = 6;
-
-enum Unit : int
-{
-  CtUnit,
-  BrickUnit,
-  LookUnit,
-  MaterialUnit,
-  OpaqueUnit,
-  MaskUnit,
-  ShareUnit,
-  IndexUnit,
-  SecondUnit,
-  DepthUnit
-};
-
 bool drawable(const SceneContents& contents)
 {
-  // A grid one sample thin has a hull without a volume: the field is air everywhere.
+  // What is one sample thin has a hull without a volume: the field is air everywhere.
   if (!contents.ct)
     return false;
-  const core::Index3& dims = contents.ct->geometry().dims();
-  return *std::min_element(dims.begin(), dims.end()) > 1;
+  const core::IndexBox whole = contents.ct->geometry().fullBox();
+  const core::IndexBox box = contents.crop ? contents.crop->intersected(whole) : whole;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.upper[a] - box.lower[a] < 2)
+      return false;
+  return true;
+}
+
+// A mask in which nothing is cut draws as none does.
+std::shared_ptr<const volume::CutMask> inUse(std::shared_ptr<const volume::CutMask> mask)
+{
+  return mask && !mask->untouched() ? std::move(mask) : nullptr;
 }
 
 bool translucent(const std::vector<appearance::Material>& materials)
@@ -89,17 +84,24 @@ std::vector<volume::ValueRange> opaqueRanges(const appearance::TransferFunction&
 
 void RayCaster::setContents(const SceneContents& contents)
 {
+  if (contents.clipping.size() > kMostPlanes)
+    throw RenderingError(RenderingError::Reason::BadContents,
+                         "picture: at most " + std::to_string(kMostPlanes) +
+                             " clipping planes can be drawn, not " +
+                             std::to_string(contents.clipping.size()));
   const bool sameCt = contents.ct == m_contents.ct;
+  std::shared_ptr<const volume::CutMask> mask = inUse(contents.mask);
   m_newCt |= !sameCt;
   m_newLabels |= contents.labels != m_contents.labels;
   m_newSecond |= contents.second.volume != m_contents.second.volume;
   m_newMaterials = true;
   m_newRules = true;
-  if (contents.mask != m_contents.mask || !sameCt)
-    m_mask.reset(contents.mask, m_quality.maskBits);
+  if (mask != m_contents.mask || !sameCt)
+    m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
   else
     m_mask.compare();
   m_contents = contents;
+  m_contents.mask = std::move(mask);
   if (m_contents.materials.empty())
     m_contents.materials.emplace_back();
   if (!sameCt)
@@ -108,8 +110,12 @@ void RayCaster::setContents(const SceneContents& contents)
 
 void RayCaster::setQuality(const RenderQuality& quality)
 {
-  if (quality.maskBits != m_quality.maskBits)
-    m_mask.reset(m_contents.mask, quality.maskBits);
+  quality.validate();
+  const bool sameLimit = quality.largestTexture == m_quality.largestTexture;
+  if (quality.maskBits != m_quality.maskBits || !sameLimit)
+    m_mask.reset(m_contents.mask, quality.maskBits, quality.largestTexture);
+  m_newCt |= !sameLimit;
+  m_newSecond |= !sameLimit;
   if (quality.brick != m_quality.brick)
   {
     m_occupancy.reset();
@@ -122,9 +128,10 @@ void RayCaster::setQuality(const RenderQuality& quality)
 void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
 {
   const bool wasCut = m_mask.inUse();
+  mask = inUse(std::move(mask));
   m_contents.mask = mask;
   if (static_cast<bool>(mask) != wasCut)
-    m_mask.reset(mask, m_quality.maskBits);
+    m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
   else
     m_mask.changed(mask, box);
   if (m_occupancy && !m_newRules)
@@ -178,9 +185,7 @@ void RayCaster::upload()
                                  ": the graphics driver has no room for all of it");
   };
   if (m_newCt || !m_ct.texture)
-  {
-    m_ct.upload(*m_contents.ct);
-  }
+    m_ct.upload(*m_contents.ct, m_quality.largestTexture);
   if (!m_occupancy)
   {
     m_occupancy = std::make_unique<OccupancyGrid>(*m_contents.ct, m_quality.brick);
@@ -189,12 +194,14 @@ void RayCaster::upload()
   }
   if (readsSecond(m_contents) && (m_newSecond || !m_second.texture))
   {
-    m_second.upload(*m_contents.second.volume);
+    m_second.upload(*m_contents.second.volume, m_quality.largestTexture);
     m_secondRange = m_contents.second.volume->range();
     m_newMaterials = true;
   }
+  if (!readsSecond(m_contents))
+    m_second.texture.release();
   if (m_contents.labels && (m_newLabels || !m_labels.share))
-    m_labels.upload(*m_contents.labels);
+    m_labels.upload(*m_contents.labels, m_quality.largestTexture);
   if (!m_contents.labels)
     m_labels.release();
   if (m_newMaterials || !m_materials.look)
@@ -233,6 +240,8 @@ void RayCaster::upload()
   m_statistics.notes.clear();
   if (m_ct.reduction != core::Index3{1, 1, 1})
     note("the CT", m_ct.reduction);
+  if (m_labels.share && m_labels.reduction != core::Index3{1, 1, 1})
+    note("the structures' label field", m_labels.reduction);
   if (m_second.texture && m_second.reduction != core::Index3{1, 1, 1})
     note("the second image", m_second.reduction);
   m_statistics.pendingEdits = m_mask.pendingVoxels();
@@ -246,39 +255,6 @@ void RayCaster::upload()
   add("mask.texture", m_mask.texture().bytes());
   add("labels.texture", m_labels.share.bytes() + m_labels.index.bytes());
   add("mr.texture", m_second.texture.bytes());
-}
-
-void RayCaster::prepareTarget(int width, int height, bool count)
-{
-  if (m_target.framebuffer && m_target.color.dims()[0] == width &&
-      m_target.color.dims()[1] == height && m_target.counting == count)
-  {
-    glBindFramebuffer(GL_FRAMEBUFFER, m_target.framebuffer);
-    return;
-  }
-  m_target.color.create(texel::kColor, width, height, nullptr, GL_LINEAR);
-  m_target.depth.create(texel::kFloat, width, height, nullptr, GL_NEAREST);
-  if (count)
-    m_target.count.create(texel::kFloat2, width, height, nullptr, GL_NEAREST);
-  else
-    m_target.count.release();
-  m_target.counting = count;
-  if (!m_target.framebuffer)
-    glGenFramebuffers(1, &m_target.framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, m_target.framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, m_target.color.name(),
-                         0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, m_target.depth.name(),
-                         0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT2, GL_TEXTURE_2D,
-                         count ? m_target.count.name() : 0, 0);
-  const std::array<GLenum, 3> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                      GL_COLOR_ATTACHMENT2};
-  glDrawBuffers(count ? 3 : 2, buffers.data());
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw RenderingError(RenderingError::Reason::NoOpenGL,
-                         "the graphics driver draws no picture of " + std::to_string(width) +
-                             " x " + std::to_string(height) + " in 16-bit colour");
 }
 
 // ---- one frame
@@ -303,130 +279,9 @@ GlProgram& RayCaster::program(unsigned features, bool count)
   GlProgram& result = m_programs[features * 2U + (count ? 1U : 0U)];
   if (!result)
     result.build(std::string("#version 330 core\n").append(kRayCastVertexShader),
-                 head + (count ? "#define PETROUS_COUNT\n" : "") + std::string(kRayCastShader));
+                 head + (count ? "#define PETROUS_COUNT\n" : "") +
+                     std::string(kRaySceneShader).append(kRayOpticsShader).append(kRayCastShader));
   return result;
-}
-
-void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
-{
-  const auto bind = [&program](const GlTexture& texture, int unit, const char* name)
-  {
-    texture.bind(unit);
-    program.set(name, unit);
-  };
-  bind(m_ct.texture, CtUnit, "ctTexture");
-  bind(m_bricks, BrickUnit, "brickTexture");
-  bind(m_materials.look, LookUnit, "lookTexture");
-  bind(m_materials.material, MaterialUnit, "materialTexture");
-  bind(m_materials.depth, DepthUnit, "depthTexture");
-  if (m_mask.inUse())
-    bind(m_mask.texture(), MaskUnit, "maskTexture");
-  if (m_contents.labels)
-  {
-    bind(m_labels.share, ShareUnit, "shareTexture");
-    bind(m_labels.index, IndexUnit, "indexTexture");
-  }
-  if (m_second.texture)
-    bind(m_second.texture, SecondUnit, "secondTexture");
-  glActiveTexture(GL_TEXTURE0 + OpaqueUnit);
-  glBindTexture(GL_TEXTURE_2D, frame.opaque);
-  program.set("opaqueTexture", int{OpaqueUnit});
-  program.set("hasOpaque", frame.opaque ? 1 : 0);
-}
-
-void RayCaster::setRays(GlProgram& program, const Frame& frame) const
-{
-  const core::GridGeometry& grid = m_contents.ct->geometry();
-  const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
-  const RayView& view = frame.view;
-  program.set("originCenter", grid.voxelFromPatient(view.origin));
-  program.set("originX", Eigen::Vector3d(voxelFromMm * view.originX));
-  program.set("originY", Eigen::Vector3d(voxelFromMm * view.originY));
-  program.set("directionCenter", Eigen::Vector3d(voxelFromMm * view.direction));
-  program.set("directionX", Eigen::Vector3d(voxelFromMm * view.directionX));
-  program.set("directionY", Eigen::Vector3d(voxelFromMm * view.directionY));
-  program.set("viewCenter", view.direction);
-  program.set("viewX", view.directionX);
-  program.set("viewY", view.directionY);
-  program.set("parallel", view.parallel ? 1 : 0);
-  program.set("opaqueDepth", view.depth);
-
-  std::array<float, 4 * kMostPlanes> planes{};
-  const std::size_t count = std::min(m_contents.clipping.size(), kMostPlanes);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const ClippingPlane& plane = m_contents.clipping[i];
-    const Eigen::Vector3d slope = voxelFromMm.inverse().transpose() * plane.normal;
-    const double offset =
-        plane.normal.dot(grid.patientFromVoxel(Eigen::Vector3d::Zero()) - plane.point);
-    for (int a = 0; a < 3; ++a)
-      planes[4 * i + static_cast<std::size_t>(a)] = static_cast<float>(slope[a]);
-    planes[4 * i + 3] = static_cast<float>(offset);
-  }
-  program.set("planeCount", static_cast<int>(count));
-  program.setArray("planes", planes.data(), static_cast<int>(kMostPlanes));
-}
-
-void RayCaster::setVolume(GlProgram& program) const
-{
-  const core::GridGeometry& grid = m_contents.ct->geometry();
-  const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
-  const auto upperOf = [](const core::Index3& dims)
-  { return Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0); };
-  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
-  Eigen::Vector3d upper = upperOf(grid.dims());
-  program.set("hullUpper", upper);
-  if (m_contents.crop)
-    for (int a = 0; a < 3; ++a)
-    {
-      const auto axis = static_cast<std::size_t>(a);
-      lower[a] = std::max<double>(lower[a], m_contents.crop->lower[axis]);
-      upper[a] = std::min<double>(upper[a], m_contents.crop->upper[axis] - 1.0);
-    }
-  program.set("boxLower", lower);
-  program.set("boxUpper", upper);
-  program.set("ctScale", m_ct.map.scale);
-  program.set("ctOffset", m_ct.map.offset);
-  program.set("ctUnit", m_ct.unit);
-  program.set("iso", m_contents.iso);
-  program.set("perUnit", 1.0 / kFieldScale);
-  program.set("brickEdge", double(m_quality.brick));
-  program.set("stepLength", m_quality.step * grid.minSpacing());
-  program.set("bisections", m_quality.bisections);
-  program.set("termination", m_quality.termination);
-  program.set("normalFromVoxel", Eigen::Matrix3d(voxelFromMm.transpose()));
-  program.set("voxelFromMm", voxelFromMm);
-  program.set("colorDepth", optics::kColorDepth * grid.minSpacing());
-  const LightSettings& light = m_contents.light;
-  program.set("light",
-              Eigen::Vector4d(light.intensity, light.ambient, light.specular, light.wetness));
-  program.set("falloff", light.falloff);
-  program.set("maskScale", m_mask.map().scale);
-  program.set("maskOffset", m_mask.map().offset);
-  if (m_contents.labels)
-  {
-    const core::GridGeometry& labels = m_contents.labels->share->geometry();
-    program.set("labelFromVoxel",
-                Eigen::Matrix3d(labels.voxelFromPatientLinear() * voxelFromMm.inverse()));
-    program.set("labelOrigin",
-                labels.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero())));
-    program.set("labelUpper", upperOf(labels.dims()));
-    program.set("normalFromLabel", Eigen::Matrix3d(labels.voxelFromPatientLinear().transpose()));
-  }
-  if (m_second.texture && m_contents.second.volume)
-  {
-    const core::GridGeometry& second = m_contents.second.volume->geometry();
-    const core::RigidTransform& motion = m_contents.second.secondFromCt;
-    const Eigen::Matrix3d linear = second.voxelFromPatientLinear() *
-                                   motion.rotation().toRotationMatrix() * voxelFromMm.inverse();
-    program.set("secondFromVoxel", linear);
-    program.set("secondOrigin",
-                second.voxelFromPatient(motion * grid.patientFromVoxel(Eigen::Vector3d::Zero())));
-    program.set("secondUnit", m_second.unit);
-    program.set("secondUpper", upperOf(second.dims()));
-    program.set("secondScale", m_second.map.scale);
-    program.set("secondOffset", m_second.map.offset);
-  }
 }
 
 void RayCaster::drawTriangle()
@@ -446,7 +301,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   const bool anything = drawable(m_contents);
   if (anything)
     upload();
-  prepareTarget(width, height, count);
+  m_target.prepare(width, height, count);
   glViewport(0, 0, width, height);
   const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
   const std::array<float, 4> noDepth{-1.0F, 0.0F, 0.0F, 0.0F};
@@ -454,7 +309,9 @@ void RayCaster::draw(const Frame& frame, bool count)
   {
     glClearBufferfv(GL_COLOR, 0, nothing.data());
     glClearBufferfv(GL_COLOR, 1, noDepth.data());
-    m_statistics.variant.clear();
+    m_statistics = {};
+    if (!m_contents.ct)
+      releaseData();
     return;
   }
   GlProgram& shader = program(features(), count);
@@ -464,7 +321,11 @@ void RayCaster::draw(const Frame& frame, bool count)
   setVolume(shader);
   drawTriangle();
   if (count)
-    readCounts();
+  {
+    const auto [fetches, samples] = m_target.meanCounts();
+    m_statistics.fetchesPerPixel = fetches;
+    m_statistics.samplesPerPixel = samples;
+  }
 }
 
 void RayCaster::present(int width, int height)
@@ -473,95 +334,33 @@ void RayCaster::present(int width, int height)
     m_present.build(std::string("#version 330 core\n").append(kRayCastVertexShader),
                     std::string("#version 330 core\n").append(kPresentShader));
   m_present.use();
-  m_target.color.bind(0);
+  m_target.color().bind(0);
   m_present.set("picture", 0);
   m_present.set("sameSize",
-                m_target.color.dims()[0] == width && m_target.color.dims()[1] == height ? 1 : 0);
+                m_target.color().dims()[0] == width && m_target.color().dims()[1] == height ? 1
+                                                                                            : 0);
   drawTriangle();
   glUseProgram(0);
 }
 
-void RayCaster::readCounts()
+void RayCaster::releaseData()
 {
-  const core::Index3& size = m_target.count.dims();
-  const std::size_t pixels = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
-  std::vector<float> counts(2 * pixels);
-  glReadBuffer(GL_COLOR_ATTACHMENT2);
-  glReadPixels(0, 0, size[0], size[1], GL_RG, GL_FLOAT, counts.data());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  double fetches = 0.0;
-  double samples = 0.0;
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    fetches += static_cast<double>(counts[2 * i]);
-    samples += static_cast<double>(counts[2 * i + 1]);
-  }
-  m_statistics.fetchesPerPixel = fetches / static_cast<double>(pixels);
-  m_statistics.samplesPerPixel = samples / static_cast<double>(pixels);
-}
-
-DepthImage RayCaster::readDepth() const
-{
-  DepthImage image;
-  image.width = m_target.depth.dims()[0];
-  image.height = m_target.depth.dims()[1];
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto height = static_cast<std::size_t>(image.height);
-  std::vector<float> rows(width * height);
-  if (!rows.empty())
-  {
-    glActiveTexture(GL_TEXTURE0);
-    m_target.depth.bind(0);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, rows.data());
-    glBindTexture(GL_TEXTURE_2D, 0);
-  }
-  image.millimetres.resize(rows.size());
-  for (std::size_t y = 0; y < height; ++y) // OpenGL's rows run from the bottom
-    std::transform(rows.begin() + static_cast<std::ptrdiff_t>((height - 1 - y) * width),
-                   rows.begin() + static_cast<std::ptrdiff_t>((height - y) * width),
-                   image.millimetres.begin() + static_cast<std::ptrdiff_t>(y * width),
-                   [](float d) { return d < 0.0F ? std::numeric_limits<float>::quiet_NaN() : d; });
-  return image;
-}
-
-float RayCaster::readDepth(double column, double row, int width, int height) const
-{
-  const core::Index3& size = m_target.depth.dims();
-  if (!m_target.framebuffer || size[0] < 1 || column < 0.0 || row < 0.0 || column >= width ||
-      row >= height)
-    return std::numeric_limits<float>::quiet_NaN();
-  const int x = std::min(static_cast<int>((column + 0.5) * size[0] / width), size[0] - 1);
-  const int y =
-      size[1] - 1 - std::min(static_cast<int>((row + 0.5) * size[1] / height), size[1] - 1);
-  GLint bound = 0;
-  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, m_target.framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
-  float depth = -1.0F;
-  glReadPixels(x, y, 1, 1, GL_RED, GL_FLOAT, &depth);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(bound));
-  return depth < 0.0F ? std::numeric_limits<float>::quiet_NaN() : depth;
-}
-
-void RayCaster::release()
-{
-  for (auto& [features, shader] : m_programs)
-    shader.release();
-  m_programs.clear();
-  m_present.release();
   m_ct.texture.release();
   m_second.texture.release();
   m_mask.release();
   m_labels.release();
   m_materials.release();
   m_bricks.release();
-  m_target.color.release();
-  m_target.depth.release();
-  m_target.count.release();
-  if (m_target.framebuffer)
-    glDeleteFramebuffers(1, &m_target.framebuffer);
-  m_target.framebuffer = 0;
+}
+
+void RayCaster::release()
+{
+  releaseData();
+  for (auto& [features, shader] : m_programs)
+    shader.release();
+  m_programs.clear();
+  m_present.release();
+  m_target.release();
   if (m_vertexArray)
     glDeleteVertexArrays(1, &m_vertexArray);
   m_vertexArray = 0;

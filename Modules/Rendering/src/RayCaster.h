@@ -6,6 +6,7 @@
 #include <vtk_glew.h>
 
 #include "GlProgram.h"
+#include "RayTarget.h"
 #include "RayView.h"
 #include "SceneTextures.h"
 #include "petrous/Rendering/Picture.h"
@@ -23,6 +24,8 @@ namespace petrous::rendering
 class RayCaster
 {
 public:
+  static constexpr std::size_t kMostPlanes = 6; ///< of SceneContents::clipping
+
   /// What else a frame needs. `opaque`: depth of opaque polygons in the window, or 0.
   struct Frame
   {
@@ -34,7 +37,7 @@ public:
 
   /// Keeps on the card what did not change. Throws RenderingError BadContents.
   void setContents(const SceneContents& contents);
-  void setQuality(const RenderQuality& quality);
+  void setQuality(const RenderQuality& quality); ///< throws InvalidParameter
 
   /// Marks a box of CT voxels of the mask as changed, to less or to more; null: nothing is cut.
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
@@ -45,10 +48,8 @@ public:
   /// The own picture over the bound frame buffer; blending is set up by the caller.
   void present(int width, int height);
 
-  /// Distance to the first surface, mm along each pixel's ray, rows from the top.
-  DepthImage readDepth() const;
-  /// At one pixel, rows from the top; NaN where none.
-  float readDepth(double column, double row, int width, int height) const;
+  /// What the last frame was cast into.
+  const RayTarget& target() const noexcept { return m_target; }
 
   void release();
   const RenderStatistics& statistics() const noexcept { return m_statistics; }
@@ -63,24 +64,16 @@ private:
     Interior = 16,
     Clip = 32
   };
-  struct Target
-  {
-    GlTexture color, depth, count;
-    GLuint framebuffer = 0;
-    bool counting = false;
-  };
-
   unsigned features() const;
   OccupancyGrid::Rules rules() const;
   void upload();
   void uploadMaterials();
-  void prepareTarget(int width, int height, bool count);
   GlProgram& program(unsigned features, bool count);
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
-  void readCounts();
   void drawTriangle();
+  void releaseData();
 
   SceneContents m_contents;
   RenderQuality m_quality;
@@ -97,7 +90,7 @@ private:
   LabelTextures m_labels;
   MaterialTables m_materials;
   GlTexture m_bricks;
-  Target m_target;
+  RayTarget m_target;
   GLuint m_vertexArray = 0;
   std::unordered_map<unsigned, GlProgram> m_programs;
   GlProgram m_present;

@@ -9,6 +9,7 @@
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCullerCollection.h>
 #include <vtkLight.h>
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
@@ -55,8 +56,11 @@ void check(const SceneContents& contents)
     refuse("at most 6 clipping planes can be drawn, not " +
            std::to_string(contents.clipping.size()));
   for (const MeshContents& mesh : contents.meshes)
+  {
     if (!mesh.mesh)
       refuse("mesh " + mesh.name + " has no triangles");
+    mesh.mesh->validate();
+  }
 }
 
 // The texture's rows are looked up by index: each one that occurs needs its material.
@@ -82,7 +86,6 @@ struct MeshActor
     , mesh(contents.mesh)
     , actor(pattern)
   {
-    mesh->validate();
     const auto surface = toPolyData(*mesh, vertexNormals(*mesh));
     bytes = static_cast<std::size_t>(surface->GetActualMemorySize()) * 1024;
     actor.setSurface(surface);
@@ -131,7 +134,8 @@ private:
 
 ScenePicture::Implementation::Implementation()
 {
-  m_lamp->SetLightTypeToHeadlight();
+  m_lamp->SetLightTypeToCameraLight(); // at the eye
+  m_lamp->SetConeAngle(180.0); // all around
   m_onStart->SetClientData(this);
   m_onStart->SetCallback([](vtkObject*, unsigned long, void* self, void*)
                          { static_cast<Implementation*>(self)->startFrame(); });
@@ -150,6 +154,8 @@ void ScenePicture::Implementation::startFrame()
                                                0.0);
   drawn = interactive ? interaction.coarser(quality) : quality;
   mapper->SetQuality(drawn);
+  // The lamp sits at the eye, as for the volume's rays; parallel rays have none.
+  m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
   m_started = std::chrono::steady_clock::now();
 }
 
@@ -170,8 +176,10 @@ void ScenePicture::Implementation::setVolume(const SceneContents& contents)
     checkMaterials(contents);
   labels = contents.labels;
   materials = contents.materials.size();
+  const double falloff = contents.light.falloff;
+  m_lamp->SetAttenuationValues(1.0, 0.0, falloff > 0.0 ? 1.0 / (falloff * falloff) : 0.0);
   mapper->SetContents(contents);
-  volume->SetVisibility(contents.ct ? 1 : 0);
+  volume->SetVisibility(mapper->GetTotalNumberOfInputConnections() > 0 ? 1 : 0);
 }
 
 ScenePicture::Implementation::~Implementation()
@@ -217,6 +225,8 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
   next->RemoveAllLights();
   next->AddLight(m_lamp);
   next->SetTwoSidedLighting(1);
+  // A volume out of sight is drawn all the same: else its depth would be that of an earlier frame.
+  next->GetCullers()->RemoveAllItems();
   forEachProp([next](vtkProp* prop) { next->AddViewProp(prop); });
   tool.addTo(next);
   m_startObserver = next->AddObserver(vtkCommand::StartEvent, m_onStart);
@@ -342,6 +352,7 @@ void ScenePicture::setInteractionRate(double hz)
 
 void ScenePicture::setQuality(const RenderQuality& quality)
 {
+  quality.validate();
   m_implementation->quality = quality;
 }
 

@@ -25,8 +25,9 @@ core::IndexBox wholeBox(const core::Index3& dims)
   return {{0, 0, 0}, dims};
 }
 
-// What no value is to a texture: far below every threshold, finite, so that it cannot spread.
-constexpr float kNoValue = -1e30F;
+// What no value is to a texture: far below every threshold, finite, so that it cannot spread, and
+// so is the square of a slope to it.
+constexpr float kNoValue = -1e15F;
 
 template <class T>
 TexelFormat formatOf()
@@ -58,15 +59,15 @@ std::vector<float> cleaned(const float* values, std::size_t count)
 
 } // namespace
 
-void IntensityTexture::upload(const volume::IntensityVolume& volume)
+void IntensityTexture::upload(const volume::IntensityVolume& volume, int largest)
 {
   volume.visit(
-      [this](const auto& voxels)
+      [this, largest](const auto& voxels)
       {
         using T = typename std::decay_t<decltype(voxels)>::Value;
         const core::Index3& dims = voxels.geometry().dims();
         const TexelFormat format = formatOf<T>();
-        reduction = reductionFor(format, dims);
+        reduction = reductionFor(format, dims, largest);
         map = textureMap(dims, reduction);
         unit = unitOf<T>();
         if (reduction != core::Index3{1, 1, 1})
@@ -96,10 +97,11 @@ void IntensityTexture::upload(const volume::IntensityVolume& volume)
 
 // ---- mask
 
-void MaskTexture::reset(std::shared_ptr<const volume::CutMask> mask, int bits)
+void MaskTexture::reset(std::shared_ptr<const volume::CutMask> mask, int bits, int largest)
 {
   m_mask = std::move(mask);
   m_bits = bits;
+  m_largest = largest;
   m_pending.clear();
   m_reduction = {0, 0, 0}; // to be made
 }
@@ -215,12 +217,15 @@ void MaskTexture::uploadBox(const core::IndexBox& box)
 void MaskTexture::upload()
 {
   if (!m_mask)
+  {
+    m_texture.release();
     return;
+  }
   if (m_reduction[0] == 0)
   {
     const TexelFormat format = m_bits == 8 ? texel::kByte : texel::kUnsignedShort;
     const core::Index3& dims = m_mask->geometry().dims();
-    m_reduction = reductionFor(format, dims);
+    m_reduction = reductionFor(format, dims, m_largest);
     m_map = textureMap(dims, m_reduction);
     m_texture.create(format, reducedDims(dims, m_reduction), nullptr, GL_LINEAR);
     const std::uint16_t untouched = volume::CutMask::kUntouched;
@@ -259,109 +264,57 @@ void MaskTexture::release()
 
 // ---- labels
 
-void LabelTextures::upload(const volume::LabelField& labels)
+void LabelTextures::upload(const volume::LabelField& labels, int largest)
 {
   const volume::Volume<float>& shares = *labels.share;
   const core::Index3& dims = shares.geometry().dims();
   // Sixteen bits hold a share exactly: it comes in steps of 1/65535.
-  std::vector<std::uint16_t> values(shares.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
-                    [&](const tbb::blocked_range<std::size_t>& range)
-                    {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i)
-                        values[i] = static_cast<std::uint16_t>(
-                            std::lround(65535.0F * std::clamp(shares.data()[i], 0.0F, 1.0F)));
-                    });
-  share.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
-  index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
+  const auto inSixteenBits = [](float value)
+  { return static_cast<std::uint16_t>(std::lround(65535.0F * std::clamp(value, 0.0F, 1.0F))); };
+  reduction = reductionFor(texel::kUnsignedShort, dims, largest);
+  map = textureMap(dims, reduction);
+  const core::Index3 texels = reducedDims(dims, reduction);
+  if (reduction == core::Index3{1, 1, 1})
+  {
+    std::vector<std::uint16_t> values(shares.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
+                      [&](const tbb::blocked_range<std::size_t>& range)
+                      {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          values[i] = inSixteenBits(shares.data()[i]);
+                      });
+    share.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
+    index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
+    return;
+  }
+  const auto means = reduceBox<std::uint16_t>(dims, reduction, wholeBox(texels),
+                                              [&](int i, int j, int k)
+                                              { return inSixteenBits(shares.at(i, j, k)); });
+  share.create(texel::kUnsignedShort, texels, means.data(), GL_LINEAR);
+  std::vector<std::uint8_t> indices(means.size());
+  std::size_t texel = 0;
+  // An index is a name and has no mean: that of the voxel in the block which has most of the share.
+  for (int z = 0; z < texels[2]; ++z)
+    for (int y = 0; y < texels[1]; ++y)
+      for (int x = 0; x < texels[0]; ++x, ++texel)
+      {
+        float most = -1.0F;
+        for (int k = z * reduction[2]; k < std::min((z + 1) * reduction[2], dims[2]); ++k)
+          for (int j = y * reduction[1]; j < std::min((y + 1) * reduction[1], dims[1]); ++j)
+            for (int i = x * reduction[0]; i < std::min((x + 1) * reduction[0], dims[0]); ++i)
+              if (labels.index->at(i, j, k) != 0 && shares.at(i, j, k) > most)
+              {
+                most = shares.at(i, j, k);
+                indices[texel] = labels.index->at(i, j, k);
+              }
+      }
+  index.create(texel::kIndex, texels, indices.data(), GL_NEAREST);
 }
 
 void LabelTextures::release()
 {
   share.release();
   index.release();
-}
-
-// ---- materials
-
-void MaterialTables::upload(const std::vector<appearance::Material>& materials, int tableSize,
-                            const volume::ValueRange& ct, const volume::ValueRange& second)
-{
-  const std::size_t rows = materials.size();
-  const auto width = static_cast<std::size_t>(tableSize);
-  std::vector<float> looks(rows * width * 4);
-  std::vector<float> integrals(rows * width * 4);
-  std::vector<float> parameters(rows * 8, 0.0F);
-  for (std::size_t row = 0; row < rows; ++row)
-  {
-    const appearance::Material& tissue = materials[row];
-    const auto& points = tissue.transfer.points();
-    const bool other = tissue.source == appearance::IntensitySource::Second;
-    const volume::ValueRange& range = other ? second : ct;
-    double lower = points.front().value;
-    double upper = points.back().value;
-    if (points.size() > 1)
-    {
-      // Beyond its points a function is constant, but a stretch may begin there. Where the image
-      // goes far beyond, resolution matters more.
-      const double most = 4.0 * (upper - lower);
-      lower = std::max(std::min(lower, range.min), lower - most);
-      upper = std::min(std::max(upper, range.max), upper + most);
-    }
-    else
-    {
-      lower -= 1.0;
-      upper += 1.0;
-    }
-    const auto optics = [&](double x)
-    { return tissue.transfer.at(lower + (upper - lower) * x / (tableSize - 1.0)); };
-    std::array<double, 4> sum{};
-    for (std::size_t i = 0; i < width; ++i)
-    {
-      const auto here = optics(static_cast<double>(i));
-      float* color = &looks[(row * width + i) * 4];
-      float* integral = &integrals[(row * width + i) * 4];
-      if (i > 0)
-      {
-        // Simpson's rule over eight parts of the interval: colour times extinction is not linear.
-        constexpr int parts = 8;
-        for (int p = 0; p <= parts; ++p)
-        {
-          const auto at = optics(static_cast<double>(i - 1) + static_cast<double>(p) / parts);
-          const double weight = (p == 0 || p == parts ? 1.0 : (p % 2 ? 4.0 : 2.0)) /
-                                (3.0 * parts * (tableSize - 1.0));
-          for (std::size_t c = 0; c < 3; ++c)
-            sum[c] += weight * at.extinction * at.color[c];
-          sum[3] += weight * at.extinction;
-        }
-      }
-      for (std::size_t c = 0; c < 3; ++c)
-      {
-        color[c] = static_cast<float>(here.color[c]);
-        integral[c] = static_cast<float>(sum[c]);
-      }
-      color[3] = static_cast<float>(here.specular);
-      integral[3] = static_cast<float>(sum[3]);
-    }
-    float* parameter = &parameters[row * 8];
-    parameter[0] = static_cast<float>(lower);
-    parameter[1] = static_cast<float>(1.0 / (upper - lower));
-    parameter[2] = tissue.surfaceOpacity;
-    parameter[3] = tissue.shininess;
-    parameter[4] = tissue.lumen ? 1.0F : 0.0F;
-    parameter[5] = other ? 1.0F : 0.0F;
-  }
-  const int height = static_cast<int>(rows);
-  look.create(texel::kColor, tableSize, height, looks.data(), GL_LINEAR);
-  depth.create(texel::kFloat4, tableSize, height, integrals.data(), GL_NEAREST);
-  material.create(texel::kFloat4, 2, height, parameters.data(), GL_NEAREST);
-}
-
-void MaterialTables::release()
-{
-  look.release();
-  depth.release();
-  material.release();
 }
 
 } // namespace petrous::rendering

@@ -21,7 +21,8 @@ struct IntensityTexture
   core::Index3 reduction{1, 1, 1};
   double unit = 1.0;
 
-  void upload(const volume::IntensityVolume& volume);
+  /// largest: see RenderQuality::largestTexture.
+  void upload(const volume::IntensityVolume& volume, int largest);
 };
 
 /// The cut on the CT's grid. Edits are collected and brought to the card at the next frame, at most
@@ -32,7 +33,7 @@ public:
   static constexpr std::size_t kVoxelsPerFrame = std::size_t{4} << 20U;
 
   /// Takes over another mask (null: none) or another precision; everything is uploaded anew.
-  void reset(std::shared_ptr<const volume::CutMask> mask, int bits);
+  void reset(std::shared_ptr<const volume::CutMask> mask, int bits, int largest);
 
   /// The voxels of a box changed. Boxes that meet are merged.
   void changed(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
@@ -56,6 +57,7 @@ private:
 
   std::shared_ptr<const volume::CutMask> m_mask;
   int m_bits = 16;
+  int m_largest = 0;
   GlTexture m_texture;
   TextureMap m_map;
   core::Index3 m_reduction{1, 1, 1};
@@ -67,8 +69,11 @@ struct LabelTextures
 {
   GlTexture share;
   GlTexture index;
+  TextureMap map; ///< of the share; a texel of the index is voxel / reduction
+  core::Index3 reduction{1, 1, 1};
 
-  void upload(const volume::LabelField& labels);
+  /// largest: see RenderQuality::largestTexture.
+  void upload(const volume::LabelField& labels, int largest);
   void release();
 };
 

@@ -19,6 +19,13 @@
 namespace petrous::rendering
 {
 
+namespace
+{
+// VTK reflects the lamp: its highlight falls off as cos(2a)^n, where a is the angle between normal
+// and eye. The optical model's cos(a)^n is the same for a small angle and a fourth of the exponent.
+constexpr double kHighlight = 0.25;
+} // namespace
+
 vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
                                         const std::vector<Eigen::Vector3f>& normals)
 {
@@ -98,7 +105,7 @@ void SurfaceActor::setLook(const appearance::StructureLook& look, const LightSet
   property->SetAmbient(light.ambient * light.intensity);
   property->SetDiffuse((1.0 - light.ambient) * light.intensity);
   property->SetSpecular(light.specular * light.intensity);
-  property->SetSpecularPower(light.shininess);
+  property->SetSpecularPower(kHighlight * light.shininess);
 
   const bool wantsPattern = look.opacity < 1.0F;
   vtkShaderProperty* shader = m_actor->GetShaderProperty();

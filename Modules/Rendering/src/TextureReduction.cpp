@@ -13,14 +13,18 @@ core::Index3 reducedDims(const core::Index3& dims, const core::Index3& factor)
   return result;
 }
 
-core::Index3 reductionFor(const TexelFormat& format, core::Index3 dims)
+core::Index3 reductionFor(const TexelFormat& format, core::Index3 dims, int largest)
 {
   core::Index3 factor{1, 1, 1};
   const core::Index3 whole = dims;
-  while (!GlTexture::fits(format, dims))
+  const auto fits = [&](std::size_t longest)
+  { return (largest == 0 || dims[longest] <= largest) && GlTexture::fits(format, dims); };
+  for (;;)
   {
     const auto longest =
         static_cast<std::size_t>(std::max_element(dims.begin(), dims.end()) - dims.begin());
+    if (fits(longest))
+      break;
     if (dims[longest] == 1)
       break; // even one texel is refused: the upload says so
     factor[longest] *= 2;

@@ -11,8 +11,9 @@
 namespace petrous::rendering
 {
 
-/// By how much a volume must shrink along each axis (1: not at all) for the driver to take it.
-core::Index3 reductionFor(const TexelFormat& format, core::Index3 dims);
+/// By how much a volume must shrink along each axis (1: not at all) for the driver to take it, and
+/// for no edge to be longer than `largest` texels; 0: the driver alone decides.
+core::Index3 reductionFor(const TexelFormat& format, core::Index3 dims, int largest);
 
 /// Texels along each axis after a reduction.
 core::Index3 reducedDims(const core::Index3& dims, const core::Index3& factor);

@@ -41,7 +41,7 @@ ToolProps::ToolProps()
     property->SetAmbient(kAmbient);
     property->SetDiffuse(1.0 - kAmbient);
     property->SetSpecular(kSpecular);
-    property->SetSpecularPower(kShininess);
+    property->SetSpecularPower(0.25 * kShininess); // see SurfaceActor.cpp
   }
 }
 

@@ -87,10 +87,12 @@ public:
   petrous::rendering::OpaqueDepth opaque;
   petrous::rendering::RenderQuality quality;
   SceneContents contents;
-  bool given = false;    // by SetContents, not by the pipeline
-  vtkMTimeType made = 0; // when `contents` was made from the pipeline
+  bool given = false;                   // by SetContents, not by the pipeline
+  vtkMTimeType made = 0;                // when `contents` was made from the pipeline
+  const vtkDataObject* image = nullptr; // that they were made from
   vtkMTimeType clipped = 0;
-  vtkWeakPointer<vtkOpenGLRenderWindow> window;
+  vtkWeakPointer<vtkOpenGLRenderWindow> window; // whose context holds the textures
+  const vtkWindow* owner = nullptr; // the same; a window that is dying has no weak pointers
   int width = 0;
   int height = 0;
   std::exception_ptr error;
@@ -166,9 +168,10 @@ void vtkPetrousVolumeMapper::UpdateContents(vtkVolume* volume)
     if (changed > my.made)
     {
       auto* image = vtkImageData::SafeDownCast(this->GetInput());
-      const bool sameVoxels = my.contents.ct && this->GetInput()->GetMTime() <= my.made;
+      const bool sameVoxels = my.contents.ct && image == my.image && image->GetMTime() <= my.made;
       if (!sameVoxels)
         my.contents.ct = petrous::rendering::unwrap(image);
+      my.image = image;
       my.contents.iso = this->IsoValue;
       my.contents.materials = {materialOf(volume->GetProperty(), this->SurfaceOpacity)};
       my.contents.light.ambient = std::clamp(volume->GetProperty()->GetAmbient(0), 0.0, 1.0);
@@ -219,7 +222,13 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   if (!window)
     throw petrous::rendering::RenderingError(petrous::rendering::RenderingError::Reason::NoOpenGL,
                                              "the window does not draw with OpenGL");
+  if (my.window && my.window != window)
+  {
+    this->ReleaseGraphicsResources(my.window);
+    window->MakeCurrent();
+  }
   my.window = window;
+  my.owner = window;
   this->UpdateContents(volume);
 
   int x = 0;
@@ -294,7 +303,7 @@ petrous::rendering::DepthImage vtkPetrousVolumeMapper::GetDepth()
   if (!this->Internal->window)
     return {};
   this->Internal->window->MakeCurrent();
-  return this->Internal->caster.readDepth();
+  return this->Internal->caster.target().readDepth();
 }
 
 float vtkPetrousVolumeMapper::GetDepthAt(double column, double row)
@@ -302,20 +311,17 @@ float vtkPetrousVolumeMapper::GetDepthAt(double column, double row)
   if (!this->Internal->window)
     return std::numeric_limits<float>::quiet_NaN();
   this->Internal->window->MakeCurrent();
-  return this->Internal->caster.readDepth(column, row, this->Internal->width,
-                                          this->Internal->height);
+  return this->Internal->caster.target().readDepth(column, row, this->Internal->width,
+                                                   this->Internal->height);
 }
 
 void vtkPetrousVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
-  auto* open = vtkOpenGLRenderWindow::SafeDownCast(window);
-  if (!open || (this->Internal->window && this->Internal->window != open))
+  if (!window || window != this->Internal->owner)
     return;
-  if (this->Internal->window)
-  {
-    open->MakeCurrent();
-    this->Internal->caster.release();
-    this->Internal->opaque.release();
-  }
+  window->MakeCurrent();
+  this->Internal->caster.release();
+  this->Internal->opaque.release();
   this->Internal->window = nullptr;
+  this->Internal->owner = nullptr;
 }

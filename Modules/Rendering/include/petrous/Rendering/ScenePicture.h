@@ -52,7 +52,7 @@ public:
   void setInteractive(bool interactive);
   void setInteractionRate(double hz);
 
-  void setQuality(const RenderQuality& quality);
+  void setQuality(const RenderQuality& quality); ///< throws InvalidParameter
   const RenderQuality& quality() const;
 
   /// Counts fetches and samples of the frames that follow, at the price of their time.

@@ -43,6 +43,7 @@ public:
   void MaskChanged(std::shared_ptr<const petrous::volume::CutMask> mask,
                    const petrous::core::IndexBox& box);
 
+  /// Throws InvalidParameter.
   void SetQuality(const petrous::rendering::RenderQuality& quality);
   const petrous::rendering::RenderQuality& GetQuality() const;
 

@@ -1,0 +1,76 @@
+#include "CameraFile.h"
+
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "Context.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+constexpr double kFarthest = 1e7; // mm: nothing of a patient lies farther, and squares stay finite
+
+Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
+{
+  const auto v = json.at(key).get<std::array<double, 3>>();
+  return {v[0], v[1], v[2]};
+}
+
+bool within(double value, double lower, double upper)
+{
+  return value >= lower && value <= upper; // false for NaN
+}
+
+void check(const std::string& path, const core::CameraPose& camera)
+{
+  const auto refuse = [&path](const std::string& what)
+  { throw core::InvalidParameter(path + ": " + what); };
+  for (const Eigen::Vector3d* vector : {&camera.position, &camera.focalPoint, &camera.viewUp})
+    if (!vector->allFinite() || vector->cwiseAbs().maxCoeff() > kFarthest)
+      refuse("a coordinate is no number or beyond 10 km; position_mm and focal_point_mm are in "
+             "patient LPS mm");
+  const Eigen::Vector3d view = camera.focalPoint - camera.position;
+  if (view.norm() < 1e-9)
+    refuse("position_mm and focal_point_mm must differ: the camera looks from one to the other");
+  if (view.cross(camera.viewUp).norm() <= 1e-9 * view.norm() * camera.viewUp.norm())
+    refuse("view_up must not be zero nor lie along the direction of view");
+  if (camera.parallelScale && !within(*camera.parallelScale, 1e-3, 1e6))
+    refuse("parallel_scale_mm must lie within 0.001 to 1000000 mm (half the picture's height)");
+  if (!camera.parallelScale && !within(camera.viewAngle, 0.1, 170.0))
+    refuse("view_angle_deg must lie within 0.1 to 170 degrees");
+}
+
+} // namespace
+
+core::CameraPose readCamera(const std::string& path)
+{
+  std::ifstream file = openForReading(path);
+  core::CameraPose camera;
+  try
+  {
+    const auto json = nlohmann::json::parse(file);
+    camera.position = vectorFrom(json, "position_mm");
+    camera.focalPoint = vectorFrom(json, "focal_point_mm");
+    camera.viewUp = vectorFrom(json, "view_up");
+    if (json.contains("parallel_scale_mm"))
+      camera.parallelScale = json.at("parallel_scale_mm").get<double>();
+    else
+      camera.viewAngle = json.at("view_angle_deg").get<double>();
+  }
+  catch (const nlohmann::json::exception&) // also for NaN and Infinity, which JSON does not know
+  {
+    throw core::InvalidParameter(
+        path + ": no camera; it must be {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
+               "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\") with finite "
+               "numbers");
+  }
+  check(path, camera);
+  return camera;
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "petrous/Core/CameraPose.h"
+
+namespace petrous::cli
+{
+
+/// A camera in patient LPS mm: {"position_mm":[3],"focal_point_mm":[3],"view_up":[3]} with
+/// "view_angle_deg" (vertical; 0.1 to 170) or "parallel_scale_mm" (half the height; 0.001 to 1e6).
+/// Throws InvalidParameter naming the file and what would be right: no such file, another content,
+/// numbers that are not finite or point nowhere.
+core::CameraPose readCamera(const std::string& path);
+
+} // namespace petrous::cli

@@ -1,0 +1,153 @@
+#include "RenderOptions.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "Numbers.h"
+#include "petrous/Presenters/CasePicture.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+constexpr double kFarthestFalloff = 10000.0; // mm
+
+std::pair<int, int> parseSize(const std::string& text)
+{
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
+      height < 8 || width > 8192 || height > 8192)
+    throw UsageError("--size: WIDTHxHEIGHT with 8 to 8192 pixels each, not '" + text + "'");
+  return {width, height};
+}
+
+rendering::ClippingPlane parsePlane(const std::string& text)
+{
+  const auto n = parseNumbers(text, 6, "--clip x,y,z,nx,ny,nz");
+  const Eigen::Vector3d normal(n[3], n[4], n[5]);
+  const double length = normal.stableNorm();
+  if (!(length > 1e-12) || !std::isfinite(length))
+    throw UsageError("--clip x,y,z,nx,ny,nz: the normal must not be zero; it points to what stays");
+  return {{n[0], n[1], n[2]}, normal / length};
+}
+
+std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
+                                        const core::GridGeometry& grid)
+{
+  core::IndexBox box;
+  if (!options.crop.empty())
+  {
+    const char* name = "--crop i0,i1,j0,j1,k0,k1";
+    const auto n = parseNumbers(options.crop, 6, name);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      box.lower[a] = toInt(n[2 * a], name);
+      box.upper[a] = toInt(n[2 * a + 1], name);
+      if (box.lower[a] < box.upper[a])
+        ++box.upper[a];
+      else
+        throw UsageError(std::string(name) + ": first and last voxel; each first number must be "
+                                             "the smaller one");
+    }
+  }
+  else if (!options.roi.empty())
+  {
+    const char* name = "--roi x0,x1,y0,y1,z0,z1";
+    const auto n = parseNumbers(options.roi, 6, name);
+    for (std::size_t a = 0; a < 3; ++a)
+      if (n[2 * a] >= n[2 * a + 1])
+        throw UsageError(std::string(name) + ": each first number must be the smaller one");
+    box = grid.boxCovering({n[0], n[2], n[4]}, {n[1], n[3], n[5]});
+  }
+  else
+    return std::nullopt;
+  const core::IndexBox inside = box.intersected(grid.fullBox());
+  if (inside.empty())
+    throw UsageError(std::string(options.crop.empty() ? "--roi" : "--crop") +
+                     ": nothing of the CT lies in it");
+  return inside;
+}
+
+} // namespace
+
+Shot parseShot(const RenderOptions& options)
+{
+  Shot shot;
+  std::tie(shot.width, shot.height) = parseSize(options.size);
+  const auto mode = rendering::parseStereoMode(options.stereo);
+  if (!mode)
+    throw UsageError("--stereo: none, side-by-side, interleaved or anaglyph, not '" +
+                     options.stereo + "'");
+  shot.stereo = *mode;
+  if (shot.stereo == rendering::StereoMode::None && (options.eyeSeparation || options.convergence))
+    throw UsageError("--eye-separation and --convergence need --stereo");
+  if (shot.stereo == rendering::StereoMode::SideBySide && shot.width % 2 != 0)
+    throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
+  if (options.engine != "gpu" && options.engine != "reference")
+    throw UsageError("--engine: gpu or reference, not '" + options.engine + "'");
+  if (!(options.falloff >= 0.0 && options.falloff <= kFarthestFalloff))
+    throw UsageError("--light-falloff: 0 (none) to 10000 mm");
+  if (!(options.wetness >= 0.0 && options.wetness <= 1.0))
+    throw UsageError("--wetness: 0 (dry) to 1");
+  if (options.clip.size() > 6)
+    throw UsageError("--clip: at most 6 planes, not " + std::to_string(options.clip.size()));
+  if (!options.crop.empty() && !options.roi.empty())
+    throw UsageError("render: give --crop or --roi, not both");
+  return shot;
+}
+
+rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value)
+{
+  rendering::SceneContents contents = presenters::sceneContents(value);
+  contents.light.falloff = options.falloff;
+  contents.light.wetness = options.wetness;
+  for (const std::string& plane : options.clip)
+    contents.clipping.push_back(parsePlane(plane));
+  contents.crop = parseCrop(options, value.ct.geometry);
+  return contents;
+}
+
+void addRenderOptions(CLI::App& command, RenderOptions& options)
+{
+  command.add_option("CASE", options.caseName)->required();
+  command.add_option("--out", options.out, "Picture to write")->type_name("F.png")->required();
+  command.add_option("--size", options.size, "Pixels (800x600)")->type_name("WxH");
+  command.add_option("--view", options.view,
+                     "lateral, left, right, superior, inferior, anterior or posterior");
+  command.add_option("--camera", options.camera, "Camera in patient LPS mm")->type_name("F.json");
+  command.add_option("--stereo", options.stereo,
+                     "none, side-by-side, interleaved or anaglyph (none)");
+  command
+      .add_option("--eye-separation", options.eyeSeparation,
+                  "Between the eyes (5.5 degrees where they converge)")
+      ->type_name("MM");
+  command
+      .add_option("--convergence", options.convergence,
+                  "From the camera to where the eyes converge (the focal point)")
+      ->type_name("MM");
+  command
+      .add_option("--light-falloff", options.falloff,
+                  "Distance at which the lamp's light is halved; 0: the same everywhere (0)")
+      ->type_name("MM");
+  command.add_option("--wetness", options.wetness, "Gloss of a wet surface, 0 to 1 (0)");
+  command
+      .add_option("--clip", options.clip,
+                  "Plane through a point, patient LPS mm; the normal points to what stays (up to "
+                  "6 times)")
+      ->allow_extra_args(false)
+      ->type_name("x,y,z,nx,ny,nz");
+  command.add_option("--crop", options.crop, "First and last voxel of the CT that are drawn")
+      ->type_name("i0,i1,j0,j1,k0,k1");
+  command.add_option("--roi", options.roi, "Part of the CT that is drawn, patient LPS mm")
+      ->type_name("x0,x1,y0,y1,z0,z1");
+  command.add_option("--engine", options.engine,
+                     "gpu, or reference: double precision on the CPU, slow (gpu)");
+  command.add_option("--depth", options.depth, "Also write the distance to the first surface, mm")
+      ->type_name("F.npy");
+}
+
+} // namespace petrous::cli

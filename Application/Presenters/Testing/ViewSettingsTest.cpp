@@ -1,0 +1,39 @@
+#include "petrous/Presenters/ViewSettings.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+using petrous::presenters::ViewSettings;
+using petrous::rendering::StereoMode;
+
+TEST(ViewSettings, TellsOnlyWhatChanged)
+{
+  ViewSettings settings;
+  int lights = 0;
+  int stereos = 0;
+  settings.events.lightChanged = [&lights] { ++lights; };
+  settings.events.stereoChanged = [&stereos] { ++stereos; };
+  settings.setWetness(0.5);
+  settings.setWetness(0.5);
+  settings.setFalloff(0.0); // as it was
+  EXPECT_EQ(lights, 1);
+  settings.setStereo(StereoMode::Anaglyph);
+  settings.setStereo(StereoMode::Anaglyph);
+  settings.setEyeSeparation(24.0);
+  settings.setEyeSeparation(std::nullopt);
+  EXPECT_EQ(stereos, 3);
+}
+
+TEST(ViewSettings, HoldsValuesWithinTheirLimits)
+{
+  ViewSettings settings;
+  settings.setWetness(7.0);
+  EXPECT_EQ(settings.light().wetness, 1.0);
+  settings.setFalloff(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(settings.light().falloff, 0.0);
+  settings.setEyeSeparation(1e6);
+  EXPECT_EQ(settings.rig().eyeSeparation, 200.0);
+  settings.setConvergence(0.0);
+  EXPECT_EQ(settings.rig().convergence, 1.0);
+}

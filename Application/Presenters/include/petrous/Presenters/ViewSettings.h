@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "petrous/Rendering/SceneContents.h"
+#include "petrous/Rendering/Stereo.h"
+
+namespace petrous::presenters
+{
+
+/// How the window looks at a scene: lamp and stereo. Of the window, not of the case. Without Qt,
+/// one thread.
+class ViewSettings
+{
+public:
+  static constexpr double kFarthestFalloff = 1000.0; ///< mm
+
+  /// Each may be empty. Called after a change, not where nothing changed.
+  struct Events
+  {
+    std::function<void()> lightChanged;
+    std::function<void()> stereoChanged;
+  };
+  Events events;
+
+  const rendering::LightSettings& light() const noexcept { return m_light; }
+  void setFalloff(double millimetres); ///< 0: none; held within 0 to kFarthestFalloff
+  void setWetness(double wetness);     ///< held within 0 to 1
+
+  rendering::StereoMode stereo() const noexcept { return m_stereo; }
+  const rendering::StereoRig& rig() const noexcept { return m_rig; }
+  void setStereo(rendering::StereoMode mode);
+  /// mm, held within StereoRig's limits; nothing: by a microscope's angle, at the focal point.
+  void setEyeSeparation(std::optional<double> millimetres);
+  void setConvergence(std::optional<double> millimetres);
+
+private:
+  rendering::LightSettings m_light;
+  rendering::StereoMode m_stereo = rendering::StereoMode::None;
+  rendering::StereoRig m_rig;
+};
+
+} // namespace petrous::presenters

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <QObject>
+#include <QPointer>
+
+#include "petrous/Presenters/ViewSettings.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QLabel;
+class QWidget;
+
+namespace petrous::workstation
+{
+
+class PicturePanel;
+class SurgeonWindow;
+class ThreeDView;
+class WindowActions;
+
+/// Lamp, stereo and the surgeon's window; how fast the picture is, and what to do when it fails.
+class PictureController : public QObject
+{
+  Q_OBJECT
+public:
+  /// `actions`' stereo and surgeon's window are connected here.
+  PictureController(presenters::WorkstationModel& model, ThreeDView& view, WindowActions& actions,
+                    QWidget& window, bool quadBuffer);
+  ~PictureController() override;
+
+  /// Brings the case's work to safety when the picture fails; false: it could not be saved.
+  std::function<bool()> secure;
+
+  PicturePanel* panel() const noexcept { return m_panel; } ///< of the window that takes it
+  QLabel* speed() const noexcept { return m_speed; }       ///< for the status bar
+
+  void caseChanged();
+  void appearanceChanged();
+  void closeSurgeonWindow();
+
+signals:
+  void said(const QString& line); ///< for the status bar
+
+private:
+  void showScene();
+  void openSurgeonWindow();
+  void applyStereo();
+  void showSpeed(double milliseconds, double scale, bool moving);
+  void fail(const QString& why);
+
+  presenters::WorkstationModel& m_model;
+  ThreeDView& m_view;
+  WindowActions& m_actions;
+  QWidget& m_window;
+  presenters::ViewSettings m_settings;
+  PicturePanel* m_panel;
+  QLabel* m_speed;
+  QPointer<SurgeonWindow> m_surgeon;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,255 @@
+#include "SceneDisplay.h"
+
+#include <utility>
+
+#include <QOpenGLContext>
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkVolume.h>
+#include <vtkVolumeCollection.h>
+
+#include "Theme.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Rendering/VolumeMapper.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kSettle = 150;   // ms
+constexpr double kRate = 30.0; // Hz, of the pictures that the user sees
+
+// A reset of the card (a driver that was updated, or that hung) loses all textures.
+bool contextLost()
+{
+  QOpenGLContext* context = QOpenGLContext::currentContext();
+  if (!context)
+    return false;
+  if (!context->isValid())
+    return true;
+  for (const char* name : {"glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB"})
+    if (const auto address = context->getProcAddress(name))
+      return reinterpret_cast<unsigned (*)()>(address)() != 0;
+  return false;
+}
+} // namespace
+
+SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<bool()> shown,
+                           QObject* parent)
+  : QObject(parent)
+  , m_window(window)
+  , m_shown(std::move(shown))
+{
+  m_window.SetMultiSamples(0);
+  m_window.AddRenderer(m_renderer);
+  m_picture.setContents({});
+  m_picture.attach(m_renderer);
+  m_stereo = std::make_unique<rendering::StereoPicture>(m_picture);
+  m_window.AddObserver(vtkCommand::StartEvent, this, &SceneDisplay::frameStarted);
+  m_window.AddObserver(vtkCommand::EndEvent, this, &SceneDisplay::frameEnded);
+  m_settle.setSingleShot(true);
+  m_settle.setInterval(kSettle);
+  connect(&m_settle, &QTimer::timeout, this,
+          [this]
+          {
+            m_moving = false;
+            m_picture.setInteractive(false);
+            redraw();
+          });
+  setRate();
+}
+
+SceneDisplay::~SceneDisplay() = default;
+
+void SceneDisplay::release()
+{
+  m_settle.stop();
+  m_shown = [] { return false; };
+  m_stereo.reset();
+  m_picture.attach(nullptr);
+}
+
+// Each eye and each window takes its share of the time.
+void SceneDisplay::setRate()
+{
+  const bool both = stereo() != rendering::StereoMode::None;
+  const double rate = kRate * (both ? 2.0 : 1.0) * (m_leads || m_follows ? 2.0 : 1.0);
+  if (rate == m_rate)
+    return;
+  m_rate = rate;
+  m_picture.setInteractionRate(rate);
+}
+
+void SceneDisplay::setContents(const rendering::SceneContents& contents)
+{
+  rendering::SceneContents next = contents;
+  next.light = m_light;
+  next.tool = m_contents.tool;
+  m_picture.setContents(next);
+  m_contents = std::move(next);
+  if (m_follower)
+    m_follower->setContents(m_contents);
+  redraw(true);
+}
+
+void SceneDisplay::setLight(const rendering::LightSettings& light)
+{
+  m_light = light;
+  if (m_follower)
+    m_follower->m_light = light; // the contents follow
+  setContents(m_contents);
+}
+
+void SceneDisplay::setTool(const std::optional<rendering::ToolPose>& tool)
+{
+  m_contents.tool = tool;
+  m_picture.setTool(tool);
+  if (m_follower)
+    m_follower->setTool(tool);
+  redraw(true);
+}
+
+void SceneDisplay::setCamera(const core::CameraPose& pose)
+{
+  m_picture.setCamera(pose);
+  if (m_follower)
+    m_follower->setCamera(pose);
+  redraw(true);
+}
+
+void SceneDisplay::maskChanged(std::shared_ptr<const volume::CutMask> mask,
+                               const core::IndexBox& box)
+{
+  m_contents.mask = mask;
+  if (m_follower)
+    m_follower->maskChanged(mask, box);
+  m_picture.maskChanged(std::move(mask), box);
+  redraw(true);
+}
+
+void SceneDisplay::setStereo(rendering::StereoMode mode, const rendering::StereoRig& rig)
+{
+  if (!m_stereo)
+    return;
+  m_stereo->show(mode, rig);
+  setRate();
+  redraw(true);
+}
+
+rendering::StereoMode SceneDisplay::stereo() const noexcept
+{
+  return m_stereo ? m_stereo->mode() : rendering::StereoMode::None;
+}
+
+rendering::StereoRig SceneDisplay::rig() const
+{
+  return m_stereo ? m_stereo->rig() : rendering::StereoRig();
+}
+
+void SceneDisplay::setFirstRow(int row)
+{
+  if (m_stereo)
+    m_stereo->setFirstRow(row);
+}
+
+void SceneDisplay::setFollower(SceneDisplay* follower)
+{
+  m_follower = follower;
+  m_leads = follower != nullptr;
+  setRate();
+  if (!follower)
+    return;
+  follower->m_follows = true;
+  follower->setRate();
+  follower->m_light = m_light;
+  follower->m_contents.tool = m_contents.tool;
+  follower->setContents(m_contents);
+  follower->setCamera(m_picture.camera());
+}
+
+void SceneDisplay::redraw(bool moving)
+{
+  if (moving)
+  {
+    m_moving = true;
+    m_picture.setInteractive(true);
+    m_settle.start();
+  }
+  if (m_pending)
+    return;
+  m_pending = true;
+  QTimer::singleShot(0, this, &SceneDisplay::drawNow);
+}
+
+void SceneDisplay::drawNow()
+{
+  m_pending = false;
+  if (!m_shown())
+    return;
+  emit aboutToDraw();
+  m_window.Render();
+}
+
+void SceneDisplay::frameStarted()
+{
+  m_clock.start();
+}
+
+void SceneDisplay::frameEnded()
+{
+  const double milliseconds = 1e-6 * static_cast<double>(m_clock.nsecsElapsed());
+  QString why;
+  try
+  {
+    m_picture.throwLastError();
+    if (contextLost())
+      why = tr("the graphics driver was reset and lost the picture");
+  }
+  catch (const core::Error& error)
+  {
+    why = words(error.what());
+  }
+  catch (const std::exception&) // texts of other libraries may carry patient data
+  {
+    why = tr("the picture could not be drawn");
+  }
+  const bool first = !why.isEmpty() && !m_failing;
+  m_failing = !why.isEmpty();
+  // Not within a paint: what hears it may ask the user.
+  if (first)
+    QMetaObject::invokeMethod(
+        this, [this, why] { emit failed(why); }, Qt::QueuedConnection);
+  else if (!m_failing)
+    emit drawn(milliseconds, scaleOfLastFrame(), m_moving);
+}
+
+double SceneDisplay::scaleOfLastFrame() const
+{
+  vtkVolumeCollection* volumes = m_renderer->GetVolumes();
+  vtkCollectionSimpleIterator it;
+  volumes->InitTraversal(it);
+  while (vtkVolume* volume = volumes->GetNextVolume(it))
+    if (auto* mapper = vtkPetrousVolumeMapper::SafeDownCast(volume->GetMapper()))
+      return mapper->GetQuality().imageScale;
+  return 1.0;
+}
+
+QSurfaceFormat surfaceFormat(bool stereo)
+{
+  QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat(stereo);
+  format.setOption(QSurfaceFormat::ResetNotification);
+  return format;
+}
+
+bool quadBufferOffered()
+{
+  QOpenGLContext context;
+  context.setFormat(surfaceFormat(true));
+  return context.create() && context.format().stereo();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,290 @@
+#include "GuiTest.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QSlider>
+
+#include "SurgeonWindow.h"
+#include "petrous/Rendering/Stereo.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using rendering::StereoMode;
+
+namespace
+{
+
+class Picture : public GuiTest
+{
+protected:
+  void SetUp() override
+  {
+    saveBall("ball");
+    openWindow();
+  }
+
+  template <class Widget>
+  Widget& control(const char* name)
+  {
+    return *window().findChild<Widget*>(name);
+  }
+
+  void chooseStereo(StereoMode mode)
+  {
+    auto& box = control<QComboBox>("stereoMode");
+    box.setCurrentIndex(box.findData(static_cast<int>(mode)));
+  }
+
+  QAction* stereoAction(StereoMode mode)
+  {
+    for (QAction* action : window().findChildren<QAction*>())
+      if (action->data().isValid() && action->data().toInt() == static_cast<int>(mode) &&
+          action->isCheckable())
+        return action;
+    return nullptr;
+  }
+
+  static SurgeonWindow* surgeonWindow()
+  {
+    for (QWidget* widget : QApplication::topLevelWidgets())
+      if (auto* found = qobject_cast<SurgeonWindow*>(widget))
+        return found;
+    return nullptr;
+  }
+
+  static ThreeDView& surgeonView() { return *surgeonWindow()->findChild<ThreeDView*>(); }
+};
+
+// Mean of the bright part, of red: the ball.
+double brightness(const QImage& image)
+{
+  double sum = 0.0;
+  int count = 0;
+  const int background = qRed(image.pixel(0, 0));
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if (const int red = qRed(image.pixel(x, y)); red > background + 6)
+      {
+        sum += red;
+        ++count;
+      }
+  return sum / std::max(count, 1);
+}
+
+QImage half(const QImage& image, bool right)
+{
+  const int width = image.width() / 2;
+  return image.copy(right ? image.width() - width : 0, 0, width, image.height());
+}
+
+} // namespace
+
+TEST_F(Picture, SideBySideShowsEachEyeAWholePicture)
+{
+  for (int n = 0; n < 6; ++n)
+    QTest::keyClick(&view(), Qt::Key_Minus);
+  const QImage plain = picture();
+  chooseStereo(StereoMode::SideBySide);
+  const QImage both = picture();
+  ASSERT_EQ(both.size(), plain.size());
+  const int whole = pixelsUnlikeTheCorner(plain);
+  // The ball is as large for each eye as for one, and round; what differs are the letters.
+  EXPECT_NEAR(pixelsUnlikeTheCorner(half(both, false)), whole, 0.05 * whole);
+  EXPECT_NEAR(pixelsUnlikeTheCorner(half(both, true)), whole, 0.05 * whole);
+  EXPECT_GT(differentPixels(half(both, false), half(both, true)), whole / 20);
+  chooseStereo(StereoMode::None);
+  EXPECT_EQ(differentPixels(picture(), plain), 0);
+}
+
+TEST_F(Picture, InterleavingTakesRowsByTurns)
+{
+  chooseStereo(StereoMode::SideBySide);
+  control<QDoubleSpinBox>("eyeSeparation").setValue(20.0);
+  chooseStereo(StereoMode::Interleaved);
+  const QImage image = picture();
+  // The ball's left edge jumps from row to row, where the eyes see it at different places.
+  const auto edge = [&image](int y)
+  {
+    int x = 0;
+    while (x < image.width() && std::abs(qRed(image.pixel(x, y)) - qRed(image.pixel(0, 0))) < 7)
+      ++x;
+    return x;
+  };
+  const int middle = image.height() / 2;
+  EXPECT_LE(std::abs(edge(middle) - edge(middle + 2)), 1);
+  EXPECT_GE(std::abs(edge(middle) - edge(middle + 1)), 2);
+}
+
+TEST_F(Picture, AnaglyphColoursTheEdges)
+{
+  control<QDoubleSpinBox>("eyeSeparation").setValue(20.0);
+  chooseStereo(StereoMode::Anaglyph);
+  const QImage image = picture();
+  const QRgb background = image.pixel(0, 0);
+  int red = 0; // seen by the left eye alone
+  int cyan = 0;
+  for (int x = 0; x < image.width(); ++x)
+  {
+    const QRgb pixel = image.pixel(x, image.height() / 2);
+    const bool left = std::abs(qRed(pixel) - qRed(background)) > 8;
+    const bool right = std::abs(qBlue(pixel) - qBlue(background)) > 8;
+    red += left && !right;
+    cyan += right && !left;
+  }
+  EXPECT_GT(red, 0);
+  EXPECT_GT(cyan, 0);
+}
+
+TEST_F(Picture, MenuAndPanelShowTheSameStereo)
+{
+  chooseStereo(StereoMode::Anaglyph);
+  ASSERT_TRUE(stereoAction(StereoMode::Anaglyph));
+  EXPECT_TRUE(stereoAction(StereoMode::Anaglyph)->isChecked());
+  stereoAction(StereoMode::SideBySide)->trigger();
+  EXPECT_EQ(control<QComboBox>("stereoMode").currentData().toInt(),
+            static_cast<int>(StereoMode::SideBySide));
+  // No driver here offers two buffers, so nothing promises them.
+  EXPECT_EQ(control<QComboBox>("stereoMode").findData(static_cast<int>(StereoMode::QuadBuffer)),
+            -1);
+}
+
+TEST_F(Picture, APointerSideBySideLooksThroughTheEyeOfItsHalf)
+{
+  chooseStereo(StereoMode::SideBySide);
+  const QPoint middle = view().rect().center();
+  for (const int column : {view().width() / 4, view().width() * 3 / 4})
+  {
+    QTest::mouseDClick(&view(), Qt::LeftButton, Qt::NoModifier, {column, middle.y()});
+    const Eigen::Vector3d offset = window().model().crosshair() - kBallCenter;
+    EXPECT_NEAR(offset.norm(), kBallRadius, 0.1);
+    EXPECT_LT(offset.x(), -11.0); // the middle of either picture is the middle of the ball
+  }
+}
+
+TEST_F(Picture, TheLampFallsOffAndAWetSurfaceGlitters)
+{
+  const double plain = brightness(picture());
+  control<QDoubleSpinBox>("lightFalloff").setValue(50.0);
+  const double dim = brightness(picture());
+  EXPECT_LT(dim, 0.8 * plain);
+  control<QDoubleSpinBox>("lightFalloff").setValue(0.0);
+  control<QSlider>("wetness").setValue(100);
+  const QImage wet = picture();
+  const QRgb middle = wet.pixel(wet.rect().center());
+  control<QSlider>("wetness").setValue(0);
+  const QImage dry = picture();
+  EXPECT_GT(qBlue(middle), qBlue(dry.pixel(dry.rect().center())));
+  EXPECT_NEAR(brightness(dry), plain, 0.5);
+}
+
+TEST_F(Picture, TheBoneSliderLetsTheStructureShine)
+{
+  const QImage opaque = picture();
+  control<QSlider>("boneOpacity").setValue(10);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().boneLook.opacity < 0.11F; }));
+  const QImage clear = picture();
+  EXPECT_GT(differentPixels(opaque, clear, 12), 200);
+  closeWindow();
+  EXPECT_NEAR(library().open("ball").boneLook.opacity, 0.1F, 1e-6F);
+}
+
+TEST_F(Picture, TellsHowFastItIs)
+{
+  picture();
+  const auto says = [this](const QString& text)
+  {
+    for (const QLabel* label : window().findChildren<QLabel*>())
+      if (label->text().contains(text) && label->isVisible())
+        return true;
+    return false;
+  };
+  EXPECT_TRUE(says(" Hz") || says(" s"));
+}
+
+TEST_F(Picture, TheSurgeonsWindowShowsTheSceneAndEscapeClosesIt)
+{
+  chooseStereo(StereoMode::SideBySide);
+  QTest::keyClick(&window(), Qt::Key_F11);
+  ASSERT_TRUE(surgeonWindow());
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(surgeonWindow()));
+  picture();
+  EXPECT_EQ(view().display().stereo(), StereoMode::None); // for those who stand by
+  EXPECT_EQ(surgeonView().display().stereo(), StereoMode::SideBySide);
+  const QImage shown = surgeonView().grabFramebuffer();
+  EXPECT_GT(pixelsUnlikeTheCorner(half(shown, true)), shown.width() * shown.height() / 50);
+
+  // What happens in one is seen in the other.
+  QTest::keyClick(&window(), Qt::Key_2);
+  EXPECT_LT((surgeonView().picture().camera().position - view().picture().camera().position).norm(),
+            1e-9);
+  QTest::keyClick(&surgeonView(), Qt::Key_Left);
+  EXPECT_LT((surgeonView().picture().camera().position - view().picture().camera().position).norm(),
+            1e-9);
+
+  QTest::keyClick(surgeonWindow(), Qt::Key_Escape);
+  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }, 5000));
+  EXPECT_FALSE(action("Surgeon's window")->isChecked());
+  EXPECT_EQ(view().display().stereo(), StereoMode::SideBySide);
+}
+
+TEST_F(Picture, TheSurgeonDrillsInTheirOwnWindow)
+{
+  action("Surgeon's window")->trigger();
+  ASSERT_TRUE(surgeonWindow());
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(surgeonWindow()));
+  surgeonWindow()->resize(500, 400); // small: drawn on the processor here
+  action("Drill")->trigger();
+  QTest::qWait(100);
+  ThreeDView& surgeon = surgeonView();
+  ASSERT_TRUE(surgeon.drillMode());
+  const QPoint middle = surgeon.rect().center();
+  QTest::mouseMove(&surgeon, middle);
+  QTest::mousePress(&surgeon, Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::qWait(600);
+  QTest::mouseRelease(&surgeon, Qt::LeftButton, Qt::NoModifier, middle);
+  ASSERT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_GT(window().model().value().removedVolume(), 0.1);
+  closeWindow();
+  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }, 5000));
+}
+
+TEST_F(Picture, AFailingPictureSavesTheCaseFirst)
+{
+  action("Drill")->trigger();
+  const auto look = window().model().value().boneLook;
+  control<QSlider>("boneOpacity").setValue(50);
+  ASSERT_TRUE(waitFor([this] { return window().model().unsaved(); }));
+  QString words;
+  bool saved = false;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        words = box.text() + box.informativeText();
+        saved = library().open("ball").boneLook.opacity < look.opacity;
+        box.accept();
+      });
+  emit view().display().failed("the graphics driver was reset and lost the picture");
+  EXPECT_TRUE(saved);
+  EXPECT_TRUE(words.contains("lost the picture")) << words.toStdString();
+  EXPECT_TRUE(words.contains("The case is saved")) << words.toStdString();
+  EXPECT_FALSE(window().model().unsaved());
+}
+
+TEST_F(Picture, TheWindowMayBeResizedWhileTheDrillIsOn)
+{
+  action("Drill")->trigger();
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  for (const QSize& size : {QSize(900, 600), QSize(1300, 800), QSize(1000, 640)})
+  {
+    window().resize(size);
+    QTest::qWait(150);
+    EXPECT_TRUE(view().drilling());
+  }
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  ASSERT_EQ(window().model().value().strokes.size(), 1u);
+  const QImage image = picture();
+  EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
+}

@@ -1,0 +1,152 @@
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+#include "petrous/Rendering/ScenePicture.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+// Largest share of pixels, %, whose colour may be off by more than two levels where polygons are
+// drawn: their silhouettes fall on other pixels where corners are rounded to the screen's grid, and
+// a sphere of 48 x 32 facets lies up to 0.5 % of its radius inside the true one.
+constexpr double kOthers = 1.5;
+
+struct Colors
+{
+  double rms = 0.0;    // of pixels whose channels all lie within 12 levels, 1/255
+  double others = 0.0; // %
+};
+
+Colors compareColors(const Picture& picture, const ReferencePicture& truth)
+{
+  Colors result;
+  double squares = 0.0;
+  std::size_t near = 0;
+  const std::size_t pixels = truth.depth.millimetres.size();
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    double worst = 0.0;
+    double sum = 0.0;
+    for (std::size_t c = 3 * p; c < 3 * p + 3; ++c)
+    {
+      const double difference = picture.rgb[c] - 255.0 * static_cast<double>(truth.rgb[c]);
+      worst = std::max(worst, std::abs(difference));
+      sum += difference * difference;
+    }
+    if (worst > 12.0)
+      continue;
+    ++near;
+    squares += sum;
+  }
+  result.rms = std::sqrt(squares / (3.0 * static_cast<double>(std::max<std::size_t>(near, 1))));
+  result.others = 100.0 * static_cast<double>(pixels - near) / static_cast<double>(pixels);
+  return result;
+}
+
+void expectTheSame(const SceneContents& contents, const core::CameraPose& pose)
+{
+  const Shot shot = shoot(contents, pose);
+  const ReferencePicture truth = truthOf(contents, pose);
+  const Colors colors = compareColors(shot.picture, truth);
+  EXPECT_LE(colors.rms, 1.5);
+  EXPECT_LE(colors.others, kOthers);
+  // Where the tissue's first hit lies before a polygon, it is where it is without one.
+  const Agreement agreement = compare(shot, truth, contents.ct->geometry().minSpacing());
+  EXPECT_LE(agreement.median, 0.05);
+  EXPECT_LE(agreement.others, kOthers);
+}
+
+MeshContents square(const std::string& name, const Vector& middle, const Vector& u,
+                    const Vector& v)
+{
+  core::TriangleMesh mesh;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-1.0, 1.0})
+      mesh.vertices.push_back((middle + a * u + b * v).cast<float>());
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+  MeshContents contents{name, std::make_shared<core::TriangleMesh>(mesh), {}};
+  contents.look.color = {0.1F, 0.6F, 0.3F};
+  return contents;
+}
+
+ToolPose tool(const Vector& center, const Vector& axis, double radius = 2.0)
+{
+  ToolPose pose;
+  pose.center = center;
+  pose.axisToHand = axis;
+  pose.radius = radius;
+  return pose;
+}
+
+} // namespace
+
+TEST(Intermix, ShowsAMeshBeforeAndBehindTheBone)
+{
+  SceneContents contents = hollowBall(oblique());
+  // A sheet across the ball: half of it stands before the bone, half is hidden.
+  contents.meshes = {square("sheet", {0.0, -4.0, 0.0}, {14.0, 0.0, 0.0}, {0.0, 0.0, 14.0}),
+                     square("behind", {0.0, 12.0, 0.0}, {9.0, 0.0, 0.0}, {0.0, 0.0, 9.0})};
+  expectTheSame(contents, slanting());
+  core::CameraPose parallel = slanting();
+  parallel.parallelScale = 14.0;
+  expectTheSame(contents, parallel);
+}
+
+TEST(Intermix, ShowsAMeshInsideTranslucentBone)
+{
+  SceneContents contents = translucentBall();
+  contents.meshes = {square("sheet", {0.0, 1.0, 0.0}, {5.0, 0.0, 1.0}, {0.0, 1.0, 5.0})};
+  expectTheSame(contents, slanting());
+}
+
+TEST(Intermix, ShowsTheToolInACavityAndItsShaftBeforeTheBone)
+{
+  for (const float surfaceOpacity : {1.0F, 0.35F})
+  {
+    SceneContents contents = cutBall(surfaceOpacity);
+    contents.tool = tool({2.0, -8.0, 3.0}, Vector(0.4, -1.0, 0.6));
+    expectTheSame(contents, slanting());
+  }
+}
+
+TEST(Intermix, ShowsAToolAtEveryPlaceOfACutCavity)
+{
+  // Rays end at the tool where the cut's bricks begin or end, wherever it stands.
+  SceneContents contents = cutBall();
+  for (double depth = -13.0; depth < -4.0; depth += 0.7)
+  {
+    contents.tool = tool({2.0, depth, 3.0}, Vector(0.4, -1.0, 0.6), 1.5);
+    const Shot shot = shoot(contents, slanting());
+    const ReferencePicture truth = truthOf(contents, slanting());
+    const Colors colors = compareColors(shot.picture, truth);
+    EXPECT_LE(colors.others, kOthers) << depth;
+    int wrong = 0; // tissue where there is none
+    for (std::size_t p = 0; p < truth.depth.millimetres.size(); ++p)
+      wrong += std::isnan(truth.depth.millimetres[p]) && !std::isnan(shot.depth.millimetres[p]);
+    EXPECT_LE(wrong, 6) << depth;
+  }
+}
+
+TEST(Intermix, EndsRaysAtTheToolWithinLabelsAndASecondImage)
+{
+  SceneContents contents = fullScene();
+  contents.tool = tool({2.0, -6.0, 3.0}, Vector(0.4, -1.0, 0.6), 1.5);
+  expectTheSame(contents, slanting());
+}
+
+TEST(Intermix, HidesAToolInsideOpaqueBone)
+{
+  SceneContents contents = hollowBall();
+  const Picture without = draw(contents, slanting());
+  contents.tool = tool({3.0, -11.0, 2.0}, {0.3, -1.0, 0.5});
+  EXPECT_GT(countDifferentPixels(draw(contents, slanting()), without), 100U);
+  contents.tool = tool({0.0, 0.0, 0.0}, {-0.5, 0.8, -0.35}, 1.0); // away from the eye
+  const Picture hidden = draw(contents, slanting());
+  for (int row = 60; row < 90; ++row)
+    for (int column = 85; column < 115; ++column)
+      for (int c = 0; c < 3; ++c)
+        ASSERT_EQ(hidden.pixel(column, row)[c], without.pixel(column, row)[c]);
+}

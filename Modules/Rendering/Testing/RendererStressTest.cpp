@@ -1,0 +1,286 @@
+#include <limits>
+
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+#include "petrous/Rendering/ScenePicture.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+bool isEmpty(const Shot& shot)
+{
+  for (int row = 0; row < shot.picture.height; ++row)
+    for (int column = 0; column < shot.picture.width; ++column)
+      if (!isBackground(shot.picture.pixel(column, row)) ||
+          !std::isnan(shot.depth.at(column, row)))
+        return false;
+  return true;
+}
+
+SceneContents uniform(double value, int samples = 24)
+{
+  return boneScene(image(cube(samples, 0.5), [=](const Vector&) { return value; }));
+}
+
+Agreement agreementOf(const SceneContents& contents, const core::CameraPose& pose = slanting(),
+                      const RenderQuality& quality = {})
+{
+  return compare(shoot(contents, pose, quality), truthOf(contents, pose),
+                 contents.ct->geometry().minSpacing());
+}
+
+} // namespace
+
+TEST(RendererStress, DrawsAVolumeOfOneValue)
+{
+  EXPECT_TRUE(isEmpty(shoot(uniform(-1000.0), slanting())));
+  EXPECT_TRUE(isEmpty(shoot(uniform(kIso), slanting()))); // f = 0 is air
+  const Agreement solid = agreementOf(uniform(1200.0));
+  EXPECT_GT(solid.hits, 1000);
+  expectAgreement(solid);
+  SceneContents translucent = uniform(1200.0);
+  translucent.materials = {boneMaterial(0.3F)};
+  expectAgreement(agreementOf(translucent));
+}
+
+TEST(RendererStress, DrawsNoVolumeThatIsOneVoxelThick)
+{
+  for (const core::Index3& dims : {core::Index3{1, 40, 40}, core::Index3{40, 1, 40},
+                                   core::Index3{40, 40, 1}, core::Index3{1, 1, 1}})
+  {
+    const core::GridGeometry grid(dims, {0.5, 0.5, 0.5}, {-10.0, -10.0, -10.0});
+    SceneContents contents = boneScene(image(grid, [](const Vector&) { return 2000.0; }), 0.3F);
+    EXPECT_TRUE(isEmpty(shoot(contents, slanting())));
+  }
+}
+
+TEST(RendererStress, DrawsTwoVoxelsAlongEachAxis)
+{
+  const core::GridGeometry grid({2, 2, 2}, {9.0, 9.0, 9.0}, {-4.5, -4.5, -4.5});
+  SceneContents contents =
+      boneScene(image(grid, [](const Vector& p) { return kIso + 60.0 * p.sum(); }), 0.3F);
+  const Agreement agreement = agreementOf(contents);
+  EXPECT_GT(agreement.hits, 1000);
+  expectAgreement(agreement);
+}
+
+TEST(RendererStress, DrawsASlabTwoVoxelsThick)
+{
+  const core::GridGeometry grid({60, 2, 60}, {0.4, 0.4, 0.4}, {-12.0, 0.0, -12.0});
+  SceneContents contents = boneScene(
+      image(grid, [](const Vector& p) { return kIso + 90.0 * (8.0 - Vector(p.x(), 0.0, p.z()).norm()); }),
+      0.3F);
+  const Agreement agreement = agreementOf(contents);
+  EXPECT_GT(agreement.hits, 1000);
+  expectAgreement(agreement);
+}
+
+TEST(RendererStress, ShowsNothingButDepthWhereAllIsTransparent)
+{
+  SceneContents contents = hollowBall();
+  contents.materials = {{appearance::TransferFunction::constant({1.0F, 1.0F, 1.0F}, 0.0F),
+                         appearance::IntensitySource::Ct, 0.0F}};
+  const Shot shot = shoot(contents, slanting());
+  int hits = 0;
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column)
+    {
+      ASSERT_TRUE(isBackground(shot.picture.pixel(column, row)));
+      hits += !std::isnan(shot.depth.at(column, row));
+    }
+  // The surface is there for the hand and for picking, though nobody sees it.
+  EXPECT_GT(hits, 4000);
+  expectAgreement(agreementOf(contents));
+}
+
+TEST(RendererStress, TakesVoxelsThatAreNoNumbersForAir)
+{
+  const core::GridGeometry grid = cube(48, 0.5);
+  const SceneContents holed = boneScene(
+      image(grid,
+            [](const Vector& p)
+            {
+              const bool hole = (p - Vector(2.0, -8.0, 2.0)).norm() < 3.0;
+              return hole ? kNan : std::clamp(kIso + 240.0 * bittenBall(p), -1000.0, 2500.0);
+            }),
+      0.35F);
+  // Every cell that has such a corner is air to both; the reference reads NaN in all of it.
+  const Agreement agreement = agreementOf(holed);
+  EXPECT_GT(agreement.hits, 3000);
+  EXPECT_LE(agreement.rms, 1.0);
+  EXPECT_LE(agreement.others, 0.2);
+  EXPECT_TRUE(isEmpty(shoot(uniform(kNan), slanting())));
+  EXPECT_TRUE(isEmpty(shoot(uniform(-std::numeric_limits<double>::infinity()), slanting())));
+}
+
+TEST(RendererStress, DrawsSurfacesAtTheEndsOfSixteenBits)
+{
+  // Half of the range on each side of the border between two voxels.
+  const auto step = [](double low, double high)
+  {
+    return [=](const Vector& p) { return p.y() < 0.0 ? low : high; };
+  };
+  const core::GridGeometry grid = cube(24, 0.5);
+  const auto voxels = [&](double low, double high)
+  {
+    const auto values = step(low, high);
+    auto volume = std::make_shared<volume::Volume<std::int16_t>>(grid);
+    for (int k = 0; k < 24; ++k)
+      for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i)
+          volume->at(i, j, k) =
+              static_cast<std::int16_t>(values(grid.patientFromVoxel(Vector(i, j, k))));
+    return std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(volume));
+  };
+  SceneContents contents = boneScene(voxels(-32767.0, 32767.0), 0.35F);
+  for (const double iso : {-32766.0, 0.0, 32766.0})
+  {
+    contents.iso = iso;
+    const Agreement agreement = agreementOf(contents);
+    EXPECT_GT(agreement.hits, 1000) << iso;
+    expectAgreement(agreement);
+  }
+  for (const double iso : {32767.0, 1e6})
+  {
+    contents.iso = iso;
+    EXPECT_TRUE(isEmpty(shoot(contents, slanting()))) << iso;
+  }
+  contents.iso = -1e6; // all is bone
+  expectAgreement(agreementOf(contents));
+}
+
+TEST(RendererStress, FollowsAWindowThatIsResizedBetweenEdits)
+{
+  const SceneContents contents = cutBall(0.35F);
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(slanting());
+  for (const auto& [width, height] : {std::pair{200, 150}, {31, 77}, {1, 1}, {150, 200}, {200, 150}})
+  {
+    OffscreenView view(width, height);
+    const Shot shot = shoot(view, scene);
+    EXPECT_EQ(shot.picture.width, width);
+    EXPECT_EQ(shot.depth.width, width);
+    EXPECT_EQ(shot.depth.height, height);
+    EXPECT_EQ(countDifferentPixels(shot.picture,
+                                   shoot(contents, slanting(), {}, width, height).picture),
+              0U);
+    scene.maskChanged(contents.mask, contents.ct->geometry().fullBox());
+  }
+}
+
+TEST(RendererStress, DrawsWithTheCoarsestAndTheFinestQuality)
+{
+  const SceneContents contents = cutBall(0.35F);
+  const Picture normal = draw(contents, slanting());
+  const auto meanOf = [](const Picture& picture)
+  {
+    double sum = 0.0;
+    for (const std::uint8_t value : picture.rgb)
+      sum += value;
+    return sum / static_cast<double>(picture.rgb.size());
+  };
+  RenderQuality coarse;
+  coarse.imageScale = 0.1;
+  coarse.step = 10.0;
+  coarse.bisections = 0;
+  coarse.tableSize = 16;
+  coarse.brick = 16;
+  coarse.maskBits = 8;
+  coarse.termination = 0.5;
+  const Shot rough = shoot(contents, slanting(), coarse);
+  EXPECT_EQ(rough.depth.width, kWidth / 10);
+  EXPECT_NEAR(meanOf(rough.picture) / meanOf(normal), 1.0, 0.5);
+
+  RenderQuality fine;
+  fine.step = 1e-3;
+  fine.bisections = 24;
+  fine.tableSize = 4096;
+  fine.termination = 0.0;
+  const Shot best = shoot(contents, slanting(30.0), fine, 24, 18);
+  const ReferencePicture truth = truthOf(contents, slanting(30.0), 24, 18);
+  expectAgreement(compare(best, truth, 0.5));
+}
+
+TEST(RendererStress, DrawsReducedWhatTheCardHasNoRoomForAndSaysSo)
+{
+  const SceneContents contents = fullScene();
+  EXPECT_TRUE(shoot(contents, slanting()).statistics.notes.empty());
+  RenderQuality quality;
+  quality.largestTexture = 40; // of 48
+  const Shot whole = shoot(contents, slanting());
+  const Shot reduced = shoot(contents, slanting(), quality);
+  ASSERT_EQ(reduced.statistics.notes.size(), 1U); // the second image has 36 voxels an edge
+  EXPECT_NE(reduced.statistics.notes[0].find("the CT is drawn reduced by 2 x 2 x 2"),
+            std::string::npos)
+      << reduced.statistics.notes[0];
+  EXPECT_LT(reduced.statistics.resources.at("ct.texture"),
+            whole.statistics.resources.at("ct.texture") / 7);
+  // Half the resolution keeps smooth surfaces within a third of a voxel.
+  ReferencePicture truth;
+  truth.depth = whole.depth;
+  truth.rgb.assign(whole.picture.rgb.begin(), whole.picture.rgb.end());
+  for (float& value : truth.rgb)
+    value /= 255.0F;
+  const Agreement agreement = compare(reduced, truth, 0.5);
+  EXPECT_LE(agreement.median, 0.15);
+  EXPECT_LE(agreement.others, 4.0);
+  EXPECT_LE(agreement.rms, 12.0);
+  // Back in full where the limit is lifted, edits included.
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(slanting());
+  scene.setQuality(quality);
+  OffscreenView view(kWidth, kHeight);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), reduced.picture), 0U);
+  scene.maskChanged(std::make_shared<volume::CutMask>(*contents.mask), {{7, 7, 7}, {30, 31, 32}});
+  EXPECT_EQ(countDifferentPixels(view.render(scene), reduced.picture), 0U);
+  scene.setQuality({});
+  EXPECT_EQ(countDifferentPixels(view.render(scene), whole.picture), 0U);
+  EXPECT_TRUE(scene.statistics().notes.empty());
+}
+
+TEST(RendererStress, DrawsNothingOfAnEmptyCropBox)
+{
+  SceneContents contents = translucentBall();
+  for (const core::IndexBox& box :
+       {core::IndexBox{{10, 10, 10}, {10, 30, 30}}, core::IndexBox{{30, 10, 10}, {12, 30, 30}},
+        core::IndexBox{{10, 10, 10}, {11, 30, 30}}, core::IndexBox{{60, 0, 0}, {90, 48, 48}}})
+  {
+    contents.crop = box;
+    EXPECT_TRUE(isEmpty(shoot(contents, slanting())));
+  }
+}
+
+TEST(RendererStress, DrawsNothingBehindAClippingPlaneOrBesideTheVolume)
+{
+  SceneContents contents = translucentBall();
+  contents.clipping = {{{0.0, 0.0, 100.0}, {0.0, 0.0, 1.0}}};
+  EXPECT_TRUE(isEmpty(shoot(contents, slanting())));
+  core::CameraPose away = slanting();
+  away.focalPoint = 2.0 * away.position;
+  contents.clipping.clear();
+  EXPECT_TRUE(isEmpty(shoot(contents, away)));
+}
+
+TEST(RendererStress, LooksAlongTheAxesOfTheGrid)
+{
+  // Rays that never move along an axis, on the border between cells and in the volume's face.
+  for (const Vector& direction : {Vector(1.0, 0.0, 0.0), Vector(0.0, -1.0, 0.0), Vector(0.0, 0.0, 1.0)})
+  {
+    core::CameraPose pose;
+    pose.position = -40.0 * direction;
+    pose.focalPoint = {0.0, 0.0, 0.0};
+    pose.viewUp = Vector(direction.y(), direction.z(), direction.x());
+    pose.parallelScale = 37.5; // half a millimetre a pixel: each ray runs through voxel centres
+    const SceneContents contents = boneScene(ball(cube(48, 0.5), 14.0), 0.35F);
+    expectAgreement(agreementOf(contents, pose));
+  }
+}

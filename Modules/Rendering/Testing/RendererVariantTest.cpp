@@ -1,0 +1,153 @@
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+#include "petrous/Rendering/ScenePicture.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+using Names = std::vector<std::string>;
+
+Names variantOf(const SceneContents& contents)
+{
+  return shoot(contents, slanting(), {}, 32, 24).statistics.variant;
+}
+
+Names namesOf(const std::map<std::string, std::size_t>& resources)
+{
+  Names names;
+  for (const auto& [name, bytes] : resources)
+  {
+    EXPECT_GT(bytes, 0U) << name;
+    names.push_back(name);
+  }
+  return names;
+}
+
+RenderStatistics counted(const SceneContents& contents, const core::CameraPose& pose)
+{
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(pose);
+  scene.setCounting(true);
+  OffscreenView view(kWidth, kHeight);
+  view.render(scene);
+  return scene.statistics();
+}
+
+} // namespace
+
+TEST(RendererVariant, UsesNothingButTheCtWhereThereIsNothingElse)
+{
+  const Shot shot = shoot(hollowBall(), slanting());
+  EXPECT_EQ(shot.statistics.variant, (Names{"ct", "bone"}));
+  EXPECT_EQ(namesOf(shot.statistics.resources), (Names{"ct.bricks", "ct.texture"}));
+  EXPECT_EQ(shot.statistics.resources.at("ct.texture"), 2U * 48U * 48U * 48U);
+}
+
+TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
+{
+  SceneContents contents = hollowBall();
+  contents.mask = std::make_shared<volume::CutMask>(contents.ct->geometry()); // nothing is cut
+  contents.second = movedWaves();                                            // nobody reads it
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone"}));
+  EXPECT_EQ(variantOf(cutBall()), (Names{"ct", "bone", "mask"}));
+  EXPECT_EQ(variantOf(translucentBall()), (Names{"ct", "bone", "interior"}));
+  EXPECT_EQ(variantOf(labelledBall(cube(48, 0.5), 1.0F)), (Names{"ct", "bone", "labels", "interior"}));
+  contents.materials = {waveMaterial(1.0F)};
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "second"}));
+  contents.materials = {boneMaterial()};
+  contents.clipping.push_back({});
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "clipping"}));
+  EXPECT_EQ(variantOf(fullScene()), (Names{"ct", "bone", "labels", "mask", "second", "interior"}));
+  contents = labelledBall(cube(48, 0.5), 1.0F);
+  contents.boneShown = false;
+  for (appearance::Material& material : contents.materials)
+    material.surfaceOpacity = 1.0F;
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "labels"}));
+}
+
+TEST(RendererVariant, LetsGoOfWhatTheSceneNoLongerUses)
+{
+  ScenePicture scene;
+  scene.setContents(fullScene());
+  scene.setCamera(slanting());
+  OffscreenView view(64, 48);
+  view.render(scene);
+  EXPECT_EQ(namesOf(scene.resources()),
+            (Names{"ct.bricks", "ct.texture", "labels.texture", "mask.texture", "mr.texture"}));
+  SceneContents less = fullScene();
+  less.labels = nullptr;
+  less.materials = {boneMaterial()};
+  less.mask = nullptr;
+  scene.setContents(less);
+  view.render(scene);
+  EXPECT_EQ(scene.statistics().variant, (Names{"ct", "bone"}));
+  EXPECT_EQ(namesOf(scene.resources()), (Names{"ct.bricks", "ct.texture"}));
+}
+
+TEST(RendererVariant, DrawsAnotherSecondImageThatCameWhileNobodyReadIt)
+{
+  ScenePicture scene;
+  SceneContents contents = translucentBall();
+  contents.second = movedWaves();
+  contents.materials = {waveMaterial(0.3F)};
+  scene.setContents(contents);
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  view.render(scene);
+  contents.materials = {boneMaterial()};
+  contents.second.volume = image(cube(36, 0.9), [](const Vector& p) { return 500.0 + 40.0 * p.z(); });
+  scene.setContents(contents);
+  view.render(scene);
+  contents.materials = {waveMaterial(0.3F)};
+  scene.setContents(contents);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), draw(contents, slanting())), 0U);
+}
+
+TEST(RendererVariant, CountsWithoutChangingThePicture)
+{
+  ScenePicture scene;
+  scene.setContents(fullScene());
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  const Picture before = view.render(scene);
+  scene.setCounting(true);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), before), 0U);
+  EXPECT_GT(scene.statistics().samplesPerPixel, 0.0);
+  EXPECT_GT(scene.statistics().fetchesPerPixel, scene.statistics().samplesPerPixel);
+}
+
+// The limits lie 15 % above what was counted when they were set, so that nothing that makes a ray
+// dearer goes unseen. Fetches do not depend on the machine, time does.
+TEST(RendererVariant, FetchesNoMoreThanItDid)
+{
+  core::CameraPose near = slanting(18.0);
+  near.viewAngle = 60.0;
+  struct Limit
+  {
+    const char* name;
+    SceneContents contents;
+    core::CameraPose pose;
+    double fetches;
+    double samples;
+  };
+  const std::vector<Limit> limits{
+      {"opaque", hollowBall(oblique()), slanting(), 1.0, 1.0},
+      {"opaque, near", hollowBall(oblique()), near, 1.0, 1.0},
+      {"translucent", translucentBall(), slanting(), 1.0, 1.0},
+      {"cut", cutBall(), near, 1.0, 1.0},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 1.0, 1.0},
+      {"everything", fullScene(), near, 1.0, 1.0},
+  };
+  for (const Limit& limit : limits)
+  {
+    const RenderStatistics statistics = counted(limit.contents, limit.pose);
+    EXPECT_LE(statistics.fetchesPerPixel, limit.fetches) << limit.name;
+    EXPECT_GE(statistics.fetchesPerPixel, 0.5 * limit.fetches) << limit.name; // is it counted?
+    EXPECT_LE(statistics.samplesPerPixel, limit.samples) << limit.name;
+  }
+}

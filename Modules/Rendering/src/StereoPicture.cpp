@@ -1,0 +1,323 @@
+#include "petrous/Rendering/StereoPicture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkNew.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLShaderCache.h>
+#include <vtkOpenGLState.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderer.h>
+#include <vtkWeakPointer.h>
+#include <vtk_glew.h>
+
+#include "GlProgram.h"
+#include "GlTexture.h"
+#include "RayCastVertexShader.h"
+#include "StereoShader.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+constexpr TexelFormat kPixel{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+constexpr float kAfterThePicture = -1.0F; // of the observers; ScenePicture's come first
+
+void point(vtkRenderer* renderer, const core::CameraPose& pose)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetFocalPoint(pose.focalPoint.data());
+  camera->SetPosition(pose.position.data());
+  camera->SetViewUp(pose.viewUp.data());
+  camera->SetUseHorizontalViewAngle(0);
+  camera->SetViewAngle(pose.viewAngle);
+  camera->SetParallelProjection(pose.parallelScale ? 1 : 0);
+  if (pose.parallelScale)
+    camera->SetParallelScale(*pose.parallelScale);
+  camera->SetWindowCenter(pose.lensShift / renderer->GetTiledAspectRatio(), 0.0);
+}
+
+template <class Collection>
+bool contains(Collection* collection, vtkObject* object)
+{
+  return collection->IsItemPresent(object) != 0;
+}
+
+// Not RemoveViewProp, which would free the textures that the left eye goes on using.
+void forget(vtkRenderer* renderer, int index)
+{
+  vtkPropCollection* props = renderer->GetViewProps();
+  vtkProp::SafeDownCast(props->GetItemAsObject(index))->RemoveConsumer(renderer);
+  props->RemoveItem(index);
+}
+
+// The right eye sees what the left one sees.
+void mirrorProps(vtkRenderer* from, vtkRenderer* to)
+{
+  vtkPropCollection* wanted = from->GetViewProps();
+  vtkPropCollection* present = to->GetViewProps();
+  for (int i = present->GetNumberOfItems(); i-- > 0;)
+    if (!contains(wanted, present->GetItemAsObject(i)))
+      forget(to, i);
+  vtkCollectionSimpleIterator it;
+  wanted->InitTraversal(it);
+  while (vtkProp* prop = wanted->GetNextProp(it))
+    if (!contains(present, prop))
+      to->AddViewProp(prop);
+  to->AutomaticLightCreationOff();
+  to->SetTwoSidedLighting(from->GetTwoSidedLighting() ? 1 : 0);
+  to->SetBackground(from->GetBackground());
+  vtkLightCollection* lights = from->GetLights();
+  lights->InitTraversal(it);
+  while (vtkLight* light = lights->GetNextLight(it))
+    if (!contains(to->GetLights(), light))
+      to->AddLight(light);
+}
+
+} // namespace
+
+class StereoPicture::Implementation
+{
+public:
+  explicit Implementation(ScenePicture& shown)
+    : picture(shown)
+    , left(shown.renderer())
+  {
+    const auto listen = [this](vtkCallbackCommand* command, auto react)
+    {
+      command->SetClientData(this);
+      command->SetCallback(react);
+    };
+    listen(m_leftStart, [](vtkObject*, unsigned long, void* self, void*)
+           { static_cast<Implementation*>(self)->startLeft(); });
+    listen(m_leftEnd, [](vtkObject*, unsigned long, void* self, void*)
+           { static_cast<Implementation*>(self)->endLeft(); });
+    listen(m_rightStart, [](vtkObject*, unsigned long, void* self, void*)
+           { static_cast<Implementation*>(self)->startRight(); });
+    listen(m_rightEnd, [](vtkObject*, unsigned long, void* self, void*)
+           { static_cast<Implementation*>(self)->endRight(); });
+    m_right->AddObserver(vtkCommand::StartEvent, m_rightStart);
+    m_right->AddObserver(vtkCommand::EndEvent, m_rightEnd);
+  }
+
+  ~Implementation() { show(StereoMode::None); }
+
+  void show(StereoMode next);
+
+  ScenePicture& picture;
+  vtkWeakPointer<vtkRenderer> left;
+  StereoMode mode = StereoMode::None;
+  StereoRig rig;
+  int firstRow = 0;
+
+private:
+  void place();
+  void startLeft();
+  void endLeft();
+  void startRight();
+  void endRight();
+  bool composed() const { return mode != StereoMode::QuadBuffer; }
+  vtkOpenGLRenderWindow* window() const
+  {
+    return left ? vtkOpenGLRenderWindow::SafeDownCast(left->GetRenderWindow()) : nullptr;
+  }
+  void take(vtkRenderer* renderer, GlTexture& texture);
+  void compose();
+
+  vtkNew<vtkRenderer> m_right;
+  vtkNew<vtkCallbackCommand> m_leftStart, m_leftEnd, m_rightStart, m_rightEnd;
+  unsigned long m_startObserver = 0;
+  unsigned long m_endObserver = 0;
+  bool m_moved = false; // the scene's camera stands at an eye
+  core::CameraPose m_head;
+  GlTexture m_pictures[2];
+  GlProgram m_program;
+  GLuint m_vertexArray = 0;
+};
+
+void StereoPicture::Implementation::show(StereoMode next)
+{
+  if (next == mode || !left)
+    return;
+  vtkOpenGLRenderWindow* shown = window();
+  while (m_right->GetViewProps()->GetNumberOfItems() > 0)
+    forget(m_right, m_right->GetViewProps()->GetNumberOfItems() - 1);
+  left->RemoveObserver(m_startObserver);
+  left->RemoveObserver(m_endObserver);
+  left->SetViewport(0.0, 0.0, 1.0, 1.0);
+  if (shown)
+  {
+    shown->RemoveRenderer(m_right);
+    if (mode == StereoMode::QuadBuffer)
+      shown->StereoRenderOff();
+    if (m_vertexArray)
+    {
+      shown->MakeCurrent();
+      m_pictures[0].release();
+      m_pictures[1].release();
+      m_program.release();
+      glDeleteVertexArrays(1, &m_vertexArray);
+      m_vertexArray = 0;
+    }
+  }
+  mode = next;
+  if (mode == StereoMode::None)
+    return;
+  m_startObserver = left->AddObserver(vtkCommand::StartEvent, m_leftStart, kAfterThePicture);
+  m_endObserver = left->AddObserver(vtkCommand::EndEvent, m_leftEnd, kAfterThePicture);
+  if (mode == StereoMode::QuadBuffer && shown)
+  {
+    left->GetActiveCamera()->SetEyeAngle(0.0); // the eyes are placed here, not by VTK
+    shown->SetStereoTypeToCrystalEyes();
+    shown->StereoRenderOn();
+  }
+  else if (shown)
+    shown->AddRenderer(m_right);
+}
+
+// Both eyes are drawn in the same place, the lower left one, and put where they belong afterwards.
+void StereoPicture::Implementation::place()
+{
+  const int width = std::max(window()->GetSize()[0], 1);
+  const double share =
+      mode == StereoMode::SideBySide ? static_cast<double>((width + 1) / 2) / width : 1.0;
+  left->SetViewport(0.0, 0.0, share, 1.0);
+  m_right->SetViewport(0.0, 0.0, share, 1.0);
+}
+
+void StereoPicture::Implementation::startLeft()
+{
+  if (!window())
+    return;
+  place();
+  m_head = picture.camera();
+  m_moved = true;
+  const EyePair eyes = eyesOf(m_head, fittedStereoGeometry(m_head, rig));
+  const bool second = mode == StereoMode::QuadBuffer && !left->GetActiveCamera()->GetLeftEye();
+  point(left, second ? eyes.right : eyes.left);
+  left->ResetCameraClippingRange();
+}
+
+void StereoPicture::Implementation::endLeft()
+{
+  if (!m_moved || !window())
+    return;
+  if (composed())
+    take(left, m_pictures[0]);
+  m_moved = false;
+  picture.setCamera(m_head);
+}
+
+void StereoPicture::Implementation::startRight()
+{
+  if (!left)
+    return;
+  mirrorProps(left, m_right);
+  point(m_right, eyesOf(m_head, fittedStereoGeometry(m_head, rig)).right);
+  m_right->ResetCameraClippingRange();
+}
+
+void StereoPicture::Implementation::endRight()
+{
+  if (!composed() || !window())
+    return;
+  take(m_right, m_pictures[1]);
+  compose();
+}
+
+void StereoPicture::Implementation::take(vtkRenderer* renderer, GlTexture& texture)
+{
+  int width = 0;
+  int height = 0;
+  int x = 0;
+  int y = 0;
+  renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
+  if (texture.dims()[0] != width || texture.dims()[1] != height)
+    texture.create(kPixel, width, height, nullptr, GL_NEAREST);
+  vtkOpenGLState* state = window()->GetState();
+  state->PushFramebufferBindings();
+  GLint drawn = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(drawn));
+  texture.bind(0);
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, x, y, width, height);
+  glBindTexture(GL_TEXTURE_2D, 0);
+  state->ResetFramebufferBindings();
+  state->PopFramebufferBindings();
+  state->ResetGLActiveTexture();
+}
+
+void StereoPicture::Implementation::compose()
+{
+  window()->GetShaderCache()->ReleaseCurrentShader();
+  if (!m_program)
+    m_program.build(std::string("#version 330 core\n").append(kRayCastVertexShader),
+                    std::string("#version 330 core\n").append(kStereoShader));
+  if (!m_vertexArray)
+    glGenVertexArrays(1, &m_vertexArray);
+  vtkOpenGLState* state = window()->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  const vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  const int* size = window()->GetSize();
+  state->vtkglViewport(0, 0, size[0], size[1]);
+  m_program.use();
+  m_pictures[0].bind(0);
+  m_pictures[1].bind(1);
+  m_program.set("leftPicture", 0);
+  m_program.set("rightPicture", 1);
+  m_program.set("arrangement", mode == StereoMode::SideBySide    ? 0
+                               : mode == StereoMode::Interleaved ? 1
+                                                                 : 2);
+  m_program.set("rightColumn", size[0] / 2);
+  m_program.set("firstRow", firstRow);
+  glBindVertexArray(m_vertexArray);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glActiveTexture(GL_TEXTURE0);
+  state->ResetGLActiveTexture();
+}
+
+StereoPicture::StereoPicture(ScenePicture& picture)
+  : m_implementation(std::make_unique<Implementation>(picture))
+{
+}
+
+StereoPicture::~StereoPicture() = default;
+
+void StereoPicture::show(StereoMode mode, const StereoRig& rig)
+{
+  m_implementation->rig = rig;
+  m_implementation->show(mode);
+}
+
+StereoMode StereoPicture::mode() const noexcept
+{
+  return m_implementation->mode;
+}
+
+const StereoRig& StereoPicture::rig() const noexcept
+{
+  return m_implementation->rig;
+}
+
+void StereoPicture::setFirstRow(int row) noexcept
+{
+  m_implementation->firstRow = std::max(row, 0);
+}
+
+} // namespace petrous::rendering

@@ -1,0 +1,285 @@
+// The scene that rays are cast through: its textures and uniforms, the tissue field at a position and
+// its gradients, the part that is drawn. First part of the ray caster's fragment shader; see
+// RayCast.frag.glsl.
+//
+// Compiled with the features that the scene uses (PETROUS_*): what is not defined is not fetched.
+//   BONE       the CT's own surface            MASK     the cut
+//   LABELS     structures                      SECOND   a second image for some materials
+//   INTERIOR   tissue can be looked into       CLIP     clipping planes
+//   COUNT      fetches and samples are counted
+//
+// Textures (linear unless named otherwise):
+//   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
+//   maskTexture    R8 or R16, 1 untouched, 0 gone, the CT's grid
+//   shareTexture   R16, smoothed union of solid structures, own grid
+//   indexTexture   R8UI, nearest, the same grid: row of the material
+//   secondTexture  as ctTexture, own grid
+//   brickTexture   RGBA8UI, nearest, a texel a brick: distances to tissue, inside; flags
+//   lookTexture    RGBA16F, row = material, over its intensities: colour, specular
+//   depthTexture   RGBA32F, nearest, row = material: integrals over its intensities of extinction * colour
+//                  and of extinction (1/mm)
+//   materialTexture RGBA32F, nearest, 2 x rows: (first intensity, 1 / range, surface opacity,
+//                  shininess), (lumen, reads the second image, -, -)
+//   opaqueTexture  window depth of opaque polygons
+
+in vec2 ndc;
+layout(location = 0) out vec4 outColor; // premultiplied
+layout(location = 1) out float outDepth; // mm to the first surface, -1 none
+#ifdef PETROUS_COUNT
+layout(location = 2) out vec2 outCount; // fetches, samples
+#endif
+
+uniform sampler3D ctTexture;
+uniform usampler3D brickTexture;
+uniform sampler2D lookTexture;
+uniform sampler2D materialTexture;
+uniform sampler2D opaqueTexture;
+
+// Rays: origin and direction are affine in the pixel; direction in mm has the length `toMm`.
+uniform vec3 originCenter, originX, originY;
+uniform vec3 directionCenter, directionX, directionY;
+uniform vec3 viewCenter, viewX, viewY; // the same direction in the eye's frame, mm
+uniform vec4 opaqueDepth; // w = y / (z + x) perspective; z + w * ndc parallel; see opaqueEnd
+uniform bool hasOpaque;
+uniform bool parallel;
+
+uniform vec3 boxLower, boxUpper; // voxels that are drawn
+uniform vec3 hullUpper;          // dims - 1
+uniform vec3 ctScale, ctOffset;  // voxel -> texture coordinate
+uniform float ctUnit;
+uniform float iso, perUnit; // intensity; 1 / scale of c_CT
+uniform float brickEdge;
+uniform float stepLength; // mm
+uniform int bisections;
+uniform float termination; // transmittance at which a ray ends
+uniform mat3 normalFromVoxel; // gradient over voxels -> gradient over mm
+uniform mat3 voxelFromMm;
+uniform float colorDepth; // mm
+
+uniform vec4 light; // intensity, ambient, specular, wetness
+uniform float falloff;
+
+#ifdef PETROUS_MASK
+uniform sampler3D maskTexture;
+uniform vec3 maskScale, maskOffset;
+#endif
+#ifdef PETROUS_LABELS
+uniform sampler3D shareTexture;
+uniform usampler3D indexTexture;
+uniform mat3 labelFromVoxel;
+uniform vec3 labelOrigin;
+uniform vec3 labelUpper; // dims - 1
+uniform vec3 labelScale, labelOffset; // label voxel -> texture coordinate of the share
+uniform vec3 labelBlock;              // label voxels a texel
+uniform mat3 normalFromLabel;
+#endif
+#ifdef PETROUS_SECOND
+uniform sampler3D secondTexture;
+uniform mat3 secondFromVoxel;
+uniform vec3 secondOrigin;
+uniform float secondUnit;
+uniform vec3 secondUpper;
+uniform vec3 secondScale, secondOffset;
+#endif
+#ifdef PETROUS_INTERIOR
+uniform sampler2D depthTexture;
+#endif
+#ifdef PETROUS_CLIP
+uniform int planeCount;
+uniform vec4 planes[PETROUS_CLIP]; // mm on the side that stays, over voxels
+#endif
+
+const int kAir = 0;
+const int kBone = 1;
+const int kStructure = 2; // + index
+const float kWetShininess = 120.0;
+const float kInteriorFacing = 2.0 / 3.0;
+const int kMostEvents = 512; // far more than a ray meets before nothing comes through
+const uint kMixed = 1u;
+const uint kLabels = 2u;
+const uint kBorder = 16u;
+const float kSummitDoubt = 0.5;
+const float kLongSteps = 4.0; // where nothing but the density changes
+
+#ifdef PETROUS_COUNT
+float fetches = 0.0;
+float samples = 0.0;
+#define COUNT(n) fetches += float(n)
+#define SAMPLE samples += 1.0
+#else
+#define COUNT(n)
+#define SAMPLE
+#endif
+
+float ctAt(vec3 v)
+{
+  COUNT(1);
+  return texture(ctTexture, v * ctScale + ctOffset).r * ctUnit;
+}
+
+#ifdef PETROUS_MASK
+float maskAt(vec3 v)
+{
+  COUNT(1);
+  return texture(maskTexture, v * maskScale + maskOffset).r;
+}
+#endif
+
+#ifdef PETROUS_LABELS
+vec3 labelPosition(vec3 v)
+{
+  return labelFromVoxel * v + labelOrigin;
+}
+
+float shareAtLabel(vec3 l)
+{
+  COUNT(1);
+  return texture(shareTexture, l * labelScale + labelOffset).r;
+}
+
+int indexAt(vec3 v)
+{
+  COUNT(1);
+  vec3 l = floor(labelPosition(v) + 0.5);
+  if (any(lessThan(l, vec3(0.0))) || any(greaterThan(l, labelUpper)))
+    return 0;
+  return int(texelFetch(indexTexture, ivec3(l / labelBlock), 0).r);
+}
+#endif
+
+// What the field is made of at a position.
+struct Operands
+{
+  float value; // intensity of the CT
+  float ct;    // c_CT
+  float share;
+  float left; // of the mask
+};
+
+// `plain`: known to be where neither labels nor mask count.
+Operands operandsAt(vec3 v, const bool plain)
+{
+  Operands at;
+#if defined(PETROUS_BONE) || defined(PETROUS_INTERIOR)
+  at.value = ctAt(v);
+#else
+  at.value = 0.0;
+#endif
+#ifdef PETROUS_BONE
+  at.ct = (at.value - iso) * perUnit;
+#else
+  at.ct = -1.0;
+#endif
+  at.share = 0.0;
+  at.left = 1.0;
+#ifdef PETROUS_LABELS
+  if (!plain)
+    at.share = shareAtLabel(labelPosition(v));
+#endif
+#ifdef PETROUS_MASK
+  if (!plain)
+    at.left = maskAt(v);
+#endif
+  return at;
+}
+
+int stateOf(Operands at, vec3 v, const bool plain)
+{
+  float f = min(max(at.ct, at.share - 0.5), at.left - 0.5);
+  // Written so that a value that is no number is air.
+  if (!(f > 0.0))
+    return kAir;
+#if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
+  if (!plain && at.share > 0.5)
+    return kStructure + indexAt(v);
+#endif
+  return kBone;
+}
+
+// Gradients over the voxels of the operand's own grid, one-sided at its border.
+#define GRADIENT(name, sampleAt, upper)                                                            \
+  vec3 name(vec3 v)                                                                                \
+  {                                                                                                \
+    vec3 low = max(v - 1.0, vec3(0.0));                                                            \
+    vec3 high = min(v + 1.0, upper);                                                               \
+    vec3 run = high - low;                                                                         \
+    vec3 rise = vec3(sampleAt(vec3(high.x, v.yz)) - sampleAt(vec3(low.x, v.yz)),                   \
+                     sampleAt(vec3(v.x, high.y, v.z)) - sampleAt(vec3(v.x, low.y, v.z)),           \
+                     sampleAt(vec3(v.xy, high.z)) - sampleAt(vec3(v.xy, low.z)));                  \
+    return mix(vec3(0.0), rise / max(run, vec3(1e-6)), greaterThan(run, vec3(0.0)));               \
+  }
+
+GRADIENT(ctGradient, ctAt, hullUpper)
+#ifdef PETROUS_MASK
+GRADIENT(maskGradient, maskAt, hullUpper)
+#endif
+#ifdef PETROUS_LABELS
+GRADIENT(shareGradient, shareAtLabel, labelUpper)
+#endif
+
+// Where the ray enters the part of the volume that is drawn, where it leaves, and how the face that
+// it enters through looks at it.
+struct Span
+{
+  float first;
+  float last;
+  float facing;
+};
+
+Span clipRay(vec3 o, vec3 d)
+{
+  vec3 safe = mix(vec3(1e-20), d, greaterThan(abs(d), vec3(1e-20)));
+  vec3 a = (boxLower - o) / safe;
+  vec3 b = (boxUpper - o) / safe;
+  vec3 enter = min(a, b);
+  vec3 leave = max(a, b);
+  // Along an axis that the ray does not move on, it is inside always or never.
+  bvec3 still = lessThanEqual(abs(d), vec3(1e-20));
+  bvec3 inside = lessThanEqual(abs(2.0 * o - boxLower - boxUpper), boxUpper - boxLower);
+  enter = mix(enter, mix(vec3(1e30), vec3(-1e30), inside), still);
+  leave = mix(leave, mix(vec3(-1e30), vec3(1e30), inside), still);
+  Span span;
+  span.first = max(max(enter.x, enter.y), max(enter.z, 0.0));
+  span.last = min(min(leave.x, leave.y), leave.z);
+  span.facing = 1.0; // the eye is inside
+  vec3 along = abs(d) / vec3(length(normalFromVoxel[0]), length(normalFromVoxel[1]),
+                             length(normalFromVoxel[2]));
+  if (span.first > 0.0)
+    span.facing = enter.x >= max(enter.y, enter.z) ? along.x
+                  : (enter.y >= enter.z ? along.y : along.z);
+#ifdef PETROUS_CLIP
+  for (int i = 0; i < planeCount; ++i)
+  {
+    float slope = dot(planes[i].xyz, d);
+    float height = dot(planes[i].xyz, o) + planes[i].w;
+    if (abs(slope) < 1e-20)
+    {
+      if (height < 0.0)
+        span.last = -1.0;
+      continue;
+    }
+    float t = -height / slope;
+    if (slope < 0.0)
+      span.last = min(span.last, t);
+    else if (t > span.first)
+    {
+      span.first = t;
+      span.facing = abs(slope);
+    }
+  }
+#endif
+  return span;
+}
+
+float opaqueEnd(float toMm)
+{
+  if (!hasOpaque)
+    return 1e30;
+  ivec2 size = textureSize(opaqueTexture, 0);
+  ivec2 pixel = clamp(ivec2((0.5 * ndc + 0.5) * vec2(size)), ivec2(0), size - 1);
+  float z = texelFetch(opaqueTexture, pixel, 0).r;
+  if (z >= 1.0)
+    return 1e30;
+  z = 2.0 * z - 1.0;
+  return parallel ? opaqueDepth.z + opaqueDepth.w * z : toMm * opaqueDepth.y / (z + opaqueDepth.x);
+}

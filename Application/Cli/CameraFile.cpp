@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "CaseJson.h"
 #include "Context.h"
 
 namespace petrous::cli
@@ -71,6 +72,18 @@ core::CameraPose readCamera(const std::string& path)
   }
   check(path, camera);
   return camera;
+}
+
+nlohmann::json cameraJson(const core::CameraPose& camera)
+{
+  nlohmann::json json{{"position_mm", vectorJson(camera.position)},
+                      {"focal_point_mm", vectorJson(camera.focalPoint)},
+                      {"view_up", vectorJson(camera.viewUp)}};
+  if (camera.parallelScale)
+    json["parallel_scale_mm"] = *camera.parallelScale;
+  else
+    json["view_angle_deg"] = camera.viewAngle;
+  return json;
 }
 
 } // namespace petrous::cli

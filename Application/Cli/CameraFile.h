@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "petrous/Core/CameraPose.h"
 
 namespace petrous::cli
@@ -12,5 +14,8 @@ namespace petrous::cli
 /// Throws InvalidParameter naming the file and what would be right: no such file, another content,
 /// numbers that are not finite or point nowhere.
 core::CameraPose readCamera(const std::string& path);
+
+/// What `readCamera` reads.
+nlohmann::json cameraJson(const core::CameraPose& camera);
 
 } // namespace petrous::cli

@@ -196,6 +196,7 @@ void render(const Context& context, const RenderOptions& options)
   result.report.update({{"case", value.name},
                         {"size", {shot.width, shot.height}},
                         {"engine", options.engine},
+                        {"camera", cameraJson(shot.camera)},
                         {"stereo", std::move(stereo)},
                         {"out", options.out},
                         {"resources", result.resources}});

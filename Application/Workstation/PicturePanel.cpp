@@ -10,6 +10,8 @@
 #include <QScopedValueRollback>
 #include <QSlider>
 
+#include "petrous/Presenters/BoneOpacity.h"
+
 namespace petrous::workstation
 {
 
@@ -94,7 +96,8 @@ void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)
                            tr("Between the two eyes of the microscope, mm. Automatic: %1° between "
                               "their lines of sight, as 24 mm at 250 mm")
                                .arg(StereoRig::kUsualAngle),
-                           "eyeSeparation", tr("automatic"), StereoRig::kLargestSeparation);
+                           "eyeSeparation", tr("automatic (%1°)").arg(StereoRig::kUsualAngle),
+                           StereoRig::kLargestSeparation);
   connect(m_separation, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           [this]
           {
@@ -104,7 +107,7 @@ void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)
   m_convergence =
       addLength(form, tr("&Convergence"),
                 tr("From the microscope to where both eyes see the same place on the screen, mm"),
-                "convergence", tr("what is turned about"), StereoRig::kFarthestConvergence);
+                "convergence", tr("centre of rotation"), StereoRig::kFarthestConvergence);
   connect(m_convergence, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           [this]
           {
@@ -157,9 +160,7 @@ void PicturePanel::setBoneOpacity()
 {
   if (!m_model.hasCase())
     return;
-  appearance::StructureLook look = m_model.value().boneLook;
-  look.opacity = static_cast<float>(0.01 * m_bone->value());
-  m_model.setBoneLook(look);
+  m_model.setBoneLook(presenters::withOpacity(m_model.value().boneLook, 0.01 * m_bone->value()));
 }
 
 void PicturePanel::caseChanged()

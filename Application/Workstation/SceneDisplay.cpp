@@ -49,8 +49,8 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
   m_picture.setContents({});
   m_picture.attach(m_renderer);
   m_stereo = std::make_unique<rendering::StereoPicture>(m_picture);
-  m_window.AddObserver(vtkCommand::StartEvent, this, &SceneDisplay::frameStarted);
-  m_window.AddObserver(vtkCommand::EndEvent, this, &SceneDisplay::frameEnded);
+  m_observers = {m_window.AddObserver(vtkCommand::StartEvent, this, &SceneDisplay::frameStarted),
+                 m_window.AddObserver(vtkCommand::EndEvent, this, &SceneDisplay::frameEnded)};
   m_settle.setSingleShot(true);
   m_settle.setInterval(kSettle);
   connect(&m_settle, &QTimer::timeout, this,
@@ -68,6 +68,8 @@ SceneDisplay::~SceneDisplay() = default;
 void SceneDisplay::release()
 {
   m_settle.stop();
+  for (const unsigned long observer : m_observers)
+    m_window.RemoveObserver(observer);
   m_shown = [] { return false; };
   m_stereo.reset();
   m_picture.attach(nullptr);
@@ -225,6 +227,9 @@ void SceneDisplay::frameEnded()
         this, [this, why] { emit failed(why); }, Qt::QueuedConnection);
   else if (!m_failing)
     emit drawn(milliseconds, scaleOfLastFrame(), m_moving);
+  // A large undo comes to the graphics card in several frames.
+  if (!m_failing && m_picture.statistics().pendingEdits > 0)
+    QTimer::singleShot(0, this, [this] { redraw(m_moving); });
 }
 
 double SceneDisplay::scaleOfLastFrame() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 
@@ -34,7 +35,8 @@ public:
                QObject* parent = nullptr);
   ~SceneDisplay() override;
 
-  /// Frees what the context holds, which must be current. Nothing is drawn any more.
+  /// Frees what the context holds, which must be current; to be called before the window goes.
+  /// Nothing is drawn any more.
   void release();
 
   rendering::ScenePicture& picture() noexcept { return m_picture; }
@@ -81,6 +83,7 @@ private:
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
   QElapsedTimer m_clock;
+  std::array<unsigned long, 2> m_observers{}; // of m_window
   double m_rate = 0.0;
   bool m_leads = false; // of two displays
   bool m_follows = false;

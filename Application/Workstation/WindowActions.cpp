@@ -88,7 +88,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadB
   softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
   fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
   m_view->addSeparator();
-  addStereo(quadBuffer);
+  viewMenu->addSeparator();
+  viewMenu->addMenu(addStereo(quadBuffer));
+  viewMenu->addAction(surgeonWindow);
   m_view->addSeparator();
 
   QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
@@ -121,7 +123,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadB
   bar->addSeparator();
   auto* views = new QToolButton;
   views->setText(tr("View"));
-  views->setToolTip(tr("Look at the patient from a standard side (1 to 7)"));
+  views->setToolTip(tr("Standard sides (1 to 7), stereo, the surgeon's window (F11)"));
   views->setMenu(viewMenu);
   views->setPopupMode(QToolButton::InstantPopup);
   bar->addWidget(views);
@@ -132,7 +134,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadB
                                        drillBar.drillAction()});
 }
 
-void WindowActions::addStereo(bool quadBuffer)
+QMenu* WindowActions::addStereo(bool quadBuffer)
 {
   using rendering::StereoMode;
   stereo = new QActionGroup(this);
@@ -160,6 +162,7 @@ void WindowActions::addStereo(bool quadBuffer)
   surgeonWindow->setShortcuts({Qt::Key_F11, Qt::CTRL + Qt::Key_F});
   surgeonWindow->setCheckable(true);
   m_needCase.push_back(surgeonWindow);
+  return menu;
 }
 
 void WindowActions::addPanelToggle(QAction* action)

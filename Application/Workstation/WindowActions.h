@@ -55,7 +55,7 @@ signals:
 
 private:
   QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
-  void addStereo(bool quadBuffer);
+  QMenu* addStereo(bool quadBuffer);
 
   QMenu* m_view = nullptr;
   std::vector<QAction*> m_needCase;

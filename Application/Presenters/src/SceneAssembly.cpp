@@ -100,11 +100,6 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
   contents.boneShown = value.boneLook.shown;
   contents.materials = materialsOf(value, shown.structures, second);
 
-  for (const auto& part : value.labels)
-    for (const auto& structure : part.structures)
-      if (structure.look.shown)
-        contents.structures.push_back(
-            {structure.name, part.labels.get(), structure.index, structure.look});
   for (const auto& mesh : value.meshes)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))
       contents.meshes.push_back({mesh.name, mesh.mesh.get(), mesh.look});

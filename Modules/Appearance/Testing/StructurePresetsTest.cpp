@@ -139,7 +139,7 @@ TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
   const TransferFunction bone = *boneLook().transfer;
   // Cellular bone at the surface's 300 HU, cortical bone 1100 HU above.
   EXPECT_FLOAT_EQ(float(bone.at(300.0).color[2]), 0.42F);
-  EXPECT_FLOAT_EQ(float(bone.at(1400.0).color[2]), 0.80F);
+  EXPECT_FLOAT_EQ(float(bone.at(1400.0).color[2]), 0.74F);
   EXPECT_LT(bone.at(300.0).specular, bone.at(1400.0).specular);
   EXPECT_LT(bone.at(300.0).extinction, bone.at(1400.0).extinction);
   EXPECT_EQ(boneLook().opacity, 1.0F);

@@ -23,8 +23,7 @@ struct Machine
 
   double frame(const RenderQuality& quality) const
   {
-    return constant +
-           quality.imageScale * quality.imageScale * (pixels + samples / quality.step);
+    return constant + quality.imageScale * quality.imageScale * (pixels + samples / quality.step);
   }
 };
 

@@ -59,8 +59,7 @@ void expectTheSame(const SceneContents& contents, const core::CameraPose& pose)
   EXPECT_LE(agreement.others, kOthers);
 }
 
-MeshContents square(const std::string& name, const Vector& middle, const Vector& u,
-                    const Vector& v)
+MeshContents square(const std::string& name, const Vector& middle, const Vector& u, const Vector& v)
 {
   core::TriangleMesh mesh;
   for (const double a : {-1.0, 1.0})
@@ -116,7 +115,7 @@ TEST(Intermix, ShowsAToolAtEveryPlaceOfACutCavity)
 {
   // Rays end at the tool where the cut's bricks begin or end, wherever it stands.
   SceneContents contents = cutBall();
-  for (double depth = -13.0; depth < -4.0; depth += 0.7)
+  for (double depth = -13.0; depth < -4.0; depth += 2.1)
   {
     contents.tool = tool({2.0, depth, 3.0}, Vector(0.4, -1.0, 0.6), 1.5);
     const Shot shot = shoot(contents, slanting());

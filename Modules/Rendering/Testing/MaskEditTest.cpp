@@ -85,7 +85,8 @@ TEST(MaskEdit, UndoOfEverythingRestoresEveryPixelAndEveryResource)
   scene.maskChanged(ballsCut(grid, 2), grid.fullBox());
   EXPECT_GT(countDifferentPixels(view.render(scene), before), 100U);
   EXPECT_EQ(scene.resources().count("mask.texture"), 1U);
-  for (const auto& undone : {std::make_shared<volume::CutMask>(grid), decltype(ballsCut(grid, 1))()})
+  for (const auto& undone :
+       {std::make_shared<volume::CutMask>(grid), decltype(ballsCut(grid, 1))()})
   {
     scene.maskChanged(undone, grid.fullBox());
     EXPECT_EQ(countDifferentPixels(view.render(scene), before), 0U);
@@ -101,8 +102,7 @@ TEST(MaskEdit, GivesBackBricksThatHadBecomeEmpty)
     const core::GridGeometry grid = contents.ct->geometry();
     const auto small = ballsCut(grid, 1); // stays, so that the mask is in use all the time
     const auto block = cut(grid,
-                           [](const Vector& p)
-                           {
+                           [](const Vector& p) {
                              return std::min((p - Vector(0.0, -8.0, 0.0)).norm() - 3.0,
                                              p.cwiseAbs().maxCoeff() - 7.0);
                            });
@@ -220,9 +220,9 @@ TEST(MaskEdit, EightBitsOfTheMaskMoveTheWallByLessThanATenthOfAVoxel)
   const SceneContents contents = cutBall();
   RenderQuality quality;
   quality.maskBits = 8;
-  const Agreement agreement = compare(shoot(contents, slanting(), quality),
-                                      truthOf(contents, slanting()),
-                                      contents.ct->geometry().minSpacing());
+  const Agreement agreement =
+      compare(shoot(contents, slanting(), quality), truthOf(contents, slanting()),
+              contents.ct->geometry().minSpacing());
   // One level of 255 over a slope of half the mask a voxel is 0.008 voxel.
   EXPECT_LE(agreement.median, 0.01);
   EXPECT_LE(agreement.farthest, 0.1);

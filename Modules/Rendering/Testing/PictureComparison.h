@@ -70,12 +70,12 @@ inline core::CameraPose slanting(double distance = 60.0)
 
 struct Agreement
 {
-  double rms = 0.0;     // of colour, 1/255, where the first hits agree within half a voxel
-  double others = 0.0;  // % of all pixels: hit or miss mismatches, or first hits further apart
-  double median = 0.0;  // |difference of first hits|, voxels, where both hit
+  double rms = 0.0;      // of colour, 1/255, where the first hits agree within half a voxel
+  double others = 0.0;   // % of all pixels: hit or miss mismatches, or first hits further apart
+  double median = 0.0;   // |difference of first hits|, voxels, where both hit
   double farthest = 0.0; // the largest of those that agree
-  int hits = 0;         // that agree
-  int background = 0;   // largest difference of a channel where neither hits, of 255
+  int hits = 0;          // that agree
+  int background = 0;    // largest difference of a channel where neither hits, of 255
 };
 
 inline Agreement compare(const Shot& shot, const ReferencePicture& truth, double voxel)
@@ -111,28 +111,6 @@ inline Agreement compare(const Shot& shot, const ReferencePicture& truth, double
     result.farthest = std::max(result.farthest, difference);
     for (std::size_t c = 0; c < 3; ++c)
       squares += color(c) * color(c);
-  }
-  if (std::getenv("DIAG"))
-  {
-    std::vector<std::pair<double, std::size_t>> worst;
-    for (std::size_t p = 0; p < truth.depth.millimetres.size(); ++p)
-    {
-      double e = 0;
-      for (std::size_t c = 3 * p; c < 3 * p + 3; ++c)
-        e += std::pow(shot.picture.rgb[c] - 255.0 * truth.rgb[c], 2);
-      if (!(std::abs(shot.depth.millimetres[p] - truth.depth.millimetres[p]) < 0.25)) e = std::isnan(shot.depth.millimetres[p]) && std::isnan(truth.depth.millimetres[p]) ? e : 0;
-      worst.push_back({e, p});
-    }
-    std::sort(worst.rbegin(), worst.rend());
-    for (int i = 0; i < 12; ++i)
-    {
-      const std::size_t p = worst[i].second;
-      const std::size_t kColumns = truth.depth.width;
-      std::printf("%zu %zu  e %.1f gpu %d %d %d ref %.0f %.0f %.0f depth %f %f\n", p % kColumns, p / kColumns,
-                  std::sqrt(worst[i].first), shot.picture.rgb[3 * p], shot.picture.rgb[3 * p + 1],
-                  shot.picture.rgb[3 * p + 2], 255 * truth.rgb[3 * p], 255 * truth.rgb[3 * p + 1],
-                  255 * truth.rgb[3 * p + 2], shot.depth.millimetres[p], truth.depth.millimetres[p]);
-    }
   }
   result.others = 100.0 * others / static_cast<double>(pixels);
   result.rms = std::sqrt(squares / std::max(3 * result.hits, 1));

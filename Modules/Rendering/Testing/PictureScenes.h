@@ -58,8 +58,7 @@ template <class T = std::int16_t>
 SceneContents hollowBall(const Eigen::Matrix3d& direction = Eigen::Matrix3d::Identity(),
                          double spacing = 0.5)
 {
-  return boneScene(
-      ct<T>(cube(static_cast<int>(24.0 / spacing), spacing, direction), bittenBall));
+  return boneScene(ct<T>(cube(static_cast<int>(24.0 / spacing), spacing, direction), bittenBall));
 }
 
 /// The same to be looked into.
@@ -111,12 +110,9 @@ inline SecondImage movedWaves()
   second.secondFromCt = core::RigidTransform(
       Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector(1.0, -1.0, 2.0).normalized())),
       Vector(5.0, -3.0, 8.0));
-  second.volume = image(cube(36, 0.9, Eigen::Matrix3d::Identity(), Vector(5.0, -3.0, 8.0)),
-                        [](const Vector& p)
-                        {
-                          return 500.0 + 300.0 * std::sin(0.6 * p.x()) * std::cos(0.5 * p.y()) +
-                                 20.0 * p.z();
-                        });
+  second.volume = image(
+      cube(36, 0.9, Eigen::Matrix3d::Identity(), Vector(5.0, -3.0, 8.0)), [](const Vector& p)
+      { return 500.0 + 300.0 * std::sin(0.6 * p.x()) * std::cos(0.5 * p.y()) + 20.0 * p.z(); });
   return second;
 }
 

@@ -45,8 +45,8 @@ core::CameraPose from(const Vector& eye, const Vector& at, double angle = 30.0)
 template <class Tissue>
 View shape(const Tissue& tissue, double spacing = 0.5)
 {
-  return {boneScene(ct<std::int16_t>(cube(static_cast<int>(24.0 / spacing), spacing, oblique()),
-                                     tissue))};
+  return {boneScene(
+      ct<std::int16_t>(cube(static_cast<int>(24.0 / spacing), spacing, oblique()), tissue))};
 }
 
 View lit(View view, double falloff, double wetness)
@@ -71,7 +71,8 @@ SceneContents noisy(float surfaceOpacity)
 
 std::vector<Case> cases()
 {
-  const auto plane = [](const Vector& p) { return 1.3 - p.dot(Vector(0.3, -0.8, 0.5).normalized()); };
+  const auto plane = [](const Vector& p)
+  { return 1.3 - p.dot(Vector(0.3, -0.8, 0.5).normalized()); };
   return {
       {"Plane", [=] { return shape(plane); }},
       {"Sphere", [] { return shape([](const Vector& p) { return 9.0 - p.norm(); }); }},
@@ -109,7 +110,8 @@ std::vector<Case> cases()
       {"Noise", [] { return View{noisy(1.0F)}; }},
       {"TranslucentNoise", [] { return View{noisy(0.35F)}; }},
       {"LabelsOfTheSameGrid", [] { return View{labelledBall(cube(48, 0.5, oblique()))}; }},
-      {"LabelsOfAFinerTurnedGrid", [] { return View{labelledBall(cube(64, 0.35, obliqueMirrored()))}; }},
+      {"LabelsOfAFinerTurnedGrid",
+       [] { return View{labelledBall(cube(64, 0.35, obliqueMirrored()))}; }},
       {"LabelsInOpaqueBone",
        []
        {
@@ -161,8 +163,7 @@ std::vector<Case> cases()
          return view;
        }},
       {"BorderOfTheVolume",
-       []
-       {
+       [] {
          return View{boneScene(ball(cube(24, 0.5), 9.0), 0.35F), slanting(40.0)};
        }},
       {"ParallelProjection",
@@ -188,9 +189,13 @@ std::vector<Case> cases()
          return view;
        }},
       {"EyeInTheVolume",
-       [] { return View{fullScene(), from({2.0, -7.0, 3.0}, {-1.0, 0.0, 0.0}, 80.0)}; }},
+       [] {
+         return View{fullScene(), from({2.0, -7.0, 3.0}, {-1.0, 0.0, 0.0}, 80.0)};
+       }},
       {"EyeInTheTissue",
-       [] { return View{translucentBall(), from({-4.0, 2.0, 0.0}, {4.0, -6.0, 3.0}, 70.0)}; }},
+       [] {
+         return View{translucentBall(), from({-4.0, 2.0, 0.0}, {4.0, -6.0, 3.0}, 70.0)};
+       }},
       {"EyeInAStructure",
        []
        {
@@ -199,7 +204,9 @@ std::vector<Case> cases()
        }},
       {"FalloffAndWetness", [] { return lit(View{fullScene()}, 50.0, 0.5); }},
       {"FalloffInTheInside",
-       [] { return lit({translucentBall(), from({3.0, -19.0, 3.0}, {0.0, 0.0, 0.0}, 60.0)}, 12.0, 0.0); }},
+       [] {
+         return lit({translucentBall(), from({3.0, -19.0, 3.0}, {0.0, 0.0, 0.0}, 60.0)}, 12.0, 0.0);
+       }},
   };
 }
 

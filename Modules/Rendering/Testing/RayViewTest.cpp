@@ -36,8 +36,8 @@ Eigen::Matrix4d lookAt(const core::CameraPose& pose)
 Eigen::Matrix4d projectionOf(const core::CameraPose& pose)
 {
   const double aspect = static_cast<double>(kColumns) / kRows;
-  const double half = pose.parallelScale ? *pose.parallelScale
-                                         : std::tan(pose.viewAngle * std::acos(-1.0) / 360.0);
+  const double half =
+      pose.parallelScale ? *pose.parallelScale : std::tan(pose.viewAngle * std::acos(-1.0) / 360.0);
   const double left = half * (pose.lensShift - aspect);
   const double right = half * (pose.lensShift + aspect);
   Eigen::Matrix4d p = Eigen::Matrix4d::Zero();
@@ -93,8 +93,7 @@ double farthest(const RayView& view, const core::CameraPose& pose)
       const double y = 1.0 - (2.0 * row + 1.0) / kRows;
       const PixelRay ray = rays.through(column, row);
       const Eigen::Vector3d origin = view.origin + x * view.originX + y * view.originY;
-      const Eigen::Vector3d direction =
-          view.direction + x * view.directionX + y * view.directionY;
+      const Eigen::Vector3d direction = view.direction + x * view.directionX + y * view.directionY;
       const Eigen::Vector3d forward = (pose.focalPoint - pose.position).normalized();
       result = std::max({result, (origin - ray.origin).norm(),
                          (direction - ray.direction / ray.direction.dot(forward)).norm()});
@@ -124,8 +123,7 @@ TEST(RayView, FollowsThePatientInTheWorld)
     moved.position = worldFromPatient * pose.position;
     moved.focalPoint = worldFromPatient * pose.focalPoint;
     moved.viewUp = worldFromPatient.linear() * pose.viewUp;
-    const RayView view =
-        rayView(lookAt(moved), projectionOf(pose), worldFromPatient.matrix());
+    const RayView view = rayView(lookAt(moved), projectionOf(pose), worldFromPatient.matrix());
     EXPECT_LT(farthest(view, pose), 1e-9);
   }
 }
@@ -153,8 +151,8 @@ TEST(RayView, TurnsWindowDepthIntoDepthOfView)
     {
       const Eigen::Vector4d clip = projection * Eigen::Vector4d(1.0, 2.0, -depth, 1.0);
       const double z = clip[2] / clip[3];
-      const double found = view.parallel ? view.depth[2] + view.depth[3] * z
-                                         : view.depth[1] / (z + view.depth[0]);
+      const double found =
+          view.parallel ? view.depth[2] + view.depth[3] * z : view.depth[1] / (z + view.depth[0]);
       EXPECT_NEAR(found, depth, 1e-9 * kFar);
     }
   }

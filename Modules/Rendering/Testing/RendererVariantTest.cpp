@@ -52,11 +52,12 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
 {
   SceneContents contents = hollowBall();
   contents.mask = std::make_shared<volume::CutMask>(contents.ct->geometry()); // nothing is cut
-  contents.second = movedWaves();                                            // nobody reads it
+  contents.second = movedWaves();                                             // nobody reads it
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone"}));
   EXPECT_EQ(variantOf(cutBall()), (Names{"ct", "bone", "mask"}));
   EXPECT_EQ(variantOf(translucentBall()), (Names{"ct", "bone", "interior"}));
-  EXPECT_EQ(variantOf(labelledBall(cube(48, 0.5), 1.0F)), (Names{"ct", "bone", "labels", "interior"}));
+  EXPECT_EQ(variantOf(labelledBall(cube(48, 0.5), 1.0F)),
+            (Names{"ct", "bone", "labels", "interior"}));
   contents.materials = {waveMaterial(1.0F)};
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "second"}));
   contents.materials = {boneMaterial()};
@@ -100,7 +101,8 @@ TEST(RendererVariant, DrawsAnotherSecondImageThatCameWhileNobodyReadIt)
   OffscreenView view(kWidth, kHeight);
   view.render(scene);
   contents.materials = {boneMaterial()};
-  contents.second.volume = image(cube(36, 0.9), [](const Vector& p) { return 500.0 + 40.0 * p.z(); });
+  contents.second.volume =
+      image(cube(36, 0.9), [](const Vector& p) { return 500.0 + 40.0 * p.z(); });
   scene.setContents(contents);
   view.render(scene);
   contents.materials = {waveMaterial(0.3F)};
@@ -136,12 +138,12 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
     double samples;
   };
   const std::vector<Limit> limits{
-      {"opaque", hollowBall(oblique()), slanting(), 1.0, 1.0},
-      {"opaque, near", hollowBall(oblique()), near, 1.0, 1.0},
-      {"translucent", translucentBall(), slanting(), 1.0, 1.0},
-      {"cut", cutBall(), near, 1.0, 1.0},
-      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 1.0, 1.0},
-      {"everything", fullScene(), near, 1.0, 1.0},
+      {"opaque", hollowBall(oblique()), slanting(), 25.4, 8.6},
+      {"opaque, near", hollowBall(oblique()), near, 66.1, 23.3},
+      {"translucent", translucentBall(), slanting(), 59.1, 19.8},
+      {"cut", cutBall(), near, 91.6, 24.6},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 68.2, 19.2},
+      {"everything", fullScene(), near, 280.0, 60.1},
   };
   for (const Limit& limit : limits)
   {

@@ -55,6 +55,27 @@ bool readsSecond(const SceneContents& contents)
                      { return m.source == appearance::IntensitySource::Second; });
 }
 
+bool sameMaterials(const std::vector<appearance::Material>& a,
+                   const std::vector<appearance::Material>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const appearance::Material& x, const appearance::Material& y)
+                    {
+                      return x.transfer == y.transfer && x.source == y.source &&
+                             x.surfaceOpacity == y.surfaceOpacity && x.shininess == y.shininess &&
+                             x.lumen == y.lumen;
+                    });
+}
+
+bool sameRules(const OccupancyGrid::Rules& a, const OccupancyGrid::Rules& b)
+{
+  return a.iso == b.iso && a.bone == b.bone && a.interior == b.interior &&
+         a.interiorEverywhere == b.interiorEverywhere &&
+         std::equal(a.opaque.begin(), a.opaque.end(), b.opaque.begin(), b.opaque.end(),
+                    [](const volume::ValueRange& x, const volume::ValueRange& y)
+                    { return x.min == y.min && x.max == y.max; });
+}
+
 // Intensities at which a transfer function has opacity.
 std::vector<volume::ValueRange> opaqueRanges(const appearance::TransferFunction& transfer)
 {
@@ -94,16 +115,19 @@ void RayCaster::setContents(const SceneContents& contents)
   m_newCt |= !sameCt;
   m_newLabels |= contents.labels != m_contents.labels;
   m_newSecond |= contents.second.volume != m_contents.second.volume;
-  m_newMaterials = true;
-  m_newRules = true;
+  const OccupancyGrid::Rules before =
+      m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
+  m_newMaterials |= !sameMaterials(contents.materials, m_contents.materials);
+  m_newRules |= mask != m_contents.mask || !sameCt || m_newLabels;
   if (mask != m_contents.mask || !sameCt)
     m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
   else
-    m_mask.compare();
+    m_newRules |= m_mask.compare();
   m_contents = contents;
   m_contents.mask = std::move(mask);
   if (m_contents.materials.empty())
     m_contents.materials.emplace_back();
+  m_newRules |= !sameRules(before, rules());
   if (!sameCt)
     m_occupancy.reset();
 }
@@ -115,6 +139,7 @@ void RayCaster::setQuality(const RenderQuality& quality)
   if (quality.maskBits != m_quality.maskBits || !sameLimit)
     m_mask.reset(m_contents.mask, quality.maskBits, quality.largestTexture);
   m_newCt |= !sameLimit;
+  m_newLabels |= !sameLimit;
   m_newSecond |= !sameLimit;
   if (quality.brick != m_quality.brick)
   {

@@ -21,7 +21,8 @@ void require(bool holds, const char* name, double value, const char* range)
 
 void RenderQuality::validate() const
 {
-  require(step > 0.0 && step <= 100.0, "step", step, "above 0, up to 100 voxels");
+  // Drivers end a loop after some 65000 rounds, and with it the ray.
+  require(step >= 0.05 && step <= 100.0, "step", step, "0.05 to 100 voxels");
   require(bisections >= 0 && bisections <= 24, "bisections", bisections, "0 to 24");
   require(brick == 4 || brick == 8 || brick == 16, "brick", brick, "4, 8 or 16 voxels");
   require(termination >= 0.0 && termination <= 1.0, "termination", termination, "0 to 1");

@@ -135,7 +135,7 @@ private:
 ScenePicture::Implementation::Implementation()
 {
   m_lamp->SetLightTypeToCameraLight(); // at the eye
-  m_lamp->SetConeAngle(180.0); // all around
+  m_lamp->SetConeAngle(180.0);         // all around
   m_onStart->SetClientData(this);
   m_onStart->SetCallback([](vtkObject*, unsigned long, void* self, void*)
                          { static_cast<Implementation*>(self)->startFrame(); });

@@ -130,13 +130,18 @@ void MaskTexture::changed(std::shared_ptr<const volume::CutMask> mask, const cor
   m_pending.push_back(merged);
 }
 
-void MaskTexture::compare()
+bool MaskTexture::compare()
 {
   if (!m_mask || m_reduction[0] == 0)
-    return;
+    return false;
+  bool any = false;
   for (std::size_t brick = 0; brick < m_uploaded.size(); ++brick)
     if (m_uploaded[brick] != m_mask->brick(brick))
+    {
       changed(m_mask, m_mask->brickBox(brick));
+      any = true;
+    }
+  return any;
 }
 
 std::size_t MaskTexture::pendingVoxels() const noexcept

@@ -39,7 +39,8 @@ public:
   void changed(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
   /// Finds by itself what changed in a mask whose changes nobody told: compares brick versions.
-  void compare();
+  /// Whether anything did.
+  bool compare();
 
   /// On the render thread, before a frame.
   void upload();

@@ -257,11 +257,11 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   state->PushFramebufferBindings();
   try
   {
+    state->vtkglDisable(GL_SCISSOR_TEST); // which would clip the copy of the depth, too
     frame.opaque = my.opaque.capture(renderer, x, y, frame.width, frame.height);
     state->vtkglDisable(GL_DEPTH_TEST);
     state->vtkglDisable(GL_BLEND);
     state->vtkglDisable(GL_CULL_FACE);
-    state->vtkglDisable(GL_SCISSOR_TEST);
     state->vtkglDepthMask(GL_FALSE);
     my.caster.draw(frame, this->Counting);
     state->ResetFramebufferBindings(); // bound behind VTK's back

@@ -13,19 +13,9 @@
 #include "petrous/Volume/CutMask.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelField.h"
-#include "petrous/Volume/LabelMap.h"
 
 namespace petrous::rendering
 {
-
-/// One structure of a label map, and how it is drawn.
-struct StructureContents
-{
-  std::string name;
-  std::shared_ptr<const volume::LabelMap> labels;
-  std::uint16_t index = 0;
-  appearance::StructureLook look;
-};
 
 struct MeshContents
 {
@@ -74,14 +64,13 @@ struct SceneContents
   std::shared_ptr<const volume::IntensityVolume> ct; ///< null: no bone
   double iso = 300.0;                                ///< HU
   std::shared_ptr<const volume::CutMask> mask;       ///< null: nothing cut
-  std::vector<StructureContents> structures;
-  bool boneShown = true;                            ///< false: the CT's surface is not drawn
-  std::shared_ptr<const volume::LabelField> labels; ///< null: none
-  std::vector<appearance::Material> materials;      ///< row 0: bone; row i: index i of `labels`
+  bool boneShown = true;                             ///< false: the CT's surface is not drawn
+  std::shared_ptr<const volume::LabelField> labels;  ///< null: none
+  std::vector<appearance::Material> materials;       ///< row 0: bone; row i: index i of `labels`
   SecondImage second;
   std::vector<ClippingPlane> clipping;
   std::optional<core::IndexBox> crop; ///< voxels of the CT that are drawn; none: all
-  std::vector<MeshContents> meshes;   ///< one that a structure of the same name replaces is skipped
+  std::vector<MeshContents> meshes;
   std::optional<ToolPose> tool;
   LightSettings light;
 };

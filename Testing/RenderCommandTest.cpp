@@ -1,0 +1,213 @@
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "CommandRunner.h"
+
+using namespace petrous::testing;
+
+namespace
+{
+
+// A ball of bone of 15 mm round (10, -20, 30), 32 voxels of 1.5 mm.
+constexpr double kCenter[3] = {10.0, -20.0, 30.0};
+constexpr double kRadius = 15.0;
+
+class RenderCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    constexpr int edge = 32;
+    constexpr double spacing = 1.5;
+    const double half = 0.5 * spacing * (edge - 1);
+    std::vector<float> voxels;
+    for (int k = 0; k < edge; ++k)
+      for (int j = 0; j < edge; ++j)
+        for (int i = 0; i < edge; ++i)
+        {
+          const auto square = [half](int n) { return std::pow(n * spacing - half, 2); };
+          const double depth = kRadius - std::sqrt(square(i) + square(j) + square(k));
+          voxels.push_back(static_cast<float>(std::clamp(300.0 + 200.0 * depth, -1000.0, 2000.0)));
+        }
+    std::ofstream file(m_folder / "ball.nrrd", std::ios::binary);
+    file << "NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 32 32 32\nspace directions: (1.5,0,0) (0,1.5,0) (0,0,1.5)\n"
+         << "space origin: (" << kCenter[0] - half << ',' << kCenter[1] - half << ','
+         << kCenter[2] - half << ")\nencoding: raw\nendian: little\n\n";
+    file.write(reinterpret_cast<const char*>(voxels.data()),
+               static_cast<std::streamsize>(voxels.size() * sizeof(float)));
+    file.close();
+    json("new ball --ct " + quoted(m_folder / "ball.nrrd"));
+    json("appearance ball --iso 300"); // not what its few grey values suggest
+  }
+
+  std::filesystem::path camera(const std::string& text)
+  {
+    std::ofstream(m_folder / "camera.json") << text;
+    return m_folder / "camera.json";
+  }
+
+  // 100 mm before the ball's centre, from the patient's right.
+  std::filesystem::path fromTheRight()
+  {
+    return camera(R"({"position_mm":[-90,-20,30],"focal_point_mm":[10,-20,30],)"
+                  R"("view_up":[0,0,1],"view_angle_deg":40})");
+  }
+
+  std::string render(const std::string& options)
+  {
+    return "render ball --size 64x48 --out " + quoted(m_folder / "p.png") + " " + options;
+  }
+
+  // Of the picture's pixel, mm.
+  float depthAt(int column, int row)
+  {
+    const std::string npy = textOf(m_folder / "d.npy");
+    const std::size_t data = npy.size() - 64 * 48 * 4;
+    float value = 0;
+    std::memcpy(&value, npy.data() + data + 4 * static_cast<std::size_t>(64 * row + column), 4);
+    return value;
+  }
+};
+
+} // namespace
+
+TEST_F(RenderCommand, TellsWhatRanAndWhatItCost)
+{
+  const auto answer = json(render(""));
+  EXPECT_EQ(answer["size"], (std::vector<int>{64, 48}));
+  EXPECT_EQ(answer["engine"], "gpu");
+  EXPECT_EQ(answer["variant"], (std::vector<std::string>{"ct", "bone"}));
+  EXPECT_GT(answer["fetches_per_pixel"].get<double>(), 0.0);
+  EXPECT_GT(answer["samples_per_pixel"].get<double>(), 0.0);
+  EXPECT_GT(answer["milliseconds"].get<double>(), 0.0);
+  EXPECT_GT(answer["first_frame_milliseconds"].get<double>(), 0.0);
+  EXPECT_TRUE(answer["gl_renderer"].is_string());
+  EXPECT_TRUE(answer["notes"].empty());
+
+  // The camera that it tells is one that it takes, and draws the same.
+  const std::string picture = textOf(m_folder / "p.png");
+  json(render("--camera " + quoted(camera(answer["camera"].dump()))));
+  EXPECT_EQ(textOf(m_folder / "p.png"), picture);
+  EXPECT_TRUE(answer["resources"].contains("ct.texture"));
+}
+
+TEST_F(RenderCommand, BothEnginesMeasureTheSameDepth)
+{
+  const std::string options = "--camera " + quoted(fromTheRight()) + " --depth " +
+                              quoted(m_folder / "d.npy") + " --engine ";
+  for (const std::string engine : {"gpu", "reference"})
+  {
+    json(render(options + engine));
+    EXPECT_NEAR(depthAt(32, 24), 100.0 - kRadius, 0.1) << engine; // the ray nearest to the axis
+    EXPECT_TRUE(std::isnan(depthAt(0, 0))) << engine;
+  }
+  // In stereo it is that of the camera itself, in between.
+  json(render(options + "gpu --stereo side-by-side"));
+  EXPECT_NEAR(depthAt(32, 24), 100.0 - kRadius, 0.1);
+}
+
+TEST_F(RenderCommand, StereoIsTheSameFromBothEngines)
+{
+  const std::string eyes = " --eye-separation 12 --convergence 90";
+  const auto answer = json(render("--stereo anaglyph --camera " + quoted(fromTheRight()) + eyes));
+  EXPECT_EQ(answer["stereo"]["eye_separation_mm"], 12.0);
+  EXPECT_EQ(answer["stereo"]["convergence_mm"], 90.0);
+  EXPECT_EQ(json(render("--engine reference --stereo interleaved" + eyes))["stereo"]["mode"],
+            "interleaved");
+  // By the angle between the eyes of a microscope, 5.5 degrees, at the focal point, 100 mm away.
+  const auto usual = json(render("--stereo side-by-side --camera " + quoted(fromTheRight())));
+  EXPECT_NEAR(usual["stereo"]["eye_separation_mm"].get<double>(), 9.6, 0.05);
+  EXPECT_EQ(usual["size"], (std::vector<int>{64, 48}));
+}
+
+TEST_F(RenderCommand, RefusesStereoThatCannotBe)
+{
+  expectRefused(render("--stereo cross-eyed"), 2, "side-by-side");
+  expectRefused(render("--eye-separation 20"), 2, "--stereo");
+  expectRefused(render("--stereo anaglyph --eye-separation -3"), 3, "-3 mm; 0 to 200 mm");
+  expectRefused(render("--stereo anaglyph --convergence 20000"), 3, "1 to 10000 mm");
+  expectRefused("render ball --out x.png --size 65x48 --stereo side-by-side", 2, "even width");
+}
+
+TEST_F(RenderCommand, NamesACameraFileThatIsNoCamera)
+{
+  const std::string head = R"({"focal_point_mm":[10,-20,30],"view_up":[0,0,1],)";
+  const std::string angle = R"("view_angle_deg":40})";
+  for (const std::string& text :
+       {head + R"("position_mm":[NaN,-20,30],)" + angle,
+        head + R"("position_mm":[Infinity,-20,30],)" + angle,
+        head + R"("position_mm":[1e999,-20,30],)" + angle,
+        head + R"("position_mm":[1e300,-20,30],)" + angle,
+        head + R"("position_mm":[null,-20,30],)" + angle,
+        head + R"("position_mm":[10,-20,30],)" + angle,           // looks nowhere
+        head + R"("position_mm":[10,-20,300],)" + angle,          // along view_up
+        head + R"("position_mm":[0,-20,30],"view_angle_deg":0})", // sees nothing
+        head + R"("position_mm":[0,-20,30],"parallel_scale_mm":-1})", std::string("[]"),
+        std::string()})
+    expectRefused(render("--camera " + quoted(camera(text))), 3, "camera.json");
+}
+
+TEST_F(RenderCommand, CutsByPlanesAndBoxes)
+{
+  const std::string options =
+      "--camera " + quoted(fromTheRight()) + " --depth " + quoted(m_folder / "d.npy") + " ";
+  // What stays is the far half.
+  json(render(options + "--clip 10,-20,30,2,0,0"));
+  EXPECT_NEAR(depthAt(32, 24), 100.0, 0.1);
+  json(render(options + "--roi 13,40,-60,60,-60,90"));
+  EXPECT_GT(depthAt(32, 24), 100.0);
+  EXPECT_LT(depthAt(32, 24), 100.0 + 3.0 + 1.6);
+  json(render(options + "--crop 20,31,0,31,0,31"));
+  EXPECT_NEAR(depthAt(32, 24), 100.0 + 20.0 * 1.5 - 0.5 * 1.5 * 31, 0.1);
+
+  const std::string plane = " --clip 0,0,0,1,0,0";
+  expectRefused(render(plane + plane + plane + plane + plane + plane + plane), 2, "at most 6");
+  expectRefused(render("--clip 0,0,0,0,0,0"), 2, "normal");
+  expectRefused(render("--crop 9,3,0,31,0,31"), 2, "--crop");
+  expectRefused(render("--roi 500,600,0,1,0,1"), 2, "nothing of the CT");
+  expectRefused(render("--roi 0,1,0,1,0,1 --crop 0,31,0,31,0,31"), 2, "not both");
+}
+
+TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
+{
+  const auto drawn = [this](const std::string& options)
+  {
+    json(render("--camera " + quoted(fromTheRight()) + " " + options));
+    return textOf(m_folder / "p.png");
+  };
+  const std::string plain = drawn("");
+  EXPECT_EQ(drawn("--light-falloff 0 --wetness 0"), plain);
+  EXPECT_NE(drawn("--light-falloff 60"), plain);
+  EXPECT_NE(drawn("--wetness 1"), plain);
+  expectRefused(render("--wetness 1.5"), 2, "--wetness");
+  expectRefused(render("--light-falloff -1"), 2, "mm");
+  expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
+}
+
+TEST_F(RenderCommand, DoctorNamesTheRayCastersVariants)
+{
+  const auto answer = json("doctor");
+  EXPECT_TRUE(answer["gl_renderer"].is_string());
+  EXPECT_GE(answer["largest_3d_texture"].get<int>(), 256);
+  EXPECT_TRUE(answer["ray_caster"]["works"].get<bool>());
+  EXPECT_EQ(answer["ray_caster"]["variants"].size(), 7u);
+  EXPECT_NE(run("doctor").out.find("ray caster"), std::string::npos);
+}
+
+// No driver at all: libEGL is told to look for one where there is none.
+TEST_F(RenderCommand, WithoutOpenGLNamesTheReferenceEngine)
+{
+  const auto plain = m_folder / "empty";
+  std::filesystem::create_directories(plain);
+  ::setenv("__EGL_VENDOR_LIBRARY_DIRS", plain.c_str(), 1);
+  expectRefused(render(""), 1, "--engine reference");
+  const auto answer = json("doctor");
+  EXPECT_TRUE(answer["gl_renderer"].is_null());
+  EXPECT_FALSE(answer["ray_caster"]["works"].get<bool>());
+  EXPECT_FALSE(answer["advice"].empty());
+  json(render("--engine reference"));
+  ::unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
+}

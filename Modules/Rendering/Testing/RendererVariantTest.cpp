@@ -139,11 +139,11 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
   };
   const std::vector<Limit> limits{
       {"opaque", hollowBall(oblique()), slanting(), 25.4, 8.6},
-      {"opaque, near", hollowBall(oblique()), near, 66.1, 23.3},
-      {"translucent", translucentBall(), slanting(), 59.1, 19.8},
-      {"cut", cutBall(), near, 91.6, 24.6},
-      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 68.2, 19.2},
-      {"everything", fullScene(), near, 280.0, 60.1},
+      {"opaque, near", hollowBall(oblique()), near, 66.1, 27.2},
+      {"translucent", translucentBall(), slanting(), 59.1, 23.1},
+      {"cut", cutBall(), near, 91.6, 28.7},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 68.2, 22.4},
+      {"everything", fullScene(), near, 280.0, 71.1},
   };
   for (const Limit& limit : limits)
   {

@@ -194,12 +194,6 @@ OccupancyGrid::Rules RayCaster::rules() const
 
 // ---- textures
 
-void RayCaster::uploadMaterials()
-{
-  // Rows for every index that a texel can hold: a structure without a material is drawn as bone.
-  m_materials.upload(m_contents.materials, m_quality.tableSize, m_ctRange, m_secondRange);
-}
-
 void RayCaster::upload()
 {
   const auto note = [this](const char* what, const core::Index3& by)
@@ -230,7 +224,7 @@ void RayCaster::upload()
   if (!m_contents.labels)
     m_labels.release();
   if (m_newMaterials || !m_materials.look)
-    uploadMaterials();
+    m_materials.upload(m_contents.materials, m_quality.tableSize, m_ctRange, m_secondRange);
 
   const auto start = std::chrono::steady_clock::now();
   const bool edited = m_mask.pendingVoxels() > 0;
@@ -244,8 +238,7 @@ void RayCaster::upload()
     const core::Index3 size = m_dirtyBricks.size();
     const core::Index3& dims = m_occupancy->dims();
     std::vector<OccupancyGrid::Texel> texels;
-    texels.reserve(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-                   static_cast<std::size_t>(size[2]));
+    texels.reserve(m_dirtyBricks.count());
     for (int k = m_dirtyBricks.lower[2]; k < m_dirtyBricks.upper[2]; ++k)
       for (int j = m_dirtyBricks.lower[1]; j < m_dirtyBricks.upper[1]; ++j)
       {
@@ -300,7 +293,8 @@ GlProgram& RayCaster::program(unsigned features, bool count)
   add(Mask, "PETROUS_MASK", "mask");
   add(Second, "PETROUS_SECOND", "second");
   add(Interior, "PETROUS_INTERIOR", "interior");
-  add(Clip, "PETROUS_CLIP 6", "clipping");
+  const std::string clip = "PETROUS_CLIP " + std::to_string(kMostPlanes);
+  add(Clip, clip.c_str(), "clipping");
   GlProgram& result = m_programs[features * 2U + (count ? 1U : 0U)];
   if (!result)
     result.build(std::string("#version 330 core\n").append(kRayCastVertexShader),

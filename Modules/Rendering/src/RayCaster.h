@@ -67,7 +67,6 @@ private:
   unsigned features() const;
   OccupancyGrid::Rules rules() const;
   void upload();
-  void uploadMaterials();
   GlProgram& program(unsigned features, bool count);
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;

@@ -18,7 +18,9 @@
 #include <vtkWeakPointer.h>
 #include <vtk_glew.h>
 
+#include "AimCamera.h"
 #include "OpticalModel.h"
+#include "RayCaster.h"
 #include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "ToolProps.h"
@@ -52,9 +54,9 @@ void check(const SceneContents& contents)
                   { return material.source == appearance::IntensitySource::Second; });
   if (asksForSecond && !contents.second.volume)
     refuse("a material reads a second image, and there is none");
-  if (contents.clipping.size() > 6)
-    refuse("at most 6 clipping planes can be drawn, not " +
-           std::to_string(contents.clipping.size()));
+  if (contents.clipping.size() > RayCaster::kMostPlanes)
+    refuse("at most " + std::to_string(RayCaster::kMostPlanes) +
+           " clipping planes can be drawn, not " + std::to_string(contents.clipping.size()));
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)
@@ -150,8 +152,7 @@ void ScenePicture::Implementation::startFrame()
 {
   // Near and far follow the props, whoever moved the camera or them.
   renderer->ResetCameraClippingRange();
-  renderer->GetActiveCamera()->SetWindowCenter(pose.lensShift / renderer->GetTiledAspectRatio(),
-                                               0.0);
+  shiftLens(renderer, pose);
   drawn = interactive ? interaction.coarser(quality) : quality;
   mapper->SetQuality(drawn);
   // The lamp sits at the eye, as for the volume's rays; parallel rays have none.
@@ -238,15 +239,7 @@ void ScenePicture::Implementation::applyCamera()
 {
   if (!renderer)
     return;
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetFocalPoint(pose.focalPoint.data());
-  camera->SetPosition(pose.position.data());
-  camera->SetViewUp(pose.viewUp.data());
-  camera->SetUseHorizontalViewAngle(0);
-  camera->SetViewAngle(pose.viewAngle);
-  camera->SetParallelProjection(pose.parallelScale ? 1 : 0);
-  if (pose.parallelScale)
-    camera->SetParallelScale(*pose.parallelScale);
+  aimCamera(renderer->GetActiveCamera(), pose);
 }
 
 void ScenePicture::Implementation::setMeshes(const SceneContents& contents)

@@ -13,13 +13,6 @@ namespace petrous::rendering
 namespace
 {
 
-std::size_t voxelsOf(const core::IndexBox& box)
-{
-  const core::Index3 size = box.size();
-  return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-         static_cast<std::size_t>(size[2]);
-}
-
 core::IndexBox wholeBox(const core::Index3& dims)
 {
   return {{0, 0, 0}, dims};
@@ -118,7 +111,7 @@ void MaskTexture::changed(std::shared_ptr<const volume::CutMask> mask, const cor
   for (auto other = m_pending.begin(); other != m_pending.end();)
   {
     const core::IndexBox both = merged.united(*other);
-    if (voxelsOf(both) <= (voxelsOf(merged) + voxelsOf(*other)) * 5 / 4)
+    if (both.count() <= (merged.count() + other->count()) * 5 / 4)
     {
       merged = both;
       m_pending.erase(other);
@@ -148,7 +141,7 @@ std::size_t MaskTexture::pendingVoxels() const noexcept
 {
   std::size_t voxels = 0;
   for (const core::IndexBox& box : m_pending)
-    voxels += voxelsOf(box);
+    voxels += box.count();
   return voxels;
 }
 
@@ -168,7 +161,7 @@ void MaskTexture::uploadAs(const core::IndexBox& texels)
     m_texture.update(texels, reduced.data());
     return;
   }
-  std::vector<T> values(voxelsOf(texels), std::numeric_limits<T>::max());
+  std::vector<T> values(texels.count(), std::numeric_limits<T>::max());
   const core::Index3 size = texels.size();
   const core::IndexBox bricks = mask.bricksCovering(texels);
   constexpr int edge = volume::CutMask::kBrickEdge;

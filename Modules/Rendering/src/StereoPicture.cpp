@@ -16,6 +16,7 @@
 #include <vtkWeakPointer.h>
 #include <vtk_glew.h>
 
+#include "AimCamera.h"
 #include "GlProgram.h"
 #include "GlTexture.h"
 #include "RayCastVertexShader.h"
@@ -32,16 +33,8 @@ constexpr float kAfterThePicture = -1.0F; // of the observers; ScenePicture's co
 
 void point(vtkRenderer* renderer, const core::CameraPose& pose)
 {
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetFocalPoint(pose.focalPoint.data());
-  camera->SetPosition(pose.position.data());
-  camera->SetViewUp(pose.viewUp.data());
-  camera->SetUseHorizontalViewAngle(0);
-  camera->SetViewAngle(pose.viewAngle);
-  camera->SetParallelProjection(pose.parallelScale ? 1 : 0);
-  if (pose.parallelScale)
-    camera->SetParallelScale(*pose.parallelScale);
-  camera->SetWindowCenter(pose.lensShift / renderer->GetTiledAspectRatio(), 0.0);
+  aimCamera(renderer->GetActiveCamera(), pose);
+  shiftLens(renderer, pose);
 }
 
 template <class Collection>

@@ -32,8 +32,7 @@ std::vector<T> reduceBox(const core::Index3& dims, const core::Index3& factor,
                          const core::IndexBox& texels, const At& at)
 {
   const core::Index3 size = texels.size();
-  std::vector<T> result(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-                        static_cast<std::size_t>(size[2]));
+  std::vector<T> result(texels.count());
   const auto meanOf = [&](int x, int y, int z)
   {
     double sum = 0.0;

@@ -67,6 +67,20 @@ float summitOf(float t, vec3 height)
   return near ? t + offset * stepLength : 0.0;
 }
 
+#ifdef PETROUS_INTERIOR
+// The stretch of tissue up to a position that the ray's operands were taken at.
+void passTissue(inout Ray ray, vec3 v, float to)
+{
+  float value = ray.at.value;
+#ifdef PETROUS_SECOND
+  if (ray.more.y > 0.5)
+    value = intensityAt(v, ray.more);
+#endif
+  integrate(ray.material, ray.row, ray.before, to, value, ray.reading, ray.color,
+            ray.transmittance);
+}
+#endif
+
 const int kOn = 0;
 const int kOtherBricks = 1; // the next sample is for the other inner loop
 const int kChange = 2;
@@ -134,13 +148,7 @@ int advance(inout Ray ray, const bool plain)
 #ifdef PETROUS_INTERIOR
   if (ray.state != kAir)
   {
-    float value = ray.at.value;
-#ifdef PETROUS_SECOND
-    if (ray.more.y > 0.5)
-      value = intensityAt(v, ray.more);
-#endif
-    integrate(ray.material, ray.row, ray.before, ray.t, value, ray.reading, ray.color,
-              ray.transmittance);
+    passTissue(ray, v, ray.t);
     if (ray.transmittance < termination)
       return kEnd;
   }
@@ -330,15 +338,7 @@ void main()
     ray.at = operandsAt(v, false);
 #ifdef PETROUS_INTERIOR
     if (ray.state != kAir)
-    {
-      float value = ray.at.value;
-#ifdef PETROUS_SECOND
-      if (ray.more.y > 0.5)
-        value = intensityAt(v, ray.more);
-#endif
-      integrate(ray.material, ray.row, ray.before, hit, value, ray.reading, ray.color,
-                ray.transmittance);
-    }
+      passTissue(ray, v, hit);
 #endif
     if (ray.next != kAir && (ray.state == kAir || (ray.state == kBone && ray.next >= kStructure)))
     {

@@ -9,8 +9,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "ChebyshevDistance.h"
 #include "LabelBricks.h"
+#include "petrous/Volume/ChebyshevDistance.h"
 
 namespace petrous::rendering
 {
@@ -225,8 +225,8 @@ std::uint8_t OccupancyGrid::judge(std::size_t brick, const volume::CutMask* mask
 core::IndexBox OccupancyGrid::measure(const core::IndexBox& box, Flag flag,
                                       std::uint8_t Texel::*distance)
 {
-  const DistanceBlock found = chebyshevDistances(&m_texels.front().flags, sizeof(Texel), flag,
-                                                 m_dims, box, kLargestDistance);
+  const auto found = volume::chebyshevDistances(&m_texels.front().flags, sizeof(Texel), flag,
+                                                m_dims, box, kLargestDistance);
   core::IndexBox changed;
   for (int k = box.lower[2]; k < box.upper[2]; ++k)
     for (int j = box.lower[1]; j < box.upper[1]; ++j)

@@ -43,6 +43,8 @@ public:
 
   const core::GridGeometry& geometry() const noexcept { return m_ct->geometry(); }
   const Parameters& parameters() const noexcept { return m_parameters; }
+  const std::shared_ptr<const IntensityVolume>& ct() const noexcept { return m_ct; }
+  const std::vector<SolidUnion>& solids() const noexcept { return m_solids; }
 
   /// f at a patient point (LPS mm); kAir outside the grid.
   double value(const Eigen::Vector3d& patient) const;

@@ -1,11 +1,11 @@
-#include "ChebyshevDistance.h"
+#include "petrous/Volume/ChebyshevDistance.h"
 
 #include <algorithm>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-namespace petrous::rendering
+namespace petrous::volume
 {
 
 namespace
@@ -128,4 +128,4 @@ DistanceBlock chebyshevDistances(const std::uint8_t* cells, std::size_t stride, 
   return result;
 }
 
-} // namespace petrous::rendering
+} // namespace petrous::volume

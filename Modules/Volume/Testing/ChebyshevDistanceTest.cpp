@@ -1,11 +1,11 @@
-#include "ChebyshevDistance.h"
+#include "petrous/Volume/ChebyshevDistance.h"
+
+#include <algorithm>
+#include <random>
 
 #include <gtest/gtest.h>
 
-#include "RandomScenes.h"
-
 using namespace petrous;
-using namespace petrous::rendering::testing;
 using core::Index3;
 using core::IndexBox;
 
@@ -19,6 +19,20 @@ struct Cell
 };
 
 constexpr std::uint8_t kMark = 4;
+
+int below(std::mt19937& random, int limit)
+{
+  return std::uniform_int_distribution<int>(0, limit - 1)(random);
+}
+
+template <class Visit>
+void forEach(const IndexBox& box, const Visit& visit)
+{
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        visit(i, j, k);
+}
 
 int bruteForce(const std::vector<Cell>& cells, const Index3& dims, const Index3& from, int cap)
 {
@@ -37,7 +51,7 @@ int bruteForce(const std::vector<Cell>& cells, const Index3& dims, const Index3&
 void expectExact(const std::vector<Cell>& cells, const Index3& dims, const IndexBox& box, int cap)
 {
   const auto found =
-      rendering::chebyshevDistances(&cells.front().flags, sizeof(Cell), kMark, dims, box, cap);
+      volume::chebyshevDistances(&cells.front().flags, sizeof(Cell), kMark, dims, box, cap);
   int wrong = 0;
   forEach(box,
           [&](int i, int j, int k) {
@@ -50,7 +64,7 @@ void expectExact(const std::vector<Cell>& cells, const Index3& dims, const Index
 
 TEST(ChebyshevDistance, IsThatToTheNearestMarkInAnyBoxOfTheGrid)
 {
-  Random random(9);
+  std::mt19937 random(9);
   for (const Index3& dims :
        {Index3{40, 21, 13}, Index3{1, 50, 3}, Index3{17, 1, 1}, Index3{33, 2, 40}, Index3{1, 1, 1}})
     for (const int marks : {0, 1, 5, 60})

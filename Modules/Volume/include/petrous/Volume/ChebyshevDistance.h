@@ -5,7 +5,7 @@
 
 #include "petrous/Core/GridGeometry.h"
 
-namespace petrous::rendering
+namespace petrous::volume
 {
 
 /// Bytes of a block of cells, first axis fastest; rows are padded so that a plane is one line of
@@ -34,4 +34,4 @@ struct DistanceBlock
 DistanceBlock chebyshevDistances(const std::uint8_t* cells, std::size_t stride, std::uint8_t bit,
                                  const core::Index3& dims, const core::IndexBox& box, int cap);
 
-} // namespace petrous::rendering
+} // namespace petrous::volume

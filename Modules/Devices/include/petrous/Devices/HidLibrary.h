@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Error.h"
+
+struct hid_device_;
+struct hid_device_info;
+
+namespace petrous::devices
+{
+
+/// hidapi, or a library that stands in for it, cannot be used. The message names it.
+class HidError : public core::Error
+{
+public:
+  explicit HidError(const std::string& message);
+};
+
+/// One HID interface that is plugged in, as hidapi lists it.
+struct HidInterface
+{
+  std::string path; ///< "/dev/hidraw3"
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+  std::string manufacturer;    ///< UTF-8, as the device says; may be empty
+  std::string name;            ///< likewise
+  std::uint16_t usagePage = 0; ///< 0 where it is not known
+  std::uint16_t usage = 0;
+};
+
+/// hidapi as a table of functions: those that this program is linked with, or those of a shared
+/// library with the same C interface (hidapi 0.13), which is how the tests plug in devices.
+///
+/// hidapi keeps global state behind listing and opening, so these take turns here; make one
+/// library for a program and share it. An open device belongs to one thread.
+class HidLibrary
+{
+public:
+  /// The hidapi that this program is linked with.
+  HidLibrary();
+
+  /// The shared library at `path`. Throws HidError naming it and what is missing.
+  explicit HidLibrary(const std::string& path);
+
+  ~HidLibrary();
+  HidLibrary(const HidLibrary&) = delete;
+  HidLibrary& operator=(const HidLibrary&) = delete;
+
+  std::string version() const;
+
+  /// What is plugged in now, also without permission to open it.
+  std::vector<HidInterface> list() const;
+
+  /// An open device; closes itself. Must not outlive its library.
+  class Connection
+  {
+  public:
+    ~Connection();
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    /// Waits for a report: its length; 0 when none came in time; below 0 when the device has gone.
+    int read(unsigned char* bytes, std::size_t size, int milliseconds);
+
+  private:
+    friend class HidLibrary;
+    Connection(const HidLibrary& library, hid_device_* device);
+    const HidLibrary& m_library;
+    hid_device_* m_device;
+  };
+
+  /// Null when it cannot be opened.
+  std::unique_ptr<Connection> open(const std::string& path) const;
+
+private:
+  struct Functions
+  {
+    int (*init)() = nullptr;
+    int (*exit)() = nullptr;
+    hid_device_info* (*enumerate)(unsigned short, unsigned short) = nullptr;
+    void (*freeEnumeration)(hid_device_info*) = nullptr;
+    hid_device_* (*openPath)(const char*) = nullptr;
+    void (*close)(hid_device_*) = nullptr;
+    int (*readTimeout)(hid_device_*, unsigned char*, std::size_t, int) = nullptr;
+    const char* (*versionText)() = nullptr;
+  };
+  void initialise(const std::string& name);
+
+  Functions m_functions;
+  void* m_handle = nullptr; // of the loaded library
+  mutable std::mutex m_mutex;
+};
+
+} // namespace petrous::devices

@@ -1,0 +1,141 @@
+#include "petrous/Devices/HidLibrary.h"
+
+#include <cwchar>
+
+#include <dlfcn.h>
+#include <hidapi.h>
+
+namespace petrous::devices
+{
+
+namespace
+{
+
+std::string utf8(const wchar_t* text)
+{
+  std::string result;
+  for (; text && *text; ++text)
+  {
+    const auto code = static_cast<std::uint32_t>(*text);
+    const auto tail = [code](int shift)
+    { return static_cast<char>(0x80U | ((code >> shift) & 0x3fU)); };
+    if (code < 0x80)
+      result += code < 0x20 ? ' ' : static_cast<char>(code);
+    else if (code < 0x800)
+      (result += static_cast<char>(0xc0U | (code >> 6))) += tail(0);
+    else if (code < 0x10000)
+      ((result += static_cast<char>(0xe0U | (code >> 12))) += tail(6)) += tail(0);
+    else
+      result += '?';
+  }
+  return result;
+}
+
+template <typename Function>
+void find(void* handle, const std::string& library, const char* name, Function& function)
+{
+  function = reinterpret_cast<Function>(::dlsym(handle, name));
+  if (!function)
+  {
+    ::dlclose(handle);
+    throw HidError(library + ": has no function " + name + ", which hidapi 0.13 has");
+  }
+}
+
+} // namespace
+
+HidError::HidError(const std::string& message)
+  : core::Error(core::Fault::Internal, message)
+{
+}
+
+HidLibrary::HidLibrary()
+  : m_functions{::hid_init,      ::hid_exit,  ::hid_enumerate,    ::hid_free_enumeration,
+                ::hid_open_path, ::hid_close, ::hid_read_timeout, ::hid_version_str}
+{
+  initialise("hidapi");
+}
+
+HidLibrary::HidLibrary(const std::string& path)
+{
+  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle)
+    throw HidError(path + ": cannot be loaded as hidapi: " + ::dlerror());
+  find(handle, path, "hid_init", m_functions.init);
+  find(handle, path, "hid_exit", m_functions.exit);
+  find(handle, path, "hid_enumerate", m_functions.enumerate);
+  find(handle, path, "hid_free_enumeration", m_functions.freeEnumeration);
+  find(handle, path, "hid_open_path", m_functions.openPath);
+  find(handle, path, "hid_close", m_functions.close);
+  find(handle, path, "hid_read_timeout", m_functions.readTimeout);
+  find(handle, path, "hid_version_str", m_functions.versionText);
+  m_handle = handle;
+  try
+  {
+    initialise(path);
+  }
+  catch (const HidError&)
+  {
+    ::dlclose(handle);
+    throw;
+  }
+}
+
+HidLibrary::~HidLibrary()
+{
+  m_functions.exit();
+  if (m_handle)
+    ::dlclose(m_handle);
+}
+
+void HidLibrary::initialise(const std::string& name)
+{
+  if (m_functions.init() != 0)
+    throw HidError(name + ": cannot be initialised");
+}
+
+std::string HidLibrary::version() const
+{
+  return m_functions.versionText();
+}
+
+std::vector<HidInterface> HidLibrary::list() const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  std::vector<HidInterface> interfaces;
+  hid_device_info* const first = m_functions.enumerate(0, 0);
+  for (const hid_device_info* info = first; info; info = info->next)
+    interfaces.push_back({info->path ? info->path : "", info->vendor_id, info->product_id,
+                          utf8(info->manufacturer_string), utf8(info->product_string),
+                          info->usage_page, info->usage});
+  m_functions.freeEnumeration(first);
+  return interfaces;
+}
+
+std::unique_ptr<HidLibrary::Connection> HidLibrary::open(const std::string& path) const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  hid_device_* device = m_functions.openPath(path.c_str());
+  if (!device)
+    return nullptr;
+  return std::unique_ptr<Connection>(new Connection(*this, device));
+}
+
+HidLibrary::Connection::Connection(const HidLibrary& library, hid_device_* device)
+  : m_library(library)
+  , m_device(device)
+{
+}
+
+HidLibrary::Connection::~Connection()
+{
+  const std::lock_guard<std::mutex> lock(m_library.m_mutex);
+  m_library.m_functions.close(m_device);
+}
+
+int HidLibrary::Connection::read(unsigned char* bytes, std::size_t size, int milliseconds)
+{
+  return m_library.m_functions.readTimeout(m_device, bytes, size, milliseconds);
+}
+
+} // namespace petrous::devices

@@ -1,0 +1,81 @@
+#include "ServerDescription.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace petrous::devices
+{
+
+namespace
+{
+
+// What no device for a hand exceeds; the strongest that are sold give about 40 N and 15 N/mm.
+constexpr double kMostForce = 200.0;          // N
+constexpr double kMostTorque = 20000.0;       // N mm
+constexpr double kMostStiffness = 100.0;      // N/mm
+constexpr double kMostAngularStiffness = 1e6; // N mm/rad
+
+double number(const double& field)
+{
+  double value = 0.0;
+  __atomic_load(&field, &value, __ATOMIC_RELAXED);
+  return value;
+}
+
+void check(double value, double most, const char* what, const char* unit, std::string& fault)
+{
+  if (fault.empty() && !(value >= 0.0 && value <= most))
+  {
+    std::ostringstream words;
+    words << "describes a device with a " << what << " of " << value << ' ' << unit
+          << "; it must lie between 0 and " << most;
+    fault = words.str();
+  }
+}
+
+} // namespace
+
+std::string serverText(const char* field, std::size_t size)
+{
+  std::string text;
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const char c = __atomic_load_n(&field[i], __ATOMIC_RELAXED);
+    if (c == '\0')
+      break;
+    const auto byte = static_cast<unsigned char>(c);
+    text += byte < 0x20 || byte == 0x7f ? ' ' : c;
+  }
+  return text;
+}
+
+haptics::DeviceDescription serverDescription(const petrous_device_block& block, std::string& fault)
+{
+  const std::uint32_t flags = __atomic_load_n(&block.flags, __ATOMIC_RELAXED);
+  haptics::DeviceDescription description;
+  description.name = serverText(block.name, sizeof block.name);
+  description.sensesRotation = (flags & PETROUS_SENSES_ROTATION) != 0;
+  description.givesForce = (flags & PETROUS_GIVES_FORCE) != 0;
+  description.givesTorque = (flags & PETROUS_GIVES_TORQUE) != 0;
+  description.maxForce = number(block.max_force);
+  description.maxTorque = number(block.max_torque);
+  description.maxStiffness = number(block.max_stiffness);
+  description.maxAngularStiffness = number(block.max_angular_stiffness);
+
+  fault.clear();
+  check(description.maxForce, kMostForce, "force", "N", fault);
+  check(description.maxTorque, kMostTorque, "torque", "N mm", fault);
+  check(description.maxStiffness, kMostStiffness, "stiffness", "N/mm", fault);
+  check(description.maxAngularStiffness, kMostAngularStiffness, "angular stiffness", "N mm/rad",
+        fault);
+  return description;
+}
+
+bool same(const haptics::DeviceDescription& a, const haptics::DeviceDescription& b)
+{
+  return a.name == b.name && a.sensesRotation == b.sensesRotation && a.givesForce == b.givesForce &&
+         a.givesTorque == b.givesTorque && a.maxForce == b.maxForce && a.maxTorque == b.maxTorque &&
+         a.maxStiffness == b.maxStiffness && a.maxAngularStiffness == b.maxAngularStiffness;
+}
+
+} // namespace petrous::devices

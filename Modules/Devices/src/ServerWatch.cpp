@@ -1,0 +1,289 @@
+#include "ServerWatch.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <sstream>
+
+#include "ServerDescription.h"
+
+namespace petrous::devices
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr auto kPeriod = std::chrono::milliseconds(10);
+// A longer pause was ours (a debugger, a laptop asleep) and says nothing of the server.
+constexpr double kLongestStep = 0.05; // s
+constexpr int kMostFailures = 5;
+constexpr double kSettled = 10.0; // s; a server that ran so long may fail anew
+
+std::string seconds(double value)
+{
+  std::ostringstream text;
+  text << value << " s";
+  return text.str();
+}
+
+} // namespace
+
+ServerWatch::ServerWatch(const ServedDevice::Options& options)
+  : m_options(options)
+  , m_block(options.name)
+{
+  m_thread = std::thread([this] { run(); });
+}
+
+ServerWatch::~ServerWatch()
+{
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_stop = true;
+  }
+  m_wake.notify_all();
+  m_thread.join();
+  __atomic_store_n(&m_block->petrous_state, std::uint32_t{PETROUS_CLOSING}, __ATOMIC_RELEASE);
+  if (!m_process.waitForEnd(0.5))
+  {
+    m_process.signal(SIGTERM);
+    m_process.waitForEnd(0.2);
+  }
+}
+
+haptics::DeviceDescription ServerWatch::awaitReady()
+{
+  // A little longer than the watch's own limit, so that its words are the ones that are thrown.
+  const auto end = Clock::now() + Seconds(m_options.startTimeout + 1.0);
+  std::unique_lock<std::mutex> lock(m_mutex);
+  m_wake.wait_until(lock, end, [this] { return m_description || m_reason; });
+  if (m_description)
+    return *m_description;
+  throw ServerError(m_reason.value_or(Reason::NotReady), m_status.fault);
+}
+
+ServedDevice::Status ServerWatch::status() const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  ServedDevice::Status status = m_status;
+  status.pid = m_pid.load();
+  return status;
+}
+
+void ServerWatch::run()
+{
+  if (launches())
+    start();
+  auto last = Clock::now();
+  std::unique_lock<std::mutex> lock(m_mutex);
+  while (!m_wake.wait_for(lock, kPeriod, [this] { return m_stop; }))
+  {
+    lock.unlock();
+    const auto now = Clock::now();
+    look(std::min(Seconds(now - last).count(), kLongestStep));
+    last = now;
+    lock.lock();
+  }
+}
+
+void ServerWatch::look(double elapsed)
+{
+  __atomic_add_fetch(&m_block->petrous_beat, 1, __ATOMIC_RELEASE);
+  m_sinceBegin += elapsed;
+  m_untilStart -= elapsed;
+  if (launches())
+    lookAfterProcess();
+  else
+    lookForProcess();
+  if (link() == Link::Gone || link() == Link::Refused)
+    return;
+  const std::uint32_t version = __atomic_load_n(&m_block->server_version, __ATOMIC_ACQUIRE);
+  if (version != 0 && version != PETROUS_DEVICE_VERSION)
+  {
+    giveUpOn(Link::Refused, Reason::VersionMismatch,
+             "speaks version " + std::to_string(version) + " of the protocol, Petrous version " +
+                 std::to_string(PETROUS_DEVICE_VERSION));
+    return;
+  }
+  lookAtState();
+  lookAtBeat(elapsed);
+}
+
+void ServerWatch::lookAfterProcess()
+{
+  if (const auto end = m_process.ended())
+  {
+    // Why it hung or was refused says more than that it was killed for it.
+    const std::uint32_t version = __atomic_load_n(&m_block->server_version, __ATOMIC_ACQUIRE);
+    if (version != 0 && version != PETROUS_DEVICE_VERSION)
+      fail(Reason::VersionMismatch, "speaks version " + std::to_string(version) +
+                                        " of the protocol, Petrous version " +
+                                        std::to_string(PETROUS_DEVICE_VERSION));
+    else if (link() != Link::Hung)
+      fail(Reason::Ended, *end);
+    m_pid = 0;
+    setLink(Link::Gone);
+    m_failures = m_sinceBegin > kSettled ? 1 : m_failures + 1;
+    m_untilStart = 0.1 * (1 << m_failures);
+    if (m_options.restart && m_failures >= kMostFailures)
+      fail(Reason::Ended, *end + "; that was the " + std::to_string(m_failures) +
+                              "th time in a row, and it is not started again");
+  }
+  if (!m_process.runs() && mayRestart() && m_untilStart <= 0.0)
+    start();
+}
+
+bool ServerWatch::mayRestart() const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  return m_options.restart && m_description && m_failures < kMostFailures;
+}
+
+void ServerWatch::lookForProcess()
+{
+  const int pid = static_cast<int>(__atomic_load_n(&m_block->server_pid, __ATOMIC_ACQUIRE));
+  if (pid <= 0)
+    return;
+  if (pid != m_pid.load())
+  {
+    begin();
+    m_pid = pid;
+  }
+  else if (link() != Link::Gone && ::kill(pid, 0) != 0 && errno == ESRCH)
+    giveUpOn(Link::Gone, Reason::Ended, "has gone");
+}
+
+void ServerWatch::lookAtState()
+{
+  const std::uint32_t state = __atomic_load_n(&m_block->server_state, __ATOMIC_ACQUIRE);
+  const std::string text = serverText(m_block->error, sizeof m_block->error);
+  switch (state)
+  {
+  case PETROUS_SERVER_EMPTY:
+  case PETROUS_SERVER_STARTING:
+    if (link() == Link::Starting && m_sinceBegin > m_options.startTimeout)
+      giveUpOn(m_pid.load() == 0 ? Link::Gone : Link::Hung,
+               m_pid.load() == 0 ? Reason::NotStarted : Reason::NotReady,
+               m_pid.load() == 0 ? "was not started: nobody opened " + m_block.path() + " within " +
+                                       seconds(m_options.startTimeout)
+                                 : "is not ready after " + seconds(m_options.startTimeout));
+    break;
+  case PETROUS_SERVER_READY:
+    if (!m_accepted)
+      accept();
+    else if (link() == Link::Up)
+      clearFault();
+    break;
+  case PETROUS_SERVER_NO_DEVICE:
+    fail(Reason::NoDevice, "has no device" + (text.empty() ? text : ": " + text));
+    break;
+  case PETROUS_SERVER_FAULT:
+    fail(Reason::Fault, "reports a fault" + (text.empty() ? text : ": " + text));
+    break;
+  default:
+    fail(Reason::Fault, "is in state " + std::to_string(state) + ", which there is not");
+  }
+}
+
+void ServerWatch::lookAtBeat(double elapsed)
+{
+  const std::uint64_t beat = __atomic_load_n(&m_block->server_beat, __ATOMIC_ACQUIRE);
+  if (beat != m_beat)
+  {
+    m_beat = beat;
+    m_silence = 0.0;
+    if (link() == Link::Hung)
+      setLink(m_accepted ? Link::Up : Link::Starting);
+    return;
+  }
+  m_silence += elapsed;
+  if (link() == Link::Up && m_silence > m_options.hungAfter)
+    giveUpOn(Link::Hung, Reason::NotReady,
+             "hangs: it has not answered for " + seconds(m_options.hungAfter));
+}
+
+void ServerWatch::accept()
+{
+  std::string fault;
+  const haptics::DeviceDescription description = serverDescription(*m_block, fault);
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    if (fault.empty() && m_description && !same(*m_description, description))
+      fault = "came back as another device (" + description.name + ")";
+    if (fault.empty())
+      m_description = description;
+  }
+  if (!fault.empty())
+  {
+    giveUpOn(Link::Refused, Reason::BadDescription, fault);
+    return;
+  }
+  m_accepted = true;
+  m_silence = 0.0;
+  setLink(Link::Up);
+  clearFault();
+  m_wake.notify_all();
+}
+
+void ServerWatch::begin()
+{
+  m_accepted = false;
+  m_sinceBegin = 0.0;
+  m_silence = 0.0;
+  m_epoch.fetch_add(1);
+  setLink(Link::Starting);
+}
+
+void ServerWatch::start()
+{
+  const bool again = m_epoch.load() > 0;
+  m_block.forgetServer();
+  begin();
+  if (const auto fault = m_process.start(m_options.command, m_block.path()))
+  {
+    giveUpOn(Link::Gone, Reason::NotStarted, *fault);
+    ++m_failures;
+    m_untilStart = 0.1 * (1 << m_failures);
+    return;
+  }
+  m_pid = m_process.pid();
+  if (again)
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    ++m_status.restarts;
+  }
+}
+
+void ServerWatch::giveUpOn(Link link, Reason reason, const std::string& words)
+{
+  fail(reason, words);
+  setLink(link);
+  // A server that hangs cannot be asked; one of ours is ended, so that it can be started again.
+  if (link == Link::Hung && mayRestart())
+    m_process.signal(SIGKILL);
+}
+
+void ServerWatch::fail(Reason reason, const std::string& words)
+{
+  const int pid = m_pid.load();
+  const std::string who = "device server '" + m_options.name + "'" +
+                          (pid > 0 ? " (process " + std::to_string(pid) + ") " : " ");
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  m_status.fault = who + words;
+  m_status.lastFault = m_status.fault;
+  m_reason = reason;
+  m_wake.notify_all();
+}
+
+void ServerWatch::clearFault()
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  m_status.fault.clear();
+  m_reason.reset();
+}
+
+} // namespace petrous::devices

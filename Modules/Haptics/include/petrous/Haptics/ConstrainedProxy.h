@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "petrous/Haptics/ContactQp.h"
+#include "petrous/Haptics/Proxy.h"
+#include "petrous/Haptics/ShellSweep.h"
+
+namespace petrous::haptics
+{
+
+class ContactFinder;
+
+/// The tool as it may be, held to the tissue's surface while the hand goes where it likes: six
+/// degrees of freedom, constraint-based [Chan2016, Eq. 1], with PHYSICS' corrections.
+///
+/// A tick takes the proxy from its pose towards the goal: contact rows for every shell point near
+/// the surface, quasi-static motion by ContactQp, a swept test of that motion, and again with the
+/// contacts met on the way, until it is done or the rounds are. A pose is kept only when f <= 0 at
+/// every shell point (soft tissue left out), so the tool never enters rigid tissue.
+///
+/// `step` neither allocates, locks nor throws. One thread.
+class ConstrainedProxy : public Proxy
+{
+public:
+  /// Throws InvalidParameter naming the first bad value.
+  ConstrainedProxy(std::shared_ptr<const HapticField> field, PointShell shell,
+                   const ProxyParameters& parameters = {});
+  ~ConstrainedProxy() override;
+
+  const PointShell& shell() const noexcept { return m_sweep.shell(); }
+  const HapticField& field() const noexcept { return m_sweep.field(); }
+  const Pose& pose() const noexcept override { return m_sweep.pose(); }
+
+  void place(const Pose& pose) noexcept override;
+  const ProxyTick& step(const Pose& goal) noexcept override;
+
+private:
+  static constexpr std::size_t kMostRows = 1024;
+  static constexpr std::size_t kTrail = 512;
+  static constexpr std::size_t kMostHits = 20;
+
+  void follow(const Pose& goal) noexcept;
+  void solve(const Motion& wanted, double lift) noexcept;
+  ShellSweep::Hit advance(const Motion& motion, double way) noexcept;
+  void notice() noexcept;
+  bool retreat() noexcept;
+  void remember() noexcept;
+  void report(const Motion& wanted) noexcept;
+
+  ProxyParameters m_parameters;
+  ShellSweep m_sweep;
+  std::unique_ptr<ContactFinder> m_finder; // looks at m_sweep
+  ContactQp m_qp;
+  std::vector<ProxyContact> m_rows;              // of the last problem
+  std::array<ShellSweep::Hit, kMostHits> m_hits; // of this tick
+  std::size_t m_hitCount = 0;
+  std::vector<Pose> m_trail; // ring of poses that were free
+  std::size_t m_trailEnd = 0;
+  std::size_t m_trailLength = 0;
+  std::uint64_t m_raises = 0;
+  bool m_inside = false;
+  ProxyTick m_tick;
+};
+
+} // namespace petrous::haptics

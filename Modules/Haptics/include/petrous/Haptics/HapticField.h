@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "petrous/Volume/PublishedMask.h"
+#include "petrous/Volume/TissueField.h"
+
+namespace petrous::haptics
+{
+
+/// How structures yield under the hand; all is rigid that is not named here.
+struct SoftTissue
+{
+  std::shared_ptr<const volume::Volume<std::uint8_t>> index; ///< LabelField::index; may be null
+  std::array<float, 256> compliance{};                       ///< mm/N by material; 0 rigid
+};
+
+/// What decides f at a point.
+enum class Decider : std::uint8_t
+{
+  Outside, ///< beyond the hull of the voxel centres
+  Ct,
+  Solid, ///< a structure's smoothed union
+  Mask,
+  Hull ///< inside, but nearer to the border of the grid than to any other surface
+};
+
+struct FieldSample
+{
+  double value = volume::TissueField::kAir; ///< f; soft tissue left out where it decides
+  Decider decider = Decider::Outside;
+  std::uint8_t solid = 0;                   ///< which union, where one decides
+  double uncut = volume::TissueField::kAir; ///< f without mask and hull, soft tissue with it
+  double left = volume::TissueField::kAir;  ///< of mask and hull the lower
+  double soft = volume::TissueField::kAir;  ///< f of the soft tissue, where there is some
+  double compliance = 0.0;                  ///< mm/N, of that tissue
+};
+
+/// The tissue field of PHYSICS.md ("One field") as a servo tick samples it: the same f as
+/// volume::TissueField, with the mask's present state, in voxel coordinates of the CT.
+///
+/// f has one operand more here, the distance to the hull of the voxel centres (in voxels), so that
+/// the border of the grid is a surface like others; the sign of f is the same.
+///
+/// Made once for a tissue field (about a second for 512^3); the queries neither allocate, lock nor
+/// throw, and are thread-safe.
+class HapticField
+{
+public:
+  /// `tissue` gives CT, unions, iso and scale; its mask is not used, `mask` of each query is.
+  /// Throws InvalidParameter when the mask does not lie on the CT's grid.
+  HapticField(const volume::TissueField& tissue, std::shared_ptr<const volume::PublishedMask> mask,
+              SoftTissue soft = {});
+
+  const core::GridGeometry& geometry() const noexcept { return m_geometry; }
+  const volume::PublishedMask& mask() const noexcept { return *m_mask; }
+  double voxel() const noexcept { return m_voxel; } ///< h, mm, the smallest spacing
+
+  FieldSample sample(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
+
+  /// Gradient of the operand that decided, per mm in patient axes, by central differences over
+  /// +-`step` voxels: 1 as TissueField::normal has it, less for the interpolated surface itself.
+  /// Zero outside.
+  Eigen::Vector3d gradient(const Eigen::Vector3d& voxel, const FieldSample& sample,
+                           const volume::MaskState& mask, double step = 1.0) const noexcept;
+
+  /// Slope of f at the point along a unit vector of the patient, per mm: over +-`reach` mm.
+  double slope(const Eigen::Vector3d& voxel, const Eigen::Vector3d& direction, double reach,
+               const volume::MaskState& mask) const noexcept;
+
+  /// Within this many millimetres there is certainly no tissue, whatever the mask; 0 near some.
+  double clearance(const Eigen::Vector3d& voxel) const noexcept;
+
+  /// Within this many millimetres there is no tissue while none comes back, by f at the point and
+  /// by how steep it is around; 0 in tissue.
+  double freeRadius(const Eigen::Vector3d& voxel, const FieldSample& sample) const noexcept;
+
+  /// `uncut` changes by no more than this a millimetre in the cells that a path of half a voxel
+  /// round the point can cross; `left` by no more than `leftSteepness` anywhere.
+  double steepness(const Eigen::Vector3d& voxel) const noexcept;
+  double leftSteepness() const noexcept { return m_leftSteepness; }
+
+  std::size_t residentBytes() const noexcept; ///< of what was made here
+
+private:
+  struct Solid
+  {
+    volume::TissueField::SolidUnion share;
+    Eigen::Matrix3d fromCt; ///< voxel of the union from voxel of the CT: fromCt * v + offset
+    Eigen::Vector3d offset;
+    Eigen::Vector3d last; ///< greatest voxel coordinate
+  };
+
+  double ct(const Eigen::Vector3d& voxel) const noexcept;
+  double solid(std::size_t n, const Eigen::Vector3d& voxel) const noexcept;
+  double left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
+  double hull(const Eigen::Vector3d& voxel) const noexcept;
+  double operand(const FieldSample& sample, const Eigen::Vector3d& voxel,
+                 const volume::MaskState& mask) const noexcept;
+  std::size_t brickAt(const Eigen::Vector3d& voxel) const noexcept;
+
+  std::shared_ptr<const volume::IntensityVolume> m_ct;
+  std::vector<Solid> m_solids;
+  std::shared_ptr<const volume::PublishedMask> m_mask;
+  SoftTissue m_soft;
+  Eigen::Matrix3d m_indexFromCt = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d m_indexOffset{0.0, 0.0, 0.0};
+  core::GridGeometry m_geometry;
+  volume::TissueField::Parameters m_parameters;
+  double m_voxel = 1.0;
+  Eigen::Vector3d m_last;
+  core::Index3 m_bricks;                ///< of 8 voxels
+  std::vector<std::uint8_t> m_distance; ///< Chebyshev, bricks to the next that may hold tissue
+  std::vector<float> m_steepness;       ///< of c_CT and the unions, per mm
+  double m_leftSteepness = 0.0;
+};
+
+} // namespace petrous::haptics

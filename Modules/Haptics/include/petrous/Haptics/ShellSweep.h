@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "petrous/Haptics/HapticField.h"
+#include "petrous/Haptics/PointShell.h"
+#include "petrous/Haptics/Pose.h"
+
+namespace petrous::haptics
+{
+
+/// Largest way of a point of a body, mm: |translation| + arm |rotation|.
+inline double longestWay(const Motion& motion, double arm) noexcept
+{
+  return motion.linear.norm() + arm * motion.angular.norm();
+}
+
+/// Tests a point shell's motion through the tissue field for contact.
+///
+/// Every point goes along chords of at most `step` voxels. On a chord f is bounded by its steepest
+/// slope: a stretch is free when f at both ends is so low that f cannot reach 0 between them, and
+/// is halved otherwise, down to h/16. So a wall thinner than the step is met as well as a thick
+/// one.
+///
+/// A point that is far from tissue is not looked at again before the tool has moved that far.
+/// Nothing here allocates, locks or throws but the constructor. One thread.
+class ShellSweep
+{
+public:
+  static constexpr std::size_t kMostSteps = 64; ///< chords of one sweep
+
+  struct Near ///< a shell point that may meet tissue
+  {
+    std::uint32_t point = 0;
+    FieldSample sample; ///< where the point is now
+  };
+  struct Hit
+  {
+    bool any = false;
+    double free = 1.0;                        ///< share of the motion before it
+    std::uint32_t point = 0;                  ///< the first to enter
+    Eigen::Vector3d direction{0.0, 0.0, 0.0}; ///< unit, of that point's way, patient axes
+  };
+
+  ShellSweep(std::shared_ptr<const HapticField> field, PointShell shell, double step,
+             int bisections);
+
+  const PointShell& shell() const noexcept { return m_shell; }
+  const HapticField& field() const noexcept { return *m_field; }
+
+  /// The mask's state for the calls that follow. Where tissue came back since the last one,
+  /// `forgetClearances` goes with it.
+  void look(const volume::MaskState& state) noexcept { m_state = &state; }
+  void forgetClearances() noexcept;
+  const volume::MaskState& state() const noexcept { return *m_state; }
+
+  /// The tool is at `pose`, wherever it was before.
+  void moveTo(const Pose& pose) noexcept;
+  const Pose& pose() const noexcept { return m_pose; }
+
+  /// Finds the points within `distance` mm of tissue.
+  void findNear(double distance) noexcept;
+
+  /// Adds those that a motion of this length (mm, rad) can bring to tissue.
+  void addNear(double linear, double angular) noexcept;
+  const Near* begin() const noexcept { return m_near.data(); }
+  const Near* end() const noexcept { return m_near.data() + m_nearCount; }
+  std::size_t nearCount() const noexcept { return m_nearCount; }
+
+  Eigen::Vector3d voxelOf(std::uint32_t point) const noexcept ///< where it is now
+  {
+    return m_maps[0].linear * m_shell.points[point] + m_maps[0].offset;
+  }
+
+  /// f <= 0 at every point of the shell.
+  bool freeAt(const Pose& pose) const noexcept;
+
+  /// Moves the tool as far as it goes freely, at most `motion` and at most kMostSteps chords; near
+  /// points must have been found for it. f <= 0 at every near point where it comes to stand.
+  Hit advance(const Motion& motion) noexcept;
+
+private:
+  struct VoxelMap // of a point in frame T: linear * p + offset
+  {
+    Eigen::Matrix3d linear;
+    Eigen::Vector3d offset;
+  };
+  void judge(std::size_t point, double way) noexcept;
+  VoxelMap mapOf(const Pose& pose) const noexcept;
+  double firstInside(const Eigen::Vector3d& from, const FieldSample& atFrom,
+                     const Eigen::Vector3d& to, const FieldSample& atTo,
+                     double limit) const noexcept;
+  bool nearFreeAt(const Pose& pose) const noexcept;
+  void commit(const Motion& motion, double share) noexcept;
+
+  std::shared_ptr<const HapticField> m_field;
+  PointShell m_shell;
+  double m_step;                   // mm
+  double m_tolerance;              // share of a chord
+  std::vector<double> m_arm;       // mm, of each point from the origin
+  std::vector<double> m_clearance; // mm that each point may still go unseen
+  std::vector<Near> m_near;
+  std::vector<bool> m_isNear;
+  std::size_t m_nearCount = 0;
+  std::array<VoxelMap, kMostSteps + 1> m_maps;
+  const volume::MaskState* m_state = nullptr;
+  Pose m_pose;
+};
+
+} // namespace petrous::haptics

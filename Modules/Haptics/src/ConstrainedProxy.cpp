@@ -1,0 +1,268 @@
+#include "petrous/Haptics/ConstrainedProxy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "ContactFinder.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::haptics
+{
+
+namespace
+{
+
+// The motion aims at this much of a voxel above the surface, so that the curvature that the rows
+// do not know rarely costs another round.
+constexpr double kSkin = 0.01;
+constexpr double kMostLift = 0.05; // voxels, over a bump
+constexpr int kMostStretches = 32; // sweeps of a tick that end freely
+constexpr double kTrailStep = 0.5; // voxels
+
+void check(bool good, const char* words)
+{
+  if (!good)
+    throw core::InvalidParameter(std::string("constrained proxy: ") + words);
+}
+
+const ProxyParameters& checked(const ProxyParameters& p)
+{
+  check(p.stiffness > 0.0 && p.stiffness <= 100.0, "the stiffness must lie within 0 to 100 N/mm");
+  check(p.angularStiffness > 0.0 && p.angularStiffness <= 1e5,
+        "the angular stiffness must lie within 0 to 100000 N mm/rad");
+  check(p.nearGap > 0.0 && p.nearGap <= 2.0, "the near gap must lie within 0 to 2 voxels");
+  check(p.sweepStep > 0.0 && p.sweepStep <= 1.0, "the sweep's step must lie within 0 to 1 voxel");
+  check(p.bisections >= 1 && p.bisections <= 30, "bisections must lie within 1 to 30");
+  check(p.rounds >= 1 && p.rounds <= 20, "rounds must lie within 1 to 20");
+  check(p.deadband >= 0.0 && p.deadband <= 0.1, "the deadband must lie within 0 to 0.1 mm");
+  return p;
+}
+
+PointShell checked(PointShell shell)
+{
+  check(!shell.points.empty() && shell.points.size() == shell.normals.size(),
+        "a shell needs points, and a normal for each");
+  return shell;
+}
+
+std::shared_ptr<const HapticField> checked(std::shared_ptr<const HapticField> field)
+{
+  check(field != nullptr, "no field given");
+  return field;
+}
+
+ContactQp::Vector6 vector6(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular)
+{
+  ContactQp::Vector6 result;
+  result << linear, angular;
+  return result;
+}
+
+} // namespace
+
+ConstrainedProxy::ConstrainedProxy(std::shared_ptr<const HapticField> field, PointShell shell,
+                                   const ProxyParameters& parameters)
+  : m_parameters(checked(parameters))
+  , m_sweep(checked(std::move(field)), checked(std::move(shell)), parameters.sweepStep,
+            parameters.bisections)
+  , m_finder(std::make_unique<ContactFinder>(m_sweep, parameters.nearGap))
+  , m_qp(kMostRows, vector6(Eigen::Vector3d::Constant(parameters.stiffness),
+                            Eigen::Vector3d::Constant(parameters.angularStiffness)))
+  , m_rows(kMostRows)
+  , m_trail(kTrail)
+{
+}
+
+ConstrainedProxy::~ConstrainedProxy() = default;
+
+void ConstrainedProxy::place(const Pose& pose) noexcept
+{
+  if (!pose.finite())
+    return;
+  const volume::MaskState* state = m_sweep.field().mask().acquire();
+  m_sweep.look(*state);
+  m_raises = state->raises();
+  m_sweep.moveTo(pose);
+  m_trailLength = 0;
+  m_inside = !m_sweep.freeAt(m_sweep.pose());
+  if (!m_inside)
+    remember();
+  m_sweep.field().mask().release();
+}
+
+// Rigid tissue is kept at the skin, soft tissue at its surface. Where tissue on all sides leaves no
+// room for the skin, the rows are put so that standing still is allowed.
+void ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
+{
+  const double skin = kSkin * m_sweep.field().voxel();
+  const ContactQp::Vector6 goal = vector6(wanted.linear, wanted.angular);
+  m_finder->find(m_hits.data(), m_hitCount);
+  for (const bool tight : {false, true})
+  {
+    m_qp.clear();
+    for (const auto& [contact, compliance, slope, stopped] : *m_finder)
+    {
+      const double bound = (contact.soft ? 0.0 : stopped ? lift : skin) - contact.gap;
+      const std::size_t n = m_qp.count();
+      if (m_qp.add(vector6(contact.normal, contact.arm.cross(contact.normal)),
+                   tight && !contact.soft ? std::min(bound, 0.0) : bound, compliance))
+        m_rows[n] = contact;
+    }
+    if (m_qp.solve(goal) == ContactQp::Status::Solved)
+      return;
+  }
+}
+
+void ConstrainedProxy::remember() noexcept
+{
+  const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
+  if (m_trailLength > 0 && longestWay(motionBetween(m_trail[last], m_sweep.pose()),
+                                      m_sweep.shell().reach) < kTrailStep * m_sweep.field().voxel())
+    return;
+  m_trail[m_trailEnd] = m_sweep.pose();
+  m_trailEnd = (m_trailEnd + 1) % kTrail;
+  m_trailLength = std::min(m_trailLength + 1, kTrail);
+}
+
+// Back along the path to the last pose that is free now.
+bool ConstrainedProxy::retreat() noexcept
+{
+  while (m_trailLength > 0)
+  {
+    const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
+    if (m_sweep.freeAt(m_trail[last]))
+    {
+      m_sweep.moveTo(m_trail[last]);
+      return true;
+    }
+    m_trailEnd = last;
+    --m_trailLength;
+  }
+  return false;
+}
+
+// Tissue that came back may stand where the tool is.
+void ConstrainedProxy::notice() noexcept
+{
+  if (m_sweep.state().raises() == m_raises)
+    return;
+  m_raises = m_sweep.state().raises();
+  m_sweep.forgetClearances();
+  if (m_inside || m_sweep.freeAt(m_sweep.pose()))
+    return;
+  if (retreat())
+    m_tick.status = ProxyStatus::Retreated;
+  else
+    m_inside = true;
+}
+
+void ConstrainedProxy::report(const Motion& wanted) noexcept
+{
+  const ContactQp::Vector6& a = m_qp.solution();
+  m_tick.wrench.linear = m_parameters.stiffness * (a.head<3>() - wanted.linear);
+  m_tick.wrench.angular = m_parameters.angularStiffness * (a.tail<3>() - wanted.angular);
+  for (std::size_t n = 0; n < m_qp.count(); ++n)
+  {
+    const double lambda = m_qp.lambda(n);
+    if (!(lambda > 0.0))
+      continue;
+    if (m_rows[n].point < m_sweep.shell().burrCount)
+      m_tick.thrust += lambda;
+    if (m_tick.contactCount == ProxyTick::kMostContacts)
+      continue;
+    ProxyContact& contact = m_tick.contacts[m_tick.contactCount++];
+    contact = m_rows[n];
+    contact.thrust = lambda;
+  }
+  if (m_tick.contactCount > 0 && m_tick.status == ProxyStatus::Free)
+    m_tick.status = ProxyStatus::Contact;
+}
+
+// A sweep goes no farther than its chords, and neither does the search for near points.
+ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noexcept
+{
+  const double most = ShellSweep::kMostSteps * m_parameters.sweepStep * m_sweep.field().voxel();
+  const double share = std::min(1.0, most / std::max(way, 1e-12));
+  m_sweep.addNear(share * motion.linear.norm(), share * motion.angular.norm());
+  m_tick.nearPoints = std::max(m_tick.nearPoints, m_sweep.nearCount());
+  return m_sweep.advance(motion);
+}
+
+void ConstrainedProxy::follow(const Pose& goal) noexcept
+{
+  const double h = m_sweep.field().voxel();
+  const double reach = m_sweep.shell().reach;
+  const double ahead = (m_parameters.nearGap + kSkin) * h;
+  double lift = 2.0 * kSkin * h;
+  Motion wanted;
+  int stretches = 0;
+  m_hitCount = 0;
+  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches)
+  {
+    wanted = motionBetween(m_sweep.pose(), goal);
+    m_sweep.findNear(ahead);
+    solve(wanted, kSkin * h);
+    const Motion motion{m_qp.solution().head<3>(), m_qp.solution().tail<3>()};
+    const double way = longestWay(motion, reach);
+    if (way < m_parameters.deadband)
+      break;
+    const ShellSweep::Hit hit = advance(motion, way);
+    remember();
+    if (!hit.any && hit.free >= 1.0)
+      break;
+    if (!hit.any)
+    {
+      ++stretches;
+      continue;
+    }
+    ++m_tick.rounds;
+    if (m_hitCount < kMostHits)
+      m_hits[m_hitCount++] = hit;
+    if (hit.free * way < lift && m_tick.rounds < m_parameters.rounds)
+    {
+      // It lies on a bump that a smooth normal does not know: up first, then on.
+      m_sweep.findNear(ahead);
+      solve({}, lift);
+      const Motion up{m_qp.solution().head<3>(), m_qp.solution().tail<3>()};
+      advance(up, longestWay(up, reach));
+      lift = std::min(2.0 * lift, kMostLift * h);
+    }
+  }
+  report(wanted);
+}
+
+const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
+{
+  m_tick.status = ProxyStatus::Free;
+  m_tick.wrench = {};
+  m_tick.contactCount = 0;
+  m_tick.thrust = 0.0;
+  m_tick.penetration = 0.0;
+  m_tick.rounds = 0;
+  m_tick.nearPoints = 0;
+  if (!goal.finite())
+  {
+    m_tick.status = ProxyStatus::BadGoal;
+    m_tick.pose = m_sweep.pose();
+    return m_tick;
+  }
+  const volume::PublishedMask& mask = m_sweep.field().mask();
+  m_sweep.look(*mask.acquire());
+  notice();
+  if (m_inside)
+  {
+    m_sweep.moveTo(goal);
+    m_inside = !m_sweep.freeAt(m_sweep.pose());
+    m_tick.status = m_inside ? ProxyStatus::Inside : ProxyStatus::Free;
+    if (!m_inside)
+      remember();
+  }
+  else
+    follow(goal);
+  m_tick.pose = m_sweep.pose();
+  mask.release();
+  return m_tick;
+}
+
+} // namespace petrous::haptics

@@ -1,0 +1,267 @@
+#include "petrous/Haptics/HapticField.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "TissueBricks.h"
+#include "petrous/Volume/Sampling.h"
+
+namespace petrous::haptics
+{
+
+namespace
+{
+using volume::CutMask;
+using volume::TissueField;
+
+constexpr std::size_t kMostSolids = 255;
+
+std::size_t offsetInBrick(int i, int j, int k) noexcept
+{
+  constexpr int edge = CutMask::kBrickEdge;
+  return static_cast<std::size_t>((i % edge) + edge * ((j % edge) + edge * (k % edge)));
+}
+} // namespace
+
+HapticField::HapticField(const TissueField& tissue,
+                         std::shared_ptr<const volume::PublishedMask> mask, SoftTissue soft)
+  : m_ct(tissue.ct())
+  , m_mask(std::move(mask))
+  , m_soft(std::move(soft))
+  , m_geometry(tissue.geometry())
+  , m_parameters(tissue.parameters())
+  , m_voxel(m_geometry.minSpacing())
+  , m_leftSteepness(m_geometry.spacing().cwiseInverse().norm()) // of a mask of whole voxels
+{
+  if (!m_mask || !sameGrid(m_mask->geometry(), m_geometry))
+    throw core::InvalidParameter("haptic field: the mask does not lie on the CT's grid");
+  if (tissue.solids().size() > kMostSolids)
+    throw core::InvalidParameter("haptic field: more than 255 unions of structures");
+  for (std::size_t a = 0; a < 3; ++a)
+    m_last[static_cast<Eigen::Index>(a)] = m_geometry.dims()[a] - 1.0;
+  const auto from = [this](const core::GridGeometry& grid)
+  {
+    return std::make_pair<Eigen::Matrix3d, Eigen::Vector3d>(
+        grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
+        grid.voxelFromPatient(m_geometry.origin()));
+  };
+  for (const auto& share : tissue.solids())
+  {
+    const auto [linear, offset] = from(share->geometry());
+    const core::Index3& dims = share->geometry().dims();
+    m_solids.push_back(
+        {share, linear, offset, Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)});
+  }
+  if (std::none_of(m_soft.compliance.begin(), m_soft.compliance.end(),
+                   [](float c) { return c > 0.0F; }))
+    m_soft.index = nullptr;
+  if (m_soft.index)
+    std::tie(m_indexFromCt, m_indexOffset) = from(m_soft.index->geometry());
+  TissueBricks bricks = findTissueBricks(tissue);
+  m_bricks = bricks.dims;
+  m_distance = std::move(bricks.distance);
+  m_steepness = std::move(bricks.steepness);
+}
+
+double HapticField::ct(const Eigen::Vector3d& voxel) const noexcept
+{
+  const double value = (m_ct->sample(voxel) - m_parameters.iso) / m_parameters.scale;
+  return std::isnan(value) ? TissueField::kAir : value; // a voxel without a value is no tissue
+}
+
+double HapticField::solid(std::size_t n, const Eigen::Vector3d& voxel) const noexcept
+{
+  const Solid& solid = m_solids[n];
+  const Eigen::Vector3d own = solid.fromCt * voxel + solid.offset;
+  if ((own.array() < 0.0).any() || (own.array() > solid.last.array()).any())
+    return -0.5;
+  return volume::sampleTrilinear(*solid.share, own) - 0.5;
+}
+
+double HapticField::left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept
+{
+  const volume::TrilinearCell cell(voxel, m_geometry.dims());
+  const core::Index3& bricks = m_mask->brickDims();
+  const auto brickOf = [&bricks](int i, int j, int k)
+  {
+    constexpr int edge = CutMask::kBrickEdge;
+    return static_cast<std::size_t>(i / edge) +
+           static_cast<std::size_t>(bricks[0]) *
+               (static_cast<std::size_t>(j / edge) +
+                static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k / edge));
+  };
+  const std::size_t first = brickOf(cell.lower[0], cell.lower[1], cell.lower[2]);
+  if (first == brickOf(cell.upper[0], cell.upper[1], cell.upper[2]))
+  {
+    const CutMask::Brick* brick = mask.brick(first);
+    if (!brick)
+      return 0.5;
+    return cell.interpolate([brick](int i, int j, int k)
+                            { return static_cast<double>((*brick)[offsetInBrick(i, j, k)]); }) /
+               CutMask::kUntouched -
+           0.5;
+  }
+  return cell.interpolate(
+             [&](int i, int j, int k)
+             {
+               const CutMask::Brick* brick = mask.brick(brickOf(i, j, k));
+               return brick ? static_cast<double>((*brick)[offsetInBrick(i, j, k)])
+                            : double{CutMask::kUntouched};
+             }) /
+             CutMask::kUntouched -
+         0.5;
+}
+
+double HapticField::hull(const Eigen::Vector3d& voxel) const noexcept
+{
+  return std::min(voxel.minCoeff(), (m_last - voxel).minCoeff());
+}
+
+FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
+                                const volume::MaskState& mask) const noexcept
+{
+  const double border = hull(voxel);
+  FieldSample result;
+  if (!(border >= 0.0))
+    return result;
+  const double bone = ct(voxel);
+  result.value = bone;
+  result.decider = Decider::Ct;
+  for (std::size_t n = 0; n < m_solids.size(); ++n)
+  {
+    const double inside = solid(n, voxel);
+    if (inside > result.value)
+    {
+      result.value = inside;
+      result.decider = Decider::Solid;
+      result.solid = static_cast<std::uint8_t>(n);
+    }
+  }
+  const double rest = std::min(left(voxel, mask), border);
+  result.uncut = result.value;
+  result.left = rest;
+  if (result.decider == Decider::Solid && m_soft.index && result.value > -0.5)
+  {
+    const volume::Volume<std::uint8_t>& index = *m_soft.index;
+    const Eigen::Vector3d at = m_indexFromCt * voxel + m_indexOffset;
+    const core::Index3& dims = index.geometry().dims();
+    const std::array<int, 3> nearest{static_cast<int>(std::lround(at.x())),
+                                     static_cast<int>(std::lround(at.y())),
+                                     static_cast<int>(std::lround(at.z()))};
+    if (index.geometry().fullBox().contains(nearest) && dims[0] > 0)
+      result.compliance = double{m_soft.compliance[index.at(nearest[0], nearest[1], nearest[2])]};
+    if (result.compliance > 0.0)
+    {
+      result.soft = std::min(result.value, rest);
+      result.value = bone;
+      result.decider = Decider::Ct;
+    }
+  }
+  if (rest < result.value)
+  {
+    result.value = rest;
+    result.decider = rest == border ? Decider::Hull : Decider::Mask;
+  }
+  return result;
+}
+
+double HapticField::operand(const FieldSample& sample, const Eigen::Vector3d& voxel,
+                            const volume::MaskState& mask) const noexcept
+{
+  switch (sample.decider)
+  {
+  case Decider::Ct:
+    return ct(voxel);
+  case Decider::Solid:
+    return solid(sample.solid, voxel);
+  case Decider::Mask:
+    return left(voxel, mask);
+  case Decider::Hull:
+    return hull(voxel);
+  case Decider::Outside:
+    break;
+  }
+  return TissueField::kAir;
+}
+
+Eigen::Vector3d HapticField::gradient(const Eigen::Vector3d& voxel, const FieldSample& sample,
+                                      const volume::MaskState& mask, double step) const noexcept
+{
+  if (sample.decider == Decider::Outside)
+    return Eigen::Vector3d::Zero();
+  if (sample.decider == Decider::Solid)
+  {
+    const Solid& solid = m_solids[sample.solid];
+    return volume::sampleGradient(*solid.share, solid.fromCt * voxel + solid.offset, step);
+  }
+  return volume::gradientInPatient(
+      m_geometry, voxel, 1.0, [&](const Eigen::Vector3d& v) { return operand(sample, v, mask); });
+}
+
+double HapticField::slope(const Eigen::Vector3d& voxel, const Eigen::Vector3d& direction,
+                          double reach, const volume::MaskState& mask) const noexcept
+{
+  const Eigen::Vector3d step = m_geometry.voxelFromPatientLinear() * (reach * direction);
+  return (sample(voxel + step, mask).value - sample(voxel - step, mask).value) / (2.0 * reach);
+}
+
+std::size_t HapticField::brickAt(const Eigen::Vector3d& voxel) const noexcept
+{
+  return static_cast<std::size_t>(static_cast<int>(voxel.x()) / kTissueBrick) +
+         static_cast<std::size_t>(m_bricks[0]) *
+             (static_cast<std::size_t>(static_cast<int>(voxel.y()) / kTissueBrick) +
+              static_cast<std::size_t>(m_bricks[1]) *
+                  static_cast<std::size_t>(static_cast<int>(voxel.z()) / kTissueBrick));
+}
+
+double HapticField::clearance(const Eigen::Vector3d& voxel) const noexcept
+{
+  const double border = hull(voxel);
+  if (!(border >= 0.0))
+  {
+    const Eigen::Array3d beyond = (-voxel.array()).max(voxel.array() - m_last.array()).max(0.0) *
+                                  m_geometry.spacing().array();
+    return beyond.matrix().norm();
+  }
+  const int bricks = m_distance[brickAt(voxel)];
+  if (bricks == 0)
+    return 0.0;
+  double toFace = kTissueBrick;
+  for (Eigen::Index a = 0; a < 3; ++a)
+  {
+    const double within = std::fmod(voxel[a], double{kTissueBrick});
+    toFace = std::min({toFace, within, kTissueBrick - within});
+  }
+  return ((bricks - 1) * kTissueBrick + toFace) * m_voxel;
+}
+
+double HapticField::freeRadius(const Eigen::Vector3d& voxel,
+                               const FieldSample& sample) const noexcept
+{
+  const double value = sample.compliance > 0.0 ? std::max(sample.value, sample.soft) : sample.value;
+  if (sample.decider == Decider::Outside || !(value < 0.0))
+    return 0.0;
+  // The steepness of a brick holds for one voxel beyond it.
+  double within = kTissueBrick;
+  for (Eigen::Index a = 0; a < 3; ++a)
+  {
+    const double inBrick = std::fmod(voxel[a], double{kTissueBrick});
+    within = std::min({within, inBrick + 1.0, kTissueBrick + 1.0 - inBrick});
+  }
+  const double byTissue = std::min(within * m_voxel, -sample.uncut / steepness(voxel));
+  return std::max({0.0, byTissue, -sample.left / m_leftSteepness});
+}
+
+double HapticField::steepness(const Eigen::Vector3d& voxel) const noexcept
+{
+  const Eigen::Vector3d inside = voxel.cwiseMax(0.0).cwiseMin(m_last);
+  return double{m_steepness[brickAt(inside)]} + 1e-6;
+}
+
+std::size_t HapticField::residentBytes() const noexcept
+{
+  return m_distance.size() * sizeof(m_distance.front()) +
+         m_steepness.size() * sizeof(m_steepness.front());
+}
+
+} // namespace petrous::haptics

@@ -1,0 +1,208 @@
+#include "petrous/Haptics/ShellSweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petrous::haptics
+{
+
+namespace
+{
+// Stretches of a path shorter than this much of a voxel are not halved further.
+constexpr double kFinest = 1.0 / 16.0;
+} // namespace
+
+ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shell, double step,
+                       int bisections)
+  : m_field(std::move(field))
+  , m_shell(std::move(shell))
+  , m_step(step * m_field->voxel())
+  , m_tolerance(std::ldexp(1.0, -bisections))
+{
+  m_shell.reach = 0.0;
+  for (const Eigen::Vector3d& point : m_shell.points)
+  {
+    m_arm.push_back(point.norm());
+    m_shell.reach = std::max(m_shell.reach, m_arm.back());
+  }
+  m_clearance.assign(m_shell.points.size(), 0.0);
+  m_near.resize(m_shell.points.size());
+  m_isNear.resize(m_shell.points.size());
+  m_maps[0] = mapOf(m_pose);
+}
+
+ShellSweep::VoxelMap ShellSweep::mapOf(const Pose& pose) const noexcept
+{
+  const core::GridGeometry& grid = m_field->geometry();
+  return {grid.voxelFromPatientLinear() * pose.rotation.toRotationMatrix(),
+          grid.voxelFromPatient(pose.position)};
+}
+
+void ShellSweep::moveTo(const Pose& pose) noexcept
+{
+  m_pose = pose;
+  m_pose.rotation.normalize();
+  m_maps[0] = mapOf(m_pose);
+  forgetClearances();
+}
+
+void ShellSweep::forgetClearances() noexcept
+{
+  std::fill(m_clearance.begin(), m_clearance.end(), 0.0);
+}
+
+void ShellSweep::judge(std::size_t point, double way) noexcept
+{
+  if (m_clearance[point] > way)
+    return;
+  const Eigen::Vector3d voxel = voxelOf(static_cast<std::uint32_t>(point));
+  m_clearance[point] = m_field->clearance(voxel);
+  if (m_clearance[point] > way)
+    return;
+  const FieldSample sample = m_field->sample(voxel, *m_state);
+  m_clearance[point] = std::max(m_clearance[point], m_field->freeRadius(voxel, sample));
+  if (m_clearance[point] > way)
+    return;
+  m_near[m_nearCount++] = {static_cast<std::uint32_t>(point), sample};
+  m_isNear[point] = true;
+}
+
+void ShellSweep::findNear(double distance) noexcept
+{
+  std::fill(m_isNear.begin(), m_isNear.end(), false);
+  m_nearCount = 0;
+  for (std::size_t i = 0; i < m_shell.points.size(); ++i)
+    judge(i, distance);
+}
+
+void ShellSweep::addNear(double linear, double angular) noexcept
+{
+  for (std::size_t i = 0; i < m_shell.points.size(); ++i)
+    if (!m_isNear[i])
+      judge(i, linear + angular * m_arm[i]);
+}
+
+bool ShellSweep::freeAt(const Pose& pose) const noexcept
+{
+  const VoxelMap map = mapOf(pose);
+  return std::all_of(m_shell.points.begin(), m_shell.points.end(),
+                     [&](const Eigen::Vector3d& p) {
+                       return m_field->sample(map.linear * p + map.offset, *m_state).value <= 0.0;
+                     });
+}
+
+bool ShellSweep::nearFreeAt(const Pose& pose) const noexcept
+{
+  const VoxelMap map = mapOf(pose);
+  return std::all_of(begin(), end(),
+                     [&](const Near& near)
+                     {
+                       const Eigen::Vector3d& p = m_shell.points[near.point];
+                       return m_field->sample(map.linear * p + map.offset, *m_state).value <= 0.0;
+                     });
+}
+
+// Where on the chord f rises above 0: the share of it that is free, 1 when all of it is.
+double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& atFrom,
+                               const Eigen::Vector3d& to, const FieldSample& atTo,
+                               double limit) const noexcept
+{
+  struct End
+  {
+    double at, value, uncut, left;
+  };
+  struct Stretch
+  {
+    End begin, end;
+  };
+  const Eigen::Vector3d way = to - from;
+  const double length = (m_field->geometry().patientFromVoxelLinear() * way).norm();
+  const double steepness = m_field->steepness(0.5 * (from + to));
+  const double finest = kFinest * m_field->voxel();
+  const auto endOf = [](double at, const FieldSample& s) -> End {
+    return {at, s.value, s.uncut, s.left};
+  };
+  std::array<Stretch, 40> stack; // one for each halving
+  std::size_t depth = 0;
+  stack[depth++] = {endOf(0.0, atFrom), endOf(1.0, atTo)};
+  while (depth > 0)
+  {
+    const auto [begin, end] = stack[--depth];
+    if (begin.at >= limit)
+      return 1.0;
+    const double part = end.at - begin.at;
+    const double run = part * length;
+    // Tissue needs both operands above 0 somewhere on the way.
+    const bool free = begin.uncut + end.uncut + steepness * run <= 0.0 ||
+                      begin.left + end.left + m_field->leftSteepness() * run <= 0.0 ||
+                      run <= finest;
+    if (end.value <= 0.0 && free)
+      continue;
+    if (end.value > 0.0 && part <= m_tolerance)
+      return begin.at;
+    const double at = 0.5 * (begin.at + end.at);
+    const End middle = endOf(at, m_field->sample(from + at * way, *m_state));
+    if (middle.value <= 0.0)
+      stack[depth++] = {middle, end};
+    stack[depth++] = {begin, middle};
+  }
+  return 1.0;
+}
+
+ShellSweep::Hit ShellSweep::advance(const Motion& motion) noexcept
+{
+  const double way = longestWay(motion, m_shell.reach);
+  const double share = std::min(1.0, kMostSteps * m_step / std::max(way, 1e-12));
+  const auto steps = static_cast<std::size_t>(
+      std::clamp(std::ceil(share * way / m_step), 1.0, static_cast<double>(kMostSteps)));
+  const double perStep = share / static_cast<double>(steps);
+  for (std::size_t s = 1; s <= steps; ++s)
+    m_maps[s] = mapOf(moved(m_pose, motion, perStep * static_cast<double>(s)));
+
+  Hit hit;
+  auto best = static_cast<double>(steps);
+  for (const Near& near : *this)
+  {
+    const Eigen::Vector3d& point = m_shell.points[near.point];
+    Eigen::Vector3d from = m_maps[0].linear * point + m_maps[0].offset;
+    FieldSample atFrom = near.sample;
+    for (std::size_t s = 1; s <= steps && static_cast<double>(s - 1) < best; ++s)
+    {
+      const Eigen::Vector3d to = m_maps[s].linear * point + m_maps[s].offset;
+      const FieldSample atTo = m_field->sample(to, *m_state);
+      const double limit = std::min(1.0, best - static_cast<double>(s - 1));
+      const double inside = firstInside(from, atFrom, to, atTo, limit);
+      if (inside < limit)
+      {
+        best = static_cast<double>(s - 1) + inside;
+        hit.any = true;
+        hit.point = near.point;
+        hit.direction = (m_field->geometry().patientFromVoxelLinear() * (to - from)).normalized();
+        break;
+      }
+      from = to;
+      atFrom = atTo;
+    }
+  }
+  hit.free = perStep * best;
+  // The samples lie on chords: where the tool comes to stand is looked at itself.
+  if (hit.any)
+    for (int tries = 0; hit.free > 0.0 && !nearFreeAt(moved(m_pose, motion, hit.free)); ++tries)
+      hit.free = tries < 4 ? 0.9 * hit.free : 0.0;
+  commit(motion, hit.free);
+  return hit;
+}
+
+void ShellSweep::commit(const Motion& motion, double share) noexcept
+{
+  if (!(share > 0.0))
+    return;
+  const double linear = share * motion.linear.norm();
+  const double angular = share * motion.angular.norm();
+  for (std::size_t i = 0; i < m_clearance.size(); ++i)
+    m_clearance[i] -= linear + angular * m_arm[i];
+  m_pose = moved(m_pose, motion, share);
+  m_maps[0] = mapOf(m_pose);
+}
+
+} // namespace petrous::haptics

@@ -1,0 +1,234 @@
+#include "MeshInside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+namespace petrous::volume
+{
+
+namespace
+{
+
+constexpr double kLatticeSteps = 1 << 23; // products of differences stay far below 2^63
+
+// Twice the signed area of (a, b, p).
+std::int64_t orientation(const std::array<std::int64_t, 2>& a, const std::array<std::int64_t, 2>& b,
+                         const std::array<std::int64_t, 2>& p) noexcept
+{
+  return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+} // namespace
+
+MeshInside::MeshInside(const core::TriangleMesh& mesh)
+{
+  mesh.validate();
+  const auto bounds = mesh.bounds();
+  m_base = bounds[0].cast<double>();
+  const double size = (bounds[1] - bounds[0]).cast<double>().maxCoeff();
+  m_unit = size > 0.0 ? size / kLatticeSteps : 1.0;
+
+  std::vector<Triangle> triangles;
+  std::vector<std::array<std::int64_t, 3>> corners;
+  for (const auto& indices : mesh.triangles)
+  {
+    Triangle triangle;
+    std::array<std::array<std::int64_t, 3>, 3> lattice;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      triangle[c] = mesh.vertices[indices[c]].cast<double>();
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        const auto axis = static_cast<Eigen::Index>(a);
+        lattice[c][a] = 2 * std::llround((triangle[c][axis] - m_base[axis]) / m_unit);
+      }
+    }
+    if (lattice[0] == lattice[1] || lattice[1] == lattice[2] || lattice[2] == lattice[0])
+      continue;
+    triangles.push_back(triangle);
+    corners.insert(corners.end(), lattice.begin(), lattice.end());
+    m_lattice.push_back({Lattice{lattice[0][1], lattice[0][2]},
+                         Lattice{lattice[1][1], lattice[1][2]},
+                         Lattice{lattice[2][1], lattice[2][2]}});
+  }
+  measureEdges(corners);
+  m_tree = std::make_unique<MeshTree>(std::move(triangles));
+}
+
+void MeshInside::measureEdges(const std::vector<std::array<std::int64_t, 3>>& corners)
+{
+  std::vector<std::array<std::int64_t, 3>> points = corners;
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  const auto number = [&points](const auto& corner)
+  {
+    return static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), corner) -
+                                      points.begin());
+  };
+  struct Edge
+  {
+    std::uint32_t low;
+    std::uint32_t high;
+    int sense;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(corners.size());
+  for (std::size_t t = 0; t < corners.size(); t += 3)
+  {
+    const std::array<std::uint32_t, 3> ids{number(corners[t]), number(corners[t + 1]),
+                                           number(corners[t + 2])};
+    for (std::size_t e = 0; e < 3; ++e)
+    {
+      const std::uint32_t from = ids[e];
+      const std::uint32_t to = ids[(e + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b)
+            { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+  for (std::size_t i = 0; i < edges.size();)
+  {
+    std::size_t end = i;
+    int sum = 0;
+    for (; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;
+         ++end)
+      sum += edges[end].sense;
+    m_openEdges += (end - i) % 2;
+    m_facesAlike = m_facesAlike && sum == 0;
+    i = end;
+  }
+}
+
+// Lines lie at odd numbers, corners at even ones: a line never meets a corner.
+MeshInside::Lattice MeshInside::latticeOf(double y, double z) const
+{
+  const auto odd = [this](double value, double base)
+  { return 2 * static_cast<std::int64_t>(std::floor((value - base) / m_unit)) + 1; };
+  return {odd(y, m_base[1]), odd(z, m_base[2])};
+}
+
+// What crossing the triangle towards +x adds to the winding number; 0 when the line passes by.
+int MeshInside::turnAt(const std::array<Lattice, 3>& triangle, const Lattice& line,
+                       std::array<double, 3>& weights) const
+{
+  const std::int64_t area = orientation(triangle[0], triangle[1], triangle[2]);
+  if (area == 0)
+    return 0;
+  for (std::size_t e = 0; e < 3; ++e)
+  {
+    const Lattice& a = triangle[(e + 1) % 3];
+    const Lattice& b = triangle[(e + 2) % 3];
+    const std::int64_t side = orientation(a, b, line);
+    // On the edge, the line counts as moved by an infinitesimal step along y. An edge along y never
+    // comes to this: it lies at an even z.
+    const bool positive = side != 0 ? side > 0 : b[1] < a[1];
+    if (positive != (area > 0))
+      return 0;
+    weights[e] = static_cast<double>(side) / static_cast<double>(area);
+  }
+  return area > 0 ? -1 : 1;
+}
+
+void MeshInside::crossings(double y, double z, std::vector<double>& crossings) const
+{
+  crossings.clear();
+  std::vector<Crossing> all;
+  const Lattice line = latticeOf(y, z);
+  // Where the line really lies; a box may end a rounding away from its triangle's lattice.
+  const double lineY = m_base[1] + 0.5 * m_unit * static_cast<double>(line[0]);
+  const double lineZ = m_base[2] + 0.5 * m_unit * static_cast<double>(line[1]);
+  m_tree->alongX(lineY, lineZ, m_unit,
+                 [&](std::size_t t)
+                 {
+                   std::array<double, 3> weights{};
+                   const int turn = turnAt(m_lattice[t], line, weights);
+                   if (turn == 0)
+                     return;
+                   const Triangle& triangle = m_tree->triangles()[t];
+                   all.push_back({weights[0] * triangle[0][0] + weights[1] * triangle[1][0] +
+                                      weights[2] * triangle[2][0],
+                                  turn});
+                 });
+  std::sort(all.begin(), all.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+  int winding = 0;
+  bool inside = false;
+  for (const Crossing& crossing : all)
+  {
+    winding += crossing.turn;
+    const bool next = m_facesAlike ? winding != 0 : !inside;
+    if (next != inside)
+      crossings.push_back(crossing.x);
+    inside = next;
+  }
+}
+
+bool MeshInside::contains(const Eigen::Vector3d& point) const
+{
+  std::vector<double> places;
+  crossings(point[1], point[2], places);
+  return (std::upper_bound(places.begin(), places.end(), point[0]) - places.begin()) % 2 == 1;
+}
+
+// +1 where the triangle's front is outside and its back inside, -1 the other way, 0 no surface.
+int MeshInside::facing(const Triangle& triangle, const Eigen::Vector3d& point) const
+{
+  // Far enough from the triangle for the lattice to tell its sides apart.
+  const double step = 8.0 * m_unit;
+  const Eigen::Vector3d normal =
+      (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+  return int{contains(point - step * normal)} - int{contains(point + step * normal)};
+}
+
+void MeshInside::addSurface(const Triangle& triangle, double resolution,
+                            std::vector<Triangle>& result) const
+{
+  const auto& [a, b, c] = triangle;
+  const Eigen::Vector3d middle = (a + b + c) / 3.0;
+  const int sense = facing(triangle, middle);
+  const double edge =
+      std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+  if (edge > resolution)
+  {
+    bool agree = true;
+    for (const Eigen::Vector3d& corner : triangle)
+      agree = agree && facing(triangle, corner + 0.1 * (middle - corner)) == sense;
+    if (!agree)
+    {
+      const Eigen::Vector3d ab = 0.5 * (a + b);
+      const Eigen::Vector3d bc = 0.5 * (b + c);
+      const Eigen::Vector3d ca = 0.5 * (c + a);
+      for (const Triangle& part :
+           {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+        addSurface(part, resolution, result);
+      return;
+    }
+  }
+  if (sense > 0)
+    result.push_back(triangle);
+  else if (sense < 0)
+    result.push_back({a, c, b});
+}
+
+std::vector<Triangle> MeshInside::surface(double resolution) const
+{
+  const auto& triangles = m_tree->triangles();
+  constexpr std::size_t kChunk = 1024;
+  std::vector<std::vector<Triangle>> chunks((triangles.size() + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, chunks.size(),
+                    [&](std::size_t chunk)
+                    {
+                      const std::size_t last = std::min((chunk + 1) * kChunk, triangles.size());
+                      for (std::size_t t = chunk * kChunk; t < last; ++t)
+                        addSurface(triangles[t], resolution, chunks[chunk]);
+                    });
+  std::vector<Triangle> result;
+  for (const auto& chunk : chunks)
+    result.insert(result.end(), chunk.begin(), chunk.end());
+  return result;
+}
+
+} // namespace petrous::volume

@@ -1,0 +1,64 @@
+#include <set>
+#include <string>
+
+#include "CommandRunner.h"
+
+using namespace petrous::testing;
+
+namespace
+{
+using BenchCommand = CommandLine;
+}
+
+TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench renderer --quick --edge 24 --out " + quoted(out));
+  std::set<std::string> peers, varied, marked;
+  int surfaces = 0;
+  for (const auto& point : report.at("points"))
+  {
+    const auto& setting = point.at("setting");
+    const std::string scene = setting.at("scene");
+    EXPECT_GT(point.at("seconds").get<double>(), 0.0) << scene;
+    if (!point.at("peer").is_null())
+    {
+      peers.insert(point.at("peer"));
+      EXPECT_TRUE(point.at("error").is_null()) << "other optics have no error of ours";
+      EXPECT_FALSE(setting.at("default").get<bool>());
+      continue;
+    }
+    if (setting.contains("varied"))
+    {
+      varied.insert(setting.at("varied"));
+      if (setting.at("default").get<bool>())
+        marked.insert(setting.at("varied"));
+    }
+    // Truth from mathematics: a plane and a ball, whatever the size of the phantom.
+    if (scene == "slanting plane" || scene == "ball of 24 mm")
+    {
+      ++surfaces;
+      EXPECT_LE(point.at("error").get<double>(), 0.05) << scene;
+    }
+    // A picture after an edit is the picture made anew, to the pixel.
+    if (scene.find("a 4 mm burr") != std::string::npos)
+    {
+      ++surfaces;
+      EXPECT_EQ(point.at("error").get<double>(), 0.0) << scene;
+    }
+  }
+  EXPECT_EQ(surfaces, 4);
+  EXPECT_EQ(peers.size(), 4U);
+  EXPECT_EQ(varied, (std::set<std::string>{"bisections", "brick_voxels", "mask_bits", "step_voxels",
+                                           "table_entries", "termination"}));
+  EXPECT_EQ(marked, varied) << "each curve marks the setting that the product uses";
+  for (const char* name : {"renderer.json", "renderer.svg", "renderer-frames.svg"})
+    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+}
+
+TEST_F(BenchCommand, NamesTheBenchmarksThatThereAre)
+{
+  const auto outcome = run("bench speed --out " + quoted(m_folder));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("renderer"), std::string::npos) << outcome.err;
+}

@@ -230,7 +230,12 @@ void RayCaster::upload()
   const bool edited = m_mask.pendingVoxels() > 0;
   m_mask.upload();
   if (m_newRules || m_newLabels || m_newCt)
+  {
     m_occupancy->rebuild(rules(), m_contents.labels.get(), m_contents.mask.get());
+    m_tissueBricks = {};
+    findTissue({{0, 0, 0}, m_occupancy->dims()});
+  }
+  findTissue(m_dirtyBricks);
   if (m_newRules || m_newLabels || m_newCt || !m_bricks)
     m_bricks.create(texel::kBrick, m_occupancy->dims(), m_occupancy->texels().data(), GL_NEAREST);
   else if (!m_dirtyBricks.empty())
@@ -324,10 +329,12 @@ void RayCaster::draw(const Frame& frame, bool count)
   glViewport(0, 0, width, height);
   const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
   const std::array<float, 4> noDepth{-1.0F, 0.0F, 0.0F, 0.0F};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClearBufferfv(GL_COLOR, 1, noDepth.data());
+  if (count)
+    glClearBufferfv(GL_COLOR, 2, nothing.data());
   if (!anything)
   {
-    glClearBufferfv(GL_COLOR, 0, nothing.data());
-    glClearBufferfv(GL_COLOR, 1, noDepth.data());
     m_statistics = {};
     if (!m_contents.ct)
       releaseData();
@@ -338,7 +345,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
-  drawTriangle();
+  castRays(frame, width, height);
   if (count)
   {
     const auto [fetches, samples] = m_target.meanCounts();

@@ -67,11 +67,14 @@ private:
   unsigned features() const;
   OccupancyGrid::Rules rules() const;
   void upload();
+  void findTissue(const core::IndexBox& bricks);
+  core::IndexBox tissueOnScreen(const Frame& frame, int width, int height) const;
   GlProgram& program(unsigned features, bool count);
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
   void drawTriangle();
+  void castRays(const Frame& frame, int width, int height);
   void releaseData();
 
   SceneContents m_contents;
@@ -82,6 +85,7 @@ private:
   bool m_newCt = false, m_newLabels = false, m_newMaterials = false, m_newSecond = false;
   bool m_newRules = false;
   core::IndexBox m_dirtyBricks;
+  core::IndexBox m_tissueBricks; // all that can be seen lies in them
   volume::ValueRange m_ctRange, m_secondRange;
 
   IntensityTexture m_ct, m_second;

@@ -1,9 +1,10 @@
-// What one frame tells the shader: rays, grids, light.
+// What one frame tells the shader: rays, grids, light; and the pixels that it is asked for.
 
 #include "RayCaster.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -158,6 +159,94 @@ void RayCaster::setVolume(GlProgram& program) const
     program.set("secondScale", m_second.map.scale);
     program.set("secondOffset", m_second.map.offset);
   }
+}
+
+// Adds the bricks of a box that hold tissue. What an edit takes away stays in until all is judged
+// anew.
+void RayCaster::findTissue(const core::IndexBox& bricks)
+{
+  const core::Index3& dims = m_occupancy->dims();
+  for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
+    for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+    {
+      const auto row =
+          m_occupancy->texels().begin() +
+          static_cast<std::ptrdiff_t>(dims[0]) * (j + static_cast<std::ptrdiff_t>(dims[1]) * k);
+      int first = bricks.upper[0];
+      int last = bricks.lower[0] - 1;
+      for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+        if (row[i].flags & OccupancyGrid::Tissue)
+        {
+          first = std::min(first, i);
+          last = i;
+        }
+      m_tissueBricks = m_tissueBricks.united({{first, j, k}, {last + 1, j + 1, k + 1}});
+    }
+}
+
+// Pixels, in x and y, whose rays can meet tissue.
+core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int height) const
+{
+  if (m_tissueBricks.empty())
+    return {};
+  constexpr double margin = 0.01; // voxels; more than single precision errs by
+  const core::IndexBox whole{{0, 0, 0}, {width, height, 1}};
+  const RayView& view = frame.view;
+  Eigen::Matrix3d axes;
+  if (view.parallel)
+    axes << view.originX, view.originY, view.direction;
+  else
+    axes << view.directionX, view.directionY, view.direction;
+  const Eigen::Matrix3d inverse = axes.inverse();
+  Eigen::Array2d least = Eigen::Array2d::Constant(1e30);
+  Eigen::Array2d most = -least;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d voxel;
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto axis = static_cast<std::size_t>(a);
+      voxel[a] = (corner >> a & 1) != 0 ? m_tissueBricks.upper[axis] * m_occupancy->edge() + margin
+                                        : m_tissueBricks.lower[axis] * m_occupancy->edge() - margin;
+    }
+    const Eigen::Vector3d at =
+        inverse * (m_contents.ct->geometry().patientFromVoxel(voxel) - view.origin);
+    if (!view.parallel && !(at.z() > 0.0))
+      return whole; // beside the eye or behind it
+    const Eigen::Array2d ndc = at.head<2>().array() / (view.parallel ? 1.0 : at.z());
+    if (!ndc.isFinite().all())
+      return whole;
+    least = least.min(ndc);
+    most = most.max(ndc);
+  }
+  core::IndexBox pixels = whole;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    const double size = whole.upper[a];
+    const auto pixel = [&](double ndc, double more) {
+      return static_cast<int>(std::clamp(std::floor(0.5 * (ndc + 1.0) * size) + more, 0.0, size));
+    };
+    const auto axis = static_cast<Eigen::Index>(a);
+    pixels.lower[a] = pixel(least[axis], -1.0);
+    pixels.upper[a] = pixel(most[axis], 2.0);
+  }
+  return pixels;
+}
+
+// Rays that pass all tissue by are not cast: pixels that run in lock step pay for what follows a
+// hit even where nothing is hit.
+void RayCaster::castRays(const Frame& frame, int width, int height)
+{
+  const core::IndexBox pixels = tissueOnScreen(frame, width, height);
+  if (pixels.empty())
+    return;
+  std::array<GLint, 4> before{};
+  glGetIntegerv(GL_SCISSOR_BOX, before.data()); // VTK remembers what it set
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(pixels.lower[0], pixels.lower[1], pixels.size()[0], pixels.size()[1]);
+  drawTriangle();
+  glDisable(GL_SCISSOR_TEST);
+  glScissor(before[0], before[1], before[2], before[3]);
 }
 
 } // namespace petrous::rendering

@@ -23,8 +23,9 @@ struct Ray
   float sampleNumber; // samples lie on the lattice of whole steps, whatever is leapt over
   float before; // up to here it is done
   float t;      // of the last sample
-  vec2 height;  // f at the last two samples in air, the older first
-  float summit; // where f may have risen above 0 between samples; 0: nowhere
+  vec2 height;  // f (in tissue -f) at the last two samples, the older first
+  vec3 passed;  // operands at `before`; kUnknown: not known
+  float summit; // where that may have risen above 0 between samples; 0: nowhere
   int state;
   int next; // state at the last sample
   Operands at;
@@ -33,6 +34,7 @@ struct Ray
   vec4 more;
 #ifdef PETROUS_INTERIOR
   Reading reading;
+  float done; // tissue is gathered up to here
 #endif
   vec3 color;
   float transmittance;
@@ -51,13 +53,20 @@ float stepsThrough(Ray ray, vec3 v, vec3 brick, float away)
   return max(min(min(beyond.x, beyond.y), beyond.z), 0.0) / stepLength;
 }
 
-float fieldOf(Operands at)
+float fieldOf(vec3 at)
 {
-  return min(max(at.ct, at.share - 0.5), at.left - 0.5);
+  return min(max(at.x, at.y), at.z);
 }
 
-// A thin wall can lie between two samples in air. Three heights with the highest in the middle tell
-// where (a parabola's summit), and whether it may reach 0; then that place is the next sample.
+// The operands of f, each so that it crosses 0.
+vec3 operandsOf(Operands at)
+{
+  return vec3(at.ct, at.share - 0.5, at.left - 0.5);
+}
+
+// A thin wall can lie between two samples in air, a gap between two in tissue. Three heights with the
+// highest in the middle tell where (a parabola's summit), and whether it may reach 0; then that place
+// is the next sample.
 float summitOf(float t, vec3 height)
 {
   float bend = 2.0 * height.y - height.x - height.z;
@@ -76,11 +85,13 @@ void passTissue(inout Ray ray, vec3 v, float to)
   if (ray.more.y > 0.5)
     value = intensityAt(v, ray.more);
 #endif
-  integrate(ray.material, ray.row, ray.before, to, value, ray.reading, ray.color,
+  integrate(ray.material, ray.row, ray.done, to, value, ray.reading, ray.color,
             ray.transmittance);
+  ray.done = max(ray.done, to);
 }
 #endif
 
+const vec3 kUnknown = vec3(0.0);
 const int kOn = 0;
 const int kOtherBricks = 1; // the next sample is for the other inner loop
 const int kChange = 2;
@@ -112,6 +123,9 @@ int advance(inout Ray ray, const bool plain)
     {
       number += max(ceil(leap - 1e-3), 0.0); // to behind the wall of what is empty
       before = max(before, ray.first + (number - 1.0) * stepLength);
+#ifdef PETROUS_INTERIOR
+      ray.done = max(ray.done, before);
+#endif
       v = ray.origin + (ray.first + number * stepLength) * ray.direction;
       brick = clamp(ivec3(floor(v / brickEdge)), ivec3(0), lastBrick);
       texel = texelFetch(brickTexture, brick, 0);
@@ -130,23 +144,27 @@ int advance(inout Ray ray, const bool plain)
 #endif
   ray.sampleNumber = number;
   ray.before = before;
+  ray.passed = leaps ? kUnknown : ray.passed;
   ray.t = min(lattice, ray.last);
   v = positionOf(ray, ray.t);
   SAMPLE;
   ray.at = operandsAt(v, plain);
   ray.next = stateOf(ray.at, v, plain);
   if (summit)
+  {
     ray.before = ray.t - stepLength;
+    ray.passed = kUnknown;
+  }
   if (ray.next != ray.state)
     return kChange;
-  float height = fieldOf(ray.at);
-  if (leaps || ray.state != kAir)
+  float height = fieldOf(operandsOf(ray.at)) * (ray.state == kAir ? 1.0 : -1.0);
+  if (leaps || quiet)
     ray.height = vec2(-1e9);
   ray.summit = summit ? 0.0 : summitOf(ray.t - stepLength, vec3(ray.height, height));
   if (!summit)
     ray.height = vec2(ray.height.y, height);
 #ifdef PETROUS_INTERIOR
-  if (ray.state != kAir)
+  if (ray.state != kAir && !summit)
   {
     passTissue(ray, v, ray.t);
     if (ray.transmittance < termination)
@@ -154,6 +172,7 @@ int advance(inout Ray ray, const bool plain)
   }
 #endif
   ray.before = ray.t;
+  ray.passed = operandsOf(ray.at);
   return lattice >= ray.last ? kEnd : kOn;
 }
 
@@ -176,39 +195,73 @@ bool march(inout Ray ray)
   return outcome == kChange;
 }
 
-// Where the state changes between `before` and `t`: bisected, then interpolated. The ray goes on at
-// `high`, where the new state holds.
-float changePoint(inout Ray ray, out float high)
+// Goes to where the state changes between `before` and `t`: by a few false positions, the value of an
+// end that stays being halved (the Illinois rule); bisected where that does not find it (next to what
+// is no number), where nothing crosses 0 (between two structures) and where an end is not known. The
+// ray's operands and next state become those of that place.
+float changePoint(inout Ray ray)
 {
   float low = ray.before;
-  high = ray.t;
-  Operands atLow = ray.at;
-  Operands atHigh = ray.at;
-  bool known = false;
-  for (int i = 0; i < bisections; ++i)
+  float high = ray.t;
+  vec3 atLow = ray.passed;
+  vec3 atHigh = operandsOf(ray.at);
+  float hit = high;
+  int state = ray.next;
+  vec2 weight = vec2(1.0); // of the ends
+  int sided = 0;
+  bool open = true;
+  for (int i = 0; open && i < kFalsePositions + bisections; ++i)
   {
-    float middle = 0.5 * (low + high);
-    vec3 v = positionOf(ray, middle);
-    Operands at = operandsAt(v, false);
-    int state = stateOf(at, v, false);
-    if (state == ray.state)
+    bool inTissue = ray.state != kAir && ray.next != kAir;
+    float a = inTissue ? atLow.y : fieldOf(atLow);
+    float b = inTissue ? atHigh.y : fieldOf(atHigh);
+    bool secant = a * b < 0.0 && i < kFalsePositions;
+    hit = mix(low, high, secant ? a * weight.x / (a * weight.x - b * weight.y) : 0.5);
+    vec3 v = positionOf(ray, hit);
+    ray.at = operandsAt(v, false);
+    state = stateOf(ray.at, v, false);
+    vec3 here = operandsOf(ray.at);
+    bool before = state == ray.state;
+    if (before)
     {
-      low = middle;
-      atLow = at;
-      known = true;
+      low = hit;
+      atLow = here;
+      weight = vec2(1.0, sided < 0 ? 0.5 * weight.y : 1.0);
     }
     else
     {
-      high = middle;
-      atHigh = at;
+      high = hit;
+      atHigh = here;
+      weight = vec2(sided > 0 ? 0.5 * weight.x : 1.0, 1.0);
       ray.next = state;
     }
+    sided = before ? -1 : 1;
+    inTissue = ray.state != kAir && ray.next != kAir;
+    bool met = abs(inTissue ? here.y : fieldOf(here)) <= kOnSurface; // not with what is no number
+    open = !met && high - low > stepLength / 256.0;
   }
   bool inTissue = ray.state != kAir && ray.next != kAir;
-  float a = inTissue ? atLow.share - 0.5 : fieldOf(atLow);
-  float b = inTissue ? atHigh.share - 0.5 : fieldOf(atHigh);
-  float share = known && a * b < 0.0 ? a / (a - b) : 0.5;
-  return mix(low, high, share);
+  float a = inTissue ? atLow.y : fieldOf(atLow);
+  float b = inTissue ? atHigh.y : fieldOf(atHigh);
+  if (a * b < 0.0)
+  {
+    float share = a / (a - b);
+    vec3 here = mix(atLow, atHigh, share);
+    hit = mix(low, high, share);
+    ray.at.ct = here.x;
+    ray.at.share = here.y + 0.5;
+    ray.at.left = here.z + 0.5;
+  }
+#if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
+  // Just before the surface the operands tell what begins there; it need not go on to `high`.
+  if (state == ray.state && ray.next != kAir && ray.state <= kBone)
+  {
+    vec3 v = positionOf(ray, hit);
+    bool structure = ray.state == kBone || ray.at.share > kShareThreshold;
+    ray.next = structure ? kStructure + indexAt(v) : kBone;
+  }
+#endif
+  return hit;
 }
 
 // The material of a surface at a position.
@@ -218,7 +271,7 @@ int materialAt(vec3 v, Operands at, int next)
   int index = indexAt(v);
   COUNT(1);
   bool lumen = texelFetch(materialTexture, ivec2(1, index), 0).x > 0.5;
-  if (lumen || next >= kStructure || at.share > 0.5 - 1e-3)
+  if (lumen || next >= kStructure || at.share > kShareThreshold)
     return index;
 #endif
   return 0;
@@ -249,26 +302,28 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   const bool byMask = false;
 #endif
 #ifdef PETROUS_LABELS
-  if (byLabel && !byMask)
+  bool ofShare = byLabel && !byMask;
+  vec3 shareSlope = shareGradient(labelPosition(v), ofShare);
+  if (ofShare)
   {
-    vec3 slope = shareGradient(labelPosition(v));
-    slopeMm = normalFromLabel * slope;
-    along = dot(slope, labelFromVoxel * ray.direction);
+    slopeMm = normalFromLabel * shareSlope;
+    along = dot(shareSlope, labelFromVoxel * ray.direction);
   }
 #endif
 #ifdef PETROUS_MASK
+  vec3 maskSlope = maskGradient(v, byMask);
   if (byMask)
   {
-    vec3 slope = maskGradient(v);
-    slopeMm = normalFromVoxel * slope;
-    along = dot(slope, ray.direction);
+    slopeMm = normalFromVoxel * maskSlope;
+    along = dot(maskSlope, ray.direction);
   }
 #endif
-  if (!byMask && !byLabel)
+  bool ofCt = !byMask && !byLabel;
+  vec3 ctSlope = ctGradient(v, ofCt);
+  if (ofCt)
   {
-    vec3 slope = ctGradient(v);
-    slopeMm = normalFromVoxel * slope;
-    along = dot(slope, ray.direction);
+    slopeMm = normalFromVoxel * ctSlope;
+    along = dot(ctSlope, ray.direction);
   }
   float size = length(slopeMm);
   vec3 below = v;
@@ -284,6 +339,48 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec3 lit = surfaceColor(ray.material, ray.row, intensityAt(below, ray.more), facing, hit);
   ray.color += ray.transmittance * ray.row.z * lit;
   ray.transmittance *= 1.0 - ray.row.z;
+}
+
+// To the next change of state, and through it. False: it is the ray's end.
+bool goOn(inout Ray ray, bool face, float facing, inout float depth)
+{
+  float hit = ray.first;
+  if (!face)
+  {
+    if (!march(ray))
+      return false; // it left the volume, or nothing comes through any more
+    ray.sampleNumber -= 1.0; // that sample is taken again in the new state
+    hit = changePoint(ray);
+  }
+  vec3 v = positionOf(ray, hit);
+#ifdef PETROUS_INTERIOR
+  if (ray.state != kAir)
+    passTissue(ray, v, hit);
+#endif
+  if (ray.next != kAir && (ray.state == kAir || (ray.state == kBone && ray.next >= kStructure)))
+  {
+    setMaterial(ray, materialAt(v, ray.at, ray.next));
+    shade(ray, v, hit, face ? facing : -1.0);
+    if (depth < 0.0)
+      depth = hit;
+  }
+#ifdef PETROUS_INTERIOR
+  if (ray.transmittance < termination)
+    return false;
+  // The state says what fills it, not the surface: a lumen's look belongs to the wall only, and
+  // between two structures the other's voxels may begin just behind the hit.
+  int inside = max(ray.next - kStructure, 0);
+  if (ray.next != kAir && ray.material != inside)
+    setMaterial(ray, inside);
+  ray.reading = readingAt(ray.material, ray.row, intensityAt(v, ray.more));
+  ray.state = ray.next;
+  ray.before = hit;
+  ray.done = hit;
+  ray.passed = kUnknown;
+  ray.height = vec2(-1e9);
+  ray.summit = 0.0;
+#endif
+  return ray.before < ray.last;
 }
 
 void main()
@@ -308,6 +405,7 @@ void main()
   ray.before = ray.first;
   ray.t = ray.first;
   ray.height = vec2(-1e9);
+  ray.passed = kUnknown;
   ray.summit = 0.0;
   ray.state = kAir;
   ray.material = 0;
@@ -315,6 +413,7 @@ void main()
   ray.more = vec4(0.0);
 #ifdef PETROUS_INTERIOR
   ray.reading = Reading(0.0, vec4(0.0));
+  ray.done = ray.first;
 #endif
   ray.color = vec3(0.0);
   ray.transmittance = 1.0;
@@ -323,50 +422,16 @@ void main()
   ray.next = alive ? stateOf(ray.at, v, false) : kAir;
   bool face = ray.next != kAir; // the ray enters tissue through the border of what is drawn
 
+#ifdef PETROUS_INTERIOR
   for (int events = 0; alive && events < kMostEvents; ++events)
   {
-    float hit = ray.first;
-    float high = ray.first;
-    if (!face)
-    {
-      if (!march(ray))
-        break; // it left the volume, or nothing comes through any more
-      ray.sampleNumber -= 1.0; // that sample is taken again in the new state
-      hit = changePoint(ray, high);
-    }
-    v = positionOf(ray, hit);
-    ray.at = operandsAt(v, false);
-#ifdef PETROUS_INTERIOR
-    if (ray.state != kAir)
-      passTissue(ray, v, hit);
-#endif
-    if (ray.next != kAir && (ray.state == kAir || (ray.state == kBone && ray.next >= kStructure)))
-    {
-      setMaterial(ray, materialAt(v, ray.at, ray.next));
-      shade(ray, v, hit, face ? span.facing : -1.0);
-      if (outDepth < 0.0)
-        outDepth = hit;
-    }
-#ifdef PETROUS_INTERIOR
-    if (ray.transmittance < termination)
-      break;
-    // The state says what fills it, not the surface: a lumen's look belongs to the wall only, and
-    // between two structures the other's voxels may begin just behind the hit.
-    int inside = max(ray.next - kStructure, 0);
-    if (ray.next != kAir && ray.material != inside)
-      setMaterial(ray, inside);
-    ray.reading = readingAt(ray.material, ray.row, intensityAt(v, ray.more));
-    ray.state = ray.next;
-    ray.before = high;
-    ray.height = vec2(-1e9);
-    ray.summit = 0.0;
+    alive = goOn(ray, face, span.facing, outDepth);
     face = false;
-    if (ray.before >= ray.last)
-      break;
-#else
-    break;
-#endif
   }
+#else
+  if (alive)
+    goOn(ray, face, span.facing, outDepth);
+#endif
 
   outColor = vec4(ray.color, 1.0 - ray.transmittance);
 #ifdef PETROUS_COUNT

@@ -98,7 +98,10 @@ const int kMostEvents = 512; // far more than a ray meets before nothing comes t
 const uint kMixed = 1u;
 const uint kLabels = 2u;
 const uint kBorder = 16u;
-const float kSummitDoubt = 0.5;
+const float kShareThreshold = 0.5 - 1e-3;
+const float kOnSurface = 1e-5; // of f: that near to 0 a surface is found
+const int kFalsePositions = 5;
+const float kSummitDoubt = 1.0;
 const float kLongSteps = 4.0; // where nothing but the density changes
 
 #ifdef PETROUS_COUNT
@@ -196,16 +199,23 @@ int stateOf(Operands at, vec3 v, const bool plain)
   return kBone;
 }
 
-// Gradients over the voxels of the operand's own grid, one-sided at its border.
+// Gradients over the voxels of the operand's own grid, one-sided at its border. One sample a turn: to
+// pixels in lock step a loop that none of them needs costs one turn, a branch all that is in it.
 #define GRADIENT(name, sampleAt, upper)                                                            \
-  vec3 name(vec3 v)                                                                                \
+  vec3 name(vec3 v, bool wanted)                                                                   \
   {                                                                                                \
     vec3 low = max(v - 1.0, vec3(0.0));                                                            \
     vec3 high = min(v + 1.0, upper);                                                               \
     vec3 run = high - low;                                                                         \
-    vec3 rise = vec3(sampleAt(vec3(high.x, v.yz)) - sampleAt(vec3(low.x, v.yz)),                   \
-                     sampleAt(vec3(v.x, high.y, v.z)) - sampleAt(vec3(v.x, low.y, v.z)),           \
-                     sampleAt(vec3(v.xy, high.z)) - sampleAt(vec3(v.xy, low.z)));                  \
+    vec3 rise = vec3(0.0);                                                                         \
+    int turns = wanted ? 6 : 0;                                                                    \
+    for (int i = 0; i < turns; ++i)                                                                \
+    {                                                                                              \
+      bvec3 axis = equal(ivec3(i >> 1), ivec3(0, 1, 2));                                           \
+      bool ahead = (i & 1) != 0;                                                                   \
+      float value = sampleAt(mix(v, ahead ? high : low, axis));                                    \
+      rise += mix(vec3(0.0), vec3(ahead ? value : -value), axis);                                  \
+    }                                                                                              \
     return mix(vec3(0.0), rise / max(run, vec3(1e-6)), greaterThan(run, vec3(0.0)));               \
   }
 

@@ -113,15 +113,15 @@ std::string joined(const Points& points, const Panel& panel, const std::string& 
   for (std::size_t n = 1; n < points.size(); ++n)
     result += svg::line(panel.x(points[n - 1]), panel.y(points[n - 1]), panel.x(points[n]),
                         panel.y(points[n]), color);
-  bool above = true; // in turns, so that neighbours have room
+  svg::Labels labels(panel.px(0), panel.py(1), panel.px(1), panel.py(0));
   for (const auto& point : points)
-  {
+    labels.keepClear(panel.x(point), panel.y(point), point.isDefault ? 9.0 : 5.0);
+  for (const bool ringed : {true, false}) // the default's value has the first choice
+    for (const auto& point : points)
+      if (point.isDefault == ringed)
+        result += labels.beside(panel.x(point), panel.y(point), point.setting.at(point.series));
+  for (const auto& point : points)
     result += svg::dot(panel.x(point), panel.y(point), color, hintOf(point), point.isDefault);
-    result += svg::text(panel.x(point) + (above ? 7 : -7), panel.y(point) + (above ? -8 : 17),
-                        point.setting.at(point.series),
-                        above ? "font-size=\"10\"" : "font-size=\"10\" text-anchor=\"end\"");
-    above = !above;
-  }
   return result;
 }
 

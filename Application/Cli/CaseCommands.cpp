@@ -65,8 +65,11 @@ void sayCase(const Context& context, const scene::Case& value)
     for (const auto& s : part.structures)
       context.say("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " + s.look.preset);
   for (const auto& mesh : value.meshes)
+  {
+    const std::string refusal = touchRefusal(value, mesh);
     context.say("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                (scene::findStructure(value, mesh.name) ? "" : ", not touchable"));
+                (refusal.empty() ? "" : ", not touchable: " + refusal));
+  }
   context.say("  " + std::to_string(value.applied) + " strokes done, " +
               std::to_string(value.strokes.size() - value.applied) + " to redo, " +
               fixed(value.removedVolume(), 1) + " mm3 removed");

@@ -1,6 +1,7 @@
 #include "CaseJson.h"
 
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Scene/CaseField.h"
 
 namespace petrous::cli
 {
@@ -48,6 +49,18 @@ json lookJson(const appearance::StructureLook& look)
           {"transfer", std::move(transfer)}};
 }
 
+std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
+{
+  try
+  {
+    return scene::untouchable(value, mesh);
+  }
+  catch (const core::Error& error) // the rest of the case can be told all the same
+  {
+    return error.what();
+  }
+}
+
 json infoJson(const scene::Case& value)
 {
   json ct = gridJson(value.ct.geometry);
@@ -81,10 +94,16 @@ json infoJson(const scene::Case& value)
                         {"solid", s.look.solid}});
   json meshes = json::array();
   for (const auto& mesh : value.meshes)
-    // Touch works on voxels: a mesh alone is seen, not felt, and the list says so.
+  {
+    const std::string refusal = touchRefusal(value, mesh);
     meshes.push_back({{"name", mesh.name},
                       {"triangles", mesh.triangles},
-                      {"touchable", scene::findStructure(value, mesh.name) != nullptr}});
+                      {"flags", appearance::flagsOf(mesh.look)},
+                      {"solid", mesh.look.solid},
+                      {"touchable", refusal.empty()}});
+    if (!refusal.empty())
+      meshes.back()["touchable_reason"] = refusal;
+  }
   return {{"case", value.name},
           {"iso_hu", value.iso},
           {"dense_bone_hu", value.denseBone},
@@ -138,9 +157,13 @@ std::map<std::string, std::size_t> residentResources(const scene::Case& value)
     if (const auto labels = part.labels.peek())
       resources["labels.voxels." + part.structures.front().name] = labels->voxels->bytes();
   for (const auto& part : value.meshes)
+  {
     if (const auto mesh = part.mesh.peek())
       resources["meshes." + part.name] = mesh->vertices.size() * sizeof(Eigen::Vector3f) +
                                          mesh->triangles.size() * 3 * sizeof(std::uint32_t);
+    if (const auto solid = part.touch.resident())
+      resources["meshes.touch." + part.name] = solid->bytes();
+  }
   if (value.dissection)
   {
     resources["mask.bricks"] = std::as_const(*value.dissection).mask().residentBytes();

@@ -22,6 +22,10 @@ nlohmann::json gridJson(const core::GridGeometry& grid);
 /// transfer: null, or {"relative", "points"} as a --tf file has them.
 nlohmann::json lookJson(const appearance::StructureLook& look);
 
+/// Why the hand does not feel a mesh (scene::untouchable), or the mesh's file cannot be read; empty
+/// when it does feel it.
+std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh);
+
 /// What `petrous info` gives.
 nlohmann::json infoJson(const scene::Case& value);
 

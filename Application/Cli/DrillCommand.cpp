@@ -1,14 +1,16 @@
 #include <algorithm>
 #include <ctime>
 #include <fstream>
+#include <optional>
 
 #include "CaseJson.h"
 #include "Commands.h"
+#include "DrillLog.h"
 #include "Numbers.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Presenters/CasePicture.h"
-#include "petrous/Presenters/DrillSession.h"
+#include "petrous/Presenters/PathDrill.h"
 
 namespace petrous::cli
 {
@@ -22,7 +24,8 @@ struct Options
   double diameter = 4.0;
   double rpm = 60000.0;
   double rate = 1000.0;
-  std::string mode, thrust, log;
+  std::string mode = "6dof", log;
+  std::optional<double> thrust;
 };
 
 double threadSeconds()
@@ -77,27 +80,56 @@ dissection::Burr burrFrom(const Options& options)
   return burr;
 }
 
+presenters::PathDrill::Options toolFrom(const Options& options)
+{
+  presenters::PathDrill::Options result;
+  result.tool.burr = burrFrom(options);
+  if (options.mode != "6dof" && options.mode != "3dof")
+    throw UsageError("--mode: '6dof' or '3dof', not '" + options.mode + "'");
+  result.tool.mode = options.mode == "3dof" ? presenters::TouchTool::Mode::ThreeDof
+                                            : presenters::TouchTool::Mode::SixDof;
+  if (options.thrust && !(*options.thrust > 0.0 && *options.thrust <= 20.0))
+    throw UsageError("--thrust: must lie above 0 and within 20 N");
+  result.thrust = options.thrust;
+  return result;
+}
+
+// The hardest that any tick was.
+struct Peaks
+{
+  double force = 0.0;       // N
+  double torque = 0.0;      // N mm
+  double penetration = 0.0; // mm
+
+  void add(const simulation::TickRecord& record)
+  {
+    const haptics::Wrench wrench = record.wrench.wrench();
+    force = std::max(force, wrench.linear.norm());
+    torque = std::max(torque, wrench.angular.norm());
+    penetration = std::max(penetration, record.penetration);
+  }
+};
+
 void drill(const Context& context, const Options& options)
 {
-  if (!options.mode.empty())
-    notBuiltYet("--mode");
-  if (!options.thrust.empty())
-    notBuiltYet("--thrust");
-  if (!options.log.empty())
-    notBuiltYet("--log");
-  const dissection::Burr burr = burrFrom(options);
+  presenters::PathDrill::Options tool = toolFrom(options);
   std::ifstream file = openForReading(options.path);
   const auto path = dissection::ToolPath::read(file, options.path);
 
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   library.loadDissection(value);
-  presenters::DrillSession session(value);
-  const auto camera = presenters::currentCamera(value);
+  tool.camera = presenters::currentCamera(value);
   const core::Progress progress = context.progress();
+  presenters::TouchScene touch(value, progress);
+  presenters::PathDrill session(value, touch, tool);
+  std::optional<DrillLog> log;
+  if (!options.log.empty())
+    log.emplace(options.log, value, touch);
 
   const std::size_t before = value.applied;
   TickTimes cpu, wall;
+  Peaks peaks;
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
   const double length = std::max(path.samples().back().time - start, 1e-9);
@@ -108,21 +140,25 @@ void drill(const Context& context, const Options& options)
                 progress.report(0.9 * (tick.time - start) / length, "drilling");
               const double cpuStart = threadSeconds();
               const double wallStart = wallSeconds();
-              if (tick.drill && !session.drilling())
-                session.begin(burr, presenters::utcNow(), tick.time, camera);
-              // At drill-off the way since the last tick was still drilled.
-              session.moveTo(tick.pose.translation(), tick.time);
+              const simulation::TickRecord& record = session.feel(tick);
               cpu.add(threadSeconds() - cpuStart);
               wall.add(wallSeconds() - wallStart);
-              if (!tick.drill && session.drilling())
-                session.end();
+              session.cut(tick);
+              peaks.add(record);
+              if (log)
+                log->add(record);
             });
   session.end();
+  if (log)
+    log->close();
   const std::size_t strokes = value.applied - before;
   if (strokes > 0)
     library.save(value, progress.part(0.9, 1.0));
   else
     context.remark("the path cut nothing; the case is as it was");
+  if (session.ticksInside() > 0)
+    context.remark("the tool stood in tissue for " + std::to_string(session.ticksInside()) +
+                   " ticks: there nothing is felt, and the drill takes what the burr sweeps");
 
   double removed = 0.0;
   std::size_t undoBytes = 0;
@@ -145,6 +181,10 @@ void drill(const Context& context, const Options& options)
                 {"ticks", ticks},
                 {"strokes", strokes},
                 {"removed_mm3", removed},
+                {"max_penetration_mm", peaks.penetration},
+                {"max_force_n", peaks.force},
+                {"max_torque_nmm", peaks.torque},
+                {"ticks_inside", session.ticksInside()},
                 {"structures_touched", std::move(structures)},
                 {"undo_bytes", undoBytes},
                 {"tick_us", cpu.json()},
@@ -158,7 +198,8 @@ void addDrillCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-      app, "drill", "Play a tool path: what the burr sweeps with the drill on is cut",
+      app, "drill",
+      "Play a tool path: the tool is held by the tissue, and the drill takes what it is pressed on",
       [options, &context] { drill(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command
@@ -170,10 +211,17 @@ void addDrillCommand(CLI::App& app, Context& context)
   command->add_option("--diameter", options->diameter, "Of the burr, mm (4)");
   command->add_option("--rpm", options->rpm, "Spindle speed, turns a minute (60000)");
   command->add_option("--tick-hz", options->rate, "Ticks a second of simulated time (1000)");
-  // In the contract, not built yet: refused when asked for, not offered.
-  command->add_option("--mode", options->mode)->group("");
-  command->add_option("--thrust", options->thrust)->group("");
-  command->add_option("--log", options->log)->group("");
+  command->add_option("--mode", options->mode,
+                      "6dof: burr, shaft and handpiece; 3dof: the burr alone (6dof)");
+  command
+      ->add_option("--thrust", options->thrust,
+                   "Press the tool on the surface with so many newtons; the path gives place and "
+                   "heading")
+      ->type_name("N");
+  command
+      ->add_option("--log", options->log,
+                   "One row a tick: device, tool, force, contact, volume removed")
+      ->type_name("F.csv");
 }
 
 } // namespace petrous::cli

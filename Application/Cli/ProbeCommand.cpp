@@ -13,7 +13,8 @@ namespace
 // How far a surface is looked for, mm.
 constexpr double kReach = 20.0;
 
-std::string structureAt(const scene::Case& value, const Eigen::Vector3d& p)
+std::string structureAt(const scene::Case& value, const std::vector<scene::MeshSolid>& meshes,
+                        const Eigen::Vector3d& p)
 {
   for (const auto& part : value.labels)
   {
@@ -30,6 +31,9 @@ std::string structureAt(const scene::Case& value, const Eigen::Vector3d& p)
       if (structure.index == index)
         return structure.name;
   }
+  for (const scene::MeshSolid& mesh : meshes)
+    if (volume::isInside(*mesh.share, p))
+      return mesh.part->name;
   return {};
 }
 
@@ -49,23 +53,26 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
-  const volume::TissueField field = scene::tissueField(value);
+  const core::Progress progress = context.progress();
+  const volume::TissueField field = scene::tissueField(value, progress.part(0.0, 0.2));
+  const auto meshes = scene::meshSolids(
+      value, [](const auto&) { return true; }, progress.part(0.2, 0.4));
+  const core::Progress probing = progress.part(0.4, 1.0);
   volume::NearestSurfaceSearch surface(field, kReach);
   const auto ct = value.ct.volume.get();
-  const core::Progress progress = context.progress();
 
   std::string csv = "x_mm,y_mm,z_mm,f,hu,structure,distance_mm,nx,ny,nz\n";
   nlohmann::json rows = nlohmann::json::array();
   for (std::size_t n = 0; n < points.size(); ++n)
   {
-    progress.report(static_cast<double>(n) / static_cast<double>(points.size()), "probing");
+    probing.report(static_cast<double>(n) / static_cast<double>(points.size()), "probing");
     const Eigen::Vector3d& p = points[n];
     const Eigen::Vector3d voxel = ct->geometry().voxelFromPatient(p);
     std::optional<double> hu;
     if (ct->geometry().hullContains(voxel))
       hu = ct->sample(voxel);
     const auto nearest = surface.find(p);
-    const std::string structure = structureAt(value, p);
+    const std::string structure = structureAt(value, meshes, p);
     const auto component = [&](int axis)
     { return nearest ? std::optional<double>(nearest->normal[axis]) : std::nullopt; };
     const auto distance = nearest ? std::optional<double>(nearest->distance) : std::nullopt;

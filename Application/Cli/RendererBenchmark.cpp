@@ -5,12 +5,15 @@
 #include <limits>
 #include <memory>
 
+#include <Eigen/Geometry>
+
 #include "OwnPicture.h"
 #include "PeerPicture.h"
 #include "RendererAccuracy.h"
 #include "RendererBenchmarkScenes.h"
 #include "TimedView.h"
 #include "petrous/Dissection/SweptSphereCut.h"
+#include "petrous/Rendering/ScenePicture.h"
 
 namespace petrous::cli
 {
@@ -33,13 +36,14 @@ struct Extent
   int frames = 9;
   int peerFrames = 3;
   int edits = 40;
+  int turns = 80; // of the camera, while it moves
 };
 
 Extent extentOf(const RendererBenchmarkOptions& options)
 {
   Extent extent;
   if (options.quick)
-    extent = {{96}, {160, 120}, {80, 60}, {320, 180}, 1, 1, 5};
+    extent = {{96}, {160, 120}, {80, 60}, {320, 180}, 1, 1, 5, 4};
   if (!options.edges.empty())
     extent.edges = options.edges;
   return extent;
@@ -101,6 +105,7 @@ public:
   void sweep(const BenchmarkPatient& patient, const core::Progress& progress);
   void stereo(const BenchmarkPatient& patient);
   void edits(const BenchmarkPatient& patient);
+  void interaction(const BenchmarkPatient& patient, const core::Progress& progress);
 
 private:
   void scene(const BenchmarkPatient& patient, BenchmarkView view, BenchmarkLook look,
@@ -294,6 +299,51 @@ void Run::edits(const BenchmarkPatient& patient)
   }
 }
 
+// The camera swings round its focal point, and the picture is as coarse as the window makes it
+// then. Every frame counts, the first ones included, in which it learns how fast the machine is.
+void Run::interaction(const BenchmarkPatient& patient, const core::Progress& progress)
+{
+  constexpr double swing = 0.5; // rad to each side
+  double done = 0.0;
+  for (const BenchmarkView view : {BenchmarkView::Head, BenchmarkView::Near})
+    for (const BenchmarkLook look : {BenchmarkLook::Translucent, BenchmarkLook::Opaque})
+    {
+      const std::string name = patient.name + ", interactive " + nameOf(view) + ", " + nameOf(look);
+      progress.report(done / 4.0, name);
+      done += 1.0;
+      const core::CameraPose middle = cameraOf(patient, view);
+      rendering::ScenePicture scene;
+      scene.setContents(contentsOf(patient, look));
+      scene.setCamera(middle);
+      m_view.show(scene);
+      TimedView::Timing timing;
+      timing.first = m_view.frame(false); // at rest, in full
+      scene.setInteractive(true);
+      timing.frames = m_extent.turns;
+      std::vector<double> seconds;
+      double scale = 1.0;
+      for (int n = 0; n < timing.frames; ++n)
+      {
+        const double angle = swing * std::sin(2.0 * EIGEN_PI * (n + 1) / timing.frames);
+        core::CameraPose pose = middle;
+        pose.position = middle.focalPoint + Eigen::AngleAxisd(angle, middle.viewUp.normalized()) *
+                                                (middle.position - middle.focalPoint).eval();
+        scene.setCamera(pose);
+        seconds.push_back(m_view.frame(false));
+        scale = std::min(scale, 1.0 * scene.depth().width / m_extent.picture.width);
+      }
+      std::sort(seconds.begin(), seconds.end());
+      timing.median = seconds[seconds.size() / 2];
+      auto point = pointOf(name, m_extent.picture, timing);
+      point.isDefault = true;
+      point.errorUnit = "not measured while it moves";
+      point.extra["hertz"] = 1.0 / timing.median;
+      point.extra["slowest_hertz"] = 1.0 / seconds.back();
+      point.extra["smallest_scale"] = scale;
+      m_report.points.push_back(std::move(point));
+    }
+}
+
 } // namespace
 
 core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& options,
@@ -310,7 +360,10 @@ core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& optio
     const BenchmarkPatient patient = phantomPatient(edges[n], part.part(0.0, 0.1));
     run.frames(patient, part.part(0.1, 0.8));
     if (n == 0)
-      run.sweep(patient, part.part(0.8, 0.9));
+    {
+      run.interaction(patient, part.part(0.8, 0.82));
+      run.sweep(patient, part.part(0.82, 0.9));
+    }
     if (n + 1 == edges.size())
     {
       run.stereo(patient);

@@ -103,6 +103,56 @@ std::string dot(double x, double y, const std::string& fill, const std::string& 
   return result + at + "5\" fill=\"" + fill + "\"><title>" + escaped(hint) + "</title></circle>\n";
 }
 
+Labels::Labels(double left, double top, double right, double bottom)
+  : m_within{left, top, right, bottom}
+{
+}
+
+void Labels::keepClear(double x, double y, double radius)
+{
+  m_taken.push_back({x - radius, y - radius, x + radius, y + radius});
+}
+
+bool Labels::free(const Box& box) const
+{
+  return box.left >= m_within.left && box.right <= m_within.right && box.top >= m_within.top &&
+         box.bottom <= m_within.bottom &&
+         std::none_of(m_taken.begin(), m_taken.end(),
+                      [&box](const Box& other)
+                      {
+                        return box.left < other.right && other.left < box.right &&
+                               box.top < other.bottom && other.top < box.bottom;
+                      });
+}
+
+std::string Labels::beside(double x, double y, const std::string& words)
+{
+  constexpr double digit = 6.5; // wide, as the fonts of the usual viewers draw it
+  constexpr double half = 5.5;  // of the height
+  constexpr double ring = 14.0;
+  constexpr int rings = 5;
+  // Above to the right first: curves of time against error fall.
+  constexpr std::array<std::array<double, 2>, 8> ways{
+      {{1, -1}, {-1, 1}, {-1, -1}, {1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}}};
+  const double wide = 0.5 * digit * static_cast<double>(words.size());
+  for (int n = 0; n < rings; ++n)
+    for (const auto& way : ways)
+    {
+      const double centerX = x + way[0] * (8.0 + wide + ring * n);
+      const double centerY = y + way[1] * (11.0 + ring * n);
+      const Box box{centerX - wide, centerY - half, centerX + wide, centerY + half};
+      if (!free(box))
+        continue;
+      m_taken.push_back(box);
+      const std::string words10 =
+          text(centerX, centerY + 3.5, words, "text-anchor=\"middle\" font-size=\"10\"");
+      return n == 0
+                 ? words10
+                 : line(x, y, centerX - way[0] * wide, centerY - way[1] * half, "#aaa") + words10;
+    }
+  return {};
+}
+
 std::string start(double width, double height, const std::string& title)
 {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed(width, 0) + "\" height=\"" +

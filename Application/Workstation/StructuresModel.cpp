@@ -5,6 +5,7 @@
 #include <QPixmap>
 
 #include "Theme.h"
+#include "petrous/Scene/CaseField.h"
 
 namespace petrous::workstation
 {
@@ -83,6 +84,25 @@ int StructuresModel::columnCount(const QModelIndex& parent) const
   return parent.isValid() ? 0 : static_cast<int>(ColumnCount);
 }
 
+// Why a mesh with the mark is not felt all the same; empty when it is. Asked for under the mouse
+// only, as it takes a moment.
+QString StructuresModel::untouchableText(const std::string& name) const
+{
+  const auto& value = m_model.value();
+  for (const auto& mesh : value.meshes)
+    if (mesh.name == name)
+      try
+      {
+        const std::string reason = scene::untouchable(value, mesh);
+        return reason.empty() ? QString() : tr("Not felt: %1").arg(words(reason));
+      }
+      catch (const core::Error& error)
+      {
+        return words(error.what());
+      }
+  return {};
+}
+
 QVariant StructuresModel::data(const QModelIndex& index, int role) const
 {
   if (!index.isValid() || index.row() >= rowCount())
@@ -108,6 +128,8 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return tr("Volume in mm³");
     return {};
   default:
+    if (role == Qt::ToolTipRole && index.column() == Touchable && row.isMesh)
+      return untouchableText(row.name);
     if (role == Qt::CheckStateRole && (flags(index) & Qt::ItemIsUserCheckable))
       return flagOf(row.look, index.column()) ? Qt::Checked : Qt::Unchecked;
     return {};
@@ -139,9 +161,7 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
   if (!index.isValid())
     return Qt::NoItemFlags;
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
-  const Row& row = m_rows[static_cast<std::size_t>(index.row())];
-  // A mesh is only looked at: the tissue field is made of voxels.
-  if (index.column() == Shown || (index.column() > Shown && !row.isMesh))
+  if (index.column() >= Shown)
     flags |= Qt::ItemIsUserCheckable;
   return flags;
 }

@@ -46,6 +46,7 @@ private:
     appearance::StructureLook look;
   };
   std::vector<Row> rows() const;
+  QString untouchableText(const std::string& mesh) const;
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;

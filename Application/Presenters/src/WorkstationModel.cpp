@@ -172,16 +172,14 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
 {
   if (!m_case || m_drill)
     return;
-  if (auto* found = scene::findStructure(*m_case, structure))
-  {
-    if (found->look.touchable != look.touchable || found->look.drillable != look.drillable)
-      m_session.reset();
-    found->look = look;
-  }
-  else if (auto* mesh = scene::findMesh(*m_case, structure))
-    mesh->look = look;
-  else
+  auto* found = scene::findStructure(*m_case, structure);
+  auto* mesh = found ? nullptr : scene::findMesh(*m_case, structure);
+  if (!found && !mesh)
     return;
+  appearance::StructureLook& present = found ? found->look : mesh->look;
+  if (present.touchable != look.touchable || present.drillable != look.drillable)
+    m_session.reset();
+  present = look;
   tell(events.appearanceChanged);
   setUnsaved(true);
 }
@@ -238,6 +236,9 @@ std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
       if (structure.index == index)
         return structure.name;
   }
+  for (const auto& mesh : m_case->meshes)
+    if (const auto solid = mesh.touch.resident(); solid && volume::isInside(*solid, patient))
+      return mesh.name;
   return {};
 }
 

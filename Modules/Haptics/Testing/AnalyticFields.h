@@ -17,17 +17,15 @@ using SignedDistance = std::function<double(const Eigen::Vector3d&)>;
 constexpr double kIso = 300.0;
 constexpr double kPerMillimetre = 400.0; ///< HU a mm of distance, as int16 voxels hold it
 
-/// A CT whose iso surface is the solid's, on an axis-aligned cube of `half` mm round the origin.
-inline std::shared_ptr<const volume::IntensityVolume> scanOf(const SignedDistance& solid, double h,
-                                                             double half)
+/// A CT whose iso surface is the solid's.
+inline std::shared_ptr<const volume::IntensityVolume> scanOn(const core::GridGeometry& grid,
+                                                             const SignedDistance& solid)
 {
-  const int n = static_cast<int>(std::ceil(2.0 * half / h)) + 1;
-  const core::GridGeometry grid({n, n, n}, Eigen::Vector3d::Constant(h),
-                                Eigen::Vector3d::Constant(-0.5 * h * (n - 1)));
   auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
+  const core::Index3& n = grid.dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
       {
         const double d = solid(grid.patientFromVoxel({double(i), double(j), double(k)}));
         voxels->at(i, j, k) = static_cast<std::int16_t>(
@@ -35,6 +33,16 @@ inline std::shared_ptr<const volume::IntensityVolume> scanOf(const SignedDistanc
       }
   return std::make_shared<volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+}
+
+/// The same on an axis-aligned cube of `half` mm round the origin.
+inline std::shared_ptr<const volume::IntensityVolume> scanOf(const SignedDistance& solid, double h,
+                                                             double half)
+{
+  const int n = static_cast<int>(std::ceil(2.0 * half / h)) + 1;
+  return scanOn(core::GridGeometry({n, n, n}, Eigen::Vector3d::Constant(h),
+                                   Eigen::Vector3d::Constant(-0.5 * h * (n - 1))),
+                solid);
 }
 
 struct Scene
@@ -90,6 +98,47 @@ inline SignedDistance plate(const Eigen::Vector3d& normal, double thickness)
 {
   const Eigen::Vector3d n = normal.normalized();
   return [n, thickness](const Eigen::Vector3d& p) { return 0.5 * thickness - std::abs(n.dot(p)); };
+}
+
+/// Lowers the mask to what a burr at `centre` leaves, with an edge one voxel wide, or raises it to
+/// untouched there; publishes it as the dissection does.
+inline void cutBall(Scene& scene, const Eigen::Vector3d& centre, double radius, bool raise = false)
+{
+  volume::CutMask& mask = *scene.mask;
+  const core::GridGeometry& grid = mask.geometry();
+  const double h = grid.minSpacing();
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius + h);
+  const core::IndexBox box = grid.boxCovering(centre - reach, centre + reach);
+  const core::IndexBox bricks = mask.bricksCovering(box);
+  for (int bk = bricks.lower[2]; bk < bricks.upper[2]; ++bk)
+    for (int bj = bricks.lower[1]; bj < bricks.upper[1]; ++bj)
+      for (int bi = bricks.lower[0]; bi < bricks.upper[0]; ++bi)
+      {
+        const std::size_t index = mask.brickIndex({bi, bj, bk});
+        auto brick = std::make_shared<volume::CutMask::Brick>();
+        brick->fill(volume::CutMask::kUntouched);
+        if (mask.brick(index))
+          *brick = *mask.brick(index);
+        const core::IndexBox voxels = mask.brickBox(index);
+        for (int k = voxels.lower[2]; k < voxels.upper[2]; ++k)
+          for (int j = voxels.lower[1]; j < voxels.upper[1]; ++j)
+            for (int i = voxels.lower[0]; i < voxels.upper[0]; ++i)
+            {
+              const double d =
+                  (grid.patientFromVoxel({double(i), double(j), double(k)}) - centre).norm();
+              const auto left = static_cast<std::uint16_t>(std::lround(
+                  volume::CutMask::kUntouched * std::clamp(0.5 + (d - radius) / h, 0.0, 1.0)));
+              constexpr int edge = volume::CutMask::kBrickEdge;
+              std::uint16_t& voxel = (*brick)[static_cast<std::size_t>(
+                  i % edge + edge * (j % edge + edge * (k % edge)))];
+              if (raise && left < volume::CutMask::kUntouched)
+                voxel = volume::CutMask::kUntouched;
+              else if (!raise)
+                voxel = std::min(voxel, left);
+            }
+        mask.setBrick(index, brick);
+      }
+  scene.published->publish(mask, mask.takeDirty(), raise);
 }
 
 /// A plain ball as a shell: an even spiral of points, for tests that need no shaft.

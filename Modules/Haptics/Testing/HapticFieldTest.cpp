@@ -57,19 +57,32 @@ Mixed mixed(Random& random)
         share->at(i, j, k) = static_cast<float>(between(random, 0.0, 1.0));
   scene.share = share;
   scene.mask = std::make_shared<volume::CutMask>(grid);
-  for (int n = 0; n < 6; ++n)
+  // Some balls are cut out, with the ramp of a cut: 1/2 over a voxel diagonal.
+  std::vector<std::pair<Eigen::Vector3d, double>> balls;
+  for (int n = 0; n < 8; ++n)
+    balls.emplace_back(grid.patientFromVoxel({between(random, 0, 44), between(random, 0, 37),
+                                              between(random, 0, 29)}),
+                       between(random, 1.0, 4.0));
+  for (std::size_t n = 0; n < scene.mask->brickCount(); ++n)
   {
     auto brick = std::make_shared<volume::CutMask::Brick>();
     brick->fill(volume::CutMask::kUntouched);
-    const auto index = static_cast<std::size_t>(
-        between(random, 0.0, static_cast<double>(scene.mask->brickCount()) - 0.01));
-    const core::IndexBox box = scene.mask->brickBox(index);
-    for (int k = 0; k < box.size()[2]; ++k)
-      for (int j = 0; j < box.size()[1]; ++j)
-        for (int i = 0; i < box.size()[0]; ++i)
-          (*brick)[static_cast<std::size_t>(i + 16 * (j + 16 * k))] =
-              static_cast<std::uint16_t>(between(random, 0, 65535));
-    scene.mask->setBrick(index, brick);
+    const core::IndexBox box = scene.mask->brickBox(n);
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        {
+          double left = 1.0;
+          for (const auto& [center, radius] : balls)
+          {
+            const double d =
+                (grid.patientFromVoxel({double(i), double(j), double(k)}) - center).norm() - radius;
+            left = std::min(left, std::clamp(0.5 + 0.5 * d / grid.spacing().norm(), 0.0, 1.0));
+          }
+          (*brick)[static_cast<std::size_t>(i % 16 + 16 * (j % 16 + 16 * (k % 16)))] =
+              static_cast<std::uint16_t>(std::lround(65535.0 * left));
+        }
+    scene.mask->setBrick(n, brick);
   }
   scene.published = std::make_shared<volume::PublishedMask>(*scene.mask);
   scene.tissue = std::make_shared<volume::TissueField>(

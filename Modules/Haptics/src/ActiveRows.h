@@ -31,6 +31,12 @@ public:
     double square = 0.0; ///< of its length, > 0
   };
 
+  struct Members
+  {
+    std::array<Eigen::Index, kMost> row;
+    Coefficients multiplier;
+  };
+
   explicit ActiveRows(double compliance)
     : m_compliance(compliance)
   {
@@ -38,9 +44,10 @@ public:
 
   int size() const noexcept { return m_size; }
   void clear() noexcept { m_size = 0; }
-  Eigen::Index row(int j) const noexcept { return m_row[j]; }
-  double& multiplier(int j) noexcept { return m_multiplier[j]; }
-  double multiplier(int j) const noexcept { return m_multiplier[j]; }
+  const Members& members() const noexcept { return m_members; }
+  Eigen::Index row(int j) const noexcept { return m_members.row[j]; }
+  double& multiplier(int j) noexcept { return m_members.multiplier[j]; }
+  double multiplier(int j) const noexcept { return m_members.multiplier[j]; }
 
   /// (n, sqrt(c) e) = Q d + rest. Orthogonalised twice: once leaves an error of eps |n| / |rest| in
   /// the direction of a short rest.
@@ -111,8 +118,8 @@ public:
     m_r[k][k] = length;
     m_head[k] = rest.head / length;
     m_tail[k][k] = std::sqrt(m_compliance) / length;
-    m_row[k] = row;
-    m_multiplier[k] = multiplier;
+    m_members.row[k] = row;
+    m_members.multiplier[k] = multiplier;
     ++m_size;
   }
 
@@ -124,8 +131,8 @@ public:
     for (int k = j; k < m_size; ++k)
     {
       m_r[k] = m_r[k + 1];
-      m_row[k] = m_row[k + 1];
-      m_multiplier[k] = m_multiplier[k + 1];
+      m_members.row[k] = m_members.row[k + 1];
+      m_members.multiplier[k] = m_members.multiplier[k + 1];
     }
     for (int k = 0; k <= m_size; ++k)
       for (int i = j; i < m_size; ++i)
@@ -168,8 +175,7 @@ private:
   std::array<Vector6, kMost> m_head;
   std::array<Coefficients, kMost> m_tail;
   std::array<Coefficients, kMost> m_r; // columns of R
-  std::array<Eigen::Index, kMost> m_row;
-  Coefficients m_multiplier;
+  Members m_members{};
 };
 
 } // namespace petrous::haptics

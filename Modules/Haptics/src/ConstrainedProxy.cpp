@@ -16,6 +16,7 @@ namespace
 // The motion aims at this much of a voxel above the surface, so that the curvature that the rows
 // do not know rarely costs another round.
 constexpr double kSkin = 0.01;
+constexpr double kSkinSlack = 0.3; // of the skin, that need not be given back
 constexpr double kMostLift = 0.05; // voxels, over a bump
 constexpr int kMostStretches = 32; // sweeps of a tick that end freely
 constexpr double kTrailStep = 0.5; // voxels
@@ -91,27 +92,43 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
   m_sweep.field().mask().release();
 }
 
-// Rigid tissue is kept at the skin, soft tissue at its surface. Where tissue on all sides leaves no
-// room for the skin, the rows are put so that standing still is allowed.
-void ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
+// Two problems. In the first, standing still is allowed, and its forces are what the hand feels. In
+// the second the tool also keeps the skin above rigid tissue; tissue on all sides may leave no room
+// for that, and then the first one's motion stands.
+Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
 {
   const double skin = kSkin * m_sweep.field().voxel();
-  const ContactQp::Vector6 goal = vector6(wanted.linear, wanted.angular);
   m_finder->find(m_hits.data(), m_hitCount);
-  for (const bool tight : {false, true})
+  m_rowCount = 0;
+  bool tight = false;
+  m_qp.clear();
+  for (const auto& [contact, compliance, slope, stopped] : *m_finder)
+  {
+    Row& row = m_rows[m_rowCount];
+    row.contact = contact;
+    row.jacobian = vector6(contact.normal, contact.arm.cross(contact.normal));
+    row.bound = (contact.soft ? 0.0 : stopped ? lift : skin) - contact.gap;
+    row.compliance = compliance;
+    const bool lowered = !contact.soft && row.bound > 0.0;
+    if (!m_qp.add(row.jacobian, lowered ? 0.0 : row.bound, compliance))
+      continue;
+    tight = tight || (lowered && row.bound > kSkinSlack * skin);
+    ++m_rowCount;
+  }
+  m_qp.solve(vector6(wanted.linear, wanted.angular));
+  ContactQp::Vector6 motion = m_qp.solution();
+  m_forced = motion - vector6(wanted.linear, wanted.angular);
+  for (std::size_t n = 0; n < m_rowCount; ++n)
+    m_rows[n].contact.thrust = m_qp.lambda(n);
+  if (tight)
   {
     m_qp.clear();
-    for (const auto& [contact, compliance, slope, stopped] : *m_finder)
-    {
-      const double bound = (contact.soft ? 0.0 : stopped ? lift : skin) - contact.gap;
-      const std::size_t n = m_qp.count();
-      if (m_qp.add(vector6(contact.normal, contact.arm.cross(contact.normal)),
-                   tight && !contact.soft ? std::min(bound, 0.0) : bound, compliance))
-        m_rows[n] = contact;
-    }
-    if (m_qp.solve(goal) == ContactQp::Status::Solved)
-      return;
+    for (std::size_t n = 0; n < m_rowCount; ++n)
+      m_qp.add(m_rows[n].jacobian, m_rows[n].bound, m_rows[n].compliance);
+    if (m_qp.solve(vector6(wanted.linear, wanted.angular)) == ContactQp::Status::Solved)
+      motion = m_qp.solution();
   }
+  return {motion.head<3>(), motion.tail<3>()};
 }
 
 void ConstrainedProxy::remember() noexcept
@@ -157,23 +174,21 @@ void ConstrainedProxy::notice() noexcept
     m_inside = true;
 }
 
-void ConstrainedProxy::report(const Motion& wanted) noexcept
+void ConstrainedProxy::report() noexcept
 {
-  const ContactQp::Vector6& a = m_qp.solution();
-  m_tick.wrench.linear = m_parameters.stiffness * (a.head<3>() - wanted.linear);
-  m_tick.wrench.angular = m_parameters.angularStiffness * (a.tail<3>() - wanted.angular);
-  for (std::size_t n = 0; n < m_qp.count(); ++n)
+  m_tick.contactCount = 0;
+  m_tick.thrust = 0.0;
+  m_tick.wrench.linear = m_parameters.stiffness * m_forced.head<3>();
+  m_tick.wrench.angular = m_parameters.angularStiffness * m_forced.tail<3>();
+  for (std::size_t n = 0; n < m_rowCount; ++n)
   {
-    const double lambda = m_qp.lambda(n);
-    if (!(lambda > 0.0))
+    const ProxyContact& contact = m_rows[n].contact;
+    if (!(contact.thrust > 0.0))
       continue;
-    if (m_rows[n].point < m_sweep.shell().burrCount)
-      m_tick.thrust += lambda;
-    if (m_tick.contactCount == ProxyTick::kMostContacts)
-      continue;
-    ProxyContact& contact = m_tick.contacts[m_tick.contactCount++];
-    contact = m_rows[n];
-    contact.thrust = lambda;
+    if (contact.point < m_sweep.shell().burrCount)
+      m_tick.thrust += contact.thrust;
+    if (m_tick.contactCount < ProxyTick::kMostContacts)
+      m_tick.contacts[m_tick.contactCount++] = contact;
   }
   if (m_tick.contactCount > 0 && m_tick.status == ProxyStatus::Free)
     m_tick.status = ProxyStatus::Contact;
@@ -195,15 +210,14 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
   const double reach = m_sweep.shell().reach;
   const double ahead = (m_parameters.nearGap + kSkin) * h;
   double lift = 2.0 * kSkin * h;
-  Motion wanted;
   int stretches = 0;
   m_hitCount = 0;
   while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches)
   {
-    wanted = motionBetween(m_sweep.pose(), goal);
+    const Motion wanted = motionBetween(m_sweep.pose(), goal);
     m_sweep.findNear(ahead);
-    solve(wanted, kSkin * h);
-    const Motion motion{m_qp.solution().head<3>(), m_qp.solution().tail<3>()};
+    const Motion motion = solve(wanted, kSkin * h);
+    report();
     const double way = longestWay(motion, reach);
     if (way < m_parameters.deadband)
       break;
@@ -223,13 +237,11 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     {
       // It lies on a bump that a smooth normal does not know: up first, then on.
       m_sweep.findNear(ahead);
-      solve({}, lift);
-      const Motion up{m_qp.solution().head<3>(), m_qp.solution().tail<3>()};
+      const Motion up = solve({}, lift);
       advance(up, longestWay(up, reach));
       lift = std::min(2.0 * lift, kMostLift * h);
     }
   }
-  report(wanted);
 }
 
 const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept

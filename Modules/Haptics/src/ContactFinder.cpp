@@ -13,9 +13,10 @@ constexpr double kAlong = 0.05;     // cosine: a normal along the way that led i
 constexpr double kClose = 0.002;    // voxels: a gap that needs no better estimate
 constexpr double kExplained = 0.02; // voxels: as deep as a known contact's plane says
 constexpr std::size_t kMostRefined = 16;
-constexpr double kFarthest = 0.6;    // rad, from a shell point to the ball's contact
-constexpr double kAligned = 0.01;    // rad, residual of a found contact
-constexpr double kMisaligned = 0.05; // rad, residual of one that was not found
+constexpr std::size_t kMostOnBall = 64; // deepest first; the sweep answers for the others
+constexpr double kFarthest = 0.6;       // rad, from a shell point to the ball's contact
+constexpr double kAligned = 0.01;       // rad, residual of a found contact
+constexpr double kMisaligned = 0.05;    // rad, residual of one that was not found
 constexpr int kTurns = 4;
 constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the surface as it is, ripples too
 constexpr double kDeepest = 0.05; // voxels: of a gap that is given back in one motion
@@ -186,7 +187,7 @@ void ContactFinder::find(const ShellSweep::Hit* hits, std::size_t hitCount) noex
   std::sort(m_order.begin(), m_order.begin() + static_cast<std::ptrdiff_t>(ball),
             [near](std::uint32_t a, std::uint32_t b)
             { return near[a].sample.value > near[b].sample.value; });
-  for (std::size_t n = 0; n < ball; ++n)
+  for (std::size_t n = 0; n < ball && m_count < kMostOnBall; ++n)
     if (!explained(near[m_order[n]]))
       add(near[m_order[n]], false, m_count < kMostRefined, nullptr);
   for (std::size_t n = 0; n < m_sweep.nearCount(); ++n)

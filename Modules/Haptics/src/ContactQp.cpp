@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "ActiveRows.h"
+#include "SpringObjective.h"
+#include "WhitenedRows.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::haptics
@@ -14,22 +14,23 @@ namespace petrous::haptics
 namespace
 {
 
-// Rows within this share of the problem's length of their bound hold: some thousand roundings.
+// Rows within this share of the problem's size of their bound hold: some thousand roundings.
 constexpr double kFeasible = 1e-12;
 constexpr double kRounding = 1e-15;
-// Rigid rows give this much, beside the coupling: then rows that depend on each other are no special
-// case, and walls that nearly face each other press with at most 1e6 times the hand's force.
+// What rigid rows give, beside the coupling. Its root, 1e-7, is how near to dependence rows are
+// told apart; rounding over that root is what an accident of rounding moves the solution by.
 constexpr double kCompliance = 1e-14;
-// A row that gives more than this share of the problem's length shows a contradiction: where some
-// motion w fulfils every row, c multiplier <= sqrt(c) |w - v|.
+// A row that gives more than this share of the problem's size shows a contradiction: where some
+// motion w fulfils every row, no row gives more than sqrt(c F(w)) on the way to the solution.
 constexpr double kGiving = 4e-7;
-// Whitened compliance, beside the coupling's own, under which a row is rigid.
+// Compliance, beside the coupling's own, under which a row is rigid.
 constexpr double kRigid = 1e-9;
-// Whitened lengths beyond this, or below its inverse, would overflow when squared.
-constexpr double kLongest = 1e100;
-constexpr int kMostChanges = 4000; // of the active set, in one problem
-constexpr int kMostSteps = 60;    // of Newton's method
-constexpr int kMostCuts = 40;     // of a line search
+// A Newton step under this share of the problem's size is taken whole: it can be shorter than what
+// the rigid rows give, which the line search does not see.
+constexpr double kShort = 1e-3;
+constexpr int kNewtonSteps = 12;
+constexpr int kMostPasses = 3;
+constexpr int kMostChanges = 3000; // of the active rows and pressing springs
 
 const ContactQp::Vector6& checked(std::size_t capacity, const ContactQp::Vector6& stiffness)
 {
@@ -42,73 +43,48 @@ const ContactQp::Vector6& checked(std::size_t capacity, const ContactQp::Vector6
 
 } // namespace
 
-ContactQp::Rows::Rows(std::size_t capacity)
-  : normal(capacity, 6)
-  , bound(capacity)
-  , slack(capacity)
-  , spring(capacity)
-  , weight(capacity)
-  , rate(capacity)
-  , length(capacity)
-  , row(capacity)
+struct ContactQp::Work
 {
-}
+  explicit Work(std::size_t capacity)
+    : rigid(capacity)
+    , springs(capacity)
+    , active(kCompliance)
+  {
+  }
 
-bool ContactQp::Rows::add(const Vector6& whitened, double limit, double compliance,
-                          std::size_t callersRow) noexcept
-{
-  const double largest = whitened.cwiseAbs().maxCoeff();
-  if (!(largest < kLongest))
-    return false;
-  const bool zero = largest < 1.0 / kLongest;
-  const double norm = zero ? 1.0 : whitened.norm();
-  const double scaledBound = limit / norm;
-  const double scaledSpring = compliance > 0.0 ? norm * norm / compliance : 0.0;
-  if (!std::isfinite(scaledBound) || !std::isfinite(scaledSpring))
-    return false;
-  if (zero)
-    normal.row(count).setZero();
-  else
-    normal.row(count) = whitened.transpose() / norm;
-  bound[count] = scaledBound;
-  spring[count] = scaledSpring;
-  weight[count] = 0.0;
-  length[count] = norm;
-  row[count] = callersRow;
-  ++count;
-  return true;
-}
+  Status settle(const Vector6& v, Vector6& y) noexcept;
+  Status fulfil(Vector6& y, bool follow) noexcept;
+  Status takeIn(Eigen::Index row, bool follow, Vector6& y) noexcept;
+  void rebuild() noexcept;
+  void finish(Vector6& y) noexcept;
+  void refine(double compliance, Vector6& y) noexcept;
+  double given(const Vector6& y) const noexcept;
 
-void ContactQp::Rows::measure(const Vector6& y) noexcept
-{
-  slack.head(count) = normal.col(0).head(count) * y[0] + normal.col(1).head(count) * y[1] +
-                      normal.col(2).head(count) * y[2] + normal.col(3).head(count) * y[3] +
-                      normal.col(4).head(count) * y[4] + normal.col(5).head(count) * y[5] -
-                      bound.head(count);
-}
-
-void ContactQp::Rows::along(const Vector6& d) noexcept
-{
-  rate.head(count) = normal.col(0).head(count) * d[0] + normal.col(1).head(count) * d[1] +
-                     normal.col(2).head(count) * d[2] + normal.col(3).head(count) * d[3] +
-                     normal.col(4).head(count) * d[4] + normal.col(5).head(count) * d[5];
-}
+  WhitenedRows rigid;
+  SpringObjective springs;
+  ActiveRows active;
+  double highest = 0.0; ///< largest bound above 0
+  double scale = 0.0;   ///< the problem's size: root of 2 F(0), and the largest bound
+  int changes = 0;
+};
 
 ContactQp::ContactQp(std::size_t capacity, const Vector6& stiffness)
   : m_root(checked(capacity, stiffness).cwiseSqrt())
-  , m_rigid(capacity)
-  , m_soft(capacity)
   , m_lambda(capacity, 0.0)
 {
+  m_work = std::make_unique<Work>(capacity);
 }
+
+ContactQp::~ContactQp() = default;
+ContactQp::ContactQp(ContactQp&&) noexcept = default;
+ContactQp& ContactQp::operator=(ContactQp&&) noexcept = default;
 
 void ContactQp::clear() noexcept
 {
   m_count = 0;
-  m_rigid.count = 0;
-  m_soft.count = 0;
-  m_highest = 0.0;
-  m_energy = 0.0;
+  m_work->rigid.count = 0;
+  m_work->springs.clear();
+  m_work->highest = 0.0;
 }
 
 bool ContactQp::add(const Vector6& row, double bound, double compliance) noexcept
@@ -118,12 +94,11 @@ bool ContactQp::add(const Vector6& row, double bound, double compliance) noexcep
     return false;
   const Vector6 whitened = row.cwiseQuotient(m_root);
   const bool soft = compliance > kRigid * whitened.squaredNorm();
-  Rows& rows = soft ? m_soft : m_rigid;
-  if (!rows.add(whitened, bound, soft ? compliance : 0.0, m_count))
+  if (soft ? !m_work->springs.add(whitened, bound, compliance, m_count)
+           : !m_work->rigid.add(whitened, bound, m_count))
     return false;
-  const double inside = std::max(0.0, rows.bound[rows.count - 1]);
-  m_highest = std::max(m_highest, inside);
-  m_energy += inside * inside * rows.spring[rows.count - 1];
+  const WhitenedRows& rows = soft ? m_work->springs.rows() : m_work->rigid;
+  m_work->highest = std::max(m_work->highest, rows.bound[rows.count - 1]);
   m_lambda[m_count] = 0.0;
   ++m_count;
   return true;
@@ -131,151 +106,114 @@ bool ContactQp::add(const Vector6& row, double bound, double compliance) noexcep
 
 ContactQp::Status ContactQp::solve(const Vector6& unconstrained) noexcept
 {
-  m_iterations = 0;
+  Work& work = *m_work;
   m_solution.setZero();
   std::fill_n(m_lambda.begin(), m_count, 0.0);
   const Vector6 v = m_root.cwiseProduct(unconstrained);
-  const double largest = v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-  if (!(largest < kLongest) || !(m_highest < kLongest) || !std::isfinite(m_energy))
-    return Status::Exhausted;
-  m_scale = m_highest + std::sqrt(v.squaredNorm() + m_energy);
-
-  ActiveRows active(kCompliance);
+  work.scale = work.highest + std::sqrt(v.squaredNorm() + work.springs.energyAtRest());
+  work.changes = 0;
+  m_iterations = 0;
   Vector6 y = v;
-  const Status status = relax(v, y) ? minimise(active, y) : Status::Exhausted;
+  if (work.scale < 1.0 / WhitenedRows::kLongest)
+    return Status::Solved;
+  // A size that is not a number is no size either.
+  const Status status = work.scale < WhitenedRows::kLongest ? work.settle(v, y) : Status::Exhausted;
+  m_iterations = work.changes;
   if (status != Status::Solved)
     return status;
-  refine(v, y, active);
+  work.finish(y);
 
-  // From here on the multipliers are the truth, and y is what they give: force and motion agree.
+  // The multipliers are the truth and y is what they give, so that force and motion agree.
   y = v;
-  for (int j = 0; j < active.size(); ++j)
+  for (int j = 0; j < work.active.size(); ++j)
   {
-    const Eigen::Index i = active.row(j);
-    const double pressure = std::max(0.0, active.multiplier(j));
-    y += pressure * m_rigid.normalOf(i);
-    m_lambda[m_rigid.row[i]] = pressure / m_rigid.length[i];
+    const Eigen::Index i = work.active.row(j);
+    const double multiplier = work.active.multiplier(j);
+    y += multiplier * work.rigid.normalOf(i);
+    m_lambda[work.rigid.row[i]] = multiplier / work.rigid.length[i];
   }
-  for (Eigen::Index i = 0; i < m_soft.count; ++i)
-    if (m_soft.weight[i] > 0.0)
+  const WhitenedRows& soft = work.springs.rows();
+  for (Eigen::Index i = 0; i < soft.count; ++i)
+    if (work.springs.force(i) > 0.0)
     {
-      const double pressure = std::max(0.0, m_soft.rate[i]);
-      y += pressure * m_soft.normalOf(i);
-      m_lambda[m_soft.row[i]] = pressure / m_soft.length[i];
+      y += work.springs.force(i) * soft.normalOf(i);
+      m_lambda[soft.row[i]] = work.springs.force(i) / soft.length[i];
     }
   m_solution = y.cwiseQuotient(m_root);
   return status;
 }
 
-// The minimum over the springs alone, by Newton's method. Ends where a step's own springs still
-// press at its end and no others do: there the model is the objective.
-bool ContactQp::relax(const Vector6& v, Vector6& y) noexcept
+ContactQp::Status ContactQp::Work::settle(const Vector6& v, Vector6& y) noexcept
 {
-  m_hessian.setIdentity();
-  m_inverseRoot.setIdentity();
-  if (m_soft.count == 0)
-    return true;
-  m_soft.weight.head(m_soft.count).setZero();
-  m_soft.measure(y);
-  takePressing();
-  for (int n = 0; n < kMostSteps; ++n)
-  {
-    ++m_iterations;
-    Vector6 next = y;
-    takeModel(v, next);
-    const Vector6 step = next - y;
-    const double share = lineSearch(v, y, step);
-    const bool done = step.norm() <= kRounding * m_scale;
-    y = share < 1.0 ? Vector6(y + share * step) : next;
-    m_soft.measure(y);
-    if (done || (!takePressing() && share == 1.0))
-      return true;
-  }
-  return false;
-}
-
-// Springs press where their slack is negative; true when they are not the same as before.
-bool ContactQp::takePressing() noexcept
-{
-  bool changed = false;
-  for (Eigen::Index i = 0; i < m_soft.count; ++i)
-  {
-    const double weight = m_soft.slack[i] < 0.0 ? m_soft.spring[i] : 0.0;
-    changed |= weight != m_soft.weight[i];
-    m_soft.weight[i] = weight;
-  }
-  return changed;
-}
-
-// The objective's quadratic model at y, with the slacks and the pressing springs as they are there:
-// W from its Hessian H = 1 + sum w n n^T, and y moved to its minimum.
-void ContactQp::takeModel(const Vector6& v, Vector6& y) noexcept
-{
-  const Eigen::Index count = m_soft.count;
-  m_hessian.setIdentity();
-  Vector6 gradient = y - v;
-  for (int k = 0; k < 6; ++k)
-  {
-    const auto weighted = m_soft.weight.head(count) * m_soft.normal.col(k).head(count);
-    gradient[k] += (weighted * m_soft.slack.head(count)).sum();
-    for (int j = k; j < 6; ++j)
-      m_hessian(j, k) += (weighted * m_soft.normal.col(j).head(count)).sum();
-  }
-  takeRoot();
-  y -= m_inverseRoot.transpose() * (m_inverseRoot * gradient);
-}
-
-void ContactQp::takeRoot() noexcept
-{
-  const Eigen::LLT<Matrix6> cholesky(m_hessian);
-  m_inverseRoot = cholesky.matrixL().solve(Matrix6::Identity());
-}
-
-// Dual active set: from the model's minimum take in the most violated row, letting go of those
-// whose multiplier would become negative, until every rigid row holds.
-ContactQp::Status ContactQp::minimise(ActiveRows& active, Vector6& y) noexcept
-{
+  springs.start(v);
   active.clear();
-  if (m_rigid.count == 0)
-    return Status::Solved;
-  while (true)
+  if (springs.empty())
+    return fulfil(y, false);
+  // Newton's method: the model's minimum under the rigid rows, from there again, until a step's
+  // springs still press at its end and no others do.
+  for (int n = 0; n < kNewtonSteps; ++n)
   {
-    m_rigid.measure(y);
-    // The others need not hold better than the active rows do.
-    double giving = 0.0;
-    for (int j = 0; j < active.size(); ++j)
-    {
-      m_rigid.slack[active.row(j)] = 0.0;
-      giving = std::max(giving, kCompliance * active.multiplier(j));
-    }
-    const auto slacks = m_rigid.slack.head(m_rigid.count);
-    const double lowest = slacks.minCoeff();
-    if (!(lowest < -kFeasible * m_scale - 2.0 * giving))
+    ++changes;
+    Vector6 next = y;
+    springs.step(next);
+    active.clear();
+    if (fulfil(next, false) != Status::Solved)
+      break;
+    const Vector6 d = next - y;
+    // The first step comes from where the rigid rows do not hold: there is no line to search.
+    const bool whole = n == 0 || d.norm() < kShort * scale;
+    const double share = whole ? 1.0 : springs.lineSearch(y, d);
+    y = share < 1.0 ? Vector6(y + share * d) : next;
+    if (!springs.takePressing(y) && share == 1.0)
       return Status::Solved;
-    const Eigen::Index row = std::find(slacks.begin(), slacks.end(), lowest) - slacks.begin();
-    const Status status = takeIn(row, lowest, active, y);
+  }
+  // It runs in circles now and then, or meets a model that contradicts the rows. Slower, but sure:
+  // from the springs' own minimum, following each of them.
+  y = v;
+  active.clear();
+  if (!springs.minimise(y, kRounding * scale, changes))
+    return Status::Exhausted;
+  return fulfil(y, true);
+}
+
+// Dual active set: from a minimum without rigid rows, take in the most violated row, letting go of
+// those whose multiplier would become negative, until every row holds.
+ContactQp::Status ContactQp::Work::fulfil(Vector6& y, bool follow) noexcept
+{
+  while (rigid.count > 0)
+  {
+    // The others need not hold better than the active rows do.
+    const double allowed = kFeasible * scale + 2.0 * given(y);
+    rigid.measure(y);
+    for (int j = 0; j < active.size(); ++j)
+      rigid.slack[active.row(j)] = 0.0;
+    const auto slack = rigid.slack.head(rigid.count);
+    const double lowest = slack.minCoeff();
+    if (!(lowest < -allowed))
+      break;
+    const Eigen::Index row = std::find(slack.begin(), slack.end(), lowest) - slack.begin();
+    const Status status = takeIn(row, follow, y);
     if (status != Status::Solved)
       return status;
   }
+  return Status::Solved;
 }
 
-ContactQp::Status ContactQp::takeIn(Eigen::Index row, double slack, ActiveRows& active,
-                                    Vector6& y) noexcept
+// Presses on one row until it holds. `follow`: springs that begin or cease to press on the way
+// change the model there, so that y stays a minimum of F; otherwise the model stays.
+ContactQp::Status ContactQp::Work::takeIn(Eigen::Index row, bool follow, Vector6& y) noexcept
 {
-  const Vector6 normal = m_rigid.normalOf(row);
-  const auto rate = m_soft.rate.head(m_soft.count);
+  const Vector6 normal = rigid.normalOf(row);
   double multiplier = 0.0;
-  m_soft.measure(y);
-  while (true)
+  while (++changes < kMostChanges)
   {
-    if (++m_iterations > kMostChanges)
-      return Status::Exhausted;
     ActiveRows::Coefficients d;
-    const ActiveRows::Rest rest = active.split(m_inverseRoot * normal, d);
+    const ActiveRows::Rest rest = active.split(springs.inverseRoot() * normal, d);
     const ActiveRows::Coefficients r = active.solve(d);
-    const Vector6 way = m_inverseRoot.transpose() * rest.head;
-    // The step in units of the new row's multiplier: to its bound, or to where the first of the
-    // others' multipliers is zero.
+    const Vector6 way = springs.inverseRoot().transpose() * rest.head;
+    // How far, in units of the new multiplier: until the row holds, another's multiplier is 0, or
+    // a spring changes.
+    const double slack = normal.dot(y) + kCompliance * multiplier - rigid.bound[row];
     double length = std::max(0.0, -slack / rest.square);
     int blocking = -1;
     for (int j = 0; j < active.size(); ++j)
@@ -284,125 +222,112 @@ ContactQp::Status ContactQp::takeIn(Eigen::Index row, double slack, ActiveRows& 
         length = active.multiplier(j) / r[j];
         blocking = j;
       }
-    Eigen::Index toggled = -1;
-    if (m_soft.count > 0)
-    {
-      m_soft.along(way);
-      for (Eigen::Index i = 0; i < m_soft.count; ++i)
-      {
-        const double sl = m_soft.weight[i] > 0.0 ? -m_soft.slack[i] : m_soft.slack[i];
-        const double ra = m_soft.weight[i] > 0.0 ? m_soft.rate[i] : -m_soft.rate[i];
-        if (ra > 0.0 && sl < length * ra)
-        {
-          length = std::max(0.0, sl / ra);
-          toggled = i;
-        }
-      }
-    }
+    const Eigen::Index spring = follow ? springs.firstChange(way, length) : -1;
+
+    y += length * way;
+    multiplier += length;
     for (int j = 0; j < active.size(); ++j)
       active.multiplier(j) = std::max(0.0, active.multiplier(j) - length * r[j]);
-    multiplier += length;
-    if (kCompliance * multiplier > kGiving * m_scale)
+    if (kCompliance * multiplier > kGiving * scale)
       return Status::Infeasible;
-    y += length * way;
-    if (m_soft.count > 0)
-      m_soft.slack.head(m_soft.count) += length * rate;
-    if (toggled >= 0)
-    {
-      const double change = m_soft.spring[toggled] - 2.0 * m_soft.weight[toggled];
-      m_soft.weight[toggled] += change;
-      const Vector6 n = m_soft.normalOf(toggled);
-      m_hessian += change * n * n.transpose();
-      takeRoot();
-      const ActiveRows old = active;
-      active.clear();
-      for (int j = 0; j < old.size(); ++j)
-      {
-        const ActiveRows::Rest left =
-            active.split(m_inverseRoot * m_rigid.normalOf(old.row(j)), d);
-        active.push(old.row(j), d, left, old.multiplier(j));
-      }
-    }
+    if (follow)
+      springs.advance(length, spring);
+    if (spring >= 0)
+      rebuild();
     else if (blocking >= 0)
       active.drop(blocking);
-    else
+    else if (active.size() < ActiveRows::kMost)
     {
-      if (active.size() == ActiveRows::kMost)
-        return Status::Exhausted;
       active.push(row, d, rest, multiplier);
       return Status::Solved;
     }
-    slack = normal.dot(y) + kCompliance * multiplier - m_rigid.bound[row];
+    else
+      return Status::Exhausted;
+  }
+  return Status::Exhausted;
+}
+
+// The active rows again, in the metric of a new model.
+void ContactQp::Work::rebuild() noexcept
+{
+  const ActiveRows::Members members = active.members();
+  const int size = active.size();
+  active.clear();
+  for (int j = 0; j < size; ++j)
+  {
+    ActiveRows::Coefficients d;
+    const Vector6 n = springs.inverseRoot() * rigid.normalOf(members.row[j]);
+    const ActiveRows::Rest rest = active.split(n, d);
+    active.push(members.row[j], d, rest, members.multiplier[j]);
   }
 }
 
-// Root of the objective's derivative along d from y, where the slacks are known: it is increasing
-// and piecewise linear, so Newton's method within a bracket finds it. 1 where the step's end is
-// still downhill.
-double ContactQp::lineSearch(const Vector6& v, const Vector6& y, const Vector6& d) noexcept
+// How far the active rows are from their bounds at y.
+double ContactQp::Work::given(const Vector6& y) const noexcept
 {
-  const Eigen::Index count = m_soft.count;
-  const auto slack = m_soft.slack.head(count);
-  const auto rate = m_soft.rate.head(count);
-  m_soft.along(d);
-  const auto stretched = rate * m_soft.spring.head(count);
-  const double start = d.dot(y - v);
-  const double square = d.squaredNorm();
-  const double steepest = start + ((slack.min(0.0)) * stretched).sum();
-  double low = 0.0;
-  double high = 1.0;
-  double t = 1.0;
-  for (int n = 0; n < kMostCuts; ++n)
+  double most = 0.0;
+  for (int j = 0; j < active.size(); ++j)
   {
-    const double slope = start + t * square + ((slack + t * rate).min(0.0) * stretched).sum();
-    if (std::abs(slope) <= 1e-6 * std::abs(steepest) || (t == 1.0 && slope < 0.0))
-      return t;
-    (slope > 0.0 ? high : low) = t;
-    const double curvature =
-        square + ((slack + t * rate) < 0.0).select(rate * stretched, 0.0).sum();
-    const double guess = t - slope / curvature;
-    t = guess > low && guess < high ? guess : 0.5 * (low + high);
+    const Eigen::Index i = active.row(j);
+    most = std::max(most, rigid.bound[i] - rigid.normalOf(i).dot(y));
   }
-  return t;
+  return most;
 }
 
-// One step of iterative refinement on the equations
-//   y = v + sum multiplier n,   n y = b (rigid),   n y + multiplier / spring = b (pressing)
-// It takes away what H, ill-conditioned when springs are stiff, has spoilt. The springs'
-// multipliers end in m_soft.rate.
-void ContactQp::refine(const Vector6& v, Vector6& y, ActiveRows& active) noexcept
+// Where rows give more than a little they are pressed until they hold: refinement without giving
+// lifts the multipliers, which is a step of the proximal point method, and takes in the rows that
+// are violated then. Rows 1e-6 or farther from dependence hold after a step or two; nearer ones
+// keep to what they give.
+void ContactQp::Work::finish(Vector6& y) noexcept
 {
-  const Eigen::Index count = m_soft.count;
-  if (count > 0)
+  refine(kCompliance, y);
+  for (int n = 0; n < kMostPasses && given(y) > kFeasible * scale; ++n)
   {
-    m_soft.measure(y);
-    m_soft.rate.head(count) = -m_soft.weight.head(count) * m_soft.slack.head(count);
+    const ActiveRows before = active;
+    const Vector6 start = y;
+    refine(0.0, y);
+    const double tolerance = kFeasible * scale;
+    const bool good = springs.agrees(y, tolerance) && fulfil(y, true) == Status::Solved &&
+                      springs.agrees(y, tolerance);
+    if (!good)
+    {
+      active = before;
+      y = start;
+      springs.takePressing(y);
+    }
+    springs.takeForces(y);
+    if (!good)
+      break;
   }
-  double share = 0.0;
-  while (share < 1.0)
+}
+
+// Iterative refinement of the equations that hold at the solution,
+//   y = v + sum multiplier n,   n y + c multiplier = b for active rows and springs that press,
+// takes away what rounding on the way has left, and what H spoils when springs are stiff. A
+// multiplier that would become negative goes, and the rest is refined again.
+void ContactQp::Work::refine(double compliance, Vector6& y) noexcept
+{
+  springs.takeForces(y);
+  while (true)
   {
-    Vector6 force = v - y;
-    for (Eigen::Index i = 0; i < count; ++i)
-      force += m_soft.rate[i] * m_soft.normalOf(i);
-    ActiveRows::Coefficients missing{};
+    Vector6 force = springs.balance(y);
+    ActiveRows::Coefficients missing;
     for (int j = 0; j < active.size(); ++j)
     {
-      const Vector6 normal = m_rigid.normalOf(active.row(j));
+      const Vector6 normal = rigid.normalOf(active.row(j));
       force += active.multiplier(j) * normal;
-      missing[j] = m_rigid.bound[active.row(j)] - normal.dot(y) -
-                   kCompliance * active.multiplier(j);
+      missing[j] = rigid.bound[active.row(j)] - normal.dot(y) - compliance * active.multiplier(j);
     }
-    const Vector6 moved = m_inverseRoot * force;
-    const ActiveRows::Coefficients along = active.alongQ(moved);
+    const ActiveRows::Coefficients along = active.alongQ(springs.inverseRoot() * force);
     ActiveRows::Coefficients sum = active.solveTransposed(missing);
     for (int j = 0; j < active.size(); ++j)
       sum[j] -= along[j];
     const ActiveRows::Coefficients change = active.solve(sum);
-    share = 1.0;
+    double share = 1.0;
     int blocking = -1;
     for (int j = 0; j < active.size(); ++j)
     {
-      force += change[j] * m_rigid.normalOf(active.row(j));
+      force += change[j] * rigid.normalOf(active.row(j));
       if (active.multiplier(j) + share * change[j] < 0.0)
       {
         share = -active.multiplier(j) / change[j];
@@ -410,14 +335,19 @@ void ContactQp::refine(const Vector6& v, Vector6& y, ActiveRows& active) noexcep
       }
     }
     for (int j = 0; j < active.size(); ++j)
-      active.multiplier(j) += share * change[j];
-    const Vector6 shift = share * (m_inverseRoot.transpose() * (m_inverseRoot * force));
-    for (Eigen::Index i = 0; i < count; ++i)
-      m_soft.rate[i] -= m_soft.weight[i] * m_soft.normalOf(i).dot(shift);
+      active.multiplier(j) = std::max(0.0, active.multiplier(j) + share * change[j]);
+    const Vector6 shift =
+        share * (springs.inverseRoot().transpose() * (springs.inverseRoot() * force));
     y += shift;
-    if (blocking >= 0)
-      active.drop(blocking);
+    springs.correctForces(shift);
+    if (blocking < 0)
+      return;
+    active.drop(blocking);
   }
 }
 
 } // namespace petrous::haptics
+
+// TEMPORARY until the module's CMakeLists names these two sources.
+#include "SpringObjective.cpp"
+#include "WhitenedRows.cpp"

@@ -15,6 +15,16 @@ using volume::CutMask;
 using volume::TissueField;
 
 constexpr std::size_t kMostSolids = 255;
+constexpr double kHullSlope = 0.25; // of f a voxel, at the border of the grid
+// Of a mask, per voxel along an axis: a cut's ramp rises by 1/2 over a voxel diagonal (adr 6), and
+// what is protected by a smoothed union's 1/2 a voxel.
+constexpr double kMaskSlope = 0.5;
+
+// Of a position that is not negative.
+double inBrick(double voxel) noexcept
+{
+  return voxel - kTissueBrick * (static_cast<int>(voxel) / kTissueBrick);
+}
 
 std::size_t offsetInBrick(int i, int j, int k) noexcept
 {
@@ -31,7 +41,7 @@ HapticField::HapticField(const TissueField& tissue,
   , m_geometry(tissue.geometry())
   , m_parameters(tissue.parameters())
   , m_voxel(m_geometry.minSpacing())
-  , m_leftSteepness(m_geometry.spacing().cwiseInverse().norm()) // of a mask of whole voxels
+  , m_leftSteepness(kMaskSlope * m_geometry.spacing().cwiseInverse().norm())
 {
   if (!m_mask || !sameGrid(m_mask->geometry(), m_geometry))
     throw core::InvalidParameter("haptic field: the mask does not lie on the CT's grid");
@@ -63,9 +73,54 @@ HapticField::HapticField(const TissueField& tissue,
   m_steepness = std::move(bricks.steepness);
 }
 
-double HapticField::ct(const Eigen::Vector3d& voxel) const noexcept
+// Cell and weights of a voxel position in the hull of the CT's grid; CT and mask share them.
+struct HapticField::Cell
 {
-  const double value = (m_ct->sample(voxel) - m_parameters.iso) / m_parameters.scale;
+  int i, j, k;
+  std::size_t base, dx, dy, dz; // voxels
+  double x, y, z;               // weights of the upper corners
+
+  template <class Corner>
+  double interpolate(const Corner& at) const noexcept
+  {
+    const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
+    const double low = mix(mix(at(0), at(dx), x), mix(at(dy), at(dy + dx), x), y);
+    const double high = mix(mix(at(dz), at(dz + dx), x), mix(at(dz + dy), at(dz + dy + dx), x), y);
+    return mix(low, high, z);
+  }
+};
+
+HapticField::Cell HapticField::cellAt(const Eigen::Vector3d& voxel) const noexcept
+{
+  const core::Index3& dims = m_geometry.dims();
+  Cell cell{};
+  // Positions are not negative: to cut is to round down.
+  cell.i = std::min(static_cast<int>(voxel.x()), std::max(dims[0] - 2, 0));
+  cell.j = std::min(static_cast<int>(voxel.y()), std::max(dims[1] - 2, 0));
+  cell.k = std::min(static_cast<int>(voxel.z()), std::max(dims[2] - 2, 0));
+  cell.x = voxel.x() - cell.i;
+  cell.y = voxel.y() - cell.j;
+  cell.z = voxel.z() - cell.k;
+  const auto row = static_cast<std::size_t>(dims[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
+  cell.base = static_cast<std::size_t>(cell.i) + row * static_cast<std::size_t>(cell.j) +
+              slice * static_cast<std::size_t>(cell.k);
+  cell.dx = dims[0] > 1 ? 1 : 0;
+  cell.dy = dims[1] > 1 ? row : 0;
+  cell.dz = dims[2] > 1 ? slice : 0;
+  return cell;
+}
+
+double HapticField::ct(const Cell& cell) const noexcept
+{
+  const double hounsfield = m_ct->visit(
+      [&cell](const auto& volume)
+      {
+        const auto* corner = volume.data() + cell.base;
+        return cell.interpolate([corner](std::size_t offset)
+                                { return static_cast<double>(corner[offset]); });
+      });
+  const double value = (hounsfield - m_parameters.iso) / m_parameters.scale;
   return std::isnan(value) ? TissueField::kAir : value; // a voxel without a value is no tissue
 }
 
@@ -78,43 +133,56 @@ double HapticField::solid(std::size_t n, const Eigen::Vector3d& voxel) const noe
   return volume::sampleTrilinear(*solid.share, own) - 0.5;
 }
 
-double HapticField::left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept
+double HapticField::left(const Cell& cell, const volume::MaskState& mask) const noexcept
 {
-  const volume::TrilinearCell cell(voxel, m_geometry.dims());
+  constexpr int edge = CutMask::kBrickEdge;
+  constexpr double full = CutMask::kUntouched;
   const core::Index3& bricks = m_mask->brickDims();
-  const auto brickOf = [&bricks](int i, int j, int k)
+  const auto brickOf = [&](int i, int j, int k)
   {
-    constexpr int edge = CutMask::kBrickEdge;
-    return static_cast<std::size_t>(i / edge) +
-           static_cast<std::size_t>(bricks[0]) *
-               (static_cast<std::size_t>(j / edge) +
-                static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k / edge));
+    return mask.brick(
+        static_cast<std::size_t>(i / edge) +
+        static_cast<std::size_t>(bricks[0]) *
+            (static_cast<std::size_t>(j / edge) +
+             static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k / edge)));
   };
-  const std::size_t first = brickOf(cell.lower[0], cell.lower[1], cell.lower[2]);
-  if (first == brickOf(cell.upper[0], cell.upper[1], cell.upper[2]))
+  const int i = cell.i % edge, j = cell.j % edge, k = cell.k % edge;
+  if (i < edge - 1 && j < edge - 1 && k < edge - 1)
   {
-    const CutMask::Brick* brick = mask.brick(first);
+    const CutMask::Brick* brick = brickOf(cell.i, cell.j, cell.k);
     if (!brick)
       return 0.5;
-    return cell.interpolate([brick](int i, int j, int k)
-                            { return static_cast<double>((*brick)[offsetInBrick(i, j, k)]); }) /
-               CutMask::kUntouched -
+    Cell own = cell;
+    own.dx = cell.dx ? 1 : 0;
+    own.dy = cell.dy ? edge : 0;
+    own.dz = cell.dz ? edge * edge : 0;
+    const std::uint16_t* corner = brick->data() + offsetInBrick(i, j, k);
+    return own.interpolate([corner](std::size_t offset)
+                           { return static_cast<double>(corner[offset]); }) /
+               full -
            0.5;
   }
-  return cell.interpolate(
-             [&](int i, int j, int k)
+  // Corners numbered 0 to 7, x first.
+  Cell numbered = cell;
+  numbered.dx = 1;
+  numbered.dy = 2;
+  numbered.dz = 4;
+  return numbered.interpolate(
+             [&](std::size_t corner)
              {
-               const CutMask::Brick* brick = mask.brick(brickOf(i, j, k));
-               return brick ? static_cast<double>((*brick)[offsetInBrick(i, j, k)])
-                            : double{CutMask::kUntouched};
+               const int ci = cell.i + (corner & 1 && cell.dx ? 1 : 0);
+               const int cj = cell.j + (corner & 2 && cell.dy ? 1 : 0);
+               const int ck = cell.k + (corner & 4 && cell.dz ? 1 : 0);
+               const CutMask::Brick* brick = brickOf(ci, cj, ck);
+               return brick ? static_cast<double>((*brick)[offsetInBrick(ci, cj, ck)]) : full;
              }) /
-             CutMask::kUntouched -
+             full -
          0.5;
 }
 
 double HapticField::hull(const Eigen::Vector3d& voxel) const noexcept
 {
-  return std::min(voxel.minCoeff(), (m_last - voxel).minCoeff());
+  return kHullSlope * std::min(voxel.minCoeff(), (m_last - voxel).minCoeff());
 }
 
 FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
@@ -124,7 +192,8 @@ FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
   FieldSample result;
   if (!(border >= 0.0))
     return result;
-  const double bone = ct(voxel);
+  const Cell cell = cellAt(voxel);
+  const double bone = ct(cell);
   result.value = bone;
   result.decider = Decider::Ct;
   for (std::size_t n = 0; n < m_solids.size(); ++n)
@@ -137,7 +206,7 @@ FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
       result.solid = static_cast<std::uint8_t>(n);
     }
   }
-  const double rest = std::min(left(voxel, mask), border);
+  const double rest = std::min(left(cell, mask), border);
   result.uncut = result.value;
   result.left = rest;
   if (result.decider == Decider::Solid && m_soft.index && result.value > -0.5)
@@ -145,9 +214,8 @@ FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
     const volume::Volume<std::uint8_t>& index = *m_soft.index;
     const Eigen::Vector3d at = m_indexFromCt * voxel + m_indexOffset;
     const core::Index3& dims = index.geometry().dims();
-    const std::array<int, 3> nearest{static_cast<int>(std::lround(at.x())),
-                                     static_cast<int>(std::lround(at.y())),
-                                     static_cast<int>(std::lround(at.z()))};
+    const auto nearestTo = [](double x) { return static_cast<int>(std::floor(x + 0.5)); };
+    const std::array<int, 3> nearest{nearestTo(at.x()), nearestTo(at.y()), nearestTo(at.z())};
     if (index.geometry().fullBox().contains(nearest) && dims[0] > 0)
       result.compliance = double{m_soft.compliance[index.at(nearest[0], nearest[1], nearest[2])]};
     if (result.compliance > 0.0)
@@ -171,11 +239,11 @@ double HapticField::operand(const FieldSample& sample, const Eigen::Vector3d& vo
   switch (sample.decider)
   {
   case Decider::Ct:
-    return ct(voxel);
+    return ct(cellAt(voxel));
   case Decider::Solid:
     return solid(sample.solid, voxel);
   case Decider::Mask:
-    return left(voxel, mask);
+    return left(cellAt(voxel), mask);
   case Decider::Hull:
     return hull(voxel);
   case Decider::Outside:
@@ -229,7 +297,7 @@ double HapticField::clearance(const Eigen::Vector3d& voxel) const noexcept
   double toFace = kTissueBrick;
   for (Eigen::Index a = 0; a < 3; ++a)
   {
-    const double within = std::fmod(voxel[a], double{kTissueBrick});
+    const double within = inBrick(voxel[a]);
     toFace = std::min({toFace, within, kTissueBrick - within});
   }
   return ((bricks - 1) * kTissueBrick + toFace) * m_voxel;
@@ -245,8 +313,8 @@ double HapticField::freeRadius(const Eigen::Vector3d& voxel,
   double within = kTissueBrick;
   for (Eigen::Index a = 0; a < 3; ++a)
   {
-    const double inBrick = std::fmod(voxel[a], double{kTissueBrick});
-    within = std::min({within, inBrick + 1.0, kTissueBrick + 1.0 - inBrick});
+    const double at = inBrick(voxel[a]);
+    within = std::min({within, at + 1.0, kTissueBrick + 1.0 - at});
   }
   const double byTissue = std::min(within * m_voxel, -sample.uncut / steepness(voxel));
   return std::max({0.0, byTissue, -sample.left / m_leftSteepness});

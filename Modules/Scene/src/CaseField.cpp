@@ -52,6 +52,17 @@ std::vector<volume::TissueField::SolidUnion> unionOf(const Case& value, const Wa
   return {field->share};
 }
 
+// The voxels whose centres lie in a solid, as a label map with the one index 1.
+std::shared_ptr<const volume::LabelMap> insideOf(const volume::Volume<float>& share)
+{
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(share.geometry());
+  std::transform(share.data(), share.data() + share.size(), voxels->data(),
+                 [](float inside) { return static_cast<std::uint16_t>(inside > 0.5F); });
+  volume::LabelMap map;
+  map.voxels = std::move(voxels);
+  return std::make_shared<const volume::LabelMap>(std::move(map));
+}
+
 } // namespace
 
 LabelSources labelSources(const Case& value, const Wanted& wanted)
@@ -72,30 +83,71 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
   return result;
 }
 
+std::vector<MeshSolid> meshSolids(const Case& value, const Wanted& wanted,
+                                  const core::Progress& progress)
+{
+  std::vector<MeshSolid> solids;
+  for (const MeshPart& part : value.meshes)
+    if (wanted(part.look) && !findStructure(value, part.name))
+      solids.push_back({&part, nullptr});
+  const auto count = static_cast<double>(solids.size());
+  for (std::size_t n = 0; n < solids.size(); ++n)
+  {
+    const MeshPart& part = *solids[n].part;
+    solids[n].share = part.touch.solid(
+        part.mesh.get(), value.ct.geometry,
+        progress.part(static_cast<double>(n) / count, static_cast<double>(n + 1) / count));
+  }
+  const auto refused = [](const MeshSolid& solid) { return !solid.share; };
+  solids.erase(std::remove_if(solids.begin(), solids.end(), refused), solids.end());
+  return solids;
+}
+
+std::string untouchable(const Case& value, const MeshPart& mesh)
+{
+  const StructurePart* structure = findStructure(value, mesh.name);
+  const appearance::StructureLook& look = structure ? structure->look : mesh.look;
+  if (!look.solid)
+    return "it is a space without tissue";
+  if (!look.touchable)
+    return "its flag 'touchable' is off";
+  return structure ? "" : mesh.touch.refusal(mesh.mesh.get(), value.ct.geometry);
+}
+
 volume::TissueField tissueField(const Case& value, const core::Progress& progress)
 {
   std::shared_ptr<const volume::CutMask> mask;
   if (value.dissection)
     mask = {value.dissection, &std::as_const(*value.dissection).mask()};
-  return {value.ct.volume.get(),
-          unionOf(
-              value, [](const auto& look) { return look.solid && look.touchable; }, progress),
-          std::move(mask), volume::TissueField::Parameters{value.iso, kFieldScale}};
+  const auto felt = [](const auto& look) { return look.solid && look.touchable; };
+  auto solids = unionOf(value, felt, progress.part(0.0, 0.5));
+  for (MeshSolid& mesh : meshSolids(value, felt, progress.part(0.5, 1.0)))
+    solids.push_back(std::move(mesh.share));
+  return {value.ct.volume.get(), std::move(solids), std::move(mask),
+          volume::TissueField::Parameters{value.iso, kFieldScale}};
 }
 
 dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress)
 {
-  return unionOf(
-      value, [](const auto& look) { return !look.drillable; }, progress);
+  const auto kept = [](const auto& look) { return !look.drillable; };
+  auto tissue = unionOf(value, kept, progress.part(0.0, 0.5));
+  // The mask, on the CT's voxels, is what keeps them: it must hold what is thinner than a voxel.
+  for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
+    if (auto guard = volume::guardOf(*mesh.share, value.ct.geometry))
+      tissue.push_back(std::move(guard));
+  return tissue;
 }
 
 std::vector<dissection::NamedStructure> drillableStructures(const Case& value)
 {
   std::vector<dissection::NamedStructure> structures;
+  const auto drilled = [](const auto& look) { return look.drillable; };
   for (const LabelPart& part : value.labels)
     for (const StructurePart& structure : part.structures)
-      if (structure.look.drillable)
+      if (drilled(structure.look))
         structures.push_back({structure.name, part.labels.get(), structure.index});
+  for (const MeshSolid& mesh : meshSolids(value, drilled))
+    structures.push_back({mesh.part->name, insideOf(*mesh.share), 1});
   return structures;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
@@ -31,7 +32,6 @@ MeshInside::MeshInside(const core::TriangleMesh& mesh)
   const double size = (bounds[1] - bounds[0]).cast<double>().maxCoeff();
   m_unit = size > 0.0 ? size / kLatticeSteps : 1.0;
 
-  std::vector<Triangle> triangles;
   std::vector<std::array<std::int64_t, 3>> corners;
   for (const auto& indices : mesh.triangles)
   {
@@ -48,14 +48,69 @@ MeshInside::MeshInside(const core::TriangleMesh& mesh)
     }
     if (lattice[0] == lattice[1] || lattice[1] == lattice[2] || lattice[2] == lattice[0])
       continue;
-    triangles.push_back(triangle);
+    m_triangles.push_back(triangle);
     corners.insert(corners.end(), lattice.begin(), lattice.end());
     m_lattice.push_back({Lattice{lattice[0][1], lattice[0][2]},
                          Lattice{lattice[1][1], lattice[1][2]},
                          Lattice{lattice[2][1], lattice[2][2]}});
   }
   measureEdges(corners);
-  m_tree = std::make_unique<MeshTree>(std::move(triangles));
+  fillCells();
+}
+
+// About as many cells as triangles; fewer where triangles are so long that each lies in many.
+void MeshInside::fillCells()
+{
+  constexpr std::size_t kMostPlaces = 8; // of a triangle, on average
+  Lattice last{0, 0};
+  for (const auto& triangle : m_lattice)
+    for (const Lattice& corner : triangle)
+      for (std::size_t a = 0; a < 2; ++a)
+        last[a] = std::max(last[a], corner[a]);
+  // The cells of a triangle's box: first and last along y and z.
+  const auto cellsOf = [this](const std::array<Lattice, 3>& triangle)
+  {
+    std::array<Lattice, 2> cells;
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      const auto [low, high] = std::minmax({triangle[0][a], triangle[1][a], triangle[2][a]});
+      cells[0][a] = low >> m_shift;
+      cells[1][a] = high >> m_shift;
+    }
+    return cells;
+  };
+  const auto places = [&]()
+  {
+    std::int64_t sum = 0;
+    for (const auto& triangle : m_lattice)
+    {
+      const auto [first, end] = cellsOf(triangle);
+      sum += (end[0] - first[0] + 1) * (end[1] - first[1] + 1);
+    }
+    return static_cast<std::size_t>(sum);
+  };
+  const auto forCells = [&](const std::array<Lattice, 3>& triangle, const auto& visit)
+  {
+    const auto cells = cellsOf(triangle);
+    for (std::int64_t z = cells[0][1]; z <= cells[1][1]; ++z)
+      for (std::int64_t y = cells[0][0]; y <= cells[1][0]; ++y)
+        visit(static_cast<std::size_t>(y + m_cells[0] * z));
+  };
+  const double along = std::sqrt(static_cast<double>(m_lattice.size()) + 1.0);
+  m_shift = std::max(0, static_cast<int>(std::log2(2.0 * kLatticeSteps / along)));
+  while (m_shift < 25 && places() > kMostPlaces * m_lattice.size())
+    ++m_shift;
+  m_cells = {(last[0] >> m_shift) + 1, (last[1] >> m_shift) + 1};
+
+  m_cellStart.assign(static_cast<std::size_t>(m_cells[0] * m_cells[1]) + 1, 0);
+  for (const auto& triangle : m_lattice)
+    forCells(triangle, [this](std::size_t cell) { ++m_cellStart[cell + 1]; });
+  std::partial_sum(m_cellStart.begin(), m_cellStart.end(), m_cellStart.begin());
+  m_ofCell.resize(m_cellStart.back());
+  std::vector<std::uint32_t> next(m_cellStart.begin(), m_cellStart.end() - 1);
+  for (std::size_t t = 0; t < m_lattice.size(); ++t)
+    forCells(m_lattice[t],
+             [&](std::size_t cell) { m_ofCell[next[cell]++] = static_cast<std::uint32_t>(t); });
 }
 
 void MeshInside::measureEdges(const std::vector<std::array<std::int64_t, 3>>& corners)
@@ -136,23 +191,25 @@ int MeshInside::turnAt(const std::array<Lattice, 3>& triangle, const Lattice& li
 void MeshInside::crossings(double y, double z, std::vector<double>& crossings) const
 {
   crossings.clear();
-  std::vector<Crossing> all;
   const Lattice line = latticeOf(y, z);
-  // Where the line really lies; a box may end a rounding away from its triangle's lattice.
-  const double lineY = m_base[1] + 0.5 * m_unit * static_cast<double>(line[0]);
-  const double lineZ = m_base[2] + 0.5 * m_unit * static_cast<double>(line[1]);
-  m_tree->alongX(lineY, lineZ, m_unit,
-                 [&](std::size_t t)
-                 {
-                   std::array<double, 3> weights{};
-                   const int turn = turnAt(m_lattice[t], line, weights);
-                   if (turn == 0)
-                     return;
-                   const Triangle& triangle = m_tree->triangles()[t];
-                   all.push_back({weights[0] * triangle[0][0] + weights[1] * triangle[1][0] +
-                                      weights[2] * triangle[2][0],
-                                  turn});
-                 });
+  if (line[0] < 0 || line[1] < 0 || (line[0] >> m_shift) >= m_cells[0] ||
+      (line[1] >> m_shift) >= m_cells[1])
+    return;
+  std::vector<Crossing> all;
+  const auto cell =
+      static_cast<std::size_t>((line[0] >> m_shift) + m_cells[0] * (line[1] >> m_shift));
+  for (std::uint32_t n = m_cellStart[cell]; n < m_cellStart[cell + 1]; ++n)
+  {
+    const std::uint32_t t = m_ofCell[n];
+    std::array<double, 3> weights{};
+    const int turn = turnAt(m_lattice[t], line, weights);
+    if (turn == 0)
+      continue;
+    const Triangle& triangle = m_triangles[t];
+    all.push_back(
+        {weights[0] * triangle[0][0] + weights[1] * triangle[1][0] + weights[2] * triangle[2][0],
+         turn});
+  }
   std::sort(all.begin(), all.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
   int winding = 0;
   bool inside = false;
@@ -215,15 +272,14 @@ void MeshInside::addSurface(const Triangle& triangle, double resolution,
 
 std::vector<Triangle> MeshInside::surface(double resolution) const
 {
-  const auto& triangles = m_tree->triangles();
   constexpr std::size_t kChunk = 1024;
-  std::vector<std::vector<Triangle>> chunks((triangles.size() + kChunk - 1) / kChunk);
+  std::vector<std::vector<Triangle>> chunks((m_triangles.size() + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t{0}, chunks.size(),
                     [&](std::size_t chunk)
                     {
-                      const std::size_t last = std::min((chunk + 1) * kChunk, triangles.size());
+                      const std::size_t last = std::min((chunk + 1) * kChunk, m_triangles.size());
                       for (std::size_t t = chunk * kChunk; t < last; ++t)
-                        addSurface(triangles[t], resolution, chunks[chunk]);
+                        addSurface(m_triangles[t], resolution, chunks[chunk]);
                     });
   std::vector<Triangle> result;
   for (const auto& chunk : chunks)

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "MeshTree.h"
@@ -50,6 +49,7 @@ private:
 
   int facing(const Triangle& triangle, const Eigen::Vector3d& point) const;
   void addSurface(const Triangle& triangle, double resolution, std::vector<Triangle>& result) const;
+  void fillCells();
   void measureEdges(const std::vector<std::array<std::int64_t, 3>>& corners);
   Lattice latticeOf(double y, double z) const;
   int turnAt(const std::array<Lattice, 3>& triangle, const Lattice& line,
@@ -57,8 +57,14 @@ private:
 
   Eigen::Vector3d m_base{0.0, 0.0, 0.0};
   double m_unit = 1.0;
-  std::unique_ptr<MeshTree> m_tree;
-  std::vector<std::array<Lattice, 3>> m_lattice; // of the tree's triangles, even numbers
+  std::vector<Triangle> m_triangles;
+  std::vector<std::array<Lattice, 3>> m_lattice; // the triangles' corners, even numbers
+  // Which triangles may cross a line: those of its cell, a square of 2^m_shift steps of the
+  // lattice. The triangles of cell c are m_ofCell[m_cellStart[c]] to m_ofCell[m_cellStart[c + 1]].
+  int m_shift = 0;
+  Lattice m_cells{0, 0};
+  std::vector<std::uint32_t> m_cellStart;
+  std::vector<std::uint32_t> m_ofCell;
   std::size_t m_openEdges = 0;
   bool m_facesAlike = true; // as many triangles run along each edge one way as the other
 };

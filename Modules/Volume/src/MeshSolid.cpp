@@ -25,8 +25,8 @@ constexpr double kFine = 0.002;  // share of the surface that may be thinner tha
 constexpr double kWhole = 0.02;  // the same where memory is short
 constexpr double kSharp = 0.08;  // of thickness times spacing: see MeshSolid.h
 constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, not the edge of something
-constexpr std::size_t kMostSamples = 200000; // triangles at which thickness is measured
-constexpr double kGuarded = 0.501;           // above what the mask's 16 bits may round to 0.5
+constexpr std::size_t kMostSamples = 20000; // triangles at which thickness is measured
+constexpr double kGuarded = 0.501;          // above what the mask's 16 bits may round to 0.5
 
 const char* const kTask = "making a mesh touchable";
 
@@ -253,6 +253,12 @@ std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh, dou
   limits.spacing = spacing;
   const MeshSolidPlan plan = planMeshSolid(mesh, limits, progress.part(0.0, 0.2));
   return plan ? solidOf(mesh, plan, progress.part(0.2, 1.0)) : nullptr;
+}
+
+bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexcept
+{
+  const Eigen::Vector3d voxel = solid.geometry().voxelFromPatient(patient);
+  return solid.geometry().hullContains(voxel) && sampleTrilinear(solid, voxel) > 0.5;
 }
 
 std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,

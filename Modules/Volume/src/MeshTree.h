@@ -38,19 +38,6 @@ public:
   std::optional<Hit> firstAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                 double start) const;
 
-  /// visit(triangle) for the triangles that a line along x at (y, z) may pass within `slack` mm.
-  template <class Visit>
-  void alongX(double y, double z, double slack, const Visit& visit) const
-  {
-    walk(
-        [&](const Eigen::AlignedBox3d& box)
-        {
-          return y >= box.min()[1] - slack && y <= box.max()[1] + slack &&
-                 z >= box.min()[2] - slack && z <= box.max()[2] + slack;
-        },
-        visit);
-  }
-
 private:
   struct Node
   {

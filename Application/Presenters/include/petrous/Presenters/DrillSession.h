@@ -24,6 +24,9 @@ public:
   /// The field as it stands now; follows the cut.
   const volume::TissueField& field() const noexcept { return m_field; }
 
+  /// What the drill must leave.
+  const dissection::ProtectedTissue& protectedTissue() const noexcept { return m_keep; }
+
   /// Drill on: opens a stroke at time `seconds`. `startedAt` is UTC, ISO 8601.
   void begin(const dissection::Burr& burr, const std::string& startedAt, double seconds,
              const std::optional<core::CameraPose>& camera);

@@ -39,23 +39,33 @@ public:
   const ProxyTick& step(const Pose& goal) noexcept override;
 
 private:
+  struct Row
+  {
+    ProxyContact contact;
+    ContactQp::Vector6 jacobian;
+    double bound = 0.0;
+    double compliance = 0.0;
+  };
   static constexpr std::size_t kMostRows = 1024;
   static constexpr std::size_t kTrail = 512;
   static constexpr std::size_t kMostHits = 20;
 
   void follow(const Pose& goal) noexcept;
-  void solve(const Motion& wanted, double lift) noexcept;
+  Motion solve(const Motion& wanted, double lift) noexcept;
   ShellSweep::Hit advance(const Motion& motion, double way) noexcept;
   void notice() noexcept;
   bool retreat() noexcept;
   void remember() noexcept;
-  void report(const Motion& wanted) noexcept;
+  void report() noexcept;
 
   ProxyParameters m_parameters;
   ShellSweep m_sweep;
   std::unique_ptr<ContactFinder> m_finder; // looks at m_sweep
   ContactQp m_qp;
-  std::vector<ProxyContact> m_rows;              // of the last problem
+  std::vector<Row> m_rows; // of the last problem
+  std::size_t m_rowCount = 0;
+  ContactQp::Vector6 m_forced = ContactQp::Vector6::Zero(); // a - u, before the skin
+
   std::array<ShellSweep::Hit, kMostHits> m_hits; // of this tick
   std::size_t m_hitCount = 0;
   std::vector<Pose> m_trail; // ring of poses that were free

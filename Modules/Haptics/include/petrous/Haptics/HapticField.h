@@ -42,7 +42,8 @@ struct FieldSample
 /// The tissue field of PHYSICS.md ("One field") as a servo tick samples it: the same f as
 /// volume::TissueField, with the mask's present state, in voxel coordinates of the CT.
 ///
-/// f has one operand more here, the distance to the hull of the voxel centres (in voxels), so that
+/// f has one operand more here, a quarter of the distance to the hull of the voxel
+/// centres (in voxels), so that
 /// the border of the grid is a surface like others; the sign of f is the same.
 ///
 /// Made once for a tissue field (about a second for 512^3); the queries neither allocate, lock nor
@@ -94,9 +95,11 @@ private:
     Eigen::Vector3d last; ///< greatest voxel coordinate
   };
 
-  double ct(const Eigen::Vector3d& voxel) const noexcept;
+  struct Cell;
+  Cell cellAt(const Eigen::Vector3d& voxel) const noexcept;
+  double ct(const Cell& cell) const noexcept;
   double solid(std::size_t n, const Eigen::Vector3d& voxel) const noexcept;
-  double left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
+  double left(const Cell& cell, const volume::MaskState& mask) const noexcept;
   double hull(const Eigen::Vector3d& voxel) const noexcept;
   double operand(const FieldSample& sample, const Eigen::Vector3d& voxel,
                  const volume::MaskState& mask) const noexcept;

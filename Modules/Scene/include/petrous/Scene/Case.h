@@ -12,6 +12,7 @@
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
+#include "petrous/Scene/MeshTouch.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelMap.h"
@@ -60,6 +61,7 @@ struct MeshPart
   std::vector<std::string> notes; ///< what was assumed when the file was read, in words
   core::Lazy<core::TriangleMesh> mesh;
   appearance::StructureLook look;
+  MeshTouch touch; ///< its voxels for hand and drill: see CaseField.h
 };
 
 /// A stroke as the case lists it; its voxels lie in `object`.

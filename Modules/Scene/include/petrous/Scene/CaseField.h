@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "petrous/Dissection/RemovedVolume.h"
@@ -32,17 +33,37 @@ struct LabelSources
 LabelSources labelSources(const Case& value,
                           const std::function<bool(const appearance::StructureLook&)>& wanted);
 
+/// A mesh that hand and drill know, as the voxels that they know it by (volume::solidOf).
+struct MeshSolid
+{
+  const MeshPart* part; ///< points into the case
+  volume::TissueField::SolidUnion share;
+};
+
+/// The meshes whose looks are wanted, as far as they stand for themselves and can become voxels.
+/// A structure that comes as label and as mesh is the label, to the eye as to the hand: its mesh
+/// stands for nothing. Voxels are made when first asked for and kept with the case. Loads these
+/// meshes. Throws CancelledError.
+std::vector<MeshSolid>
+meshSolids(const Case& value, const std::function<bool(const appearance::StructureLook&)>& wanted,
+           const core::Progress& progress = {});
+
+/// Why the hand does not feel what goes by the mesh's name, in words that follow that name; empty
+/// when it does. Loads the mesh, makes no voxels.
+std::string untouchable(const Case& value, const MeshPart& mesh);
+
 /// The tissue field of a case. The mask is the case's present one, shared and read as it stands; a
-/// case without loaded dissection has none. Loads the CT, and labels only where a solid structure
-/// is touchable. A structure whose `touchable` is off is not in it. Its structures are united by
-/// volume::makeLabelField, as the eye's are. Throws CancelledError.
+/// case without loaded dissection has none. Loads the CT, and labels and meshes only where a solid
+/// one is touchable. A structure whose `touchable` is off is not in it. Its structures are united
+/// by volume::makeLabelField, as the eye's are; each mesh is a solid of its own. Throws
+/// CancelledError.
 volume::TissueField tissueField(const Case& value, const core::Progress& progress = {});
 
-/// Structures that the drill must leave (`drillable` off), lumens among them.
+/// Structures and meshes that the drill must leave (`drillable` off), lumens among them.
 dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress = {});
 
-/// The structures that a stroke can take something of (`drillable` on), with their voxels. Loads
-/// the labels.
+/// The structures and meshes that a stroke can take something of (`drillable` on), with their
+/// voxels. Loads the labels and these meshes.
 std::vector<dissection::NamedStructure> drillableStructures(const Case& value);
 
 } // namespace petrous::scene

@@ -73,6 +73,9 @@ std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh,
 std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh, double spacing,
                                              const core::Progress& progress = {});
 
+/// Whether a point (patient LPS mm) lies inside a solid.
+bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexcept;
+
 /// What a structure that must not be drilled needs: a share on the voxels of `grid` (cut to a box
 /// round the solid) which, interpolated between them, does not fall below 0.5 anywhere in the
 /// solid, though parts of it be thinner than a voxel. Null where the solid reaches no voxel of the

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+
+#include "petrous/Haptics/HapticField.h"
+#include "petrous/Haptics/PointShell.h"
+#include "petrous/Haptics/Proxy.h"
+#include "petrous/Presenters/DrillSession.h"
+
+namespace petrous::presenters
+{
+
+/// The tool in the hand and how it is held.
+struct TouchTool
+{
+  enum class Mode
+  {
+    SixDof,  ///< burr, shaft and handpiece, with torque [Chan2016]
+    ThreeDof ///< the burr alone, its centre held at the surface [Chan2013]
+  };
+  dissection::Burr burr;
+  Mode mode = Mode::SixDof;
+  haptics::ProxyParameters coupling; ///< 1 N/mm and 20 N mm/rad by default
+};
+
+/// A case made ready for touch: its tissue field as a servo samples it, and the mask as the servo
+/// sees it. Made once for a case and its touchable structures; tools come and go.
+///
+/// The case must have its dissection loaded and outlive the scene. One thread, but for the field,
+/// which a servo thread may use.
+class TouchScene
+{
+public:
+  /// Reads the CT once (about a second for 512^3). Throws CancelledError.
+  explicit TouchScene(scene::Case& value, const core::Progress& progress = {});
+
+  DrillSession& drill() noexcept { return m_drill; }
+  const std::shared_ptr<volume::PublishedMask>& mask() const noexcept { return m_mask; }
+  const std::shared_ptr<const haptics::HapticField>& field() const noexcept { return m_field; }
+
+  /// Tells the servo of bricks that were changed by other means than drilling: undo, redo.
+  void publish(const std::vector<std::size_t>& bricks);
+
+  /// Points on the tool for this scene's voxels. Throws InvalidParameter.
+  haptics::PointShell shellOf(const TouchTool& tool) const;
+
+  /// The tool held by the tissue. Throws InvalidParameter naming the first bad value.
+  std::unique_ptr<haptics::Proxy> proxyOf(const TouchTool& tool) const;
+
+private:
+  scene::Case& m_case;
+  DrillSession m_drill;
+  std::shared_ptr<volume::PublishedMask> m_mask;
+  std::shared_ptr<const haptics::HapticField> m_field;
+};
+
+} // namespace petrous::presenters

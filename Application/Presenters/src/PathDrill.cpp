@@ -1,0 +1,96 @@
+#include "petrous/Presenters/PathDrill.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+simulation::ServoSetup setupOf(const TouchTool& tool, std::size_t burrPoints)
+{
+  simulation::ServoSetup setup;
+  // A written path may jump as it likes; no hand is harmed.
+  setup.guard.speed = 1e9;
+  setup.guard.angularSpeed = 1e9;
+  setup.guard.reach = 1e9;
+  setup.guard.goodTicks = 1;
+  setup.stallAfter = 1e9;
+  setup.stiffness = tool.coupling.stiffness;
+  setup.burrPoints = burrPoints;
+  return setup;
+}
+
+std::size_t burrPointsOf(const TouchScene& scene, const TouchTool& tool)
+{
+  return tool.mode == TouchTool::Mode::ThreeDof ? 1 : scene.shellOf(tool).burrCount;
+}
+
+} // namespace
+
+simulation::DissectionLoop::Hooks hooksOf(DrillSession& drill, const dissection::Burr& burr,
+                                          const std::optional<core::CameraPose>& camera)
+{
+  simulation::DissectionLoop::Hooks hooks;
+  hooks.begin = [burr, camera]
+  {
+    dissection::StrokeInfo info;
+    info.startedAt = utcNow();
+    info.burr = burr;
+    info.camera = camera;
+    return info;
+  };
+  hooks.close = [&drill](dissection::Dissection&) { drill.end(); };
+  return hooks;
+}
+
+PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& options)
+  : m_case(value)
+  , m_scene(scene)
+  , m_options(options)
+  , m_proxy(scene.proxyOf(options.tool))
+  , m_servo(*m_proxy, setupOf(options.tool, burrPointsOf(scene, options.tool)))
+  , m_feed(0.5 * options.tool.burr.diameter)
+  , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
+           hooksOf(scene.drill(), options.tool.burr, options.camera))
+{
+  m_parameters.constantThrust = options.thrust ? 1 : 0;
+  m_parameters.thrust = options.thrust.value_or(1.0);
+  simulation::check(m_parameters);
+}
+
+const simulation::TickRecord& PathDrill::feel(const dissection::ToolSample& sample) noexcept
+{
+  haptics::DeviceReading reading;
+  reading.time = sample.time;
+  reading.pose = {sample.pose.translation(), sample.pose.rotation()};
+  reading.health = haptics::DeviceHealth::Good;
+  m_parameters.drill = sample.drill ? 1 : 0;
+  m_record = m_servo.tick(simulation::TickInput::of(sample.time, reading, m_parameters));
+  return m_record;
+}
+
+void PathDrill::cut(const dissection::ToolSample& sample)
+{
+  const bool inside = m_record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
+  m_inside += inside ? 1 : 0;
+  if (inside && sample.drill)
+    sweep(sample);
+  else
+    m_loop.step(m_record);
+}
+
+void PathDrill::sweep(const dissection::ToolSample& sample)
+{
+  DrillSession& drill = m_scene.drill();
+  if (!drill.drilling())
+    drill.begin(m_options.tool.burr, utcNow(), sample.time, m_options.camera);
+  drill.moveTo(sample.pose.translation(), sample.time);
+  m_scene.mask()->publish(m_case.dissection->mask(), m_case.dissection->mask().takeDirty(), false);
+}
+
+void PathDrill::end()
+{
+  m_loop.endStroke();
+}
+
+} // namespace petrous::presenters

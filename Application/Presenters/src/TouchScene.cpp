@@ -1,0 +1,42 @@
+#include "petrous/Presenters/TouchScene.h"
+
+#include "petrous/Haptics/CentreProxy.h"
+#include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/PointShell.h"
+
+namespace petrous::presenters
+{
+
+TouchScene::TouchScene(scene::Case& value, const core::Progress& progress)
+  : m_case(value)
+  , m_drill(value)
+  , m_mask(std::make_shared<volume::PublishedMask>(value.dissection->mask()))
+{
+  progress.check("feeling the tissue");
+  m_field = std::make_shared<const haptics::HapticField>(m_drill.field(), m_mask);
+}
+
+void TouchScene::publish(const std::vector<std::size_t>& bricks)
+{
+  m_mask->publish(m_case.dissection->mask(), bricks, true);
+}
+
+haptics::PointShell TouchScene::shellOf(const TouchTool& tool) const
+{
+  haptics::BurrShape shape;
+  shape.radius = 0.5 * tool.burr.diameter;
+  return haptics::makeBurrShell(shape, m_field->voxel());
+}
+
+std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const
+{
+  if (tool.mode == TouchTool::Mode::ThreeDof)
+  {
+    haptics::CentreBurr burr;
+    burr.radius = 0.5 * tool.burr.diameter;
+    return std::make_unique<haptics::CentreProxy>(m_field, burr, tool.coupling);
+  }
+  return std::make_unique<haptics::ConstrainedProxy>(m_field, shellOf(tool), tool.coupling);
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "petrous/Haptics/HapticField.h"
+#include "petrous/Haptics/PointShell.h"
+#include "petrous/Haptics/Proxy.h"
+
+namespace petrous::haptics
+{
+
+/// The peer of these benchmarks: a god object as point renderers have it (Zilles and Salisbury
+/// 1995), a ball without rotation. It goes towards the goal a voxel at a time and stops where one
+/// of its points is in tissue at the end of a step; then what is left of the way goes along the
+/// tangent plane there, twice. Nothing is looked at between two steps.
+class SteppedSphere : public Proxy
+{
+public:
+  SteppedSphere(std::shared_ptr<const HapticField> field, PointShell shell, double stiffness = 1.0);
+
+  const Pose& pose() const noexcept override { return m_pose; }
+  void place(const Pose& pose) noexcept override { m_pose = pose; }
+  const ProxyTick& step(const Pose& goal) noexcept override;
+
+private:
+  bool freeAt(const Eigen::Vector3d& position, Eigen::Vector3d& normal) const noexcept;
+
+  std::shared_ptr<const HapticField> m_field;
+  PointShell m_shell;
+  double m_stiffness; // N/mm
+  Pose m_pose;
+  ProxyTick m_tick;
+};
+
+} // namespace petrous::haptics

@@ -1,0 +1,373 @@
+#include "petrous/Haptics/CentreProxy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "BurrVolume.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::haptics
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr double kSkin = 0.01;     // voxels: the centre aims this high above the surface
+constexpr double kMostLift = 0.05; // voxels, over a bump
+constexpr double kKept = 0.1; // voxels: a plane counts again as near as this to where it is from
+constexpr std::size_t kMostKept = 8;
+constexpr double kReach = 0.1;     // voxels: of what is asked of the surface as it is, ripples too
+constexpr double kWithin = 0.005;  // voxels: beyond where a sweep ended, to see what ended it
+constexpr double kAgainst = 0.02;  // cosine: a normal is at least so much against the way in
+constexpr double kAstray = 0.5;    // cosine: one that is so far along it says nothing
+constexpr double kFlat = 1e-6;     // of f a voxel: no slope to speak of
+constexpr double kLeast = 1e-9;    // N: a smaller push is none
+constexpr int kMostStretches = 32; // sweeps of a tick that end freely
+constexpr double kTrailStep = 0.5; // voxels
+
+void check(bool good, const char* words)
+{
+  if (!good)
+    throw core::InvalidParameter(std::string("centre proxy: ") + words);
+}
+
+const ProxyParameters& checked(const ProxyParameters& p)
+{
+  check(p.stiffness > 0.0 && p.stiffness <= 100.0, "the stiffness must lie within 0 to 100 N/mm");
+  check(p.nearGap > 0.0 && p.nearGap <= 2.0, "the near gap must lie within 0 to 2 voxels");
+  check(p.sweepStep > 0.0 && p.sweepStep <= 1.0, "the sweep's step must lie within 0 to 1 voxel");
+  check(p.bisections >= 1 && p.bisections <= 30, "bisections must lie within 1 to 30");
+  check(p.rounds >= 1 && p.rounds <= 20, "rounds must lie within 1 to 20");
+  check(p.deadband >= 0.0 && p.deadband <= 0.1, "the deadband must lie within 0 to 0.1 mm");
+  return p;
+}
+
+const CentreBurr& checked(const CentreBurr& burr)
+{
+  check(burr.radius >= 0.25 && burr.radius <= 5.0, "the radius must lie within 0.25 to 5 mm");
+  check(burr.points >= 100 && burr.points <= 5000, "the points must be 100 to 5000");
+  check(burr.superficialShare >= 0.0 && burr.superficialShare <= 2.0,
+        "the superficial share must lie within 0 to 2");
+  return burr;
+}
+
+std::shared_ptr<const HapticField> checked(std::shared_ptr<const HapticField> field)
+{
+  check(field != nullptr, "no field given");
+  return field;
+}
+
+PointShell centreAlone()
+{
+  PointShell shell;
+  shell.points = {Vector3d::Zero()};
+  shell.normals = {Vector3d::UnitZ()};
+  shell.burrCount = 1;
+  return shell;
+}
+
+// The problem is one of translation: the angular half of rows and goal is zero.
+ContactQp::Vector6 straight(const Vector3d& linear)
+{
+  ContactQp::Vector6 result;
+  result << linear, Vector3d::Zero();
+  return result;
+}
+
+} // namespace
+
+CentreProxy::CentreProxy(std::shared_ptr<const HapticField> field, const CentreBurr& burr,
+                         const ProxyParameters& parameters)
+  : m_parameters(checked(parameters))
+  , m_sweep(checked(std::move(field)), centreAlone(), parameters.sweepStep, parameters.bisections)
+  , m_volume(std::make_unique<BurrVolume>(m_sweep.field(), checked(burr).radius, burr.points))
+  , m_radius(burr.radius)
+  , m_pointForce(4.0 * burr.superficialShare * parameters.stiffness * burr.radius /
+                 static_cast<double>(m_volume->points().size()))
+  , m_qp(kMostHits + 1, ContactQp::Vector6::Constant(parameters.stiffness))
+  , m_trail(kTrail)
+{
+}
+
+CentreProxy::~CentreProxy() = default;
+
+const std::vector<Vector3d>& CentreProxy::points() const noexcept
+{
+  return m_volume->points();
+}
+
+void CentreProxy::place(const Pose& pose) noexcept
+{
+  if (!pose.finite())
+    return;
+  const volume::MaskState* state = m_sweep.field().mask().acquire();
+  m_sweep.look(*state);
+  m_raises = state->raises();
+  m_sweep.moveTo(pose);
+  m_tick.pose = m_sweep.pose();
+  m_trailLength = 0;
+  m_inside = !m_sweep.freeAt(m_sweep.pose());
+  if (!m_inside)
+    remember();
+  m_sweep.field().mask().release();
+}
+
+// The tissue's surface as the centre sees it close by. The normal is smooth, over a voxel; how far
+// it is follows from the slope right here, as edges of an image are no straight ramps.
+bool CentreProxy::nearPlane(Plane& plane) const noexcept
+{
+  if (m_sweep.nearCount() == 0)
+    return false;
+  const HapticField& field = m_sweep.field();
+  const double h = field.voxel();
+  const FieldSample& sample = m_sweep.begin()->sample;
+  const Vector3d voxel = m_sweep.voxelOf(0);
+  const Vector3d gradient = field.gradient(voxel, sample, m_sweep.state());
+  const double steep = gradient.norm();
+  if (!(steep * h > kFlat))
+    return false;
+  plane.normal = -gradient / steep;
+  const double slope = -field.slope(voxel, plane.normal, kReach * h, m_sweep.state());
+  const double gap = -sample.value / slope;
+  if (!(slope * h > kFlat) || gap > m_parameters.nearGap * h)
+    return false;
+  plane.point = m_sweep.pose().position - std::max(gap, 0.0) * plane.normal;
+  return true;
+}
+
+// What ended a sweep: the surface just there. Where that says nothing, it is against the way.
+CentreProxy::Plane CentreProxy::planeOf(const ShellSweep::Hit& hit) const noexcept
+{
+  const HapticField& field = m_sweep.field();
+  Vector3d voxel = m_sweep.voxelOf(0);
+  const Vector3d within =
+      voxel + field.geometry().voxelFromPatientLinear() * (kWithin * field.voxel() * hit.direction);
+  FieldSample sample = field.sample(within, m_sweep.state());
+  if (sample.value > 0.0)
+    voxel = within;
+  else
+    sample = field.sample(voxel, m_sweep.state());
+  const Vector3d gradient = field.gradient(voxel, sample, m_sweep.state(), kReach);
+  const double steep = gradient.norm();
+  Vector3d normal = -hit.direction;
+  if (steep * field.voxel() > kFlat && gradient.dot(hit.direction) > -kAstray * steep)
+  {
+    // It went in, so a normal along the way is tilted against it, by no more than it takes.
+    normal = -gradient / steep;
+    const double along = normal.dot(hit.direction) + kAgainst;
+    normal = (normal - std::max(along, 0.0) * hit.direction).normalized();
+  }
+  return {normal, m_sweep.pose().position};
+}
+
+void CentreProxy::addRow(const Plane& plane, double lift, bool tight) noexcept
+{
+  const double gap = plane.normal.dot(m_sweep.pose().position - plane.point);
+  const std::size_t row = m_qp.count();
+  if (m_qp.add(straight(plane.normal), tight ? std::min(lift - gap, 0.0) : lift - gap))
+    m_rows[row] = plane;
+}
+
+// The motion that comes nearest to the wanted one and keeps to the right side of every plane.
+// Where there is no room for skin and lift, standing still must be allowed.
+Vector3d CentreProxy::solve(const Vector3d& wanted, double lift) noexcept
+{
+  Plane near;
+  const bool hasNear = nearPlane(near);
+  for (const bool tight : {false, true})
+  {
+    m_qp.clear();
+    if (hasNear)
+      addRow(near, kSkin * m_sweep.field().voxel(), tight);
+    m_firstHit = m_qp.count();
+    for (std::size_t n = 0; n < m_hitCount; ++n)
+      addRow(m_hits[n], lift, tight);
+    if (m_qp.solve(straight(wanted)) == ContactQp::Status::Solved)
+      break;
+  }
+  return m_qp.solution().head<3>();
+}
+
+// A sweep goes no farther than its chords, and neither does the search for tissue.
+ShellSweep::Hit CentreProxy::advance(const Vector3d& motion) noexcept
+{
+  const double most = static_cast<double>(ShellSweep::kMostSteps) * m_parameters.sweepStep *
+                      m_sweep.field().voxel();
+  m_sweep.addNear(std::min(motion.norm(), most), 0.0);
+  return m_sweep.advance({motion, Vector3d::Zero()});
+}
+
+// What stopped the last ticks, presses and is right here still holds, while the tissue is the same:
+// in corners the centre comes to rest rather than to try the same walls over and over.
+void CentreProxy::keepPlanes() noexcept
+{
+  const bool same = m_sweep.state().number() == m_number;
+  m_number = m_sweep.state().number();
+  m_hitCount = 0;
+  for (std::size_t n = m_firstHit; same && n < m_qp.count() && m_hitCount < kMostKept; ++n)
+    if (m_qp.lambda(n) > 0.0 &&
+        (m_rows[n].point - m_sweep.pose().position).norm() < kKept * m_sweep.field().voxel())
+      m_hits[m_hitCount++] = m_rows[n];
+}
+
+void CentreProxy::follow(const Vector3d& goal) noexcept
+{
+  const double h = m_sweep.field().voxel();
+  const double ahead = (m_parameters.nearGap + kSkin) * h;
+  double lift = 2.0 * kSkin * h;
+  int stretches = 0;
+  keepPlanes();
+  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches)
+  {
+    m_sweep.findNear(ahead);
+    const Vector3d motion = solve(goal - m_sweep.pose().position, kSkin * h);
+    if (motion.norm() < m_parameters.deadband)
+      return;
+    const ShellSweep::Hit hit = advance(motion);
+    remember();
+    if (!hit.any && hit.free >= 1.0)
+      return;
+    if (!hit.any)
+    {
+      ++stretches;
+      continue;
+    }
+    ++m_tick.rounds;
+    m_hits[m_hitCount++] = planeOf(hit);
+    if (hit.free * motion.norm() < lift && m_tick.rounds < m_parameters.rounds)
+    {
+      // It lies on a bump that the smooth normal does not know: up first, then on.
+      m_sweep.findNear(ahead);
+      advance(solve(Vector3d::Zero(), lift));
+      lift = std::min(2.0 * lift, kMostLift * h);
+    }
+  }
+}
+
+void CentreProxy::remember() noexcept
+{
+  const Vector3d& place = m_sweep.pose().position;
+  const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
+  if (m_trailLength > 0 && (m_trail[last] - place).norm() < kTrailStep * m_sweep.field().voxel())
+    return;
+  m_trail[m_trailEnd] = place;
+  m_trailEnd = (m_trailEnd + 1) % kTrail;
+  m_trailLength = std::min(m_trailLength + 1, kTrail);
+}
+
+// Back along the path to the last place that is free now.
+bool CentreProxy::retreat() noexcept
+{
+  while (m_trailLength > 0)
+  {
+    const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
+    const Pose back{m_trail[last], m_sweep.pose().rotation};
+    if (m_sweep.freeAt(back))
+    {
+      m_sweep.moveTo(back);
+      return true;
+    }
+    m_trailEnd = last;
+    --m_trailLength;
+  }
+  return false;
+}
+
+// Tissue that came back may stand where the centre is.
+void CentreProxy::notice() noexcept
+{
+  if (m_sweep.state().raises() == m_raises)
+    return;
+  m_raises = m_sweep.state().raises();
+  m_sweep.forgetClearances();
+  if (m_inside || m_sweep.freeAt(m_sweep.pose()))
+    return;
+  if (retreat())
+    m_tick.status = ProxyStatus::Retreated;
+  else
+    m_inside = true;
+}
+
+void CentreProxy::addContact(const Vector3d& normal, double thrust, double gap) noexcept
+{
+  ProxyContact& contact = m_tick.contacts[m_tick.contactCount++];
+  contact = {};
+  contact.arm = -m_radius * normal;
+  contact.normal = normal;
+  contact.gap = gap;
+  contact.thrust = thrust;
+}
+
+void CentreProxy::report() noexcept
+{
+  const Vector3d& place = m_sweep.pose().position;
+  Vector3d spring = Vector3d::Zero();
+  for (std::size_t n = 0; n < m_qp.count(); ++n)
+  {
+    const double lambda = m_qp.lambda(n);
+    if (!(lambda > 0.0))
+      continue;
+    const Plane& plane = m_rows[n];
+    spring += lambda * plane.normal;
+    m_tick.thrust += lambda;
+    addContact(plane.normal, lambda, plane.normal.dot(place - plane.point) - m_radius);
+  }
+  const BurrVolume::Push push = m_volume->push(place, m_parameters.stiffness, m_sweep.state());
+  const Vector3d points = m_pointForce * push.sum;
+  const double size = points.norm();
+  if (size > kLeast)
+  {
+    m_tick.thrust +=
+        m_tick.contactCount > 0 ? std::max(0.0, points.dot(spring.normalized())) : size;
+    addContact(points / size, size, -push.depth);
+    m_tick.wrench.linear = spring + points;
+  }
+  else
+    m_tick.wrench.linear = spring;
+  m_tick.penetration = push.depth;
+  m_tick.nearPoints = push.looked;
+  if (m_tick.contactCount > 0 && m_tick.status == ProxyStatus::Free)
+    m_tick.status = ProxyStatus::Contact;
+}
+
+const ProxyTick& CentreProxy::step(const Pose& goal) noexcept
+{
+  m_tick.status = ProxyStatus::Free;
+  m_tick.wrench = {};
+  m_tick.contactCount = 0;
+  m_tick.thrust = 0.0;
+  m_tick.penetration = 0.0;
+  m_tick.rounds = 0;
+  m_tick.nearPoints = 0;
+  if (!goal.finite())
+  {
+    m_tick.status = ProxyStatus::BadGoal;
+    return m_tick;
+  }
+  const volume::PublishedMask& mask = m_sweep.field().mask();
+  m_sweep.look(*mask.acquire());
+  notice();
+  if (m_inside)
+  {
+    m_sweep.moveTo(goal);
+    m_inside = !m_sweep.freeAt(m_sweep.pose());
+    m_tick.status = m_inside ? ProxyStatus::Inside : ProxyStatus::Free;
+    if (m_inside)
+      m_tick.penetration = m_radius;
+    else
+      remember();
+  }
+  else
+  {
+    follow(goal.position);
+    report();
+  }
+  m_tick.pose = {m_sweep.pose().position, goal.rotation.normalized()};
+  mask.release();
+  return m_tick;
+}
+
+} // namespace petrous::haptics

@@ -1,0 +1,161 @@
+#include "ServoBenchmark.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/SimulatedDevice.h"
+#include "petrous/Simulation/DissectionLoop.h"
+#include "petrous/Simulation/RecordingReader.h"
+#include "petrous/Simulation/RecordingWriter.h"
+#include "petrous/Simulation/Replay.h"
+
+namespace petrous::simulation
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double percentile(std::vector<double> values, double share)
+{
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+core::GridGeometry gridOf(double h)
+{
+  const int n = static_cast<int>(18.0 / h) + 1;
+  return {{n, n, n}, Eigen::Vector3d::Constant(h), Eigen::Vector3d(-9.0, -9.0, -15.0)};
+}
+
+// Bone below z = 0, its surface a ramp of a voxel or two, as a scanner shows it.
+struct Block
+{
+  explicit Block(double h)
+    : work(gridOf(h))
+    , mask(std::make_shared<volume::PublishedMask>(work.mask()))
+    , shell(haptics::makeBurrShell({}, h))
+  {
+    const core::GridGeometry& grid = work.mask().geometry();
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+    for (int k = 0; k < grid.dims()[2]; ++k)
+    {
+      const double z = grid.patientFromVoxel({0.0, 0.0, 1.0 * k}).z();
+      const double hu = std::clamp(300.0 - 2000.0 * z, -1000.0, 1500.0);
+      for (int j = 0; j < grid.dims()[1]; ++j)
+        for (int i = 0; i < grid.dims()[0]; ++i)
+          voxels->at(i, j, k) = static_cast<std::int16_t>(hu);
+    }
+    const volume::TissueField tissue(
+        std::make_shared<volume::IntensityVolume>(
+            std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
+        {}, nullptr, {});
+    tool = std::make_unique<haptics::ConstrainedProxy>(
+        std::make_shared<haptics::HapticField>(tissue, mask), shell);
+  }
+
+  dissection::Dissection work;
+  std::shared_ptr<volume::PublishedMask> mask;
+  haptics::PointShell shell;
+  std::unique_ptr<haptics::ConstrainedProxy> tool;
+  SimpleFeed feed{2.0};
+};
+
+haptics::Pose handAt(double t)
+{
+  return {{4.0 * std::sin(1.7 * t), 4.0 * std::cos(2.3 * t), 1.0 + std::sin(2.0 * t)},
+          Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::sin(t), Eigen::Vector3d(0.6, 0.8, 0.0)))};
+}
+
+core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ticks)
+{
+  Block block(h);
+  RecordingSetup setup;
+  setup.servo.burrPoints = block.shell.burrCount;
+  setup.servo.passivity.emplace();
+  setup.servo.limits.maxForce = 10.0;
+  Servo servo(*block.tool, setup.servo);
+  DissectionLoop loop(block.work, *block.mask, block.feed);
+  haptics::SimulatedDevice::Hand hand;
+  hand.tremor = 0.05;
+  haptics::SimulatedDevice device(handAt, hand, {});
+  ServoParameters parameters;
+  RecordingWriter writer(file, setup);
+  std::vector<double> tick, cut;
+  double writing = 0.0;
+  for (int n = 0; n < ticks; ++n)
+  {
+    const double now = 0.001 * n;
+    parameters.drill = n % 1000 > 500 ? 1 : 0;
+    auto start = Clock::now();
+    const TickRecord& record = servo.tick(TickInput::of(now, device.read(now), parameters));
+    device.send(record.output.wrench());
+    tick.push_back(since(start));
+    start = Clock::now();
+    writer.add(record);
+    writing += since(start);
+    start = Clock::now();
+    if (loop.step(record))
+      cut.push_back(since(start));
+  }
+  writer.close();
+
+  Block again(h);
+  Servo other(*again.tool, setup.servo);
+  DissectionLoop otherLoop(again.work, *again.mask, again.feed);
+  RecordingReader reader(file);
+  std::vector<TickRecord> recorded;
+  std::size_t different = 0;
+  while (reader.next(recorded))
+  {
+    const auto replayed =
+        replay(recorded, other, [&](const TickRecord& record) { otherLoop.step(record); });
+    for (std::size_t n = 0; n < recorded.size(); ++n)
+      different += !identical(recorded[n], replayed[n]);
+  }
+
+  char spacing[16];
+  std::snprintf(spacing, sizeof spacing, "%.2f", h);
+  core::BenchmarkPoint point;
+  point.setting["voxel_mm"] = spacing;
+  point.scene = "4 mm burr drilling a block, hand with tremor";
+  point.isDefault = h == 0.3;
+  point.seconds = percentile(tick, 0.5);
+  point.error = 100.0 * static_cast<double>(different) / ticks;
+  point.errorUnit = "% of the ticks that a replay gives otherwise";
+  point.extra["tick_p99_us"] = 1e6 * percentile(tick, 0.99);
+  point.extra["tick_max_us"] = 1e6 * percentile(tick, 1.0);
+  point.extra["recorded_bytes_per_tick"] = static_cast<double>(writer.bytes()) / ticks;
+  point.extra["recording_us_per_tick"] = 1e6 * writing / ticks;
+  if (!cut.empty())
+    point.extra["cut_p50_us"] = 1e6 * percentile(cut, 0.5);
+  return point;
+}
+
+} // namespace
+
+core::BenchmarkReport runServoBenchmark(const std::filesystem::path& work, bool quick,
+                                        const core::Progress& progress)
+{
+  core::BenchmarkReport report{"servo", "A servo tick and its recording", {}};
+  const std::vector<double> spacings =
+      quick ? std::vector<double>{0.3} : std::vector<double>{0.15, 0.2, 0.3, 0.4};
+  for (std::size_t n = 0; n < spacings.size(); ++n)
+  {
+    progress.report(static_cast<double>(n) / static_cast<double>(spacings.size()),
+                    "drilling blocks");
+    report.points.push_back(measure(spacings[n], work / "servo.ticks", quick ? 2000 : 10000));
+  }
+  return report;
+}
+
+} // namespace petrous::simulation

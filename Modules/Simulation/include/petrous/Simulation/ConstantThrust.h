@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+
+#include "petrous/Haptics/ProxyTick.h"
+
+namespace petrous::simulation
+{
+
+/// Presses the tool onto the surface with a given force, for hands that give place and heading but
+/// cannot press (mouse, SpaceMouse, a written path).
+///
+/// In contact the goal lies F/k beyond the tool, against the burr's mean contact normal, so the
+/// coupling's force there is F; across that direction it is the given place. Before contact the
+/// tool comes along the approach at a set speed, at most `kReach` beyond the given place. Where the
+/// tool stands in tissue it backs out the same way.
+///
+/// Nothing here allocates or throws.
+class ConstantThrust
+{
+public:
+  static constexpr double kReach = 30.0; ///< mm
+
+  /// stiffness   k of the proxy's coupling, N/mm, > 0
+  /// burrPoints  shell points that lie on the burr (PointShell::burrCount)
+  ConstantThrust(double stiffness, std::size_t burrPoints) noexcept;
+
+  /// What the proxy did in the last tick of `dt` seconds.
+  void see(const haptics::ProxyTick& tick, double speed, double dt) noexcept;
+
+  /// The goal of the next tick.
+  /// place     X_PT as given
+  /// proxy     where the tool is
+  /// approach  patient axes; zero: along the shaft of `place`
+  /// thrust    F, N
+  /// speed     mm/s, dt s
+  haptics::Pose goal(const haptics::Pose& place, const haptics::Pose& proxy,
+                     const Eigen::Vector3d& approach, double thrust, double speed,
+                     double dt) const noexcept;
+
+private:
+  double m_stiffness;
+  std::size_t m_burrPoints;
+  bool m_contact = false;
+  bool m_inside = false;
+  bool m_hasProxy = false;
+  Eigen::Vector3d m_direction{0.0, 0.0, 0.0}; // unit, into the tissue
+  Eigen::Vector3d m_proxy{0.0, 0.0, 0.0};
+  double m_advance = 0.0; // mm a tick, as the surface gives way
+};
+
+} // namespace petrous::simulation

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "petrous/Simulation/Servo.h"
+
+namespace petrous::simulation
+{
+
+/// Gives a servo the inputs that were recorded. With the set-up, field and mask of the recording
+/// the result is the recording, bit for bit.
+///
+/// recorded  ticks from the first one on
+/// servo     fresh, as the recording's was when it began
+/// after     called after each tick with the new record, where the mask is to follow
+///           (DissectionLoop::step); may be empty
+std::vector<TickRecord> replay(const std::vector<TickRecord>& recorded, Servo& servo,
+                               const std::function<void(const TickRecord&)>& after = {});
+
+/// Whether two records are the same to the last bit.
+bool identical(const TickRecord& a, const TickRecord& b) noexcept;
+
+} // namespace petrous::simulation

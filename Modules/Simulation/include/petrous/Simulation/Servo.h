@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "petrous/Haptics/DeviceGuard.h"
+#include "petrous/Haptics/ForceLimits.h"
+#include "petrous/Haptics/PassivityGuard.h"
+#include "petrous/Haptics/Proxy.h"
+#include "petrous/Simulation/ConstantThrust.h"
+#include "petrous/Simulation/HandMapping.h"
+#include "petrous/Simulation/TickRecord.h"
+
+namespace petrous::simulation
+{
+
+/// What a servo is made with; fixed while it runs.
+struct ServoSetup
+{
+  haptics::DeviceGuard::Limits guard;
+  haptics::ForceLimits::Limits limits;
+  /// Of the wrench on the hand, so stiffness means that in the hand: k scale^2 forceGain.
+  std::optional<haptics::PassivityGuard::Parameters> passivity;
+  double stiffness = 1.0;                ///< of the proxy's coupling, N/mm, > 0
+  std::size_t burrPoints = 0;            ///< PointShell::burrCount of the proxy's tool
+  Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: see HandMapping
+  double stallAfter = 0.05;              ///< s without a tick: the tool is taken up anew
+};
+
+/// One tick of touch: reading -> guard -> mapping -> proxy -> passivity -> limits -> the wrench
+/// that the device is to be sent.
+///
+/// The first good reading places the tool. After a bad stretch, a stall, a clutch, or tissue that
+/// came back, the hand may be anywhere: the tool stays where it is and goes on from there, the
+/// force rising anew (in constant-thrust mode it goes to the place that is given). While force may
+/// not be given the tool rests, so that tissue that comes back still moves it out.
+///
+/// The same inputs in the same order give the same records to the last bit, as long as the proxy
+/// and its field do. `tick` neither allocates, locks, throws nor does I/O. One thread.
+class Servo
+{
+public:
+  /// `proxy` must outlive this. Throws InvalidParameter naming the first bad value.
+  Servo(haptics::Proxy& proxy, const ServoSetup& setup);
+
+  /// The record holds until the next tick; send `output` to the device.
+  const TickRecord& tick(const TickInput& input) noexcept;
+
+  const ServoSetup& setup() const noexcept { return m_setup; }
+
+private:
+  struct Step
+  {
+    HandMapping::View view;
+    haptics::Pose device;
+    haptics::Pose mapped;
+    double dt = 0.0;
+    bool usable = false; ///< reading, clock and parameters are sound
+    bool clutch = false;
+  };
+  Step judge(const TickInput& input) noexcept;
+  void map(Step& step, bool anew) noexcept;
+  void reportContacts(const haptics::ProxyTick& tick) noexcept;
+  void giveForce(const Step& step, const haptics::ProxyTick& tick, bool anew) noexcept;
+
+  ServoSetup m_setup;
+  haptics::Proxy& m_proxy;
+  haptics::DeviceGuard m_guard;
+  haptics::ForceLimits m_limits;
+  haptics::PassivityGuard m_passivity;
+  HandMapping m_mapping;
+  ConstantThrust m_thrust;
+  TickRecord m_record;
+  haptics::ProxyTick m_none; // before the tool is placed
+  std::uint64_t m_number = 0;
+  double m_time = 0.0;
+  bool m_hasTime = false;
+  bool m_placed = false; ///< the first good reading has come
+  bool m_giving = false; ///< force was let in at the last tick
+  bool m_wasUsable = false;
+};
+
+static_assert(noexcept(std::declval<Servo&>().tick(std::declval<const TickInput&>())));
+
+} // namespace petrous::simulation

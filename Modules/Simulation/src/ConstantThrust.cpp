@@ -1,0 +1,84 @@
+#include "petrous/Simulation/ConstantThrust.h"
+
+#include <algorithm>
+
+namespace petrous::simulation
+{
+
+using Eigen::Vector3d;
+
+namespace
+{
+
+// Share of what is new in a tick: about 10 ms at 1 kHz. A burr that rolls over an edge should not
+// make the force jump about.
+constexpr double kFollow = 0.1;
+
+// A tool that is held back sideways pulls at most with F, but follows the hand at 0.2 m/s at least.
+constexpr double kLeastSideways = 0.2; // mm a tick
+
+} // namespace
+
+ConstantThrust::ConstantThrust(double stiffness, std::size_t burrPoints) noexcept
+  : m_stiffness(stiffness)
+  , m_burrPoints(burrPoints)
+{
+}
+
+void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt) noexcept
+{
+  Vector3d push = Vector3d::Zero();
+  for (std::size_t n = 0; n < tick.contactCount; ++n)
+    if (tick.contacts[n].point < m_burrPoints)
+      push += tick.contacts[n].thrust * tick.contacts[n].normal;
+  const double length = push.norm();
+  const bool contact = length > 0.0;
+  if (contact && !m_contact)
+  {
+    m_direction = -push / length;
+    m_advance = 0.0;
+  }
+  else if (contact)
+  {
+    const Vector3d turned = m_direction - kFollow * (push / length + m_direction);
+    const double norm = turned.norm();
+    m_direction = norm > 0.1 ? Vector3d(turned / norm) : Vector3d(-push / length);
+    if (m_hasProxy)
+    {
+      const double way = m_direction.dot(tick.pose.position - m_proxy);
+      m_advance += kFollow * (std::clamp(way, 0.0, speed * dt) - m_advance);
+    }
+  }
+  m_contact = contact;
+  m_inside = tick.status == haptics::ProxyStatus::Inside;
+  m_proxy = tick.pose.position;
+  m_hasProxy = true;
+}
+
+haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Pose& proxy,
+                                   const Vector3d& approach, double thrust, double speed,
+                                   double dt) const noexcept
+{
+  Vector3d direction = m_direction;
+  if (!m_contact)
+  {
+    const double length = approach.stableNorm();
+    direction = length > 0.0 ? Vector3d(approach / length)
+                             : Vector3d(-(place.rotation * Vector3d::UnitZ()));
+  }
+  const Vector3d offset = place.position - proxy.position;
+  Vector3d sideways = offset - direction.dot(offset) * direction;
+  const double press = thrust / m_stiffness;
+  double along = press + m_advance;
+  if (m_inside)
+    along = -speed * dt;
+  else if (!m_contact)
+    along = std::min(speed * dt, std::max(kReach + direction.dot(offset), -kReach));
+  const double most = std::max(press, kLeastSideways);
+  const double length = sideways.norm();
+  if (m_contact && length > most)
+    sideways *= most / length;
+  return {proxy.position + sideways + along * direction, place.rotation};
+}
+
+} // namespace petrous::simulation

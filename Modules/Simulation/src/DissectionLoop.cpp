@@ -1,0 +1,132 @@
+#include "petrous/Simulation/DissectionLoop.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace petrous::simulation
+{
+
+namespace
+{
+
+// A tick after a stall must not bite for the time in which nobody drilled.
+constexpr double kLongestTick = 0.01; // s
+
+} // namespace
+
+DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
+                               Feed& feed, dissection::ProtectedTissue keep, Hooks hooks)
+  : m_dissection(dissection)
+  , m_mask(mask)
+  , m_feed(feed)
+  , m_keep(std::move(keep))
+  , m_hooks(std::move(hooks))
+{
+}
+
+double DissectionLoop::secondsOf(const TickRecord& record)
+{
+  const double past = m_hasTime ? record.time() - m_time : 0.0;
+  m_time = record.time();
+  m_hasTime = true;
+  return past > 0.0 ? std::min(past, kLongestTick) : 0.0; // 0 for NaN
+}
+
+// Opens and closes strokes as the drill goes on and off; whether it is on.
+bool DissectionLoop::follow(const TickRecord& record)
+{
+  const bool drill = record.drill && record.time() > m_ignoreUntil;
+  if (drill && !m_dissection.strokeOpen())
+    m_dissection.beginStroke(m_hooks.begin ? m_hooks.begin() : dissection::StrokeInfo());
+  else if (!drill)
+    endStroke();
+  return drill;
+}
+
+bool DissectionLoop::cut(const dissection::SweptSphere& burr)
+{
+  if (!m_dissection.cut(burr, m_keep))
+    return false;
+  ++m_cuts;
+  publish(false);
+  return true;
+}
+
+void DissectionLoop::publish(bool raised)
+{
+  const std::vector<std::size_t> bricks = m_dissection.mask().takeDirty();
+  m_mask.publish(m_dissection.mask(), bricks, raised);
+  if (m_hooks.changed && !bricks.empty())
+    m_hooks.changed(bricks);
+}
+
+bool DissectionLoop::step(const TickRecord& record)
+{
+  return step(&record, 1);
+}
+
+bool DissectionLoop::step(const TickRecord* records, std::size_t count)
+{
+  bool any = false;
+  std::optional<dissection::SweptSphere> pending;
+  const auto flush = [&]
+  {
+    if (pending)
+      any = cut(*pending) || any;
+    pending.reset();
+  };
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const TickRecord& record = records[n];
+    const double seconds = secondsOf(record);
+    if (!record.drill)
+      flush();
+    if (!follow(record))
+      continue;
+    m_dissection.openInfo().duration += seconds;
+    if (!(record.thrust > 0.0))
+      continue;
+    const auto bite = m_feed.bite(record, seconds);
+    if (!bite)
+      continue;
+    if (pending && (bite->from - pending->from).norm() <= kTogether)
+      pending->to += bite->to - bite->from;
+    else
+    {
+      flush();
+      pending = bite;
+    }
+  }
+  flush();
+  return any;
+}
+
+void DissectionLoop::endStroke()
+{
+  if (!m_dissection.strokeOpen())
+    return;
+  if (m_hooks.close)
+    m_hooks.close(m_dissection);
+  else
+    m_dissection.endStroke();
+}
+
+bool DissectionLoop::undo()
+{
+  endStroke();
+  if (!m_dissection.undo())
+    return false;
+  publish(true);
+  return true;
+}
+
+bool DissectionLoop::redo()
+{
+  endStroke();
+  if (!m_dissection.redo())
+    return false;
+  publish(true);
+  return true;
+}
+
+} // namespace petrous::simulation

@@ -1,0 +1,110 @@
+#include "petrous/Simulation/RecordingWriter.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include "RecordCodec.h"
+#include "RecordingFormat.h"
+
+namespace petrous::simulation
+{
+
+namespace
+{
+
+std::vector<std::uint8_t> headOf(const RecordingSetup& setup)
+{
+  const std::string json = toJson(setup);
+  if (json.size() > kMostSetup)
+    throw core::InvalidParameter("recording: the set-up's texts are longer than 1 MB");
+  const std::vector<std::uint8_t> packed = pack({json.begin(), json.end()});
+  std::vector<std::uint8_t> head(kMagic, kMagic + kMagicBytes);
+  putU32(head, kFormatVersion);
+  putU32(head, sizeof(TickRecord));
+  putU32(head, static_cast<std::uint32_t>(packed.size()));
+  head.insert(head.end(), packed.begin(), packed.end());
+  return head;
+}
+
+} // namespace
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, const RecordingSetup& setup)
+  : m_name(file.filename().string())
+{
+  const std::vector<std::uint8_t> head = headOf(setup);
+  m_file.reset(std::fopen(file.c_str(), "wb"));
+  if (!m_file)
+    fail();
+  m_block.reserve(kBlock);
+  write(head);
+}
+
+RecordingWriter::~RecordingWriter()
+{
+  try
+  {
+    close();
+  }
+  catch (const std::exception&)
+  {
+    // Whoever wants to know calls close().
+  }
+}
+
+void RecordingWriter::fail()
+{
+  const std::string why = std::strerror(errno);
+  m_file.reset();
+  m_block.clear();
+  throw RecordingError(RecordingError::Reason::NotWritten,
+                       m_name + ": could not be written (" + why + ")");
+}
+
+void RecordingWriter::write(const std::vector<std::uint8_t>& bytes)
+{
+  // Flushed, so that a killed program loses one block at most.
+  if (std::fwrite(bytes.data(), 1, bytes.size(), m_file.get()) != bytes.size() ||
+      std::fflush(m_file.get()) != 0)
+    fail();
+  m_bytes += bytes.size();
+}
+
+void RecordingWriter::writeBlock()
+{
+  if (m_block.empty())
+    return;
+  const std::vector<std::uint8_t> packed = pack(encodeTicks(m_block));
+  std::vector<std::uint8_t> bytes;
+  putU32(bytes, kBlockMark);
+  putU32(bytes, static_cast<std::uint32_t>(m_block.size()));
+  putU32(bytes, static_cast<std::uint32_t>(packed.size()));
+  bytes.insert(bytes.end(), packed.begin(), packed.end());
+  m_block.clear();
+  write(bytes);
+}
+
+void RecordingWriter::add(const TickRecord& record)
+{
+  if (!m_file)
+    return;
+  m_block.push_back(record);
+  ++m_ticks;
+  if (m_block.size() == kBlock)
+    writeBlock();
+}
+
+void RecordingWriter::close()
+{
+  if (!m_file)
+    return;
+  writeBlock();
+  std::vector<std::uint8_t> end;
+  putU32(end, kEndMark);
+  putU32(end, static_cast<std::uint32_t>(m_ticks));
+  putU32(end, static_cast<std::uint32_t>(m_ticks >> 32));
+  write(end);
+  if (std::fclose(m_file.release()) != 0)
+    fail();
+}
+
+} // namespace petrous::simulation

@@ -1,0 +1,197 @@
+#include "petrous/Simulation/Servo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::simulation
+{
+
+using haptics::DeviceGuard;
+using haptics::DeviceVerdict;
+using haptics::Pose;
+using haptics::ProxyStatus;
+using haptics::ProxyTick;
+
+namespace
+{
+
+constexpr double kLongestStep = 0.01; // s that a tick may count for
+constexpr double kPedalDown = 0.5;
+
+const ServoSetup& checked(const ServoSetup& setup)
+{
+  if (!(setup.stiffness > 0.0) || !std::isfinite(setup.stiffness))
+    throw core::InvalidParameter("servo: the coupling's stiffness must be above 0 N/mm");
+  if (!setup.center.allFinite())
+    throw core::InvalidParameter("servo: the centre is not finite");
+  if (!(setup.stallAfter > 0.0))
+    throw core::InvalidParameter("servo: a stall must be longer than 0 s");
+  return setup;
+}
+
+} // namespace
+
+Servo::Servo(haptics::Proxy& proxy, const ServoSetup& setup)
+  : m_setup(checked(setup))
+  , m_proxy(proxy)
+  , m_guard(setup.guard)
+  , m_limits(setup.limits)
+  , m_passivity(setup.passivity.value_or(haptics::PassivityGuard::Parameters()))
+  , m_mapping(setup.center)
+  , m_thrust(setup.stiffness, setup.burrPoints)
+{
+}
+
+// Fills the step and the record's fault from what came in.
+Servo::Step Servo::judge(const TickInput& input) noexcept
+{
+  Step step;
+  const ServoParameters& p = input.parameters;
+  const DeviceGuard::Judgement judgement = m_guard.judge(input.reading(), input.now);
+  m_record.verdict = static_cast<std::uint8_t>(judgement.verdict);
+  ServoFault fault = ServoFault::None;
+  const double past = input.now - m_time;
+  if (!judgement.usable)
+  {
+    fault = ServoFault::Device;
+    m_record.verdictValue = judgement.value;
+  }
+  else if (!std::isfinite(input.now) || (m_hasTime && past < 0.0))
+    fault = ServoFault::Clock;
+  else if (!p.valid())
+    fault = ServoFault::Parameters;
+  else if (m_hasTime && past > m_setup.stallAfter)
+    fault = ServoFault::Stalled;
+  step.usable = fault == ServoFault::None || fault == ServoFault::Stalled;
+  m_record.fault = static_cast<std::uint8_t>(fault);
+
+  step.device = judgement.pose;
+  const double* q = p.camera;
+  step.view = {{q[0], q[1], q[2], q[3]}, p.scale};
+  step.clutch = p.clutch || (input.buttons & p.clutchButtons) != 0;
+  if (std::isfinite(input.now))
+  {
+    step.dt = m_hasTime ? std::clamp(past, 0.0, kLongestStep) : 0.0;
+    m_time = input.now;
+    m_hasTime = true;
+  }
+  return step;
+}
+
+void Servo::map(Step& step, bool anew) noexcept
+{
+  if (!m_placed && step.usable)
+  {
+    step.mapped = m_mapping.map(step.device, step.view);
+    m_proxy.place(step.mapped);
+    m_placed = true;
+    return;
+  }
+  // A place that is pressed on by a set force is where it is, and needs no anchor for safety.
+  if (step.usable && !step.clutch && (!anew || m_record.input.parameters.constantThrust))
+  {
+    step.mapped = m_mapping.map(step.device, step.view);
+    return;
+  }
+  step.mapped = m_proxy.pose();
+  if (step.usable)
+    m_mapping.hold(step.device, step.view, step.mapped);
+}
+
+void Servo::reportContacts(const ProxyTick& tick) noexcept
+{
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d spindle = tick.pose.rotation * Eigen::Vector3d::UnitZ();
+  double weight = 0.0;
+  double radius = 0.0;
+  for (std::size_t n = 0; n < tick.contactCount; ++n)
+  {
+    const haptics::ProxyContact& contact = tick.contacts[n];
+    if (contact.point >= m_setup.burrPoints)
+      continue;
+    force += contact.thrust * contact.normal;
+    weight += contact.thrust;
+    radius += contact.thrust * (contact.arm - contact.arm.dot(spindle) * spindle).norm();
+  }
+  const double length = force.norm();
+  m_record.contactRadius = weight > 0.0 ? radius / weight : 0.0;
+  m_record.elevation =
+      length > 0.0 ? std::asin(std::clamp(force.dot(spindle) / length, -1.0, 1.0)) : 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    m_record.burrForce[axis] = force[axis];
+  m_record.proxy = PoseValues::of(tick.pose);
+  m_record.wrench = WrenchValues::of(tick.wrench);
+  m_record.thrust = tick.thrust;
+  m_record.penetration = tick.penetration;
+  m_record.contacts = static_cast<std::uint16_t>(tick.contactCount);
+  m_record.status = static_cast<std::uint8_t>(tick.status);
+}
+
+void Servo::giveForce(const Step& step, const ProxyTick& tick, bool anew) noexcept
+{
+  const bool give = step.usable && !m_record.input.parameters.pause;
+  if (!give)
+    m_limits.fault();
+  else if (!m_giving || anew)
+    m_limits.resume();
+  m_giving = give;
+  haptics::Wrench wanted;
+  const double now = m_record.input.now;
+  if (give)
+    wanted = m_mapping.toHand(tick.wrench, m_record.input.parameters.forceGain);
+  if (give && m_setup.passivity)
+    wanted = m_passivity.apply(wanted, step.device, now);
+  const haptics::Wrench output = m_limits.apply(wanted, now);
+  if (m_setup.passivity)
+    m_passivity.sent(output);
+  m_record.output = WrenchValues::of(output);
+}
+
+const TickRecord& Servo::tick(const TickInput& input) noexcept
+{
+  const ServoParameters& p = input.parameters;
+  m_record = TickRecord();
+  m_record.number = m_number++;
+  m_record.input = input;
+
+  Step step = judge(input);
+  bool anew = m_record.fault == static_cast<std::uint8_t>(ServoFault::Stalled) ||
+              (step.usable && !m_wasUsable);
+  m_wasUsable = step.usable;
+  map(step, anew);
+  m_record.mapped = PoseValues::of(step.mapped);
+
+  Pose goal = step.mapped;
+  if (p.constantThrust && step.usable && !step.clutch)
+    goal = m_thrust.goal(step.mapped, m_proxy.pose(), {p.approach[0], p.approach[1], p.approach[2]},
+                         p.thrust, p.approachSpeed, step.dt);
+  const ProxyTick& tick = m_placed ? m_proxy.step(goal) : m_none;
+  if (step.usable)
+    m_thrust.see(tick, p.approachSpeed, step.dt);
+  reportContacts(tick);
+
+  ServoFault fault = static_cast<ServoFault>(m_record.fault);
+  if (tick.status == ProxyStatus::Retreated)
+  {
+    // The hand is deep in what came back: it takes the tool up where it is now.
+    anew = true;
+    if (step.usable && !p.constantThrust)
+      m_mapping.hold(step.device, step.view, tick.pose);
+    fault = fault == ServoFault::None ? ServoFault::Retreated : fault;
+  }
+  else if (!tick.wrench.finite() || tick.status == ProxyStatus::BadGoal)
+    fault = fault == ServoFault::None ? ServoFault::Wrench : fault;
+  else if (tick.status == ProxyStatus::Inside)
+    fault = fault == ServoFault::None ? ServoFault::Inside : fault;
+  m_record.fault = static_cast<std::uint8_t>(fault);
+
+  giveForce(step, tick, anew);
+  const bool wanted = p.drill || input.pedal >= kPedalDown || (input.buttons & p.drillButtons) != 0;
+  m_record.drill = wanted && m_giving && !step.clutch && fault == ServoFault::None;
+  return m_record;
+}
+
+} // namespace petrous::simulation

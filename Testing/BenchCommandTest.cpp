@@ -16,6 +16,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
   const auto report = json("bench renderer --quick --edge 24 --out " + quoted(out));
   std::set<std::string> peers, varied, marked;
   int surfaces = 0;
+  int interactive = 0;
   for (const auto& point : report.at("points"))
   {
     const auto& setting = point.at("setting");
@@ -40,6 +41,15 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
       ++surfaces;
       EXPECT_LE(point.at("error").get<double>(), 0.05) << scene;
     }
+    // While the camera moves: how fast, at worst, and how coarse.
+    if (scene.find(", interactive ") != std::string::npos)
+    {
+      ++interactive;
+      const auto& extra = point.at("extra");
+      EXPECT_LE(extra.at("slowest_hertz").get<double>(), extra.at("hertz").get<double>()) << scene;
+      EXPECT_GT(extra.at("smallest_scale").get<double>(), 0.0) << scene;
+      EXPECT_LE(extra.at("smallest_scale").get<double>(), 1.0) << scene;
+    }
     // A picture after an edit is the picture made anew, to the pixel.
     if (scene.find("a 4 mm burr") != std::string::npos)
     {
@@ -48,6 +58,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
     }
   }
   EXPECT_EQ(surfaces, 4);
+  EXPECT_EQ(interactive, 4);
   EXPECT_EQ(peers.size(), 4U);
   EXPECT_EQ(varied, (std::set<std::string>{"bisections", "brick_voxels", "mask_bits", "step_voxels",
                                            "table_entries", "termination"}));

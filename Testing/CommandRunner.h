@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -95,11 +96,24 @@ protected:
   std::filesystem::path writePath(const std::array<double, 3>& from,
                                   const std::array<double, 3>& to) const
   {
+    // The shaft, +z of the tool, points back along the way: w = 1 + z . a, v = z x a.
+    std::array<double, 3> back{from[0] - to[0], from[1] - to[1], from[2] - to[2]};
+    const double length = std::hypot(back[0], back[1], back[2]);
+    std::array<double, 4> q{1.0 + back[2] / length, -back[1] / length, back[0] / length, 0.0};
+    if (q[0] < 1e-6)
+      q = {0.0, 1.0, 0.0, 0.0};
     const auto path = m_folder / "path.csv";
     std::ofstream file(path);
+    const auto row = [&](double time, const std::array<double, 3>& at, int drill)
+    {
+      file << time << ',' << at[0] << ',' << at[1] << ',' << at[2];
+      for (const double part : q)
+        file << ',' << part;
+      file << ',' << drill << '\n';
+    };
     file << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n";
-    file << "0," << from[0] << ',' << from[1] << ',' << from[2] << ",1,0,0,0,1\n";
-    file << "1," << to[0] << ',' << to[1] << ',' << to[2] << ",1,0,0,0,0\n";
+    row(0.0, from, 1);
+    row(1.0, to, 0);
     return path;
   }
 

@@ -300,7 +300,8 @@ void Run::edits(const BenchmarkPatient& patient)
 }
 
 // The camera swings round its focal point, and the picture is as coarse as the window makes it
-// then. Every frame counts, the first ones included, in which it learns how fast the machine is.
+// then. Every frame counts but the first, which is at rest: from it the picture learns how fast the
+// machine is.
 void Run::interaction(const BenchmarkPatient& patient, const core::Progress& progress)
 {
   constexpr double swing = 0.5; // rad to each side
@@ -324,7 +325,7 @@ void Run::interaction(const BenchmarkPatient& patient, const core::Progress& pro
       double scale = 1.0;
       for (int n = 0; n < timing.frames; ++n)
       {
-        const double angle = swing * std::sin(2.0 * EIGEN_PI * (n + 1) / timing.frames);
+        const double angle = swing * std::sin(2.0 * std::acos(-1.0) * (n + 1) / timing.frames);
         core::CameraPose pose = middle;
         pose.position = middle.focalPoint + Eigen::AngleAxisd(angle, middle.viewUp.normalized()) *
                                                 (middle.position - middle.focalPoint).eval();

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "../Testing/AnalyticFields.h"
+#include "../Testing/CutBall.h"
 #include "TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 

@@ -131,6 +131,23 @@ TEST(ContactQpOptimality, FulfilsTheKktConditionsWithStiffnessesAThousandApart)
     expectSolved(family, 500, 1, 60, 30.0);
 }
 
+// Cartilage beside a soft coupling, and far beyond: the springs' Hessian is ill-conditioned.
+TEST(ContactQpOptimality, FulfilsTheKktConditionsWithHardSprings)
+{
+  QpProblemSource source(41);
+  for (int n = 0; n < 2000; ++n)
+  {
+    QpProblem problem =
+        source.make(n % 2 == 0 ? QpFamily::Soft : QpFamily::SoftPatch, source.whole(1, 60));
+    for (double& compliance : problem.compliances)
+      if (compliance > 0.0)
+        compliance = source.power(-6.5, -4.0);
+    ContactQp qp = solverOf(problem);
+    ASSERT_EQ(qp.solve(problem.unconstrained), Status::Solved) << n;
+    EXPECT_LT(kktError(problem, qp).worst(), 1e-9) << n;
+  }
+}
+
 TEST(ContactQpOptimality, HoldsABallInAHoleOfFourHundredRows)
 {
   expectSolved(QpFamily::Hole, 100, 400, 400, 1.0);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "AnalyticFields.h"
+#include "CutBall.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
 // What the tests of the proxy share. Truth of "inside" is volume::TissueField, the field of eye and

@@ -197,11 +197,28 @@ void ConstrainedProxy::report() noexcept
 // A sweep goes no farther than its chords, and neither does the search for near points.
 ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noexcept
 {
-  const double most = ShellSweep::kMostSteps * m_parameters.sweepStep * m_sweep.field().voxel();
-  const double share = std::min(1.0, most / std::max(way, 1e-12));
-  m_sweep.addNear(share * motion.linear.norm(), share * motion.angular.norm());
-  m_tick.nearPoints = std::max(m_tick.nearPoints, m_sweep.nearCount());
-  return m_sweep.advance(motion);
+  // In stretches that grow: what stops a motion is mostly near, and what is far is not looked at.
+  const double step = m_parameters.sweepStep * m_sweep.field().voxel();
+  const double most = std::min(1.0, ShellSweep::kMostSteps * step / std::max(way, 1e-12));
+  double share = std::min(most, 2.0 * step / std::max(way, 1e-12));
+  double done = 0.0;
+  ShellSweep::Hit hit;
+  for (;;)
+  {
+    share = std::min(share, most - done);
+    const Motion part{share * motion.linear, share * motion.angular};
+    if (done > 0.0)
+      m_sweep.findNear(0.0);
+    m_sweep.addNear(part.linear.norm(), part.angular.norm());
+    m_tick.nearPoints = std::max(m_tick.nearPoints, m_sweep.nearCount());
+    hit = m_sweep.advance(part);
+    done += share * hit.free;
+    if (hit.any || done >= most - 1e-12)
+      break;
+    share *= 2.0;
+  }
+  hit.free = !hit.any && most >= 1.0 ? 1.0 : done;
+  return hit;
 }
 
 void ConstrainedProxy::follow(const Pose& goal) noexcept
@@ -261,6 +278,7 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
   }
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
+  m_tick.maskState = m_sweep.state().number();
   notice();
   if (m_inside)
   {

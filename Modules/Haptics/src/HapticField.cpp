@@ -263,7 +263,7 @@ Eigen::Vector3d HapticField::gradient(const Eigen::Vector3d& voxel, const FieldS
     return volume::sampleGradient(*solid.share, solid.fromCt * voxel + solid.offset, step);
   }
   return volume::gradientInPatient(
-      m_geometry, voxel, 1.0, [&](const Eigen::Vector3d& v) { return operand(sample, v, mask); });
+      m_geometry, voxel, step, [&](const Eigen::Vector3d& v) { return operand(sample, v, mask); });
 }
 
 double HapticField::slope(const Eigen::Vector3d& voxel, const Eigen::Vector3d& direction,

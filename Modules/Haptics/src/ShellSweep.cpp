@@ -28,6 +28,8 @@ ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shel
   m_clearance.assign(m_shell.points.size(), 0.0);
   m_near.resize(m_shell.points.size());
   m_isNear.resize(m_shell.points.size());
+  m_wake.resize(m_shell.points.size());
+  m_known.resize(m_shell.points.size());
   m_maps[0] = mapOf(m_pose);
 }
 
@@ -159,31 +161,48 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion) noexcept
   for (std::size_t s = 1; s <= steps; ++s)
     m_maps[s] = mapOf(moved(m_pose, motion, perStep * static_cast<double>(s)));
 
+  // Chord by chord, so that what is paid is the way that is made. A point sleeps while it cannot
+  // have come to tissue.
   Hit hit;
   auto best = static_cast<double>(steps);
-  for (const Near& near : *this)
+  const double linear = perStep * motion.linear.norm();
+  const double angular = perStep * motion.angular.norm();
+  const auto sleep = [&](double clearance, double arm)
   {
-    const Eigen::Vector3d& point = m_shell.points[near.point];
-    Eigen::Vector3d from = m_maps[0].linear * point + m_maps[0].offset;
-    FieldSample atFrom = near.sample;
-    for (std::size_t s = 1; s <= steps && static_cast<double>(s - 1) < best; ++s)
+    const double chords = clearance / std::max(linear + angular * arm, 1e-12);
+    return static_cast<std::uint32_t>(std::clamp(chords, 0.0, double{kMostSteps}));
+  };
+  for (std::size_t n = 0; n < m_nearCount; ++n)
+  {
+    m_wake[n] = sleep(m_clearance[m_near[n].point], m_arm[m_near[n].point]);
+    m_known[n] = m_wake[n] == 0;
+  }
+  for (std::uint32_t s = 1; s <= steps && !hit.any; ++s)
+    for (std::size_t n = 0; n < m_nearCount; ++n)
     {
+      if (m_wake[n] >= s)
+        continue;
+      Near& near = m_near[n];
+      const Eigen::Vector3d& point = m_shell.points[near.point];
+      const Eigen::Vector3d from = m_maps[s - 1].linear * point + m_maps[s - 1].offset;
+      if (!m_known[n])
+        near.sample = m_field->sample(from, *m_state);
       const Eigen::Vector3d to = m_maps[s].linear * point + m_maps[s].offset;
       const FieldSample atTo = m_field->sample(to, *m_state);
       const double limit = std::min(1.0, best - static_cast<double>(s - 1));
-      const double inside = firstInside(from, atFrom, to, atTo, limit);
+      const double inside = firstInside(from, near.sample, to, atTo, limit);
       if (inside < limit)
       {
         best = static_cast<double>(s - 1) + inside;
         hit.any = true;
         hit.point = near.point;
         hit.direction = (m_field->geometry().patientFromVoxelLinear() * (to - from)).normalized();
-        break;
       }
-      from = to;
-      atFrom = atTo;
+      near.sample = atTo;
+      const std::uint32_t rest = sleep(m_field->freeRadius(to, atTo), m_arm[near.point]);
+      m_wake[n] = s + rest;
+      m_known[n] = rest == 0;
     }
-  }
   hit.free = perStep * best;
   // The samples lie on chords: where the tool comes to stand is looked at itself.
   if (hit.any)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <vector>
 
 #include <vtkNew.h>
@@ -11,6 +10,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
+#include "WindowPicture.h"
 #include "petrous/Rendering/EglRenderWindow.h"
 #include "petrous/Rendering/RenderingError.h"
 
@@ -106,14 +106,7 @@ Picture TimedView::picture() const
 {
   const auto& my = *m_implementation;
   const int* size = my.window->GetSize();
-  Picture picture{size[0], size[1], {}};
-  const std::size_t row = 3 * static_cast<std::size_t>(size[0]);
-  picture.rgb.resize(row * static_cast<std::size_t>(size[1]));
-  if (static_cast<std::size_t>(my.pixels->GetNumberOfValues()) == picture.rgb.size())
-    for (int y = 0; y < size[1]; ++y) // OpenGL's rows run from the bottom
-      std::memcpy(&picture.rgb[row * static_cast<std::size_t>(size[1] - 1 - y)],
-                  my.pixels->GetPointer(static_cast<vtkIdType>(row) * y), row);
-  return picture;
+  return fromBottomRow(size[0], size[1], my.pixels);
 }
 
 std::string TimedView::glRenderer() const

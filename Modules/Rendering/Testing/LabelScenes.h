@@ -12,21 +12,11 @@ template <class Inside, class Index>
 std::shared_ptr<const volume::LabelField> labelField(const core::GridGeometry& grid,
                                                      const Inside& inside, const Index& index)
 {
-  auto share = std::make_shared<volume::Volume<float>>(grid);
-  auto indices = std::make_shared<volume::Volume<std::uint8_t>>(grid);
-  const core::Index3& n = grid.dims();
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-      {
-        const Eigen::Vector3d p = grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
-        share->at(i, j, k) =
-            static_cast<float>(std::clamp(0.5 + 0.25 * inside(p) / grid.minSpacing(), 0.0, 1.0));
-        indices->at(i, j, k) = static_cast<std::uint8_t>(index(p));
-      }
   auto labels = std::make_shared<volume::LabelField>();
-  labels->share = share;
-  labels->index = indices;
+  labels->share =
+      sampled<float>(grid, [&](const Eigen::Vector3d& p)
+                     { return std::clamp(0.5 + 0.25 * inside(p) / grid.minSpacing(), 0.0, 1.0); });
+  labels->index = sampled<std::uint8_t>(grid, index);
   labels->hasSolid = labels->hasLumen = true;
   return labels;
 }

@@ -12,6 +12,15 @@ namespace petrous::rendering::synthetic
 
 using Vector = Eigen::Vector3d;
 
+inline core::CameraPose from(const Vector& eye, const Vector& at, double angle = 30.0)
+{
+  core::CameraPose pose;
+  pose.position = eye;
+  pose.focalPoint = at;
+  pose.viewAngle = angle;
+  return pose;
+}
+
 /// Bone whose colour and density follow the intensity.
 inline appearance::TransferFunction boneTransfer()
 {

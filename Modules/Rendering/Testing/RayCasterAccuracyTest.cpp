@@ -33,15 +33,6 @@ std::ostream& operator<<(std::ostream& os, const Case& value)
   return os << value.name;
 }
 
-core::CameraPose from(const Vector& eye, const Vector& at, double angle = 30.0)
-{
-  core::CameraPose pose;
-  pose.position = eye;
-  pose.focalPoint = at;
-  pose.viewAngle = angle;
-  return pose;
-}
-
 template <class Tissue>
 View shape(const Tissue& tissue, double spacing = 0.5)
 {

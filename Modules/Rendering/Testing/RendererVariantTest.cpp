@@ -138,12 +138,12 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
     double samples;
   };
   const std::vector<Limit> limits{
-      {"opaque", hollowBall(oblique()), slanting(), 25.4, 8.6},
-      {"opaque, near", hollowBall(oblique()), near, 66.1, 27.2},
-      {"translucent", translucentBall(), slanting(), 59.1, 23.1},
-      {"cut", cutBall(), near, 91.6, 28.7},
-      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 68.2, 22.4},
-      {"everything", fullScene(), near, 280.0, 71.1},
+      {"opaque", hollowBall(oblique()), slanting(), 24.1, 8.6},
+      {"opaque, near", hollowBall(oblique()), near, 63.3, 24.3},
+      {"translucent", translucentBall(), slanting(), 58.4, 20.9},
+      {"cut", cutBall(), near, 85.0, 25.6},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 64.2, 20.3},
+      {"everything", fullScene(), near, 259.8, 63.9},
   };
   for (const Limit& limit : limits)
   {

@@ -198,10 +198,25 @@ TEST(ScenePicture, CoarsensOnlyWhileInteractive)
   scene.setCamera(slanting());
   OffscreenView view(kWidth, kHeight);
   const Picture still = view.render(scene);
+  scene.setInteractionRate(30.0); // forgets how fast the machine is
   scene.setInteractive(true);
   EXPECT_GT(countDifferentPixels(view.render(scene), still), 0U);
   scene.setInteractive(false);
   EXPECT_EQ(countDifferentPixels(view.render(scene), still), 0U);
+}
+
+TEST(ScenePicture, LearnsFromTheFrameAtRestWhatTheMachineCanDo)
+{
+  ScenePicture scene;
+  scene.setContents(hollowBall());
+  scene.setCamera(slanting());
+  scene.setInteractionRate(1.0); // any machine draws so small a picture in full
+  OffscreenView view(32, 24);
+  view.render(scene);
+  view.render(scene);
+  scene.setInteractive(true);
+  view.render(scene);
+  EXPECT_EQ(scene.depth().width, 32) << "not the half of one that has seen no frame";
 }
 
 TEST(ScenePicture, KeepsItsBrightnessWhileCoarse)

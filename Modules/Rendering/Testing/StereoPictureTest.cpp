@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
 #include "PictureComparison.h"
+#include "WindowPicture.h"
 #include "petrous/Rendering/EglRenderWindow.h"
 #include "petrous/Rendering/GraphicsReport.h"
 
@@ -50,13 +50,7 @@ public:
   {
     m_window->Render();
     picture.throwLastError();
-    const int* size = m_window->GetSize();
-    vtkNew<vtkUnsignedCharArray> pixels;
-    m_window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels, 0);
-    Picture result{size[0], size[1], {}};
-    for (int y = size[1] - 1; y >= 0; --y)
-      result.rgb.insert(result.rgb.end(), pixels->GetPointer(3LL * size[0] * y),
-                        pixels->GetPointer(3LL * size[0] * y) + 3LL * size[0]);
+    Picture result = readWindow(m_window);
     m_window->ReleaseCurrent();
     return result;
   }

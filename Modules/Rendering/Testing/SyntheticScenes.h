@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -40,25 +41,41 @@ inline Eigen::Matrix3d obliqueMirrored()
   return direction;
 }
 
+/// Voxels of which `value(patient)` is what each holds.
+template <class T, class Value>
+std::shared_ptr<volume::Volume<T>> sampled(const core::GridGeometry& grid, const Value& value)
+{
+  auto voxels = std::make_shared<volume::Volume<T>>(grid);
+  const core::Index3& n = grid.dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        voxels->at(i, j, k) =
+            static_cast<T>(value(grid.patientFromVoxel(Eigen::Vector3d(i, j, k))));
+  return voxels;
+}
+
+template <class T>
+std::shared_ptr<const volume::IntensityVolume>
+intensities(std::shared_ptr<const volume::Volume<T>> voxels)
+{
+  return std::make_shared<volume::IntensityVolume>(std::move(voxels));
+}
+
 /// CT of which `tissue(patient)` is the signed distance into bone, mm.
 template <class T, class Tissue>
 std::shared_ptr<const volume::IntensityVolume> ct(const core::GridGeometry& grid,
                                                   const Tissue& tissue)
 {
-  auto voxels = std::make_shared<volume::Volume<T>>(grid);
-  const core::Index3& n = grid.dims();
   const double lowest = std::is_same_v<T, std::uint16_t> ? 0.0 : -1000.0;
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-      {
-        const double depth = tissue(grid.patientFromVoxel(Eigen::Vector3d(i, j, k)));
-        const double value = std::clamp(kIso + 120.0 * depth / grid.minSpacing(), lowest, 2500.0);
-        voxels->at(i, j, k) =
-            std::is_integral_v<T> ? static_cast<T>(std::lround(value)) : static_cast<T>(value);
-      }
-  return std::make_shared<volume::IntensityVolume>(
-      std::shared_ptr<const volume::Volume<T>>(voxels));
+  return intensities<T>(sampled<T>(grid,
+                                   [&](const Eigen::Vector3d& p)
+                                   {
+                                     const double value =
+                                         std::clamp(kIso + 120.0 * tissue(p) / grid.minSpacing(),
+                                                    lowest, 2500.0);
+                                     return std::is_integral_v<T> ? std::round(value) : value;
+                                   }));
 }
 
 template <class T = std::int16_t>
@@ -103,16 +120,8 @@ std::shared_ptr<volume::CutMask> cut(const core::GridGeometry& grid, const Kept&
 template <class Inside>
 std::shared_ptr<const volume::LabelMap> labels(const core::GridGeometry& grid, const Inside& inside)
 {
-  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
-  const core::Index3& n = grid.dims();
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-        voxels->at(i, j, k) = inside(grid.patientFromVoxel(Eigen::Vector3d(i, j, k)))
-                                  ? std::uint16_t{1}
-                                  : std::uint16_t{0};
-  return std::make_shared<volume::LabelMap>(
-      volume::makeLabelMap(voxels, {volume::Segment{"marker", 1, {}, 0}}));
+  return std::make_shared<volume::LabelMap>(volume::makeLabelMap(
+      sampled<std::uint16_t>(grid, inside), {volume::Segment{"marker", 1, {}, 0}}));
 }
 
 /// A CT of which `value(patient)` is the intensity, HU, unrounded.
@@ -120,15 +129,7 @@ template <class Value>
 std::shared_ptr<const volume::IntensityVolume> image(const core::GridGeometry& grid,
                                                      const Value& value)
 {
-  auto voxels = std::make_shared<volume::Volume<float>>(grid);
-  const core::Index3& n = grid.dims();
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-        voxels->at(i, j, k) =
-            static_cast<float>(value(grid.patientFromVoxel(Eigen::Vector3d(i, j, k))));
-  return std::make_shared<volume::IntensityVolume>(
-      std::shared_ptr<const volume::Volume<float>>(voxels));
+  return intensities<float>(sampled<float>(grid, value));
 }
 
 inline volume::TissueField field(const SceneContents& contents,

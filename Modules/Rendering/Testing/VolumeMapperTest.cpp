@@ -1,7 +1,5 @@
 #include "petrous/Rendering/VolumeMapper.h"
 
-#include <cstring>
-
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
@@ -14,12 +12,12 @@
 #include <vtkPlaneCollection.h>
 #include <vtkRenderer.h>
 #include <vtkTestErrorObserver.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
+#include "WindowPicture.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Rendering/EglRenderWindow.h"
 #include "petrous/Rendering/VtkVolume.h"
@@ -85,13 +83,7 @@ public:
   {
     renderer->ResetCameraClippingRange();
     window->Render();
-    vtkNew<vtkUnsignedCharArray> pixels;
-    window->GetPixelData(0, 0, kWidth - 1, kHeight - 1, 0, pixels, 0);
-    Picture picture{kWidth, kHeight, std::vector<std::uint8_t>(3 * kWidth * kHeight)};
-    for (int row = 0; row < kHeight; ++row)
-      std::memcpy(&picture.rgb[static_cast<std::size_t>(3 * kWidth * (kHeight - 1 - row))],
-                  pixels->GetPointer(vtkIdType{3} * kWidth * row), 3 * kWidth);
-    return picture;
+    return readWindow(window);
   }
 
   Shot shoot() { return {draw(), mapper->GetDepth(), mapper->GetStatistics()}; }

@@ -14,11 +14,13 @@ namespace
                        "the graphics driver refuses " + what + ": " + log);
 }
 
-GLuint compile(GLenum kind, const std::string& source)
+GLuint compile(GLenum kind, std::string_view source)
 {
+  constexpr std::string_view version = "#version 330 core\n";
   const GLuint shader = glCreateShader(kind);
-  const char* text = source.c_str();
-  glShaderSource(shader, 1, &text, nullptr);
+  const char* texts[] = {version.data(), source.data()};
+  const GLint lengths[] = {static_cast<GLint>(version.size()), static_cast<GLint>(source.size())};
+  glShaderSource(shader, 2, texts, lengths);
   glCompileShader(shader);
   GLint done = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
@@ -34,7 +36,7 @@ GLuint compile(GLenum kind, const std::string& source)
 
 } // namespace
 
-void GlProgram::build(const std::string& vertex, const std::string& fragment)
+void GlProgram::build(std::string_view vertex, std::string_view fragment)
 {
   release();
   const GLuint first = compile(GL_VERTEX_SHADER, vertex);

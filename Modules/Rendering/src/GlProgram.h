@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ public:
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
 
-  /// Throws RenderingError NoOpenGL with the driver's log.
-  void build(const std::string& vertex, const std::string& fragment);
+  /// From GLSL 3.30 without its version line. Throws RenderingError NoOpenGL with the driver's log.
+  void build(std::string_view vertex, std::string_view fragment);
   void use() const { glUseProgram(m_name); }
   void release();
   explicit operator bool() const noexcept { return m_name != 0; }

@@ -1,14 +1,13 @@
 #include "petrous/Rendering/OffscreenView.h"
 
 #include <chrono>
-#include <cstring>
 
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
+#include "WindowPicture.h"
 #include "petrous/Rendering/EglRenderWindow.h"
 #include "petrous/Rendering/RenderingError.h"
 
@@ -90,20 +89,10 @@ Picture OffscreenView::render(ScenePicture& scene)
   my.window->Render();
   scene.throwLastError();
 
-  const int* size = my.window->GetSize();
-  Picture picture;
-  picture.width = size[0];
-  picture.height = size[1];
-  vtkNew<vtkUnsignedCharArray> pixels;
-  my.window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels, 0);
-  const std::size_t row = 3 * static_cast<std::size_t>(size[0]);
-  picture.rgb.resize(row * static_cast<std::size_t>(size[1]));
-  if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != picture.rgb.size())
+  Picture picture = readWindow(my.window);
+  if (picture.rgb.empty())
     throw RenderingError(RenderingError::Reason::NoOpenGL,
                          my.rendererName + " gave no picture back");
-  for (int y = 0; y < size[1]; ++y) // OpenGL's rows run from the bottom
-    std::memcpy(&picture.rgb[row * static_cast<std::size_t>(size[1] - 1 - y)],
-                pixels->GetPointer(static_cast<vtkIdType>(row) * y), row);
   // GLX refuses a thread on which an EGL context is still current.
   my.window->ReleaseCurrent();
   my.milliseconds = since(start);

@@ -8,12 +8,8 @@
 
 #include <Eigen/LU>
 
-#include "OpticalModel.h"
 #include "PresentShader.h"
-#include "RayCastShader.h"
 #include "RayCastVertexShader.h"
-#include "RayOpticsShader.h"
-#include "RaySceneShader.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -163,20 +159,16 @@ void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const c
     m_dirtyBricks = m_dirtyBricks.united(m_occupancy->maskChanged(mask.get(), box));
 }
 
-unsigned RayCaster::features() const
+RayFeatures RayCaster::features() const
 {
-  unsigned result = m_contents.boneShown ? unsigned{Bone} : 0U;
-  if (m_contents.labels)
-    result |= Labels;
-  if (m_mask.inUse())
-    result |= Mask;
-  if (readsSecond(m_contents))
-    result |= Second;
-  if (translucent(m_contents.materials))
-    result |= Interior;
-  if (!m_contents.clipping.empty())
-    result |= Clip;
-  return result;
+  RayFeatures features;
+  features.bone = m_contents.boneShown;
+  features.labels = static_cast<bool>(m_contents.labels);
+  features.mask = m_mask.inUse();
+  features.second = readsSecond(m_contents);
+  features.interior = translucent(m_contents.materials);
+  features.clip = !m_contents.clipping.empty();
+  return features;
 }
 
 OccupancyGrid::Rules RayCaster::rules() const
@@ -282,39 +274,15 @@ void RayCaster::upload()
 
 // ---- one frame
 
-GlProgram& RayCaster::program(unsigned features, bool count)
+GlProgram& RayCaster::program(bool count)
 {
-  m_statistics.variant = {"ct"};
-  std::string head = "#version 330 core\n";
-  const auto add = [&](Feature feature, const char* define, const char* name)
-  {
-    if (!(features & feature))
-      return;
-    head += std::string("#define ") + define + "\n";
-    m_statistics.variant.emplace_back(name);
-  };
-  add(Bone, "PETROUS_BONE", "bone");
-  add(Labels, "PETROUS_LABELS", "labels");
-  add(Mask, "PETROUS_MASK", "mask");
-  add(Second, "PETROUS_SECOND", "second");
-  add(Interior, "PETROUS_INTERIOR", "interior");
-  const std::string clip = "PETROUS_CLIP " + std::to_string(kMostPlanes);
-  add(Clip, clip.c_str(), "clipping");
-  GlProgram& result = m_programs[features * 2U + (count ? 1U : 0U)];
+  RayFeatures wanted = features();
+  wanted.count = count;
+  m_statistics.variant = wanted.names();
+  GlProgram& result = m_programs[wanted.key()];
   if (!result)
-    result.build(std::string("#version 330 core\n").append(kRayCastVertexShader),
-                 head + (count ? "#define PETROUS_COUNT\n" : "") +
-                     std::string(kRaySceneShader).append(kRayOpticsShader).append(kRayCastShader));
+    result.build(kRayCastVertexShader, rayFragmentShader(wanted));
   return result;
-}
-
-void RayCaster::drawTriangle()
-{
-  if (!m_vertexArray)
-    glGenVertexArrays(1, &m_vertexArray);
-  glBindVertexArray(m_vertexArray);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
 }
 
 void RayCaster::draw(const Frame& frame, bool count)
@@ -340,7 +308,7 @@ void RayCaster::draw(const Frame& frame, bool count)
       releaseData();
     return;
   }
-  GlProgram& shader = program(features(), count);
+  GlProgram& shader = program(count);
   shader.use();
   bindTextures(shader, frame);
   setRays(shader, frame);
@@ -357,16 +325,14 @@ void RayCaster::draw(const Frame& frame, bool count)
 void RayCaster::present(int width, int height)
 {
   if (!m_present)
-    m_present.build(std::string("#version 330 core\n").append(kRayCastVertexShader),
-                    std::string("#version 330 core\n").append(kPresentShader));
+    m_present.build(kRayCastVertexShader, kPresentShader);
   m_present.use();
   m_target.color().bind(0);
   m_present.set("picture", 0);
   m_present.set("sameSize",
                 m_target.color().dims()[0] == width && m_target.color().dims()[1] == height ? 1
                                                                                             : 0);
-  drawTriangle();
-  glUseProgram(0);
+  m_triangle.draw();
 }
 
 void RayCaster::releaseData()
@@ -387,9 +353,7 @@ void RayCaster::release()
   m_programs.clear();
   m_present.release();
   m_target.release();
-  if (m_vertexArray)
-    glDeleteVertexArrays(1, &m_vertexArray);
-  m_vertexArray = 0;
+  m_triangle.release();
 }
 
 } // namespace petrous::rendering

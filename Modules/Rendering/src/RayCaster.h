@@ -6,9 +6,11 @@
 #include <vtk_glew.h>
 
 #include "GlProgram.h"
+#include "RayShader.h"
 #include "RayTarget.h"
 #include "RayView.h"
 #include "SceneTextures.h"
+#include "ScreenTriangle.h"
 #include "petrous/Rendering/Picture.h"
 #include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/SceneContents.h"
@@ -24,8 +26,6 @@ namespace petrous::rendering
 class RayCaster
 {
 public:
-  static constexpr std::size_t kMostPlanes = 6; ///< of SceneContents::clipping
-
   /// What else a frame needs. `opaque`: depth of opaque polygons in the window, or 0.
   struct Frame
   {
@@ -33,6 +33,7 @@ public:
     int width = 0; ///< of the window's part, pixels
     int height = 0;
     GLuint opaque = 0;
+    bool everywhere = false; ///< cast the rays that pass all tissue by, too
   };
 
   /// Keeps on the card what did not change. Throws RenderingError BadContents.
@@ -55,25 +56,15 @@ public:
   const RenderStatistics& statistics() const noexcept { return m_statistics; }
 
 private:
-  enum Feature : unsigned
-  {
-    Bone = 1,
-    Labels = 2,
-    Mask = 4,
-    Second = 8,
-    Interior = 16,
-    Clip = 32
-  };
-  unsigned features() const;
+  RayFeatures features() const;
   OccupancyGrid::Rules rules() const;
   void upload();
   void findTissue(const core::IndexBox& bricks);
   core::IndexBox tissueOnScreen(const Frame& frame, int width, int height) const;
-  GlProgram& program(unsigned features, bool count);
+  GlProgram& program(bool count);
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
-  void drawTriangle();
   void castRays(const Frame& frame, int width, int height);
   void releaseData();
 
@@ -94,7 +85,7 @@ private:
   MaterialTables m_materials;
   GlTexture m_bricks;
   RayTarget m_target;
-  GLuint m_vertexArray = 0;
+  ScreenTriangle m_triangle;
   std::unordered_map<unsigned, GlProgram> m_programs;
   GlProgram m_present;
 };

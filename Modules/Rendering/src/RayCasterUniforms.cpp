@@ -187,10 +187,12 @@ void RayCaster::findTissue(const core::IndexBox& bricks)
 // Pixels, in x and y, whose rays can meet tissue.
 core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int height) const
 {
+  const core::IndexBox whole{{0, 0, 0}, {width, height, 1}};
+  if (frame.everywhere)
+    return whole;
   if (m_tissueBricks.empty())
     return {};
   constexpr double margin = 0.01; // voxels; more than single precision errs by
-  const core::IndexBox whole{{0, 0, 0}, {width, height, 1}};
   const RayView& view = frame.view;
   Eigen::Matrix3d axes;
   if (view.parallel)
@@ -244,7 +246,7 @@ void RayCaster::castRays(const Frame& frame, int width, int height)
   glGetIntegerv(GL_SCISSOR_BOX, before.data()); // VTK remembers what it set
   glEnable(GL_SCISSOR_TEST);
   glScissor(pixels.lower[0], pixels.lower[1], pixels.size()[0], pixels.size()[1]);
-  drawTriangle();
+  m_triangle.draw();
   glDisable(GL_SCISSOR_TEST);
   glScissor(before[0], before[1], before[2], before[3]);
 }

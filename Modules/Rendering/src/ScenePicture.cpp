@@ -20,7 +20,7 @@
 
 #include "AimCamera.h"
 #include "OpticalModel.h"
-#include "RayCaster.h"
+#include "RayShader.h"
 #include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "ToolProps.h"
@@ -54,9 +54,9 @@ void check(const SceneContents& contents)
                   { return material.source == appearance::IntensitySource::Second; });
   if (asksForSecond && !contents.second.volume)
     refuse("a material reads a second image, and there is none");
-  if (contents.clipping.size() > RayCaster::kMostPlanes)
-    refuse("at most " + std::to_string(RayCaster::kMostPlanes) +
-           " clipping planes can be drawn, not " + std::to_string(contents.clipping.size()));
+  if (contents.clipping.size() > kMostPlanes)
+    refuse("at most " + std::to_string(kMostPlanes) + " clipping planes can be drawn, not " +
+           std::to_string(contents.clipping.size()));
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)
@@ -162,8 +162,7 @@ void ScenePicture::Implementation::startFrame()
 
 void ScenePicture::Implementation::endFrame()
 {
-  if (!interactive)
-    return;
+  // At rest, too, so that the first frame that moves is not slower than the others.
   glFinish(); // else the time would be that of giving orders
   interaction.frameTook(
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_started)

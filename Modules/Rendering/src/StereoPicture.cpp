@@ -9,7 +9,6 @@
 #include <vtkLightCollection.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 #include <vtkPropCollection.h>
 #include <vtkRenderer.h>
@@ -20,6 +19,7 @@
 #include "GlProgram.h"
 #include "GlTexture.h"
 #include "RayCastVertexShader.h"
+#include "ScreenTriangle.h"
 #include "StereoShader.h"
 
 namespace petrous::rendering
@@ -132,7 +132,7 @@ private:
   core::CameraPose m_head;
   GlTexture m_pictures[2];
   GlProgram m_program;
-  GLuint m_vertexArray = 0;
+  ScreenTriangle m_triangle;
 };
 
 void StereoPicture::Implementation::show(StereoMode next)
@@ -150,14 +150,13 @@ void StereoPicture::Implementation::show(StereoMode next)
     shown->RemoveRenderer(m_right);
     if (mode == StereoMode::QuadBuffer)
       shown->StereoRenderOff();
-    if (m_vertexArray)
+    if (m_program)
     {
       shown->MakeCurrent();
       m_pictures[0].release();
       m_pictures[1].release();
       m_program.release();
-      glDeleteVertexArrays(1, &m_vertexArray);
-      m_vertexArray = 0;
+      m_triangle.release();
     }
   }
   mode = next;
@@ -249,24 +248,11 @@ void StereoPicture::Implementation::take(vtkRenderer* renderer, GlTexture& textu
 
 void StereoPicture::Implementation::compose()
 {
-  window()->GetShaderCache()->ReleaseCurrentShader();
+  const PlainDrawing plain(window());
   if (!m_program)
-    m_program.build(std::string("#version 330 core\n").append(kRayCastVertexShader),
-                    std::string("#version 330 core\n").append(kStereoShader));
-  if (!m_vertexArray)
-    glGenVertexArrays(1, &m_vertexArray);
-  vtkOpenGLState* state = window()->GetState();
-  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  const vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  const vtkOpenGLState::ScopedglViewport viewport(state);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglDisable(GL_SCISSOR_TEST);
+    m_program.build(kRayCastVertexShader, kStereoShader);
   const int* size = window()->GetSize();
-  state->vtkglViewport(0, 0, size[0], size[1]);
+  window()->GetState()->vtkglViewport(0, 0, size[0], size[1]);
   m_program.use();
   m_pictures[0].bind(0);
   m_pictures[1].bind(1);
@@ -277,12 +263,7 @@ void StereoPicture::Implementation::compose()
                                                                  : 2);
   m_program.set("rightColumn", size[0] / 2);
   m_program.set("firstRow", firstRow);
-  glBindVertexArray(m_vertexArray);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  glActiveTexture(GL_TEXTURE0);
-  state->ResetGLActiveTexture();
+  m_triangle.draw();
 }
 
 StereoPicture::StereoPicture(ScenePicture& picture)

@@ -7,13 +7,10 @@
 #include <set>
 #include <utility>
 
-#include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkImageData.h>
-#include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
@@ -23,6 +20,7 @@
 #include <vtkVolumeProperty.h>
 #include <vtkWeakPointer.h>
 
+#include "AimCamera.h"
 #include "OpaqueDepth.h"
 #include "RayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -32,11 +30,6 @@ using petrous::rendering::SceneContents;
 
 namespace
 {
-
-Eigen::Matrix4d toEigen(vtkMatrix4x4* matrix)
-{
-  return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&matrix->Element[0][0]);
-}
 
 // What a vtkVolumeProperty says of component 0, as a material.
 petrous::appearance::Material materialOf(vtkVolumeProperty* property, double surfaceOpacity)
@@ -188,7 +181,7 @@ void vtkPetrousVolumeMapper::UpdateContents(vtkVolume* volume)
     return;
   my.clipped = changed;
   SceneContents contents = my.contents;
-  const Eigen::Matrix4d worldFromPatient = toEigen(volume->GetMatrix());
+  const Eigen::Matrix4d worldFromPatient = petrous::rendering::toEigen(volume->GetMatrix());
   if (this->ClippingPlanes)
     for (int i = 0; i < this->ClippingPlanes->GetNumberOfItems(); ++i)
     {
@@ -239,30 +232,18 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
     return;
   my.width = frame.width;
   my.height = frame.height;
-  vtkCamera* camera = renderer->GetActiveCamera();
-  frame.view = petrous::rendering::rayView(
-      toEigen(camera->GetModelViewTransformMatrix()),
-      toEigen(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)),
-      toEigen(volume->GetMatrix()));
+  frame.view =
+      petrous::rendering::raysOf(renderer->GetActiveCamera(), renderer->GetTiledAspectRatio(),
+                                 petrous::rendering::toEigen(volume->GetMatrix()));
 
   vtkOpenGLState* state = window->GetState();
-  window->GetShaderCache()->ReleaseCurrentShader();
-  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  const vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  const vtkOpenGLState::ScopedglViewport viewport(state);
+  // Before the copy of the depth, too, which a scissor would clip.
+  const petrous::rendering::PlainDrawing plain(window);
   const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
-  const vtkOpenGLState::ScopedglDepthMask depthMask(state);
   state->PushFramebufferBindings();
   try
   {
-    state->vtkglDisable(GL_SCISSOR_TEST); // which would clip the copy of the depth, too
     frame.opaque = my.opaque.capture(renderer, x, y, frame.width, frame.height);
-    state->vtkglDisable(GL_DEPTH_TEST);
-    state->vtkglDisable(GL_BLEND);
-    state->vtkglDisable(GL_CULL_FACE);
-    state->vtkglDepthMask(GL_FALSE);
     my.caster.draw(frame, this->Counting);
     state->ResetFramebufferBindings(); // bound behind VTK's back
     state->PopFramebufferBindings();
@@ -276,12 +257,8 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   {
     state->ResetFramebufferBindings();
     state->PopFramebufferBindings();
-    state->ResetGLActiveTexture();
     throw;
   }
-  glUseProgram(0);
-  glActiveTexture(GL_TEXTURE0);
-  state->ResetGLActiveTexture();
 }
 
 void vtkPetrousVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)

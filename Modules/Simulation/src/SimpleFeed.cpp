@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "petrous/Core/Error.h"
@@ -5,6 +6,11 @@
 
 namespace petrous::simulation
 {
+
+namespace
+{
+constexpr double kMostOwed = 0.1; // mm: a burr that is held elsewhere does not bore on alone
+}
 
 SimpleFeed::SimpleFeed(double radius, double gain)
   : m_radius(radius)
@@ -24,7 +30,16 @@ std::optional<dissection::SweptSphere> SimpleFeed::bite(const TickRecord& record
   const Eigen::Vector3d at = record.proxy.pose().position;
   if (!(length > 0.0) || !(depth > 0.0) || !std::isfinite(depth) || !at.allFinite())
     return std::nullopt;
-  return dissection::SweptSphere{at, at - depth / length * force, m_radius};
+  const Eigen::Vector3d into = -force / length;
+  // Contact that ended, or ticks that were left out, leave nothing owed.
+  if (record.number != m_number + 1)
+    m_owed = 0.0;
+  else
+    m_owed = std::max(0.0, m_owed - std::max(0.0, into.dot(at - m_at)));
+  m_owed = std::min(m_owed, kMostOwed) + depth;
+  m_at = at;
+  m_number = record.number;
+  return dissection::SweptSphere{at, at + m_owed * into, m_radius};
 }
 
 } // namespace petrous::simulation

@@ -398,6 +398,15 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
   const Vector3d out = kAxis.unitOrthogonal();
   for (double along = 0.5; along < length - 0.5; along += 0.1)
     EXPECT_LT(valueAt(*guard, along * kAxis + 0.9 * out), 0.5);
+  const auto& dims = guard->geometry().dims();
+  float steepest = 0.0F;
+  for (int k = 0; k + 1 < dims[2]; ++k)
+    for (int j = 0; j + 1 < dims[1]; ++j)
+      for (int i = 0; i + 1 < dims[0]; ++i)
+        for (const float other :
+             {guard->at(i + 1, j, k), guard->at(i, j + 1, k), guard->at(i, j, k + 1)})
+          steepest = std::max(steepest, std::abs(other - guard->at(i, j, k)));
+  EXPECT_LE(steepest, 0.5F + 1e-6F);
   EXPECT_EQ(volume::guardOf(*share, core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
             nullptr);
 }

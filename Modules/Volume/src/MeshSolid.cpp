@@ -139,6 +139,33 @@ std::string tooLargeText(double thickness, double bytes, double mostBytes)
   return text;
 }
 
+// Raises voxels until none lies more than `most` below a neighbour along an axis.
+void limitSteps(Volume<float>& volume, float most)
+{
+  const core::Index3& dims = volume.geometry().dims();
+  core::Index3 at{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t other = (axis + 1) % 3;
+    const std::size_t third = (axis + 2) % 3;
+    for (at[other] = 0; at[other] < dims[other]; ++at[other])
+      for (at[third] = 0; at[third] < dims[third]; ++at[third])
+      {
+        float before = 0.0F;
+        const auto raise = [&](int n)
+        {
+          at[axis] = n;
+          float& value = volume.at(at[0], at[1], at[2]);
+          before = value = std::max(value, before - most);
+        };
+        for (int n = 0; n < dims[axis]; ++n)
+          raise(n);
+        for (int n = dims[axis] - 1; n >= 0; --n)
+          raise(n);
+      }
+  }
+}
+
 } // namespace
 
 MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimits& limits,
@@ -266,9 +293,15 @@ std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,
 {
   const core::GridGeometry& from = solid.geometry();
   const auto bounds = from.patientBounds();
-  const core::IndexBox box = grid.boxCovering(bounds[0], bounds[1]);
+  core::IndexBox box = grid.boxCovering(bounds[0], bounds[1]);
   if (box.empty())
     return nullptr;
+  for (std::size_t a = 0; a < 3; ++a) // room for what is raised to come down again
+  {
+    box.lower[a] -= 2;
+    box.upper[a] += 2;
+  }
+  box = box.intersected(grid.fullBox());
   auto guard = std::make_shared<Volume<float>>(grid.cropped(box));
   const core::GridGeometry& to = guard->geometry();
   const auto visit = [](const core::GridGeometry& all, const auto& one)
@@ -316,6 +349,9 @@ std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,
             guard->at(corner(n, 0), corner(n, 1), corner(n, 2)) +=
                 static_cast<float>(lack * weights[n] / squares);
         });
+  std::transform(guard->data(), guard->data() + guard->size(), guard->data(),
+                 [](float value) { return std::min(value, 1.0F); });
+  limitSteps(*guard, 0.5F);
   return guard;
 }
 

@@ -7,6 +7,8 @@
 //   LABELS     structures                      SECOND   a second image for some materials
 //   INTERIOR   tissue can be looked into       CLIP     clipping planes
 //   COUNT      fetches and samples are counted
+// Before it stand the numbers that the C++ states (RayShader.cpp): kMostPlanes, kInteriorFacing,
+// kWetShininess, kShareThreshold (OpticalModel.h), kMixed, kLabels, kBorder (OccupancyGrid.h).
 //
 // Textures (linear unless named otherwise):
 //   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
@@ -86,19 +88,13 @@ uniform sampler2D depthTexture;
 #endif
 #ifdef PETROUS_CLIP
 uniform int planeCount;
-uniform vec4 planes[PETROUS_CLIP]; // mm on the side that stays, over voxels
+uniform vec4 planes[kMostPlanes]; // mm on the side that stays, over voxels
 #endif
 
 const int kAir = 0;
 const int kBone = 1;
 const int kStructure = 2; // + index
-const float kWetShininess = 120.0;
-const float kInteriorFacing = 2.0 / 3.0;
 const int kMostEvents = 512; // far more than a ray meets before nothing comes through
-const uint kMixed = 1u;
-const uint kLabels = 2u;
-const uint kBorder = 16u;
-const float kShareThreshold = 0.5 - 1e-3;
 const float kOnSurface = 1e-5; // of f: that near to 0 a surface is found
 const int kFalsePositions = 5;
 const float kSummitDoubt = 1.0;

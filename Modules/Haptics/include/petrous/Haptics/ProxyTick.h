@@ -53,7 +53,8 @@ struct ProxyTick
   double thrust = 0.0;      ///< N, sum over the burr's contacts
   double penetration = 0.0; ///< mm, deepest shell point in rigid tissue
   int rounds = 0;
-  std::size_t nearPoints = 0; ///< shell points that were looked at
+  std::size_t nearPoints = 0;  ///< shell points that were looked at
+  std::uint64_t maskState = 0; ///< number of the mask's state that was felt (MaskState)
 };
 
 } // namespace petrous::haptics

@@ -104,6 +104,8 @@ private:
   std::vector<double> m_clearance; // mm that each point may still go unseen
   std::vector<Near> m_near;
   std::vector<bool> m_isNear;
+  std::vector<std::uint32_t> m_wake;
+  std::vector<bool> m_known;
   std::size_t m_nearCount = 0;
   std::array<VoxelMap, kMostSteps + 1> m_maps;
   const volume::MaskState* m_state = nullptr;

@@ -48,7 +48,8 @@ public:
   core::CameraPose camera() const;
 
   /// Coarser while something moves, so that frames come at the wanted rate (30 Hz unless set, which
-  /// throws InvalidParameter outside 1 to 240); fine again in the next frame after it.
+  /// throws InvalidParameter outside 1 to 240); fine again in the next frame after it. How fast the
+  /// machine is was learnt from the frames before, at rest or not.
   void setInteractive(bool interactive);
   void setInteractionRate(double hz);
 

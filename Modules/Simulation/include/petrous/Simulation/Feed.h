@@ -23,6 +23,9 @@ public:
 ///
 ///   v = gain F_t      along the burr's contact force, into the tissue
 ///
+/// A bite may be smaller than what the burr stands off the surface of its last one: depth that the
+/// burr has not come forward by is owed, and the next bite takes it with its own.
+///
 /// gain  mm/s per N
 /// F_t   thrust, N: what the burr's contacts push back together, so that walls between which the
 ///       burr is wedged do not count twice
@@ -37,6 +40,9 @@ public:
 private:
   double m_radius;
   double m_gain;
+  double m_owed = 0.0;                 // mm
+  Eigen::Vector3d m_at{0.0, 0.0, 0.0}; // of the last bite
+  std::uint64_t m_number = 0;          // of its tick
 };
 
 } // namespace petrous::simulation

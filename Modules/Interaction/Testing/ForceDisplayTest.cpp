@@ -1,0 +1,263 @@
+#include "petrous/Interaction/ForceDisplay.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "Pixels.h"
+#include "Tissue.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Rendering/OffscreenView.h"
+
+using namespace petrous;
+using namespace petrous::interaction;
+using namespace petrous::interaction::testing;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using rendering::Picture;
+
+namespace
+{
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+constexpr double kPixels = 4.0; // a millimetre
+
+simulation::TickRecord recordOf(const Vector3d& force, const Vector3d& tool = Vector3d::Zero())
+{
+  simulation::TickRecord record;
+  record.proxy = simulation::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
+  record.wrench = simulation::WrenchValues::of({force, Vector3d::Zero()});
+  return record;
+}
+
+/// Looks down in parallel: right is x, up is y.
+class Scene
+{
+public:
+  explicit Scene(const rendering::SceneContents& contents = {})
+    : m_view(kWidth, kHeight)
+  {
+    core::CameraPose camera;
+    camera.position = {0.0, 0.0, 200.0};
+    camera.focalPoint = {0.0, 0.0, 0.0};
+    camera.viewUp = {0.0, 1.0, 0.0};
+    camera.parallelScale = 0.5 * kHeight / kPixels;
+    m_picture.setContents(contents);
+    m_picture.setCamera(camera);
+    empty = m_view.render(m_picture);
+    display.addTo(m_picture.renderer());
+    display.setBarShown(false);
+  }
+
+  Picture drawRecord(const simulation::TickRecord& record)
+  {
+    display.update(record);
+    return m_view.render(m_picture);
+  }
+  Picture draw(const Vector3d& force, const Vector3d& tool = Vector3d::Zero())
+  {
+    return drawRecord(recordOf(force, tool));
+  }
+
+  ForceDisplay display;
+  Picture empty;
+
+private:
+  rendering::ScenePicture m_picture;
+  rendering::OffscreenView m_view;
+};
+
+// What stands at so many pixels from the lower left corner.
+const std::uint8_t* at(const Picture& picture, int x, int y)
+{
+  return picture.pixel(x, picture.height - 1 - y);
+}
+
+// How many pixels of the bar's column are filled from its foot.
+int filled(const Picture& picture)
+{
+  const std::uint8_t* foot = at(picture, 21, 16);
+  int count = 0;
+  while (std::equal(foot, foot + 3, at(picture, 21, 16 + count)))
+    ++count;
+  return count;
+}
+
+} // namespace
+
+TEST(ForceDisplay, DrawsTheForceFromTheToolInItsDirectionAndLength)
+{
+  Scene scene;
+  const Vector3d tool(4.0, -3.0, 10.0);
+  for (const Vector3d& force :
+       {Vector3d(2.0, 0.0, 0.0), Vector3d(0.0, -1.0, 0.0), Vector3d(-1.2, 0.9, 0.0),
+        Vector3d(0.8, 0.6, 1.5), Vector3d(0.5, 1.2, -2.0)})
+  {
+    const auto pixels = difference(scene.draw(force, tool), scene.empty);
+    ASSERT_GT(pixels.size(), 50U);
+    const Vector2d start = kPixels * tool.head<2>();
+    const Vector2d seen = kPixels * 10.0 * force.head<2>(); // 10 mm a newton
+    const Reach arrow = reach(pixels, start, seen);
+    // The end of a cone is thinner than a pixel; its foot, and the shaft's, lean to the viewer.
+    const double lean = kPixels * 0.4 * std::abs(force.z()) / force.norm();
+    EXPECT_NEAR(arrow.most, seen.norm(), 2.5) << force.transpose();
+    EXPECT_NEAR(arrow.least, -lean, 1.0) << force.transpose();
+    EXPECT_LT(arrow.aside, kPixels * 1.4 * 0.8 + 1.0) << force.transpose();
+  }
+}
+
+TEST(ForceDisplay, SetsTheLengthOfANewton)
+{
+  Scene scene;
+  ForceLook look;
+  look.millimetresPerNewton = 4.0;
+  look.fullScale = 3.0;
+  scene.display.setLook(look);
+  const auto length = [&](double force)
+  {
+    return reach(difference(scene.draw({force, 0.0, 0.0}), scene.empty), {0.0, 0.0}, {1.0, 0.0})
+        .most;
+  };
+  EXPECT_NEAR(length(1.0), kPixels * 4.0, 2.5);
+  EXPECT_NEAR(length(2.5), kPixels * 10.0, 2.5);
+  EXPECT_NEAR(length(50.0), kPixels * 12.0, 2.5); // no longer than at full scale
+}
+
+TEST(ForceDisplay, HidesAForceBelowAFiftiethOfANewton)
+{
+  Scene scene;
+  EXPECT_TRUE(difference(scene.draw({0.019, 0.0, 0.0}), scene.empty).empty());
+  scene.display.setLook(
+      []
+      {
+        ForceLook look;
+        look.millimetresPerNewton = 500.0;
+        return look;
+      }());
+  EXPECT_FALSE(difference(scene.draw({0.021, 0.0, 0.0}), scene.empty).empty());
+  EXPECT_TRUE(difference(scene.draw({0.0, 0.0, 0.0}), scene.empty).empty());
+}
+
+TEST(ForceDisplay, ShowsNoForceThatIsNotGiven)
+{
+  Scene scene;
+  simulation::TickRecord record = recordOf({2.0, 0.0, 0.0});
+  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  EXPECT_TRUE(difference(scene.drawRecord(record), scene.empty).empty());
+  EXPECT_EQ(scene.display.force(), 0.0);
+  record = recordOf({2.0, 0.0, 0.0});
+  record.input.parameters.pause = 1;
+  EXPECT_TRUE(difference(scene.drawRecord(record), scene.empty).empty());
+  record = recordOf({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+  EXPECT_TRUE(difference(scene.drawRecord(record), scene.empty).empty());
+  scene.draw({0.0, 3.0, 4.0});
+  EXPECT_EQ(scene.display.force(), 5.0);
+}
+
+TEST(ForceDisplay, StandsBehindTissueAndBeforeIt)
+{
+  rendering::SceneContents contents;
+  contents.ct = block()->ct();
+  Scene scene(contents);
+  const Vector3d force(0.6, 0.0, 0.0);
+  EXPECT_FALSE(difference(scene.draw(force, {-3.0, 0.0, 4.0}), scene.empty).empty());
+  EXPECT_TRUE(difference(scene.draw(force, {-3.0, 0.0, -5.0}), scene.empty).empty());
+}
+
+TEST(ForceDisplay, ColoursByMagnitude)
+{
+  Scene scene;
+  ForceLook look;
+  look.millimetresPerNewton = 50.0;
+  look.thickness = 3.0;
+  scene.display.setLook(look);
+  const auto color = [&](double force)
+  {
+    const Picture picture = scene.draw({force, 0.0, 0.0});
+    const std::uint8_t* pixel = picture.pixel(kWidth / 2 + 2, kHeight / 2);
+    return Eigen::Vector3i(pixel[0], pixel[1], pixel[2]);
+  };
+  const Eigen::Vector3i light = color(0.3);
+  const Eigen::Vector3i usual = color(2.0);
+  const Eigen::Vector3i strong = color(5.0);
+  EXPECT_GT(light[2], light[0]); // blue, amber, red, ever darker
+  EXPECT_GT(usual[1], usual[2] + 40);
+  EXPECT_GT(strong[0], strong[1] + 80);
+  EXPECT_GT(light.sum(), usual.sum());
+  EXPECT_GT(usual.sum(), strong.sum());
+  EXPECT_EQ(color(9.0), strong);
+}
+
+TEST(ForceDisplay, FillsTheBarInProportion)
+{
+  Scene scene;
+  scene.display.setArrowShown(false);
+  scene.display.setBarShown(true);
+  for (const double force : {0.5, 1.0, 2.0, 4.0, 5.0, 20.0})
+    EXPECT_NEAR(filled(scene.draw({0.0, force, 0.0})), 120.0 * std::min(force, 5.0) / 5.0, 1.0)
+        << force;
+  ForceLook look;
+  look.fullScale = 2.0;
+  scene.display.setLook(look);
+  EXPECT_NEAR(filled(scene.draw({0.0, 1.0, 0.0})), 60.0, 1.0);
+}
+
+TEST(ForceDisplay, MarksOneNewton)
+{
+  Scene scene;
+  scene.display.setArrowShown(false);
+  scene.display.setBarShown(true);
+  ForceLook look;
+  look.fullScale = 4.0;
+  scene.display.setLook(look);
+  const Picture picture = scene.draw({0.0, 0.0, 0.0});
+  int marked = 0;
+  int row = 0;
+  for (int y = 10; y < 140; ++y)
+    if (at(picture, 31, y)[0] > 150)
+    {
+      ++marked;
+      row = y;
+    }
+  EXPECT_GE(marked, 1);
+  EXPECT_LE(marked, 2);
+  EXPECT_NEAR(row, 16 + 30, 1.0);
+}
+
+TEST(ForceDisplay, WritesTheForceInTenthsOfANewton)
+{
+  Scene scene;
+  scene.display.setArrowShown(false);
+  scene.display.setBarShown(true);
+  const auto words = [&](double force)
+  {
+    std::vector<Vector2d> pixels;
+    for (const Vector2d& pixel : difference(scene.draw({0.0, force, 0.0}), scene.empty))
+      if (pixel.y() + 0.5 * kHeight > 16.0 + 120.0 + 2.0) // above the bar
+        pixels.push_back(pixel);
+    return pixels;
+  };
+  const auto eight = words(0.80);
+  EXPECT_GT(eight.size(), 30U);
+  EXPECT_EQ(words(0.84), eight);
+  EXPECT_NE(words(0.90), eight);
+  EXPECT_NE(words(8.00), eight);
+  scene.display.setBarShown(false);
+  EXPECT_TRUE(words(0.80).empty());
+}
+
+TEST(ForceDisplay, RefusesBadLooks)
+{
+  const auto refused = [](auto ForceLook::*value, double bad)
+  {
+    ForceLook look;
+    look.*value = bad;
+    EXPECT_THROW(ForceDisplay{look}, core::InvalidParameter);
+  };
+  refused(&ForceLook::millimetresPerNewton, 0.0);
+  refused(&ForceLook::fullScale, std::numeric_limits<double>::quiet_NaN());
+  refused(&ForceLook::least, -1.0);
+  refused(&ForceLook::thickness, 0.0);
+  refused(&ForceLook::pixels, 0.0);
+}

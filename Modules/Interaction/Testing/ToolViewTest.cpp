@@ -1,0 +1,87 @@
+#include "petrous/Interaction/ToolView.h"
+
+#include <gtest/gtest.h>
+
+#include "Pixels.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Rendering/OffscreenView.h"
+
+using namespace petrous;
+using namespace petrous::interaction;
+using namespace petrous::interaction::testing;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using simulation::PoseValues;
+using simulation::TickRecord;
+
+namespace
+{
+
+TickRecord recordOf(const Vector3d& tool, const Vector3d& hand)
+{
+  TickRecord record;
+  record.proxy = PoseValues::of({tool, Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitX()))});
+  record.mapped = PoseValues::of({hand, Quaterniond::Identity()});
+  return record;
+}
+
+} // namespace
+
+TEST(ToolView, ShowsTheProxyNotTheHand)
+{
+  ToolView view(1.5);
+  TickRecord record = recordOf({1.0, 2.0, 3.0}, {1.0, 2.0, -4.0});
+  const auto tool = view.update(record);
+  ASSERT_TRUE(tool);
+  EXPECT_EQ(tool->center, Vector3d(1.0, 2.0, 3.0));
+  // +z of the tool, turned by 0.5 about x.
+  EXPECT_LT((tool->axisToHand - Vector3d(0.0, -std::sin(0.5), std::cos(0.5))).norm(), 1e-12);
+  EXPECT_EQ(tool->radius, 1.5);
+  EXPECT_FALSE(tool->drilling);
+  EXPECT_NEAR(view.lag(), 7.0, 1e-12);
+  record.drill = 1;
+  EXPECT_TRUE(view.update(record)->drilling);
+}
+
+TEST(ToolView, ShowsNothingBeforeTheFirstSoundReading)
+{
+  ToolView view(1.5);
+  TickRecord record = recordOf({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0});
+  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  EXPECT_FALSE(view.update(record));
+  record.fault = 0;
+  EXPECT_TRUE(view.update(record));
+  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  EXPECT_TRUE(view.update(record)); // it stays where it is
+}
+
+TEST(ToolView, DrawsALineToAHandThatIsFarAhead)
+{
+  ToolView tool(1.0);
+  rendering::ScenePicture picture;
+  core::CameraPose camera;
+  camera.position = {0.0, 0.0, 200.0};
+  camera.focalPoint = {0.0, 0.0, 0.0};
+  camera.viewUp = {0.0, 1.0, 0.0};
+  camera.parallelScale = 30.0; // 4 pixels a millimetre
+  picture.setContents({});
+  picture.setCamera(camera);
+  rendering::OffscreenView view(320, 240);
+  const rendering::Picture empty = view.render(picture);
+  tool.addTo(picture.renderer());
+
+  tool.update(recordOf({1.0, 0.0, 0.0}, {1.9, 0.0, 0.0}));
+  EXPECT_TRUE(difference(view.render(picture), empty).empty());
+  tool.update(recordOf({-3.0, 2.0, 0.0}, {6.0, 10.0, 5.0}));
+  const Reach line = reach(difference(view.render(picture), empty), {-12.0, 8.0}, {36.0, 32.0});
+  EXPECT_NEAR(line.least, 0.0, 1.5);
+  EXPECT_NEAR(line.most, std::hypot(36.0, 32.0), 1.5);
+  EXPECT_LT(line.aside, 2.0);
+}
+
+TEST(ToolView, RefusesABurrWithoutSize)
+{
+  EXPECT_THROW(ToolView(0.0), core::InvalidParameter);
+  ToolView view(1.0);
+  EXPECT_THROW(view.setBurrRadius(-1.0), core::InvalidParameter);
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vtkNew.h>
+
+class vtkActor;
+class vtkArrowSource;
+
+namespace petrous::interaction
+{
+
+/// An opaque arrow between two points, whose thickness does not depend on its length.
+class ForceArrow
+{
+public:
+  ForceArrow();
+  ~ForceArrow();
+
+  vtkActor* actor() const { return m_actor; }
+
+  void hide();
+
+  /// from, along  patient mm; |along| > 0 is the arrow's length
+  /// thickness    mm, of its shaft; a short arrow is thinner
+  void show(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double thickness,
+            const Eigen::Vector3d& color);
+
+private:
+  vtkNew<vtkArrowSource> m_source;
+  vtkNew<vtkActor> m_actor;
+};
+
+} // namespace petrous::interaction

@@ -1,0 +1,69 @@
+#include "petrous/Interaction/ToolView.h"
+
+#include <vtkActor.h>
+#include <vtkLineSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::interaction
+{
+
+ToolView::ToolView(double burrRadius)
+{
+  setBurrRadius(burrRadius);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(m_line->GetOutputPort());
+  m_actor->SetMapper(mapper);
+  m_actor->PickableOff();
+  m_actor->SetVisibility(0);
+  m_actor->GetProperty()->SetColor(0.75, 0.80, 0.88);
+  m_actor->GetProperty()->LightingOff();
+  m_actor->GetProperty()->SetLineWidth(2.0F);
+}
+
+ToolView::~ToolView() = default;
+
+void ToolView::setBurrRadius(double burrRadius)
+{
+  if (!(burrRadius > 0.0 && burrRadius <= 100.0))
+    throw core::InvalidParameter("tool view: the burr's radius must lie within 0 to 100 mm");
+  m_burrRadius = burrRadius;
+}
+
+void ToolView::addTo(vtkRenderer* renderer) const
+{
+  renderer->AddViewProp(m_actor);
+}
+
+void ToolView::removeFrom(vtkRenderer* renderer) const
+{
+  renderer->RemoveViewProp(m_actor);
+}
+
+std::optional<rendering::ToolPose> ToolView::update(const simulation::TickRecord& record)
+{
+  using simulation::ServoFault;
+  const auto fault = static_cast<ServoFault>(record.fault);
+  // Before the first sound reading a record's poses mean nothing.
+  m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
+                          fault != ServoFault::Parameters);
+  if (!m_placed)
+    return std::nullopt;
+  const haptics::Pose tool = record.proxy.pose();
+  const Eigen::Vector3d hand = record.mapped.pose().position;
+  m_lag = (hand - tool.position).norm();
+  const bool shown = m_lag > kLag;
+  m_actor->SetVisibility(shown ? 1 : 0);
+  if (shown)
+  {
+    m_line->SetPoint1(tool.position.x(), tool.position.y(), tool.position.z());
+    m_line->SetPoint2(hand.x(), hand.y(), hand.z());
+  }
+  return rendering::ToolPose{tool.position, tool.rotation * Eigen::Vector3d::UnitZ(), m_burrRadius,
+                             record.drill != 0};
+}
+
+} // namespace petrous::interaction

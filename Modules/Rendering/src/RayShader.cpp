@@ -1,0 +1,84 @@
+#include "RayShader.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "OccupancyGrid.h"
+#include "OpticalModel.h"
+#include "RayCastShader.h"
+#include "RayOpticsShader.h"
+#include "RaySceneShader.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+struct Part
+{
+  bool RayFeatures::*wanted;
+  const char* define;
+  const char* name;
+};
+
+constexpr Part kParts[] = {
+    {&RayFeatures::bone, "PETROUS_BONE", "bone"},
+    {&RayFeatures::labels, "PETROUS_LABELS", "labels"},
+    {&RayFeatures::mask, "PETROUS_MASK", "mask"},
+    {&RayFeatures::second, "PETROUS_SECOND", "second"},
+    {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
+    {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
+    {&RayFeatures::count, "PETROUS_COUNT", nullptr},
+};
+
+std::string constants()
+{
+  std::string text = "const int kMostPlanes = " + std::to_string(kMostPlanes) + ";\n";
+  const std::pair<const char*, double> reals[] = {{"kInteriorFacing", optics::kInteriorFacing},
+                                                  {"kWetShininess", optics::kWetShininess},
+                                                  {"kShareThreshold", optics::kShareThreshold}};
+  for (const auto& [name, value] : reals)
+  {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.9g", value);
+    text += std::string("const float ") + name + " = float(" + digits + ");\n";
+  }
+  const std::pair<const char*, unsigned> flags[] = {{"kMixed", OccupancyGrid::Mixed},
+                                                    {"kLabels", OccupancyGrid::Labels},
+                                                    {"kBorder", OccupancyGrid::Border}};
+  for (const auto& [name, value] : flags)
+    text += std::string("const uint ") + name + " = " + std::to_string(value) + "u;\n";
+  return text;
+}
+
+} // namespace
+
+unsigned RayFeatures::key() const noexcept
+{
+  unsigned key = 0;
+  for (const Part& part : kParts)
+    key = 2 * key + (this->*part.wanted ? 1 : 0);
+  return key;
+}
+
+std::vector<std::string> RayFeatures::names() const
+{
+  std::vector<std::string> names{"ct"};
+  for (const Part& part : kParts)
+    if (this->*part.wanted && part.name)
+      names.emplace_back(part.name);
+  return names;
+}
+
+std::string rayFragmentShader(const RayFeatures& features)
+{
+  std::string text;
+  for (const Part& part : kParts)
+    if (features.*part.wanted)
+      text += std::string("#define ") + part.define + "\n";
+  text += constants();
+  return text.append(kRaySceneShader).append(kRayOpticsShader).append(kRayCastShader);
+}
+
+} // namespace petrous::rendering

@@ -1,0 +1,162 @@
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "CommandRunner.h"
+
+using namespace petrous::testing;
+
+namespace
+{
+
+using Row = std::map<std::string, double>;
+
+// Bone below z = 0.13 mm, a plane between the voxels of 0.4 mm, 300 HU there, 400 HU a mm.
+class TouchCommand : public CommandLine
+{
+protected:
+  static constexpr double kTop = 0.13;
+
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    constexpr int edge = 48;
+    constexpr double h = 0.4;
+    std::ofstream file(m_folder / "plane.nrrd", std::ios::binary);
+    file << "NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 48 48 48\nspace directions: (0.4,0,0) (0,0.4,0) (0,0,0.4)\n"
+         << "space origin: (-9.4,-9.4,-9.4)\nencoding: raw\nendian: little\n\n";
+    for (int k = 0; k < edge; ++k)
+    {
+      const std::vector<float> slice(edge * edge,
+                                     static_cast<float>(300.0 + 400.0 * (kTop - (h * k - 9.4))));
+      file.write(reinterpret_cast<const char*>(slice.data()),
+                 static_cast<std::streamsize>(slice.size() * sizeof(float)));
+    }
+    file.close();
+    json("new plane --ct " + quoted(m_folder / "plane.nrrd"));
+    json("appearance plane --iso 300");
+  }
+
+  // Down from 5 mm above the surface to a device height, in 0.5 s, and 0.5 s there.
+  std::filesystem::path press(double height, bool drill)
+  {
+    std::ofstream file(m_folder / "press.csv");
+    file << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n"
+         << "0,0.3,0.2,7,1,0,0,0," << drill << "\n0.5,0.3,0.2," << height << ",1,0,0,0," << drill
+         << "\n1,0.3,0.2," << height << ",1,0,0,0,0\n";
+    return m_folder / "press.csv";
+  }
+
+  std::vector<Row> log(const std::string& name) const
+  {
+    std::istringstream text(textOf(m_folder / name));
+    std::string line, cell;
+    std::vector<std::string> names;
+    std::getline(text, line);
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      names.push_back(cell);
+    std::vector<Row> rows;
+    while (std::getline(text, line))
+    {
+      rows.emplace_back();
+      std::istringstream cells(line);
+      for (const std::string& column : names)
+      {
+        std::getline(cells, cell, ',');
+        rows.back()[column] = std::stod(cell);
+      }
+    }
+    return rows;
+  }
+
+  std::string drill(const std::filesystem::path& path, const std::string& more)
+  {
+    return "drill plane --path " + quoted(path) + " --log " + quoted(m_folder / "log.csv") + more;
+  }
+};
+
+} // namespace
+
+TEST_F(TouchCommand, HoldsTheToolAtTheSurfaceAndSaysTheForce)
+{
+  const auto answer = json(drill(press(1.13, false), "")); // 1 mm beyond contact
+  EXPECT_EQ(answer["removed_mm3"], 0.0);
+  EXPECT_EQ(answer["strokes"], 0);
+  EXPECT_EQ(answer["max_penetration_mm"], 0.0);
+  const auto rows = log("log.csv");
+  ASSERT_EQ(rows.size(), 1001U);
+  const Row& last = rows.back();
+  // A burr of 4 mm rests 2 mm above the plane; the coupling is 1 N/mm.
+  EXPECT_NEAR(last.at("pz_mm"), kTop + 2.0, 0.05 * 0.4);
+  EXPECT_NEAR(last.at("px_mm"), 0.3, 0.01);
+  EXPECT_NEAR(last.at("fz_n"), 1.0, 0.03);
+  EXPECT_NEAR(std::hypot(last.at("fx_n"), last.at("fy_n")), 0.0, 0.02);
+  EXPECT_NEAR(last.at("thrust_n"), last.at("fz_n"), 1e-6);
+  EXPECT_NEAR(last.at("theta_rad"), std::acos(-1.0) / 2.0, 0.05); // the spindle stands upright
+  for (const Row& row : rows)
+  {
+    ASSERT_GE(row.at("pz_mm"), kTop + 2.0 - 0.05 * 0.4);
+    ASSERT_EQ(row.at("penetration_mm"), 0.0);
+  }
+}
+
+TEST_F(TouchCommand, KeepsTheCentreOutInThreeDegreesOfFreedom)
+{
+  const auto answer = json(drill(press(-3.0, false), " --mode 3dof"));
+  EXPECT_EQ(answer["max_torque_nmm"], 0.0);
+  EXPECT_GT(answer["max_penetration_mm"], 1.5) << "the burr sinks in by up to its radius";
+  for (const Row& row : log("log.csv"))
+    ASSERT_GE(row.at("pz_mm"), kTop - 0.01 * 0.4);
+}
+
+TEST_F(TouchCommand, PressesWithTheThrustThatIsAsked)
+{
+  // The path stays above the surface: place and heading only.
+  json(drill(press(2.5, false), " --thrust 1.5"));
+  const auto rows = log("log.csv");
+  EXPECT_NEAR(rows.back().at("thrust_n"), 1.5, 0.015);
+  EXPECT_NEAR(rows.back().at("fz_n"), 1.5, 0.015);
+}
+
+TEST_F(TouchCommand, DrillsWhatItIsPressedOnAndTheSameEveryTime)
+{
+  const auto first = json(drill(press(1.13, true), ""));
+  EXPECT_EQ(first["strokes"], 1);
+  const std::string text = textOf(m_folder / "log.csv");
+  const auto rows = log("log.csv");
+  EXPECT_NEAR(rows.back().at("removed_mm3"), first["removed_mm3"].get<double>(),
+              0.02 * first["removed_mm3"].get<double>());
+  // The hole goes at most as deep as the hand: a cap of 1 mm of a ball of 2 mm.
+  const double cap = std::acos(-1.0) * (2.0 - 1.0 / 3.0);
+  EXPECT_LT(first["removed_mm3"], 1.02 * cap);
+  EXPECT_GT(first["removed_mm3"], 0.8 * cap);
+  json("undo plane");
+  const auto again = json(drill(press(1.13, true), ""));
+  EXPECT_EQ(again["removed_mm3"], first["removed_mm3"]);
+  EXPECT_TRUE(textOf(m_folder / "log.csv") == text);
+}
+
+TEST_F(TouchCommand, RemovesNothingThatItDoesNotTouch)
+{
+  const auto answer = json(drill(press(2.2, true), "")); // 0.07 mm above the surface
+  EXPECT_EQ(answer["removed_mm3"], 0.0);
+  EXPECT_EQ(answer["max_force_n"], 0.0);
+}
+
+TEST_F(TouchCommand, RefusesWhatItCannotDo)
+{
+  const auto refused = [this](const std::string& more, int code, const std::string& word)
+  {
+    const auto outcome = run(drill(press(1.0, true), more));
+    EXPECT_EQ(outcome.code, code) << more;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+  };
+  refused(" --mode 5dof", 2, "6dof");
+  refused(" --thrust -1", 2, "--thrust");
+  refused(" --diameter 30", 2, "--diameter");
+  const auto outcome = run("drill plane --path " + quoted(press(1.0, true)) + " --log " +
+                           quoted(m_folder / "missing" / "log.csv"));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("log.csv"), std::string::npos) << outcome.err;
+}

@@ -12,9 +12,10 @@ namespace petrous::workstation
 DrillBar::DrillBar(QWidget* parent)
   : QToolBar(tr("Drill"), parent)
   , m_drill(new QAction(tr("Drill"), this))
+  , m_wheel(new QAction(tr("By wheel"), this))
   , m_diameter(new QDoubleSpinBox)
   , m_kind(new QComboBox)
-  , m_feed(new QDoubleSpinBox)
+  , m_thrust(new QDoubleSpinBox)
 {
   setObjectName("drillBar");
   setMovable(false);
@@ -36,13 +37,21 @@ DrillBar::DrillBar(QWidget* parent)
   m_kind->addItem(tr("Diamond"), static_cast<int>(dissection::Burr::Kind::Diamond));
   m_kind->setObjectName("burrKind");
   m_kind->setToolTip(tr("Kind of the burr; it is kept with the stroke"));
-  m_feed->setRange(0.0, 20.0);
-  m_feed->setSingleStep(0.5);
-  m_feed->setDecimals(1);
-  m_feed->setValue(2.0);
-  m_feed->setSuffix(tr(" mm/s"));
-  m_feed->setObjectName("feedRate");
-  m_feed->setToolTip(tr("How fast the burr goes into the bone while the drill is on, mm/s"));
+  m_thrust->setRange(0.1, 10.0);
+  m_thrust->setSingleStep(0.1);
+  m_thrust->setDecimals(1);
+  m_thrust->setValue(1.0);
+  m_thrust->setSuffix(tr(" N"));
+  m_thrust->setObjectName("thrust");
+  m_thrust->setToolTip(tr("How hard the mouse presses the burr on the bone, N: the harder, the "
+                          "faster it goes in"));
+  m_wheel->setCheckable(true);
+  m_wheel->setShortcut(Qt::Key_M);
+  m_wheel->setToolTip(
+      tr("The wheel moves the burr in depth, 0.25 mm a notch, with Shift a fifth of "
+         "it (M); how far it is wanted in the bone is how hard it presses, 1 N for "
+         "a mm.\nWithout it the burr lies on the bone and is pressed with the "
+         "thrust. Ctrl with the wheel zooms."));
 
   const auto addNamed = [this](const QString& name, QWidget* widget)
   {
@@ -54,9 +63,15 @@ DrillBar::DrillBar(QWidget* parent)
   };
   addNamed(tr("Burr"), m_diameter);
   addWidget(m_kind);
-  addNamed(tr("Feed"), m_feed);
+  addNamed(tr("Thrust"), m_thrust);
+  addAction(m_wheel);
+  widgetForAction(m_wheel)->setObjectName("wheelButton");
   connect(m_diameter, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &DrillBar::burrChanged);
+  connect(m_kind, qOverload<int>(&QComboBox::currentIndexChanged), this, &DrillBar::burrChanged);
+  connect(m_thrust, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &DrillBar::pressChanged);
+  connect(m_wheel, &QAction::toggled, this, &DrillBar::pressChanged);
 }
 
 void DrillBar::stepDiameter(int steps)
@@ -72,9 +87,9 @@ dissection::Burr DrillBar::burr() const
   return burr;
 }
 
-double DrillBar::feed() const
+double DrillBar::thrust() const
 {
-  return m_feed->value();
+  return m_thrust->value();
 }
 
 } // namespace petrous::workstation

@@ -11,7 +11,7 @@ class QDoubleSpinBox;
 namespace petrous::workstation
 {
 
-/// Which burr is in the hand, and whether the pointer drills.
+/// Which burr is in the hand, how it is pressed, and whether the pointer drills.
 class DrillBar : public QToolBar
 {
   Q_OBJECT
@@ -24,16 +24,22 @@ public:
   }
   void stepDiameter(int steps); ///< of 0.5 mm
   dissection::Burr burr() const;
-  double feed() const; ///< mm/s
+  QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
+  {
+    return m_wheel;
+  }
+  double thrust() const; ///< N
 
 signals:
   void burrChanged();
+  void pressChanged(); ///< thrust, or how depth is led
 
 private:
   QAction* m_drill;
+  QAction* m_wheel;
   QDoubleSpinBox* m_diameter;
   QComboBox* m_kind;
-  QDoubleSpinBox* m_feed;
+  QDoubleSpinBox* m_thrust;
 };
 
 } // namespace petrous::workstation

@@ -64,6 +64,7 @@ MainWindow::MainWindow(library::Library library, bool quadBuffer)
   , m_pages(new QStackedWidget)
   , m_place(new QLabel)
   , m_sum(new QLabel)
+  , m_touch(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, quadBuffer))
   , m_keeper(new CaseKeeper(m_model, *this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, this))
@@ -119,6 +120,10 @@ void MainWindow::layOut()
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
   m_sum->setContentsMargins(8, 0, 8, 0);
+  m_touch->setObjectName("touchFault");
+  m_touch->setToolTip(tr("Why the tool gives no force, or less than it would"));
+  m_touch->setContentsMargins(8, 0, 8, 0);
+  statusBar()->addPermanentWidget(m_touch);
   statusBar()->addPermanentWidget(m_picture->speed());
   statusBar()->addPermanentWidget(m_place);
   statusBar()->addPermanentWidget(m_sum);
@@ -153,6 +158,13 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
+  connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
+  connect(m_drill, &DrillController::said, this,
+          [this](const QString& line)
+          {
+            statusBar()->showMessage(line);
+            statusBar()->repaint(); // what takes a while is told before it begins
+          });
   connect(m_keeper, &CaseKeeper::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_picture, &PictureController::said, this,
@@ -275,11 +287,9 @@ void MainWindow::showView(rendering::StandardView view)
 
 void MainWindow::step(bool back)
 {
-  if (m_model.drilling())
-    return;
+  back ? m_model.undo() : m_model.redo(); // closes the open stroke first
   const scene::Case& value = m_model.value();
-  const std::size_t stroke = back ? value.applied - 1 : value.applied;
-  back ? m_model.undo() : m_model.redo();
+  const std::size_t stroke = back ? value.applied : value.applied - 1;
   if (m_actions->strokeCamera->isChecked() && stroke < value.strokes.size() &&
       value.strokes[stroke].info.camera)
     m_view->setCamera(*value.strokes[stroke].info.camera);
@@ -315,14 +325,14 @@ void MainWindow::about()
 
 bool MainWindow::secure()
 {
-  m_view->setDrillMode(false); // ends an open stroke, here and in the surgeon's window
+  // Puts the tool away, which ends an open stroke, here and in the surgeon's window.
   m_bar->drillAction()->setChecked(false);
   return !m_model.hasCase() || !m_model.unsaved() || m_keeper->save();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  m_view->setDrillMode(false); // ends an open stroke
+  m_bar->drillAction()->setChecked(false); // puts the tool away, which ends an open stroke
   event->setAccepted(m_keeper->mayLeave());
   if (event->isAccepted())
     m_picture->closeSurgeonWindow();

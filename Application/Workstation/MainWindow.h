@@ -64,6 +64,7 @@ private:
   QStackedWidget* m_pages;
   QLabel* m_place;
   QLabel* m_sum;
+  QLabel* m_touch;
   WindowActions* m_actions;
   CaseKeeper* m_keeper;
   DrillController* m_drill;

@@ -12,6 +12,7 @@
 #include <vtkVolumeCollection.h>
 
 #include "Theme.h"
+#include "TouchOverlay.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Rendering/VolumeMapper.h"
 
@@ -71,6 +72,7 @@ void SceneDisplay::release()
   for (const unsigned long observer : m_observers)
     m_window.RemoveObserver(observer);
   m_shown = [] { return false; };
+  m_touch.reset();
   m_stereo.reset();
   m_picture.attach(nullptr);
 }
@@ -112,6 +114,31 @@ void SceneDisplay::setTool(const std::optional<rendering::ToolPose>& tool)
   m_picture.setTool(tool);
   if (m_follower)
     m_follower->setTool(tool);
+  redraw(true);
+}
+
+void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRadius)
+{
+  if (m_follower)
+    m_follower->setTouch(record, burrRadius);
+  if (!m_touch || m_touch->burrRadius() != burrRadius)
+    m_touch.reset(new TouchOverlay(*m_renderer, burrRadius));
+  if (!m_touch->update(record))
+    return;
+  m_contents.tool = m_touch->tool();
+  m_picture.setTool(m_contents.tool);
+  redraw(true);
+}
+
+void SceneDisplay::endTouch()
+{
+  if (m_follower)
+    m_follower->endTouch();
+  if (!m_touch)
+    return;
+  m_touch.reset();
+  m_contents.tool.reset();
+  m_picture.setTool(std::nullopt);
   redraw(true);
 }
 

@@ -18,8 +18,15 @@
 class vtkGenericOpenGLRenderWindow;
 class vtkRenderer;
 
+namespace petrous::simulation
+{
+struct TickRecord;
+}
+
 namespace petrous::workstation
 {
+
+class TouchOverlay;
 
 /// A scene in one OpenGL context: coarse while something moves and fine when it is still, for one
 /// eye or two. Says how fast it was and what went wrong.
@@ -46,6 +53,9 @@ public:
   void setContents(const rendering::SceneContents& contents);
   void setLight(const rendering::LightSettings& light);
   void setTool(const std::optional<rendering::ToolPose>& tool);
+  /// The tool in the hand, with its force, as the servo has it; drawn where it moved.
+  void setTouch(const simulation::TickRecord& record, double burrRadius);
+  void endTouch(); ///< no tool, no force
   void setCamera(const core::CameraPose& pose);
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
@@ -80,6 +90,8 @@ private:
   std::unique_ptr<rendering::StereoPicture> m_stereo; // ends before m_picture
   rendering::SceneContents m_contents;                // of the last setContents, brought up to date
   rendering::LightSettings m_light;
+  std::unique_ptr<TouchOverlay>
+      m_touch; // while there is a tool in the hand; ends before m_renderer
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
   QElapsedTimer m_clock;

@@ -48,6 +48,9 @@ void SurgeonWindow::addView()
   connect(m_view, &ThreeDView::drillPressed, &m_main, &ThreeDView::drillPressed);
   connect(m_view, &ThreeDView::drillHeld, &m_main, &ThreeDView::drillHeld);
   connect(m_view, &ThreeDView::drillReleased, &m_main, &ThreeDView::drillReleased);
+  connect(m_view, &ThreeDView::wheelLed, &m_main, &ThreeDView::wheelLed);
+  connect(&m_main, &ThreeDView::wheelLeadsSet, m_view, &ThreeDView::setWheelLeads);
+  m_view->setWheelLeads(m_main.wheelLeads());
   connect(m_view, &ThreeDView::cameraMoved, &m_main, &ThreeDView::setCamera);
   connect(&m_main, &ThreeDView::drillModeSet, m_view, &ThreeDView::setDrillMode);
   m_view->setDrillMode(m_main.drillMode());

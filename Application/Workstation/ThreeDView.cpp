@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
@@ -65,6 +63,12 @@ void ThreeDView::setDrillMode(bool on)
   emit drillModeSet(on);
 }
 
+void ThreeDView::setWheelLeads(bool on)
+{
+  m_wheelLeads = on;
+  emit wheelLeadsSet(on);
+}
+
 void ThreeDView::placeLetters()
 {
   constexpr int margin = 10;
@@ -104,7 +108,7 @@ void ThreeDView::setCamera(const core::CameraPose& pose)
   emit cameraMoved(pose);
 }
 
-presenters::SightLine ThreeDView::sightLine(const QPointF& position) const
+interaction::SightLine ThreeDView::sightLine(const QPointF& position) const
 {
   core::CameraPose camera = m_display->picture().camera();
   int across = std::max(width(), 1);
@@ -124,15 +128,6 @@ presenters::SightLine ThreeDView::sightLine(const QPointF& position) const
   const auto ray = rendering::PixelRays(camera, across, std::max(height(), 1))
                        .through(at.x() - 0.5, at.y() - 0.5);
   return {ray.origin, ray.direction};
-}
-
-Eigen::Vector3d ThreeDView::axisToHand() const
-{
-  const core::CameraPose camera = m_display->picture().camera();
-  const Eigen::Vector3d forward = (camera.focalPoint - camera.position).normalized();
-  const Eigen::Vector3d right = forward.cross(camera.viewUp).normalized();
-  const Eigen::Vector3d up = right.cross(forward);
-  return (-0.62 * forward + 0.62 * right - 0.48 * up).normalized();
 }
 
 void ThreeDView::startDrilling(const QPointF& position)
@@ -204,9 +199,13 @@ void ThreeDView::mouseDoubleClickEvent(QMouseEvent* event)
 
 void ThreeDView::wheelEvent(QWheelEvent* event)
 {
-  const double notches = event->angleDelta().y() / 120.0;
-  setCamera(presenters::zoomed(m_display->picture().camera(), std::pow(kZoomPerNotch, notches)));
+  // Shift makes some systems turn the wheel sideways.
+  const QPoint delta = event->angleDelta();
+  const double notches = (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
   event->accept();
+  if (m_drillMode && m_wheelLeads && !(event->modifiers() & Qt::ControlModifier))
+    return emit wheelLed(notches, event->modifiers() & Qt::ShiftModifier);
+  setCamera(presenters::zoomed(m_display->picture().camera(), std::pow(kZoomPerNotch, notches)));
 }
 
 void ThreeDView::keyPressEvent(QKeyEvent* event)

@@ -9,7 +9,7 @@
 #include <vtkNew.h>
 
 #include "SceneDisplay.h"
-#include "petrous/Presenters/PointerDrill.h"
+#include "petrous/Interaction/SightLine.h"
 
 class vtkGenericOpenGLRenderWindow;
 class QLabel;
@@ -19,7 +19,8 @@ namespace petrous::workstation
 
 /// The scene in 3D, turned and zoomed by mouse and keys; tells where the pointer looks.
 ///
-/// Left drag turns, or drills in drill mode; right and middle drag turn, with Shift they move.
+/// Left drag turns, or drills in drill mode; right and middle drag turn, with Shift they move. The
+/// wheel zooms, or leads the burr in depth where that is set; with Ctrl it always zooms.
 class ThreeDView : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -31,21 +32,24 @@ public:
   rendering::ScenePicture& picture() noexcept { return m_display->picture(); }
   void setDrillMode(bool on);
   bool drillMode() const noexcept { return m_drillMode; }
+  void setWheelLeads(bool on); ///< in drill mode
+  bool wheelLeads() const noexcept { return m_wheelLeads; }
   bool drilling() const noexcept { return m_drilling; }
   void setCamera(const core::CameraPose& pose);
 
   /// Through a pixel; side by side, the ray of the eye whose half it lies in.
-  presenters::SightLine sightLine(const QPointF& position) const;
-  Eigen::Vector3d axisToHand() const; ///< how a right hand holds the drill, patient LPS
+  interaction::SightLine sightLine(const QPointF& position) const;
 
 signals:
-  void pointed(const petrous::presenters::SightLine& line); ///< moved with no button down
+  void pointed(const petrous::interaction::SightLine& line); ///< moved with no button down
   void pointerLeft();
-  void picked(const petrous::presenters::SightLine& line); ///< double click
-  void drillPressed(const petrous::presenters::SightLine& line);
-  void drillHeld(const petrous::presenters::SightLine& line); ///< at each tick while it is on
+  void picked(const petrous::interaction::SightLine& line); ///< double click
+  void drillPressed(const petrous::interaction::SightLine& line);
+  void drillHeld(const petrous::interaction::SightLine& line); ///< at each tick while it is on
   void drillReleased();
   void drillModeSet(bool on);
+  void wheelLeadsSet(bool on);
+  void wheelLed(double notches, bool fine); ///< > 0: away from the eye
   void cameraMoved(const petrous::core::CameraPose& pose);
 
 protected:
@@ -72,6 +76,7 @@ private:
   QPointF m_pointer{-1.0, -1.0};
   QPointF m_dragged;
   bool m_drillMode = false;
+  bool m_wheelLeads = false;
   bool m_drilling = false;
   bool m_turning = false;
 };

@@ -95,9 +95,12 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadB
 
   QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
   drill->addAction(drillBar.drillAction());
+  drill->addAction(drillBar.wheelAction());
   smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft, tr("0.5 mm less"));
   largerBurr = make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("0.5 mm more"));
   drill->addSeparator();
+  drillBar.wheelAction()->setText(tr("Depth &by wheel"));
+  drillBar.wheelAction()->setIconText(tr("By wheel"));
   slicesFollow = make(drill, tr("Slices &follow the burr"), {},
                       tr("The crosshair goes along while the drill is on"));
   slicesFollow->setCheckable(true);

@@ -71,8 +71,7 @@ void WorkstationModel::notStored()
 
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
-  m_drill.reset();
-  m_session.reset();
+  forgetTissue();
   m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
   m_unsaved = unsaved;
@@ -132,45 +131,67 @@ void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const 
   setUnsaved(false);
 }
 
+// A stroke that is still open is closed first.
 bool WorkstationModel::canUndo() const noexcept
 {
-  return m_case && !m_drill && m_case->applied > 0;
+  return m_case && (m_case->applied > 0 || drilling());
 }
 
 bool WorkstationModel::canRedo() const noexcept
 {
-  return m_case && !m_drill && m_case->applied < m_case->strokes.size();
+  return m_case && !drilling() && m_case->applied < m_case->strokes.size();
+}
+
+void WorkstationModel::step(bool back)
+{
+  std::vector<std::size_t> bricks;
+  if (m_touch)
+  {
+    const bool moved = back ? m_touch->undo() : m_touch->redo();
+    bricks = m_touch->advance().bricks;
+    if (!moved)
+    {
+      tellMask(bricks);
+      return tell(events.stateChanged);
+    }
+  }
+  else
+  {
+    if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
+      return;
+    bricks = m_case->dissection->mask().takeDirty();
+    if (m_scene)
+      m_scene->publish(bricks);
+  }
+  tellMask(bricks);
+  setUnsaved(true);
 }
 
 void WorkstationModel::undo()
 {
-  if (!canUndo() || scene::undo(*m_case, 1) == 0)
-    return;
-  tellMask();
-  setUnsaved(true);
+  if (canUndo())
+    step(true);
 }
 
 void WorkstationModel::redo()
 {
-  if (!canRedo() || scene::redo(*m_case, 1) == 0)
-    return;
-  tellMask();
-  setUnsaved(true);
+  if (canRedo())
+    step(false);
 }
 
 void WorkstationModel::setIso(double hounsfield)
 {
-  if (!m_case || m_drill || m_case->iso == hounsfield)
+  if (!m_case || drilling() || m_case->iso == hounsfield)
     return;
+  forgetTissue();
   m_case->iso = hounsfield;
-  m_session.reset();
   tell(events.appearanceChanged);
   setUnsaved(true);
 }
 
 void WorkstationModel::setLook(const std::string& structure, const appearance::StructureLook& look)
 {
-  if (!m_case || m_drill)
+  if (!m_case || drilling())
     return;
   auto* found = scene::findStructure(*m_case, structure);
   auto* mesh = found ? nullptr : scene::findMesh(*m_case, structure);
@@ -178,7 +199,7 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
     return;
   appearance::StructureLook& present = found ? found->look : mesh->look;
   if (present.touchable != look.touchable || present.drillable != look.drillable)
-    m_session.reset();
+    forgetTissue();
   present = look;
   tell(events.appearanceChanged);
   setUnsaved(true);
@@ -186,7 +207,7 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
 
 void WorkstationModel::setBoneLook(const appearance::StructureLook& look)
 {
-  if (!m_case || m_drill)
+  if (!m_case || drilling())
     return;
   m_case->boneLook = look;
   tell(events.appearanceChanged);
@@ -244,65 +265,95 @@ std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
 
 DrillSession& WorkstationModel::session()
 {
+  if (m_scene)
+    return m_scene->drill();
   if (!m_session)
     m_session.emplace(*m_case);
   return *m_session;
 }
 
-std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const SightLine& line)
+// What was made of the case's voxels, threshold and structures.
+void WorkstationModel::forgetTissue()
+{
+  m_touch.reset();
+  m_scene.reset();
+  m_shellDiameter = 0.0;
+  m_session.reset();
+}
+
+std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)
 {
   if (!m_case)
     return std::nullopt;
-  const auto hit = firstTissue(session().field(), line);
-  return hit ? std::optional<Eigen::Vector3d>(line.origin + *hit * line.direction) : std::nullopt;
+  return interaction::firstTissue(session().field(), line);
 }
 
-std::optional<Eigen::Vector3d> WorkstationModel::burrAt(const SightLine& line, double radius)
+std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::SightLine& line)
+{
+  const auto hit = tissueAlong(line);
+  return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
+}
+
+void WorkstationModel::startTouch(haptics::Device& device, TouchSession::Setup setup)
 {
   if (!m_case)
-    return std::nullopt;
-  const auto rest = burrRest(session().field(), line, radius);
-  return rest ? std::optional<Eigen::Vector3d>(line.origin + *rest * line.direction) : std::nullopt;
-}
-
-void WorkstationModel::beginStroke(const SightLine& line, const dissection::Burr& burr, double feed,
-                                   double seconds, const core::CameraPose& camera)
-{
-  if (!m_case || m_drill)
     return;
-  m_drill.emplace(session(), burr, feed);
-  m_drill->begin(line, seconds, camera);
-  tellMask();
+  stopTouch();
+  if (!m_scene)
+  {
+    m_session.reset();
+    m_scene = std::make_unique<TouchScene>(*m_case);
+  }
+  if (setup.tool.mode == TouchTool::Mode::SixDof && !setup.shell)
+  {
+    if (m_shellDiameter != setup.tool.burr.diameter)
+      m_shell = m_scene->shellOf(setup.tool);
+    m_shellDiameter = setup.tool.burr.diameter;
+    setup.shell = &m_shell;
+  }
+  m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, setup);
 }
 
-std::optional<Eigen::Vector3d> WorkstationModel::drill(const SightLine& line, double seconds)
+// Passes on what the news say of the case.
+TouchSession::News WorkstationModel::hear(TouchSession::News news)
 {
-  if (!m_drill)
-    return std::nullopt;
-  if (m_drill->moveTo(line, seconds))
-    tellMask();
-  return m_drill->center();
+  tellMask(news.bricks);
+  for (const auto& stroke : news.strokes)
+    m_unsaved = m_unsaved || stroke;
+  if (!news.strokes.empty())
+    tell(events.stateChanged);
+  return news;
 }
 
-std::shared_ptr<const dissection::Stroke> WorkstationModel::endStroke()
+TouchSession::News WorkstationModel::advanceTouch()
 {
-  if (!m_drill)
-    return nullptr;
-  auto stroke = m_drill->end();
-  m_drill.reset();
-  tellMask();
-  if (stroke)
-    m_unsaved = true;
-  tell(events.stateChanged);
-  return stroke;
+  if (!m_touch)
+    return {};
+  const bool before = drilling();
+  TouchSession::News news = hear(m_touch->advance());
+  if (drilling() && !before)
+    tell(events.stateChanged);
+  return news;
 }
 
-void WorkstationModel::tellMask()
+TouchSession::News WorkstationModel::endStroke()
 {
-  auto& mask = m_case->dissection->mask();
-  const auto dirty = mask.takeDirty();
-  if (!dirty.empty())
-    tell(events.maskChanged, mask.boxOf(dirty));
+  return m_touch ? hear(m_touch->endStroke()) : TouchSession::News();
+}
+
+TouchSession::News WorkstationModel::stopTouch()
+{
+  if (!m_touch)
+    return {};
+  TouchSession::News news = m_touch->stop();
+  m_touch.reset();
+  return hear(std::move(news));
+}
+
+void WorkstationModel::tellMask(const std::vector<std::size_t>& bricks)
+{
+  if (!bricks.empty())
+    tell(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
 }
 
 } // namespace petrous::presenters

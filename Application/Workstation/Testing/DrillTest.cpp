@@ -1,6 +1,8 @@
 #include "GuiTest.h"
 
+#include <QDoubleSpinBox>
 #include <QPushButton>
+#include <QWheelEvent>
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -76,6 +78,48 @@ TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
   QTest::keyRelease(&view(), Qt::Key_Space);
   ASSERT_EQ(window().model().value().strokes.size(), 1u);
   EXPECT_GT(window().model().value().removedVolume(), 0.0);
+}
+
+TEST_F(Drill, AnotherBurrIsTakenUpAndDrillsAWiderHole)
+{
+  saveBall("ball");
+  openWindow();
+  drill(500);
+  window().findChild<QDoubleSpinBox*>("burrDiameter")->setValue(6.0);
+  EXPECT_FALSE(window().model().touching()); // until the pointer is back
+  drill(500);
+  const auto& strokes = window().model().value().strokes;
+  ASSERT_EQ(strokes.size(), 2u);
+  EXPECT_EQ(strokes.back().info.burr.diameter, 6.0);
+  EXPECT_GT(strokes.back().info.removed, 0.1);
+}
+
+TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::keyClick(&view(), Qt::Key_M);
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  QTest::qWait(200);
+  const auto before = view().picture().camera();
+  const auto turn = [&](int notches)
+  {
+    QWheelEvent wheel(middle, view().mapToGlobal(middle), {}, {0, 120 * notches}, Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view(), &wheel);
+  };
+  turn(12); // 3 mm: through the air before the bone, and beyond its surface
+  EXPECT_EQ(view().picture().camera().position, before.position);
+  EXPECT_TRUE(window().model().value().dissection->mask().untouched());
+  QTest::keyPress(&view(), Qt::Key_Space);
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  QTest::keyClick(&view(), Qt::Key_M);
+  turn(1); // zooms again
+  EXPECT_NE(view().picture().camera().position, before.position);
 }
 
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)

@@ -6,9 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "petrous/Interaction/SightLine.h"
 #include "petrous/Library/Library.h"
-#include "petrous/Presenters/PointerDrill.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Presenters/TouchSession.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
@@ -75,29 +76,43 @@ public:
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
   std::string structureAt(const Eigen::Vector3d& patient) const; ///< empty: none
-  /// Where the line meets tissue, patient LPS mm.
-  std::optional<Eigen::Vector3d> surfaceAt(const SightLine& line);
-  /// Where a burr laid on the surface has its centre.
-  std::optional<Eigen::Vector3d> burrAt(const SightLine& line, double radius);
+  /// Where the line meets tissue, mm from its origin.
+  std::optional<double> tissueAlong(const interaction::SightLine& line);
+  /// The same as a place, patient LPS mm.
+  std::optional<Eigen::Vector3d> surfaceAt(const interaction::SightLine& line);
 
-  void beginStroke(const SightLine& line, const dissection::Burr& burr, double feed, double seconds,
-                   const core::CameraPose& camera);
-  bool drilling() const noexcept { return m_drill.has_value(); }
-  /// The burr's centre; nothing in the air.
-  std::optional<Eigen::Vector3d> drill(const SightLine& line, double seconds);
-  std::shared_ptr<const dissection::Stroke> endStroke(); ///< not saved yet
+  /// Takes a tool into the hand; one that is held is put away first. Reads the CT at the first time
+  /// (about a second for 512^3); `setup.shell` is kept from the last time for the same burr. The
+  /// device must outlive the touch. Throws as TouchSession does.
+  void startTouch(haptics::Device& device, TouchSession::Setup setup);
+  bool touching() const noexcept { return m_touch != nullptr; }
+  /// For what changes nothing in the tissue; null while nothing is in the hand. Another case,
+  /// another threshold or other touchable structures put the tool away.
+  TouchSession* touch() noexcept { return m_touch.get(); }
+  bool drilling() const noexcept { return m_touch && m_touch->drilling(); }
+
+  /// Once a picture: cuts what was drilled since. The strokes are not saved yet.
+  TouchSession::News advanceTouch();
+  TouchSession::News endStroke(); ///< see TouchSession; nothing happens without a touch
+  TouchSession::News stopTouch();
 
 private:
   DrillSession& session();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
-  void tellMask();
+  void forgetTissue();
+  void tellMask(const std::vector<std::size_t>& bricks);
+  TouchSession::News hear(TouchSession::News news);
+  void step(bool back);
   void setUnsaved(bool unsaved);
 
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
   SceneAssembly m_assembly;
-  std::optional<DrillSession> m_session; ///< made when first asked for
-  std::optional<PointerDrill> m_drill;
+  std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
+  std::unique_ptr<TouchScene> m_scene;
+  haptics::PointShell m_shell;           ///< for m_scene's voxels
+  double m_shellDiameter = 0.0;          ///< mm, of its burr; 0: none yet
+  std::unique_ptr<TouchSession> m_touch; ///< after m_scene, which it uses
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Presenters/TouchSession.h"
+
+namespace petrous::presenters::testing
+{
+
+/// A tool that is pressed down (towards -z) on a place, as a window would do it.
+class HeldTool
+{
+public:
+  explicit HeldTool(const Eigen::Vector3d& place,
+                    TouchTool::Mode mode = TouchTool::Mode::ThreeDof) // made at once
+    : device(place)
+  {
+    setup.tool.mode = mode;
+    haptics::Pose pose;
+    pose.position = place;
+    device.want(pose);
+    setup.center = place;
+    setup.parameters.constantThrust = 1;
+    setup.parameters.drillButtons = interaction::PointerDevice::kDrill;
+    setup.parameters.approach[2] = -1.0;
+    setup.feed = 20.0; // the tests need not wait
+  }
+
+  void drill(bool on) { device.setButtons(on ? interaction::PointerDevice::kDrill : 0U); }
+
+  interaction::PointerDevice device;
+  TouchSession::Setup setup;
+};
+
+/// Calls `advance` as a window does until it says true; false after a minute.
+inline bool until(const std::function<bool()>& advance)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (std::chrono::steady_clock::now() < end)
+  {
+    if (advance())
+      return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+} // namespace petrous::presenters::testing

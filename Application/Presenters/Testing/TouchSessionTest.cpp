@@ -1,0 +1,215 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "HeldTool.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+using petrous::presenters::testing::HeldTool;
+using petrous::presenters::testing::until;
+
+namespace
+{
+
+constexpr double kTop = 6.0; // mm; bone lies below
+
+scene::Case block()
+{
+  scene::Case value;
+  value.name = "block";
+  value.ct.geometry = core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i)
+        ct->at(i, j, k) = static_cast<std::int16_t>(
+            std::clamp(300.0 + 3000.0 * (kTop - 0.3 * k), -1000.0, 1600.0));
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  return value;
+}
+
+class TouchSessionTest : public ::testing::Test
+{
+protected:
+  scene::Case value = block();
+  TouchScene scene{value};
+  // Its points are made once for all tests.
+  static const haptics::PointShell& shell(const TouchScene& scene)
+  {
+    static const haptics::PointShell points = scene.shellOf({});
+    return points;
+  }
+  TouchSession::Setup withShell() const
+  {
+    TouchSession::Setup setup = hand.setup;
+    setup.shell = &shell(scene);
+    return setup;
+  }
+  HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), TouchTool::Mode::SixDof};
+  TouchSession session{value, scene, hand.device, withShell()};
+
+  // Cuts, and looks at what comes.
+  TouchSession::News frame()
+  {
+    auto news = session.advance();
+    if (news.record)
+      hand.device.see(*news.record);
+    return news;
+  }
+  // Half a millimetre deep: the first bites only shave what partial voxels there are.
+  bool drillSome()
+  {
+    hand.drill(true);
+    return until(
+        [this]
+        {
+          const auto record = frame().record;
+          return record && record->drill && record->proxy.pose().position.z() < kTop + 1.5;
+        });
+  }
+};
+
+} // namespace
+
+TEST_F(TouchSessionTest, PressesOnTheBoneWithoutTakingAnyWhileTheDrillIsOff)
+{
+  simulation::TickRecord record;
+  ASSERT_TRUE(until(
+      [&]
+      {
+        record = frame().record.value_or(record);
+        return std::abs(record.thrust - 1.0) < 0.05;
+      }));
+  EXPECT_NEAR(record.proxy.pose().position.z(), kTop + 2.0, 0.1); // the burr's radius is 2 mm
+  EXPECT_TRUE(value.dissection->mask().untouched());
+  EXPECT_FALSE(session.drilling());
+  EXPECT_TRUE(session.stop().strokes.empty());
+}
+
+TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
+{
+  core::CameraPose camera;
+  camera.position = {6, 6, 90};
+  session.setCamera(camera);
+  ASSERT_TRUE(drillSome());
+  EXPECT_TRUE(session.drilling());
+  hand.drill(false);
+  const auto news = session.endStroke();
+  EXPECT_FALSE(session.drilling());
+  ASSERT_EQ(news.strokes.size(), 1u);
+  ASSERT_TRUE(news.strokes.front());
+  EXPECT_GT(news.strokes.front()->info.removed, 0.0);
+  ASSERT_TRUE(news.strokes.front()->info.camera);
+  EXPECT_EQ(news.strokes.front()->info.camera->position, camera.position);
+  ASSERT_EQ(value.strokes.size(), 1u);
+  EXPECT_EQ(value.applied, 1u);
+  EXPECT_TRUE(session.stop().strokes.empty()); // it is closed already
+}
+
+TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
+{
+  hand.drill(true);
+  double lowest = 100.0;
+  ASSERT_TRUE(until(
+      [&]
+      {
+        if (const auto record = frame().record; record && record->drill)
+          lowest = std::min(lowest, record->proxy.pose().position.z());
+        return lowest < kTop + 1.0; // a millimetre below where it first touched
+      }));
+}
+
+TEST_F(TouchSessionTest, ACallNeverCutsDeeperThanHalfARadius)
+{
+  ASSERT_TRUE(drillSome());
+  std::this_thread::sleep_for(std::chrono::milliseconds(300)); // 6 mm at this feed: a slow picture
+  const double before = frame().record->proxy.pose().position.z();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  // In between the tool only came to the bottom of what the last call took.
+  EXPECT_GE(frame().record->proxy.pose().position.z(), before - 1.0 - 0.1);
+}
+
+TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
+{
+  ASSERT_TRUE(drillSome());
+  ASSERT_TRUE(session.undo());
+  EXPECT_TRUE(value.dissection->mask().untouched());
+  EXPECT_EQ(value.applied, 0u);
+  EXPECT_FALSE(frame().bricks.empty());
+  // The drill is still held: the next stroke takes the place of the one undone.
+  ASSERT_TRUE(until([this] { return !frame().bricks.empty(); }));
+  hand.drill(false);
+  session.endStroke();
+  ASSERT_EQ(value.strokes.size(), 1u);
+  ASSERT_TRUE(session.undo());
+  ASSERT_TRUE(session.redo());
+  EXPECT_FALSE(session.redo());
+  EXPECT_EQ(value.applied, 1u);
+  EXPECT_FALSE(value.dissection->mask().untouched());
+  ASSERT_TRUE(until(
+      [this]
+      {
+        const auto record = frame().record;
+        return record && record->fault == 0 && std::abs(record->thrust - 1.0) < 0.1;
+      }));
+}
+
+TEST_F(TouchSessionTest, StopClosesTheStrokeAndEndsTheServo)
+{
+  ASSERT_TRUE(drillSome());
+  const auto news = session.stop(); // the button is still held
+  ASSERT_EQ(news.strokes.size(), 1u);
+  EXPECT_TRUE(news.strokes.front());
+  EXPECT_FALSE(session.drilling());
+  EXPECT_FALSE(session.state().running);
+  const auto after = session.stop();
+  EXPECT_TRUE(after.strokes.empty());
+  EXPECT_TRUE(after.bricks.empty());
+}
+
+TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)
+{
+  struct Unplugged final : haptics::Device
+  {
+    haptics::DeviceDescription about;
+    const haptics::DeviceDescription& description() const noexcept override { return about; }
+    haptics::DeviceReading read(double now) noexcept override
+    {
+      haptics::DeviceReading reading;
+      reading.time = now;
+      reading.health = haptics::DeviceHealth::Disconnected;
+      return reading;
+    }
+    void send(const haptics::Wrench&) noexcept override {}
+  };
+  scene::Case value = block();
+  TouchScene scene(value);
+  Unplugged device;
+  TouchSession::Setup setup;
+  setup.tool.mode = TouchTool::Mode::ThreeDof;
+  TouchSession session(value, scene, device, setup);
+  std::string fault;
+  ASSERT_TRUE(until(
+      [&]
+      {
+        fault = session.advance().fault;
+        return !fault.empty();
+      }));
+  EXPECT_EQ(fault, haptics::inWords(haptics::DeviceVerdict::Disconnected));
+}
+
+TEST(TouchSession, RefusesBadParameters)
+{
+  scene::Case value = block();
+  TouchScene scene(value);
+  HeldTool hand(Vector3d(6.0, 6.0, 10.0));
+  hand.setup.feed = 0.0;
+  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  hand.setup.feed = 2.0;
+  hand.setup.parameters.thrust = 50.0;
+  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+}

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include <vtkSmartPointer.h>
+
+#include "petrous/Interaction/ForceDisplay.h"
+#include "petrous/Interaction/ToolView.h"
+
+class vtkRenderer;
+
+namespace petrous::workstation
+{
+
+/// What a renderer shows of a tool in the hand: its force, and a line to where the hand would have
+/// it. Goes from the renderer when it ends.
+class TouchOverlay
+{
+public:
+  TouchOverlay(vtkRenderer& renderer, double burrRadius); ///< mm
+  ~TouchOverlay();
+  TouchOverlay(const TouchOverlay&) = delete;
+  TouchOverlay& operator=(const TouchOverlay&) = delete;
+
+  double burrRadius() const noexcept { return m_burrRadius; }
+  const std::optional<rendering::ToolPose>& tool() const noexcept { return m_tool; }
+
+  /// True when the picture looks different now.
+  bool update(const simulation::TickRecord& record);
+
+private:
+  vtkSmartPointer<vtkRenderer> m_renderer;
+  double m_burrRadius;
+  interaction::ToolView m_view;
+  interaction::ForceDisplay m_force;
+  std::optional<rendering::ToolPose> m_tool; // as drawn last
+  double m_shownForce = 0.0;                 // N
+  double m_shownLag = 0.0;                   // mm
+};
+
+} // namespace petrous::workstation

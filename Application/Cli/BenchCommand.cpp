@@ -10,8 +10,11 @@
 #include "CutBenchmark.h"
 #include "ImportBenchmark.h"
 #include "Numbers.h"
+#include "QpBenchmark.h"
 #include "RendererBenchmark.h"
 #include "SaveBenchmark.h"
+#include "ServoBenchmark.h"
+#include "TouchBenchmark.h"
 
 namespace petrous::cli
 {
@@ -40,6 +43,12 @@ constexpr Benchmark kBenchmarks[] = {
      { return dissection::runCutBenchmark(work, options.quick, progress); }},
     {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return library::runSaveBenchmark(work, options.quick, progress); }},
+    {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return haptics::runQpBenchmark(options.quick, progress); }},
+    {"touch", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return haptics::runTouchBenchmark(options.quick, progress); }},
+    {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return simulation::runServoBenchmark(work, options.quick, progress); }},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
        return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
      }}};

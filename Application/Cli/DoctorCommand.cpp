@@ -6,6 +6,7 @@
 
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Devices/DeviceCatalogue.h"
 #include "petrous/Rendering/GraphicsReport.h"
 #include "petrous/Rendering/RenderingError.h"
 
@@ -110,6 +111,11 @@ void doctor(const Context& context)
   if (!hasDisplay)
     advise("there is no display: the command works, the workstation needs one");
 
+  const std::vector<devices::FoundDevice> devices = devices::findDevices(devices::HidLibrary());
+  for (const auto& device : devices)
+    if (!device.advice.empty())
+      advise(device.title() + ": " + device.advice);
+
   const library::Library library = context.openLibrary();
   std::error_code error;
   const auto space = std::filesystem::space(existingFolder(library.folder()), error);
@@ -136,9 +142,15 @@ void doctor(const Context& context)
   context.say("memory      " + fixed(total, 0) + " MiB, " + fixed(available, 0) + " MiB free");
   context.say("library     " + library.folder().string() + ", " + fixed(freeMiB, 0) +
               " MiB free there");
-  context.say("devices     none are supported yet; drill with the mouse");
+  for (const auto& device : devices)
+    context.say("device      " + device.title() + (device.advice.empty() ? ", ready" : ""));
+  if (devices.empty())
+    context.say("devices     no SpaceMouse and no foot pedal is plugged in; drill with the mouse");
   for (const auto& text : advice)
     context.say("* " + text.get<std::string>());
+  nlohmann::json found = nlohmann::json::array();
+  for (const auto& device : devices)
+    found.push_back({{"name", device.title()}, {"ready", device.advice.empty()}});
   nlohmann::json report = graphicsJson(graphics);
   report.update({{"display", hasDisplay},
                  {"processors", std::thread::hardware_concurrency()},
@@ -146,7 +158,7 @@ void doctor(const Context& context)
                  {"memory_free_mib", available},
                  {"library", library.folder().string()},
                  {"library_free_mib", freeMiB},
-                 {"devices", nlohmann::json::array()},
+                 {"devices", std::move(found)},
                  {"advice", std::move(advice)}});
   context.give(report);
 }

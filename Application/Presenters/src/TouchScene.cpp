@@ -21,11 +21,15 @@ void TouchScene::publish(const std::vector<std::size_t>& bricks)
   m_mask->publish(m_case.dissection->mask(), bricks, true);
 }
 
-haptics::PointShell TouchScene::shellOf(const TouchTool& tool) const
+const haptics::PointShell& TouchScene::shellOf(const TouchTool& tool) const
 {
+  const auto known = m_shells.find(tool.burr.diameter);
+  if (known != m_shells.end())
+    return known->second;
   haptics::BurrShape shape;
   shape.radius = 0.5 * tool.burr.diameter;
-  return haptics::makeBurrShell(shape, m_field->voxel());
+  return m_shells.emplace(tool.burr.diameter, haptics::makeBurrShell(shape, m_field->voxel()))
+      .first->second;
 }
 
 std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const

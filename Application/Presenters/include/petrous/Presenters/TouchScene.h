@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "petrous/Haptics/HapticField.h"
@@ -41,8 +42,9 @@ public:
   /// Tells the servo of bricks that were changed by other means than drilling: undo, redo.
   void publish(const std::vector<std::size_t>& bricks);
 
-  /// Points on the tool for this scene's voxels. Throws InvalidParameter.
-  haptics::PointShell shellOf(const TouchTool& tool) const;
+  /// Points on the tool for this scene's voxels, made once for each burr (about a second) and kept.
+  /// Throws InvalidParameter.
+  const haptics::PointShell& shellOf(const TouchTool& tool) const;
 
   /// The tool held by the tissue. Throws InvalidParameter naming the first bad value.
   std::unique_ptr<haptics::Proxy> proxyOf(const TouchTool& tool) const;
@@ -52,6 +54,7 @@ private:
   DrillSession m_drill;
   std::shared_ptr<volume::PublishedMask> m_mask;
   std::shared_ptr<const haptics::HapticField> m_field;
+  mutable std::map<double, haptics::PointShell> m_shells; // by diameter, mm
 };
 
 } // namespace petrous::presenters

@@ -64,11 +64,11 @@ inline scene::Case smallCase(const std::string& name, int n = 24)
   auto mesh = std::make_shared<core::TriangleMesh>();
   mesh->vertices = {{0, 0, 0}, {1.25F, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  scene::MeshPart part;
-  part.name = "incus";
-  part.triangles = 4;
-  part.mesh = std::shared_ptr<const core::TriangleMesh>(mesh);
-  value.meshes.push_back(part);
+  scene::MeshPart incus;
+  incus.name = "incus";
+  incus.triangles = 4;
+  incus.mesh = std::shared_ptr<const core::TriangleMesh>(mesh);
+  value.meshes.push_back(incus);
   return value;
 }
 

@@ -49,7 +49,8 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
   , m_options(options)
   , m_proxy(scene.proxyOf(options.tool))
   , m_servo(*m_proxy, setupOf(options.tool, burrPointsOf(scene, options.tool)))
-  , m_feed(0.5 * options.tool.burr.diameter)
+  , m_law(0.5 * options.tool.burr.diameter)
+  , m_feed(m_law)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
            hooksOf(scene.drill(), options.tool.burr, options.camera))
 {

@@ -7,11 +7,6 @@
 namespace petrous::simulation
 {
 
-namespace
-{
-constexpr double kMostOwed = 0.1; // mm: a burr that is held elsewhere does not bore on alone
-}
-
 SimpleFeed::SimpleFeed(double radius, double gain)
   : m_radius(radius)
   , m_gain(gain)
@@ -30,16 +25,29 @@ std::optional<dissection::SweptSphere> SimpleFeed::bite(const TickRecord& record
   const Eigen::Vector3d at = record.proxy.pose().position;
   if (!(length > 0.0) || !(depth > 0.0) || !std::isfinite(depth) || !at.allFinite())
     return std::nullopt;
-  const Eigen::Vector3d into = -force / length;
+  return dissection::SweptSphere{at, at - depth / length * force, m_radius};
+}
+
+std::optional<dissection::SweptSphere> OwedFeed::bite(const TickRecord& record, double seconds)
+{
+  auto bite = m_feed.bite(record, seconds);
+  if (!bite)
+    return std::nullopt;
+  const Eigen::Vector3d way = bite->to - bite->from;
+  const double depth = way.norm();
+  if (!(depth > 0.0))
+    return bite;
+  const Eigen::Vector3d into = way / depth;
   // Contact that ended, or ticks that were left out, leave nothing owed.
   if (record.number != m_number + 1)
     m_owed = 0.0;
   else
-    m_owed = std::max(0.0, m_owed - std::max(0.0, into.dot(at - m_at)));
-  m_owed = std::min(m_owed, kMostOwed) + depth;
-  m_at = at;
+    m_owed = std::max(0.0, m_owed - std::max(0.0, into.dot(bite->from - m_at)));
+  m_owed = std::min(m_owed, kMost) + depth;
+  m_at = bite->from;
   m_number = record.number;
-  return dissection::SweptSphere{at, at + m_owed * into, m_radius};
+  bite->to = bite->from + m_owed * into;
+  return bite;
 }
 
 } // namespace petrous::simulation

@@ -51,7 +51,8 @@ private:
   Options m_options;
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
-  simulation::SimpleFeed m_feed;
+  simulation::SimpleFeed m_law;
+  simulation::OwedFeed m_feed; // looks at m_law
   simulation::DissectionLoop m_loop;
   simulation::ServoParameters m_parameters;
   simulation::TickRecord m_record;

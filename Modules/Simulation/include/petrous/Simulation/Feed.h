@@ -23,9 +23,6 @@ public:
 ///
 ///   v = gain F_t      along the burr's contact force, into the tissue
 ///
-/// A bite may be smaller than what the burr stands off the surface of its last one: depth that the
-/// burr has not come forward by is owed, and the next bite takes it with its own.
-///
 /// gain  mm/s per N
 /// F_t   thrust, N: what the burr's contacts push back together, so that walls between which the
 ///       burr is wedged do not count twice
@@ -40,6 +37,25 @@ public:
 private:
   double m_radius;
   double m_gain;
+};
+
+/// Carries depth over where a bite is smaller than what the burr stands off the surface of its last
+/// one: what the burr has not come forward by is owed, and the next bite takes it with its own. For
+/// a loop in step with the servo, which feels each bite before the next.
+class OwedFeed : public Feed
+{
+public:
+  static constexpr double kMost = 0.1; ///< mm: a burr that is held elsewhere does not bore on alone
+
+  explicit OwedFeed(Feed& feed) noexcept ///< which must outlive this
+    : m_feed(feed)
+  {
+  }
+
+  std::optional<dissection::SweptSphere> bite(const TickRecord& record, double seconds) override;
+
+private:
+  Feed& m_feed;
   double m_owed = 0.0;                 // mm
   Eigen::Vector3d m_at{0.0, 0.0, 0.0}; // of the last bite
   std::uint64_t m_number = 0;          // of its tick

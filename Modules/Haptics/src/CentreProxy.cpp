@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "BurrVolume.h"
-#include "petrous/Core/Error.h"
+#include "CheckedParameters.h"
+#include "Refuge.h"
 
 namespace petrous::haptics
 {
@@ -26,38 +26,17 @@ constexpr double kAstray = 0.5;    // cosine: one that is so far along it says n
 constexpr double kFlat = 1e-6;     // of f a voxel: no slope to speak of
 constexpr double kLeast = 1e-9;    // N: a smaller push is none
 constexpr int kMostStretches = 32; // sweeps of a tick that end freely
-constexpr double kTrailStep = 0.5; // voxels
 
-void check(bool good, const char* words)
-{
-  if (!good)
-    throw core::InvalidParameter(std::string("centre proxy: ") + words);
-}
-
-const ProxyParameters& checked(const ProxyParameters& p)
-{
-  check(p.stiffness > 0.0 && p.stiffness <= 100.0, "the stiffness must lie within 0 to 100 N/mm");
-  check(p.nearGap > 0.0 && p.nearGap <= 2.0, "the near gap must lie within 0 to 2 voxels");
-  check(p.sweepStep > 0.0 && p.sweepStep <= 1.0, "the sweep's step must lie within 0 to 1 voxel");
-  check(p.bisections >= 1 && p.bisections <= 30, "bisections must lie within 1 to 30");
-  check(p.rounds >= 1 && p.rounds <= 20, "rounds must lie within 1 to 20");
-  check(p.deadband >= 0.0 && p.deadband <= 0.1, "the deadband must lie within 0 to 0.1 mm");
-  return p;
-}
+constexpr ParameterCheck kCheck("centre proxy");
 
 const CentreBurr& checked(const CentreBurr& burr)
 {
-  check(burr.radius >= 0.25 && burr.radius <= 5.0, "the radius must lie within 0.25 to 5 mm");
-  check(burr.points >= 100 && burr.points <= 5000, "the points must be 100 to 5000");
-  check(burr.superficialShare >= 0.0 && burr.superficialShare <= 2.0,
-        "the superficial share must lie within 0 to 2");
+  kCheck.require(burr.radius >= 0.25 && burr.radius <= 5.0,
+                 "the radius must lie within 0.25 to 5 mm");
+  kCheck.require(burr.points >= 100 && burr.points <= 5000, "the points must be 100 to 5000");
+  kCheck.require(burr.superficialShare >= 0.0 && burr.superficialShare <= 2.0,
+                 "the superficial share must lie within 0 to 2");
   return burr;
-}
-
-std::shared_ptr<const HapticField> checked(std::shared_ptr<const HapticField> field)
-{
-  check(field != nullptr, "no field given");
-  return field;
 }
 
 PointShell centreAlone()
@@ -81,14 +60,14 @@ ContactQp::Vector6 straight(const Vector3d& linear)
 
 CentreProxy::CentreProxy(std::shared_ptr<const HapticField> field, const CentreBurr& burr,
                          const ProxyParameters& parameters)
-  : m_parameters(checked(parameters))
-  , m_sweep(checked(std::move(field)), centreAlone(), parameters.sweepStep, parameters.bisections)
+  : m_parameters(kCheck(parameters))
+  , m_sweep(kCheck.field(field), centreAlone(), parameters.sweepStep, parameters.bisections)
   , m_volume(std::make_unique<BurrVolume>(m_sweep.field(), checked(burr).radius, burr.points))
   , m_radius(burr.radius)
   , m_pointForce(4.0 * burr.superficialShare * parameters.stiffness * burr.radius /
                  static_cast<double>(m_volume->points().size()))
   , m_qp(kMostHits + 1, ContactQp::Vector6::Constant(parameters.stiffness))
-  , m_trail(kTrail)
+  , m_refuge(std::make_unique<Refuge>(m_sweep))
 {
 }
 
@@ -103,16 +82,8 @@ void CentreProxy::place(const Pose& pose) noexcept
 {
   if (!pose.finite())
     return;
-  const volume::MaskState* state = m_sweep.field().mask().acquire();
-  m_sweep.look(*state);
-  m_raises = state->raises();
-  m_sweep.moveTo(pose);
+  m_refuge->place(pose);
   m_tick.pose = m_sweep.pose();
-  m_trailLength = 0;
-  m_inside = !m_sweep.freeAt(m_sweep.pose());
-  if (!m_inside)
-    remember();
-  m_sweep.field().mask().release();
 }
 
 // The tissue's surface as the centre sees it close by. The normal is smooth, over a voxel; how far
@@ -227,7 +198,7 @@ void CentreProxy::follow(const Vector3d& goal) noexcept
     if (motion.norm() < m_parameters.deadband)
       return;
     const ShellSweep::Hit hit = advance(motion);
-    remember();
+    m_refuge->remember();
     if (!hit.any && hit.free >= 1.0)
       return;
     if (!hit.any)
@@ -245,50 +216,6 @@ void CentreProxy::follow(const Vector3d& goal) noexcept
       lift = std::min(2.0 * lift, kMostLift * h);
     }
   }
-}
-
-void CentreProxy::remember() noexcept
-{
-  const Vector3d& place = m_sweep.pose().position;
-  const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
-  if (m_trailLength > 0 && (m_trail[last] - place).norm() < kTrailStep * m_sweep.field().voxel())
-    return;
-  m_trail[m_trailEnd] = place;
-  m_trailEnd = (m_trailEnd + 1) % kTrail;
-  m_trailLength = std::min(m_trailLength + 1, kTrail);
-}
-
-// Back along the path to the last place that is free now.
-bool CentreProxy::retreat() noexcept
-{
-  while (m_trailLength > 0)
-  {
-    const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
-    const Pose back{m_trail[last], m_sweep.pose().rotation};
-    if (m_sweep.freeAt(back))
-    {
-      m_sweep.moveTo(back);
-      return true;
-    }
-    m_trailEnd = last;
-    --m_trailLength;
-  }
-  return false;
-}
-
-// Tissue that came back may stand where the centre is.
-void CentreProxy::notice() noexcept
-{
-  if (m_sweep.state().raises() == m_raises)
-    return;
-  m_raises = m_sweep.state().raises();
-  m_sweep.forgetClearances();
-  if (m_inside || m_sweep.freeAt(m_sweep.pose()))
-    return;
-  if (retreat())
-    m_tick.status = ProxyStatus::Retreated;
-  else
-    m_inside = true;
 }
 
 void CentreProxy::addContact(const Vector3d& normal, double thrust, double gap) noexcept
@@ -349,16 +276,14 @@ const ProxyTick& CentreProxy::step(const Pose& goal) noexcept
   }
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
-  notice();
-  if (m_inside)
+  if (m_refuge->notice())
+    m_tick.status = ProxyStatus::Retreated;
+  if (m_refuge->inside())
   {
-    m_sweep.moveTo(goal);
-    m_inside = !m_sweep.freeAt(m_sweep.pose());
-    m_tick.status = m_inside ? ProxyStatus::Inside : ProxyStatus::Free;
-    if (m_inside)
+    m_refuge->follow(goal);
+    m_tick.status = m_refuge->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
+    if (m_refuge->inside())
       m_tick.penetration = m_radius;
-    else
-      remember();
   }
   else
   {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "CheckedParameters.h"
 #include "ContactFinder.h"
-#include "petrous/Core/Error.h"
+#include "Refuge.h"
 
 namespace petrous::haptics
 {
@@ -19,38 +19,21 @@ constexpr double kSkin = 0.01;
 constexpr double kSkinSlack = 0.3; // of the skin, that need not be given back
 constexpr double kMostLift = 0.05; // voxels, over a bump
 constexpr int kMostStretches = 32; // sweeps of a tick that end freely
-constexpr double kTrailStep = 0.5; // voxels
 
-void check(bool good, const char* words)
-{
-  if (!good)
-    throw core::InvalidParameter(std::string("constrained proxy: ") + words);
-}
+constexpr ParameterCheck kCheck("constrained proxy");
 
 const ProxyParameters& checked(const ProxyParameters& p)
 {
-  check(p.stiffness > 0.0 && p.stiffness <= 100.0, "the stiffness must lie within 0 to 100 N/mm");
-  check(p.angularStiffness > 0.0 && p.angularStiffness <= 1e5,
-        "the angular stiffness must lie within 0 to 100000 N mm/rad");
-  check(p.nearGap > 0.0 && p.nearGap <= 2.0, "the near gap must lie within 0 to 2 voxels");
-  check(p.sweepStep > 0.0 && p.sweepStep <= 1.0, "the sweep's step must lie within 0 to 1 voxel");
-  check(p.bisections >= 1 && p.bisections <= 30, "bisections must lie within 1 to 30");
-  check(p.rounds >= 1 && p.rounds <= 20, "rounds must lie within 1 to 20");
-  check(p.deadband >= 0.0 && p.deadband <= 0.1, "the deadband must lie within 0 to 0.1 mm");
-  return p;
+  kCheck.require(p.angularStiffness > 0.0 && p.angularStiffness <= 1e5,
+                 "the angular stiffness must lie within 0 to 100000 N mm/rad");
+  return kCheck(p);
 }
 
 PointShell checked(PointShell shell)
 {
-  check(!shell.points.empty() && shell.points.size() == shell.normals.size(),
-        "a shell needs points, and a normal for each");
+  kCheck.require(!shell.points.empty() && shell.points.size() == shell.normals.size(),
+                 "a shell needs points, and a normal for each");
   return shell;
-}
-
-std::shared_ptr<const HapticField> checked(std::shared_ptr<const HapticField> field)
-{
-  check(field != nullptr, "no field given");
-  return field;
 }
 
 ContactQp::Vector6 vector6(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular)
@@ -65,13 +48,13 @@ ContactQp::Vector6 vector6(const Eigen::Vector3d& linear, const Eigen::Vector3d&
 ConstrainedProxy::ConstrainedProxy(std::shared_ptr<const HapticField> field, PointShell shell,
                                    const ProxyParameters& parameters)
   : m_parameters(checked(parameters))
-  , m_sweep(checked(std::move(field)), checked(std::move(shell)), parameters.sweepStep,
+  , m_sweep(kCheck.field(field), checked(std::move(shell)), parameters.sweepStep,
             parameters.bisections)
   , m_finder(std::make_unique<ContactFinder>(m_sweep, parameters.nearGap))
   , m_qp(kMostRows, vector6(Eigen::Vector3d::Constant(parameters.stiffness),
                             Eigen::Vector3d::Constant(parameters.angularStiffness)))
   , m_rows(kMostRows)
-  , m_trail(kTrail)
+  , m_refuge(std::make_unique<Refuge>(m_sweep))
 {
 }
 
@@ -79,17 +62,8 @@ ConstrainedProxy::~ConstrainedProxy() = default;
 
 void ConstrainedProxy::place(const Pose& pose) noexcept
 {
-  if (!pose.finite())
-    return;
-  const volume::MaskState* state = m_sweep.field().mask().acquire();
-  m_sweep.look(*state);
-  m_raises = state->raises();
-  m_sweep.moveTo(pose);
-  m_trailLength = 0;
-  m_inside = !m_sweep.freeAt(m_sweep.pose());
-  if (!m_inside)
-    remember();
-  m_sweep.field().mask().release();
+  if (pose.finite())
+    m_refuge->place(pose);
 }
 
 // Two problems. In the first, standing still is allowed, and its forces are what the hand feels. In
@@ -129,49 +103,6 @@ Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
       motion = m_qp.solution();
   }
   return {motion.head<3>(), motion.tail<3>()};
-}
-
-void ConstrainedProxy::remember() noexcept
-{
-  const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
-  if (m_trailLength > 0 && longestWay(motionBetween(m_trail[last], m_sweep.pose()),
-                                      m_sweep.shell().reach) < kTrailStep * m_sweep.field().voxel())
-    return;
-  m_trail[m_trailEnd] = m_sweep.pose();
-  m_trailEnd = (m_trailEnd + 1) % kTrail;
-  m_trailLength = std::min(m_trailLength + 1, kTrail);
-}
-
-// Back along the path to the last pose that is free now.
-bool ConstrainedProxy::retreat() noexcept
-{
-  while (m_trailLength > 0)
-  {
-    const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
-    if (m_sweep.freeAt(m_trail[last]))
-    {
-      m_sweep.moveTo(m_trail[last]);
-      return true;
-    }
-    m_trailEnd = last;
-    --m_trailLength;
-  }
-  return false;
-}
-
-// Tissue that came back may stand where the tool is.
-void ConstrainedProxy::notice() noexcept
-{
-  if (m_sweep.state().raises() == m_raises)
-    return;
-  m_raises = m_sweep.state().raises();
-  m_sweep.forgetClearances();
-  if (m_inside || m_sweep.freeAt(m_sweep.pose()))
-    return;
-  if (retreat())
-    m_tick.status = ProxyStatus::Retreated;
-  else
-    m_inside = true;
 }
 
 void ConstrainedProxy::report() noexcept
@@ -239,7 +170,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     if (way < m_parameters.deadband)
       break;
     const ShellSweep::Hit hit = advance(motion, way);
-    remember();
+    m_refuge->remember();
     if (!hit.any && hit.free >= 1.0)
       break;
     if (!hit.any)
@@ -279,14 +210,12 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   m_tick.maskState = m_sweep.state().number();
-  notice();
-  if (m_inside)
+  if (m_refuge->notice())
+    m_tick.status = ProxyStatus::Retreated;
+  if (m_refuge->inside())
   {
-    m_sweep.moveTo(goal);
-    m_inside = !m_sweep.freeAt(m_sweep.pose());
-    m_tick.status = m_inside ? ProxyStatus::Inside : ProxyStatus::Free;
-    if (!m_inside)
-      remember();
+    m_refuge->follow(goal);
+    m_tick.status = m_refuge->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
   }
   else
     follow(goal);

@@ -14,6 +14,7 @@ namespace petrous::haptics
 {
 
 class BurrVolume;
+class Refuge;
 
 /// Burr of the three-degrees-of-freedom mode.
 struct CentreBurr
@@ -90,7 +91,6 @@ private:
     Eigen::Vector3d normal{0.0, 0.0, 1.0}; // unit, out of the tissue, patient axes
     Eigen::Vector3d point{0.0, 0.0, 0.0};  // of the plane, mm
   };
-  static constexpr std::size_t kTrail = 512;
   static constexpr std::size_t kMostHits = 28; // the most rounds, and kMostKept
 
   Eigen::Vector3d solve(const Eigen::Vector3d& wanted, double lift) noexcept;
@@ -102,9 +102,6 @@ private:
   void follow(const Eigen::Vector3d& goal) noexcept;
   void report() noexcept;
   void addContact(const Eigen::Vector3d& normal, double thrust, double gap) noexcept;
-  void notice() noexcept;
-  bool retreat() noexcept;
-  void remember() noexcept;
 
   ProxyParameters m_parameters;
   ShellSweep m_sweep; // of one point, the burr's centre
@@ -116,12 +113,8 @@ private:
   std::size_t m_hitCount = 0;
   std::array<Plane, kMostHits + 1> m_rows; // of the last problem
   std::size_t m_firstHit = 0;              // of the rows
-  std::vector<Eigen::Vector3d> m_trail;    // ring of places that were free
-  std::size_t m_trailEnd = 0;
-  std::size_t m_trailLength = 0;
-  std::uint64_t m_raises = 0;
-  std::uint64_t m_number = 0; // of the mask's state in the last tick
-  bool m_inside = false;
+  std::unique_ptr<Refuge> m_refuge;        // moves m_sweep
+  std::uint64_t m_number = 0;              // of the mask's state in the last tick
   ProxyTick m_tick;
 };
 

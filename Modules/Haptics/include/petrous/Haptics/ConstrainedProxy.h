@@ -13,6 +13,7 @@ namespace petrous::haptics
 {
 
 class ContactFinder;
+class Refuge;
 
 /// The tool as it may be, held to the tissue's surface while the hand goes where it likes: six
 /// degrees of freedom, constraint-based [Chan2016, Eq. 1], with PHYSICS' corrections.
@@ -47,15 +48,11 @@ private:
     double compliance = 0.0;
   };
   static constexpr std::size_t kMostRows = 1024;
-  static constexpr std::size_t kTrail = 512;
   static constexpr std::size_t kMostHits = 20;
 
   void follow(const Pose& goal) noexcept;
   Motion solve(const Motion& wanted, double lift) noexcept;
   ShellSweep::Hit advance(const Motion& motion, double way) noexcept;
-  void notice() noexcept;
-  bool retreat() noexcept;
-  void remember() noexcept;
   void report() noexcept;
 
   ProxyParameters m_parameters;
@@ -68,11 +65,7 @@ private:
 
   std::array<ShellSweep::Hit, kMostHits> m_hits; // of this tick
   std::size_t m_hitCount = 0;
-  std::vector<Pose> m_trail; // ring of poses that were free
-  std::size_t m_trailEnd = 0;
-  std::size_t m_trailLength = 0;
-  std::uint64_t m_raises = 0;
-  bool m_inside = false;
+  std::unique_ptr<Refuge> m_refuge; // moves m_sweep
   ProxyTick m_tick;
 };
 

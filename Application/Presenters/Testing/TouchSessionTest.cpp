@@ -37,20 +37,8 @@ class TouchSessionTest : public ::testing::Test
 protected:
   scene::Case value = block();
   TouchScene scene{value};
-  // Its points are made once for all tests.
-  static const haptics::PointShell& shell(const TouchScene& scene)
-  {
-    static const haptics::PointShell points = scene.shellOf({});
-    return points;
-  }
-  TouchSession::Setup withShell() const
-  {
-    TouchSession::Setup setup = hand.setup;
-    setup.shell = &shell(scene);
-    return setup;
-  }
   HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), TouchTool::Mode::SixDof};
-  TouchSession session{value, scene, hand.device, withShell()};
+  TouchSession session{value, scene, hand.device, hand.setup};
 
   // Cuts, and looks at what comes.
   TouchSession::News frame()

@@ -6,53 +6,30 @@ namespace petrous::presenters
 namespace
 {
 
-simulation::ServoSetup setupOf(const TouchTool& tool, std::size_t burrPoints)
+simulation::ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 {
-  simulation::ServoSetup setup;
+  simulation::ServoSetup setup = scene.servoOf(tool);
   // A written path may jump as it likes; no hand is harmed.
   setup.guard.speed = 1e9;
   setup.guard.angularSpeed = 1e9;
   setup.guard.reach = 1e9;
   setup.guard.goodTicks = 1;
   setup.stallAfter = 1e9;
-  setup.stiffness = tool.coupling.stiffness;
-  setup.burrPoints = burrPoints;
   return setup;
 }
 
-std::size_t burrPointsOf(const TouchScene& scene, const TouchTool& tool)
-{
-  return tool.mode == TouchTool::Mode::ThreeDof ? 1 : scene.shellOf(tool).burrCount;
-}
-
 } // namespace
-
-simulation::DissectionLoop::Hooks hooksOf(DrillSession& drill, const dissection::Burr& burr,
-                                          const std::optional<core::CameraPose>& camera)
-{
-  simulation::DissectionLoop::Hooks hooks;
-  hooks.begin = [burr, camera]
-  {
-    dissection::StrokeInfo info;
-    info.startedAt = utcNow();
-    info.burr = burr;
-    info.camera = camera;
-    return info;
-  };
-  hooks.close = [&drill](dissection::Dissection&) { drill.end(); };
-  return hooks;
-}
 
 PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& options)
   : m_case(value)
   , m_scene(scene)
   , m_options(options)
   , m_proxy(scene.proxyOf(options.tool))
-  , m_servo(*m_proxy, setupOf(options.tool, burrPointsOf(scene, options.tool)))
+  , m_servo(*m_proxy, setupOf(scene, options.tool))
   , m_law(0.5 * options.tool.burr.diameter)
   , m_feed(m_law)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
-           hooksOf(scene.drill(), options.tool.burr, options.camera))
+           scene.hooksOf(options.tool.burr, [camera = options.camera] { return camera; }))
 {
   m_parameters.constantThrust = options.thrust ? 1 : 0;
   m_parameters.thrust = options.thrust.value_or(1.0);

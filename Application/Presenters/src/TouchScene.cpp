@@ -1,5 +1,7 @@
 #include "petrous/Presenters/TouchScene.h"
 
+#include <utility>
+
 #include "petrous/Haptics/CentreProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/PointShell.h"
@@ -41,6 +43,31 @@ std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const
     return std::make_unique<haptics::CentreProxy>(m_field, burr, tool.coupling);
   }
   return std::make_unique<haptics::ConstrainedProxy>(m_field, shellOf(tool), tool.coupling);
+}
+
+simulation::ServoSetup TouchScene::servoOf(const TouchTool& tool) const
+{
+  simulation::ServoSetup setup;
+  setup.stiffness = tool.coupling.stiffness;
+  setup.burrPoints = tool.mode == TouchTool::Mode::ThreeDof ? 1 : shellOf(tool).burrCount;
+  return setup;
+}
+
+simulation::DissectionLoop::Hooks
+TouchScene::hooksOf(const dissection::Burr& burr,
+                    std::function<std::optional<core::CameraPose>()> camera)
+{
+  simulation::DissectionLoop::Hooks hooks;
+  hooks.begin = [burr, camera = std::move(camera)]
+  {
+    dissection::StrokeInfo info;
+    info.startedAt = utcNow();
+    info.burr = burr;
+    info.camera = camera();
+    return info;
+  };
+  hooks.close = [this](dissection::Dissection&) { m_drill.end(); };
+  return hooks;
 }
 
 } // namespace petrous::presenters

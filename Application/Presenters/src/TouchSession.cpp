@@ -4,8 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "petrous/Haptics/ConstrainedProxy.h"
-
 namespace petrous::presenters
 {
 
@@ -21,20 +19,9 @@ double now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::unique_ptr<haptics::Proxy> proxyOf(const TouchScene& scene, const TouchSession::Setup& setup)
+simulation::ServoSetup setupOf(const TouchScene& scene, const TouchSession::Setup& setup)
 {
-  if (setup.shell && setup.tool.mode == TouchTool::Mode::SixDof)
-    return std::make_unique<haptics::ConstrainedProxy>(scene.field(), *setup.shell,
-                                                       setup.tool.coupling);
-  return scene.proxyOf(setup.tool);
-}
-
-simulation::ServoSetup setupOf(const TouchSession::Setup& setup, const haptics::Proxy& proxy)
-{
-  const auto* shell = dynamic_cast<const haptics::ConstrainedProxy*>(&proxy);
-  simulation::ServoSetup servo;
-  servo.stiffness = setup.tool.coupling.stiffness;
-  servo.burrPoints = shell ? shell->shell().burrCount : 1;
+  simulation::ServoSetup servo = scene.servoOf(setup.tool);
   servo.center = setup.center;
   return servo;
 }
@@ -66,8 +53,8 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
                            const Setup& setup)
   : m_case(value)
   , m_scene(scene)
-  , m_proxy(proxyOf(scene, setup))
-  , m_servo(*m_proxy, setupOf(setup, *m_proxy))
+  , m_proxy(scene.proxyOf(setup.tool))
+  , m_servo(*m_proxy, setupOf(scene, setup))
   , m_feed(0.5 * setup.tool.burr.diameter, setup.feed)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
            hooks(setup.tool.burr))
@@ -84,15 +71,7 @@ TouchSession::~TouchSession()
 
 simulation::DissectionLoop::Hooks TouchSession::hooks(const dissection::Burr& burr)
 {
-  simulation::DissectionLoop::Hooks hooks;
-  hooks.begin = [this, burr]
-  {
-    dissection::StrokeInfo info;
-    info.startedAt = utcNow();
-    info.burr = burr;
-    info.camera = m_camera;
-    return info;
-  };
+  auto hooks = m_scene.hooksOf(burr, [this] { return m_camera; });
   hooks.close = [this](dissection::Dissection&)
   { m_news.strokes.push_back(m_scene.drill().end()); };
   hooks.changed = [this](const std::vector<std::size_t>& bricks)

@@ -277,7 +277,6 @@ void WorkstationModel::forgetTissue()
 {
   m_touch.reset();
   m_scene.reset();
-  m_shellDiameter = 0.0;
   m_session.reset();
 }
 
@@ -294,7 +293,7 @@ std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::Si
   return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
 }
 
-void WorkstationModel::startTouch(haptics::Device& device, TouchSession::Setup setup)
+void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::Setup& setup)
 {
   if (!m_case)
     return;
@@ -303,13 +302,6 @@ void WorkstationModel::startTouch(haptics::Device& device, TouchSession::Setup s
   {
     m_session.reset();
     m_scene = std::make_unique<TouchScene>(*m_case);
-  }
-  if (setup.tool.mode == TouchTool::Mode::SixDof && !setup.shell)
-  {
-    if (m_shellDiameter != setup.tool.burr.diameter)
-      m_shell = m_scene->shellOf(setup.tool);
-    m_shellDiameter = setup.tool.burr.diameter;
-    setup.shell = &m_shell;
   }
   m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, setup);
 }

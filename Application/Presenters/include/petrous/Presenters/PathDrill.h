@@ -59,8 +59,4 @@ private:
   std::size_t m_inside = 0;
 };
 
-/// What a dissection loop tells the case: strokes are opened and listed as by a DrillSession.
-simulation::DissectionLoop::Hooks hooksOf(DrillSession& drill, const dissection::Burr& burr,
-                                          const std::optional<core::CameraPose>& camera);
-
 } // namespace petrous::presenters

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "petrous/Haptics/HapticField.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
 #include "petrous/Presenters/DrillSession.h"
+#include "petrous/Simulation/DissectionLoop.h"
+#include "petrous/Simulation/Servo.h"
 
 namespace petrous::presenters
 {
@@ -48,6 +52,14 @@ public:
 
   /// The tool held by the tissue. Throws InvalidParameter naming the first bad value.
   std::unique_ptr<haptics::Proxy> proxyOf(const TouchTool& tool) const;
+
+  /// What a servo must know of that tool.
+  simulation::ServoSetup servoOf(const TouchTool& tool) const;
+
+  /// What a dissection loop tells the case: strokes are opened and listed as by a DrillSession.
+  /// `camera` is asked where each stroke is drilled from.
+  simulation::DissectionLoop::Hooks
+  hooksOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
 
 private:
   scene::Case& m_case;

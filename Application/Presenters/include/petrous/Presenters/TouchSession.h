@@ -29,8 +29,7 @@ public:
   {
     TouchTool tool;
     simulation::ServoParameters parameters;
-    Eigen::Vector3d center{0.0, 0.0, 0.0};      ///< patient mm: where the hand's origin is
-    const haptics::PointShell* shell = nullptr; ///< the tool's points; null: made here, if needed
+    Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: where the hand's origin is
     double feed = 2.0; ///< mm/s per N of thrust, > 0: at 1 N a burr of 4 mm sinks in within 2 s
   };
 

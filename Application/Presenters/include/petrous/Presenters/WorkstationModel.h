@@ -82,9 +82,8 @@ public:
   std::optional<Eigen::Vector3d> surfaceAt(const interaction::SightLine& line);
 
   /// Takes a tool into the hand; one that is held is put away first. Reads the CT at the first time
-  /// (about a second for 512^3); `setup.shell` is kept from the last time for the same burr. The
-  /// device must outlive the touch. Throws as TouchSession does.
-  void startTouch(haptics::Device& device, TouchSession::Setup setup);
+  /// (about a second for 512^3). The device must outlive the touch. Throws as TouchSession does.
+  void startTouch(haptics::Device& device, const TouchSession::Setup& setup);
   bool touching() const noexcept { return m_touch != nullptr; }
   /// For what changes nothing in the tissue; null while nothing is in the hand. Another case,
   /// another threshold or other touchable structures put the tool away.
@@ -110,8 +109,6 @@ private:
   SceneAssembly m_assembly;
   std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
   std::unique_ptr<TouchScene> m_scene;
-  haptics::PointShell m_shell;           ///< for m_scene's voxels
-  double m_shellDiameter = 0.0;          ///< mm, of its burr; 0: none yet
   std::unique_ptr<TouchSession> m_touch; ///< after m_scene, which it uses
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;

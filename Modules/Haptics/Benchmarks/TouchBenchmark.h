@@ -30,9 +30,9 @@ struct TouchScene
 /// Error and time of the proxy's tick, each in the same run as a peer where there is one:
 /// height, ripple and force angle on surfaces that are known exactly, over the voxel size;
 /// crossings of thin plates by a hand that moves at random; error against time over each
-/// parameter; and the times of a burr of 2000 points that slides over bone, in `real` too when it
-/// is given. Times are the thread's own processor time; the wall's stand beside them.
+/// parameter; and the times of a burr of 2000 points that slides over analytic bone and over the
+/// `scans`. Times are the thread's own processor time; the wall's stand beside them.
 core::BenchmarkReport runTouchBenchmark(bool quick, const core::Progress& progress,
-                                        const TouchScene* real = nullptr);
+                                        const std::vector<TouchScene>& scans = {});
 
 } // namespace petrous::haptics

@@ -1,5 +1,6 @@
 #include "TouchTicks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -61,8 +62,18 @@ struct Slide
   double deepest = -1.0;
   long touched = 0;
   long rounds = 0;
-  double force = 0.0; // N, mean
-  std::size_t ticks = 0;
+  double force = 0.0;          // N, mean
+  std::vector<double> samples; // of the field, in each tick
+
+  double samplesAt(double share)
+  {
+    if (samples.empty())
+      return 0.0;
+    const auto place = samples.begin() +
+                       static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
+    std::nth_element(samples.begin(), place, samples.end());
+    return *place;
+  }
 };
 
 // The hand goes round in a circle across `toward`, 1 to 2 mm deeper than the tool.
@@ -91,7 +102,7 @@ void slide(ConstrainedProxy& proxy, const TouchScene::Start& start, double speed
     result.touched += tick.contactCount > 0;
     result.rounds += tick.rounds;
     result.force += tick.wrench.linear.norm();
-    ++result.ticks;
+    result.samples.push_back(static_cast<double>(tick.samples));
     if (t % 20 != 0)
       continue;
     const volume::MaskState& mask = *field.mask().acquire();
@@ -144,10 +155,13 @@ std::vector<core::BenchmarkPoint> touchTicks(const TouchScene& scene, bool quick
     all.times.enter(point);
     point.error = std::max(0.0, all.deepest);
     point.errorUnit = "f at the deepest shell point";
-    const double count = std::max(1.0, static_cast<double>(all.ticks));
+    const double count = std::max(1.0, static_cast<double>(all.samples.size()));
     point.extra["in_contact_share"] = static_cast<double>(all.touched) / count;
     point.extra["rounds_mean"] = static_cast<double>(all.rounds) / count;
     point.extra["force_mean_n"] = all.force / count;
+    point.extra["samples_p50"] = all.samplesAt(0.5);
+    point.extra["samples_p99.9"] = all.samplesAt(0.999);
+    point.extra["samples_max"] = all.samplesAt(1.0);
     points.push_back(std::move(point));
   }
   return points;

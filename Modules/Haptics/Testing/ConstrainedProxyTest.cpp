@@ -56,6 +56,7 @@ TEST(ConstrainedProxy, RefusesParametersOutOfTheirDomain)
   EXPECT_NE(with(&ProxyParameters::bisections, 0).find("bisections"), std::string::npos);
   EXPECT_NE(with(&ProxyParameters::rounds, 0).find("rounds"), std::string::npos);
   EXPECT_NE(with(&ProxyParameters::deadband, kNan).find("deadband"), std::string::npos);
+  EXPECT_NE(with(&ProxyParameters::samples, 10).find("samples"), std::string::npos);
 }
 
 TEST(ConstrainedProxy, RefusesAShellWithoutPointsOrNormalsAndNoField)
@@ -210,4 +211,43 @@ TEST(ConstrainedProxy, LeavesTheGridAndComesBackToTheBone)
     proxy.step(poseAt({0.0, 0.0, 0.0}));
   EXPECT_EQ(proxy.step(poseAt({0.0, 0.0, 0.0})).status, ProxyStatus::Contact);
   EXPECT_NEAR(proxy.pose().position.z(), 1.0, 0.05 * h);
+}
+
+// A tick's work is bounded; the way that it did not make is made by those that follow, and the tool
+// comes to rest where one tick without a bound puts it.
+TEST(ConstrainedProxy, MakesAWayTooLongForOneTickInThoseThatFollow)
+{
+  const double h = 0.3;
+  const Scene scene = sceneOf(scanOf(wedge(0.6, surfaceTurn(true)), h, 9.0));
+  const PointShell shell = ballShell(1.0, 800);
+  const Eigen::Matrix3d turn = surfaceTurn(true);
+  const Pose start = poseAt(turn * Vector3d(2.5, 0.0, 4.0));
+  const Pose goal = poseAt(turn * Vector3d(0.4, 2.0, -1.0)); // pressed into the valley
+  ProxyParameters bounded, free;
+  bounded.samples = 400;
+  free.samples = 1000000;
+  ConstrainedProxy inTicks(scene.field, shell, bounded);
+  ConstrainedProxy atOnce(scene.field, shell, free);
+  inTicks.place(start);
+  atOnce.place(start);
+  for (int t = 0; t < 20; ++t)
+    atOnce.step(goal);
+  int ticks = 0;
+  std::size_t most = 0;
+  for (; ticks < 400; ++ticks)
+  {
+    const Vector3d before = inTicks.pose().position;
+    const ProxyTick& tick = inTicks.step(goal);
+    most = std::max(most, tick.samples);
+    ASSERT_LE(deepest(*scene.tissue, shell, tick.pose), 0.0);
+    if ((inTicks.pose().position - before).norm() < 1e-6)
+      break;
+  }
+  EXPECT_GT(ticks, 3);
+  EXPECT_LT(ticks, 400);
+  // What is over the bound: the last stretch, where every point may be looked at a few times.
+  EXPECT_LT(most, 400u + 6u * 800u);
+  EXPECT_LT((inTicks.pose().position - atOnce.pose().position).norm(), 0.02 * h);
+  EXPECT_NEAR(inTicks.step(goal).wrench.linear.norm(), atOnce.step(goal).wrench.linear.norm(),
+              0.02);
 }

@@ -34,6 +34,7 @@ public:
     require(p.bisections >= 1 && p.bisections <= 30, "bisections must lie within 1 to 30");
     require(p.rounds >= 1 && p.rounds <= 20, "rounds must lie within 1 to 20");
     require(p.deadband >= 0.0 && p.deadband <= 0.1, "the deadband must lie within 0 to 0.1 mm");
+    require(p.samples >= 100 && p.samples <= 1000000, "samples must lie within 100 to 1000000");
     return p;
   }
 

@@ -73,6 +73,7 @@ Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
 {
   const double skin = kSkin * m_sweep.field().voxel();
   m_finder->find(m_hits.data(), m_hitCount);
+  m_found += m_finder->samples();
   m_rowCount = 0;
   bool tight = false;
   m_qp.clear();
@@ -125,30 +126,36 @@ void ConstrainedProxy::report() noexcept
     m_tick.status = ProxyStatus::Contact;
 }
 
+bool ConstrainedProxy::spent() const noexcept
+{
+  return m_sweep.samples() + m_found >= static_cast<std::size_t>(m_parameters.samples);
+}
+
 // A sweep goes no farther than its chords, and neither does the search for near points.
 ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noexcept
 {
   // In stretches that grow: what stops a motion is mostly near, and what is far is not looked at.
   const double step = m_parameters.sweepStep * m_sweep.field().voxel();
-  const double most = std::min(1.0, ShellSweep::kMostSteps * step / std::max(way, 1e-12));
-  double share = std::min(most, 2.0 * step / std::max(way, 1e-12));
+  const double farthest = std::min(1.0, ShellSweep::kMostSteps * step / std::max(way, 1e-12));
+  double share = std::min(farthest, 2.0 * step / std::max(way, 1e-12));
   double done = 0.0;
   ShellSweep::Hit hit;
   for (;;)
   {
-    share = std::min(share, most - done);
+    share = std::min(share, farthest - done);
     const Motion part{share * motion.linear, share * motion.angular};
     if (done > 0.0)
       m_sweep.findNear(0.0);
     m_sweep.addNear(part.linear.norm(), part.angular.norm());
     m_tick.nearPoints = std::max(m_tick.nearPoints, m_sweep.nearCount());
-    hit = m_sweep.advance(part);
+    const std::size_t most = static_cast<std::size_t>(m_parameters.samples);
+    hit = m_sweep.advance(part, most - std::min(most, m_found));
     done += share * hit.free;
-    if (hit.any || done >= most - 1e-12)
+    if (hit.any || done >= farthest - 1e-12 || spent())
       break;
     share *= 2.0;
   }
-  hit.free = !hit.any && most >= 1.0 ? 1.0 : done;
+  hit.free = !hit.any && done >= 1.0 - 1e-12 ? 1.0 : done;
   return hit;
 }
 
@@ -171,7 +178,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
       break;
     const ShellSweep::Hit hit = advance(motion, way);
     m_refuge->remember();
-    if (!hit.any && hit.free >= 1.0)
+    if ((!hit.any && hit.free >= 1.0) || spent())
       break;
     if (!hit.any)
     {
@@ -201,6 +208,8 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
   m_tick.penetration = 0.0;
   m_tick.rounds = 0;
   m_tick.nearPoints = 0;
+  m_tick.samples = 0;
+  m_found = 0;
   if (!goal.finite())
   {
     m_tick.status = ProxyStatus::BadGoal;
@@ -220,6 +229,7 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
   else
     follow(goal);
   m_tick.pose = m_sweep.pose();
+  m_tick.samples = m_sweep.samples() + m_found;
   mask.release();
   return m_tick;
 }

@@ -8,10 +8,12 @@ namespace petrous::haptics
 
 namespace
 {
-constexpr double kFlat = 1e-6;      // of f a voxel: no slope to speak of
-constexpr double kAlong = 0.05;     // cosine: a normal along the way that led into tissue
-constexpr double kClose = 0.002;    // voxels: a gap that needs no better estimate
-constexpr double kExplained = 0.02; // voxels: as deep as a known contact's plane says
+constexpr std::size_t kGradient = 6; // samples
+constexpr double kFlat = 1e-6;       // of f a voxel: no slope to speak of
+constexpr double kAlong = 0.05;      // cosine: a normal along the way that led into tissue
+constexpr double kLookAhead = 1.5;   // of the near gap: normals up to 48 degrees apart
+constexpr double kClose = 0.002;     // voxels: a gap that needs no better estimate
+constexpr double kExplained = 0.02;  // voxels: as deep as a known contact's plane says
 constexpr std::size_t kMostRefined = 16;
 constexpr std::size_t kMostOnBall = 64; // deepest first; the sweep answers for the others
 constexpr double kFarthest = 0.6;       // rad, from a shell point to the ball's contact
@@ -41,6 +43,7 @@ ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
     asked.decider = Decider::Solid;
   const double value = soft ? sample.soft : sample.value;
   const Eigen::Vector3d gradient = field.gradient(voxel, asked, m_sweep.state(), step);
+  m_samples += kGradient;
   const double slope = gradient.norm();
   if (!(slope * h > kFlat))
     return {};
@@ -51,6 +54,7 @@ ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
     const double ahead = std::clamp(result.gap, -h, h);
     const Eigen::Vector3d there =
         voxel - field.geometry().voxelFromPatientLinear() * (ahead * result.normal);
+    ++m_samples;
     const double rise = field.sample(there, m_sweep.state()).value - value;
     const double better = ahead * -value / rise;
     if (better / ahead > 0.0 && better / ahead < 2.0)
@@ -74,6 +78,7 @@ bool ContactFinder::surfaceOfBall(const Eigen::Vector3d& toPoint, bool soft,
   const HapticField& field = m_sweep.field();
   const Eigen::Vector3d voxel =
       field.geometry().voxelFromPatient(pose.position + shell.burrRadius * toPoint);
+  ++m_samples;
   const FieldSample sample = field.sample(voxel, m_sweep.state());
   if (sample.decider == Decider::Outside || (soft && !(sample.compliance > 0.0)))
     return false;
@@ -117,6 +122,17 @@ void ContactFinder::refineOnBall(ProxyContact& contact, double& slope) const noe
   slope = surface.slope;
 }
 
+// One look ahead spares most gradients: no tissue within reach along the tool's own normal.
+bool ContactFinder::farFrom(const Eigen::Vector3d& voxel,
+                            const Eigen::Vector3d& outward) const noexcept
+{
+  ++m_samples;
+  const HapticField& field = m_sweep.field();
+  const Eigen::Vector3d ahead =
+      field.geometry().voxelFromPatientLinear() * (kLookAhead * m_nearGap * outward);
+  return field.sample(voxel + ahead, m_sweep.state()).value < 0.0;
+}
+
 void ContactFinder::add(const ShellSweep::Near& near, bool soft, bool refine,
                         const ShellSweep::Hit* hit) noexcept
 {
@@ -126,8 +142,10 @@ void ContactFinder::add(const ShellSweep::Near& near, bool soft, bool refine,
   contact.point = near.point;
   contact.soft = soft;
   contact.arm = pose.rotation * shell.points[near.point];
-  const Surface surface =
-      surfaceAt(m_sweep.voxelOf(near.point), near.sample, soft, hit ? kAtHit : 1.0);
+  const Eigen::Vector3d voxel = m_sweep.voxelOf(near.point);
+  if (!hit && !soft && farFrom(voxel, pose.rotation * shell.normals[near.point]))
+    return;
+  const Surface surface = surfaceAt(voxel, near.sample, soft, hit ? kAtHit : 1.0);
   contact.normal = surface.normal;
   contact.gap = surface.gap;
   double slope = surface.slope;
@@ -179,6 +197,7 @@ void ContactFinder::find(const ShellSweep::Hit* hits, std::size_t hitCount) noex
     return nullptr;
   };
   m_count = 0;
+  m_samples = 0;
   const ShellSweep::Near* near = m_sweep.begin();
   std::size_t ball = 0;
   for (std::uint32_t n = 0; n < m_sweep.nearCount(); ++n)

@@ -38,6 +38,9 @@ public:
   /// Contacts of the sweep's near points; `hits` are those where this tick's motion ended so far.
   void find(const ShellSweep::Hit* hits, std::size_t hitCount) noexcept;
 
+  /// Values of the field asked for by the last `find`.
+  std::size_t samples() const noexcept { return m_samples; }
+
   const FoundContact* begin() const noexcept { return m_found.data(); }
   const FoundContact* end() const noexcept { return m_found.data() + m_count; }
 
@@ -50,6 +53,7 @@ private:
   };
   Surface surfaceAt(const Eigen::Vector3d& voxel, const FieldSample& sample, bool soft,
                     double step = 1.0) const noexcept;
+  bool farFrom(const Eigen::Vector3d& voxel, const Eigen::Vector3d& outward) const noexcept;
   bool surfaceOfBall(const Eigen::Vector3d& toPoint, bool soft, Surface& surface) const noexcept;
   void refineOnBall(ProxyContact& contact, double& slope) const noexcept;
   void add(const ShellSweep::Near& near, bool soft, bool refine,
@@ -61,6 +65,7 @@ private:
   std::vector<std::uint32_t> m_order;
   std::vector<FoundContact> m_found;
   std::size_t m_count = 0;
+  mutable std::size_t m_samples = 0;
 };
 
 } // namespace petrous::haptics

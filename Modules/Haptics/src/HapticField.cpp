@@ -90,9 +90,9 @@ struct HapticField::Cell
   }
 };
 
-HapticField::Cell HapticField::cellAt(const Eigen::Vector3d& voxel) const noexcept
+HapticField::Cell HapticField::cellAt(const Eigen::Vector3d& voxel,
+                                      const core::Index3& dims) noexcept
 {
-  const core::Index3& dims = m_geometry.dims();
   Cell cell{};
   // Positions are not negative: to cut is to round down.
   cell.i = std::min(static_cast<int>(voxel.x()), std::max(dims[0] - 2, 0));
@@ -130,7 +130,9 @@ double HapticField::solid(std::size_t n, const Eigen::Vector3d& voxel) const noe
   const Eigen::Vector3d own = solid.fromCt * voxel + solid.offset;
   if ((own.array() < 0.0).any() || (own.array() > solid.last.array()).any())
     return -0.5;
-  return volume::sampleTrilinear(*solid.share, own) - 0.5;
+  const Cell cell = cellAt(own, solid.share->geometry().dims());
+  const float* corner = solid.share->data() + cell.base;
+  return cell.interpolate([corner](std::size_t offset) { return double{corner[offset]}; }) - 0.5;
 }
 
 double HapticField::left(const Cell& cell, const volume::MaskState& mask) const noexcept
@@ -192,13 +194,14 @@ FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
   FieldSample result;
   if (!(border >= 0.0))
     return result;
-  const Cell cell = cellAt(voxel);
+  const Cell cell = cellAt(voxel, m_geometry.dims());
   const double bone = ct(cell);
   result.value = bone;
   result.decider = Decider::Ct;
+  const bool near = m_distance[brickAt(voxel)] & TissueBricks::kUnionHere;
   for (std::size_t n = 0; n < m_solids.size(); ++n)
   {
-    const double inside = solid(n, voxel);
+    const double inside = near ? solid(n, voxel) : -0.5;
     if (inside > result.value)
     {
       result.value = inside;
@@ -239,11 +242,11 @@ double HapticField::operand(const FieldSample& sample, const Eigen::Vector3d& vo
   switch (sample.decider)
   {
   case Decider::Ct:
-    return ct(cellAt(voxel));
+    return ct(cellAt(voxel, m_geometry.dims()));
   case Decider::Solid:
     return solid(sample.solid, voxel);
   case Decider::Mask:
-    return left(cellAt(voxel), mask);
+    return left(cellAt(voxel, m_geometry.dims()), mask);
   case Decider::Hull:
     return hull(voxel);
   case Decider::Outside:
@@ -291,7 +294,7 @@ double HapticField::clearance(const Eigen::Vector3d& voxel) const noexcept
                                   m_geometry.spacing().array();
     return beyond.matrix().norm();
   }
-  const int bricks = m_distance[brickAt(voxel)];
+  const int bricks = m_distance[brickAt(voxel)] & ~TissueBricks::kUnionHere;
   if (bricks == 0)
     return 0.0;
   double toFace = kTissueBrick;
@@ -323,7 +326,7 @@ double HapticField::freeRadius(const Eigen::Vector3d& voxel,
 double HapticField::steepness(const Eigen::Vector3d& voxel) const noexcept
 {
   const Eigen::Vector3d inside = voxel.cwiseMax(0.0).cwiseMin(m_last);
-  return double{m_steepness[brickAt(inside)]} + 1e-6;
+  return double{TissueBricks::steepnessOf()[m_steepness[brickAt(inside)]]} + 1e-6;
 }
 
 std::size_t HapticField::residentBytes() const noexcept

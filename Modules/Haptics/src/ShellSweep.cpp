@@ -61,7 +61,7 @@ void ShellSweep::judge(std::size_t point, double way) noexcept
   m_clearance[point] = m_field->clearance(voxel);
   if (m_clearance[point] > way)
     return;
-  const FieldSample sample = m_field->sample(voxel, *m_state);
+  const FieldSample sample = sampleAt(voxel);
   m_clearance[point] = std::max(m_clearance[point], m_field->freeRadius(voxel, sample));
   if (m_clearance[point] > way)
     return;
@@ -88,9 +88,8 @@ bool ShellSweep::freeAt(const Pose& pose) const noexcept
 {
   const VoxelMap map = mapOf(pose);
   return std::all_of(m_shell.points.begin(), m_shell.points.end(),
-                     [&](const Eigen::Vector3d& p) {
-                       return m_field->sample(map.linear * p + map.offset, *m_state).value <= 0.0;
-                     });
+                     [&](const Eigen::Vector3d& p)
+                     { return sampleAt(map.linear * p + map.offset).value <= 0.0; });
 }
 
 bool ShellSweep::nearFreeAt(const Pose& pose) const noexcept
@@ -100,7 +99,7 @@ bool ShellSweep::nearFreeAt(const Pose& pose) const noexcept
                      [&](const Near& near)
                      {
                        const Eigen::Vector3d& p = m_shell.points[near.point];
-                       return m_field->sample(map.linear * p + map.offset, *m_state).value <= 0.0;
+                       return sampleAt(map.linear * p + map.offset).value <= 0.0;
                      });
 }
 
@@ -143,7 +142,7 @@ double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& a
     if (end.value > 0.0 && part <= m_tolerance)
       return begin.at;
     const double at = 0.5 * (begin.at + end.at);
-    const End middle = endOf(at, m_field->sample(from + at * way, *m_state));
+    const End middle = endOf(at, sampleAt(from + at * way));
     if (middle.value <= 0.0)
       stack[depth++] = {middle, end};
     stack[depth++] = {begin, middle};
@@ -151,7 +150,7 @@ double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& a
   return 1.0;
 }
 
-ShellSweep::Hit ShellSweep::advance(const Motion& motion) noexcept
+ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSamples) noexcept
 {
   const double way = longestWay(motion, m_shell.reach);
   const double share = std::min(1.0, kMostSteps * m_step / std::max(way, 1e-12));
@@ -178,6 +177,12 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion) noexcept
     m_known[n] = m_wake[n] == 0;
   }
   for (std::uint32_t s = 1; s <= steps && !hit.any; ++s)
+  {
+    if (s > 1 && m_samples >= mostSamples)
+    {
+      best = static_cast<double>(s - 1);
+      break;
+    }
     for (std::size_t n = 0; n < m_nearCount; ++n)
     {
       if (m_wake[n] >= s)
@@ -186,9 +191,9 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion) noexcept
       const Eigen::Vector3d& point = m_shell.points[near.point];
       const Eigen::Vector3d from = m_maps[s - 1].linear * point + m_maps[s - 1].offset;
       if (!m_known[n])
-        near.sample = m_field->sample(from, *m_state);
+        near.sample = sampleAt(from);
       const Eigen::Vector3d to = m_maps[s].linear * point + m_maps[s].offset;
-      const FieldSample atTo = m_field->sample(to, *m_state);
+      const FieldSample atTo = sampleAt(to);
       const double limit = std::min(1.0, best - static_cast<double>(s - 1));
       const double inside = firstInside(from, near.sample, to, atTo, limit);
       if (inside < limit)
@@ -203,6 +208,7 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion) noexcept
       m_wake[n] = s + rest;
       m_known[n] = rest == 0;
     }
+  }
   hit.free = perStep * best;
   // The samples lie on chords: where the tool comes to stand is looked at itself.
   if (hit.any)

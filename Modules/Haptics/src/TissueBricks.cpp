@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "petrous/Volume/ChebyshevDistance.h"
-#include "petrous/Volume/Sampling.h"
 
 namespace petrous::haptics
 {
@@ -15,122 +15,268 @@ namespace petrous::haptics
 namespace
 {
 
+// What a brick may hold.
 constexpr std::uint8_t kTissue = 1;
-constexpr int kMostDistance = 255;
+constexpr std::uint8_t kSome = 2; // a value above 0
+constexpr int kSlab = 8;          // brick layers that a thread does at once
 
-struct Found
+// Steepness codes.
+constexpr int kPerOctave = 16;
+constexpr int kFirst = -6 * kPerOctave; // of code 0, if it were one
+constexpr int kLast = 254;
+
+// A voxel that is no number is no tissue; f jumps beside it.
+constexpr float kJump = std::numeric_limits<float>::infinity();
+
+std::uint8_t codeOf(float steepness)
 {
-  float max = -std::numeric_limits<float>::infinity();
-  Eigen::Array3f step = Eigen::Array3f::Zero(); // largest difference of neighbours along each axis
-};
-
-// Voxels that are no number are no tissue; f jumps beside them.
-constexpr float kJump = 1e9F;
-
-template <class Volume>
-Found look(const Volume& volume, const core::IndexBox& box)
-{
-  Found found;
-  const core::Index3& dims = volume.geometry().dims();
-  for (int k = box.lower[2]; k < box.upper[2]; ++k)
-    for (int j = box.lower[1]; j < box.upper[1]; ++j)
-      for (int i = box.lower[0]; i < box.upper[0]; ++i)
-      {
-        const auto value = static_cast<float>(volume.at(i, j, k));
-        if (value > found.max)
-          found.max = value;
-        const auto against = [&](int axis, float other)
-        {
-          const float step = std::abs(other - value);
-          found.step[axis] = std::max(found.step[axis], std::isfinite(step) ? step : kJump);
-        };
-        if (i + 1 < dims[0])
-          against(0, static_cast<float>(volume.at(i + 1, j, k)));
-        if (j + 1 < dims[1])
-          against(1, static_cast<float>(volume.at(i, j + 1, k)));
-        if (k + 1 < dims[2])
-          against(2, static_cast<float>(volume.at(i, j, k + 1)));
-      }
-  return found;
+  if (!(steepness > 0.0F))
+    return 0;
+  const auto& table = TissueBricks::steepnessOf();
+  if (!(steepness <= table[kLast]))
+    return 255;
+  const int guess = static_cast<int>(std::floor(std::log2(steepness) * kPerOctave)) - kFirst;
+  int code = std::clamp(guess, 1, kLast);
+  while (code < kLast && table[static_cast<std::size_t>(code)] < steepness)
+    ++code;
+  return static_cast<std::uint8_t>(code);
 }
 
-// The gradient of a trilinear cell is, along each axis, a mean of the four edges' steps.
-float steepnessOf(const Found& found, const Eigen::Vector3d& spacing)
+// Of a volume in bricks of two voxels.
+struct VolumeBricks
 {
-  return (found.step / spacing.array().cast<float>()).matrix().norm();
+  core::Index3 dims;
+  std::vector<std::uint8_t> marks;     // by the voxels at the brick's corners and within
+  std::vector<std::uint8_t> steepness; // codes, of the brick and one voxel around it
+};
+
+// What one slice of voxels says of the bricks' columns: the largest value of the voxels 2b to
+// 2b + 2, and the largest step to the next voxel along each axis, of the edges that the cells
+// 2b - 1 to 2b + 2 have.
+class SliceLook
+{
+public:
+  explicit SliceLook(const core::Index3& dims)
+    : m_dims(dims)
+    , m_bricks{(dims[0] + 1) / 2, (dims[1] + 1) / 2, (dims[2] + 1) / 2}
+  {
+    const auto row = static_cast<std::size_t>(m_bricks[0]);
+    for (std::vector<float>& rows : m_rows)
+      rows.resize(row * static_cast<std::size_t>(dims[1]));
+    m_line.resize(static_cast<std::size_t>(dims[0]));
+  }
+
+  static constexpr std::size_t kFields = 4; // the largest value, then the steps
+
+  // into[f]: bricks of a layer, first axis fastest.
+  template <class T>
+  void look(const volume::Volume<T>& volume, int k, std::array<std::vector<float>, kFields>& into)
+  {
+    const auto width = static_cast<std::size_t>(m_dims[0]);
+    const std::size_t slice = width * static_cast<std::size_t>(m_dims[1]);
+    const T* voxels = volume.data() + slice * static_cast<std::size_t>(k);
+    for (int j = 0; j < m_dims[1]; ++j)
+    {
+      const T* row = voxels + width * static_cast<std::size_t>(j);
+      const auto out = static_cast<std::size_t>(m_bricks[0]) * static_cast<std::size_t>(j);
+      for (std::size_t i = 0; i < width; ++i)
+        m_line[i] = static_cast<float>(row[i]);
+      reduce(m_line.data(), m_dims[0], 1, kValues, m_rows[0].data() + out, 1);
+      const auto steps = [&](std::size_t field, const T* other, std::size_t count)
+      {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          const float step = std::abs(static_cast<float>(other[i]) - static_cast<float>(row[i]));
+          m_line[i] = std::isfinite(step) ? step : kJump;
+        }
+        std::fill(m_line.begin() + static_cast<std::ptrdiff_t>(count), m_line.end(), 0.0F);
+        reduce(m_line.data(), m_dims[0], 1, field == 1 ? kAlong : kAcross,
+               m_rows[field].data() + out, 1);
+      };
+      steps(1, row + 1, width - 1);
+      steps(2, row + width, j + 1 < m_dims[1] ? width : 0);
+      steps(3, row + slice, k + 1 < m_dims[2] ? width : 0);
+    }
+    const auto stride = static_cast<std::size_t>(m_bricks[0]);
+    for (std::size_t f = 0; f < kFields; ++f)
+    {
+      into[f].resize(stride * static_cast<std::size_t>(m_bricks[1]));
+      for (std::size_t i = 0; i < stride; ++i)
+        reduce(m_rows[f].data() + i, m_dims[1], stride,
+               f == 0   ? kValues
+               : f == 2 ? kAlong
+                        : kAcross,
+               into[f].data() + i, stride);
+    }
+  }
+
+private:
+  // Which numbers a brick 2b asks for.
+  struct Range
+  {
+    int before, after;
+  };
+  static constexpr Range kValues{0, 2}, kAlong{-1, 2}, kAcross{-1, 3};
+
+  // The largest of each brick's range; what is no number is left out.
+  static void reduce(const float* values, int count, std::size_t stride, Range range, float* out,
+                     std::size_t outStride)
+  {
+    for (int b = 0; 2 * b < count; ++b)
+    {
+      const int first = std::max(2 * b + range.before, 0);
+      const int last = std::min(2 * b + range.after, count - 1);
+      float most = -std::numeric_limits<float>::infinity();
+      for (int n = first; n <= last; ++n)
+      {
+        const float value = values[stride * static_cast<std::size_t>(n)];
+        most = value > most ? value : most;
+      }
+      out[outStride * static_cast<std::size_t>(b)] = most;
+    }
+  }
+
+  core::Index3 m_dims;
+  core::Index3 m_bricks;
+  std::array<std::vector<float>, kFields> m_rows;
+  std::vector<float> m_line;
+};
+
+// Tissue lies above `level`; `scale` is what the unit of f is worth.
+template <class T>
+VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
+{
+  using Layer = std::array<std::vector<float>, SliceLook::kFields>;
+  const core::GridGeometry& grid = volume.geometry();
+  const core::Index3& dims = grid.dims();
+  VolumeBricks result;
+  for (std::size_t a = 0; a < 3; ++a)
+    result.dims[a] = (dims[a] + 1) / 2;
+  const auto layer =
+      static_cast<std::size_t>(result.dims[0]) * static_cast<std::size_t>(result.dims[1]);
+  result.marks.resize(layer * static_cast<std::size_t>(result.dims[2]));
+  result.steepness.resize(result.marks.size());
+  const Eigen::Array3f perMm = grid.spacing().cwiseInverse().cast<float>().array() / scale;
+  const auto slab = [&](int from, int to)
+  {
+    SliceLook looker(dims);
+    std::array<Layer, 5> slices; // of voxels, by number modulo 5
+    int next = std::max(2 * from - 1, 0);
+    for (int bk = from; bk < to; ++bk)
+    {
+      const int last = std::min(2 * bk + 3, dims[2] - 1);
+      for (; next <= last; ++next)
+        looker.look(volume, next, slices[static_cast<std::size_t>(next % 5)]);
+      for (std::size_t n = 0; n < layer; ++n)
+      {
+        float most = -std::numeric_limits<float>::infinity();
+        Eigen::Array3f step = Eigen::Array3f::Zero();
+        for (int k = std::max(2 * bk - 1, 0); k <= last; ++k)
+        {
+          const Layer& slice = slices[static_cast<std::size_t>(k % 5)];
+          if (k >= 2 * bk && k <= 2 * bk + 2)
+            most = std::max(most, slice[0][n]);
+          for (Eigen::Index a = 0; a < 3; ++a)
+            if (a < 2 || k < 2 * bk + 3)
+              step[a] = std::max(step[a], slice[static_cast<std::size_t>(a) + 1][n]);
+        }
+        const std::size_t brick = layer * static_cast<std::size_t>(bk) + n;
+        result.marks[brick] =
+            static_cast<std::uint8_t>((most > level ? kTissue : 0) | (most > 0.0F ? kSome : 0));
+        // The gradient of a trilinear cell is, along each axis, a mean of the four edges' steps.
+        result.steepness[brick] = codeOf((step * perMm).matrix().norm());
+      }
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, (result.dims[2] + kSlab - 1) / kSlab),
+                    [&](const tbb::blocked_range<int>& slabs)
+                    {
+                      for (int s = slabs.begin(); s != slabs.end(); ++s)
+                        slab(kSlab * s, std::min(kSlab * (s + 1), result.dims[2]));
+                    });
+  return result;
+}
+
+// Tells the CT's bricks of a union, where its share is above 0.
+void addUnion(const volume::Volume<float>& share, const core::GridGeometry& ct,
+              VolumeBricks& bricks, std::vector<std::uint8_t>& here)
+{
+  const VolumeBricks own = bricksOf(share, 0.5F, 1.0F);
+  const Eigen::Matrix3d linear =
+      ct.voxelFromPatientLinear() * share.geometry().patientFromVoxelLinear();
+  const Eigen::Vector3d offset = ct.voxelFromPatient(share.geometry().origin());
+  // Half a brick and the voxel around it, in voxels of the CT.
+  const Eigen::Array3d half = (linear.cwiseAbs() * Eigen::Vector3d::Ones()).array() + 1.0;
+  std::size_t n = 0;
+  for (int k = 0; k < own.dims[2]; ++k)
+    for (int j = 0; j < own.dims[1]; ++j)
+      for (int i = 0; i < own.dims[0]; ++i, ++n)
+      {
+        if (!(own.marks[n] & kSome))
+          continue;
+        const Eigen::Array3d middle =
+            linear * Eigen::Vector3d(2.0 * i + 1.0, 2.0 * j + 1.0, 2.0 * k + 1.0) + offset;
+        const Eigen::Array3i lower = ((middle - half) / kTissueBrick).floor().cast<int>().max(0);
+        const Eigen::Array3i upper =
+            ((middle + half) / kTissueBrick)
+                .floor()
+                .cast<int>()
+                .min(Eigen::Array3i(bricks.dims[0], bricks.dims[1], bricks.dims[2]) - 1);
+        for (int z = lower[2]; z <= upper[2]; ++z)
+          for (int y = lower[1]; y <= upper[1]; ++y)
+            for (int x = lower[0]; x <= upper[0]; ++x)
+            {
+              const auto row = static_cast<std::size_t>(bricks.dims[0]);
+              const std::size_t at =
+                  static_cast<std::size_t>(x) +
+                  row * (static_cast<std::size_t>(y) +
+                         static_cast<std::size_t>(bricks.dims[1]) * static_cast<std::size_t>(z));
+              bricks.steepness[at] = std::max(bricks.steepness[at], own.steepness[n]);
+              if (own.marks[n] & kTissue)
+                bricks.marks[at] = kTissue;
+              here[at] = TissueBricks::kUnionHere;
+            }
+      }
 }
 
 } // namespace
 
+const std::array<float, 256>& TissueBricks::steepnessOf() noexcept
+{
+  static const std::array<float, 256> table = []
+  {
+    std::array<float, 256> values{};
+    for (int code = 1; code <= kLast; ++code)
+      values[static_cast<std::size_t>(code)] =
+          std::exp2(static_cast<float>(kFirst + code) / kPerOctave);
+    values[255] = std::numeric_limits<float>::infinity();
+    return values;
+  }();
+  return table;
+}
+
 TissueBricks findTissueBricks(const volume::TissueField& tissue)
 {
-  const core::GridGeometry& grid = tissue.geometry();
-  TissueBricks result;
-  for (std::size_t a = 0; a < 3; ++a)
-    result.dims[a] = (grid.dims()[a] + kTissueBrick - 1) / kTissueBrick;
-  const core::IndexBox all{{0, 0, 0}, result.dims};
-  std::vector<std::uint8_t> flags(all.count());
-  result.steepness.resize(all.count());
   const auto iso = static_cast<float>(tissue.parameters().iso);
   const auto scale = static_cast<float>(tissue.parameters().scale);
-
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, result.dims[1] * result.dims[2]),
-      [&](const tbb::blocked_range<int>& rows)
-      {
-        for (int row = rows.begin(); row != rows.end(); ++row)
-          for (int i = 0; i < result.dims[0]; ++i)
-          {
-            const core::Index3 at{i, row % result.dims[1], row / result.dims[1]};
-            core::IndexBox box;
-            for (std::size_t a = 0; a < 3; ++a)
-            {
-              box.lower[a] = at[a] * kTissueBrick - 1;
-              box.upper[a] = (at[a] + 1) * kTissueBrick + 1;
-            }
-            box = box.intersected(grid.fullBox());
-            const Found ct = tissue.ct()->visit([&](const auto& v) { return look(v, box); });
-            bool any = ct.max > iso;
-            float steepness = steepnessOf(ct, grid.spacing()) / scale;
-            Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
-            Eigen::Vector3d high = -low;
-            for (int corner = 0; corner < 8; ++corner)
-            {
-              const Eigen::Vector3d p =
-                  grid.patientFromVoxel({double(corner & 1 ? box.upper[0] : box.lower[0]),
-                                         double(corner & 2 ? box.upper[1] : box.lower[1]),
-                                         double(corner & 4 ? box.upper[2] : box.lower[2])});
-              low = low.cwiseMin(p);
-              high = high.cwiseMax(p);
-            }
-            for (const auto& share : tissue.solids())
-            {
-              const core::IndexBox part = share->geometry().boxCovering(low, high);
-              if (part.empty())
-                continue;
-              const Found found = look(*share, part);
-              any = any || found.max > 0.5F;
-              steepness = std::max(steepness, steepnessOf(found, share->geometry().spacing()));
-            }
-            const std::size_t n =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(result.dims[0]) +
-                static_cast<std::size_t>(i);
-            flags[n] = any ? kTissue : 0;
-            result.steepness[n] = steepness;
-          }
-      });
-
-  const volume::DistanceBlock distances =
-      volume::chebyshevDistances(flags.data(), 1, kTissue, result.dims, all, kMostDistance);
-  result.distance.resize(all.count());
+  VolumeBricks bricks =
+      tissue.ct()->visit([&](const auto& voxels) { return bricksOf(voxels, iso, scale); });
+  TissueBricks result;
+  result.dims = bricks.dims;
+  result.distance.resize(bricks.marks.size());
+  for (const auto& share : tissue.solids())
+    addUnion(*share, tissue.geometry(), bricks, result.distance);
+  result.steepness = std::move(bricks.steepness);
+  const core::IndexBox all{{0, 0, 0}, result.dims};
+  const volume::DistanceBlock distances = volume::chebyshevDistances(
+      bricks.marks.data(), 1, kTissue, result.dims, all, TissueBricks::kMostDistance);
+  auto brick = result.distance.begin();
   for (int k = 0; k < result.dims[2]; ++k)
     for (int j = 0; j < result.dims[1]; ++j)
     {
       const std::uint8_t* row = distances.row(j, k);
-      std::copy(row, row + result.dims[0],
-                result.distance.begin() +
-                    static_cast<std::ptrdiff_t>(result.dims[0]) *
-                        (j + static_cast<std::ptrdiff_t>(result.dims[1]) * k));
+      for (int i = 0; i < result.dims[0]; ++i)
+        *brick++ |= row[i];
     }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,19 +9,33 @@
 namespace petrous::haptics
 {
 
-constexpr int kTissueBrick = 8; ///< voxels
+constexpr int kTissueBrick = 2; ///< voxels
 
-/// What a servo tick must know of a neighbourhood before it looks at voxels, per brick of 8^3 of
+/// What a servo tick must know of a neighbourhood before it looks at voxels, per brick of 2^3 of
 /// the CT's grid, first axis fastest. Whatever is cut, it holds: a cut only takes tissue away.
+///
+/// Bricks are this small because what keeps a tool from being looked at is soft tissue: it lies
+/// only a quarter below the threshold, next to cortical bone's steep edges.
 struct TissueBricks
 {
+  static constexpr std::uint8_t kUnionHere = 0x80; ///< a union's share is above 0 somewhere in it
+  static constexpr int kMostDistance = 31;
+
   core::Index3 dims;
-  std::vector<std::uint8_t> distance; ///< Chebyshev, bricks, to the next that may hold tissue
-  std::vector<float> steepness; ///< |gradient| of interpolated c_CT and unions at most, per mm;
-                                ///< of the brick and one voxel around it
+
+  /// Chebyshev, bricks, to the next that may hold tissue, at most kMostDistance; and kUnionHere.
+  std::vector<std::uint8_t> distance;
+
+  /// Code of |gradient| of interpolated c_CT and unions at most, per mm, in the brick and one voxel
+  /// around it: see `steepnessOf`.
+  std::vector<std::uint8_t> steepness;
+
+  /// Upper bound of a code's steepness, per mm: 0 is flat, and each of the others is 2^(1/16) times
+  /// the one before, up to some 900; infinite for the last.
+  static const std::array<float, 256>& steepnessOf() noexcept;
 };
 
-/// Reads every voxel of the CT once, in parallel; of the unions those where they are.
+/// Reads every voxel of CT and unions once, in parallel.
 TissueBricks findTissueBricks(const volume::TissueField& tissue);
 
 } // namespace petrous::haptics

@@ -20,8 +20,10 @@ class Refuge;
 ///
 /// A tick takes the proxy from its pose towards the goal: contact rows for every shell point near
 /// the surface, quasi-static motion by ContactQp, a swept test of that motion, and again with the
-/// contacts met on the way, until it is done or the rounds are. A pose is kept only when f <= 0 at
-/// every shell point (soft tissue left out), so the tool never enters rigid tissue.
+/// contacts met on the way, until it is done, or the rounds are, or the tick's samples of the
+/// field. Then the tool stands where it came to, and the way that is left is made in the ticks that
+/// follow: what a tick costs is bounded, and is the same on every machine. A pose is kept only when
+/// f <= 0 at every shell point (soft tissue left out), so the tool never enters rigid tissue.
 ///
 /// `step` neither allocates, locks nor throws. One thread.
 class ConstrainedProxy : public Proxy
@@ -54,11 +56,13 @@ private:
   Motion solve(const Motion& wanted, double lift) noexcept;
   ShellSweep::Hit advance(const Motion& motion, double way) noexcept;
   void report() noexcept;
+  bool spent() const noexcept;
 
   ProxyParameters m_parameters;
   ShellSweep m_sweep;
   std::unique_ptr<ContactFinder> m_finder; // looks at m_sweep
   ContactQp m_qp;
+  std::size_t m_found = 0; // samples of the finder in this tick
   std::vector<Row> m_rows; // of the last problem
   std::size_t m_rowCount = 0;
   ContactQp::Vector6 m_forced = ContactQp::Vector6::Zero(); // a - u, before the skin

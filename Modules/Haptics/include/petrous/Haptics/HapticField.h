@@ -96,7 +96,7 @@ private:
   };
 
   struct Cell;
-  Cell cellAt(const Eigen::Vector3d& voxel) const noexcept;
+  static Cell cellAt(const Eigen::Vector3d& voxel, const core::Index3& dims) noexcept;
   double ct(const Cell& cell) const noexcept;
   double solid(std::size_t n, const Eigen::Vector3d& voxel) const noexcept;
   double left(const Cell& cell, const volume::MaskState& mask) const noexcept;
@@ -115,9 +115,9 @@ private:
   volume::TissueField::Parameters m_parameters;
   double m_voxel = 1.0;
   Eigen::Vector3d m_last;
-  core::Index3 m_bricks;                ///< of 8 voxels
-  std::vector<std::uint8_t> m_distance; ///< Chebyshev, bricks to the next that may hold tissue
-  std::vector<float> m_steepness;       ///< of c_CT and the unions, per mm
+  core::Index3 m_bricks;                 ///< of 2 voxels
+  std::vector<std::uint8_t> m_distance;  ///< see TissueBricks
+  std::vector<std::uint8_t> m_steepness; ///< codes
   double m_leftSteepness = 0.0;
 };
 

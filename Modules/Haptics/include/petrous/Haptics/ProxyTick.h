@@ -19,6 +19,7 @@ struct ProxyParameters
   int bisections = 10;            ///< of a sweep's step, to the surface, in [1, 30]
   int rounds = 5;                 ///< motions of a tick that end at new contacts, in [1, 20]
   double deadband = 0.001;        ///< mm: a shorter motion is not made
+  int samples = 2000; ///< of the field in a tick, in [100, 1000000]; the way left is made later
 };
 
 enum class ProxyStatus : std::uint8_t
@@ -54,6 +55,7 @@ struct ProxyTick
   double penetration = 0.0; ///< mm, deepest shell point in rigid tissue
   int rounds = 0;
   std::size_t nearPoints = 0;  ///< shell points that were looked at
+  std::size_t samples = 0;     ///< of the field
   std::uint64_t maskState = 0; ///< number of the mask's state that was felt (MaskState)
 };
 

@@ -53,7 +53,11 @@ public:
 
   /// The mask's state for the calls that follow. Where tissue came back since the last one,
   /// `forgetClearances` goes with it.
-  void look(const volume::MaskState& state) noexcept { m_state = &state; }
+  void look(const volume::MaskState& state) noexcept
+  {
+    m_state = &state;
+    m_samples = 0;
+  }
   void forgetClearances() noexcept;
   const volume::MaskState& state() const noexcept { return *m_state; }
 
@@ -78,9 +82,13 @@ public:
   /// f <= 0 at every point of the shell.
   bool freeAt(const Pose& pose) const noexcept;
 
-  /// Moves the tool as far as it goes freely, at most `motion` and at most kMostSteps chords; near
-  /// points must have been found for it. f <= 0 at every near point where it comes to stand.
-  Hit advance(const Motion& motion) noexcept;
+  /// Moves the tool as far as it goes freely, at most `motion` and at most kMostSteps chords, and
+  /// not beyond the chord at which `samples` reaches `mostSamples`; near points must have been
+  /// found for it. f <= 0 at every near point where it comes to stand.
+  Hit advance(const Motion& motion, std::size_t mostSamples = SIZE_MAX) noexcept;
+
+  /// Samples of the field since the last `look`: what a tick costs, whatever the machine.
+  std::size_t samples() const noexcept { return m_samples; }
 
 private:
   struct VoxelMap // of a point in frame T: linear * p + offset
@@ -90,6 +98,11 @@ private:
   };
   void judge(std::size_t point, double way) noexcept;
   VoxelMap mapOf(const Pose& pose) const noexcept;
+  FieldSample sampleAt(const Eigen::Vector3d& voxel) const noexcept
+  {
+    ++m_samples;
+    return m_field->sample(voxel, *m_state);
+  }
   double firstInside(const Eigen::Vector3d& from, const FieldSample& atFrom,
                      const Eigen::Vector3d& to, const FieldSample& atTo,
                      double limit) const noexcept;
@@ -107,6 +120,7 @@ private:
   std::vector<std::uint32_t> m_wake;
   std::vector<bool> m_known;
   std::size_t m_nearCount = 0;
+  mutable std::size_t m_samples = 0;
   std::array<VoxelMap, kMostSteps + 1> m_maps;
   const volume::MaskState* m_state = nullptr;
   Pose m_pose;

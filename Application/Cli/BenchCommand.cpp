@@ -15,6 +15,7 @@
 #include "SaveBenchmark.h"
 #include "ServoBenchmark.h"
 #include "TouchBenchmark.h"
+#include "TouchBenchmarkScenes.h"
 
 namespace petrous::cli
 {
@@ -45,8 +46,13 @@ constexpr Benchmark kBenchmarks[] = {
      { return library::runSaveBenchmark(work, options.quick, progress); }},
     {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return haptics::runQpBenchmark(options.quick, progress); }},
-    {"touch", [](const auto&, const BenchOptions& options, const core::Progress& progress)
-     { return haptics::runTouchBenchmark(options.quick, progress); }},
+    {"touch",
+     [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     {
+       return haptics::runTouchBenchmark(
+           options.quick, progress.part(0.1, 1.0),
+           touchBenchmarkScenes(options.quick, options.data, progress.part(0.0, 0.1)));
+     }},
     {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return simulation::runServoBenchmark(work, options.quick, progress); }},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
@@ -170,11 +176,13 @@ void addBenchCommand(CLI::App& app, Context& context)
   CLI::App* command =
       context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
                          [options, &context] { bench(context, *options); });
-  command->add_option("NAME", options->name, "import, cut, save, renderer or all")->required();
+  command->add_option("NAME", options->name, "import, cut, save, qp, touch, servo, renderer or all")
+      ->required();
   command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
       ->type_name("DIR")
       ->required();
-  command->add_option("--data", options->data, "Folder that holds a real CT, for renderer")
+  command
+      ->add_option("--data", options->data, "Folder that holds a real CT, for renderer and touch")
       ->type_name("DIR");
   command
       ->add_option("--edge", options->edges, "Voxels of the phantom's edge, for renderer (256,512)")

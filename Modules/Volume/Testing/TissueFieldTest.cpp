@@ -139,6 +139,43 @@ TEST(NearestSurface, LiesARadiusFromTheCentreOfASphere)
   EXPECT_FALSE(volume::NearestSurfaceSearch(field, 1.0).find(c));
 }
 
+// A wall of 0.3 mm, in voxels of its own, amid voxels of 1 mm that hold air alone.
+TEST(NearestSurface, SeesAThinMeshBetweenTheVoxelsOfTheCt)
+{
+  const core::GridGeometry coarse({24, 24, 24}, Vector3d::Constant(1.0), {0, 0, 0});
+  const auto air = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(
+          std::make_shared<volume::Volume<std::int16_t>>(coarse, std::int16_t{-1000})));
+  const double e = 0.1;
+  const core::GridGeometry fine({181, 181, 181}, Vector3d::Constant(e), Vector3d::Constant(2.5));
+  const Vector3d normal = Vector3d(0.2, -0.3, 1.0).normalized();
+  const double at = normal.dot(Vector3d(11.5, 11.5, 11.47));
+  const auto depth = [&](const Vector3d& p) { return 0.15 - std::abs(normal.dot(p) - at); };
+  auto share = std::make_shared<volume::Volume<float>>(fine);
+  for (int k = 0; k < 181; ++k)
+    for (int j = 0; j < 181; ++j)
+      for (int i = 0; i < 181; ++i)
+        share->at(i, j, k) = static_cast<float>(std::clamp(
+            0.5 + depth(fine.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})) / (6.0 * e), 0.0, 1.0));
+  const TissueField field(air, {share}, nullptr, {});
+  volume::NearestSurfaceSearch search(field, 6.0);
+  for (int n = 0; n < 200; ++n)
+  {
+    const Vector3d on(8.0 + 0.035 * n, 14.5 - 0.03 * n, 0.0);
+    const Vector3d p =
+        on + normal * (at + (n % 2 ? -1.0 : 1.0) * (0.3 + 0.02 * n) - normal.dot(on));
+    const double truth = 0.3 + 0.02 * n - 0.15;
+    const auto nearest = search.find(p);
+    ASSERT_TRUE(nearest) << p.transpose();
+    EXPECT_NEAR(nearest->distance, truth, 0.02) << p.transpose();
+    const Vector3d out = n % 2 ? Vector3d(-normal) : normal;
+    EXPECT_GT(nearest->normal.dot(out), 0.99);
+    const auto hit = field.firstHit(p, p - 6.0 * out);
+    ASSERT_TRUE(hit) << p.transpose();
+    EXPECT_NEAR(*hit, truth, 0.005) << p.transpose();
+  }
+}
+
 TEST(TissueField, RefusesAMaskOfAnotherGrid)
 {
   const auto grid = obliqueGrid();

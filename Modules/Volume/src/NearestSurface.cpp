@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "petrous/Volume/NearestSurface.h"
@@ -11,7 +13,9 @@ namespace
 {
 
 constexpr int kBlock = 8;        // cells along the edge of a block
-constexpr int kSubdivisions = 3; // of a cell that the surface crosses
+constexpr int kSubdivisions = 3; // of a cell that the surface crosses, at least
+constexpr int kMostSubdivisions = 12;
+constexpr double kFine = 0.9; // of the CT's spacing: a union with finer voxels is looked at itself
 constexpr int kRefinements = 12;
 
 struct Nearest // the best so far
@@ -20,21 +24,28 @@ struct Nearest // the best so far
   Eigen::Vector3d point;
 };
 
+// Finer unions ask for a finer lattice: their walls are three of their voxels thick at least.
+int subdivisionsOf(const TissueField& field)
+{
+  const double ratio = field.geometry().spacing().maxCoeff() / field.finestSpacing();
+  return std::clamp(static_cast<int>(std::ceil(0.7 * ratio)), kSubdivisions, kMostSubdivisions);
+}
+
 // Nearest crossing of f on the lines of a finer lattice inside one cell.
 void searchCell(const TissueField& field, const Eigen::Vector3d& from, const core::Index3& cell,
-                Nearest& best)
+                int subdivisions, Nearest& best)
 {
-  constexpr int n = kSubdivisions + 1;
-  std::array<Eigen::Vector3d, n * n * n> points;
-  std::array<double, n * n * n> values{};
-  const auto at = [](int i, int j, int k) { return static_cast<std::size_t>(i + n * (j + n * k)); };
+  const int n = subdivisions + 1;
+  std::vector<Eigen::Vector3d> points(static_cast<std::size_t>(n * n * n));
+  std::vector<double> values(points.size());
+  const auto at = [n](int i, int j, int k)
+  { return static_cast<std::size_t>(i + n * (j + n * k)); };
+  const double part = 1.0 / subdivisions;
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
       {
-        const Eigen::Vector3d voxel(cell[0] + i / double{kSubdivisions},
-                                    cell[1] + j / double{kSubdivisions},
-                                    cell[2] + k / double{kSubdivisions});
+        const Eigen::Vector3d voxel(cell[0] + i * part, cell[1] + j * part, cell[2] + k * part);
         points[at(i, j, k)] = field.geometry().patientFromVoxel(voxel);
         values[at(i, j, k)] = field.value(points[at(i, j, k)]);
       }
@@ -64,7 +75,7 @@ void searchCell(const TissueField& field, const Eigen::Vector3d& from, const cor
 // Slides the point along the surface towards `from`, and back onto f = 0 by bisection.
 void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best)
 {
-  const double h = field.geometry().minSpacing();
+  const double h = field.finestSpacing();
   double stride = 1.0;
   for (int round = 0; round < kRefinements; ++round)
   {
@@ -96,6 +107,7 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
 NearestSurfaceSearch::NearestSurfaceSearch(const TissueField& field, double reach)
   : m_field(field)
   , m_reach(reach)
+  , m_subdivisions(subdivisionsOf(field))
 {
 }
 
@@ -125,6 +137,51 @@ NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient) const
   return blocks;
 }
 
+// Cells in which a union of finer voxels has some of its own: all of a wall may lie between the
+// CT's voxel centres.
+void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) const
+{
+  const core::GridGeometry& grid = m_field.geometry();
+  for (const TissueField::SolidUnion& share : m_field.solids())
+  {
+    const core::GridGeometry& own = share->geometry();
+    if (own.minSpacing() > kFine * grid.minSpacing())
+      continue;
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
+    Eigen::Vector3d high = -low;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      Eigen::Vector3d voxel;
+      for (int a = 0; a < 3; ++a)
+        voxel[a] = corner >> a & 1 ? corners.upper[static_cast<std::size_t>(a)] - 1.0
+                                   : corners.lower[static_cast<std::size_t>(a)];
+      const Eigen::Vector3d p = grid.patientFromVoxel(voxel);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const core::IndexBox box = own.boxCovering(low, high);
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        {
+          if (!(share->at(i, j, k) > 0.5F))
+            continue;
+          const Eigen::Vector3d voxel =
+              grid.voxelFromPatient(own.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
+          core::Index3 cell;
+          bool within = true;
+          for (std::size_t a = 0; a < 3; ++a)
+          {
+            cell[a] = static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)])) -
+                      corners.lower[a];
+            within = within && cell[a] >= 0 && cell[a] < corners.size()[a] - 1;
+          }
+          if (within)
+            cells[cell[0] + kBlock * (cell[1] + kBlock * cell[2])] = true;
+        }
+  }
+}
+
 const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::Index3& block)
 {
   const std::uint64_t key = static_cast<std::uint64_t>(block[0]) |
@@ -151,6 +208,9 @@ const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::
         solid[at(i, j, k)] = m_field.value(grid.patientFromVoxel(
                                  {1.0 * (corners.lower[0] + i), 1.0 * (corners.lower[1] + j),
                                   1.0 * (corners.lower[2] + k)})) > 0.0;
+  constexpr auto cells = static_cast<std::size_t>(kBlock * kBlock * kBlock);
+  std::array<bool, cells> fine{};
+  markFine(corners, fine.data());
   for (int k = 0; k + 1 < size[2]; ++k)
     for (int j = 0; j + 1 < size[1]; ++j)
       for (int i = 0; i + 1 < size[0]; ++i)
@@ -158,7 +218,8 @@ const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::
         int count = 0;
         for (int corner = 0; corner < 8; ++corner)
           count += solid[at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2 & 1))];
-        if (count > 0 && count < 8)
+        const bool between = fine[static_cast<std::size_t>(i + kBlock * (j + kBlock * k))];
+        if (count < 8 && (count > 0 || between))
           entry->second.push_back(
               {corners.lower[0] + i, corners.lower[1] + j, corners.lower[2] + k});
       }
@@ -179,7 +240,7 @@ std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& 
       const Eigen::Vector3d center =
           grid.patientFromVoxel({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5});
       if ((center - patient).norm() - cellRadius <= best.distance)
-        searchCell(m_field, patient, cell, best);
+        searchCell(m_field, patient, cell, m_subdivisions, best);
     }
   }
   if (best.distance >= m_reach)

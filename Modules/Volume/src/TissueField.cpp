@@ -11,9 +11,10 @@ namespace petrous::volume
 
 namespace
 {
-// Surfaces are bracketed in steps of half a voxel: a wall thinner than that is not in the samples.
+// Surfaces are bracketed in steps of half the finest voxel: a wall thinner than that is not in the
+// samples.
 constexpr double kMarchStep = 0.5;
-constexpr double kHitTolerance = 1e-4; // of the smallest spacing
+constexpr double kHitTolerance = 1e-4; // of the finest spacing
 } // namespace
 
 TissueField::TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<SolidUnion> solids,
@@ -31,6 +32,9 @@ TissueField::TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<
   if (m_mask && !sameGrid(m_mask->geometry(), m_ct->geometry()))
     throw core::InvalidParameter("tissue field: the mask does not lie on the CT's grid");
   m_solids.erase(std::remove(m_solids.begin(), m_solids.end(), nullptr), m_solids.end());
+  m_finest = geometry().minSpacing();
+  for (const SolidUnion& share : m_solids)
+    m_finest = std::min(m_finest, share->geometry().minSpacing());
 }
 
 double TissueField::ctOperand(const Eigen::Vector3d& voxel) const
@@ -130,7 +134,7 @@ std::optional<double> TissueField::firstHit(const Eigen::Vector3d& start,
   if (length == 0.0)
     return value(start) > 0.0 ? std::optional<double>(0.0) : std::nullopt;
 
-  const double h = geometry().minSpacing();
+  const double h = m_finest;
   const Eigen::Vector3d direction = (end - start) / length;
   const auto solidAt = [&](double t) { return value(start + t * direction) > 0.0; };
   const double from = first * length;

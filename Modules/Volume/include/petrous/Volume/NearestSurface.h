@@ -21,8 +21,9 @@ struct NearestSurface
 ///
 /// The grid is looked at in blocks of cells, the nearest first; which cells of a block the surface
 /// crosses is kept, so that many questions cost little. The field must outlive the search and must
-/// not change meanwhile. A wall between two neighbouring voxel centres is not seen, as both
-/// lie in air. Not thread-safe.
+/// not change meanwhile. Unions of finer voxels than the CT's are looked at themselves, so that a
+/// thin mesh is seen where all of the CT's voxel centres around it lie in air; a wall of bone or of
+/// the cut between two of them is not seen. Not thread-safe.
 class NearestSurfaceSearch
 {
 public:
@@ -40,9 +41,11 @@ private:
   };
   std::vector<Candidate> blocksWithinReach(const Eigen::Vector3d& patient) const;
   const std::vector<core::Index3>& crossedCells(const core::Index3& block);
+  void markFine(const core::IndexBox& corners, bool* cells) const;
 
   const TissueField& m_field;
   double m_reach;
+  int m_subdivisions; // of a cell, for the lattice that finds the surface in it
   std::unordered_map<std::uint64_t, std::vector<core::Index3>> m_crossed;
 };
 

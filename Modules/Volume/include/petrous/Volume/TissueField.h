@@ -46,6 +46,10 @@ public:
   const std::shared_ptr<const IntensityVolume>& ct() const noexcept { return m_ct; }
   const std::vector<SolidUnion>& solids() const noexcept { return m_solids; }
 
+  /// The smallest spacing of the CT and of the unions, mm: what a search must step by so as to see
+  /// a mesh whose walls are thinner than a voxel of the CT.
+  double finestSpacing() const noexcept { return m_finest; }
+
   /// f at a patient point (LPS mm); kAir outside the grid.
   double value(const Eigen::Vector3d& patient) const;
 
@@ -57,7 +61,7 @@ public:
   Eigen::Vector3d normal(const Eigen::Vector3d& patient, double step = 1.0) const;
 
   /// First point on the segment from `start` to `end` where f rises above 0, in mm from start;
-  /// nothing when there is none. Steps of at most half the smallest spacing, then bisection to
+  /// nothing when there is none. Steps of at most half the finest spacing, then bisection to
   /// 1e-4 of it. Zero when the start lies in tissue.
   std::optional<double> firstHit(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
 
@@ -85,6 +89,7 @@ private:
   std::vector<SolidUnion> m_solids;
   std::shared_ptr<const CutMask> m_mask;
   Parameters m_parameters;
+  double m_finest = 0.0;
 };
 
 } // namespace petrous::volume

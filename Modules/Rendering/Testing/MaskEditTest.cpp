@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "PictureComparison.h"
 #include "PictureScenes.h"
 #include "RandomScenes.h"
@@ -93,6 +95,43 @@ TEST(MaskEdit, UndoOfEverythingRestoresEveryPixelAndEveryResource)
     EXPECT_EQ(scene.resources(), resources);
     EXPECT_EQ(scene.statistics().variant, variant);
   }
+}
+
+// With a tool in the scene the first cut changes no shader; without one an untouched mask is none.
+TEST(MaskEdit, IsReadyForTheFirstCutWhileThereIsATool)
+{
+  SceneContents contents = labelledBall(cube(64, 0.35, obliqueMirrored()));
+  const core::GridGeometry grid = contents.ct->geometry();
+  contents.mask = std::make_shared<volume::CutMask>(grid);
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  const Picture plain = view.render(scene);
+  EXPECT_EQ(scene.resources().count("mask.texture"), 0U);
+  const auto variant = scene.statistics().variant;
+
+  ToolPose away; // behind the camera
+  away.center = slanting().position + (slanting().position - slanting().focalPoint);
+  scene.setTool(away);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), plain), 0U);
+  EXPECT_EQ(scene.resources().count("mask.texture"), 1U);
+  const auto ready = scene.statistics().variant;
+  EXPECT_EQ(std::count(ready.begin(), ready.end(), "mask"), 1);
+
+  const auto balls = ballsCut(grid, 2);
+  scene.maskChanged(balls, touched(*balls));
+  const Picture cut = view.render(scene);
+  EXPECT_EQ(scene.statistics().variant, ready);
+  EXPECT_EQ(differentFromFresh(cut, contents, balls), 0U);
+
+  scene.maskChanged(contents.mask, touched(*balls));
+  EXPECT_EQ(countDifferentPixels(view.render(scene), plain), 0U);
+  EXPECT_EQ(scene.statistics().variant, ready);
+  scene.setTool(std::nullopt);
+  EXPECT_EQ(countDifferentPixels(view.render(scene), plain), 0U);
+  EXPECT_EQ(scene.statistics().variant, variant);
+  EXPECT_EQ(scene.resources().count("mask.texture"), 0U);
 }
 
 TEST(MaskEdit, GivesBackBricksThatHadBecomeEmpty)

@@ -31,12 +31,6 @@ bool drawable(const SceneContents& contents)
   return true;
 }
 
-// A mask in which nothing is cut draws as none does.
-std::shared_ptr<const volume::CutMask> inUse(std::shared_ptr<const volume::CutMask> mask)
-{
-  return mask && !mask->untouched() ? std::move(mask) : nullptr;
-}
-
 bool translucent(const std::vector<appearance::Material>& materials)
 {
   return std::any_of(materials.begin(), materials.end(),
@@ -107,7 +101,8 @@ void RayCaster::setContents(const SceneContents& contents)
                              " clipping planes can be drawn, not " +
                              std::to_string(contents.clipping.size()));
   const bool sameCt = contents.ct == m_contents.ct;
-  std::shared_ptr<const volume::CutMask> mask = inUse(contents.mask);
+  m_givenMask = contents.mask;
+  std::shared_ptr<const volume::CutMask> mask = maskInUse();
   m_newCt |= !sameCt;
   m_newLabels |= contents.labels != m_contents.labels;
   m_newSecond |= contents.second.volume != m_contents.second.volume;
@@ -149,7 +144,8 @@ void RayCaster::setQuality(const RenderQuality& quality)
 void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
 {
   const bool wasCut = m_mask.inUse();
-  mask = inUse(std::move(mask));
+  m_givenMask = std::move(mask);
+  mask = maskInUse();
   m_contents.mask = mask;
   if (static_cast<bool>(mask) != wasCut)
     m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
@@ -157,6 +153,23 @@ void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const c
     m_mask.changed(mask, box);
   if (m_occupancy && !m_newRules)
     m_dirtyBricks = m_dirtyBricks.united(m_occupancy->maskChanged(mask.get(), box));
+}
+
+void RayCaster::expectCut(bool expected)
+{
+  m_cutExpected = expected;
+  std::shared_ptr<const volume::CutMask> mask = maskInUse();
+  if (static_cast<bool>(mask) == m_mask.inUse())
+    return;
+  // The bricks stay: a mask in which nothing is cut says of them what none does.
+  m_contents.mask = mask;
+  m_mask.reset(std::move(mask), m_quality.maskBits, m_quality.largestTexture);
+}
+
+// A mask in which nothing is cut draws as none does.
+std::shared_ptr<const volume::CutMask> RayCaster::maskInUse() const
+{
+  return m_givenMask && (m_cutExpected || !m_givenMask->untouched()) ? m_givenMask : nullptr;
 }
 
 RayFeatures RayCaster::features() const

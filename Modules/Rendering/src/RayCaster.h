@@ -43,6 +43,10 @@ public:
   /// Marks a box of CT voxels of the mask as changed, to less or to more; null: nothing is cut.
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
+  /// A tool is in the hand: the mask takes part though nothing is cut yet, so that the first cut
+  /// need not wait for a shader and a texture.
+  void expectCut(bool expected);
+
   /// Into the own picture; counting is slower. Throws RenderingError NoOpenGL.
   void draw(const Frame& frame, bool count);
 
@@ -56,6 +60,7 @@ public:
   const RenderStatistics& statistics() const noexcept { return m_statistics; }
 
 private:
+  std::shared_ptr<const volume::CutMask> maskInUse() const;
   RayFeatures features() const;
   OccupancyGrid::Rules rules() const;
   void upload();
@@ -68,7 +73,9 @@ private:
   void castRays(const Frame& frame, int width, int height);
   void releaseData();
 
-  SceneContents m_contents;
+  SceneContents m_contents; // its mask only where that is in use
+  std::shared_ptr<const volume::CutMask> m_givenMask;
+  bool m_cutExpected = false;
   RenderQuality m_quality;
   RenderStatistics m_statistics;
   std::unique_ptr<OccupancyGrid> m_occupancy;

@@ -296,7 +296,7 @@ void ScenePicture::setContents(const SceneContents& contents)
   check(contents);
   m_implementation->setVolume(contents);
   m_implementation->setMeshes(contents);
-  m_implementation->tool.setPose(contents.tool);
+  setTool(contents.tool);
 }
 
 void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
@@ -307,6 +307,7 @@ void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
 
 void ScenePicture::setTool(const std::optional<ToolPose>& tool)
 {
+  m_implementation->mapper->ExpectCut(tool.has_value());
   m_implementation->tool.setPose(tool);
 }
 

@@ -130,6 +130,11 @@ void vtkPetrousVolumeMapper::MaskChanged(std::shared_ptr<const petrous::volume::
     this->Internal->caster.maskChanged(std::move(mask), box);
 }
 
+void vtkPetrousVolumeMapper::ExpectCut(bool expected)
+{
+  this->Internal->caster.expectCut(expected);
+}
+
 void vtkPetrousVolumeMapper::SetQuality(const petrous::rendering::RenderQuality& quality)
 {
   this->Internal->quality = quality;

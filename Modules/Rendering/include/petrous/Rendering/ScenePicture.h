@@ -42,6 +42,7 @@ public:
   /// Null: nothing is cut any more.
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
+  /// With a tool in the scene its mask is made ready for the first cut.
   void setTool(const std::optional<ToolPose>& tool);
 
   void setCamera(const core::CameraPose& pose);

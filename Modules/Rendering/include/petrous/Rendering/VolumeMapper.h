@@ -43,6 +43,10 @@ public:
   void MaskChanged(std::shared_ptr<const petrous::volume::CutMask> mask,
                    const petrous::core::IndexBox& box);
 
+  /// Makes the mask ready before anything is cut; without it, a mask in which nothing is cut costs
+  /// nothing.
+  void ExpectCut(bool expected);
+
   /// Throws InvalidParameter.
   void SetQuality(const petrous::rendering::RenderQuality& quality);
   const petrous::rendering::RenderQuality& GetQuality() const;

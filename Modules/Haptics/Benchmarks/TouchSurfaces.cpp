@@ -113,6 +113,10 @@ std::vector<Setting> settings(bool quick)
        {1, 2, 3, 5, 7, 10},
        static_cast<double>(standard.rounds),
        [](ProxyParameters& p, std::size_t&, double value) { p.rounds = static_cast<int>(value); }},
+      {"samples",
+       {200, 500, 1000, 2000, 4000, 20000},
+       static_cast<double>(standard.samples),
+       [](ProxyParameters& p, std::size_t&, double value) { p.samples = static_cast<int>(value); }},
       {"near_gap_voxels",
        {0.1, 0.25, 0.5, 1.0},
        standard.nearGap,
@@ -179,7 +183,7 @@ std::vector<core::BenchmarkPoint> touchParameters(bool quick, const core::Progre
     for (const Setting& setting : settings(quick))
       for (const double value : setting.values)
       {
-        progress.report(static_cast<double>(points.size()) / (quick ? 20.0 : 54.0), setting.name);
+        progress.report(static_cast<double>(points.size()) / (quick ? 24.0 : 66.0), setting.name);
         ProxyParameters parameters;
         std::size_t count = 2000;
         setting.set(parameters, count, value);

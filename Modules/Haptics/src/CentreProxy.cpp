@@ -276,6 +276,7 @@ const ProxyTick& CentreProxy::step(const Pose& goal) noexcept
   }
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
+  m_tick.maskState = m_sweep.state().number();
   if (m_refuge->notice())
     m_tick.status = ProxyStatus::Retreated;
   if (m_refuge->inside())

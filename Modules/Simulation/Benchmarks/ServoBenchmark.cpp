@@ -113,14 +113,14 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
   Servo other(*again.tool, setup.servo);
   DissectionLoop otherLoop(again.work, *again.mask, again.feed);
   RecordingReader reader(file);
-  std::vector<TickRecord> recorded;
+  RecordingBlock part;
   std::size_t different = 0;
-  while (reader.next(recorded))
+  while (reader.next(part))
   {
     const auto replayed =
-        replay(recorded, other, [&](const TickRecord& record) { otherLoop.step(record); });
-    for (std::size_t n = 0; n < recorded.size(); ++n)
-      different += !identical(recorded[n], replayed[n]);
+        replay(part.ticks, other, [&](const TickRecord& record) { otherLoop.step(record); });
+    for (std::size_t n = 0; n < part.ticks.size(); ++n)
+      different += !identical(part.ticks[n], replayed[n]);
   }
 
   char spacing[16];

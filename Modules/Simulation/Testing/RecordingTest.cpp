@@ -44,9 +44,13 @@ protected:
 
   std::vector<TickRecord> readAll(RecordingReader& reader)
   {
-    std::vector<TickRecord> all, block;
+    std::vector<TickRecord> all;
+    RecordingBlock block;
     while (reader.next(block))
-      all.insert(all.end(), block.begin(), block.end());
+    {
+      all.insert(all.end(), block.ticks.begin(), block.ticks.end());
+      m_edits.insert(m_edits.end(), block.edits.begin(), block.edits.end());
+    }
     return all;
   }
 
@@ -57,9 +61,25 @@ protected:
   }
   void setBytes(const std::string& text) const { std::ofstream(file(), std::ios::binary) << text; }
 
+  std::vector<MaskEdit> m_edits; // of all that was read
+
 private:
   fs::path m_folder;
 };
+
+// Cuts as a session makes them, between ticks.
+MaskEdit cutAt(std::uint64_t n)
+{
+  MaskEdit edit{MaskEdit::Kind::Cut};
+  edit.state = n;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    edit.from[axis] = 20.0 * std::sin(0.01 * static_cast<double>(n) + axis);
+    edit.to[axis] = edit.from[axis] - 0.02;
+  }
+  edit.radius = 2.0;
+  return edit;
+}
 
 // Every bit pattern may come: random words, and every kind of special double.
 std::vector<TickRecord> anything(std::size_t count)
@@ -139,6 +159,62 @@ TEST_F(Recording, ReturnsTicksOfAnyCount)
   }
 }
 
+TEST_F(Recording, ReturnsWhatWasDoneToTheMaskInTheBlockOfTheTickThatFeltIt)
+{
+  auto ticks = numbered(2500);
+  std::vector<MaskEdit> edits;
+  {
+    RecordingWriter writer(file(), {});
+    for (TickRecord& tick : ticks)
+    {
+      if (tick.number % 3 == 0)
+      {
+        edits.push_back(cutAt(edits.size() + 1));
+        writer.add(edits.back());
+      }
+      tick.maskState = edits.size();
+      writer.add(tick);
+    }
+    edits.push_back({MaskEdit::Kind::End});
+    edits.back().duration = -0.0;
+    writer.add(edits.back());
+    edits.push_back({MaskEdit::Kind::Undo, ~std::uint64_t{0}});
+    writer.add(edits.back());
+    writer.close();
+  }
+  RecordingReader reader(file());
+  RecordingBlock block;
+  std::size_t seen = 0;
+  std::vector<TickRecord> all;
+  while (reader.next(block))
+  {
+    for (const MaskEdit& edit : block.edits)
+      ASSERT_EQ(std::memcmp(&edit, &edits[seen++], sizeof edit), 0) << seen;
+    for (const TickRecord& tick : block.ticks)
+      ASSERT_LE(tick.maskState, seen);
+    all.insert(all.end(), block.ticks.begin(), block.ticks.end());
+  }
+  expectSame(all, ticks);
+  EXPECT_EQ(seen, edits.size());
+  EXPECT_TRUE(reader.complete());
+}
+
+TEST_F(Recording, HoldsManyCutsBetweenTwoTicks)
+{
+  {
+    RecordingWriter writer(file(), {});
+    for (std::uint64_t n = 0; n < 25000; ++n)
+      writer.add(cutAt(n));
+    writer.close();
+    EXPECT_LT(writer.bytes(), 25000u * 64);
+  }
+  RecordingReader reader(file());
+  EXPECT_TRUE(readAll(reader).empty());
+  ASSERT_EQ(m_edits.size(), 25000u);
+  EXPECT_EQ(m_edits.back().burr().from, cutAt(24999).burr().from);
+  EXPECT_TRUE(reader.complete());
+}
+
 TEST_F(Recording, KeepsTheSetupToTheLastDigit)
 {
   RecordingSetup setup;
@@ -154,6 +230,8 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   setup.servo.limits.fadeOut = 0.015;
   setup.servo.passivity.emplace();
   setup.servo.passivity->lever = 31.25;
+  setup.degrees = 3;
+  setup.scene = {~std::uint64_t{0}, 1u, 0x8000000000000001u, 7u, 12345678901234567890u};
   write({}, setup);
   const RecordingSetup got = RecordingReader(file()).setup();
   EXPECT_EQ(got.tool, setup.tool);
@@ -168,6 +246,12 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   EXPECT_EQ(got.servo.limits.fadeOut, 0.015);
   ASSERT_TRUE(got.servo.passivity);
   EXPECT_EQ(got.servo.passivity->lever, 31.25);
+  EXPECT_EQ(got.degrees, 3);
+  EXPECT_EQ(got.scene.ct, setup.scene.ct);
+  EXPECT_EQ(got.scene.tissue, setup.scene.tissue);
+  EXPECT_EQ(got.scene.mask, setup.scene.mask);
+  EXPECT_EQ(got.scene.applied, setup.scene.applied);
+  EXPECT_EQ(got.scene.firstState, setup.scene.firstState);
   write({}, RecordingSetup());
   EXPECT_FALSE(RecordingReader(file()).setup().servo.passivity);
 }
@@ -188,7 +272,7 @@ TEST_F(Recording, ReadsUpToTheLastWholeBlockOfAFileThatWasCutShort)
   write(ticks);
   const std::string whole = bytes();
   write({});
-  const std::size_t head = bytes().size() - 12; // less the end's mark
+  const std::size_t head = bytes().size() - 20; // less the end's mark
   int lengths[3] = {0, 0, 0};
   for (std::size_t size = head; size < whole.size(); size += 37)
   {
@@ -231,6 +315,9 @@ TEST_F(Recording, NamesWhatIsWrongWithAFile)
   std::string newer = good;
   newer[8] = 9;
   EXPECT_EQ(reasonOf(newer), RecordingError::Reason::NewerVersion);
+  std::string older = good;
+  older[8] = 1;
+  EXPECT_EQ(reasonOf(older), RecordingError::Reason::OlderVersion);
   EXPECT_EQ(reasonOf(good.substr(0, 15)), RecordingError::Reason::Corrupt);
   EXPECT_EQ(reasonOf(good + "more"), RecordingError::Reason::Corrupt);
   fs::remove(file());
@@ -241,7 +328,15 @@ TEST_F(Recording, NamesWhatIsWrongWithAFile)
 TEST_F(Recording, NeverGivesATickThatWasNotWrittenWhateverByteIsChanged)
 {
   const auto ticks = numbered(1200);
-  write(ticks);
+  {
+    RecordingWriter writer(file(), {});
+    for (const TickRecord& tick : ticks)
+    {
+      if (tick.number % 5 == 0)
+        writer.add(cutAt(tick.number / 5));
+      writer.add(tick);
+    }
+  }
   const std::string good = bytes();
   std::mt19937 random(5);
   for (int n = 0; n < 400; ++n)
@@ -253,7 +348,13 @@ TEST_F(Recording, NeverGivesATickThatWasNotWrittenWhateverByteIsChanged)
     try
     {
       RecordingReader reader(file());
+      m_edits.clear();
       const auto got = readAll(reader);
+      for (std::size_t e = 0; e < m_edits.size(); ++e)
+      {
+        const MaskEdit written = cutAt(e);
+        ASSERT_EQ(std::memcmp(&m_edits[e], &written, sizeof written), 0) << at;
+      }
       // A changed length can look like a file that was cut short, and zstd's frames have bits that
       // mean nothing; what was read must be right.
       EXPECT_TRUE(!reader.complete() || got.size() == ticks.size()) << at;

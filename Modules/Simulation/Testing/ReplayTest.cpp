@@ -62,9 +62,10 @@ TEST(Replay, OfARecordingIsTheRecordingToTheLastBit)
   }
 
   RecordingReader reader(file);
-  std::vector<TickRecord> recorded, block;
+  std::vector<TickRecord> recorded;
+  RecordingBlock block;
   while (reader.next(block))
-    recorded.insert(recorded.end(), block.begin(), block.end());
+    recorded.insert(recorded.end(), block.ticks.begin(), block.ticks.end());
   LoopScene second;
   DissectionLoop secondLoop(second.work, *second.mask, second.feed);
   Servo servo(second.session.proxy, reader.setup().servo);

@@ -36,11 +36,27 @@ double DissectionLoop::secondsOf(const TickRecord& record)
 bool DissectionLoop::follow(const TickRecord& record)
 {
   const bool drill = record.drill && record.time() > m_ignoreUntil;
-  if (drill && !m_dissection.strokeOpen())
-    m_dissection.beginStroke(m_hooks.begin ? m_hooks.begin() : dissection::StrokeInfo());
-  else if (!drill)
+  if (drill)
+    open();
+  else
     endStroke();
   return drill;
+}
+
+void DissectionLoop::open()
+{
+  if (m_dissection.strokeOpen())
+    return;
+  m_dissection.beginStroke(m_hooks.begin ? m_hooks.begin() : dissection::StrokeInfo());
+  tell({MaskEdit::Kind::Begin});
+}
+
+// The state is known once it is published.
+void DissectionLoop::tell(MaskEdit edit) const
+{
+  edit.state = m_mask.number();
+  if (m_hooks.edited)
+    m_hooks.edited(edit);
 }
 
 bool DissectionLoop::cut(const dissection::SweptSphere& burr)
@@ -49,6 +65,14 @@ bool DissectionLoop::cut(const dissection::SweptSphere& burr)
     return false;
   ++m_cuts;
   publish(false);
+  MaskEdit edit{MaskEdit::Kind::Cut};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    edit.from[axis] = burr.from[axis];
+    edit.to[axis] = burr.to[axis];
+  }
+  edit.radius = burr.radius;
+  tell(edit);
   return true;
 }
 
@@ -101,32 +125,74 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
   return any;
 }
 
+bool DissectionLoop::sweep(const TickRecord& record, const dissection::SweptSphere& burr)
+{
+  const double seconds = secondsOf(record);
+  if (!follow(record))
+    return false;
+  m_dissection.openInfo().duration += seconds;
+  return cut(burr);
+}
+
 void DissectionLoop::endStroke()
 {
   if (!m_dissection.strokeOpen())
     return;
+  MaskEdit edit{MaskEdit::Kind::End};
+  edit.duration = m_dissection.openInfo().duration;
   if (m_hooks.close)
     m_hooks.close(m_dissection);
   else
     m_dissection.endStroke();
+  tell(edit);
+}
+
+bool DissectionLoop::turn(bool back)
+{
+  endStroke();
+  const bool done = m_hooks.turn ? m_hooks.turn(back)
+                    : back       ? m_dissection.undo()
+                                 : m_dissection.redo();
+  if (!done)
+    return false;
+  publish(true);
+  tell({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});
+  return true;
 }
 
 bool DissectionLoop::undo()
 {
-  endStroke();
-  if (!m_dissection.undo())
-    return false;
-  publish(true);
-  return true;
+  return turn(true);
 }
 
 bool DissectionLoop::redo()
 {
-  endStroke();
-  if (!m_dissection.redo())
-    return false;
-  publish(true);
-  return true;
+  return turn(false);
+}
+
+bool DissectionLoop::apply(const MaskEdit& edit)
+{
+  switch (edit.kind)
+  {
+  case MaskEdit::Kind::Begin:
+    open();
+    break;
+  case MaskEdit::Kind::Cut:
+    if (!m_dissection.strokeOpen() || !cut(edit.burr()))
+      return false;
+    break;
+  case MaskEdit::Kind::End:
+    if (m_dissection.strokeOpen())
+      m_dissection.openInfo().duration = edit.duration;
+    endStroke();
+    break;
+  case MaskEdit::Kind::Undo:
+  case MaskEdit::Kind::Redo:
+    if (!turn(edit.kind == MaskEdit::Kind::Undo))
+      return false;
+    break;
+  }
+  return m_mask.number() == edit.state;
 }
 
 } // namespace petrous::simulation

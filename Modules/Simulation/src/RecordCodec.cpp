@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include "WordPlanes.h"
+
 namespace petrous::simulation
 {
 
@@ -16,7 +18,6 @@ namespace
 constexpr std::size_t kColumns = sizeof(TickRecord) / 8;
 constexpr std::size_t kMostSources = 8;
 
-using Words = std::vector<std::uint64_t>; // a column
 using Table = std::array<Words, kColumns>;
 
 enum Rule : std::uint8_t
@@ -43,7 +44,8 @@ public:
     for (const std::size_t at :
          {offsetof(TickRecord, number), offsetof(TickRecord, input) + offsetof(TickInput, buttons),
           parameter(offsetof(ServoParameters, clutchButtons)),
-          parameter(offsetof(ServoParameters, clutch)), offsetof(TickRecord, contacts)})
+          parameter(offsetof(ServoParameters, clutch)), offsetof(TickRecord, maskState),
+          offsetof(TickRecord, contacts)})
       m_columns[at / 8].real = false;
 
     const std::size_t device = offsetof(TickRecord, input) + offsetof(TickInput, device);
@@ -111,32 +113,11 @@ double realOf(std::uint64_t word)
   return value;
 }
 
-std::uint64_t wordOf(double value)
+std::uint64_t bitsOf(double value)
 {
   std::uint64_t word;
   std::memcpy(&word, &value, sizeof word);
   return word;
-}
-
-// Doubles in the order of their values are integers in order; every bit pattern has its place.
-std::uint64_t ordered(std::uint64_t word)
-{
-  return word >> 63 ? ~word : word | std::uint64_t{1} << 63;
-}
-
-std::uint64_t unordered(std::uint64_t place)
-{
-  return place >> 63 ? place & ~(std::uint64_t{1} << 63) : ~place;
-}
-
-std::uint64_t zigzag(std::uint64_t difference)
-{
-  return difference << 1 ^ (difference >> 63 ? ~std::uint64_t{0} : 0);
-}
-
-std::uint64_t unzigzag(std::uint64_t code)
-{
-  return code >> 1 ^ (code & 1 ? ~std::uint64_t{0} : 0);
 }
 
 using Gains = std::array<double, kMostSources>;
@@ -164,7 +145,7 @@ std::uint64_t predict(Rule rule, const Table& table, std::size_t c, std::size_t 
   else
     return previous;
   // What is no number or near none may differ between machines.
-  return std::isnormal(value) ? wordOf(value) : previous;
+  return std::isnormal(value) ? bitsOf(value) : previous;
 }
 
 // Gains by least squares over the block, on the values themselves: their differences are too
@@ -195,19 +176,11 @@ Gains fit(const Table& table, std::size_t c)
   return gains;
 }
 
-int bytesOf(std::uint64_t code)
-{
-  int bytes = 0;
-  for (; code; code >>= 8)
-    ++bytes;
-  return bytes;
-}
-
 Words residuals(Rule rule, const Table& table, std::size_t c, const Gains& gains)
 {
   Words codes(table[c].size());
   for (std::size_t t = 0; t < codes.size(); ++t)
-    codes[t] = zigzag(ordered(table[c][t]) - ordered(predict(rule, table, c, t, gains)));
+    codes[t] = codeOf(table[c][t], predict(rule, table, c, t, gains));
   return codes;
 }
 
@@ -258,18 +231,13 @@ std::vector<std::uint8_t> encodeTicks(const std::vector<TickRecord>& ticks)
       gains = tried;
       codes = std::move(other);
     }
-    std::uint64_t all = 0;
-    for (const std::uint64_t code : codes)
-      all |= code;
-    const int planes = bytesOf(all);
+    const int planes = planesOf(codes);
     bytes.push_back(best);
     bytes.push_back(static_cast<std::uint8_t>(planes));
     for (std::size_t s = 0; best == kFit && s < column.sourceCount; ++s)
       for (int byte = 0; byte < 8; ++byte)
-        bytes.push_back(static_cast<std::uint8_t>(wordOf(gains[s]) >> (8 * byte)));
-    for (int plane = 0; plane < planes; ++plane)
-      for (const std::uint64_t code : codes)
-        bytes.push_back(static_cast<std::uint8_t>(code >> (8 * plane)));
+        bytes.push_back(static_cast<std::uint8_t>(bitsOf(gains[s]) >> (8 * byte)));
+    putPlanes(codes, planes, bytes);
   }
   return bytes;
 }
@@ -309,12 +277,8 @@ bool decodeTicks(const std::vector<std::uint8_t>& bytes, std::size_t count,
     Words& own = table[c];
     own.resize(count);
     for (std::size_t t = 0; t < count; ++t)
-    {
-      std::uint64_t code = 0;
-      for (std::size_t plane = 0; plane < planes; ++plane)
-        code |= static_cast<std::uint64_t>(bytes[at + plane * count + t]) << (8 * plane);
-      own[t] = unordered(ordered(predict(rule, table, c, t, gains)) + unzigzag(code));
-    }
+      own[t] =
+          wordOf(codeAt(bytes.data() + at, planes, count, t), predict(rule, table, c, t, gains));
     at += planes * count;
   }
   if (left() != 0)

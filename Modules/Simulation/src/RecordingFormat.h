@@ -10,14 +10,20 @@ namespace petrous::simulation
 //
 //   "PTRTICK\n"  u32 format version  u32 bytes of a TickRecord
 //   u32 bytes of the set-up, the set-up as JSON, zstd with its checksum
-//   blocks: u32 kBlockMark  u32 ticks  u32 bytes  the ticks (RecordCodec.h), zstd with its checksum
-//   at the end of a whole file: u32 kEndMark  u64 ticks in all
+//   blocks: u32 kBlockMark  u32 ticks  u32 edits  u32 bytes of the ticks  u32 bytes of the edits
+//           the ticks (RecordCodec.h), the edits (EditCodec.h), zstd with its checksum each
+//   at the end of a whole file: u32 kEndMark  u64 ticks in all  u64 edits in all
+//
+// What a tick felt was made by edits of its block or of one before. Format 1 had no edits, and
+// ticks that did not say which state of the mask they felt.
 constexpr char kMagic[] = "PTRTICK\n"; // 8 bytes without its zero
 constexpr std::size_t kMagicBytes = 8;
-constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint32_t kFormatVersion = 2;
 constexpr std::uint32_t kBlockMark = 0x4B434C42; // "BLCK"
 constexpr std::uint32_t kEndMark = 0x21444E45;   // "END!"
 constexpr std::uint32_t kMostTicks = 100000;     // of a block
+constexpr std::uint32_t kMostEdits = 100000;     // of a block
+constexpr std::size_t kMarkBytes = 20;           // of a block's head, and of the end
 constexpr std::uint32_t kMostSetup = 1 << 20;    // bytes
 
 inline void putU32(std::vector<std::uint8_t>& to, std::uint32_t value)
@@ -26,12 +32,23 @@ inline void putU32(std::vector<std::uint8_t>& to, std::uint32_t value)
     to.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
 }
 
+inline void putU64(std::vector<std::uint8_t>& to, std::uint64_t value)
+{
+  putU32(to, static_cast<std::uint32_t>(value));
+  putU32(to, static_cast<std::uint32_t>(value >> 32));
+}
+
 inline std::uint32_t getU32(const std::uint8_t* from)
 {
   std::uint32_t value = 0;
   for (int byte = 0; byte < 4; ++byte)
     value |= static_cast<std::uint32_t>(from[byte]) << (8 * byte);
   return value;
+}
+
+inline std::uint64_t getU64(const std::uint8_t* from)
+{
+  return getU32(from) | static_cast<std::uint64_t>(getU32(from + 4)) << 32;
 }
 
 // Packs with a checksum; throws core::Error when the library fails.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "EditCodec.h"
 #include "RecordCodec.h"
 #include "RecordingFormat.h"
 
@@ -27,6 +28,12 @@ RecordingReader::RecordingReader(const std::filesystem::path& file)
     throw RecordingError(Reason::NewerVersion,
                          m_name + ": written by format " + std::to_string(version) +
                              "; this program reads up to " + std::to_string(kFormatVersion));
+  if (version == 1)
+    throw RecordingError(Reason::OlderVersion,
+                         m_name +
+                             ": written by format 1, which does not say what was cut; this "
+                             "program plays format " +
+                             std::to_string(kFormatVersion) + ": record it again");
   const std::uint32_t size = getU32(&head[8]);
   if (version != kFormatVersion || getU32(&head[4]) != sizeof(TickRecord) || size > 2 * kMostSetup)
     corrupt("its head is damaged");
@@ -65,41 +72,51 @@ bool RecordingReader::read(std::vector<std::uint8_t>& bytes, std::size_t count)
   return true;
 }
 
-bool RecordingReader::next(std::vector<TickRecord>& ticks)
+bool RecordingReader::next(RecordingBlock& block)
 {
-  ticks.clear();
+  block.ticks.clear();
+  block.edits.clear();
   if (m_ended)
     return false;
-  std::vector<std::uint8_t> head, bytes;
-  const std::string block = "block " + std::to_string(m_blocks + 1);
+  std::vector<std::uint8_t> head, ticks, edits;
+  const std::string name = "block " + std::to_string(m_blocks + 1);
   m_ended = true; // unless a whole block follows
-  if (!read(head, 12))
+  if (!read(head, kMarkBytes))
     return false;
   if (getU32(head.data()) == kEndMark)
   {
-    const std::uint64_t all = getU32(&head[4]) | static_cast<std::uint64_t>(getU32(&head[8])) << 32;
-    if (all != m_ticks)
-      corrupt("it should hold " + std::to_string(all) + " ticks and holds " +
+    if (getU64(&head[4]) != m_ticks || getU64(&head[12]) != m_edits)
+      corrupt("it should hold " + std::to_string(getU64(&head[4])) + " ticks and holds " +
               std::to_string(m_ticks));
     if (m_file.peek() != std::ifstream::traits_type::eof())
       corrupt("something follows its end");
     m_complete = true;
     return false;
   }
-  const std::uint32_t count = getU32(&head[4]);
-  const std::uint32_t size = getU32(&head[8]);
-  if (getU32(head.data()) != kBlockMark || count == 0 || count > kMostTicks ||
-      size > 2 * mostBytes(count))
-    corrupt(block + " does not begin as one does");
-  if (!read(head, size))
+  const std::uint32_t tickCount = getU32(&head[4]);
+  const std::uint32_t editCount = getU32(&head[8]);
+  const std::uint32_t tickBytes = getU32(&head[12]);
+  const std::uint32_t editBytes = getU32(&head[16]);
+  // Packed, what does not pack is a little longer.
+  const auto longest = [](std::size_t raw) { return 2 * raw + 1000; };
+  if (getU32(head.data()) != kBlockMark || (tickCount == 0 && editCount == 0) ||
+      tickCount > kMostTicks || editCount > kMostEdits ||
+      tickBytes > longest(mostBytes(tickCount)) || editBytes > longest(mostEditBytes(editCount)))
+    corrupt(name + " does not begin as one does");
+  if (!read(ticks, tickBytes) || !read(edits, editBytes))
     return false;
-  if (!unpack(head, mostBytes(count), bytes) || !decodeTicks(bytes, count, ticks))
+  std::vector<std::uint8_t> bytes;
+  const bool whole =
+      unpack(ticks, mostBytes(tickCount), bytes) && decodeTicks(bytes, tickCount, block.ticks) &&
+      unpack(edits, mostEditBytes(editCount), bytes) && decodeEdits(bytes, editCount, block.edits);
+  if (!whole)
   {
-    ticks.clear();
-    corrupt(block + " is damaged (from tick " + std::to_string(m_ticks) + " on)");
+    block = {};
+    corrupt(name + " is damaged (from tick " + std::to_string(m_ticks) + " on)");
   }
   m_ended = false;
-  m_ticks += count;
+  m_ticks += tickCount;
+  m_edits += editCount;
   ++m_blocks;
   return true;
 }

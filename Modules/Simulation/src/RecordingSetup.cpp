@@ -20,6 +20,12 @@ void eachNumber(Setup& s, Field field)
 {
   field("burr_diameter_mm", s.burr.diameter);
   field("burr_rpm", s.burr.rpm);
+  field("degrees_of_freedom", s.degrees);
+  field("scene_ct", s.scene.ct);
+  field("scene_tissue", s.scene.tissue);
+  field("scene_mask", s.scene.mask);
+  field("scene_strokes", s.scene.applied);
+  field("scene_first_state", s.scene.firstState);
   field("stiffness_n_per_mm", s.proxy.stiffness);
   field("angular_stiffness_nmm_per_rad", s.proxy.angularStiffness);
   field("near_gap_voxels", s.proxy.nearGap);

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "EditCodec.h"
 #include "RecordCodec.h"
 #include "RecordingFormat.h"
 
@@ -35,7 +36,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Record
   m_file.reset(std::fopen(file.c_str(), "wb"));
   if (!m_file)
     fail();
-  m_block.reserve(kBlock);
+  m_block.ticks.reserve(kBlock);
   write(head);
 }
 
@@ -55,7 +56,7 @@ void RecordingWriter::fail()
 {
   const std::string why = std::strerror(errno);
   m_file.reset();
-  m_block.clear();
+  m_block = {};
   throw RecordingError(RecordingError::Reason::NotWritten,
                        m_name + ": could not be written (" + why + ")");
 }
@@ -71,15 +72,19 @@ void RecordingWriter::write(const std::vector<std::uint8_t>& bytes)
 
 void RecordingWriter::writeBlock()
 {
-  if (m_block.empty())
+  if (m_block.ticks.empty() && m_block.edits.empty())
     return;
-  const std::vector<std::uint8_t> packed = pack(encodeTicks(m_block));
+  const std::vector<std::uint8_t> ticks = pack(encodeTicks(m_block.ticks));
+  const std::vector<std::uint8_t> edits = pack(encodeEdits(m_block.edits));
   std::vector<std::uint8_t> bytes;
   putU32(bytes, kBlockMark);
-  putU32(bytes, static_cast<std::uint32_t>(m_block.size()));
-  putU32(bytes, static_cast<std::uint32_t>(packed.size()));
-  bytes.insert(bytes.end(), packed.begin(), packed.end());
-  m_block.clear();
+  for (const std::size_t size :
+       {m_block.ticks.size(), m_block.edits.size(), ticks.size(), edits.size()})
+    putU32(bytes, static_cast<std::uint32_t>(size));
+  bytes.insert(bytes.end(), ticks.begin(), ticks.end());
+  bytes.insert(bytes.end(), edits.begin(), edits.end());
+  m_block.ticks.clear();
+  m_block.edits.clear();
   write(bytes);
 }
 
@@ -87,9 +92,19 @@ void RecordingWriter::add(const TickRecord& record)
 {
   if (!m_file)
     return;
-  m_block.push_back(record);
+  m_block.ticks.push_back(record);
   ++m_ticks;
-  if (m_block.size() == kBlock)
+  if (m_block.ticks.size() == kBlock)
+    writeBlock();
+}
+
+void RecordingWriter::add(const MaskEdit& edit)
+{
+  if (!m_file)
+    return;
+  m_block.edits.push_back(edit);
+  ++m_edits;
+  if (m_block.edits.size() == kEdits)
     writeBlock();
 }
 
@@ -100,8 +115,8 @@ void RecordingWriter::close()
   writeBlock();
   std::vector<std::uint8_t> end;
   putU32(end, kEndMark);
-  putU32(end, static_cast<std::uint32_t>(m_ticks));
-  putU32(end, static_cast<std::uint32_t>(m_ticks >> 32));
+  putU64(end, m_ticks);
+  putU64(end, m_edits);
   write(end);
   if (std::fclose(m_file.release()) != 0)
     fail();

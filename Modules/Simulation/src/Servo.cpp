@@ -126,6 +126,7 @@ void Servo::reportContacts(const ProxyTick& tick) noexcept
   m_record.wrench = WrenchValues::of(tick.wrench);
   m_record.thrust = tick.thrust;
   m_record.penetration = tick.penetration;
+  m_record.maskState = tick.maskState;
   m_record.contacts = static_cast<std::uint16_t>(tick.contactCount);
   m_record.status = static_cast<std::uint8_t>(tick.status);
 }

@@ -5,8 +5,9 @@
 namespace petrous::volume
 {
 
-MaskState::MaskState(const CutMask& mask)
+MaskState::MaskState(const CutMask& mask, std::uint64_t number)
   : m_blocks((mask.brickCount() + kBlock - 1) / kBlock)
+  , m_number(number)
 {
   for (std::size_t b = 0; b < m_blocks.size(); ++b)
   {
@@ -43,11 +44,11 @@ MaskState::MaskState(const MaskState& previous, const CutMask& mask,
   }
 }
 
-PublishedMask::PublishedMask(const CutMask& mask)
+PublishedMask::PublishedMask(const CutMask& mask, std::uint64_t number)
   : m_geometry(mask.geometry())
   , m_brickDims(mask.brickDims())
 {
-  m_states.push_back(std::make_unique<const MaskState>(mask));
+  m_states.push_back(std::make_unique<const MaskState>(mask, number));
   m_present.store(m_states.back().get());
 }
 

@@ -6,6 +6,7 @@
 
 #include "petrous/Dissection/Dissection.h"
 #include "petrous/Simulation/Feed.h"
+#include "petrous/Simulation/MaskEdit.h"
 #include "petrous/Volume/PublishedMask.h"
 
 namespace petrous::simulation
@@ -24,7 +25,10 @@ public:
     std::function<dissection::StrokeInfo()> begin;      ///< what is known of a new stroke
     std::function<void(dissection::Dissection&)> close; ///< closes the open stroke; empty:
                                                         ///< Dissection::endStroke
+    std::function<bool(bool back)> turn; ///< one stroke back (true) or forth, false when there is
+                                         ///< none; empty: Dissection::undo, redo
     std::function<void(const std::vector<std::size_t>&)> changed; ///< bricks, once published
+    std::function<void(const MaskEdit&)> edited;                  ///< once done: for a recording
   };
 
   /// All must outlive this; `mask` must have been published from dissection.mask().
@@ -39,12 +43,22 @@ public:
   bool step(const TickRecord* records, std::size_t count);
   static constexpr double kTogether = 0.05; ///< mm
 
+  /// Instead of a step where force does not lead: with the drill on all that `burr` sweeps is
+  /// taken.
+  bool sweep(const TickRecord& record, const dissection::SweptSphere& burr);
+
   /// Closes the stroke that is open.
   void endStroke();
 
   /// One stroke back or forth, the open one closed first; false when there is none.
   bool undo();
   bool redo();
+
+  /// Does again what was recorded. False when it does not lead to the state that it led to then.
+  bool apply(const MaskEdit& edit);
+
+  /// Number of the mask's present state.
+  std::uint64_t state() const noexcept { return m_mask.number(); }
 
   /// Ticks up to this time (TickRecord::time) drill no more: in threads some that were made before
   /// an undo come after it, and would cut what has just come back.
@@ -57,7 +71,10 @@ private:
   double secondsOf(const TickRecord& record);
   bool follow(const TickRecord& record);
   bool cut(const dissection::SweptSphere& burr);
+  void open();
+  bool turn(bool back);
   void publish(bool raised);
+  void tell(MaskEdit edit) const;
 
   dissection::Dissection& m_dissection;
   volume::PublishedMask& m_mask;

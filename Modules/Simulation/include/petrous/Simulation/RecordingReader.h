@@ -20,10 +20,10 @@ public:
 
   const RecordingSetup& setup() const noexcept { return m_setup; }
 
-  /// The next ticks; false, and none, at the end. A file that ends too early ends after its last
-  /// whole block, and `complete` is false. Throws RecordingError (Corrupt) where bytes were
+  /// What comes next; false, and nothing, at the end. A file that ends too early ends after its
+  /// last whole block, and `complete` is false. Throws RecordingError (Corrupt) where bytes were
   /// changed.
-  bool next(std::vector<TickRecord>& ticks);
+  bool next(RecordingBlock& block);
 
   std::uint64_t ticks() const noexcept { return m_ticks; } ///< read so far
 
@@ -41,6 +41,7 @@ private:
   std::ifstream m_file;
   RecordingSetup m_setup;
   std::uint64_t m_ticks = 0;
+  std::uint64_t m_edits = 0;
   std::uint64_t m_blocks = 0;
   bool m_complete = false;
   bool m_ended = false;

@@ -18,7 +18,8 @@ namespace petrous::simulation
 class RecordingWriter
 {
 public:
-  static constexpr std::size_t kBlock = 1000; ///< ticks
+  static constexpr std::size_t kBlock = 1000;  ///< ticks
+  static constexpr std::size_t kEdits = 10000; ///< or edits, whichever is first
 
   /// Makes or replaces the file. Throws RecordingError, InvalidParameter.
   RecordingWriter(const std::filesystem::path& file, const RecordingSetup& setup);
@@ -30,6 +31,9 @@ public:
 
   /// Throws RecordingError (NotWritten); then nothing more is written.
   void add(const TickRecord& record);
+
+  /// What was done to the mask, before the first tick that felt it is added. Throws as above.
+  void add(const MaskEdit& edit);
 
   /// Writes what is left and says in the file that it is whole. Throws RecordingError.
   void close();
@@ -48,8 +52,9 @@ private:
 
   std::string m_name;
   std::unique_ptr<std::FILE, CloseFile> m_file; // null once closed
-  std::vector<TickRecord> m_block;
+  RecordingBlock m_block;
   std::uint64_t m_ticks = 0;
+  std::uint64_t m_edits = 0;
   std::uint64_t m_bytes = 0;
 };
 

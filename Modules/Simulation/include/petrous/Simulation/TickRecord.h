@@ -51,15 +51,16 @@ struct TickRecord
   WrenchValues output; ///< as sent to the device, frame D
   double thrust = 0.0; ///< N, sum over the burr's contacts
   double burrForce[3] = {0.0, 0.0, 0.0}; ///< N, of the burr's contacts on the tool, patient axes
-  double contactRadius = 0.0; ///< mm, of the burr's contacts from the spindle, thrust-weighted
-  double elevation = 0.0;     ///< rad, of the spindle above the contact's tangent plane
-  double penetration = 0.0;   ///< mm
-  double verdictValue = 0.0;  ///< haptics::DeviceGuard::Judgement::value where the device is bad
-  std::uint16_t contacts = 0; ///< that press
-  std::uint8_t status = 0;    ///< haptics::ProxyStatus
-  std::uint8_t fault = 0;     ///< ServoFault
-  std::uint8_t verdict = 0;   ///< haptics::DeviceVerdict
-  std::uint8_t drill = 0;     ///< 1: the burr turns and may cut
+  double contactRadius = 0.0;  ///< mm, of the burr's contacts from the spindle, thrust-weighted
+  double elevation = 0.0;      ///< rad, of the spindle above the contact's tangent plane
+  double penetration = 0.0;    ///< mm
+  double verdictValue = 0.0;   ///< haptics::DeviceGuard::Judgement::value where the device is bad
+  std::uint64_t maskState = 0; ///< number of the mask's state that was felt (volume::MaskState)
+  std::uint16_t contacts = 0;  ///< that press
+  std::uint8_t status = 0;     ///< haptics::ProxyStatus
+  std::uint8_t fault = 0;      ///< ServoFault
+  std::uint8_t verdict = 0;    ///< haptics::DeviceVerdict
+  std::uint8_t drill = 0;      ///< 1: the burr turns and may cut
   std::uint16_t spare = 0;
 
   double time() const noexcept { return input.now; }
@@ -67,7 +68,7 @@ struct TickRecord
 
 static_assert(std::is_trivially_copyable_v<TickRecord>);
 static_assert(sizeof(TickInput) == 8 + 8 + 56 + 8 + 8 + 104);
-static_assert(sizeof(TickRecord) == 8 + sizeof(TickInput) + 2 * 56 + 2 * 48 + 8 * 8 + 8);
+static_assert(sizeof(TickRecord) == 8 + sizeof(TickInput) + 2 * 56 + 2 * 48 + 8 * 8 + 8 + 8);
 
 /// One plain sentence on the tick's fault; empty when there is none. It allocates.
 std::string inWords(const TickRecord& record);

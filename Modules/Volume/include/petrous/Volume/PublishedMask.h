@@ -19,7 +19,7 @@ public:
   static constexpr std::size_t kBlock = 64; ///< bricks of a block
   using Block = std::array<CutMask::BrickVersion, kBlock>;
 
-  explicit MaskState(const CutMask& mask);
+  explicit MaskState(const CutMask& mask, std::uint64_t number = 0);
 
   /// `bricks` taken from `mask`, all others as in `previous`.
   MaskState(const MaskState& previous, const CutMask& mask, const std::vector<std::size_t>& bricks);
@@ -53,7 +53,8 @@ private:
 class PublishedMask
 {
 public:
-  explicit PublishedMask(const CutMask& mask);
+  /// `number` is that of the first state: a session that is played again counts as it did.
+  explicit PublishedMask(const CutMask& mask, std::uint64_t number = 0);
   PublishedMask(const PublishedMask&) = delete;
   PublishedMask& operator=(const PublishedMask&) = delete;
 
@@ -63,6 +64,9 @@ public:
   /// Writer: the given bricks of `mask`, which lies on the same grid, are new. `raised` when tissue
   /// may have come back.
   void publish(const CutMask& mask, const std::vector<std::size_t>& bricks, bool raised);
+
+  /// Writer: number of the present state.
+  std::uint64_t number() const noexcept { return m_states.back()->number(); }
 
   /// Writer: states that are kept for the reader's sake, the present one included.
   std::size_t statesHeld() const noexcept { return m_states.size(); }

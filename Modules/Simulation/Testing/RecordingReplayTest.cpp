@@ -1,0 +1,335 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "BoneBlock.h"
+#include "petrous/Haptics/CentreProxy.h"
+#include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/SimulatedDevice.h"
+#include "petrous/Simulation/DissectionThread.h"
+#include "petrous/Simulation/RecordingReplay.h"
+#include "petrous/Simulation/Replay.h"
+#include "petrous/Simulation/ServoThread.h"
+#include "petrous/Simulation/SessionRecorder.h"
+
+using namespace petrous;
+using namespace petrous::simulation;
+using namespace petrous::simulation::testing;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace
+{
+
+constexpr double kRadius = 2.0; // mm
+
+enum class Tool
+{
+  Burr,  // six degrees of freedom
+  Centre // three
+};
+
+// A block of bone that can be cut, and a tool in it, as they are before a session.
+struct Workplace
+{
+  Workplace(Tool tool, std::uint64_t firstState = 0)
+    : work(gridOfTheBlock())
+    , mask(std::make_shared<volume::PublishedMask>(work.mask(), firstState))
+  {
+    setup.servo = Session::plainSetup();
+    setup.servo.passivity.emplace();
+    if (tool == Tool::Burr)
+    {
+      const haptics::PointShell shell = haptics::makeBurrShell({}, 0.3, 400);
+      setup.servo.burrPoints = shell.burrCount;
+      proxy = std::make_unique<haptics::ConstrainedProxy>(boneOf(mask), shell);
+    }
+    else
+      proxy = std::make_unique<haptics::CentreProxy>(boneOf(mask), haptics::CentreBurr{kRadius});
+  }
+
+  DissectionLoop::Hooks hooks()
+  {
+    DissectionLoop::Hooks result;
+    result.edited = [this](const MaskEdit& edit)
+    {
+      edits.push_back(edit);
+      if (recorder)
+        recorder->add(edit);
+    };
+    return result;
+  }
+
+  // A stroke before any session.
+  void drillBefore(const Vector3d& at)
+  {
+    work.beginStroke({});
+    work.cut({at, at, 1.0});
+    work.endStroke();
+  }
+
+  std::vector<std::uint16_t> voxels() const
+  {
+    const auto dense = work.mask().dense();
+    return {dense.data(), dense.data() + dense.size()};
+  }
+
+  dissection::Dissection work;
+  std::shared_ptr<volume::PublishedMask> mask;
+  RecordingSetup setup;
+  std::unique_ptr<haptics::Proxy> proxy;
+  SimpleFeed feed{kRadius};
+  SessionRecorder* recorder = nullptr;
+  std::vector<MaskEdit> edits;
+};
+
+// Comes down on the block, presses 1 mm into it and slides, so that drilling sinks in and what
+// comes back meets it.
+class DraggingHand
+{
+public:
+  haptics::Pose operator()(double now)
+  {
+    if (!m_start)
+      m_start = now;
+    const double t = now - *m_start;
+    const double height = 1.0 + 0.6 * std::sin(5.0 * t) + std::max(0.0, 4.0 - 20.0 * t);
+    return {{3.0 * std::sin(2.0 * t), 3.0 * std::cos(1.7 * t), height},
+            Quaterniond(Eigen::AngleAxisd(0.2 * std::sin(t), Vector3d(0.6, 0.0, 0.8)))};
+  }
+
+private:
+  std::optional<double> m_start; // s
+};
+
+class RecordingReplayTest : public ::testing::TestWithParam<Tool>
+{
+protected:
+  void TearDown() override { std::filesystem::remove(file); }
+
+  // Nothing else may be said of the time that a test takes: it waits for ticks.
+  static void wait(const ServoThread& servo, std::uint64_t ticks)
+  {
+    const std::uint64_t until = servo.state().ticks + ticks;
+    for (int n = 0; servo.state().ticks < until && n < 60000; ++n)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_GE(servo.state().ticks, until);
+  }
+
+  // The servo in one thread, cutting, undo and redo in another.
+  void liveSession(Workplace& place, int rounds)
+  {
+    Servo servo(*place.proxy, place.setup.servo);
+    SessionRecorder recorder(file, place.setup);
+    place.recorder = &recorder;
+    DissectionLoop loop(place.work, *place.mask, place.feed, {}, place.hooks());
+    haptics::SimulatedDevice device{DraggingHand()};
+    SpscRing<TickRecord> ring(1 << 15);
+    ServoParameters parameters;
+    ServoThread thread(servo, device, ring, parameters);
+    DissectionThread dissection(ring, loop,
+                                [&](const TickRecord& record)
+                                {
+                                  recorder.add(&record, 1);
+                                  live.push_back(record);
+                                });
+    for (int n = 0; n < rounds; ++n)
+    {
+      parameters.drill = 1;
+      thread.setParameters(parameters);
+      wait(thread, 150);
+      parameters.drill = n % 2 ? 1 : 0; // also undone while it still drills
+      thread.setParameters(parameters);
+      wait(thread, 20);
+      n % 4 == 3 ? dissection.redo() : dissection.undo();
+      wait(thread, 80);
+    }
+    thread.stop();
+    dissection.stop();
+    recorder.close();
+    ASSERT_EQ(thread.state().dropped, 0u);
+    ASSERT_EQ(dissection.takeFailure(), "");
+    ASSERT_EQ(recorder.takeFailure(), "");
+    place.recorder = nullptr;
+  }
+
+  RecordingReplay::Outcome replayed(Workplace& place)
+  {
+    RecordingReader reader(file);
+    Servo servo(*place.proxy, reader.setup().servo);
+    DissectionLoop loop(place.work, *place.mask, place.feed, {}, place.hooks());
+    RecordingReplay replay(reader, servo, loop);
+    while (replay.next())
+      again.push_back(replay.feel());
+    return replay.outcome();
+  }
+
+  static std::size_t count(const Workplace& place, MaskEdit::Kind kind)
+  {
+    return static_cast<std::size_t>(std::count_if(place.edits.begin(), place.edits.end(),
+                                                  [kind](const MaskEdit& edit)
+                                                  { return edit.kind == kind; }));
+  }
+
+  std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("petrous-live-" + std::to_string(::getpid()));
+  std::vector<TickRecord> live, again;
+};
+
+} // namespace
+
+TEST_P(RecordingReplayTest, OfASessionThatAnotherThreadCutIsTheSessionToTheLastBit)
+{
+  Workplace first(GetParam());
+  liveSession(first, 8);
+  // A session worth the name: several states felt in contact, tissue that came back round the tool.
+  EXPECT_GT(count(first, MaskEdit::Kind::Cut), 50u);
+  EXPECT_GT(count(first, MaskEdit::Kind::Undo), 3u);
+  std::size_t states = 0, pressed = 0, retreats = 0;
+  for (std::size_t n = 1; n < live.size(); ++n)
+  {
+    states += live[n].maskState != live[n - 1].maskState;
+    pressed += live[n].thrust > 0.0;
+    retreats += live[n].status == static_cast<std::uint8_t>(haptics::ProxyStatus::Retreated);
+  }
+  EXPECT_GT(states, 50u);
+  EXPECT_GT(pressed, live.size() / 2);
+  EXPECT_GT(retreats, 0u);
+
+  Workplace second(GetParam());
+  const auto outcome = replayed(second);
+  EXPECT_TRUE(outcome.equal()) << outcome.difference << " at "
+                               << outcome.firstDifferent.value_or(0);
+  EXPECT_EQ(outcome.warning, "");
+  EXPECT_EQ(outcome.ticks, live.size());
+  ASSERT_EQ(again.size(), live.size());
+  for (std::size_t n = 0; n < live.size(); ++n)
+    ASSERT_EQ(std::memcmp(&again[n], &live[n], sizeof(TickRecord)), 0) << n;
+  EXPECT_EQ(second.voxels(), first.voxels());
+  ASSERT_EQ(second.work.strokes().size(), first.work.strokes().size());
+  EXPECT_EQ(second.work.applied(), first.work.applied());
+  for (std::size_t n = 0; n < first.work.strokes().size(); ++n)
+    EXPECT_EQ(second.work.strokes()[n]->info.duration, first.work.strokes()[n]->info.duration);
+  ASSERT_EQ(second.edits.size(), first.edits.size());
+  for (std::size_t n = 0; n < first.edits.size(); ++n)
+    ASSERT_EQ(std::memcmp(&second.edits[n], &first.edits[n], sizeof(MaskEdit)), 0) << n;
+}
+
+TEST_P(RecordingReplayTest, TakesBackStrokesThatWereThereBeforeTheRecording)
+{
+  const auto before = [](Workplace& place)
+  {
+    place.drillBefore({0.0, 3.0, 0.0});
+    place.drillBefore({1.0, 3.0, 0.0});
+    place.mask->publish(place.work.mask(), place.work.mask().takeDirty(), false);
+  };
+  Workplace first(GetParam());
+  before(first);
+  ASSERT_EQ(first.mask->number(), 1u);
+  first.setup.scene.firstState = first.mask->number();
+  liveSession(first, 5);
+  EXPECT_EQ(live.back().maskState, first.mask->number());
+
+  Workplace second(GetParam());
+  before(second);
+  const auto outcome = replayed(second);
+  EXPECT_TRUE(outcome.equal()) << outcome.difference;
+  EXPECT_EQ(second.voxels(), first.voxels());
+}
+
+TEST_P(RecordingReplayTest, SaysWhereItDiffersWithAnotherDissection)
+{
+  Workplace first(GetParam());
+  liveSession(first, 3);
+  Workplace other(GetParam());
+  // Another tissue under the hand: what is at fault is said, and where it begins.
+  other.drillBefore({live[100].proxy.position[0], live[100].proxy.position[1], 0.0});
+  other.mask->publish(other.work.mask(), other.work.mask().takeDirty(), false);
+  const auto outcome = replayed(other);
+  EXPECT_FALSE(outcome.equal());
+  ASSERT_TRUE(outcome.firstDifferent);
+  EXPECT_FALSE(outcome.difference.empty());
+  EXPECT_EQ(outcome.ticks, live.size());
+  std::uint64_t firstDifferent = 0;
+  while (identical(live[firstDifferent], again[firstDifferent]))
+    ++firstDifferent;
+  EXPECT_EQ(*outcome.firstDifferent, firstDifferent);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tools, RecordingReplayTest, ::testing::Values(Tool::Burr, Tool::Centre),
+                         [](const auto& tool)
+                         { return tool.param == Tool::Burr ? "Burr" : "Centre"; });
+
+TEST(SessionRecorder, EndsWhereTicksWereLostAndHoldsTheSessionUpToThere)
+{
+  const auto file =
+      std::filesystem::temp_directory_path() / ("petrous-gap-" + std::to_string(::getpid()));
+  std::vector<TickRecord> ticks(100);
+  for (std::size_t n = 0; n < ticks.size(); ++n)
+    ticks[n].number = n < 60 ? n : n + 7;
+  SessionRecorder recorder(file, {});
+  recorder.add(ticks.data(), 50);
+  EXPECT_TRUE(recorder.recording());
+  recorder.add(ticks.data() + 50, 50);
+  EXPECT_FALSE(recorder.recording());
+  EXPECT_NE(recorder.takeFailure(), "");
+  EXPECT_EQ(recorder.takeFailure(), "");
+  recorder.add(ticks.data(), 1);
+  recorder.close();
+  RecordingReader reader(file);
+  RecordingBlock block;
+  ASSERT_TRUE(reader.next(block));
+  EXPECT_EQ(block.ticks.size(), 60u);
+  EXPECT_FALSE(reader.next(block));
+  EXPECT_TRUE(reader.complete());
+  std::filesystem::remove(file);
+}
+
+TEST(SessionRecorder, GivesUpAloneWhenTheDiskIsFull)
+{
+  const auto file =
+      std::filesystem::temp_directory_path() / ("petrous-full-" + std::to_string(::getpid()));
+  SessionRecorder recorder(file, {});
+  std::vector<TickRecord> ticks(5000);
+  for (std::size_t n = 0; n < ticks.size(); ++n)
+    ticks[n].number = n;
+  // As a full disk: no file may grow beyond what it has, and a little.
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = recorder.bytes() + 20;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  recorder.add(ticks.data(), ticks.size());
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, old);
+  EXPECT_FALSE(recorder.recording());
+  EXPECT_NE(recorder.takeFailure().find("could not be written"), std::string::npos);
+  recorder.add(MaskEdit{});
+  recorder.close();
+  EXPECT_EQ(recorder.takeFailure(), "");
+  std::filesystem::remove(file);
+}
+
+TEST(Replay, NamesWhatDiffers)
+{
+  TickRecord a, b;
+  EXPECT_EQ(differenceOf(a, b), "");
+  b.contacts = 3;
+  EXPECT_EQ(differenceOf(a, b), "contacts, faults or drill");
+  b.maskState = 1;
+  EXPECT_EQ(differenceOf(a, b), "the state of the mask");
+  b.wrench.torque[2] = -0.0;
+  EXPECT_EQ(differenceOf(a, b), "the force");
+  b.input.pedal = 1.0;
+  EXPECT_EQ(differenceOf(a, b), "what the hand gave");
+}

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "petrous/Dissection/SweptSphereCut.h"
+
+namespace petrous::simulation
+{
+
+/// One thing that was done to the mask or its history, so that it can be done again. Fixed layout
+/// without gaps.
+struct MaskEdit
+{
+  enum class Kind : std::uint64_t
+  {
+    Begin, ///< a stroke is opened
+    Cut,
+    End, ///< the stroke is closed
+    Undo,
+    Redo
+  };
+
+  Kind kind = Kind::Begin;
+  std::uint64_t state = 0;          ///< number of the mask's published state once it is done
+  double from[3] = {0.0, 0.0, 0.0}; ///< of a cut: dissection::SweptSphere, patient mm
+  double to[3] = {0.0, 0.0, 0.0};
+  double radius = 0.0;   ///< mm
+  double duration = 0.0; ///< of an end: s that the stroke took
+
+  dissection::SweptSphere burr() const noexcept
+  {
+    return {{from[0], from[1], from[2]}, {to[0], to[1], to[2]}, radius};
+  }
+};
+
+static_assert(std::is_trivially_copyable_v<MaskEdit> && sizeof(MaskEdit) == 80);
+
+} // namespace petrous::simulation

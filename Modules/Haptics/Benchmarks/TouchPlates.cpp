@@ -7,7 +7,7 @@
 
 #include "../Testing/ProxyChecks.h"
 #include "SteppedSphere.h"
-#include "TickTimes.h"
+#include "petrous/Core/TickTimes.h"
 
 namespace petrous::haptics
 {
@@ -30,7 +30,7 @@ struct Walk
   long crossed = 0;   ///< ticks spent beyond it
   long touched = 0;
   double deepest = -1.0; ///< mm
-  TickTimes times;
+  core::TickTimes times;
 
   void add(const Walk& other)
   {

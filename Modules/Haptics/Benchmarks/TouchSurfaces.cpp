@@ -7,7 +7,7 @@
 
 #include "../Testing/SurfaceErrors.h"
 #include "SteppedSphere.h"
-#include "TickTimes.h"
+#include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
 namespace petrous::haptics
@@ -39,7 +39,7 @@ Scene sceneOf(const AnalyticSurface& surface, double h)
 core::BenchmarkPoint measure(const AnalyticSurface& surface, double h, Proxy& proxy, int ticks,
                              double pace)
 {
-  TickTimes times;
+  core::TickTimes times;
   bool placed = false;
   const SurfaceErrors errors = testing::followSurface(
       surface, kRadius, ticks, pace,

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "../Testing/CutBall.h"
-#include "TickTimes.h"
+#include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
 namespace petrous::haptics
@@ -58,7 +58,7 @@ double descend(ConstrainedProxy& proxy, const Pose& from, const Vector3d& toward
 
 struct Slide
 {
-  TickTimes times;
+  core::TickTimes times;
   double deepest = -1.0;
   long touched = 0;
   long rounds = 0;

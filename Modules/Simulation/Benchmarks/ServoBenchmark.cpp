@@ -1,35 +1,20 @@
 #include "ServoBenchmark.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Simulation/DissectionLoop.h"
-#include "petrous/Simulation/RecordingReader.h"
+#include "petrous/Simulation/RecordingReplay.h"
 #include "petrous/Simulation/RecordingWriter.h"
-#include "petrous/Simulation/Replay.h"
 
 namespace petrous::simulation
 {
 
 namespace
 {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double percentile(std::vector<double> values, double share)
-{
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 core::GridGeometry gridOf(double h)
 {
@@ -76,6 +61,15 @@ haptics::Pose handAt(double t)
           Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::sin(t), Eigen::Vector3d(0.6, 0.8, 0.0)))};
 }
 
+// In step: each cut is made, and written, before the next tick.
+DissectionLoop::Hooks to(RecordingWriter& writer, core::TickTimes& writing)
+{
+  DissectionLoop::Hooks hooks;
+  hooks.edited = [&writer, &writing](const MaskEdit& edit)
+  { writing.take([&] { writer.add(edit); }); };
+  return hooks;
+}
+
 core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ticks)
 {
   Block block(h);
@@ -84,28 +78,26 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
   setup.servo.passivity.emplace();
   setup.servo.limits.maxForce = 10.0;
   Servo servo(*block.tool, setup.servo);
-  DissectionLoop loop(block.work, *block.mask, block.feed);
+  RecordingWriter writer(file, setup);
+  core::TickTimes tick, writing;
+  DissectionLoop loop(block.work, *block.mask, block.feed, {}, to(writer, writing));
   haptics::SimulatedDevice::Hand hand;
   hand.tremor = 0.05;
   haptics::SimulatedDevice device(handAt, hand, {});
   ServoParameters parameters;
-  RecordingWriter writer(file, setup);
-  std::vector<double> tick, cut;
-  double writing = 0.0;
   for (int n = 0; n < ticks; ++n)
   {
     const double now = 0.001 * n;
     parameters.drill = n % 1000 > 500 ? 1 : 0;
-    auto start = Clock::now();
-    const TickRecord& record = servo.tick(TickInput::of(now, device.read(now), parameters));
-    device.send(record.output.wrench());
-    tick.push_back(since(start));
-    start = Clock::now();
-    writer.add(record);
-    writing += since(start);
-    start = Clock::now();
-    if (loop.step(record))
-      cut.push_back(since(start));
+    const TickRecord& record = tick.take(
+        [&]() -> const TickRecord&
+        {
+          const TickRecord& made = servo.tick(TickInput::of(now, device.read(now), parameters));
+          device.send(made.output.wrench());
+          return made;
+        });
+    writing.take([&] { writer.add(record); });
+    loop.step(record);
   }
   writer.close();
 
@@ -113,15 +105,9 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
   Servo other(*again.tool, setup.servo);
   DissectionLoop otherLoop(again.work, *again.mask, again.feed);
   RecordingReader reader(file);
-  RecordingBlock part;
-  std::size_t different = 0;
-  while (reader.next(part))
-  {
-    const auto replayed =
-        replay(part.ticks, other, [&](const TickRecord& record) { otherLoop.step(record); });
-    for (std::size_t n = 0; n < part.ticks.size(); ++n)
-      different += !identical(part.ticks[n], replayed[n]);
-  }
+  RecordingReplay replay(reader, other, otherLoop);
+  while (replay.next())
+    replay.feel();
 
   char spacing[16];
   std::snprintf(spacing, sizeof spacing, "%.2f", h);
@@ -129,15 +115,15 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
   point.setting["voxel_mm"] = spacing;
   point.scene = "4 mm burr drilling a block, hand with tremor";
   point.isDefault = h == 0.3;
-  point.seconds = percentile(tick, 0.5);
-  point.error = 100.0 * static_cast<double>(different) / ticks;
+  point.seconds = tick.wall(0.5);
+  point.error = 100.0 * static_cast<double>(replay.outcome().different) / ticks;
   point.errorUnit = "% of the ticks that a replay gives otherwise";
-  point.extra["tick_p99_us"] = 1e6 * percentile(tick, 0.99);
-  point.extra["tick_max_us"] = 1e6 * percentile(tick, 1.0);
+  point.extra["tick_p99_us"] = 1e6 * tick.wall(0.99);
+  point.extra["tick_max_us"] = 1e6 * tick.wall(1.0);
+  point.extra["cuts"] = static_cast<double>(loop.cuts());
   point.extra["recorded_bytes_per_tick"] = static_cast<double>(writer.bytes()) / ticks;
-  point.extra["recording_us_per_tick"] = 1e6 * writing / ticks;
-  if (!cut.empty())
-    point.extra["cut_p50_us"] = 1e6 * percentile(cut, 0.5);
+  point.extra["recording_us_per_tick"] = 1e6 * writing.wallSum() / ticks;
+  point.extra["recording_us_max"] = 1e6 * writing.wall(1.0);
   return point;
 }
 

@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "CommandRunner.h"
+#include "petrous/Simulation/RecordingReader.h"
+#include "petrous/Simulation/RecordingWriter.h"
 
 using namespace petrous::testing;
 
@@ -20,22 +22,32 @@ protected:
   void SetUp() override
   {
     CommandLine::SetUp();
+    writePlane("plane.nrrd", kTop);
+    json("new plane --ct " + quoted(m_folder / "plane.nrrd"));
+    json("appearance plane --iso 300");
+  }
+
+  void writePlane(const std::string& name, double top) const
+  {
     constexpr int edge = 48;
     constexpr double h = 0.4;
-    std::ofstream file(m_folder / "plane.nrrd", std::ios::binary);
+    std::ofstream file(m_folder / name, std::ios::binary);
     file << "NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\n"
          << "sizes: 48 48 48\nspace directions: (0.4,0,0) (0,0.4,0) (0,0,0.4)\n"
          << "space origin: (-9.4,-9.4,-9.4)\nencoding: raw\nendian: little\n\n";
     for (int k = 0; k < edge; ++k)
     {
       const std::vector<float> slice(edge * edge,
-                                     static_cast<float>(300.0 + 400.0 * (kTop - (h * k - 9.4))));
+                                     static_cast<float>(300.0 + 400.0 * (top - (h * k - 9.4))));
       file.write(reinterpret_cast<const char*>(slice.data()),
                  static_cast<std::streamsize>(slice.size() * sizeof(float)));
     }
-    file.close();
-    json("new plane --ct " + quoted(m_folder / "plane.nrrd"));
-    json("appearance plane --iso 300");
+  }
+
+  std::filesystem::path otherPlane() const
+  {
+    writePlane("other.nrrd", kTop + 0.01);
+    return m_folder / "other.nrrd";
   }
 
   // Down from 5 mm above the surface to a device height, in 0.5 s, and 0.5 s there.
@@ -144,6 +156,121 @@ TEST_F(TouchCommand, RemovesNothingThatItDoesNotTouch)
   EXPECT_EQ(answer["max_force_n"], 0.0);
 }
 
+TEST_F(TouchCommand, PlaysARecordingAgainToTheLastBit)
+{
+  for (const std::string mode : {"6dof", "3dof"})
+  {
+    const auto file = m_folder / (mode + ".ticks");
+    const bool logged = mode == "6dof"; // it takes its time
+    const auto log = [&](const char* name)
+    { return logged ? " --log " + quoted(m_folder / name) : std::string(); };
+    const auto first = json("drill plane --path " + quoted(press(1.13, true)) + " --mode " + mode +
+                            " --record " + quoted(file) + log("log.csv"));
+    EXPECT_EQ(first["recording"]["ticks"], first["ticks"]);
+    EXPECT_EQ(first["recording"]["bytes"], std::filesystem::file_size(file));
+    EXPECT_GT(first["removed_mm3"], 1.0);
+    json("undo plane");
+    const auto again =
+        json("drill plane --replay " + quoted(file) + " --mode " + mode + log("again.csv"));
+    EXPECT_EQ(again["replay"]["equal"], true);
+    EXPECT_EQ(again["replay"]["complete"], true);
+    EXPECT_EQ(again["replay"]["different_ticks"], 0);
+    for (const char* key : {"ticks", "strokes", "removed_mm3", "max_force_n", "max_torque_nmm",
+                            "max_penetration_mm", "ticks_inside", "structures_touched"})
+      EXPECT_EQ(again[key], first[key]) << key;
+    if (logged)
+    {
+      EXPECT_TRUE(textOf(m_folder / "again.csv") == textOf(m_folder / "log.csv"));
+    }
+    EXPECT_EQ(json("info plane")["dissection"]["undo"], 1) << "the stroke is in the case again";
+    json("undo plane");
+  }
+}
+
+TEST_F(TouchCommand, SaysWhereAReplayDiffersAndLeavesTheCase)
+{
+  const auto file = m_folder / "hand.ticks";
+  json("drill plane --path " + quoted(press(1.13, true)) + " --record " + quoted(file));
+  json("undo plane");
+  // As another program might have felt it: one bit of the force of one tick.
+  {
+    petrous::simulation::RecordingReader reader(file);
+    petrous::simulation::RecordingWriter writer(m_folder / "other.ticks", reader.setup());
+    petrous::simulation::RecordingBlock block;
+    while (reader.next(block))
+    {
+      for (const auto& edit : block.edits)
+        writer.add(edit);
+      for (auto& tick : block.ticks)
+      {
+        if (tick.number == 700)
+          tick.wrench.force[2] = std::nextafter(tick.wrench.force[2], 1e9);
+        writer.add(tick);
+      }
+    }
+  }
+  const auto before = libraryContent();
+  const auto outcome = run("drill plane --json --replay " + quoted(m_folder / "other.ticks"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("1 of 1001 ticks differ, first tick 700): the force"),
+            std::string::npos)
+      << outcome.err;
+  const auto answer = nlohmann::json::parse(outcome.out)["replay"];
+  EXPECT_EQ(answer["equal"], false);
+  EXPECT_EQ(answer["first_different_tick"], 700);
+  EXPECT_EQ(answer["different_ticks"], 1);
+  EXPECT_EQ(libraryContent(), before);
+}
+
+TEST_F(TouchCommand, SaysWhatDoesNotFitARecordingAndLeavesTheCase)
+{
+  const auto file = m_folder / "hand.ticks";
+  json(drill(press(1.13, true), " --record " + quoted(file)));
+  const std::string again = "drill plane --replay " + quoted(file);
+  const auto before = libraryContent();
+  expectRefused(again, 3, "petrous undo 'plane' 1");
+  EXPECT_EQ(libraryContent(), before);
+  json("undo plane");
+  expectRefused(again + " --diameter 3", 3, "cutting burr 4 mm");
+  expectRefused(again + " --burr diamond", 3, "cutting burr 4 mm");
+  expectRefused(again + " --mode 3dof", 3, "6 degrees of freedom");
+  expectRefused(again + " --thrust 1", 2, "--replay");
+  expectRefused(again + " --record " + quoted(m_folder / "other.ticks"), 2, "--replay");
+  expectRefused(again + " --path " + quoted(m_folder / "press.csv"), 2, "either");
+  expectRefused("drill plane", 2, "either");
+  json("appearance plane --iso 320");
+  expectRefused(again, 3, "--iso 300");
+  json("appearance plane --iso 300");
+  json("new other --ct " + quoted(otherPlane()));
+  json("appearance other --iso 300");
+  expectRefused("drill other --replay " + quoted(file), 3, "another CT");
+  expectRefused("drill plane --replay " + quoted(m_folder / "press.csv"), 3, "not a recording");
+  expectRefused("drill plane --replay " + quoted(m_folder / "missing.ticks"), 3, "missing.ticks");
+  EXPECT_EQ(json(again)["replay"]["equal"], true);
+}
+
+TEST_F(TouchCommand, PlaysARecordingThatWasCutShortUpToThere)
+{
+  const auto file = m_folder / "hand.ticks";
+  auto path = press(1.13, false);
+  std::ofstream(path, std::ios::app) << "2.5,0.3,0.2,1.13,1,0,0,0,0\n";
+  json(drill(path, " --record " + quoted(file)));
+  const std::string whole = textOf(file);
+  std::ofstream(file, std::ios::binary) << whole.substr(0, whole.size() - 100);
+  const auto outcome = run("drill plane --json --replay " + quoted(file));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("was not closed"), std::string::npos) << outcome.err;
+  const auto answer = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(answer["ticks"], 2000);
+  EXPECT_EQ(answer["replay"]["complete"], false);
+  EXPECT_EQ(answer["replay"]["equal"], true);
+  // A byte that was changed is no shorter file.
+  std::string bad = whole;
+  bad[bad.size() / 2] = static_cast<char>(bad[bad.size() / 2] ^ 1);
+  std::ofstream(file, std::ios::binary) << bad;
+  expectRefused("drill plane --replay " + quoted(file), 3, "damaged");
+}
+
 TEST_F(TouchCommand, RefusesWhatItCannotDo)
 {
   const auto refused = [this](const std::string& more, int code, const std::string& word)
@@ -153,6 +280,7 @@ TEST_F(TouchCommand, RefusesWhatItCannotDo)
     EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
   };
   refused(" --mode 5dof", 2, "6dof");
+  refused(" --record " + quoted(m_folder / "missing" / "hand.ticks"), 3, "hand.ticks");
   refused(" --thrust -1", 2, "--thrust");
   refused(" --diameter 30", 2, "--diameter");
   const auto outcome = run("drill plane --path " + quoted(press(1.0, true)) + " --log " +

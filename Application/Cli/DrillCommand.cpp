@@ -1,15 +1,14 @@
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <optional>
 
-#include "CaseJson.h"
 #include "Commands.h"
-#include "DrillLog.h"
+#include "DrillReport.h"
 #include "Numbers.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/HandReplay.h"
 #include "petrous/Presenters/PathDrill.h"
 
 namespace petrous::cli
@@ -24,42 +23,11 @@ struct Options
   double diameter = 4.0;
   double rpm = 60000.0;
   double rate = 1000.0;
-  std::string mode = "6dof", log;
+  std::string mode = "6dof", log, record, replay;
   std::optional<double> thrust;
-};
+  const CLI::App* command = nullptr;
 
-double threadSeconds()
-{
-  std::timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-double wallSeconds()
-{
-  std::timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// Durations of single ticks, in microseconds.
-class TickTimes
-{
-public:
-  void add(double seconds) { m_micros.push_back(static_cast<float>(1e6 * seconds)); }
-  nlohmann::json json()
-  {
-    std::sort(m_micros.begin(), m_micros.end());
-    const auto at = [this](double share)
-    {
-      const auto n = static_cast<std::size_t>(share * static_cast<double>(m_micros.size() - 1));
-      return m_micros.empty() ? 0.0 : double{m_micros[n]};
-    };
-    return {{"p50", at(0.5)}, {"p99", at(0.99)}, {"p999", at(0.999)}, {"max", at(1.0)}};
-  }
-
-private:
-  std::vector<float> m_micros;
+  bool given(const char* name) const { return command->count(name) > 0; }
 };
 
 dissection::Burr burrFrom(const Options& options)
@@ -94,42 +62,58 @@ presenters::PathDrill::Options toolFrom(const Options& options)
   return result;
 }
 
-// The hardest that any tick was.
-struct Peaks
+void checkTool(const Options& options, const simulation::RecordingSetup& recorded)
 {
-  double force = 0.0;       // N
-  double torque = 0.0;      // N mm
-  double penetration = 0.0; // mm
-
-  void add(const simulation::TickRecord& record)
+  // Only what was asked for by name.
+  const auto refuse = [&](const std::string& asked)
   {
-    const haptics::Wrench wrench = record.wrench.wrench();
-    force = std::max(force, wrench.linear.norm());
-    torque = std::max(torque, wrench.angular.norm());
-    penetration = std::max(penetration, record.penetration);
-  }
-};
+    throw core::InvalidParameter(options.replay + ": was recorded with a " + inWords(recorded) +
+                                 ", not with " + asked);
+  };
+  const presenters::PathDrill::Options tool = toolFrom(options);
+  const bool three = tool.tool.mode == presenters::TouchTool::Mode::ThreeDof;
+  if (options.given("--burr") && tool.tool.burr.kind != recorded.burr.kind)
+    refuse("--burr " + options.kind);
+  if (options.given("--diameter") && tool.tool.burr.diameter != recorded.burr.diameter)
+    refuse("--diameter " + fixed(options.diameter, 2));
+  if (options.given("--rpm") && tool.tool.burr.rpm != recorded.burr.rpm)
+    refuse("--rpm " + fixed(options.rpm, 0) + " (it turned at " + fixed(recorded.burr.rpm, 0) +
+           ")");
+  if (options.given("--mode") && three != (recorded.degrees == 3))
+    refuse("--mode " + options.mode);
+}
 
-void drill(const Context& context, const Options& options)
+void openCase(library::Library& library, const std::string& name, scene::Case& value)
+{
+  value = library.open(name);
+  library.loadDissection(value);
+}
+
+void save(const Context& context, library::Library& library, scene::Case& value,
+          const DrillReport& report, const core::Progress& progress)
+{
+  if (report.changed())
+    library.save(value, progress.part(0.9, 1.0));
+  else
+    context.remark("nothing was cut; the case is as it was");
+}
+
+void play(const Context& context, const Options& options)
 {
   presenters::PathDrill::Options tool = toolFrom(options);
   std::ifstream file = openForReading(options.path);
   const auto path = dissection::ToolPath::read(file, options.path);
 
   library::Library library = context.openLibrary();
-  scene::Case value = library.open(options.caseName);
-  library.loadDissection(value);
+  scene::Case value;
+  openCase(library, options.caseName, value);
   tool.camera = presenters::currentCamera(value);
+  tool.recording = options.record;
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress);
   presenters::PathDrill session(value, touch, tool);
-  std::optional<DrillLog> log;
-  if (!options.log.empty())
-    log.emplace(options.log, value, touch);
+  DrillReport report(value, touch, options.log);
 
-  const std::size_t before = value.applied;
-  TickTimes cpu, wall;
-  Peaks peaks;
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
   const double length = std::max(path.samples().back().time - start, 1e-9);
@@ -138,58 +122,78 @@ void drill(const Context& context, const Options& options)
             {
               if (ticks++ % 256 == 0)
                 progress.report(0.9 * (tick.time - start) / length, "drilling");
-              const double cpuStart = threadSeconds();
-              const double wallStart = wallSeconds();
-              const simulation::TickRecord& record = session.feel(tick);
-              cpu.add(threadSeconds() - cpuStart);
-              wall.add(wallSeconds() - wallStart);
+              const simulation::TickRecord& record = report.feel(
+                  [&]() -> const simulation::TickRecord& { return session.feel(tick); });
               session.cut(tick);
-              peaks.add(record);
-              if (log)
-                log->add(record);
+              report.add(record);
             });
   session.end();
-  if (log)
-    log->close();
-  const std::size_t strokes = value.applied - before;
-  if (strokes > 0)
-    library.save(value, progress.part(0.9, 1.0));
-  else
-    context.remark("the path cut nothing; the case is as it was");
-  if (session.ticksInside() > 0)
-    context.remark("the tool stood in tissue for " + std::to_string(session.ticksInside()) +
-                   " ticks: there nothing is felt, and the drill takes what the burr sweeps");
+  report.close();
+  save(context, library, value, report, progress);
 
-  double removed = 0.0;
-  std::size_t undoBytes = 0;
-  std::map<std::string, double> touched;
-  for (std::size_t n = value.applied - strokes; n < value.applied; ++n)
+  report.say(context);
+  nlohmann::json answer = report.json();
+  if (const simulation::RecordingWriter* recording = session.recording())
   {
-    removed += value.strokes[n].info.removed;
-    undoBytes += value.strokes[n].bytes;
-    for (const auto& structure : value.strokes[n].info.structures)
-      touched[structure.name] += structure.volume;
+    context.say("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
+                " bytes");
+    answer["recording"] = {
+        {"file", options.record}, {"ticks", recording->ticks()}, {"bytes", recording->bytes()}};
   }
-  nlohmann::json structures = nlohmann::json::array();
-  for (const auto& [name, volume] : touched)
-    structures.push_back({{"label", name}, {"volume_mm3", volume}});
-  context.say(std::to_string(strokes) + (strokes == 1 ? " stroke, " : " strokes, ") +
-              fixed(removed, 2) + " mm3 removed in " + std::to_string(ticks) + " ticks");
-  for (const auto& [name, volume] : touched)
-    context.say("  of '" + name + "': " + fixed(volume, 2) + " mm3");
-  context.give({{"case", value.name},
-                {"ticks", ticks},
-                {"strokes", strokes},
-                {"removed_mm3", removed},
-                {"max_penetration_mm", peaks.penetration},
-                {"max_force_n", peaks.force},
-                {"max_torque_nmm", peaks.torque},
-                {"ticks_inside", session.ticksInside()},
-                {"structures_touched", std::move(structures)},
-                {"undo_bytes", undoBytes},
-                {"tick_us", cpu.json()},
-                {"tick_wall_us", wall.json()},
-                {"resources", residentResources(value)}});
+  context.give(answer);
+}
+
+void replay(const Context& context, const Options& options)
+{
+  openForReading(options.replay); // says which file is not there
+  simulation::RecordingReader reader(options.replay);
+  checkTool(options, reader.setup());
+
+  library::Library library = context.openLibrary();
+  scene::Case value;
+  openCase(library, options.caseName, value);
+  const auto camera = presenters::currentCamera(value);
+  const core::Progress progress = context.progress();
+  presenters::TouchScene touch(value, progress, reader.setup().scene.firstState);
+  presenters::HandReplay session(value, touch, reader, options.replay, camera);
+  DrillReport report(value, touch, options.log);
+
+  std::size_t ticks = 0;
+  while (session.next())
+  {
+    if (ticks++ % 256 == 0)
+      progress.report(0.5, "playing the recording");
+    const simulation::TickRecord& record =
+        report.feel([&]() -> const simulation::TickRecord& { return session.feel(); });
+    session.follow();
+    report.add(record);
+  }
+  report.close();
+  const simulation::RecordingReplay::Outcome& outcome = session.outcome();
+  if (!outcome.warning.empty())
+    context.remark(outcome.warning);
+  if (outcome.equal())
+    save(context, library, value, report, progress);
+
+  report.say(context);
+  nlohmann::json answer = report.json();
+  nlohmann::json first = nullptr;
+  if (outcome.firstDifferent)
+    first = *outcome.firstDifferent;
+  answer["replay"] = {{"file", options.replay},         {"tool", inWords(reader.setup())},
+                      {"session", reader.setup().note}, {"equal", outcome.equal()},
+                      {"complete", reader.complete()},  {"different_ticks", outcome.different},
+                      {"first_different_tick", first},  {"difference", outcome.difference}};
+  context.give(answer);
+  if (!outcome.equal())
+    throw core::Error(
+        core::Fault::Internal,
+        options.replay + ": the replay is not the recording (" + std::to_string(outcome.different) +
+            " of " + std::to_string(outcome.ticks) + " ticks differ" +
+            (outcome.firstDifferent ? ", first tick " + std::to_string(*outcome.firstDifferent)
+                                    : std::string()) +
+            "): " + outcome.difference + "; the case is as it was");
+  context.say("the replay is the recording, bit for bit");
 }
 
 } // namespace
@@ -199,25 +203,45 @@ void addDrillCommand(CLI::App& app, Context& context)
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
       app, "drill",
-      "Play a tool path: the tool is held by the tissue, and the drill takes what it is pressed on",
-      [options, &context] { drill(context, *options); });
+      "Play a tool path, or a recording: the tool is held by the tissue, and the drill takes what "
+      "it "
+      "is pressed on",
+      [options, &context]
+      {
+        if (options->path.empty() == options->replay.empty())
+          throw UsageError("drill: give either --path or --replay");
+        options->replay.empty() ? play(context, *options) : replay(context, *options);
+      });
+  options->command = command;
   command->add_option("CASE", options->caseName)->required();
   command
       ->add_option("--path", options->path,
                    "CSV: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill; patient LPS")
-      ->type_name("F.csv")
-      ->required();
+      ->type_name("F.csv");
+  CLI::Option* replayed =
+      command
+          ->add_option("--replay", options->replay,
+                       "Instead of a path: play a recording on its case again, cuts included, and "
+                       "hold each tick against it, bit for bit")
+          ->type_name("F.ticks");
   command->add_option("--burr", options->kind, "cutting or diamond (cutting)");
   command->add_option("--diameter", options->diameter, "Of the burr, mm (4)");
   command->add_option("--rpm", options->rpm, "Spindle speed, turns a minute (60000)");
-  command->add_option("--tick-hz", options->rate, "Ticks a second of simulated time (1000)");
+  command->add_option("--tick-hz", options->rate, "Ticks a second of simulated time (1000)")
+      ->excludes(replayed);
   command->add_option("--mode", options->mode,
                       "6dof: burr, shaft and handpiece; 3dof: the burr alone (6dof)");
   command
       ->add_option("--thrust", options->thrust,
                    "Press the tool on the surface with so many newtons; the path gives place and "
                    "heading")
-      ->type_name("N");
+      ->type_name("N")
+      ->excludes(replayed);
+  command
+      ->add_option("--record", options->record,
+                   "Write every tick and every cut, to be played again with --replay")
+      ->type_name("F.ticks")
+      ->excludes(replayed);
   command
       ->add_option("--log", options->log,
                    "One row a tick: device, tool, force, contact, volume removed")

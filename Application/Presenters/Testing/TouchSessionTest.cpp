@@ -2,35 +2,19 @@
 
 #include <cmath>
 
+#include "BoneCase.h"
 #include "HeldTool.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
 using Eigen::Vector3d;
+using petrous::presenters::testing::block;
 using petrous::presenters::testing::HeldTool;
+using petrous::presenters::testing::kTop;
 using petrous::presenters::testing::until;
 
 namespace
 {
-
-constexpr double kTop = 6.0; // mm; bone lies below
-
-scene::Case block()
-{
-  scene::Case value;
-  value.name = "block";
-  value.ct.geometry = core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
-  auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
-  for (int k = 0; k < 40; ++k)
-    for (int j = 0; j < 40; ++j)
-      for (int i = 0; i < 40; ++i)
-        ct->at(i, j, k) = static_cast<std::int16_t>(
-            std::clamp(300.0 + 3000.0 * (kTop - 0.3 * k), -1000.0, 1600.0));
-  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
-      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
-  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
-  return value;
-}
 
 class TouchSessionTest : public ::testing::Test
 {

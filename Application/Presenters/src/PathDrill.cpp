@@ -21,19 +21,30 @@ simulation::ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 } // namespace
 
 PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& options)
-  : m_case(value)
-  , m_scene(scene)
-  , m_options(options)
+  : m_radius(0.5 * options.tool.burr.diameter)
   , m_proxy(scene.proxyOf(options.tool))
   , m_servo(*m_proxy, setupOf(scene, options.tool))
-  , m_law(0.5 * options.tool.burr.diameter)
+  , m_recording(
+        options.recording.empty()
+            ? nullptr
+            : std::make_unique<simulation::RecordingWriter>(
+                  options.recording, scene.recordingOf(options.tool, m_servo.setup(), "tool path")))
+  , m_law(m_radius)
   , m_feed(m_law)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
-           scene.hooksOf(options.tool.burr, [camera = options.camera] { return camera; }))
+           hooks(scene, options))
 {
   m_parameters.constantThrust = options.thrust ? 1 : 0;
   m_parameters.thrust = options.thrust.value_or(1.0);
   simulation::check(m_parameters);
+}
+
+simulation::DissectionLoop::Hooks PathDrill::hooks(TouchScene& scene, const Options& options)
+{
+  auto hooks = scene.hooksOf(options.tool.burr, [camera = options.camera] { return camera; });
+  if (m_recording)
+    hooks.edited = [this](const simulation::MaskEdit& edit) { m_recording->add(edit); };
+  return hooks;
 }
 
 const simulation::TickRecord& PathDrill::feel(const dissection::ToolSample& sample) noexcept
@@ -49,26 +60,25 @@ const simulation::TickRecord& PathDrill::feel(const dissection::ToolSample& samp
 
 void PathDrill::cut(const dissection::ToolSample& sample)
 {
+  if (m_recording)
+    m_recording->add(m_record);
   const bool inside = m_record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
-  m_inside += inside ? 1 : 0;
-  if (inside && sample.drill)
-    sweep(sample);
-  else
+  if (!inside || !sample.drill)
+  {
+    m_swept.reset();
     m_loop.step(m_record);
-}
-
-void PathDrill::sweep(const dissection::ToolSample& sample)
-{
-  DrillSession& drill = m_scene.drill();
-  if (!drill.drilling())
-    drill.begin(m_options.tool.burr, utcNow(), sample.time, m_options.camera);
-  drill.moveTo(sample.pose.translation(), sample.time);
-  m_scene.mask()->publish(m_case.dissection->mask(), m_case.dissection->mask().takeDirty(), false);
+    return;
+  }
+  const Eigen::Vector3d at = sample.pose.translation();
+  m_loop.sweep(m_record, {m_swept.value_or(at), at, m_radius});
+  m_swept = at;
 }
 
 void PathDrill::end()
 {
   m_loop.endStroke();
+  if (m_recording)
+    m_recording->close();
 }
 
 } // namespace petrous::presenters

@@ -9,10 +9,10 @@
 namespace petrous::presenters
 {
 
-TouchScene::TouchScene(scene::Case& value, const core::Progress& progress)
+TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState)
   : m_case(value)
   , m_drill(value)
-  , m_mask(std::make_shared<volume::PublishedMask>(value.dissection->mask()))
+  , m_mask(std::make_shared<volume::PublishedMask>(value.dissection->mask(), firstState))
 {
   progress.check("feeling the tissue");
   m_field = std::make_shared<const haptics::HapticField>(m_drill.field(), m_mask);
@@ -53,6 +53,21 @@ simulation::ServoSetup TouchScene::servoOf(const TouchTool& tool) const
   return setup;
 }
 
+simulation::RecordingSetup TouchScene::recordingOf(const TouchTool& tool,
+                                                   const simulation::ServoSetup& servo,
+                                                   const std::string& note) const
+{
+  simulation::RecordingSetup setup;
+  setup.note = note;
+  setup.burr = tool.burr;
+  setup.degrees = tool.mode == TouchTool::Mode::ThreeDof ? 3 : 6;
+  setup.tool = inWords(setup);
+  setup.proxy = tool.coupling;
+  setup.servo = servo;
+  setup.scene = fingerprint();
+  return setup;
+}
+
 simulation::DissectionLoop::Hooks
 TouchScene::hooksOf(const dissection::Burr& burr,
                     std::function<std::optional<core::CameraPose>()> camera)
@@ -67,6 +82,8 @@ TouchScene::hooksOf(const dissection::Burr& burr,
     return info;
   };
   hooks.close = [this](dissection::Dissection&) { m_drill.end(); };
+  hooks.turn = [this](bool back)
+  { return (back ? scene::undo(m_case, 1) : scene::redo(m_case, 1)) > 0; };
   return hooks;
 }
 

@@ -55,6 +55,11 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
   , m_scene(scene)
   , m_proxy(scene.proxyOf(setup.tool))
   , m_servo(*m_proxy, setupOf(scene, setup))
+  , m_recorder(
+        setup.recording.empty()
+            ? nullptr
+            : std::make_unique<simulation::SessionRecorder>(
+                  setup.recording, scene.recordingOf(setup.tool, m_servo.setup(), "live session")))
   , m_feed(0.5 * setup.tool.burr.diameter, setup.feed)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
            hooks(setup.tool.burr))
@@ -67,6 +72,7 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
 TouchSession::~TouchSession()
 {
   m_thread->stop();
+  hear(); // what the recording still lacks
 }
 
 simulation::DissectionLoop::Hooks TouchSession::hooks(const dissection::Burr& burr)
@@ -76,6 +82,8 @@ simulation::DissectionLoop::Hooks TouchSession::hooks(const dissection::Burr& bu
   { m_news.strokes.push_back(m_scene.drill().end()); };
   hooks.changed = [this](const std::vector<std::size_t>& bricks)
   { m_news.bricks.insert(m_news.bricks.end(), bricks.begin(), bricks.end()); };
+  if (m_recorder)
+    hooks.edited = [this](const simulation::MaskEdit& edit) { m_recorder->add(edit); };
   return hooks;
 }
 
@@ -89,10 +97,19 @@ void TouchSession::setParameters(const simulation::ServoParameters& parameters)
   m_thread->setParameters(parameters);
 }
 
+// The ticks since the last time, into the batch and the recording.
+std::size_t TouchSession::hear()
+{
+  const std::size_t count = m_ring.pop(m_batch.data(), m_batch.size());
+  if (m_recorder)
+    m_recorder->add(m_batch.data(), count);
+  return count;
+}
+
 void TouchSession::drain()
 {
   m_feed.begin();
-  const std::size_t count = m_ring.pop(m_batch.data(), m_batch.size());
+  const std::size_t count = hear();
   m_loop.step(m_batch.data(), count);
   for (std::size_t n = count; n-- > 0;)
     if (m_batch[n].fault != 0)
@@ -118,6 +135,8 @@ TouchSession::News TouchSession::take()
   simulation::TickRecord record;
   if (m_thread->latest(record))
     news.record = record;
+  if (m_recorder)
+    news.recordingFault = m_recorder->takeFailure();
   return news;
 }
 
@@ -133,14 +152,11 @@ TouchSession::News TouchSession::endStroke()
   return take();
 }
 
-bool TouchSession::step(std::size_t (*way)(scene::Case&, std::size_t))
+bool TouchSession::step(bool (simulation::DissectionLoop::*way)())
 {
   close();
-  if (way(m_case, 1) == 0)
+  if (!(m_loop.*way)())
     return false;
-  const auto bricks = m_case.dissection->mask().takeDirty();
-  m_scene.publish(bricks);
-  m_news.bricks.insert(m_news.bricks.end(), bricks.begin(), bricks.end());
   // Ticks until now still felt the tissue as it was.
   m_loop.ignoreUntil(now());
   return true;
@@ -148,12 +164,12 @@ bool TouchSession::step(std::size_t (*way)(scene::Case&, std::size_t))
 
 bool TouchSession::undo()
 {
-  return step(&scene::undo);
+  return step(&simulation::DissectionLoop::undo);
 }
 
 bool TouchSession::redo()
 {
-  return step(&scene::redo);
+  return step(&simulation::DissectionLoop::redo);
 }
 
 TouchSession::News TouchSession::stop()
@@ -161,6 +177,8 @@ TouchSession::News TouchSession::stop()
   m_thread->stop();
   drain();
   m_loop.endStroke();
+  if (m_recorder)
+    m_recorder->close();
   return take();
 }
 

@@ -231,7 +231,7 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   setup.servo.passivity.emplace();
   setup.servo.passivity->lever = 31.25;
   setup.degrees = 3;
-  setup.scene = {~std::uint64_t{0}, 1u, 0x8000000000000001u, 7u, 12345678901234567890u};
+  setup.scene = {~std::uint64_t{0}, 0.1, 1u, 0x8000000000000001u, 7u, 12345678901234567890u};
   write({}, setup);
   const RecordingSetup got = RecordingReader(file()).setup();
   EXPECT_EQ(got.tool, setup.tool);
@@ -248,6 +248,7 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   EXPECT_EQ(got.servo.passivity->lever, 31.25);
   EXPECT_EQ(got.degrees, 3);
   EXPECT_EQ(got.scene.ct, setup.scene.ct);
+  EXPECT_EQ(got.scene.iso, 0.1);
   EXPECT_EQ(got.scene.tissue, setup.scene.tissue);
   EXPECT_EQ(got.scene.mask, setup.scene.mask);
   EXPECT_EQ(got.scene.applied, setup.scene.applied);

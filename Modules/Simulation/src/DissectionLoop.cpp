@@ -128,8 +128,9 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
 bool DissectionLoop::sweep(const TickRecord& record, const dissection::SweptSphere& burr)
 {
   const double seconds = secondsOf(record);
-  if (!follow(record))
+  if (!(record.time() > m_ignoreUntil))
     return false;
+  open();
   m_dissection.openInfo().duration += seconds;
   return cut(burr);
 }

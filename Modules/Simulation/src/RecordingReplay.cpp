@@ -52,17 +52,20 @@ void RecordingReplay::finish()
   m_loop.endStroke();
 }
 
-const TickRecord* RecordingReplay::next()
+void RecordingReplay::follow()
 {
   if (m_ended)
-    return nullptr;
-  if (!read())
-  {
+    return;
+  if (read())
+    reach(m_block.ticks[m_at].maskState);
+  else
     finish();
-    return nullptr;
-  }
-  reach(m_block.ticks[m_at].maskState);
-  return &m_block.ticks[m_at];
+}
+
+const TickRecord* RecordingReplay::next()
+{
+  follow();
+  return m_ended ? nullptr : &m_block.ticks[m_at];
 }
 
 const TickRecord& RecordingReplay::feel() noexcept

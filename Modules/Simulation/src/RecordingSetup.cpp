@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,7 @@ void eachNumber(Setup& s, Field field)
   field("burr_rpm", s.burr.rpm);
   field("degrees_of_freedom", s.degrees);
   field("scene_ct", s.scene.ct);
+  field("scene_iso_hu", s.scene.iso);
   field("scene_tissue", s.scene.tissue);
   field("scene_mask", s.scene.mask);
   field("scene_strokes", s.scene.applied);
@@ -67,6 +69,14 @@ void eachPassivity(Passivity& p, Field field)
 }
 
 } // namespace
+
+std::string inWords(const RecordingSetup& setup)
+{
+  char diameter[32];
+  std::snprintf(diameter, sizeof diameter, "%.10g", setup.burr.diameter);
+  return std::string(dissection::nameOf(setup.burr.kind)) + " burr " + diameter + " mm, " +
+         std::to_string(setup.degrees) + " degrees of freedom";
+}
 
 std::string toJson(const RecordingSetup& setup)
 {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Presenters/TouchScene.h"
 #include "petrous/Simulation/DissectionLoop.h"
+#include "petrous/Simulation/RecordingWriter.h"
 #include "petrous/Simulation/Servo.h"
 
 namespace petrous::presenters
@@ -26,37 +28,38 @@ public:
     TouchTool tool;
     std::optional<double> thrust;           ///< N: the tool is pressed on the surface with it
     std::optional<core::CameraPose> camera; ///< noted with each stroke
+    std::filesystem::path recording;        ///< ticks and cuts are written there; empty: not
   };
 
-  /// Throws InvalidParameter naming the first bad value.
+  /// Throws InvalidParameter naming the first bad value, RecordingError.
   PathDrill(scene::Case& value, TouchScene& scene, const Options& options);
 
   /// The servo's tick: what the hand feels at this pose. The record holds until the next tick.
   const simulation::TickRecord& feel(const dissection::ToolSample& sample) noexcept;
 
-  /// What follows it in the tissue: the drill's bite, a stroke's begin and end.
+  /// What follows it in the tissue: the drill's bite, a stroke's begin and end. Throws
+  /// RecordingError when the disk is full.
   void cut(const dissection::ToolSample& sample);
 
-  /// Drill off: closes the stroke that is open.
+  /// Drill off: closes the stroke that is open, and the recording. Throws RecordingError.
   void end();
 
-  /// Ticks of which the tool spent the whole in tissue.
-  std::size_t ticksInside() const noexcept { return m_inside; }
+  /// Null when there is none.
+  const simulation::RecordingWriter* recording() const noexcept { return m_recording.get(); }
 
 private:
-  void sweep(const dissection::ToolSample& sample);
+  simulation::DissectionLoop::Hooks hooks(TouchScene& scene, const Options& options);
 
-  scene::Case& m_case;
-  TouchScene& m_scene;
-  Options m_options;
+  double m_radius; // mm
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
+  std::unique_ptr<simulation::RecordingWriter> m_recording;
   simulation::SimpleFeed m_law;
   simulation::OwedFeed m_feed; // looks at m_law
   simulation::DissectionLoop m_loop;
   simulation::ServoParameters m_parameters;
   simulation::TickRecord m_record;
-  std::size_t m_inside = 0;
+  std::optional<Eigen::Vector3d> m_swept; // where the drill was last in tissue, mm
 };
 
 } // namespace petrous::presenters

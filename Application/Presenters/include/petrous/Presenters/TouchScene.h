@@ -10,6 +10,7 @@
 #include "petrous/Haptics/Proxy.h"
 #include "petrous/Presenters/DrillSession.h"
 #include "petrous/Simulation/DissectionLoop.h"
+#include "petrous/Simulation/Recording.h"
 #include "petrous/Simulation/Servo.h"
 
 namespace petrous::presenters
@@ -36,8 +37,10 @@ struct TouchTool
 class TouchScene
 {
 public:
-  /// Reads the CT once (about a second for 512^3). Throws CancelledError.
-  explicit TouchScene(scene::Case& value, const core::Progress& progress = {});
+  /// Reads the CT once (about a second for 512^3). `firstState` is the number of the mask's state
+  /// as the servo sees it: a session that is played again counts as it did. Throws CancelledError.
+  explicit TouchScene(scene::Case& value, const core::Progress& progress = {},
+                      std::uint64_t firstState = 0);
 
   DrillSession& drill() noexcept { return m_drill; }
   const std::shared_ptr<volume::PublishedMask>& mask() const noexcept { return m_mask; }
@@ -56,7 +59,17 @@ public:
   /// What a servo must know of that tool.
   simulation::ServoSetup servoOf(const TouchTool& tool) const;
 
-  /// What a dissection loop tells the case: strokes are opened and listed as by a DrillSession.
+  /// What is felt here as it is now, to know it again. Reads every voxel (0.1 s for 512^3).
+  simulation::RecordedScene fingerprint() const;
+
+  /// The head of a recording that begins now.
+  /// servo  as the session has it
+  /// note   for people: what kind of session
+  simulation::RecordingSetup recordingOf(const TouchTool& tool, const simulation::ServoSetup& servo,
+                                         const std::string& note) const;
+
+  /// What a dissection loop tells the case: strokes are opened and listed as by a DrillSession, and
+  /// the case goes through its list when one is undone or redone.
   /// `camera` is asked where each stroke is drilled from.
   simulation::DissectionLoop::Hooks
   hooksOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);

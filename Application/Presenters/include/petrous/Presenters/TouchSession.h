@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "petrous/Presenters/TouchScene.h"
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/ServoThread.h"
+#include "petrous/Simulation/SessionRecorder.h"
 
 namespace petrous::presenters
 {
@@ -15,6 +17,9 @@ namespace petrous::presenters
 /// A tool in a live hand: the servo runs in a thread of its own, and what it drills is cut in the
 /// thread that calls `advance`, once a picture. So one thread writes the mask and draws it, and the
 /// servo sees its states through the scene's PublishedMask.
+///
+/// A recording holds each tick and each cut; what fails there ends the recording alone. It begins
+/// with the session: for another tool, or a switch that is turned on later, there is a new session.
 ///
 /// Between two calls the servo feels the old surface, so the bites of one call go no deeper
 /// together than `kDeepest` of the burr's radius: a slow picture drills slower, never in a leap.
@@ -30,6 +35,8 @@ public:
     TouchTool tool;
     simulation::ServoParameters parameters;
     Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: where the hand's origin is
+    /// The session is written there, so that it can be played again; empty: it is not.
+    std::filesystem::path recording;
     double feed = 2.0; ///< mm/s per N of thrust, > 0: at 1 N a burr of 4 mm sinks in within 2 s
   };
 
@@ -39,11 +46,13 @@ public:
     std::optional<simulation::TickRecord> record; ///< the latest; nothing before the first tick
     std::vector<std::size_t> bricks;              ///< of the mask that changed, sorted
     std::vector<std::shared_ptr<const dissection::Stroke>> strokes; ///< closed; null: took nothing
-    std::string fault; ///< the latest one, one sentence; empty while all is well
+    std::string fault;          ///< the latest one, one sentence; empty while all is well
+    std::string recordingFault; ///< why the recording ended before the session; empty otherwise
   };
 
   /// Makes the tool's points (up to some 1.5 s), unless they are given, and starts the servo.
-  /// Throws InvalidParameter naming the first bad value, or std::system_error without a thread.
+  /// Throws InvalidParameter naming the first bad value, RecordingError when the recording cannot
+  /// be begun, or std::system_error without a thread.
   TouchSession(scene::Case& value, TouchScene& scene, haptics::Device& device, const Setup& setup);
   ~TouchSession();
   TouchSession(const TouchSession&) = delete;
@@ -74,6 +83,9 @@ public:
 
   simulation::ServoThread::State state() const noexcept { return m_thread->state(); }
 
+  /// Null when there is none.
+  const simulation::SessionRecorder* recording() const noexcept { return m_recorder.get(); }
+
 private:
   class BoundedFeed : public simulation::Feed
   {
@@ -90,9 +102,10 @@ private:
   };
 
   simulation::DissectionLoop::Hooks hooks(const dissection::Burr& burr);
+  std::size_t hear();
   void drain();
   void close();
-  bool step(std::size_t (*way)(scene::Case&, std::size_t));
+  bool step(bool (simulation::DissectionLoop::*way)());
   News take();
 
   scene::Case& m_case;
@@ -100,6 +113,7 @@ private:
   std::optional<core::CameraPose> m_camera;
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
+  std::unique_ptr<simulation::SessionRecorder> m_recorder;
   BoundedFeed m_feed;
   simulation::DissectionLoop m_loop;
   simulation::SpscRing<simulation::TickRecord> m_ring;

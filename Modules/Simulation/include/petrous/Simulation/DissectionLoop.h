@@ -43,8 +43,7 @@ public:
   bool step(const TickRecord* records, std::size_t count);
   static constexpr double kTogether = 0.05; ///< mm
 
-  /// Instead of a step where force does not lead: with the drill on all that `burr` sweeps is
-  /// taken.
+  /// Instead of a step where no force leads and the drill is on: all that `burr` sweeps is taken.
   bool sweep(const TickRecord& record, const dissection::SweptSphere& burr);
 
   /// Closes the stroke that is open.

@@ -17,7 +17,8 @@ namespace petrous::simulation
 struct RecordedScene
 {
   std::uint64_t ct = 0;         ///< voxels and grid
-  std::uint64_t tissue = 0;     ///< threshold, structures that are felt, structures that are left
+  double iso = 0.0;             ///< HU, threshold of bone
+  std::uint64_t tissue = 0;     ///< structures that are felt, structures that are left
   std::uint64_t mask = 0;       ///< when the session began
   std::uint64_t applied = 0;    ///< strokes in the mask then
   std::uint64_t firstState = 0; ///< number of the mask's published state then
@@ -26,7 +27,7 @@ struct RecordedScene
 /// With what a session was recorded: enough to make its servo and proxy again. Never patient data.
 struct RecordingSetup
 {
-  std::string tool; ///< for people: "cutting burr 4 mm"
+  std::string tool; ///< for people
   std::string note; ///< free text
   dissection::Burr burr;
   int degrees = 6; ///< of freedom, 3 or 6
@@ -34,6 +35,9 @@ struct RecordingSetup
   haptics::ProxyParameters proxy;
   ServoSetup servo;
 };
+
+/// "cutting burr 4 mm, 6 degrees of freedom".
+std::string inWords(const RecordingSetup& setup);
 
 /// A stretch of a recording: what its ticks felt was made by its edits and those before it.
 struct RecordingBlock

@@ -48,6 +48,10 @@ public:
   /// The servo's tick, after next(). It holds until the one after.
   const TickRecord& feel() noexcept;
 
+  /// Does now what was done to the mask before the tick that comes next, for those who look at it
+  /// between ticks; next() would do it. Throws RecordingError.
+  void follow();
+
   const Outcome& outcome() const noexcept { return m_outcome; }
 
 private:

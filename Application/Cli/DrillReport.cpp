@@ -1,0 +1,100 @@
+#include "DrillReport.h"
+
+#include <algorithm>
+
+#include "CaseJson.h"
+#include "Numbers.h"
+
+namespace petrous::cli
+{
+
+DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, const std::string& log)
+  : m_case(value)
+  , m_applied(value.applied)
+  , m_before(value.dissection->strokes().begin(), value.dissection->strokes().end())
+{
+  if (!log.empty())
+    m_log.emplace(log, value, scene);
+}
+
+void DrillReport::add(const simulation::TickRecord& record)
+{
+  const haptics::Wrench wrench = record.wrench.wrench();
+  m_force = std::max(m_force, wrench.linear.norm());
+  m_torque = std::max(m_torque, wrench.angular.norm());
+  m_penetration = std::max(m_penetration, record.penetration);
+  m_inside += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
+  if (m_log)
+    m_log->add(record);
+}
+
+void DrillReport::close()
+{
+  if (m_log)
+    m_log->close();
+}
+
+bool DrillReport::changed() const
+{
+  return m_case.applied != m_applied || cut().strokes > 0;
+}
+
+// Of the strokes that were made here and stand.
+DrillReport::Cut DrillReport::cut() const
+{
+  Cut result;
+  for (std::size_t n = 0; n < m_case.applied; ++n)
+  {
+    if (m_before.count(m_case.dissection->strokes()[n]) > 0)
+      continue;
+    ++result.strokes;
+    result.removed += m_case.strokes[n].info.removed;
+    result.bytes += m_case.strokes[n].bytes;
+    for (const auto& structure : m_case.strokes[n].info.structures)
+      result.structures[structure.name] += structure.volume;
+  }
+  return result;
+}
+
+void DrillReport::say(const Context& context) const
+{
+  const Cut result = cut();
+  if (m_inside > 0)
+    context.remark("the tool stood in tissue for " + std::to_string(m_inside) +
+                   " ticks: there nothing is felt, and the drill takes what the burr sweeps");
+  context.say(std::to_string(result.strokes) + (result.strokes == 1 ? " stroke, " : " strokes, ") +
+              fixed(result.removed, 2) + " mm3 removed in " + std::to_string(m_times.count()) +
+              " ticks");
+  for (const auto& [name, volume] : result.structures)
+    context.say("  of '" + name + "': " + fixed(volume, 2) + " mm3");
+}
+
+nlohmann::json DrillReport::json() const
+{
+  const Cut result = cut();
+  nlohmann::json structures = nlohmann::json::array();
+  for (const auto& [name, volume] : result.structures)
+    structures.push_back({{"label", name}, {"volume_mm3", volume}});
+  const auto micros = [](const auto& within) -> nlohmann::json
+  {
+    return {{"p50", 1e6 * within(0.5)},
+            {"p99", 1e6 * within(0.99)},
+            {"p999", 1e6 * within(0.999)},
+            {"max", 1e6 * within(1.0)}};
+  };
+  return {{"case", m_case.name},
+          {"ticks", m_times.count()},
+          {"strokes", result.strokes},
+          {"removed_mm3", result.removed},
+          {"max_penetration_mm", m_penetration},
+          {"max_force_n", m_force},
+          {"max_torque_nmm", m_torque},
+          {"ticks_inside", m_inside},
+          {"structures_touched", std::move(structures)},
+          {"undo_bytes", result.bytes},
+          {"tick_us", micros([this](double share) { return m_times.processor(share); })},
+          {"tick_wall_us", micros([this](double share) { return m_times.wall(share); })},
+          {"resources", residentResources(m_case)}};
+}
+
+} // namespace petrous::cli

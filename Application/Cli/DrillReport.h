@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "Context.h"
+#include "DrillLog.h"
+#include "petrous/Core/TickTimes.h"
+
+namespace petrous::cli
+{
+
+/// What `drill` says of what was felt and cut, be it along a path or played again.
+class DrillReport
+{
+public:
+  /// `log` is the file of `--log`, or empty. Case and scene must outlive this.
+  DrillReport(scene::Case& value, presenters::TouchScene& scene, const std::string& log);
+
+  /// The servo's tick, timed.
+  template <typename Call>
+  const simulation::TickRecord& feel(Call call)
+  {
+    return m_times.take(call);
+  }
+
+  /// The tick, once what follows it in the tissue is done.
+  void add(const simulation::TickRecord& record);
+
+  /// After the last tick: closes the log.
+  void close();
+
+  /// Something was cut, taken back or brought back.
+  bool changed() const;
+
+  /// The report in words, and its JSON object.
+  void say(const Context& context) const;
+  nlohmann::json json() const;
+
+private:
+  struct Cut
+  {
+    std::size_t strokes = 0;
+    double removed = 0.0; // mm^3
+    std::size_t bytes = 0;
+    std::map<std::string, double> structures; // mm^3
+  };
+  Cut cut() const;
+
+  scene::Case& m_case;
+  std::optional<DrillLog> m_log;
+  std::size_t m_applied; // when it began
+  std::set<std::shared_ptr<const dissection::Stroke>> m_before;
+  core::TickTimes m_times;
+  double m_force = 0.0;       // N, the hardest of all ticks
+  double m_torque = 0.0;      // N mm
+  double m_penetration = 0.0; // mm
+  std::size_t m_inside = 0;   // ticks of which the tool spent the whole in tissue
+};
+
+} // namespace petrous::cli

@@ -94,11 +94,30 @@ void Servo::map(Step& step, bool anew) noexcept
   if (step.usable && !step.clutch && (!anew || m_record.input.parameters.constantThrust))
   {
     step.mapped = m_mapping.map(step.device, step.view);
+    if (const double lead = static_cast<double>(m_record.input.parameters.mostLead);
+        lead > 0.0 && m_touches)
+      boundLead(step, lead);
     return;
   }
   step.mapped = m_proxy.pose();
   if (step.usable)
     m_mapping.hold(step.device, step.view, step.mapped);
+}
+
+void Servo::boundLead(Step& step, double mostLead) noexcept
+{
+  const Pose& tool = m_proxy.pose();
+  haptics::Motion lead = haptics::motionBetween(tool, step.mapped);
+  const double distance = lead.linear.norm();
+  const double angle = lead.angular.norm();
+  if (distance <= mostLead && angle <= ServoParameters::kMostTurn)
+    return;
+  if (distance > mostLead)
+    lead.linear *= mostLead / distance;
+  if (angle > ServoParameters::kMostTurn)
+    lead.angular *= ServoParameters::kMostTurn / angle;
+  step.mapped = haptics::moved(tool, lead);
+  m_mapping.hold(step.device, step.view, step.mapped);
 }
 
 void Servo::reportContacts(const ProxyTick& tick) noexcept
@@ -170,6 +189,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
     goal = m_thrust.goal(step.mapped, m_proxy.pose(), {p.approach[0], p.approach[1], p.approach[2]},
                          p.thrust, p.approachSpeed, step.dt);
   const ProxyTick& tick = m_placed ? m_proxy.step(goal) : m_none;
+  m_touches = tick.contactCount > 0;
   if (step.usable)
     m_thrust.see(tick, p.approachSpeed, step.dt);
   reportContacts(tick);

@@ -33,7 +33,8 @@ struct ServoSetup
 /// The first good reading places the tool. After a bad stretch, a stall, a clutch, or tissue that
 /// came back, the hand may be anywhere: the tool stays where it is and goes on from there, the
 /// force rising anew (in constant-thrust mode it goes to the place that is given). While force may
-/// not be given the tool rests, so that tissue that comes back still moves it out.
+/// not be given the tool rests, so that tissue that comes back still moves it out. A hand without
+/// force is kept on a leash (ServoParameters::mostLead), since nothing stops it in the tissue.
 ///
 /// The same inputs in the same order give the same records to the last bit, as long as the proxy
 /// and its field do. `tick` neither allocates, locks, throws nor does I/O. One thread.
@@ -60,6 +61,7 @@ private:
   };
   Step judge(const TickInput& input) noexcept;
   void map(Step& step, bool anew) noexcept;
+  void boundLead(Step& step, double mostLead) noexcept;
   void reportContacts(const haptics::ProxyTick& tick) noexcept;
   void giveForce(const Step& step, const haptics::ProxyTick& tick, bool anew) noexcept;
 
@@ -78,6 +80,7 @@ private:
   bool m_placed = false; ///< the first good reading has come
   bool m_giving = false; ///< force was let in at the last tick
   bool m_wasUsable = false;
+  bool m_touches = false; ///< at the last tick
 };
 
 static_assert(noexcept(std::declval<Servo&>().tick(std::declval<const TickInput&>())));

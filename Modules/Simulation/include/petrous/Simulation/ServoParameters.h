@@ -24,7 +24,12 @@ struct ServoParameters
   std::uint8_t drill = 0;               ///< 1: on by other means
   std::uint8_t constantThrust = 0;      ///< 1: the hand gives place and heading only
   std::uint8_t pause = 0;               ///< 1: no force, no drilling
-  std::uint32_t spare = 0;              ///< keeps the size a multiple of 8 bytes
+  /// mm that the place of a hand without force goes beyond a tool that tissue holds, in [0, 50];
+  /// 0: no bound. What is more is forgotten, so that the hand comes back at once; a turn is held
+  /// to `kMostTurn`.
+  float mostLead = 0.0F;
+
+  static constexpr double kMostTurn = 0.35; ///< rad
 
   /// In all the ranges above.
   bool valid() const noexcept;

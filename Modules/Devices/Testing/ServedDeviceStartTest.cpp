@@ -127,3 +127,14 @@ TEST(ServedDeviceStart, RefusesNamesThatAreNoFileNames)
     EXPECT_THROW(ServedDevice{options}, core::InvalidParameter) << name;
   }
 }
+
+TEST(ServedDeviceStart, StopsWaitingForAServerThatIsNotWantedAnyMore)
+{
+  ServedDevice::Options options = optionsFor("unwanted");
+  options.command = {"/bin/sh", "-c", "exec sleep 600"};
+  options.startTimeout = 3600.0;
+  int asked = 0;
+  options.wanted = [&asked] { return ++asked < 3; };
+  EXPECT_THROW(ServedDevice{options}, ServerError);
+  EXPECT_EQ(asked, 3);
+}

@@ -7,7 +7,7 @@
 namespace petrous::devices
 {
 
-PedalledDevice::PedalledDevice(std::unique_ptr<haptics::Device> hand, std::unique_ptr<Pedal> pedal)
+PedalledDevice::PedalledDevice(std::unique_ptr<haptics::Device> hand, std::shared_ptr<Pedal> pedal)
   : m_hand(std::move(hand))
   , m_pedal(std::move(pedal))
 {

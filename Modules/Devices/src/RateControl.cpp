@@ -36,7 +36,7 @@ RateControl::RateControl(const Parameters& parameters)
   require(parameters.deadZone, 0.0, 0.9, "dead zone");
   require(parameters.exponent, 1.0, 4.0, "exponent");
   require(parameters.timeout, 0.02, 10.0, "timeout (s)");
-  require(parameters.reach, 1.0, 10000.0, "reach (mm)");
+  require(parameters.reach, 1.0, 1e6, "reach (mm)");
 }
 
 haptics::Motion RateControl::rateOf(const SpaceMouseState& state) const noexcept

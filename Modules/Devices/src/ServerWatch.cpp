@@ -18,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 constexpr auto kPeriod = std::chrono::milliseconds(10);
+constexpr auto kAsk = std::chrono::milliseconds(50);
 // A longer pause was ours (a debugger, a laptop asleep) and says nothing of the server.
 constexpr double kLongestStep = 0.05; // s
 constexpr int kMostFailures = 5;
@@ -60,7 +61,11 @@ haptics::DeviceDescription ServerWatch::awaitReady()
   // A little longer than the watch's own limit, so that its words are the ones that are thrown.
   const auto end = Clock::now() + Seconds(m_options.startTimeout + 1.0);
   std::unique_lock<std::mutex> lock(m_mutex);
-  m_wake.wait_until(lock, end, [this] { return m_description || m_reason; });
+  const auto answered = [this] { return m_description || m_reason; };
+  while (!m_wake.wait_for(lock, kAsk, answered) && Clock::now() < end)
+    if (m_options.wanted && !m_options.wanted())
+      throw ServerError(Reason::NotReady,
+                        "device server '" + m_options.name + "' is not waited for any longer");
   if (m_description)
     return *m_description;
   throw ServerError(m_reason.value_or(Reason::NotReady), m_status.fault);

@@ -19,8 +19,8 @@ class PedalledDevice final : public haptics::Device
 public:
   static constexpr unsigned kFirstPedalButton = 24;
 
-  /// Neither may be null.
-  PedalledDevice(std::unique_ptr<haptics::Device> hand, std::unique_ptr<Pedal> pedal);
+  /// Neither may be null. A pedal may be passed from hand to hand, but one reads it at a time.
+  PedalledDevice(std::unique_ptr<haptics::Device> hand, std::shared_ptr<Pedal> pedal);
 
   const haptics::DeviceDescription& description() const noexcept override;
   haptics::DeviceReading read(double now) noexcept override;
@@ -28,7 +28,7 @@ public:
 
 private:
   std::unique_ptr<haptics::Device> m_hand;
-  std::unique_ptr<Pedal> m_pedal;
+  std::shared_ptr<Pedal> m_pedal;
 };
 
 } // namespace petrous::devices

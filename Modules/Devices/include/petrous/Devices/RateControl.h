@@ -28,7 +28,7 @@ public:
     double deadZone = 0.05; ///< share of full deflection, in [0, 0.9]
     double exponent = 1.5;  ///< in [1, 4]
     double timeout = 0.1;   ///< s, in [0.02, 10]
-    double reach = 150.0;   ///< mm, the position stays within +-reach on each axis, > 0
+    double reach = 150.0;   ///< mm, the position stays within +-reach on each axis, in [1, 1e6]
   };
 
   /// Throws InvalidParameter naming the first value out of its domain.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ public:
     double startTimeout = 10.0;       ///< s until it must be ready
     double staleAfter = 0.05;         ///< s without a pose
     double hungAfter = 1.0;           ///< s without a beat of the server
+    /// Asked some 20 times a second until the server is ready; false: it is waited for no longer.
+    std::function<bool()> wanted;
   };
 
   struct Status

@@ -155,14 +155,27 @@ TEST(ForceDisplay, ShowsNoForceThatIsNotGiven)
   EXPECT_EQ(scene.display.force(), 5.0);
 }
 
-TEST(ForceDisplay, StandsBehindTissueAndBeforeIt)
+TEST(ForceDisplay, IsSeenOverTissueAndTool)
 {
-  rendering::SceneContents contents;
-  contents.ct = block()->ct();
-  Scene scene(contents);
   const Vector3d force(0.6, 0.0, 0.0);
-  EXPECT_FALSE(difference(scene.draw(force, {-3.0, 0.0, 4.0}), scene.empty).empty());
-  EXPECT_TRUE(difference(scene.draw(force, {-3.0, 0.0, -5.0}), scene.empty).empty());
+  const auto places = [&force](Scene& scene, double z) {
+    return difference(scene.draw(force, {-3.0, 0.0, z}), scene.empty);
+  };
+  Scene alone;
+  const auto seen = places(alone, 4.0);
+  ASSERT_GT(seen.size(), 50U);
+
+  rendering::SceneContents tissue;
+  tissue.ct = block()->ct();
+  Scene covered(tissue);
+  EXPECT_EQ(places(covered, 4.0), seen);
+  EXPECT_EQ(places(covered, -5.0), seen); // inside the block
+
+  // The handpiece lies between it and the eye.
+  rendering::SceneContents held;
+  held.tool = rendering::ToolPose{{-3.0, 0.0, 4.0}, {0.0, 0.0, 1.0}, 2.0, false};
+  Scene hidden(held);
+  EXPECT_EQ(places(hidden, 4.0), seen);
 }
 
 TEST(ForceDisplay, ColoursByMagnitude)

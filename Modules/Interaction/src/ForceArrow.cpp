@@ -9,6 +9,7 @@
 #include <vtkMatrix4x4.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 
 namespace petrous::interaction
 {
@@ -34,6 +35,11 @@ ForceArrow::ForceArrow()
   m_actor->GetProperty()->SetAmbient(0.5);
   m_actor->GetProperty()->SetDiffuse(0.5);
   m_actor->GetProperty()->SetSpecular(0.0);
+  // Nearer than all else, and its own parts in their order: the force on the hand mostly points
+  // into the handpiece, which would hide it.
+  m_actor->GetShaderProperty()->AddFragmentShaderReplacement(
+      "//VTK::Depth::Impl", true, "//VTK::Depth::Impl\n  gl_FragDepth = 0.01 * gl_FragCoord.z;\n",
+      false);
   hide();
 }
 

@@ -10,7 +10,8 @@ class vtkArrowSource;
 namespace petrous::interaction
 {
 
-/// An opaque arrow between two points, whose thickness does not depend on its length.
+/// An arrow between two points, whose thickness does not depend on its length. It is drawn over
+/// everything that is opaque, and over tissue.
 class ForceArrow
 {
 public:

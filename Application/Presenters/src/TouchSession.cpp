@@ -23,6 +23,9 @@ simulation::ServoSetup setupOf(const TouchScene& scene, const TouchSession::Setu
 {
   simulation::ServoSetup servo = scene.servoOf(setup.tool);
   servo.center = setup.center;
+  servo.guard = setup.guard;
+  servo.limits = setup.limits;
+  servo.passivity = setup.passivity;
   return servo;
 }
 
@@ -60,6 +63,7 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
             ? nullptr
             : std::make_unique<simulation::SessionRecorder>(
                   setup.recording, scene.recordingOf(setup.tool, m_servo.setup(), "live session")))
+  , m_cuts(setup.cuts)
   , m_feed(0.5 * setup.tool.burr.diameter, setup.feed)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
            hooks(setup.tool.burr))
@@ -110,7 +114,8 @@ void TouchSession::drain()
 {
   m_feed.begin();
   const std::size_t count = hear();
-  m_loop.step(m_batch.data(), count);
+  if (m_cuts)
+    m_loop.step(m_batch.data(), count);
   for (std::size_t n = count; n-- > 0;)
     if (m_batch[n].fault != 0)
     {

@@ -275,9 +275,17 @@ DrillSession& WorkstationModel::session()
 // What was made of the case's voxels, threshold and structures.
 void WorkstationModel::forgetTissue()
 {
+  m_reader.reset();
   m_touch.reset();
   m_scene.reset();
   m_session.reset();
+}
+
+PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
+{
+  if (!m_reader)
+    m_reader = std::make_unique<PlaceReader>(*m_case, session().field());
+  return m_reader->at(patient);
 }
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)
@@ -300,6 +308,7 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   stopTouch();
   if (!m_scene)
   {
+    m_reader.reset();
     m_session.reset();
     m_scene = std::make_unique<TouchScene>(*m_case);
   }
@@ -344,8 +353,10 @@ TouchSession::News WorkstationModel::stopTouch()
 
 void WorkstationModel::tellMask(const std::vector<std::size_t>& bricks)
 {
-  if (!bricks.empty())
-    tell(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
+  if (bricks.empty())
+    return;
+  m_reader.reset();
+  tell(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
 }
 
 } // namespace petrous::presenters

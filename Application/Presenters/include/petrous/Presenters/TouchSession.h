@@ -37,6 +37,10 @@ public:
     Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: where the hand's origin is
     /// The session is written there, so that it can be played again; empty: it is not.
     std::filesystem::path recording;
+    haptics::DeviceGuard::Limits guard;
+    haptics::ForceLimits::Limits limits; ///< of the device
+    std::optional<haptics::PassivityGuard::Parameters> passivity;
+    bool cuts = true;  ///< false: takes nothing and opens no stroke, whatever asks for the drill
     double feed = 2.0; ///< mm/s per N of thrust, > 0: at 1 N a burr of 4 mm sinks in within 2 s
   };
 
@@ -114,6 +118,7 @@ private:
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
   std::unique_ptr<simulation::SessionRecorder> m_recorder;
+  const bool m_cuts;
   BoundedFeed m_feed;
   simulation::DissectionLoop m_loop;
   simulation::SpscRing<simulation::TickRecord> m_ring;

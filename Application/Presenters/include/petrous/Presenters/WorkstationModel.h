@@ -8,6 +8,7 @@
 
 #include "petrous/Interaction/SightLine.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/PlaceReader.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Presenters/TouchSession.h"
 #include "petrous/Scene/Case.h"
@@ -76,6 +77,9 @@ public:
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
   std::string structureAt(const Eigen::Vector3d& patient) const; ///< empty: none
+  /// The same and more, as `petrous probe` says it; only with a case. The first reading after a cut
+  /// or a change of structures takes longest.
+  PlaceReading readPlace(const Eigen::Vector3d& patient);
   /// Where the line meets tissue, mm from its origin.
   std::optional<double> tissueAlong(const interaction::SightLine& line);
   /// The same as a place, patient LPS mm.
@@ -110,6 +114,7 @@ private:
   std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
   std::unique_ptr<TouchScene> m_scene;
   std::unique_ptr<TouchSession> m_touch; ///< after m_scene, which it uses
+  std::unique_ptr<PlaceReader> m_reader; ///< when first asked for; likewise
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;

@@ -12,6 +12,7 @@ namespace petrous::workstation
 DrillBar::DrillBar(QWidget* parent)
   : QToolBar(tr("Drill"), parent)
   , m_drill(new QAction(tr("Drill"), this))
+  , m_pointer(new QAction(tr("Pointer"), this))
   , m_wheel(new QAction(tr("By wheel"), this))
   , m_diameter(new QDoubleSpinBox)
   , m_kind(new QComboBox)
@@ -25,6 +26,13 @@ DrillBar::DrillBar(QWidget* parent)
                          "Without it a drag turns the patient."));
   addAction(m_drill);
   widgetForAction(m_drill)->setObjectName("drillButton");
+  m_pointer->setCheckable(true);
+  m_pointer->setShortcut(Qt::Key_P);
+  m_pointer->setToolTip(
+      tr("Pointer (P): touches and cuts nothing; reads density, structure and the "
+         "distance to the nearest surface at its tip"));
+  addAction(m_pointer);
+  widgetForAction(m_pointer)->setObjectName("pointerButton");
 
   m_diameter->setRange(1.0, 7.0);
   m_diameter->setSingleStep(0.5);
@@ -43,8 +51,9 @@ DrillBar::DrillBar(QWidget* parent)
   m_thrust->setValue(1.0);
   m_thrust->setSuffix(tr(" N"));
   m_thrust->setObjectName("thrust");
-  m_thrust->setToolTip(tr("How hard the mouse presses the burr on the bone, N: the harder, the "
-                          "faster it goes in"));
+  m_thrust->setToolTip(
+      tr("How hard a hand without force (mouse, SpaceMouse) presses the burr on the "
+         "bone, N: the harder, the faster it goes in"));
   m_wheel->setCheckable(true);
   m_wheel->setShortcut(Qt::Key_M);
   m_wheel->setToolTip(
@@ -85,6 +94,17 @@ dissection::Burr DrillBar::burr() const
   burr.diameter = m_diameter->value();
   burr.kind = static_cast<dissection::Burr::Kind>(m_kind->currentData().toInt());
   return burr;
+}
+
+void DrillBar::setThrust(double newtons)
+{
+  m_thrust->setValue(newtons);
+}
+
+void DrillBar::setPresses(bool byWheel, bool byThrust)
+{
+  m_wheel->setEnabled(byWheel);
+  m_thrust->setEnabled(byThrust);
 }
 
 double DrillBar::thrust() const

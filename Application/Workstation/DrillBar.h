@@ -11,16 +11,20 @@ class QDoubleSpinBox;
 namespace petrous::workstation
 {
 
-/// Which burr is in the hand, how it is pressed, and whether the pointer drills.
+/// Which tool is in the hand, which burr, and how it is pressed.
 class DrillBar : public QToolBar
 {
   Q_OBJECT
 public:
   explicit DrillBar(QWidget* parent = nullptr);
 
-  QAction* drillAction() const noexcept ///< checked: the left button drills
+  QAction* drillAction() const noexcept ///< checked: the burr is in the hand
   {
     return m_drill;
+  }
+  QAction* pointerAction() const noexcept ///< checked: the pointer is, which cuts nothing
+  {
+    return m_pointer;
   }
   void stepDiameter(int steps); ///< of 0.5 mm
   dissection::Burr burr() const;
@@ -29,6 +33,10 @@ public:
     return m_wheel;
   }
   double thrust() const; ///< N
+  void setThrust(double newtons);
+
+  /// What the hand has a use for.
+  void setPresses(bool byWheel, bool byThrust);
 
 signals:
   void burrChanged();
@@ -36,6 +44,7 @@ signals:
 
 private:
   QAction* m_drill;
+  QAction* m_pointer;
   QAction* m_wheel;
   QDoubleSpinBox* m_diameter;
   QComboBox* m_kind;

@@ -1,11 +1,17 @@
 #include "DrillController.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <QAction>
 #include <QApplication>
 
 #include "DrillBar.h"
+#include "HandKeeper.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "petrous/Devices/PedalledDevice.h"
 
 namespace petrous::workstation
 {
@@ -15,53 +21,115 @@ namespace
 constexpr int kFrame = 16;        // ms
 constexpr double kSilence = 3.0;  // s; a picture drawn on the processor can take one
 constexpr int kFaultShown = 1500; // ms after the last tick that had one
+constexpr int kStart = 500;       // ms in which a device that was taken up comes to rest
+constexpr int kGone = 1000;       // ms; a server that crashed is back sooner
+constexpr int kAnew = 300;        // ms after the last change of what is in the hand
+constexpr double kPedalDown = 0.5;
+constexpr double kStill = 0.02; // mm
+constexpr int kReadAgain = 500; // ms, while the tip rests: tissue may have come back
 
-// A hand that was just taken up has no reading for some ticks; that is no fault to speak of.
-bool isStart(const simulation::TickRecord& record)
+using haptics::DeviceVerdict;
+using simulation::ServoFault;
+using simulation::TickRecord;
+
+// Whether its poses mean something.
+bool isPlaced(const TickRecord& record)
 {
-  using haptics::DeviceVerdict;
-  const auto verdict = static_cast<DeviceVerdict>(record.verdict);
-  return static_cast<simulation::ServoFault>(record.fault) == simulation::ServoFault::Device &&
-         (verdict == DeviceVerdict::NotReady || verdict == DeviceVerdict::Settling);
+  const auto fault = static_cast<ServoFault>(record.fault);
+  return record.input.now > 0.0 && fault != ServoFault::Device && fault != ServoFault::Clock &&
+         fault != ServoFault::Parameters;
+}
+
+QString textOf(const presenters::PlaceReading& reading)
+{
+  QStringList lines;
+  if (reading.hounsfield)
+    lines += DrillController::tr("%1 HU").arg(std::lround(*reading.hounsfield));
+  if (!reading.structure.empty())
+    lines += words(reading.structure).replace('_', ' ');
+  lines += reading.surface
+               ? DrillController::tr("%1 mm to the surface").arg(*reading.surface, 0, 'f', 1)
+               : DrillController::tr("no surface within %1 mm")
+                     .arg(presenters::PlaceReader::kReach, 0, 'f', 0);
+  return lines.join('\n');
 }
 } // namespace
 
 DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView& view,
-                                 DrillBar& bar, QObject* parent)
+                                 DrillBar& bar, HandKeeper& hands, QObject* parent)
   : QObject(parent)
   , m_model(model)
   , m_view(view)
   , m_bar(bar)
+  , m_hands(hands)
   , m_aim([&model](const interaction::SightLine& line) { return model.tissueAlong(line); })
 {
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
-  connect(bar.drillAction(), &QAction::toggled, this, &DrillController::setMode);
-  connect(&bar, &DrillBar::burrChanged, this,
-          [this]
-          {
-            putAway(); // the pointer's next move takes up the new one
-            applyBar();
-          });
-  connect(&bar, &DrillBar::pressChanged, this, &DrillController::applyBar);
-  connect(&view, &ThreeDView::pointed, this, &DrillController::hover);
-  connect(&view, &ThreeDView::pointerLeft, this, &DrillController::pointedNowhere);
-  connect(&view, &ThreeDView::picked, this,
+  m_anew.setSingleShot(true);
+  m_anew.setInterval(kAnew);
+  connect(&m_anew, &QTimer::timeout, this, [this] { takeTool(); });
+  connectBar();
+  connectView();
+  connectHands();
+  applyBar();
+}
+
+void DrillController::connectBar()
+{
+  const auto onTool = [this](QAction* action, Tool tool)
+  {
+    connect(action, &QAction::toggled, this,
+            [this, tool](bool on)
+            {
+              if (on || m_tool == tool)
+                setTool(on ? tool : Tool::None);
+            });
+  };
+  onTool(m_bar.drillAction(), Tool::Burr);
+  onTool(m_bar.pointerAction(), Tool::Pointer);
+  connect(&m_bar, &DrillBar::burrChanged, this, &DrillController::takeAnew);
+  connect(&m_bar, &DrillBar::pressChanged, this, &DrillController::applyBar);
+}
+
+void DrillController::connectView()
+{
+  connect(&m_view, &ThreeDView::pointed, this, &DrillController::hover);
+  connect(&m_view, &ThreeDView::pointerLeft, this, &DrillController::pointedNowhere);
+  connect(&m_view, &ThreeDView::picked, this,
           [this](const interaction::SightLine& line)
           {
             if (const auto hit = m_model.surfaceAt(line))
               m_model.setCrosshair(*hit);
           });
-  connect(&view, &ThreeDView::drillPressed, this, &DrillController::press);
-  connect(&view, &ThreeDView::drillHeld, this, &DrillController::hold);
-  connect(&view, &ThreeDView::drillReleased, this, &DrillController::release);
-  connect(&view, &ThreeDView::wheelLed, this,
+  connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);
+  connect(&m_view, &ThreeDView::drillHeld, this,
+          [this](const interaction::SightLine& line)
+          {
+            if (m_model.touching() && m_pointer)
+              point(line);
+          });
+  connect(&m_view, &ThreeDView::drillReleased, this, &DrillController::release);
+  connect(&m_view, &ThreeDView::clutchHeld, this, &DrillController::setClutch);
+  connect(&m_view, &ThreeDView::wheelLed, this,
           [this](double notches, bool fine)
           {
             m_aim.wheel(notches, fine);
             send();
           });
-  applyBar();
+}
+
+void DrillController::connectHands()
+{
+  connect(&m_hands, &HandKeeper::leaving, this, &DrillController::putAway);
+  connect(&m_hands, &HandKeeper::came, this, &DrillController::handCame);
+  connect(&m_hands, &HandKeeper::leadChanged, this, &DrillController::takeAnew);
+  connect(&m_hands, &HandKeeper::pedalCame, this,
+          [this]
+          {
+            if (!m_model.drilling())
+              takeAnew(); // with the pedal
+          });
 }
 
 void DrillController::setSlicesFollow(bool follow)
@@ -69,53 +137,139 @@ void DrillController::setSlicesFollow(bool follow)
   m_slicesFollow = follow;
 }
 
-double DrillController::burrRadius() const
+double DrillController::toolRadius() const
 {
-  return 0.5 * m_bar.burr().diameter;
+  return m_tool == Tool::Pointer ? kPointerRadius : 0.5 * m_bar.burr().diameter;
 }
 
 void DrillController::applyBar()
 {
   using Mode = interaction::AimSettings::Mode;
+  const bool wheel = m_bar.wheelAction()->isChecked() && !m_hands.device();
   interaction::AimSettings settings = m_aim.settings();
-  settings.burrRadius = burrRadius();
+  settings.burrRadius = toolRadius();
   settings.thrust = m_bar.thrust();
-  settings.mode = m_bar.wheelAction()->isChecked() ? Mode::Depth : Mode::Surface;
+  settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
+  settings.lift = m_tool == Tool::Pointer ? 0.0 : interaction::AimSettings().lift;
   m_aim.setSettings(settings);
-  m_view.setWheelLeads(settings.mode == Mode::Depth);
+  m_view.setWheelLeads(wheel);
   send();
 }
 
-void DrillController::setMode(bool drill)
+void DrillController::layDown()
 {
-  m_mode = drill;
-  m_view.setDrillMode(drill); // off: lets go of the drill first
-  if (drill)
+  setTool(Tool::None);
+}
+
+void DrillController::setTool(Tool tool)
+{
+  if (tool == m_tool)
+    return;
+  m_view.setDrillMode(false); // lets go of the drill first
+  putAway();
+  if (m_tool == Tool::None) // comes to hand: its origin is the place looked at
+  {
+    m_place.reset();
+    m_handPlace.setZero();
+  }
+  m_tool = tool;
+  m_view.setDrillMode(tool == Tool::Burr);
+  m_view.setPointing(tool == Tool::Pointer);
+  m_bar.drillAction()->setChecked(tool == Tool::Burr);
+  m_bar.pointerAction()->setChecked(tool == Tool::Pointer);
+  applyBar();
+  takeTool();
+}
+
+void DrillController::handCame()
+{
+  m_place.reset();
+  m_handPlace.setZero();
+  m_view.setButtonDrills(!m_hands.device());
+  m_bar.setPresses(!m_hands.device(),
+                   !m_hands.device() || !m_hands.device()->description().givesForce);
+  applyBar();
+  if (m_hands.device())
     takeTool();
+}
+
+// Another burr, scale or limit. The pointer's next move takes it up; a device has none.
+void DrillController::takeAnew()
+{
+  putAway();
+  applyBar();
+  if (m_hands.device())
+    m_anew.start();
+}
+
+void DrillController::bringHere()
+{
+  if (!m_hands.device() || m_tool == Tool::None)
+    return;
+  putAway();
+  m_place = placeLookedAt();
+  takeTool();
+}
+
+// With the burr just before the tissue.
+Eigen::Vector3d DrillController::placeLookedAt()
+{
+  const interaction::SightLine line = m_view.sightLine({-1.0, -1.0}); // the middle
+  const auto hit = m_model.tissueAlong(line);
+  if (!hit)
+    return m_model.crosshair();
+  return line.at(std::max(*hit - toolRadius() - interaction::AimSettings().lift, 0.0));
+}
+
+// The device that is to lead the tool, and what it makes of the setup.
+haptics::Device& DrillController::prepare(presenters::TouchSession::Setup& setup)
+{
+  setup.tool.burr = m_bar.burr();
+  setup.cuts = m_tool == Tool::Burr;
+  if (m_tool == Tool::Pointer)
+  {
+    setup.tool.burr.diameter = 2.0 * kPointerRadius;
+    setup.tool.mode = presenters::TouchTool::Mode::ThreeDof; // its shaft is in nobody's way
+  }
+  m_pointer = nullptr;
+  if (presenters::HeldDevice* device = m_hands.device())
+  {
+    device->setPedal(m_hands.pedal());
+    const core::CameraPose camera = m_view.picture().camera();
+    presenters::fit(setup, device->description(), lead(), device->endless());
+    setup.parameters = presenters::parametersFor(device->description(), lead(), camera, {});
+    setup.center =
+        presenters::centerFor(m_place.value_or(placeLookedAt()), m_handPlace, lead().scale, camera);
+    return *device;
+  }
+  setup.center = m_model.value().ct.geometry.center();
+  m_aim.apply(setup.parameters);
+  interaction::PointerDevice::Limits limits;
+  limits.silence = kSilence;
+  auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);
+  m_pointer = pointer.get();
+  if (m_hands.pedal())
+    m_mouse = std::make_unique<devices::PedalledDevice>(std::move(pointer), m_hands.pedal());
   else
-    putAway();
+    m_mouse = std::move(pointer);
+  return *m_mouse;
 }
 
 bool DrillController::takeTool()
 {
   if (m_model.touching())
     return true;
-  if (!m_mode || !m_model.hasCase())
+  if (m_tool == Tool::None || !m_model.hasCase() || m_hands.opening())
     return false;
-  emit said(tr("Taking up the burr…"));
+  putAway(); // what a change of the tissue has ended
+  emit said(m_tool == Tool::Burr ? tr("Taking up the burr…") : tr("Taking up the pointer…"));
   QApplication::setOverrideCursor(Qt::WaitCursor);
   QString why;
   try
   {
     presenters::TouchSession::Setup setup;
-    setup.center = m_model.value().ct.geometry.center();
-    setup.tool.burr = m_bar.burr();
-    m_aim.apply(setup.parameters);
-    interaction::PointerDevice::Limits limits;
-    limits.silence = kSilence;
-    auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);
-    m_model.startTouch(*pointer, setup);
-    m_pointer = std::move(pointer);
+    haptics::Device& device = prepare(setup);
+    m_model.startTouch(device, setup);
   }
   catch (const core::Error& error)
   {
@@ -123,27 +277,37 @@ bool DrillController::takeTool()
   }
   catch (const std::exception&) // no memory, no thread
   {
-    why = tr("The burr cannot be taken up: the computer has no room for it. Close other programs.");
+    why = tr("The tool cannot be taken up: the computer has no room for it. Close other programs.");
   }
   QApplication::restoreOverrideCursor();
-  emit said(why);
   if (!why.isEmpty())
   {
-    m_bar.drillAction()->setChecked(false);
+    layDown();
+    emit said(why);
     return false;
   }
+  emit said(m_pointer ? QString()
+                      : tr("%1 leads the tool").arg(words(m_hands.device()->description().name)));
+  send();
+  m_sinceTaken.start();
   m_frames.start();
   return true;
 }
 
 void DrillController::putAway()
 {
+  m_anew.stop();
   m_frames.stop();
   const auto news = m_model.stopTouch();
   m_view.display().endTouch();
   if (!m_fault.isEmpty())
     emit faulted({});
   m_fault.clear();
+  m_sinceGone.invalidate();
+  m_tip.reset();
+  m_held.drill = false;
+  m_foot = false;
+  m_aim.press(interaction::PointerAim::Press::None);
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke);
 }
@@ -155,26 +319,57 @@ void DrillController::point(const interaction::SightLine& line)
   send();
 }
 
+presenters::DeviceLead DrillController::lead() const
+{
+  presenters::DeviceLead lead = m_hands.lead();
+  lead.thrust = m_bar.thrust();
+  return lead;
+}
+
 void DrillController::send()
 {
   if (!m_model.touching())
     return;
-  if (m_aim.wanted())
-    m_pointer->want(*m_aim.wanted());
-  m_pointer->setButtons(m_aim.buttons());
   simulation::ServoParameters parameters;
-  m_aim.apply(parameters);
+  if (m_pointer)
+  {
+    if (m_aim.wanted())
+      m_pointer->want(*m_aim.wanted());
+    m_pointer->setButtons(m_aim.buttons());
+    m_aim.apply(parameters);
+    parameters.clutch = m_held.clutch ? 1 : 0;
+  }
+  else if (const presenters::HeldDevice* device = m_hands.device())
+    parameters =
+        presenters::parametersFor(device->description(), lead(), m_view.picture().camera(), m_held);
+  if (m_tool == Tool::Pointer)
+    parameters.drill = 0, parameters.drillButtons = 0;
   m_model.touch()->setParameters(parameters);
+}
+
+void DrillController::setClutch(bool held)
+{
+  m_held.clutch = held;
+  send();
 }
 
 void DrillController::hover(const interaction::SightLine& line)
 {
-  if (const auto hit = m_model.surfaceAt(line))
+  const bool reads = m_tool == Tool::Pointer && m_hands.device();
+  if (const auto hit = m_model.surfaceAt(line); hit && !reads)
     emit pointed(*hit);
-  else
+  else if (!reads)
     emit pointedNowhere();
-  if (m_mode && takeTool())
+  if (m_tool != Tool::None && takeTool() && m_pointer)
     point(line);
+}
+
+// By button or key, and by foot: the mouse presses the burr on the bone with both.
+void DrillController::pressPointer()
+{
+  using Press = interaction::PointerAim::Press;
+  m_aim.press(m_held.drill || m_foot ? Press::Drill : Press::None);
+  send();
 }
 
 void DrillController::press(const interaction::SightLine& line)
@@ -182,55 +377,118 @@ void DrillController::press(const interaction::SightLine& line)
   if (!takeTool())
     return;
   m_model.touch()->setCamera(m_view.picture().camera());
-  m_aim.press(interaction::PointerAim::Press::Drill);
+  m_held.drill = true;
+  if (!m_pointer)
+    return send();
+  pressPointer();
   point(line);
-}
-
-void DrillController::hold(const interaction::SightLine& line)
-{
-  if (m_model.touching())
-    point(line);
 }
 
 void DrillController::release()
 {
-  m_aim.press(interaction::PointerAim::Press::None);
-  send();
-  hear(m_model.endStroke());
+  m_held.drill = false;
+  if (!m_pointer)
+    return send(); // the servo's next tick ends the stroke
+  pressPointer();
+  if (!m_foot)
+    hear(m_model.endStroke());
 }
 
 void DrillController::frame()
 {
   if (!m_model.touching()) // another threshold: the pointer's next move takes the tool up again
-    return putAway();
+    return takeAnew();
   hear(m_model.advanceTouch());
 }
 
 void DrillController::hear(const presenters::TouchSession::News& news)
 {
-  if (news.record)
+  for (const auto& stroke : news.strokes)
+    emit strokeEnded(stroke);
+  if (!news.record || !m_model.touching()) // saving may have asked the user, who closed the case
+    return;
+  if (!m_model.drilling()) // of the stroke that may begin
+    m_model.touch()->setCamera(m_view.picture().camera());
+  const TickRecord& record = *news.record;
+  m_pointer ? m_aim.see(record, m_pointer->see(record)) : follow(record);
+  if (m_pointer)
   {
-    m_aim.see(*news.record, m_pointer->see(*news.record));
+    const bool foot = record.input.pedal >= kPedalDown && m_tool == Tool::Burr;
+    if (std::exchange(m_foot, foot) != foot)
+      pressPointer();
     m_aim.update();
-    send();
-    m_view.display().setTouch(*news.record, burrRadius());
-    showFault(news);
   }
-  if (news.record && m_model.drilling())
+  send();
+  m_view.display().setTouch(record, toolRadius());
+  if (m_tool == Tool::Pointer && isPlaced(record))
+    read(record);
+  showFault(news);
+  if (m_model.drilling())
   {
-    const Eigen::Vector3d burr = news.record->proxy.pose().position;
+    const Eigen::Vector3d burr = record.proxy.pose().position;
     emit pointed(burr);
     if (m_slicesFollow)
       m_model.setCrosshair(burr);
   }
-  for (const auto& stroke : news.strokes)
-    emit strokeEnded(stroke);
+  if (isLost(record))
+    m_hands.giveUp(whyLost());
+}
+
+// Where hand and tool are, so that another burr goes on from there.
+void DrillController::follow(const TickRecord& record)
+{
+  if (!isPlaced(record))
+    return;
+  m_place = record.proxy.pose().position;
+  m_handPlace = record.input.device.pose().position;
+}
+
+void DrillController::read(const TickRecord& record)
+{
+  const haptics::Pose tool = record.proxy.pose();
+  const Eigen::Vector3d tip =
+      tool.position - kPointerRadius * (tool.rotation * Eigen::Vector3d::UnitZ());
+  const bool still = m_tip && (*m_tip - tip).norm() < kStill;
+  if (still && m_sinceRead.elapsed() < kReadAgain)
+    return;
+  m_sinceRead.start();
+  m_view.display().setReading(textOf(m_model.readPlace(tip)));
+  if (still)
+    return;
+  m_tip = tip;
+  emit pointed(tip);
+  if (m_slicesFollow)
+    m_model.setCrosshair(tip);
+}
+
+bool DrillController::isLost(const TickRecord& record)
+{
+  const auto verdict = static_cast<DeviceVerdict>(record.verdict);
+  const bool gone = !m_pointer && static_cast<ServoFault>(record.fault) == ServoFault::Device &&
+                    (verdict == DeviceVerdict::Disconnected || verdict == DeviceVerdict::Faulty ||
+                     verdict == DeviceVerdict::NotReady);
+  if (!gone)
+    m_sinceGone.invalidate();
+  else if (!m_sinceGone.isValid())
+    m_sinceGone.start();
+  return gone && m_sinceGone.elapsed() > kGone;
+}
+
+QString DrillController::whyLost() const
+{
+  const presenters::HeldDevice& device = *m_hands.device();
+  const QString name = words(device.hand().name);
+  if (device.hand().kind == presenters::Hand::Kind::SpaceMouse)
+    return tr("%1 was unplugged").arg(name);
+  const QString why = words(device.problem());
+  return why.isEmpty() ? tr("%1 gives no place any more").arg(name) : why;
 }
 
 void DrillController::showFault(const presenters::TouchSession::News& news)
 {
   QString fault = m_fault;
-  if (!news.fault.empty() && !isStart(*news.record))
+  // A hand that was just taken up has no reading for some ticks; that is no fault to speak of.
+  if (!news.fault.empty() && m_sinceTaken.elapsed() > kStart)
   {
     fault = words(news.fault);
     m_sinceFault.start();

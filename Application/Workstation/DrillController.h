@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -8,27 +9,34 @@
 
 #include "petrous/Interaction/PointerAim.h"
 #include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Presenters/DeviceLead.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::workstation
 {
 
 class DrillBar;
+class HandKeeper;
 class ThreeDView;
 
-/// Puts the tool into the hand that holds the pointer: in drill mode the pointer leads a device,
-/// whose tool the tissue holds back; pressed, it drills. What is shown is the tool, not the hand.
+/// Puts a tool into the hand. The burr drills where it is pressed; the pointer cuts nothing and
+/// reads what is at its tip. The hand is the mouse, whose pointer leads a device of its own, or a
+/// device that was chosen. What is shown is the tool, which the tissue holds back, not the hand.
 class DrillController : public QObject
 {
   Q_OBJECT
 public:
+  static constexpr double kPointerRadius = 0.5; ///< mm, of the pointer's ball
+
   DrillController(presenters::WorkstationModel& model, ThreeDView& view, DrillBar& bar,
-                  QObject* parent = nullptr);
+                  HandKeeper& hands, QObject* parent = nullptr);
 
   void setSlicesFollow(bool follow); ///< the crosshair goes with the burr while it drills
+  void layDown();                    ///< no tool; ends an open stroke
+  void bringHere();                  ///< a device's tool before what the view's middle shows
 
 signals:
-  void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the burr
+  void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
   void pointedNowhere();
   /// Null when nothing was cut.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
@@ -36,30 +44,60 @@ signals:
   void faulted(const QString& line); ///< of the touch; empty when it works again
 
 private:
-  void setMode(bool drill);
+  enum class Tool
+  {
+    None,
+    Burr,
+    Pointer
+  };
+  void connectBar();
+  void connectView();
+  void connectHands();
+  void setTool(Tool tool);
   void hover(const interaction::SightLine& line);
   void press(const interaction::SightLine& line);
-  void hold(const interaction::SightLine& line);
   void release();
   bool takeTool(); // into the hand, unless it is there
+  haptics::Device& prepare(presenters::TouchSession::Setup& setup);
+  Eigen::Vector3d placeLookedAt();
   void putAway();
+  void takeAnew();
   void applyBar();
+  void handCame();
+  void setClutch(bool held);
   void point(const interaction::SightLine& line);
+  presenters::DeviceLead lead() const;
   void send();
+  void pressPointer();
   void frame();
   void hear(const presenters::TouchSession::News& news);
+  void follow(const simulation::TickRecord& record);
+  void read(const simulation::TickRecord& record);
   void showFault(const presenters::TouchSession::News& news);
-  double burrRadius() const;
+  QString whyLost() const;
+  bool isLost(const simulation::TickRecord& record);
+  double toolRadius() const;
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
   DrillBar& m_bar;
+  HandKeeper& m_hands;
   interaction::PointerAim m_aim;
-  std::unique_ptr<interaction::PointerDevice> m_pointer; // of the touch that runs
+  std::unique_ptr<haptics::Device> m_mouse;        // of the touch that runs: the mouse's
+  interaction::PointerDevice* m_pointer = nullptr; // in it
+  std::optional<Eigen::Vector3d> m_place;          // of the tool, when a device led it last
+  Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0};      // frame D, at the same time
+  std::optional<Eigen::Vector3d> m_tip;            // that was read last
   QTimer m_frames;
+  QTimer m_anew;
   QElapsedTimer m_sinceFault;
-  QString m_fault; // as shown
-  bool m_mode = false;
+  QElapsedTimer m_sinceTaken;
+  QElapsedTimer m_sinceGone;
+  QElapsedTimer m_sinceRead;
+  QString m_fault;                   // as shown
+  presenters::DeviceSwitches m_held; // keys and mouse button
+  bool m_foot = false;               // the pedal is down
+  Tool m_tool = Tool::None;
   bool m_slicesFollow = true;
 };
 

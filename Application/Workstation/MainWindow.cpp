@@ -18,6 +18,9 @@
 #include "CaseKeeper.h"
 #include "DrillBar.h"
 #include "DrillController.h"
+#include "HandBar.h"
+#include "HandFinder.h"
+#include "HandKeeper.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
 #include "SliceColumn.h"
@@ -26,6 +29,7 @@
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "WindowActions.h"
+#include "WindowSettings.h"
 #include "petrous/Presenters/CasePicture.h"
 
 namespace petrous::workstation
@@ -55,9 +59,11 @@ QString dropped(const QMimeData& data)
 }
 } // namespace
 
-MainWindow::MainWindow(library::Library library, bool quadBuffer)
+MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   : m_model(std::move(library))
+  , m_settings(std::make_unique<WindowSettings>(options.settings))
   , m_bar(new DrillBar)
+  , m_handBar(new HandBar)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
   , m_panel(new StructuresPanel(m_model))
@@ -65,11 +71,16 @@ MainWindow::MainWindow(library::Library library, bool quadBuffer)
   , m_place(new QLabel)
   , m_sum(new QLabel)
   , m_touch(new QLabel)
-  , m_actions(new WindowActions(*this, *m_bar, quadBuffer))
+  , m_actions(new WindowActions(*this, *m_bar, *m_handBar, options.quadBuffer))
   , m_keeper(new CaseKeeper(m_model, *this))
-  , m_drill(new DrillController(m_model, *m_view, *m_bar, this))
-  , m_picture(new PictureController(m_model, *m_view, *m_actions, *this, quadBuffer))
+  , m_finder(new HandFinder(options.hands, options.lookForHandsEvery, this))
+  , m_hands(new HandKeeper(*m_finder, *m_handBar, *m_settings, this))
+  , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
+  , m_picture(
+        new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
 {
+  if (const auto thrust = m_settings->thrust())
+    m_bar->setThrust(*thrust);
   m_picture->secure = [this] { return secure(); };
   m_keeper->setParent(this);
   m_keeper->camera = [this] { return m_view->picture().camera(); };
@@ -84,6 +95,10 @@ MainWindow::MainWindow(library::Library library, bool quadBuffer)
 MainWindow::~MainWindow()
 {
   m_model.events = {};
+  m_drill->layDown(); // before the hands that hold it
+  delete m_drill;
+  delete m_hands;
+  delete m_finder;  // a server ends now
   delete m_picture; // the surgeon's window follows the view
   delete m_keeper;  // its thread must not outlive the model
 }
@@ -159,12 +174,17 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
-  connect(m_drill, &DrillController::said, this,
-          [this](const QString& line)
-          {
-            statusBar()->showMessage(line);
-            statusBar()->repaint(); // what takes a while is told before it begins
-          });
+  const auto say = [this](const QString& line)
+  {
+    statusBar()->showMessage(line);
+    statusBar()->repaint(); // what takes a while is told before it begins
+  };
+  connect(m_drill, &DrillController::said, this, say);
+  connect(m_hands, &HandKeeper::said, this, say);
+  connect(m_hands, &HandKeeper::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_handBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
+  connect(m_bar, &DrillBar::pressChanged, this,
+          [this] { m_settings->keepThrust(m_bar->thrust()); });
   connect(m_keeper, &CaseKeeper::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_picture, &PictureController::said, this,
@@ -228,7 +248,7 @@ void MainWindow::caseChanged()
     dock->raise();
     resizeDocks({dock}, {395}, Qt::Horizontal);
   }
-  m_bar->drillAction()->setChecked(false);
+  m_drill->layDown();
   m_picture->caseChanged();
   m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
@@ -325,14 +345,14 @@ void MainWindow::about()
 
 bool MainWindow::secure()
 {
-  // Puts the tool away, which ends an open stroke, here and in the surgeon's window.
-  m_bar->drillAction()->setChecked(false);
+  // Ends an open stroke, here and in the surgeon's window.
+  m_drill->layDown();
   return !m_model.hasCase() || !m_model.unsaved() || m_keeper->save();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  m_bar->drillAction()->setChecked(false); // puts the tool away, which ends an open stroke
+  m_drill->layDown(); // ends an open stroke
   event->setAccepted(m_keeper->mayLeave());
   if (event->isAccepted())
     m_picture->closeSurgeonWindow();

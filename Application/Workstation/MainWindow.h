@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
+
 #include <QMainWindow>
 
+#include "petrous/Presenters/HeldDevice.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Rendering/StandardViews.h"
 
@@ -15,19 +18,31 @@ namespace petrous::workstation
 class CaseKeeper;
 class DrillBar;
 class DrillController;
+class HandBar;
+class HandFinder;
+class HandKeeper;
 class PictureController;
 class SliceColumn;
 class StructuresPanel;
 class ThreeDView;
 class WindowActions;
+class WindowSettings;
+
+/// What a window is made with.
+struct WindowOptions
+{
+  bool quadBuffer = false;       ///< the driver offers two buffers (see quadBufferOffered)
+  QString settings;              ///< an INI file; empty: the user's own
+  presenters::HandSources hands; ///< none: the mouse only
+  int lookForHandsEvery = 1000;  ///< ms
+};
 
 /// The workstation's window: puts model, views and panels together and passes on what happens.
 class MainWindow : public QMainWindow
 {
   Q_OBJECT
 public:
-  /// `quadBuffer`: the driver offers two buffers (see quadBufferOffered).
-  explicit MainWindow(library::Library library, bool quadBuffer = false);
+  explicit MainWindow(library::Library library, const WindowOptions& options = {});
   ~MainWindow() override;
 
   /// What was asked for on the command line: a case or a path; empty: the latest case, if any.
@@ -57,7 +72,9 @@ private:
   void about();
 
   presenters::WorkstationModel m_model;
+  std::unique_ptr<WindowSettings> m_settings;
   DrillBar* m_bar;
+  HandBar* m_handBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
   StructuresPanel* m_panel;
@@ -67,6 +84,8 @@ private:
   QLabel* m_touch;
   WindowActions* m_actions;
   CaseKeeper* m_keeper;
+  HandFinder* m_finder;
+  HandKeeper* m_hands;
   DrillController* m_drill;
   PictureController* m_picture;
 };

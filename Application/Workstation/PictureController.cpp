@@ -10,6 +10,7 @@
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "WindowActions.h"
+#include "WindowSettings.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::workstation
@@ -18,7 +19,8 @@ namespace petrous::workstation
 using rendering::StereoMode;
 
 PictureController::PictureController(presenters::WorkstationModel& model, ThreeDView& view,
-                                     WindowActions& actions, QWidget& window, bool quadBuffer)
+                                     WindowActions& actions, WindowSettings& kept, QWidget& window,
+                                     bool quadBuffer)
   : QObject(&window)
   , m_model(model)
   , m_view(view)
@@ -31,16 +33,22 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   m_speed->setContentsMargins(8, 0, 8, 0);
   m_speed->setToolTip(tr("How many pictures a second can be drawn, and at what share of the full "
                          "resolution while something moves"));
-  m_settings.events.lightChanged = [this]
+  kept.restore(m_settings, quadBuffer);
+  m_view.display().setLight(m_settings.light());
+  applyStereo();
+  m_panel->settingsChanged();
+  const auto changed = [this, &kept](auto what)
   {
-    m_view.display().setLight(m_settings.light());
-    m_panel->settingsChanged();
+    return [this, &kept, what]
+    {
+      what();
+      m_panel->settingsChanged();
+      kept.keep(m_settings);
+    };
   };
-  m_settings.events.stereoChanged = [this]
-  {
-    applyStereo();
-    m_panel->settingsChanged();
-  };
+  m_settings.events.lightChanged =
+      changed([this] { m_view.display().setLight(m_settings.light()); });
+  m_settings.events.stereoChanged = changed([this] { applyStereo(); });
   connect(m_actions.stereo, &QActionGroup::triggered, this,
           [this](QAction* action)
           { m_settings.setStereo(static_cast<StereoMode>(action->data().toInt())); });

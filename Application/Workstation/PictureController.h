@@ -19,15 +19,17 @@ class PicturePanel;
 class SurgeonWindow;
 class ThreeDView;
 class WindowActions;
+class WindowSettings;
 
 /// Lamp, stereo and the surgeon's window; how fast the picture is, and what to do when it fails.
 class PictureController : public QObject
 {
   Q_OBJECT
 public:
-  /// `actions`' stereo and surgeon's window are connected here.
+  /// `actions`' stereo and surgeon's window are connected here. Lamp and stereo begin as `kept`,
+  /// and are kept there.
   PictureController(presenters::WorkstationModel& model, ThreeDView& view, WindowActions& actions,
-                    QWidget& window, bool quadBuffer);
+                    WindowSettings& kept, QWidget& window, bool quadBuffer);
   ~PictureController() override;
 
   /// Brings the case's work to safety when the picture fails; false: it could not be saved.

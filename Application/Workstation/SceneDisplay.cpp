@@ -130,8 +130,18 @@ void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRad
   redraw(true);
 }
 
+void SceneDisplay::setReading(const QString& text)
+{
+  if (m_follower)
+    m_follower->setReading(text);
+  m_reading = text;
+  if (m_touch && m_touch->setReading(bytes(text)))
+    redraw(m_moving);
+}
+
 void SceneDisplay::endTouch()
 {
+  m_reading.clear();
   if (m_follower)
     m_follower->endTouch();
   if (!m_touch)

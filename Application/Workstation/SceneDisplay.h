@@ -53,9 +53,13 @@ public:
   void setContents(const rendering::SceneContents& contents);
   void setLight(const rendering::LightSettings& light);
   void setTool(const std::optional<rendering::ToolPose>& tool);
+  const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }
   /// The tool in the hand, with its force, as the servo has it; drawn where it moved.
   void setTouch(const simulation::TickRecord& record, double burrRadius);
-  void endTouch(); ///< no tool, no force
+  /// What a pointer in the hand reads, some lines; after setTouch.
+  void setReading(const QString& text);
+  const QString& reading() const noexcept { return m_reading; }
+  void endTouch(); ///< no tool, no force, no reading
   void setCamera(const core::CameraPose& pose);
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
@@ -92,6 +96,7 @@ private:
   rendering::LightSettings m_light;
   std::unique_ptr<TouchOverlay>
       m_touch; // while there is a tool in the hand; ends before m_renderer
+  QString m_reading;
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
   QElapsedTimer m_clock;

@@ -48,12 +48,17 @@ void SurgeonWindow::addView()
   connect(m_view, &ThreeDView::drillPressed, &m_main, &ThreeDView::drillPressed);
   connect(m_view, &ThreeDView::drillHeld, &m_main, &ThreeDView::drillHeld);
   connect(m_view, &ThreeDView::drillReleased, &m_main, &ThreeDView::drillReleased);
+  connect(m_view, &ThreeDView::clutchHeld, &m_main, &ThreeDView::clutchHeld);
   connect(m_view, &ThreeDView::wheelLed, &m_main, &ThreeDView::wheelLed);
   connect(&m_main, &ThreeDView::wheelLeadsSet, m_view, &ThreeDView::setWheelLeads);
   m_view->setWheelLeads(m_main.wheelLeads());
   connect(m_view, &ThreeDView::cameraMoved, &m_main, &ThreeDView::setCamera);
   connect(&m_main, &ThreeDView::drillModeSet, m_view, &ThreeDView::setDrillMode);
   m_view->setDrillMode(m_main.drillMode());
+  connect(&m_main, &ThreeDView::buttonDrillsSet, m_view, &ThreeDView::setButtonDrills);
+  m_view->setButtonDrills(m_main.buttonDrills());
+  connect(&m_main, &ThreeDView::pointingSet, m_view, &ThreeDView::setPointing);
+  m_view->setPointing(m_main.pointing());
 }
 
 void SurgeonWindow::addStereoView()

@@ -59,8 +59,36 @@ void ThreeDView::setDrillMode(bool on)
   if (!on)
     stopDrilling();
   m_drillMode = on;
-  setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
+  showCursor();
   emit drillModeSet(on);
+}
+
+void ThreeDView::setButtonDrills(bool on)
+{
+  m_buttonDrills = on;
+  showCursor();
+  emit buttonDrillsSet(on);
+}
+
+void ThreeDView::setPointing(bool on)
+{
+  m_pointing = on;
+  showCursor();
+  emit pointingSet(on);
+}
+
+void ThreeDView::showCursor()
+{
+  const bool leads = m_buttonDrills && (m_drillMode || m_pointing);
+  setCursor(leads ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
+void ThreeDView::holdClutch(bool on)
+{
+  if (on == m_clutch)
+    return;
+  m_clutch = on;
+  emit clutchHeld(on);
 }
 
 void ThreeDView::setWheelLeads(bool on)
@@ -153,9 +181,9 @@ void ThreeDView::stopDrilling()
 void ThreeDView::mousePressEvent(QMouseEvent* event)
 {
   setFocus(Qt::MouseFocusReason);
-  if (event->button() == Qt::LeftButton && m_drillMode)
+  if (event->button() == Qt::LeftButton && m_drillMode && m_buttonDrills)
     startDrilling(event->localPos());
-  else if (!m_drilling)
+  else if (!m_drilling || !m_buttonDrills)
     m_turning = true;
   m_dragged = event->localPos();
 }
@@ -163,7 +191,7 @@ void ThreeDView::mousePressEvent(QMouseEvent* event)
 void ThreeDView::mouseMoveEvent(QMouseEvent* event)
 {
   m_pointer = event->localPos();
-  if (m_drilling)
+  if (m_drilling && m_buttonDrills)
     return; // the tick follows
   if (!m_turning)
   {
@@ -181,7 +209,7 @@ void ThreeDView::mouseMoveEvent(QMouseEvent* event)
 
 void ThreeDView::mouseReleaseEvent(QMouseEvent* event)
 {
-  if (m_drilling && event->button() == Qt::LeftButton)
+  if (m_drilling && m_buttonDrills && event->button() == Qt::LeftButton)
   {
     m_pointer = event->localPos();
     stopDrilling();
@@ -191,7 +219,7 @@ void ThreeDView::mouseReleaseEvent(QMouseEvent* event)
 
 void ThreeDView::mouseDoubleClickEvent(QMouseEvent* event)
 {
-  if (event->button() == Qt::LeftButton && !m_drillMode)
+  if (event->button() == Qt::LeftButton && !(m_drillMode && m_buttonDrills))
     emit picked(sightLine(event->localPos()));
   else
     mousePressEvent(event);
@@ -230,6 +258,10 @@ void ThreeDView::keyPressEvent(QKeyEvent* event)
     if (m_drillMode && !event->isAutoRepeat())
       startDrilling(m_pointer);
     return;
+  case Qt::Key_X:
+    if (!event->isAutoRepeat())
+      holdClutch(true);
+    return;
   default:
     QVTKOpenGLNativeWidget::keyPressEvent(event);
   }
@@ -239,6 +271,8 @@ void ThreeDView::keyReleaseEvent(QKeyEvent* event)
 {
   if (event->key() == Qt::Key_Space && !event->isAutoRepeat())
     stopDrilling();
+  else if (event->key() == Qt::Key_X && !event->isAutoRepeat())
+    holdClutch(false);
   else
     QVTKOpenGLNativeWidget::keyReleaseEvent(event);
 }
@@ -246,6 +280,7 @@ void ThreeDView::keyReleaseEvent(QKeyEvent* event)
 void ThreeDView::focusOutEvent(QFocusEvent* event)
 {
   stopDrilling(); // a release that another window gets would leave the drill on
+  holdClutch(false);
   QVTKOpenGLNativeWidget::focusOutEvent(event);
 }
 

@@ -19,8 +19,9 @@ namespace petrous::workstation
 
 /// The scene in 3D, turned and zoomed by mouse and keys; tells where the pointer looks.
 ///
-/// Left drag turns, or drills in drill mode; right and middle drag turn, with Shift they move. The
-/// wheel zooms, or leads the burr in depth where that is set; with Ctrl it always zooms.
+/// Left drag turns, or drills in drill mode where the mouse leads the tool; right and middle drag
+/// turn, with Shift they move. The wheel zooms, or leads the burr in depth where that is set; with
+/// Ctrl it always zooms. Space drills and X is the clutch, while they are held.
 class ThreeDView : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -34,6 +35,10 @@ public:
   bool drillMode() const noexcept { return m_drillMode; }
   void setWheelLeads(bool on); ///< in drill mode
   bool wheelLeads() const noexcept { return m_wheelLeads; }
+  void setButtonDrills(bool on); ///< false: the left button turns in drill mode, too
+  bool buttonDrills() const noexcept { return m_buttonDrills; }
+  void setPointing(bool on); ///< a pointer is in the hand: the mouse shows as a cross
+  bool pointing() const noexcept { return m_pointing; }
   bool drilling() const noexcept { return m_drilling; }
   void setCamera(const core::CameraPose& pose);
 
@@ -47,7 +52,10 @@ signals:
   void drillPressed(const petrous::interaction::SightLine& line);
   void drillHeld(const petrous::interaction::SightLine& line); ///< at each tick while it is on
   void drillReleased();
+  void clutchHeld(bool on);
   void drillModeSet(bool on);
+  void buttonDrillsSet(bool on);
+  void pointingSet(bool on);
   void wheelLeadsSet(bool on);
   void wheelLed(double notches, bool fine); ///< > 0: away from the eye
   void cameraMoved(const petrous::core::CameraPose& pose);
@@ -67,6 +75,8 @@ protected:
 private:
   void startDrilling(const QPointF& position);
   void stopDrilling();
+  void holdClutch(bool on);
+  void showCursor();
   void placeLetters();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
@@ -77,6 +87,9 @@ private:
   QPointF m_dragged;
   bool m_drillMode = false;
   bool m_wheelLeads = false;
+  bool m_buttonDrills = true;
+  bool m_pointing = false;
+  bool m_clutch = false;
   bool m_drilling = false;
   bool m_turning = false;
 };

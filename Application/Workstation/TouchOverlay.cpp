@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 
 namespace petrous::workstation
 {
@@ -13,6 +15,10 @@ namespace
 constexpr double kPlace = 0.02;   // mm
 constexpr double kHeading = 1e-3; // rad
 constexpr double kForce = 0.03;   // N
+// Pixels: right of the force's bar and its number, above the letter of the lower edge.
+constexpr double kReadingLeft = 76.0;
+constexpr double kReadingBottom = 48.0;
+constexpr int kReadingSize = 17;
 } // namespace
 
 TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius)
@@ -22,12 +28,34 @@ TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius)
 {
   m_view.addTo(&renderer);
   m_force.addTo(&renderer);
+  vtkTextProperty* look = m_reading->GetTextProperty();
+  look->SetFontFamilyToArial();
+  look->SetFontSize(kReadingSize);
+  look->SetColor(0.93, 0.95, 0.98);
+  look->SetBackgroundColor(0.06, 0.07, 0.09);
+  look->SetBackgroundOpacity(0.55);
+  look->SetLineSpacing(1.2);
+  m_reading->SetPosition(kReadingLeft, kReadingBottom);
+  m_reading->PickableOff();
+  m_reading->SetVisibility(0);
+  renderer.AddViewProp(m_reading);
 }
 
 TouchOverlay::~TouchOverlay()
 {
   m_view.removeFrom(m_renderer);
   m_force.removeFrom(m_renderer);
+  m_renderer->RemoveViewProp(m_reading);
+}
+
+bool TouchOverlay::setReading(const std::string& text)
+{
+  if (text == m_text)
+    return false;
+  m_text = text;
+  m_reading->SetInput(text.c_str());
+  m_reading->SetVisibility(text.empty() ? 0 : 1);
+  return true;
 }
 
 bool TouchOverlay::update(const simulation::TickRecord& record)

@@ -1,19 +1,22 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 #include "petrous/Interaction/ForceDisplay.h"
 #include "petrous/Interaction/ToolView.h"
 
 class vtkRenderer;
+class vtkTextActor;
 
 namespace petrous::workstation
 {
 
-/// What a renderer shows of a tool in the hand: its force, and a line to where the hand would have
-/// it. Goes from the renderer when it ends.
+/// What a renderer shows of a tool in the hand: its force, a line to where the hand would have it,
+/// and what a pointer reads, beside the bar of the force. Goes from the renderer when it ends.
 class TouchOverlay
 {
 public:
@@ -27,12 +30,16 @@ public:
 
   /// True when the picture looks different now.
   bool update(const simulation::TickRecord& record);
+  /// UTF-8, some lines; empty: nothing is read. Likewise.
+  bool setReading(const std::string& text);
 
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;
   double m_burrRadius;
   interaction::ToolView m_view;
   interaction::ForceDisplay m_force;
+  vtkNew<vtkTextActor> m_reading;
+  std::string m_text;                        // as shown
   std::optional<rendering::ToolPose> m_tool; // as drawn last
   double m_shownForce = 0.0;                 // N
   double m_shownLag = 0.0;                   // mm

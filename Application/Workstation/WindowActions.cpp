@@ -9,6 +9,7 @@
 #include <QToolButton>
 
 #include "DrillBar.h"
+#include "HandBar.h"
 #include "petrous/Rendering/Stereo.h"
 
 namespace petrous::workstation
@@ -45,7 +46,8 @@ QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequenc
   return action;
 }
 
-WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadBuffer)
+WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& handBar,
+                             bool quadBuffer)
   : QObject(&window)
 {
   QMenu* file = window.menuBar()->addMenu(tr("&File"));
@@ -95,7 +97,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadB
 
   QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
   drill->addAction(drillBar.drillAction());
+  drill->addAction(drillBar.pointerAction());
   drill->addAction(drillBar.wheelAction());
+  drill->addAction(handBar.hereAction());
   smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft, tr("0.5 mm less"));
   largerBurr = make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("0.5 mm more"));
   drill->addSeparator();
@@ -131,10 +135,12 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, bool quadB
   views->setPopupMode(QToolButton::InstantPopup);
   bar->addWidget(views);
   window.addToolBar(bar);
+  window.addToolBarBreak(); // in one row with the next two a narrow window would hide some
   window.addToolBar(&drillBar);
+  window.addToolBar(&handBar);
 
   m_needCase.insert(m_needCase.end(), {save, saveAs, centerView, boneWindow, softWindow, fitSlices,
-                                       drillBar.drillAction()});
+                                       drillBar.drillAction(), drillBar.pointerAction()});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

@@ -9,6 +9,7 @@
 #include "MainWindow.h"
 #include "SceneDisplay.h"
 #include "Theme.h"
+#include "petrous/Devices/ServerCatalogue.h"
 
 namespace
 {
@@ -21,6 +22,20 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
   if (folder.isEmpty()) // the same place as the petrous command
     folder = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
   return QFile::encodeName(folder).toStdString();
+}
+
+petrous::presenters::HandSources handSources()
+{
+  petrous::presenters::HandSources sources;
+  try
+  {
+    sources.hid = std::make_shared<const petrous::devices::HidLibrary>();
+  }
+  catch (const petrous::devices::HidError&) // the mouse is left; 'petrous doctor' says why
+  {
+  }
+  sources.serverFolders = petrous::devices::serverFolders();
+  return sources;
 }
 
 } // namespace
@@ -50,8 +65,10 @@ int main(int argc, char** argv)
     return 2;
   }
 
-  workstation::MainWindow window(library::Library(libraryFolder(parser)),
-                                 workstation::quadBufferOffered());
+  workstation::WindowOptions options;
+  options.quadBuffer = workstation::quadBufferOffered();
+  options.hands = handSources();
+  workstation::MainWindow window(library::Library(libraryFolder(parser)), options);
   window.show();
   window.begin(parser.positionalArguments().value(0));
   return QApplication::exec();

@@ -70,7 +70,11 @@ void GuiTest::saveBall(const std::string& name)
 
 void GuiTest::openWindow(const QString& what)
 {
-  m_window = std::make_unique<MainWindow>(library());
+  WindowOptions options;
+  options.settings = m_folder.filePath("settings.conf");
+  options.hands = hands;
+  options.lookForHandsEvery = 50;
+  m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
   m_window->show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(m_window.get()));

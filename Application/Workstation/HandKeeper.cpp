@@ -1,0 +1,93 @@
+#include "HandKeeper.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "HandBar.h"
+#include "Theme.h"
+#include "WindowSettings.h"
+
+namespace petrous::workstation
+{
+
+using presenters::DeviceLead;
+using presenters::Hand;
+
+HandKeeper::HandKeeper(HandFinder& finder, HandBar& bar, WindowSettings& settings, QObject* parent)
+  : QObject(parent)
+  , m_finder(finder)
+  , m_bar(bar)
+  , m_settings(settings)
+{
+  connect(&finder, &HandFinder::changed, this, &HandKeeper::showHands);
+  connect(&finder, &HandFinder::opened, this, &HandKeeper::take);
+  connect(&finder, &HandFinder::failed, this, &HandKeeper::giveUp);
+  connect(&bar, &HandBar::chosen, this, &HandKeeper::choose);
+  connect(&bar, &HandBar::leadChanged, this,
+          [this]
+          {
+            m_settings.keepScale(m_hand.id, m_bar.scale());
+            if (m_device && m_device->description().givesForce)
+              m_settings.keepForceLimit(m_hand.id, m_bar.forceLimit());
+            emit leadChanged();
+          });
+}
+
+HandKeeper::~HandKeeper()
+{
+  m_finder.close(std::move(m_device));
+}
+
+void HandKeeper::showHands()
+{
+  m_bar.showHands(m_finder.found(), m_hand.id);
+  const bool pedal = m_finder.pedal() != nullptr;
+  if (std::exchange(m_hadPedal, pedal) == pedal)
+    return;
+  emit said(tr("The pedal drills"));
+  emit pedalCame();
+}
+
+void HandKeeper::choose(const Hand& hand)
+{
+  if (hand.id == m_hand.id)
+    return;
+  emit leaving();
+  m_finder.drop();
+  m_finder.close(std::move(m_device));
+  m_device.reset();
+  m_hand = hand;
+  m_bar.showHands(m_finder.found(), m_hand.id);
+  m_bar.showLead(nullptr, 1.0, 0.0);
+  if (hand.kind == Hand::Kind::Mouse)
+    return emit came();
+  emit said(tr("Taking up %1…").arg(words(hand.name)));
+  m_finder.open(hand);
+}
+
+void HandKeeper::take()
+{
+  m_device = m_finder.take();
+  const haptics::DeviceDescription& device = m_device->description();
+  const double scale = m_settings.scale(m_hand.id).value_or(presenters::usualScale(device));
+  const double limit = m_settings.forceLimit(m_hand.id).value_or(device.maxForce);
+  m_bar.showLead(&device, scale, std::clamp(limit, 0.0, device.maxForce));
+  emit said(tr("%1 is there").arg(words(device.name)));
+  emit came();
+}
+
+void HandKeeper::giveUp(const QString& why)
+{
+  choose(Hand());
+  emit said(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
+}
+
+DeviceLead HandKeeper::lead() const
+{
+  DeviceLead lead;
+  lead.scale = m_bar.scale();
+  lead.forceLimit = m_bar.forceLimit();
+  return lead;
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+
+#include <QObject>
+
+#include "HandFinder.h"
+#include "petrous/Presenters/DeviceLead.h"
+
+namespace petrous::workstation
+{
+
+class HandBar;
+class WindowSettings;
+
+/// Which hand holds the tool: what the user chose in the bar, opened and set as it was kept. The
+/// mouse to begin with, and whenever a device cannot be had.
+class HandKeeper : public QObject
+{
+  Q_OBJECT
+public:
+  HandKeeper(HandFinder& finder, HandBar& bar, WindowSettings& settings, QObject* parent = nullptr);
+  ~HandKeeper() override;
+
+  presenters::HeldDevice* device() const noexcept { return m_device.get(); } ///< null: the mouse
+  bool opening() const noexcept
+  {
+    return !m_device && m_hand.kind != presenters::Hand::Kind::Mouse;
+  }
+  const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_finder.pedal(); }
+  presenters::DeviceLead lead() const; ///< but for the thrust
+
+  void choose(const presenters::Hand& hand);
+  void giveUp(const QString& why); ///< the mouse takes over
+
+signals:
+  /// Not to be used any more from here on; comes before `device` goes.
+  void leaving();
+  void came(); ///< another hand, which may be used
+  void leadChanged();
+  void pedalCame();
+  void said(const QString& line);
+
+private:
+  void take();
+  void showHands();
+
+  HandFinder& m_finder;
+  HandBar& m_bar;
+  WindowSettings& m_settings;
+  presenters::Hand m_hand; // chosen
+  std::shared_ptr<presenters::HeldDevice> m_device;
+  bool m_hadPedal = false;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,245 @@
+#include "HandTest.h"
+
+#include <QDoubleSpinBox>
+
+using namespace petrous;
+using namespace petrous::workstation;
+using devices::testing::FakeServer;
+using Eigen::Vector3d;
+
+using Hand = HandTest;
+
+namespace
+{
+
+// A device of 3 N that senses its heading and renders 0.5 N/mm.
+void describe(petrous_device_block& block)
+{
+  block.flags = PETROUS_SENSES_ROTATION | PETROUS_GIVES_FORCE;
+  block.max_force = 3.0;
+  block.max_stiffness = 0.5;
+}
+
+Vector3d forceOf(const petrous_device_wrench& wrench)
+{
+  return {wrench.force[0], wrench.force[1], wrench.force[2]};
+}
+
+} // namespace
+
+TEST_F(Hand, WhatIsPluggedInComesUpInTheListAndGoes)
+{
+  saveBall("ball");
+  openWindow();
+  EXPECT_EQ(choice().count(), 1);
+  EXPECT_EQ(choice().currentText(), "Mouse");
+  bench.play(kPlugCap);
+  EXPECT_TRUE(offers("SpaceMouse Compact"));
+  EXPECT_EQ(choice().currentText(), "Mouse") << "nothing is taken unasked";
+  bench.play("unplug cap\n");
+  EXPECT_TRUE(waitFor([this] { return choice().count() == 1; }));
+  installServer("omega.7");
+  EXPECT_TRUE(offers("omega.7"));
+  EXPECT_FALSE(started("omega.7"));
+}
+
+TEST_F(Hand, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
+{
+  saveBall("ball");
+  bench.play(kPlugCap);
+  openWindow();
+  choose("SpaceMouse Compact");
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  const Vector3d begin = tool();
+  // It begins on the line of sight through the middle, a millimetre before the ball.
+  const auto line = view().sightLine({-1.0, -1.0});
+  EXPECT_LT((begin - line.origin).cross(line.direction).norm(), 0.01);
+  EXPECT_NEAR((begin - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.2);
+
+  ASSERT_TRUE(holdCapUntil(capHeld(350, 0, 0),
+                           [&] { return (axes().transpose() * (tool() - begin)).x() > 1.0; }));
+  const Vector3d way = axes().transpose() * (tool() - begin);
+  EXPECT_LT(std::hypot(way.y(), way.z()), 0.05) << way.transpose();
+
+  // Into the bone, with its first button: 1 N presses, whatever the cap says.
+  ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0, 1),
+                           [this]
+                           {
+                             return window().model().value().applied > 0 ||
+                                    !window().model().value().dissection->mask().untouched();
+                           }));
+  bench.play(capHeld(0, 350, 0, 0));
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().strokes.empty(); }));
+  EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
+}
+
+TEST_F(Hand, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInCharge)
+{
+  saveBall("ball");
+  bench.play(kPlugCap);
+  openWindow();
+  choose("SpaceMouse Compact");
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  QTest::keyPress(&view(), Qt::Key_Space);
+  ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
+                           { return !window().model().value().dissection->mask().untouched(); }));
+  bench.play("unplug cap\n");
+  ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  EXPECT_TRUE(message().contains("unplugged")) << message().toStdString();
+  EXPECT_TRUE(message().contains("The mouse leads the tool")) << message().toStdString();
+  ASSERT_EQ(library().open("ball").strokes.size(), 1u);
+  EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
+  QTest::keyRelease(&view(), Qt::Key_Space);
+
+  EXPECT_TRUE(action("Drill")->isChecked());
+  drill(600, 20);
+  EXPECT_EQ(library().open("ball").strokes.size(), 2u);
+}
+
+TEST_F(Hand, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
+{
+  saveBall("ball");
+  installServer(serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
+  FakeServer server(serverName(), describe);
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  const Vector3d begin = tool();
+  EXPECT_NEAR((begin - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.2);
+
+  auto* scale = window().findChild<QDoubleSpinBox*>("handScale");
+  EXPECT_TRUE(scale->isVisible());
+  EXPECT_EQ(scale->value(), 0.5);
+  const Vector3d hand(6.0, 4.0, 8.0);
+  glide(server, Vector3d::Zero(), hand);
+  const auto at = [&](const Vector3d& wanted)
+  {
+    return waitFor([&] { return (axes().transpose() * (tool() - begin) - wanted).norm() < 0.05; },
+                   10000);
+  };
+  EXPECT_TRUE(at(0.5 * hand)) << (axes().transpose() * (tool() - begin)).transpose();
+
+  // Another scale does not move the tool; from there on it holds.
+  scale->setValue(1.0);
+  ASSERT_TRUE(hasTool());
+  EXPECT_TRUE(at(0.5 * hand));
+  const Vector3d back(0.0, 0.0, 8.0);
+  const Vector3d there = 0.5 * hand + back - hand;
+  glide(server, hand, back);
+  EXPECT_TRUE(at(there)) << (axes().transpose() * (tool() - begin)).transpose();
+
+  // While X is held the hand goes alone.
+  QTest::keyPress(&view(), Qt::Key_X);
+  QTest::qWait(100);
+  const Vector3d aside = back + Vector3d(10.0, 0.0, 0.0);
+  glide(server, back, aside);
+  QTest::qWait(200);
+  EXPECT_TRUE(at(there));
+  QTest::keyRelease(&view(), Qt::Key_X);
+  QTest::qWait(100);
+  const Vector3d on(2.0, 0.0, 0.0);
+  glide(server, aside, aside + on);
+  EXPECT_TRUE(at(there + on));
+
+  // And before what is looked at, wherever the hand is.
+  QTest::keyClick(&view(), Qt::Key_H);
+  ASSERT_TRUE(hasTool());
+  EXPECT_TRUE(at(Vector3d::Zero()));
+}
+
+TEST_F(Hand, TheForceStaysWithinTheUsersLimit)
+{
+  saveBall("ball");
+  installServer(serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
+  FakeServer server(serverName(), describe);
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  auto* limit = window().findChild<QDoubleSpinBox*>("forceLimit");
+  ASSERT_TRUE(limit->isVisible());
+  EXPECT_EQ(limit->value(), 3.0) << "what the device can";
+  EXPECT_EQ(limit->maximum(), 3.0);
+  EXPECT_FALSE(window().findChild<QDoubleSpinBox*>("thrust")->isEnabled());
+
+  // 1 mm before the bone, then 2 mm of the tool into it: 1 N/mm there, 0.5 N/mm in the hand.
+  const auto feels = [&](double newtons)
+  {
+    return waitFor(
+        [&] { return (forceOf(server.wrench()) - Vector3d(0.0, 0.0, newtons)).norm() < 0.15; },
+        10000);
+  };
+  glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0});
+  picture();
+  EXPECT_TRUE(feels(2.0)) << forceOf(server.wrench()).transpose();
+  // Another limit takes the tool up where it is, without force until the hand presses on.
+  limit->setValue(0.7);
+  EXPECT_TRUE(feels(0.0));
+  QTest::qWait(500);
+  glide(server, {0.0, 0.0, -6.0}, {0.0, 0.0, -10.0});
+  EXPECT_TRUE(feels(0.7)) << forceOf(server.wrench()).transpose();
+
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_TRUE(feels(0.0));
+}
+
+TEST_F(Hand, AServerWithoutItsDeviceGivesTheToolBackToTheMouse)
+{
+  saveBall("ball");
+  installServer(serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
+  FakeServer server(serverName(), describe);
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0});
+  ASSERT_TRUE(waitFor([&] { return forceOf(server.wrench()).z() > 1.0; }));
+  server.say(PETROUS_SERVER_NO_DEVICE, "its plug was pulled");
+  EXPECT_TRUE(waitFor([&] { return forceOf(server.wrench()).norm() == 0.0; }));
+  EXPECT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  EXPECT_TRUE(message().contains("its plug was pulled")) << message().toStdString();
+}
+
+TEST_F(Hand, AServerThatCannotBeUsedIsNamedAndTheWindowGoesOnMeanwhile)
+{
+  saveBall("ball");
+  const auto broken = servers() / serverName();
+  std::ofstream(broken) << "#!/bin/sh\nexit 3\n";
+  std::filesystem::permissions(broken, std::filesystem::perms::owner_all);
+  installServer("silent-" + serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  EXPECT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  EXPECT_TRUE(message().contains("ended by itself with status 3")) << message().toStdString();
+
+  // Nobody answers for this one. The mouse drills as soon as it is wanted again.
+  choose(QString::fromStdString("silent-" + serverName()));
+  ASSERT_TRUE(waitFor([this] { return started("silent-" + serverName()); }));
+  choose("Mouse");
+  drill(500, 10);
+  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+}
+
+TEST_F(Hand, APedalDrillsWithTheMouse)
+{
+  saveBall("ball");
+  bench.play(kPlugFoot);
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::mouseMove(&view(), view().rect().center());
+  QTest::mouseMove(&view(), view().rect().center() + QPoint(2, 0));
+  ASSERT_TRUE(hasTool());
+  bench.play("await foot\nreport foot 02 00\n");
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
+  EXPECT_TRUE(window().model().value().strokes.empty());
+  bench.play("report foot 00 00\n");
+  EXPECT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
+  EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
+  EXPECT_TRUE(library().open("ball").strokes.front().info.camera.has_value());
+}

@@ -54,7 +54,8 @@ struct Scene
 };
 
 inline Scene sceneOf(std::shared_ptr<const volume::IntensityVolume> ct,
-                     std::vector<volume::TissueField::SolidUnion> solids = {}, SoftTissue soft = {})
+                     std::vector<volume::TissueField::SolidUnion> solids = {},
+                     std::vector<SoftStructure> soft = {})
 {
   Scene scene;
   scene.mask = std::make_shared<volume::CutMask>(ct->geometry());

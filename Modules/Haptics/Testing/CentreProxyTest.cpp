@@ -240,42 +240,6 @@ TEST(CentreProxy, GivesNoTorqueAndTurnsWithTheHand)
   }
 }
 
-TEST(CentreProxy, IsOnlyHeldBackAndPushedLessBySoftTissue)
-{
-  const double h = 0.3;
-  const auto air = scanOf([](const Vector3d&) { return -10.0; }, h, 6.0);
-  const core::GridGeometry& grid = air->geometry();
-  auto share = std::make_shared<volume::Volume<float>>(grid);
-  auto index = std::make_shared<volume::Volume<std::uint8_t>>(grid);
-  const core::Index3& dims = grid.dims();
-  for (int k = 0; k < dims[2]; ++k)
-    for (int j = 0; j < dims[1]; ++j)
-      for (int i = 0; i < dims[0]; ++i)
-      {
-        const double d = -grid.patientFromVoxel({double(i), double(j), double(k)}).z();
-        share->at(i, j, k) = static_cast<float>(std::clamp(0.5 + 0.5 * d / h, 0.0, 1.0));
-        index->at(i, j, k) = 2;
-      }
-  SoftTissue soft;
-  soft.index = index;
-  soft.compliance[2] = 0.5F; // mm/N: in series with the coupling's 1 mm/N two thirds of its force
-  const Scene yielding = sceneOf(air, {share}, soft);
-  const Scene rigid = sceneOf(air, {share});
-  CentreProxy inSoft(yielding.field, {1.5, 1000, 1.0});
-  CentreProxy onRigid(rigid.field, {1.5, 1000, 1.0});
-  for (CentreProxy* proxy : {&inSoft, &onRigid})
-    proxy->place(at({0, 0, 2}));
-  for (const double z : {1.2, 0.8, 0.3})
-  {
-    const Vector3d full = onRigid.step(at({0, 0, z})).wrench.linear;
-    const ProxyTick& tick = inSoft.step(at({0, 0, z}));
-    EXPECT_NEAR(tick.wrench.linear.z(), full.z() / 1.5, 0.01 * full.z());
-    EXPECT_EQ(tick.penetration, 0.0) << "of rigid tissue";
-  }
-  EXPECT_EQ(inSoft.step(at({0, 0, -1})).pose.position.z(), -1.0);
-  EXPECT_NEAR(onRigid.step(at({0, 0, -1})).pose.position.z(), 0.0, 0.02);
-}
-
 TEST(CentreProxy, GivesTheSameBitsForTheSameTicks)
 {
   const Scene scene = sceneOf(scanOf(ball(2.0), 0.3, 7.0));

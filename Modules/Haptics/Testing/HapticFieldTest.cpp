@@ -192,38 +192,3 @@ TEST(HapticField, TakesNoTissueFromVoxelsWithoutANumber)
   EXPECT_LT(scene.field->sample({10, 10, 10}, state).value, 0.0);
   EXPECT_GT(scene.field->clearance({10, 10, 10}), 0.0);
 }
-
-TEST(HapticField, LeavesSoftTissueOutOfTheRigidField)
-{
-  const double h = 0.5;
-  const auto air = scanOf([](const Eigen::Vector3d&) { return -1.0; }, h, 6.0);
-  auto share = std::make_shared<volume::Volume<float>>(air->geometry());
-  auto index = std::make_shared<volume::Volume<std::uint8_t>>(air->geometry());
-  const SignedDistance solid = ball(3.0);
-  for (std::size_t n = 0; n < share->size(); ++n)
-  {
-    const int edge = air->geometry().dims()[0];
-    const auto at = [&](std::size_t m) { return double(m % static_cast<std::size_t>(edge)); };
-    const auto row = static_cast<std::size_t>(edge);
-    const double d =
-        solid(air->geometry().patientFromVoxel({at(n), at(n / row), at(n / row / row)}));
-    share->data()[n] = static_cast<float>(std::clamp(0.5 + 0.5 * d / h, 0.0, 1.0));
-    index->data()[n] = d > -1.0 ? 2 : 0;
-  }
-  SoftTissue soft;
-  soft.index = index;
-  soft.compliance[2] = 0.5F;
-  const Scene scene = sceneOf(air, {share}, soft);
-  const auto& state = *scene.published->acquire();
-  const FieldSample sample =
-      scene.field->sample(air->geometry().voxelFromPatient({0.2, 0.1, -0.3}), state);
-  EXPECT_LT(sample.value, 0.0);
-  EXPECT_GT(sample.soft, 0.0);
-  EXPECT_EQ(sample.compliance, 0.5);
-  const Scene rigid = sceneOf(air, {share});
-  EXPECT_GT(
-      rigid.field
-          ->sample(air->geometry().voxelFromPatient({0.2, 0.1, -0.3}), *rigid.published->acquire())
-          .value,
-      0.0);
-}

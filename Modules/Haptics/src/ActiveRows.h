@@ -11,22 +11,23 @@ namespace petrous::haptics
 /// The rows that hold at equality, each n y + c multiplier = b with the same minute compliance c,
 /// and their multipliers.
 ///
-/// A row is the vector (n, sqrt(c) e) of 6 + size() numbers, e the unit vector of an axis of its
+/// A row is the vector (n, sqrt(c) e) of N + size() numbers, e the unit vector of an axis of its
 /// own, so that rows never depend on each other. They are kept as N^T = Q R: Q has orthonormal
 /// columns, R is upper triangular, column j of N^T is the j-th row. Of each column of Q, `head` is
-/// the part in the six axes, `tail` the part in the rows' own.
+/// the part in the N axes, `tail` the part in the rows' own.
+template <int N>
 class ActiveRows
 {
 public:
-  static constexpr int kMost = 12; ///< six, and a few that nearly depend on those
+  static constexpr int kMost = N + 6; ///< N, and a few that nearly depend on those
 
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Vector = Eigen::Matrix<double, N, 1>;
   using Coefficients = std::array<double, kMost>; // the first size() count
 
   /// What of a new row is orthogonal to the active ones: head, tail, and sqrt(c) in its own axis.
   struct Rest
   {
-    Vector6 head;
+    Vector head;
     Coefficients tail;
     double square = 0.0; ///< of its length, > 0
   };
@@ -51,7 +52,7 @@ public:
 
   /// (n, sqrt(c) e) = Q d + rest. Orthogonalised twice: once leaves an error of eps |n| / |rest| in
   /// the direction of a short rest.
-  Rest split(const Vector6& n, Coefficients& d) const noexcept
+  Rest split(const Vector& n, Coefficients& d) const noexcept
   {
     Rest rest;
     rest.head = n;
@@ -96,7 +97,7 @@ public:
   }
 
   /// Q^T (n, 0)
-  Coefficients alongQ(const Vector6& n) const noexcept
+  Coefficients alongQ(const Vector& n) const noexcept
   {
     Coefficients d;
     for (int j = 0; j < m_size; ++j)
@@ -144,7 +145,7 @@ public:
       const double s = m_r[i][i + 1] / length;
       for (int k = i; k < m_size; ++k)
         rotate(c, s, m_r[k][i], m_r[k][i + 1]);
-      for (int k = 0; k < 6; ++k)
+      for (int k = 0; k < N; ++k)
         rotate(c, s, m_head[i][k], m_head[i + 1][k]);
       for (int k = 0; k < m_size; ++k)
         rotate(c, s, m_tail[i][k], m_tail[i + 1][k]);
@@ -172,7 +173,7 @@ private:
 
   double m_compliance;
   int m_size = 0;
-  std::array<Vector6, kMost> m_head;
+  std::array<Vector, kMost> m_head;
   std::array<Coefficients, kMost> m_tail;
   std::array<Coefficients, kMost> m_r; // columns of R
   Members m_members{};

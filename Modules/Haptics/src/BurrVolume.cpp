@@ -59,10 +59,10 @@ BurrVolume::BurrVolume(const HapticField& field, double radius, std::size_t coun
 }
 
 // How much of the point's share of the ball is in tissue, as if its surface there were a plane.
-double BurrVolume::filled(const Eigen::Vector3d& voxel, const FieldSample& sample, bool soft,
+double BurrVolume::filled(const Eigen::Vector3d& voxel, const FieldSample& sample,
                           const volume::MaskState& mask) const noexcept
 {
-  const double value = soft ? sample.soft : sample.value;
+  const double value = sample.value;
   const double half = 0.5 * m_spacing;
   const double uncutMost = half * m_field.steepness(voxel);
   const double leftMost = std::min(kUntouched, half * m_field.leftSteepness());
@@ -72,10 +72,7 @@ double BurrVolume::filled(const Eigen::Vector3d& voxel, const FieldSample& sampl
     return 0.0;
   if (value >= uncutMost && sample.left >= leftMost)
     return 1.0;
-  FieldSample asked = sample;
-  if (soft)
-    asked.decider = sample.soft == sample.left ? Decider::Mask : Decider::Solid;
-  const double slope = m_field.gradient(voxel, asked, mask).norm();
+  const double slope = m_field.gradient(voxel, sample, mask).norm();
   if (!(slope * m_field.voxel() > kFlat))
     return value > 0.0 ? 1.0 : 0.0;
   return std::clamp(0.5 + value / (slope * m_spacing), 0.0, 1.0);
@@ -97,7 +94,7 @@ double BurrVolume::firstInside(const Eigen::Vector3d& centre, const Eigen::Vecto
   return inside;
 }
 
-BurrVolume::Push BurrVolume::push(const Eigen::Vector3d& centre, double stiffness,
+BurrVolume::Push BurrVolume::push(const Eigen::Vector3d& centre,
                                   const volume::MaskState& mask) const noexcept
 {
   Push result;
@@ -110,11 +107,7 @@ BurrVolume::Push BurrVolume::push(const Eigen::Vector3d& centre, double stiffnes
   {
     const Eigen::Vector3d at = voxel + m_offsets[i];
     const FieldSample sample = m_field.sample(at, mask);
-    double share = filled(at, sample, false, mask);
-    if (sample.compliance > 0.0 && share < 1.0)
-      share +=
-          (1.0 - share) * filled(at, sample, true, mask) / (1.0 + stiffness * sample.compliance);
-    result.sum -= share * m_outward[i];
+    result.sum -= filled(at, sample, mask) * m_outward[i];
     if (sample.value > 0.0 && nearest == m_points.size())
       nearest = i; // the inner points come first
   }

@@ -35,13 +35,11 @@ public:
     std::size_t looked = 0;             ///< points that were looked at
   };
 
-  /// centre     patient, mm
-  /// stiffness  of the coupling, N/mm; for what soft tissue gives
-  Push push(const Eigen::Vector3d& centre, double stiffness,
-            const volume::MaskState& mask) const noexcept;
+  /// Of rigid tissue; centre in the patient, mm.
+  Push push(const Eigen::Vector3d& centre, const volume::MaskState& mask) const noexcept;
 
 private:
-  double filled(const Eigen::Vector3d& voxel, const FieldSample& sample, bool soft,
+  double filled(const Eigen::Vector3d& voxel, const FieldSample& sample,
                 const volume::MaskState& mask) const noexcept;
   double firstInside(const Eigen::Vector3d& centre, const Eigen::Vector3d& way,
                      const volume::MaskState& mask) const noexcept;

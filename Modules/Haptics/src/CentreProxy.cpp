@@ -6,6 +6,7 @@
 #include "BurrVolume.h"
 #include "CheckedParameters.h"
 #include "Refuge.h"
+#include "SoftContacts.h"
 
 namespace petrous::haptics
 {
@@ -48,6 +49,21 @@ PointShell centreAlone()
   return shell;
 }
 
+// The ball's surface: the outermost points that fill it, on the sphere.
+PointShell ballOf(const BurrVolume& volume, double radius)
+{
+  PointShell shell;
+  for (const Vector3d& point : volume.points())
+    if (point.norm() > radius - volume.spacing())
+    {
+      shell.normals.push_back(point.normalized());
+      shell.points.push_back(radius * shell.normals.back());
+    }
+  shell.burrCount = shell.points.size();
+  shell.burrRadius = shell.burrTop = shell.reach = radius;
+  return shell;
+}
+
 // The problem is one of translation: the angular half of rows and goal is zero.
 ContactQp::Vector6 straight(const Vector3d& linear)
 {
@@ -66,9 +82,14 @@ CentreProxy::CentreProxy(std::shared_ptr<const HapticField> field, const CentreB
   , m_radius(burr.radius)
   , m_pointForce(4.0 * burr.superficialShare * parameters.stiffness * burr.radius /
                  static_cast<double>(m_volume->points().size()))
-  , m_qp(kMostHits + 1, ContactQp::Vector6::Constant(parameters.stiffness))
+  , m_qp(field->soft().empty() ? kMostHits + 1 : kMostRows,
+         ContactQp::Vector6::Constant(parameters.stiffness), !field->soft().empty())
   , m_refuge(std::make_unique<Refuge>(m_sweep))
 {
+  if (field->soft().empty())
+    return;
+  m_ball = ballOf(*m_volume, m_radius);
+  m_soft = std::make_unique<SoftContacts>(*field, m_ball, m_parameters, false);
 }
 
 CentreProxy::~CentreProxy() = default;
@@ -156,9 +177,16 @@ Vector3d CentreProxy::solve(const Vector3d& wanted, double lift) noexcept
     m_firstHit = m_qp.count();
     for (std::size_t n = 0; n < m_hitCount; ++n)
       addRow(m_hits[n], lift, tight);
+    m_planes = m_qp.count();
+    if (m_soft && !tight)
+      m_soft->find(m_sweep.pose(), m_sweep.state(), m_qp);
+    else if (m_soft)
+      m_soft->addTo(m_qp);
     if (m_qp.solve(straight(wanted)) == ContactQp::Status::Solved)
       break;
   }
+  if (m_soft)
+    m_soft->takeForces(m_qp);
   return m_qp.solution().head<3>();
 }
 
@@ -178,7 +206,7 @@ void CentreProxy::keepPlanes() noexcept
   const bool same = m_sweep.state().number() == m_number;
   m_number = m_sweep.state().number();
   m_hitCount = 0;
-  for (std::size_t n = m_firstHit; same && n < m_qp.count() && m_hitCount < kMostKept; ++n)
+  for (std::size_t n = m_firstHit; same && n < m_planes && m_hitCount < kMostKept; ++n)
     if (m_qp.lambda(n) > 0.0 &&
         (m_rows[n].point - m_sweep.pose().position).norm() < kKept * m_sweep.field().voxel())
       m_hits[m_hitCount++] = m_rows[n];
@@ -194,12 +222,14 @@ void CentreProxy::follow(const Vector3d& goal) noexcept
   while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches)
   {
     m_sweep.findNear(ahead);
-    const Vector3d motion = solve(goal - m_sweep.pose().position, kSkin * h);
+    const Vector3d found = solve(goal - m_sweep.pose().position, kSkin * h);
+    const double part = m_soft ? m_soft->share({found, Vector3d::Zero()}) : 1.0;
+    const Vector3d motion = part * found;
     if (motion.norm() < m_parameters.deadband)
       return;
     const ShellSweep::Hit hit = advance(motion);
     m_refuge->remember();
-    if (!hit.any && hit.free >= 1.0)
+    if (!hit.any && hit.free >= 1.0 && part >= 1.0)
       return;
     if (!hit.any)
     {
@@ -228,11 +258,28 @@ void CentreProxy::addContact(const Vector3d& normal, double thrust, double gap) 
   contact.thrust = thrust;
 }
 
+// Force of the soft structures; their contacts are noted.
+Vector3d CentreProxy::softPush() noexcept
+{
+  Vector3d sum = Vector3d::Zero();
+  for (const SoftContacts::Contact& soft : m_soft->contacts())
+  {
+    const ProxyContact& contact = soft.contact;
+    if (!(contact.thrust > 0.0) || m_tick.contactCount + 1 >= ProxyTick::kMostContacts)
+      continue;
+    sum += contact.thrust * contact.normal;
+    m_tick.thrust += contact.thrust;
+    addContact(contact.normal, contact.thrust, contact.gap);
+    m_tick.contacts[m_tick.contactCount - 1].soft = true;
+  }
+  return sum;
+}
+
 void CentreProxy::report() noexcept
 {
   const Vector3d& place = m_sweep.pose().position;
   Vector3d spring = Vector3d::Zero();
-  for (std::size_t n = 0; n < m_qp.count(); ++n)
+  for (std::size_t n = 0; n < m_planes; ++n)
   {
     const double lambda = m_qp.lambda(n);
     if (!(lambda > 0.0))
@@ -242,7 +289,9 @@ void CentreProxy::report() noexcept
     m_tick.thrust += lambda;
     addContact(plane.normal, lambda, plane.normal.dot(place - plane.point) - m_radius);
   }
-  const BurrVolume::Push push = m_volume->push(place, m_parameters.stiffness, m_sweep.state());
+  if (m_soft)
+    spring += softPush();
+  const BurrVolume::Push push = m_volume->push(place, m_sweep.state());
   const Vector3d points = m_pointForce * push.sum;
   const double size = points.norm();
   if (size > kLeast)
@@ -254,6 +303,8 @@ void CentreProxy::report() noexcept
   }
   else
     m_tick.wrench.linear = spring;
+  if (m_soft && m_soft->spent())
+    m_tick.wrench.linear += m_soft->pull(m_sweep.pose()).linear - spring;
   m_tick.penetration = push.depth;
   m_tick.nearPoints = push.looked;
   if (m_tick.contactCount > 0 && m_tick.status == ProxyStatus::Free)
@@ -274,6 +325,8 @@ const ProxyTick& CentreProxy::step(const Pose& goal) noexcept
     m_tick.status = ProxyStatus::BadGoal;
     return m_tick;
   }
+  if (m_soft)
+    m_soft->begin({goal.position, Eigen::Quaterniond::Identity()});
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   m_tick.maskState = m_sweep.state().number();

@@ -6,6 +6,7 @@
 #include "CheckedParameters.h"
 #include "ContactFinder.h"
 #include "Refuge.h"
+#include "SoftContacts.h"
 
 namespace petrous::haptics
 {
@@ -51,11 +52,15 @@ ConstrainedProxy::ConstrainedProxy(std::shared_ptr<const HapticField> field, Poi
   , m_sweep(kCheck.field(field), checked(std::move(shell)), parameters.sweepStep,
             parameters.bisections)
   , m_finder(std::make_unique<ContactFinder>(m_sweep, parameters.nearGap))
-  , m_qp(kMostRows, vector6(Eigen::Vector3d::Constant(parameters.stiffness),
-                            Eigen::Vector3d::Constant(parameters.angularStiffness)))
+  , m_qp(kMostRows,
+         vector6(Eigen::Vector3d::Constant(parameters.stiffness),
+                 Eigen::Vector3d::Constant(parameters.angularStiffness)),
+         !field->soft().empty())
   , m_rows(kMostRows)
   , m_refuge(std::make_unique<Refuge>(m_sweep))
 {
+  if (!field->soft().empty())
+    m_soft = std::make_unique<SoftContacts>(*field, m_sweep.shell(), m_parameters, true);
 }
 
 ConstrainedProxy::~ConstrainedProxy() = default;
@@ -77,29 +82,34 @@ Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
   m_rowCount = 0;
   bool tight = false;
   m_qp.clear();
-  for (const auto& [contact, compliance, slope, stopped] : *m_finder)
+  for (const auto& [contact, slope, stopped] : *m_finder)
   {
     Row& row = m_rows[m_rowCount];
     row.contact = contact;
     row.jacobian = vector6(contact.normal, contact.arm.cross(contact.normal));
-    row.bound = (contact.soft ? 0.0 : stopped ? lift : skin) - contact.gap;
-    row.compliance = compliance;
-    const bool lowered = !contact.soft && row.bound > 0.0;
-    if (!m_qp.add(row.jacobian, lowered ? 0.0 : row.bound, compliance))
+    row.bound = (stopped ? lift : skin) - contact.gap;
+    const bool lowered = row.bound > 0.0;
+    if (!m_qp.add(row.jacobian, lowered ? 0.0 : row.bound))
       continue;
     tight = tight || (lowered && row.bound > kSkinSlack * skin);
     ++m_rowCount;
   }
+  if (m_soft)
+    m_soft->find(m_sweep.pose(), m_sweep.state(), m_qp);
   m_qp.solve(vector6(wanted.linear, wanted.angular));
   ContactQp::Vector6 motion = m_qp.solution();
   m_forced = motion - vector6(wanted.linear, wanted.angular);
   for (std::size_t n = 0; n < m_rowCount; ++n)
     m_rows[n].contact.thrust = m_qp.lambda(n);
+  if (m_soft)
+    m_soft->takeForces(m_qp);
   if (tight)
   {
     m_qp.clear();
     for (std::size_t n = 0; n < m_rowCount; ++n)
-      m_qp.add(m_rows[n].jacobian, m_rows[n].bound, m_rows[n].compliance);
+      m_qp.add(m_rows[n].jacobian, m_rows[n].bound);
+    if (m_soft)
+      m_soft->addTo(m_qp);
     if (m_qp.solve(vector6(wanted.linear, wanted.angular)) == ContactQp::Status::Solved)
       motion = m_qp.solution();
   }
@@ -112,16 +122,20 @@ void ConstrainedProxy::report() noexcept
   m_tick.thrust = 0.0;
   m_tick.wrench.linear = m_parameters.stiffness * m_forced.head<3>();
   m_tick.wrench.angular = m_parameters.angularStiffness * m_forced.tail<3>();
-  for (std::size_t n = 0; n < m_rowCount; ++n)
+  const auto note = [this](const ProxyContact& contact)
   {
-    const ProxyContact& contact = m_rows[n].contact;
     if (!(contact.thrust > 0.0))
-      continue;
+      return;
     if (contact.point < m_sweep.shell().burrCount)
       m_tick.thrust += contact.thrust;
     if (m_tick.contactCount < ProxyTick::kMostContacts)
       m_tick.contacts[m_tick.contactCount++] = contact;
-  }
+  };
+  for (std::size_t n = 0; n < m_rowCount; ++n)
+    note(m_rows[n].contact);
+  if (m_soft)
+    for (const SoftContacts::Contact& soft : m_soft->contacts())
+      note(soft.contact);
   if (m_tick.contactCount > 0 && m_tick.status == ProxyStatus::Free)
     m_tick.status = ProxyStatus::Contact;
 }
@@ -171,14 +185,16 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
   {
     const Motion wanted = motionBetween(m_sweep.pose(), goal);
     m_sweep.findNear(ahead);
-    const Motion motion = solve(wanted, kSkin * h);
+    const Motion found = solve(wanted, kSkin * h);
     report();
+    const double part = m_soft ? m_soft->share(found) : 1.0;
+    const Motion motion{part * found.linear, part * found.angular};
     const double way = longestWay(motion, reach);
     if (way < m_parameters.deadband)
       break;
     const ShellSweep::Hit hit = advance(motion, way);
     m_refuge->remember();
-    if ((!hit.any && hit.free >= 1.0) || spent())
+    if ((!hit.any && hit.free >= 1.0 && part >= 1.0) || spent())
       break;
     if (!hit.any)
     {
@@ -197,6 +213,8 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
       lift = std::min(2.0 * lift, kMostLift * h);
     }
   }
+  if (m_soft && m_soft->spent())
+    m_tick.wrench = m_soft->pull(m_sweep.pose());
 }
 
 const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
@@ -216,6 +234,8 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
     m_tick.pose = m_sweep.pose();
     return m_tick;
   }
+  if (m_soft)
+    m_soft->begin(goal);
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   m_tick.maskState = m_sweep.state().number();

@@ -28,27 +28,24 @@ ContactFinder::ContactFinder(const ShellSweep& sweep, double nearGap)
   : m_sweep(sweep)
   , m_nearGap(nearGap * sweep.field().voxel())
   , m_order(sweep.shell().points.size())
-  , m_found(2 * sweep.shell().points.size())
+  , m_found(sweep.shell().points.size())
 {
 }
 
 ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
-                                                const FieldSample& sample, bool soft,
+                                                const FieldSample& sample,
                                                 double step) const noexcept
 {
   const HapticField& field = m_sweep.field();
   const double h = field.voxel();
-  FieldSample asked = sample;
-  if (soft)
-    asked.decider = Decider::Solid;
-  const double value = soft ? sample.soft : sample.value;
-  const Eigen::Vector3d gradient = field.gradient(voxel, asked, m_sweep.state(), step);
+  const double value = sample.value;
+  const Eigen::Vector3d gradient = field.gradient(voxel, sample, m_sweep.state(), step);
   m_samples += kGradient;
   const double slope = gradient.norm();
   if (!(slope * h > kFlat))
     return {};
   Surface result{-gradient / slope, -value / slope, slope};
-  if (!soft && std::abs(result.gap) > kClose * h)
+  if (std::abs(result.gap) > kClose * h)
   {
     // One secant step along the normal: the edges of an image are no straight ramps.
     const double ahead = std::clamp(result.gap, -h, h);
@@ -68,8 +65,7 @@ ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
 
 // The tissue's surface as seen from the ball's point in direction `toPoint` (unit, patient axes);
 // false where the shaft hides that point, or there is nothing to be seen.
-bool ContactFinder::surfaceOfBall(const Eigen::Vector3d& toPoint, bool soft,
-                                  Surface& surface) const noexcept
+bool ContactFinder::surfaceOfBall(const Eigen::Vector3d& toPoint, Surface& surface) const noexcept
 {
   const PointShell& shell = m_sweep.shell();
   const Pose& pose = m_sweep.pose();
@@ -80,9 +76,9 @@ bool ContactFinder::surfaceOfBall(const Eigen::Vector3d& toPoint, bool soft,
       field.geometry().voxelFromPatient(pose.position + shell.burrRadius * toPoint);
   ++m_samples;
   const FieldSample sample = field.sample(voxel, m_sweep.state());
-  if (sample.decider == Decider::Outside || (soft && !(sample.compliance > 0.0)))
+  if (sample.decider == Decider::Outside)
     return false;
-  surface = surfaceAt(voxel, sample, soft);
+  surface = surfaceAt(voxel, sample);
   return surface.normal.dot(toPoint) < -0.2;
 }
 
@@ -100,7 +96,7 @@ void ContactFinder::refineOnBall(ProxyContact& contact, double& slope) const noe
       break;
     const Eigen::Vector3d next = (at + step * residual).normalized();
     Surface there;
-    if ((next - start).norm() > kFarthest || !surfaceOfBall(next, contact.soft, there))
+    if ((next - start).norm() > kFarthest || !surfaceOfBall(next, there))
       break;
     // Secant over the residual along this step.
     const Eigen::Vector3d fall = residual - (-there.normal - next);
@@ -133,19 +129,18 @@ bool ContactFinder::farFrom(const Eigen::Vector3d& voxel,
   return field.sample(voxel + ahead, m_sweep.state()).value < 0.0;
 }
 
-void ContactFinder::add(const ShellSweep::Near& near, bool soft, bool refine,
+void ContactFinder::add(const ShellSweep::Near& near, bool refine,
                         const ShellSweep::Hit* hit) noexcept
 {
   const PointShell& shell = m_sweep.shell();
   const Pose& pose = m_sweep.pose();
   ProxyContact contact;
   contact.point = near.point;
-  contact.soft = soft;
   contact.arm = pose.rotation * shell.points[near.point];
   const Eigen::Vector3d voxel = m_sweep.voxelOf(near.point);
-  if (!hit && !soft && farFrom(voxel, pose.rotation * shell.normals[near.point]))
+  if (!hit && farFrom(voxel, pose.rotation * shell.normals[near.point]))
     return;
-  const Surface surface = surfaceAt(voxel, near.sample, soft, hit ? kAtHit : 1.0);
+  const Surface surface = surfaceAt(voxel, near.sample, hit ? kAtHit : 1.0);
   contact.normal = surface.normal;
   contact.gap = surface.gap;
   double slope = surface.slope;
@@ -167,9 +162,8 @@ void ContactFinder::add(const ShellSweep::Near& near, bool soft, bool refine,
     return;
   else if (refine)
     refineOnBall(contact, slope);
-  if (!soft)
-    contact.gap = std::max(contact.gap, -kDeepest * m_sweep.field().voxel());
-  m_found[m_count++] = {contact, soft ? near.sample.compliance : 0.0, slope, hit != nullptr};
+  contact.gap = std::max(contact.gap, -kDeepest * m_sweep.field().voxel());
+  m_found[m_count++] = {contact, slope, hit != nullptr};
 }
 
 bool ContactFinder::explained(const ShellSweep::Near& near) const noexcept
@@ -208,14 +202,12 @@ void ContactFinder::find(const ShellSweep::Hit* hits, std::size_t hitCount) noex
             { return near[a].sample.value > near[b].sample.value; });
   for (std::size_t n = 0; n < ball && m_count < kMostOnBall; ++n)
     if (!explained(near[m_order[n]]))
-      add(near[m_order[n]], false, m_count < kMostRefined, nullptr);
+      add(near[m_order[n]], m_count < kMostRefined, nullptr);
   for (std::size_t n = 0; n < m_sweep.nearCount(); ++n)
   {
     const ShellSweep::Hit* hit = hitOf(near[n].point);
     if (hit || near[n].point >= shell.burrCount || !(shell.burrRadius > 0.0))
-      add(near[n], false, false, hit);
-    if (near[n].sample.compliance > 0.0)
-      add(near[n], true, false, nullptr);
+      add(near[n], false, hit);
   }
 }
 

@@ -9,16 +9,14 @@
 namespace petrous::haptics
 {
 
-/// A contact with the compliance of what it touches.
 struct FoundContact
 {
   ProxyContact contact;
-  double compliance = 0.0; ///< mm/N
-  double slope = 0.0;      ///< of f against the normal, per mm
-  bool stopped = false;    ///< it ended a motion of this tick
+  double slope = 0.0;   ///< of f against the normal, per mm
+  bool stopped = false; ///< it ended a motion of this tick
 };
 
-/// Turns shell points near tissue into contacts: where, which way is out, and how far it is.
+/// Turns shell points near rigid tissue into contacts: where, which way is out, and how far it is.
 ///
 /// The burr is a ball, and its contact is where the ball comes nearest to tissue, not where one of
 /// its shell points happens to be: at c + R s with s = -n(c + R s), n the tissue's normal there,
@@ -51,13 +49,12 @@ private:
     double gap = 0.0;                      // mm
     double slope = 0.0;                    // of f against the normal, per mm
   };
-  Surface surfaceAt(const Eigen::Vector3d& voxel, const FieldSample& sample, bool soft,
+  Surface surfaceAt(const Eigen::Vector3d& voxel, const FieldSample& sample,
                     double step = 1.0) const noexcept;
   bool farFrom(const Eigen::Vector3d& voxel, const Eigen::Vector3d& outward) const noexcept;
-  bool surfaceOfBall(const Eigen::Vector3d& toPoint, bool soft, Surface& surface) const noexcept;
+  bool surfaceOfBall(const Eigen::Vector3d& toPoint, Surface& surface) const noexcept;
   void refineOnBall(ProxyContact& contact, double& slope) const noexcept;
-  void add(const ShellSweep::Near& near, bool soft, bool refine,
-           const ShellSweep::Hit* hit) noexcept;
+  void add(const ShellSweep::Near& near, bool refine, const ShellSweep::Hit* hit) noexcept;
   bool explained(const ShellSweep::Near& near) const noexcept;
 
   const ShellSweep& m_sweep;

@@ -32,7 +32,8 @@ constexpr int kNewtonSteps = 12;
 constexpr int kMostPasses = 3;
 constexpr int kMostChanges = 3000; // of the active rows and pressing springs
 
-const ContactQp::Vector6& checked(std::size_t capacity, const ContactQp::Vector6& stiffness)
+template <class Vector>
+const Vector& checked(std::size_t capacity, const Vector& stiffness)
 {
   if (capacity == 0)
     throw core::InvalidParameter("contact problem: room for no row; give a capacity above 0");
@@ -43,7 +44,8 @@ const ContactQp::Vector6& checked(std::size_t capacity, const ContactQp::Vector6
 
 } // namespace
 
-struct ContactQp::Work
+template <int N>
+struct BasicContactQp<N>::Work
 {
   explicit Work(std::size_t capacity)
     : rigid(capacity)
@@ -52,34 +54,39 @@ struct ContactQp::Work
   {
   }
 
-  Status settle(const Vector6& v, Vector6& y) noexcept;
-  Status fulfil(Vector6& y, bool follow) noexcept;
-  Status takeIn(Eigen::Index row, bool follow, Vector6& y) noexcept;
+  Status settle(const Vector& v, Vector& y) noexcept;
+  Status fulfil(Vector& y, bool follow) noexcept;
+  Status takeIn(Eigen::Index row, bool follow, Vector& y) noexcept;
   void rebuild() noexcept;
-  void finish(Vector6& y) noexcept;
-  void refine(double compliance, Vector6& y) noexcept;
-  double given(const Vector6& y) const noexcept;
+  void finish(Vector& y) noexcept;
+  void refine(double compliance, Vector& y) noexcept;
+  double given(const Vector& y) const noexcept;
 
-  WhitenedRows rigid;
-  SpringObjective springs;
-  ActiveRows active;
+  WhitenedRows<N> rigid;
+  SpringObjective<N> springs;
+  ActiveRows<N> active;
   double highest = 0.0; ///< largest bound above 0
   double scale = 0.0;   ///< the problem's size: root of 2 F(0), and the largest bound
   int changes = 0;
 };
 
-ContactQp::ContactQp(std::size_t capacity, const Vector6& stiffness)
+template <int N>
+BasicContactQp<N>::BasicContactQp(std::size_t capacity, const Vector& stiffness)
   : m_root(checked(capacity, stiffness).cwiseSqrt())
   , m_lambda(capacity, 0.0)
 {
   m_work = std::make_unique<Work>(capacity);
 }
 
-ContactQp::~ContactQp() = default;
-ContactQp::ContactQp(ContactQp&&) noexcept = default;
-ContactQp& ContactQp::operator=(ContactQp&&) noexcept = default;
+template <int N>
+BasicContactQp<N>::~BasicContactQp() = default;
+template <int N>
+BasicContactQp<N>::BasicContactQp(BasicContactQp&&) noexcept = default;
+template <int N>
+BasicContactQp<N>& BasicContactQp<N>::operator=(BasicContactQp&&) noexcept = default;
 
-void ContactQp::clear() noexcept
+template <int N>
+void BasicContactQp<N>::clear() noexcept
 {
   m_count = 0;
   m_work->rigid.count = 0;
@@ -87,37 +94,40 @@ void ContactQp::clear() noexcept
   m_work->highest = 0.0;
 }
 
-bool ContactQp::add(const Vector6& row, double bound, double compliance) noexcept
+template <int N>
+bool BasicContactQp<N>::add(const Vector& row, double bound, double compliance) noexcept
 {
   if (m_count == m_lambda.size() || !row.allFinite() || !std::isfinite(bound) ||
       !std::isfinite(compliance) || compliance < 0.0)
     return false;
-  const Vector6 whitened = row.cwiseQuotient(m_root);
+  const Vector whitened = row.cwiseQuotient(m_root);
   const bool soft = compliance > kRigid * whitened.squaredNorm();
   if (soft ? !m_work->springs.add(whitened, bound, compliance, m_count)
            : !m_work->rigid.add(whitened, bound, m_count))
     return false;
-  const WhitenedRows& rows = soft ? m_work->springs.rows() : m_work->rigid;
+  const WhitenedRows<N>& rows = soft ? m_work->springs.rows() : m_work->rigid;
   m_work->highest = std::max(m_work->highest, rows.bound[rows.count - 1]);
   m_lambda[m_count] = 0.0;
   ++m_count;
   return true;
 }
 
-ContactQp::Status ContactQp::solve(const Vector6& unconstrained) noexcept
+template <int N>
+typename BasicContactQp<N>::Status BasicContactQp<N>::solve(const Vector& unconstrained) noexcept
 {
   Work& work = *m_work;
   m_solution.setZero();
   std::fill_n(m_lambda.begin(), m_count, 0.0);
-  const Vector6 v = m_root.cwiseProduct(unconstrained);
+  const Vector v = m_root.cwiseProduct(unconstrained);
   work.scale = work.highest + std::sqrt(v.squaredNorm() + work.springs.energyAtRest());
   work.changes = 0;
   m_iterations = 0;
-  Vector6 y = v;
-  if (work.scale < 1.0 / WhitenedRows::kLongest)
+  Vector y = v;
+  if (work.scale < 1.0 / WhitenedRows<N>::kLongest)
     return Status::Solved;
   // A size that is not a number is no size either.
-  const Status status = work.scale < WhitenedRows::kLongest ? work.settle(v, y) : Status::Exhausted;
+  const Status status =
+      work.scale < WhitenedRows<N>::kLongest ? work.settle(v, y) : Status::Exhausted;
   m_iterations = work.changes;
   if (status != Status::Solved)
     return status;
@@ -132,7 +142,7 @@ ContactQp::Status ContactQp::solve(const Vector6& unconstrained) noexcept
     y += multiplier * work.rigid.normalOf(i);
     m_lambda[work.rigid.row[i]] = multiplier / work.rigid.length[i];
   }
-  const WhitenedRows& soft = work.springs.rows();
+  const WhitenedRows<N>& soft = work.springs.rows();
   for (Eigen::Index i = 0; i < soft.count; ++i)
     if (work.springs.force(i) > 0.0)
     {
@@ -143,7 +153,9 @@ ContactQp::Status ContactQp::solve(const Vector6& unconstrained) noexcept
   return status;
 }
 
-ContactQp::Status ContactQp::Work::settle(const Vector6& v, Vector6& y) noexcept
+template <int N>
+typename BasicContactQp<N>::Status BasicContactQp<N>::Work::settle(const Vector& v,
+                                                                   Vector& y) noexcept
 {
   springs.start(v);
   active.clear();
@@ -154,16 +166,16 @@ ContactQp::Status ContactQp::Work::settle(const Vector6& v, Vector6& y) noexcept
   for (int n = 0; n < kNewtonSteps; ++n)
   {
     ++changes;
-    Vector6 next = y;
+    Vector next = y;
     springs.step(next);
     active.clear();
     if (fulfil(next, false) != Status::Solved)
       break;
-    const Vector6 d = next - y;
+    const Vector d = next - y;
     // The first step comes from where the rigid rows do not hold: there is no line to search.
     const bool whole = n == 0 || d.norm() < kShort * scale;
     const double share = whole ? 1.0 : springs.lineSearch(y, d);
-    y = share < 1.0 ? Vector6(y + share * d) : next;
+    y = share < 1.0 ? Vector(y + share * d) : next;
     if (!springs.takePressing(y) && share == 1.0)
       return Status::Solved;
   }
@@ -178,7 +190,8 @@ ContactQp::Status ContactQp::Work::settle(const Vector6& v, Vector6& y) noexcept
 
 // Dual active set: from a minimum without rigid rows, take in the most violated row, letting go of
 // those whose multiplier would become negative, until every row holds.
-ContactQp::Status ContactQp::Work::fulfil(Vector6& y, bool follow) noexcept
+template <int N>
+typename BasicContactQp<N>::Status BasicContactQp<N>::Work::fulfil(Vector& y, bool follow) noexcept
 {
   while (rigid.count > 0)
   {
@@ -201,16 +214,18 @@ ContactQp::Status ContactQp::Work::fulfil(Vector6& y, bool follow) noexcept
 
 // Presses on one row until it holds. `follow`: springs that begin or cease to press on the way
 // change the model there, so that y stays a minimum of F; otherwise the model stays.
-ContactQp::Status ContactQp::Work::takeIn(Eigen::Index row, bool follow, Vector6& y) noexcept
+template <int N>
+typename BasicContactQp<N>::Status BasicContactQp<N>::Work::takeIn(Eigen::Index row, bool follow,
+                                                                   Vector& y) noexcept
 {
-  const Vector6 normal = rigid.normalOf(row);
+  const Vector normal = rigid.normalOf(row);
   double multiplier = 0.0;
   while (++changes < kMostChanges)
   {
-    ActiveRows::Coefficients d;
-    const ActiveRows::Rest rest = active.split(springs.inverseRoot() * normal, d);
-    const ActiveRows::Coefficients r = active.solve(d);
-    const Vector6 way = springs.inverseRoot().transpose() * rest.head;
+    typename ActiveRows<N>::Coefficients d;
+    const typename ActiveRows<N>::Rest rest = active.split(springs.inverseRoot() * normal, d);
+    const typename ActiveRows<N>::Coefficients r = active.solve(d);
+    const Vector way = springs.inverseRoot().transpose() * rest.head;
     // How far, in units of the new multiplier: until the row holds, another's multiplier is 0, or
     // a spring changes.
     const double slack = normal.dot(y) + kCompliance * multiplier - rigid.bound[row];
@@ -236,7 +251,7 @@ ContactQp::Status ContactQp::Work::takeIn(Eigen::Index row, bool follow, Vector6
       rebuild();
     else if (blocking >= 0)
       active.drop(blocking);
-    else if (active.size() < ActiveRows::kMost)
+    else if (active.size() < ActiveRows<N>::kMost)
     {
       active.push(row, d, rest, multiplier);
       return Status::Solved;
@@ -248,22 +263,24 @@ ContactQp::Status ContactQp::Work::takeIn(Eigen::Index row, bool follow, Vector6
 }
 
 // The active rows again, in the metric of a new model.
-void ContactQp::Work::rebuild() noexcept
+template <int N>
+void BasicContactQp<N>::Work::rebuild() noexcept
 {
-  const ActiveRows::Members members = active.members();
+  const typename ActiveRows<N>::Members members = active.members();
   const int size = active.size();
   active.clear();
   for (int j = 0; j < size; ++j)
   {
-    ActiveRows::Coefficients d;
-    const Vector6 n = springs.inverseRoot() * rigid.normalOf(members.row[j]);
-    const ActiveRows::Rest rest = active.split(n, d);
+    typename ActiveRows<N>::Coefficients d;
+    const Vector n = springs.inverseRoot() * rigid.normalOf(members.row[j]);
+    const typename ActiveRows<N>::Rest rest = active.split(n, d);
     active.push(members.row[j], d, rest, members.multiplier[j]);
   }
 }
 
 // How far the active rows are from their bounds at y.
-double ContactQp::Work::given(const Vector6& y) const noexcept
+template <int N>
+double BasicContactQp<N>::Work::given(const Vector& y) const noexcept
 {
   double most = 0.0;
   for (int j = 0; j < active.size(); ++j)
@@ -278,14 +295,15 @@ double ContactQp::Work::given(const Vector6& y) const noexcept
 // lifts the multipliers, which is a step of the proximal point method, and takes in the rows that
 // are violated then. Rows 1e-6 or farther from dependence hold after a step or two; nearer ones
 // keep to what they give.
-void ContactQp::Work::finish(Vector6& y) noexcept
+template <int N>
+void BasicContactQp<N>::Work::finish(Vector& y) noexcept
 {
   if (!springs.empty())
     refine(kCompliance, y);
   for (int n = 0; n < kMostPasses && given(y) > kFeasible * scale; ++n)
   {
-    const ActiveRows before = active;
-    const Vector6 start = y;
+    const ActiveRows<N> before = active;
+    const Vector start = y;
     refine(0.0, y);
     const double tolerance = kFeasible * scale;
     const bool good = springs.agrees(y, tolerance) && fulfil(y, true) == Status::Solved &&
@@ -306,24 +324,25 @@ void ContactQp::Work::finish(Vector6& y) noexcept
 //   y = v + sum multiplier n,   n y + c multiplier = b for active rows and springs that press,
 // takes away what H spoils when springs are stiff: without it 1e-6 of the coupling's compliance
 // costs seven digits. A multiplier that would become negative goes, and the rest is refined again.
-void ContactQp::Work::refine(double compliance, Vector6& y) noexcept
+template <int N>
+void BasicContactQp<N>::Work::refine(double compliance, Vector& y) noexcept
 {
   springs.takeForces(y);
   while (true)
   {
-    Vector6 force = springs.balance(y);
-    ActiveRows::Coefficients missing;
+    Vector force = springs.balance(y);
+    typename ActiveRows<N>::Coefficients missing;
     for (int j = 0; j < active.size(); ++j)
     {
-      const Vector6 normal = rigid.normalOf(active.row(j));
+      const Vector normal = rigid.normalOf(active.row(j));
       force += active.multiplier(j) * normal;
       missing[j] = rigid.bound[active.row(j)] - normal.dot(y) - compliance * active.multiplier(j);
     }
-    const ActiveRows::Coefficients along = active.alongQ(springs.inverseRoot() * force);
-    ActiveRows::Coefficients sum = active.solveTransposed(missing);
+    const typename ActiveRows<N>::Coefficients along = active.alongQ(springs.inverseRoot() * force);
+    typename ActiveRows<N>::Coefficients sum = active.solveTransposed(missing);
     for (int j = 0; j < active.size(); ++j)
       sum[j] -= along[j];
-    const ActiveRows::Coefficients change = active.solve(sum);
+    const typename ActiveRows<N>::Coefficients change = active.solve(sum);
     double share = 1.0;
     int blocking = -1;
     for (int j = 0; j < active.size(); ++j)
@@ -337,7 +356,7 @@ void ContactQp::Work::refine(double compliance, Vector6& y) noexcept
     }
     for (int j = 0; j < active.size(); ++j)
       active.multiplier(j) = std::max(0.0, active.multiplier(j) + share * change[j]);
-    const Vector6 shift =
+    const Vector shift =
         share * (springs.inverseRoot().transpose() * (springs.inverseRoot() * force));
     y += shift;
     springs.correctForces(shift);
@@ -346,5 +365,8 @@ void ContactQp::Work::refine(double compliance, Vector6& y) noexcept
     active.drop(blocking);
   }
 }
+
+template class BasicContactQp<ContactQp::kSize>;
+template class BasicContactQp<SharedContactQp::kSize>;
 
 } // namespace petrous::haptics

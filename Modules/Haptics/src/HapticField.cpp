@@ -34,7 +34,8 @@ std::size_t offsetInBrick(int i, int j, int k) noexcept
 } // namespace
 
 HapticField::HapticField(const TissueField& tissue,
-                         std::shared_ptr<const volume::PublishedMask> mask, SoftTissue soft)
+                         std::shared_ptr<const volume::PublishedMask> mask,
+                         std::vector<SoftStructure> soft)
   : m_ct(tissue.ct())
   , m_mask(std::move(mask))
   , m_soft(std::move(soft))
@@ -49,24 +50,18 @@ HapticField::HapticField(const TissueField& tissue,
     throw core::InvalidParameter("haptic field: more than 255 unions of structures");
   for (std::size_t a = 0; a < 3; ++a)
     m_last[static_cast<Eigen::Index>(a)] = m_geometry.dims()[a] - 1.0;
-  const auto from = [this](const core::GridGeometry& grid)
-  {
-    return std::make_pair<Eigen::Matrix3d, Eigen::Vector3d>(
-        grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
-        grid.voxelFromPatient(m_geometry.origin()));
-  };
+  for (const SoftStructure& structure : m_soft)
+    if (!structure.depth || !(structure.stiffness >= 1e-3 && structure.stiffness <= 100.0))
+      throw core::InvalidParameter("haptic field: a soft structure needs its distance map and a "
+                                   "stiffness within 0.001 to 100 N/mm");
   for (const auto& share : tissue.solids())
   {
-    const auto [linear, offset] = from(share->geometry());
-    const core::Index3& dims = share->geometry().dims();
-    m_solids.push_back(
-        {share, linear, offset, Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)});
+    const core::GridGeometry& grid = share->geometry();
+    const core::Index3& dims = grid.dims();
+    m_solids.push_back({share, grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
+                        grid.voxelFromPatient(m_geometry.origin()),
+                        Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)});
   }
-  if (std::none_of(m_soft.compliance.begin(), m_soft.compliance.end(),
-                   [](float c) { return c > 0.0F; }))
-    m_soft.index = nullptr;
-  if (m_soft.index)
-    std::tie(m_indexFromCt, m_indexOffset) = from(m_soft.index->geometry());
   TissueBricks bricks = findTissueBricks(tissue);
   m_bricks = bricks.dims;
   m_distance = std::move(bricks.distance);
@@ -182,6 +177,11 @@ double HapticField::left(const Cell& cell, const volume::MaskState& mask) const 
          0.5;
 }
 
+double HapticField::left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept
+{
+  return hull(voxel) >= 0.0 ? left(cellAt(voxel, m_geometry.dims()), mask) : 0.5;
+}
+
 double HapticField::hull(const Eigen::Vector3d& voxel) const noexcept
 {
   return kHullSlope * std::min(voxel.minCoeff(), (m_last - voxel).minCoeff());
@@ -212,22 +212,6 @@ FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
   const double rest = std::min(left(cell, mask), border);
   result.uncut = result.value;
   result.left = rest;
-  if (result.decider == Decider::Solid && m_soft.index && result.value > -0.5)
-  {
-    const volume::Volume<std::uint8_t>& index = *m_soft.index;
-    const Eigen::Vector3d at = m_indexFromCt * voxel + m_indexOffset;
-    const core::Index3& dims = index.geometry().dims();
-    const auto nearestTo = [](double x) { return static_cast<int>(std::floor(x + 0.5)); };
-    const std::array<int, 3> nearest{nearestTo(at.x()), nearestTo(at.y()), nearestTo(at.z())};
-    if (index.geometry().fullBox().contains(nearest) && dims[0] > 0)
-      result.compliance = double{m_soft.compliance[index.at(nearest[0], nearest[1], nearest[2])]};
-    if (result.compliance > 0.0)
-    {
-      result.soft = std::min(result.value, rest);
-      result.value = bone;
-      result.decider = Decider::Ct;
-    }
-  }
   if (rest < result.value)
   {
     result.value = rest;
@@ -309,8 +293,7 @@ double HapticField::clearance(const Eigen::Vector3d& voxel) const noexcept
 double HapticField::freeRadius(const Eigen::Vector3d& voxel,
                                const FieldSample& sample) const noexcept
 {
-  const double value = sample.compliance > 0.0 ? std::max(sample.value, sample.soft) : sample.value;
-  if (sample.decider == Decider::Outside || !(value < 0.0))
+  if (sample.decider == Decider::Outside || !(sample.value < 0.0))
     return 0.0;
   // The steepness of a brick holds for one voxel beyond it.
   double within = kTissueBrick;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "petrous/Haptics/ContactQp.h"
+
 namespace petrous::haptics
 {
 
@@ -17,7 +19,8 @@ constexpr double kFlat = 1e-6; // slope, beside that at the line's start, that e
 
 } // namespace
 
-SpringObjective::SpringObjective(std::size_t capacity)
+template <int N>
+SpringObjective<N>::SpringObjective(std::size_t capacity)
   : m_rows(capacity)
   , m_spring(capacity)
   , m_weight(capacity)
@@ -26,8 +29,9 @@ SpringObjective::SpringObjective(std::size_t capacity)
 {
 }
 
-bool SpringObjective::add(const Vector6& whitened, double bound, double compliance,
-                          std::size_t row) noexcept
+template <int N>
+bool SpringObjective<N>::add(const Vector& whitened, double bound, double compliance,
+                             std::size_t row) noexcept
 {
   if (!m_rows.add(whitened, bound, row))
     return false;
@@ -38,13 +42,15 @@ bool SpringObjective::add(const Vector6& whitened, double bound, double complian
   return i < m_rows.count;
 }
 
-double SpringObjective::energyAtRest() const noexcept
+template <int N>
+double SpringObjective<N>::energyAtRest() const noexcept
 {
   const Eigen::Index count = m_rows.count;
   return (m_spring.head(count) * m_rows.bound.head(count).max(0.0).square()).sum();
 }
 
-void SpringObjective::start(const Vector6& v) noexcept
+template <int N>
+void SpringObjective<N>::start(const Vector& v) noexcept
 {
   m_v = v;
   m_hessian.setIdentity();
@@ -53,7 +59,8 @@ void SpringObjective::start(const Vector6& v) noexcept
   takePressing(v);
 }
 
-bool SpringObjective::takePressing(const Vector6& y) noexcept
+template <int N>
+bool SpringObjective<N>::takePressing(const Vector& y) noexcept
 {
   m_rows.measure(y);
   bool changed = false;
@@ -66,7 +73,8 @@ bool SpringObjective::takePressing(const Vector6& y) noexcept
   return changed;
 }
 
-bool SpringObjective::agrees(const Vector6& y, double tolerance) noexcept
+template <int N>
+bool SpringObjective<N>::agrees(const Vector& y, double tolerance) noexcept
 {
   m_rows.measure(y);
   for (Eigen::Index i = 0; i < m_rows.count; ++i)
@@ -75,13 +83,15 @@ bool SpringObjective::agrees(const Vector6& y, double tolerance) noexcept
   return true;
 }
 
-void SpringObjective::takeRoot() noexcept
+template <int N>
+void SpringObjective<N>::takeRoot() noexcept
 {
-  const Eigen::LLT<Matrix6> cholesky(m_hessian);
-  m_inverseRoot = cholesky.matrixL().solve(Matrix6::Identity());
+  const Eigen::LLT<Matrix> cholesky(m_hessian);
+  m_inverseRoot = cholesky.matrixL().solve(Matrix::Identity());
 }
 
-void SpringObjective::step(Vector6& y) noexcept
+template <int N>
+void SpringObjective<N>::step(Vector& y) noexcept
 {
   const Eigen::Index count = m_rows.count;
   if (count == 0)
@@ -89,9 +99,9 @@ void SpringObjective::step(Vector6& y) noexcept
     y = m_v;
     return;
   }
-  Vector6 gradient = y - m_v;
+  Vector gradient = y - m_v;
   m_hessian.setIdentity();
-  for (int k = 0; k < 6; ++k)
+  for (int k = 0; k < N; ++k)
   {
     const auto weighted = m_weight.head(count) * m_rows.normal.col(k).head(count);
     gradient[k] += (weighted * m_rows.slack.head(count)).sum();
@@ -107,7 +117,8 @@ void SpringObjective::step(Vector6& y) noexcept
 
 // F's derivative along the line is increasing and piecewise linear, so Newton's method within a
 // bracket finds its root.
-double SpringObjective::lineSearch(const Vector6& y, const Vector6& d) noexcept
+template <int N>
+double SpringObjective<N>::lineSearch(const Vector& y, const Vector& d) noexcept
 {
   const Eigen::Index count = m_rows.count;
   m_rate.head(count) = m_rows.along(d);
@@ -133,17 +144,18 @@ double SpringObjective::lineSearch(const Vector6& y, const Vector6& d) noexcept
   return t;
 }
 
-bool SpringObjective::minimise(Vector6& y, double rounding, int& iterations) noexcept
+template <int N>
+bool SpringObjective<N>::minimise(Vector& y, double rounding, int& iterations) noexcept
 {
   takePressing(y);
   for (int n = 0; n < kMostSteps; ++n)
   {
     ++iterations;
-    Vector6 next = y;
+    Vector next = y;
     step(next);
-    const Vector6 d = next - y;
+    const Vector d = next - y;
     const double share = lineSearch(y, d);
-    y = share < 1.0 ? Vector6(y + share * d) : next;
+    y = share < 1.0 ? Vector(y + share * d) : next;
     // Where a full step's springs still press at its end, and no others, the model is F.
     const bool changed = takePressing(y);
     if ((!changed && share == 1.0) || d.norm() <= rounding)
@@ -152,7 +164,8 @@ bool SpringObjective::minimise(Vector6& y, double rounding, int& iterations) noe
   return false;
 }
 
-Eigen::Index SpringObjective::firstChange(const Vector6& way, double& length) noexcept
+template <int N>
+Eigen::Index SpringObjective<N>::firstChange(const Vector& way, double& length) noexcept
 {
   m_rate.head(m_rows.count) = m_rows.along(way);
   Eigen::Index first = -1;
@@ -172,37 +185,44 @@ Eigen::Index SpringObjective::firstChange(const Vector6& way, double& length) no
   return first;
 }
 
-void SpringObjective::advance(double length, Eigen::Index i) noexcept
+template <int N>
+void SpringObjective<N>::advance(double length, Eigen::Index i) noexcept
 {
   m_rows.slack.head(m_rows.count) += length * m_rate.head(m_rows.count);
   if (i < 0)
     return;
   const double change = m_spring[i] - 2.0 * m_weight[i];
   m_weight[i] += change;
-  const Vector6 n = m_rows.normalOf(i);
+  const Vector n = m_rows.normalOf(i);
   m_hessian += (change * n) * n.transpose();
   takeRoot();
 }
 
-void SpringObjective::takeForces(const Vector6& y) noexcept
+template <int N>
+void SpringObjective<N>::takeForces(const Vector& y) noexcept
 {
   const Eigen::Index count = m_rows.count;
   m_rows.measure(y);
   m_force.head(count) = -m_weight.head(count) * m_rows.slack.head(count);
 }
 
-SpringObjective::Vector6 SpringObjective::balance(const Vector6& y) const noexcept
+template <int N>
+typename SpringObjective<N>::Vector SpringObjective<N>::balance(const Vector& y) const noexcept
 {
   const Eigen::Index count = m_rows.count;
-  Vector6 sum = m_v - y;
-  for (int k = 0; k < 6; ++k)
+  Vector sum = m_v - y;
+  for (int k = 0; k < N; ++k)
     sum[k] += (m_force.head(count) * m_rows.normal.col(k).head(count)).sum();
   return sum;
 }
 
-void SpringObjective::correctForces(const Vector6& shift) noexcept
+template <int N>
+void SpringObjective<N>::correctForces(const Vector& shift) noexcept
 {
   m_force.head(m_rows.count) -= m_weight.head(m_rows.count) * m_rows.along(shift);
 }
+
+template class SpringObjective<ContactQp::kSize>;
+template class SpringObjective<SharedContactQp::kSize>;
 
 } // namespace petrous::haptics

@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include "petrous/Haptics/ContactQp.h"
+
 namespace petrous::haptics
 {
 
-WhitenedRows::WhitenedRows(std::size_t capacity)
-  : normal(capacity, 6)
+template <int N>
+WhitenedRows<N>::WhitenedRows(std::size_t capacity)
+  : normal(capacity, N)
   , bound(capacity)
   , slack(capacity)
   , length(capacity)
@@ -14,7 +17,8 @@ WhitenedRows::WhitenedRows(std::size_t capacity)
 {
 }
 
-bool WhitenedRows::add(const Vector6& whitened, double limit, std::size_t callersRow) noexcept
+template <int N>
+bool WhitenedRows<N>::add(const Vector& whitened, double limit, std::size_t callersRow) noexcept
 {
   const double largest = whitened.cwiseAbs().maxCoeff();
   if (!(largest < kLongest))
@@ -33,5 +37,8 @@ bool WhitenedRows::add(const Vector6& whitened, double limit, std::size_t caller
   ++count;
   return true;
 }
+
+template struct WhitenedRows<ContactQp::kSize>;
+template struct WhitenedRows<SharedContactQp::kSize>;
 
 } // namespace petrous::haptics

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "petrous/Haptics/ContactQp.h"
 #include "petrous/Haptics/Proxy.h"
+#include "petrous/Haptics/ProxyQp.h"
 #include "petrous/Haptics/ShellSweep.h"
 
 namespace petrous::haptics
@@ -15,6 +15,7 @@ namespace petrous::haptics
 
 class BurrVolume;
 class Refuge;
+class SoftContacts;
 
 /// Burr of the three-degrees-of-freedom mode.
 struct CentreBurr
@@ -33,11 +34,11 @@ struct CentreBurr
 ///   W = k (p - x) + f_0 sum_i s_i (-u_i)      force on the hand, N; no torque
 ///   f_0 = 4 sigma k R / N
 ///
-/// x    the hand's place for the burr's centre, p the proxy's, mm; p = x until x lies in tissue
+/// x    the hand's place for the burr's centre, p the proxy's, mm; p = x until x lies in tissue or
+///      the burr in a soft structure
 /// k    coupling, ProxyParameters::stiffness, N/mm
 /// u_i  unit, from p to point i of N; they fill the ball of radius R evenly
-/// s_i  1 in rigid tissue, 0 in air; 1 / (1 + k c) in soft tissue of compliance c, its spring and
-///      the coupling in series
+/// s_i  1 in rigid tissue, 0 elsewhere
 ///
 /// The points push at p, where the tool is, not at x: the force of a wall that the burr reaches
 /// through never turns round. Half sunk in a plane, sum_i s_i (-u_i) = N / 4 along the normal,
@@ -54,18 +55,21 @@ struct CentreBurr
 /// force along the surface. That is the model's own; PassivityGuard answers for it. The points'
 /// unevenness makes up to 1 % of k R^2 a loop.
 ///
-/// Our choice, where the paper says "fixed amount of force": f_0, the series of springs, and that
-/// s_i rises from 0 to 1 over the width of a point's share of the volume rather than at once.
-/// The spring is J^T lambda: k (p - x) whenever the proxy has come to where its planes let it.
+/// Soft structures (HapticField::soft) are springs that hold p back, from where the burr's surface
+/// meets them on: what they do to ConstrainedProxy's burr, without its turning.
+///
+/// Our choice, where the paper says "fixed amount of force": f_0, and that s_i rises from 0 to 1
+/// over the width of a point's share of the volume rather than at once. The spring is J^T lambda: k
+/// (p - x) whenever the proxy has come to where its planes let it.
 ///
 /// Only rigid tissue stops the centre: swept and bisected by ShellSweep, so it never crosses, thin
 /// walls included. Within a tick it slides on up to three planes at a time (face, crease, corner).
 /// By design the burr sinks by up to R. Orientation is the hand's.
 ///
 /// ProxyTick: contacts lie where the ball is deepest, at -R n from the centre, so they have no
-/// torque: one for each plane that holds the centre, one for the points, and their thrusts times
-/// normals add up to the force. `thrust` is the sum of the planes' and of what the points push
-/// along the planes' normal. All are of the burr; `point` is 0.
+/// torque: one for each plane that holds the centre, those of soft structures, one for the points,
+/// and their thrusts times normals add up to the force. `thrust` is the sum of all but the points',
+/// and of what the points push along that sum. All are of the burr; `point` is 0.
 ///
 /// `step` neither allocates, locks nor throws. One thread.
 class CentreProxy : public Proxy
@@ -91,7 +95,8 @@ private:
     Eigen::Vector3d normal{0.0, 0.0, 1.0}; // unit, out of the tissue, patient axes
     Eigen::Vector3d point{0.0, 0.0, 0.0};  // of the plane, mm
   };
-  static constexpr std::size_t kMostHits = 28; // the most rounds, and kMostKept
+  static constexpr std::size_t kMostHits = 28;   // the most rounds, and kMostKept
+  static constexpr std::size_t kMostRows = 1024; // with those of soft structures
 
   Eigen::Vector3d solve(const Eigen::Vector3d& wanted, double lift) noexcept;
   void addRow(const Plane& plane, double lift, bool tight) noexcept;
@@ -100,6 +105,7 @@ private:
   bool nearPlane(Plane& plane) const noexcept;
   Plane planeOf(const ShellSweep::Hit& hit) const noexcept;
   void follow(const Eigen::Vector3d& goal) noexcept;
+  Eigen::Vector3d softPush() noexcept;
   void report() noexcept;
   void addContact(const Eigen::Vector3d& normal, double thrust, double gap) noexcept;
 
@@ -108,11 +114,14 @@ private:
   std::unique_ptr<const BurrVolume> m_volume;
   double m_radius;
   double m_pointForce;
-  ContactQp m_qp;
+  PointShell m_ball;                    // the burr as soft structures meet it
+  std::unique_ptr<SoftContacts> m_soft; // looks at m_ball; null where all is rigid
+  ProxyQp m_qp;
   std::array<Plane, kMostHits> m_hits; // where sweeps of this tick ended, and some before
   std::size_t m_hitCount = 0;
   std::array<Plane, kMostHits + 1> m_rows; // of the last problem
   std::size_t m_firstHit = 0;              // of the rows
+  std::size_t m_planes = 0;                // rows that are planes: all but those of soft structures
   std::unique_ptr<Refuge> m_refuge;        // moves m_sweep
   std::uint64_t m_number = 0;              // of the mask's state in the last tick
   ProxyTick m_tick;

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "petrous/Haptics/ContactQp.h"
 #include "petrous/Haptics/Proxy.h"
+#include "petrous/Haptics/ProxyQp.h"
 #include "petrous/Haptics/ShellSweep.h"
 
 namespace petrous::haptics
@@ -14,6 +14,7 @@ namespace petrous::haptics
 
 class ContactFinder;
 class Refuge;
+class SoftContacts;
 
 /// The tool as it may be, held to the tissue's surface while the hand goes where it likes: six
 /// degrees of freedom, constraint-based [Chan2016, Eq. 1], with PHYSICS' corrections.
@@ -23,7 +24,8 @@ class Refuge;
 /// contacts met on the way, until it is done, or the rounds are, or the tick's samples of the
 /// field. Then the tool stands where it came to, and the way that is left is made in the ticks that
 /// follow: what a tick costs is bounded, and is the same on every machine. A pose is kept only when
-/// f <= 0 at every shell point (soft tissue left out), so the tool never enters rigid tissue.
+/// f <= 0 at every shell point, so the tool never enters rigid tissue. Soft structures
+/// (HapticField::soft) are springs in the same problem; see src/SoftContacts.h.
 ///
 /// `step` neither allocates, locks nor throws. One thread.
 class ConstrainedProxy : public Proxy
@@ -47,7 +49,6 @@ private:
     ProxyContact contact;
     ContactQp::Vector6 jacobian;
     double bound = 0.0;
-    double compliance = 0.0;
   };
   static constexpr std::size_t kMostRows = 1024;
   static constexpr std::size_t kMostHits = 20;
@@ -61,9 +62,10 @@ private:
   ProxyParameters m_parameters;
   ShellSweep m_sweep;
   std::unique_ptr<ContactFinder> m_finder; // looks at m_sweep
-  ContactQp m_qp;
-  std::size_t m_found = 0; // samples of the finder in this tick
-  std::vector<Row> m_rows; // of the last problem
+  ProxyQp m_qp;
+  std::size_t m_found = 0;              // samples of the finder in this tick
+  std::unique_ptr<SoftContacts> m_soft; // null where all is rigid
+  std::vector<Row> m_rows;              // of the last problem
   std::size_t m_rowCount = 0;
   ContactQp::Vector6 m_forced = ContactQp::Vector6::Zero(); // a - u, before the skin
 

@@ -13,7 +13,7 @@ namespace petrous::haptics
 ///
 ///   a = argmin 1/2 (a - u)^T M (a - u)   subject to   J_i a + c_i lambda_i >= b_i,  lambda >= 0
 ///
-/// a, u   6-vectors: translation mm, rotation rad
+/// a, u   N-vectors; the first six are translation mm and rotation rad
 /// M      diagonal, > 0: the coupling's stiffness, N/mm and N mm/rad; then M (a - u) = J^T lambda
 ///        is the wrench on the hand, and lambda_i the thrust at contact i, N
 /// J_i    row of contact i: (n, r x n), n the unit normal out of the tissue, r the lever arm, mm
@@ -33,10 +33,12 @@ namespace petrous::haptics
 /// give the same bits.
 ///
 /// One problem a tick. Memory is made by the constructor; nothing else allocates or throws.
-class ContactQp
+template <int N>
+class BasicContactQp
 {
 public:
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  static constexpr int kSize = N;
+  using Vector = Eigen::Matrix<double, N, 1>;
 
   enum class Status
   {
@@ -46,22 +48,22 @@ public:
   };
 
   /// Throws InvalidParameter when capacity is 0 or an entry of `stiffness` is not above 0.
-  ContactQp(std::size_t capacity, const Vector6& stiffness);
-  ~ContactQp();
-  ContactQp(ContactQp&&) noexcept;
-  ContactQp& operator=(ContactQp&&) noexcept;
+  BasicContactQp(std::size_t capacity, const Vector& stiffness);
+  ~BasicContactQp();
+  BasicContactQp(BasicContactQp&&) noexcept;
+  BasicContactQp& operator=(BasicContactQp&&) noexcept;
 
   void clear() noexcept;
   std::size_t count() const noexcept { return m_count; }
 
   /// Adds a row; false, and nothing is added, when the capacity is reached, a number is not finite
   /// or the compliance is below 0. A compliance under 1e-9 of the coupling's counts as rigid.
-  bool add(const Vector6& row, double bound, double compliance = 0.0) noexcept;
+  bool add(const Vector& row, double bound, double compliance = 0.0) noexcept;
 
-  Status solve(const Vector6& unconstrained) noexcept;
+  Status solve(const Vector& unconstrained) noexcept;
 
   /// Of the last solve.
-  const Vector6& solution() const noexcept { return m_solution; }
+  const Vector& solution() const noexcept { return m_solution; }
 
   /// Of the last solve; `row` counts the rows in the order in which they were added.
   double lambda(std::size_t row) const noexcept { return m_lambda[row]; }
@@ -73,11 +75,25 @@ private:
   struct Work;
 
   std::unique_ptr<Work> m_work;
-  Vector6 m_root; ///< M^1/2
+  Vector m_root; ///< M^1/2
   std::size_t m_count = 0;
   std::vector<double> m_lambda;
-  Vector6 m_solution = Vector6::Zero();
+  Vector m_solution = Vector::Zero();
   int m_iterations = 0;
 };
+
+/// A rigid body's six degrees of freedom.
+class ContactQp : public BasicContactQp<6>
+{
+public:
+  using Vector6 = Vector;
+  using BasicContactQp::BasicContactQp;
+};
+
+/// The same with six more unknowns s, each of stiffness 1: how far a spring that several rows share
+/// is pressed. A row J a + e s >= b of the spring k has e = 1/sqrt(k); then sum lambda over its
+/// rows is k times the largest b - J a, however many rows there are.
+constexpr int kMostSprings = 6;
+using SharedContactQp = BasicContactQp<6 + kMostSprings>;
 
 } // namespace petrous::haptics

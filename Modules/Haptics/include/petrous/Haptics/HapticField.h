@@ -1,21 +1,21 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "petrous/Volume/DistanceMap.h"
 #include "petrous/Volume/PublishedMask.h"
 #include "petrous/Volume/TissueField.h"
 
 namespace petrous::haptics
 {
 
-/// How structures yield under the hand; all is rigid that is not named here.
-struct SoftTissue
+/// A structure that yields under the hand: a spring from its surface on.
+struct SoftStructure
 {
-  std::shared_ptr<const volume::Volume<std::uint8_t>> index; ///< LabelField::index; may be null
-  std::array<float, 256> compliance{};                       ///< mm/N by material; 0 rigid
+  std::shared_ptr<const volume::DistanceMap> depth;
+  double stiffness = 0.0; ///< N/mm, in [0.001, 100]
 };
 
 /// What decides f at a point.
@@ -33,10 +33,8 @@ struct FieldSample
   double value = volume::TissueField::kAir; ///< f; soft tissue left out where it decides
   Decider decider = Decider::Outside;
   std::uint8_t solid = 0;                   ///< which union, where one decides
-  double uncut = volume::TissueField::kAir; ///< f without mask and hull, soft tissue with it
+  double uncut = volume::TissueField::kAir; ///< f without mask and hull
   double left = volume::TissueField::kAir;  ///< of mask and hull the lower
-  double soft = volume::TissueField::kAir;  ///< f of the soft tissue, where there is some
-  double compliance = 0.0;                  ///< mm/N, of that tissue
 };
 
 /// The tissue field of PHYSICS.md ("One field") as a servo tick samples it: the same f as
@@ -51,16 +49,22 @@ struct FieldSample
 class HapticField
 {
 public:
-  /// `tissue` gives CT, unions, iso and scale; its mask is not used, `mask` of each query is.
-  /// Throws InvalidParameter when the mask does not lie on the CT's grid.
+  /// `tissue` is what is rigid: CT, unions, iso and scale; its mask is not used, `mask` of each
+  /// query is. `soft` is what yields, and takes no part in f.
+  /// Throws InvalidParameter when the mask does not lie on the CT's grid, or a soft structure has
+  /// no map or a stiffness out of its domain.
   HapticField(const volume::TissueField& tissue, std::shared_ptr<const volume::PublishedMask> mask,
-              SoftTissue soft = {});
+              std::vector<SoftStructure> soft = {});
 
   const core::GridGeometry& geometry() const noexcept { return m_geometry; }
   const volume::PublishedMask& mask() const noexcept { return *m_mask; }
   double voxel() const noexcept { return m_voxel; } ///< h, mm, the smallest spacing
+  const std::vector<SoftStructure>& soft() const noexcept { return m_soft; }
 
   FieldSample sample(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
+
+  /// Mask - 1/2 at a point: 1/2 where nothing was cut, also beyond the grid.
+  double left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
 
   /// Gradient of the operand that decided, per mm in patient axes, by central differences over
   /// +-`step` voxels: 1 as TissueField::normal has it, less for the interpolated surface itself.
@@ -108,9 +112,7 @@ private:
   std::shared_ptr<const volume::IntensityVolume> m_ct;
   std::vector<Solid> m_solids;
   std::shared_ptr<const volume::PublishedMask> m_mask;
-  SoftTissue m_soft;
-  Eigen::Matrix3d m_indexFromCt = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d m_indexOffset{0.0, 0.0, 0.0};
+  std::vector<SoftStructure> m_soft;
   core::GridGeometry m_geometry;
   volume::TissueField::Parameters m_parameters;
   double m_voxel = 1.0;

@@ -35,6 +35,7 @@ void eachNumber(Setup& s, Field field)
   field("bisections", s.proxy.bisections);
   field("rounds", s.proxy.rounds);
   field("deadband_mm", s.proxy.deadband);
+  field("samples_a_tick", s.proxy.samples);
   field("servo_stiffness_n_per_mm", s.servo.stiffness);
   field("burr_points", s.servo.burrPoints);
   field("center_x_mm", s.servo.center[0]);

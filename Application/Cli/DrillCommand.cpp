@@ -112,7 +112,7 @@ void play(const Context& context, const Options& options)
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress);
   presenters::PathDrill session(value, touch, tool);
-  DrillReport report(value, touch, options.log);
+  DrillReport report(value, touch, 0.5 * tool.tool.burr.diameter, options.log, context.json());
 
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
@@ -156,7 +156,7 @@ void replay(const Context& context, const Options& options)
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress, reader.setup().scene.firstState);
   presenters::HandReplay session(value, touch, reader, options.replay, camera);
-  DrillReport report(value, touch, options.log);
+  DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
 
   std::size_t ticks = 0;
   while (session.next())

@@ -8,13 +8,16 @@
 namespace petrous::cli
 {
 
-DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, const std::string& log)
+DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, double radius,
+                         const std::string& log, bool distances)
   : m_case(value)
   , m_applied(value.applied)
   , m_before(value.dissection->strokes().begin(), value.dissection->strokes().end())
 {
   if (!log.empty())
     m_log.emplace(log, value, scene);
+  if (distances && !value.labels.empty())
+    m_distances.emplace(value, radius);
 }
 
 void DrillReport::add(const simulation::TickRecord& record)
@@ -26,6 +29,12 @@ void DrillReport::add(const simulation::TickRecord& record)
   m_inside += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
   if (m_log)
     m_log->add(record);
+  using simulation::ServoFault;
+  const auto fault = static_cast<ServoFault>(record.fault);
+  m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
+                          fault != ServoFault::Parameters);
+  if (m_distances && m_placed)
+    m_distances->add(record.proxy.pose().position);
 }
 
 void DrillReport::close()
@@ -69,12 +78,16 @@ void DrillReport::say(const Context& context) const
     context.say("  of '" + name + "': " + fixed(volume, 2) + " mm3");
 }
 
-nlohmann::json DrillReport::json() const
+nlohmann::json DrillReport::json()
 {
   const Cut result = cut();
   nlohmann::json structures = nlohmann::json::array();
   for (const auto& [name, volume] : result.structures)
     structures.push_back({{"label", name}, {"volume_mm3", volume}});
+  nlohmann::json distances = nlohmann::json::object();
+  if (m_distances)
+    for (const auto& [name, distance] : m_distances->smallest())
+      distances[name] = distance;
   const auto micros = [](const auto& within) -> nlohmann::json
   {
     return {{"p50", 1e6 * within(0.5)},
@@ -91,6 +104,7 @@ nlohmann::json DrillReport::json() const
           {"max_torque_nmm", m_torque},
           {"ticks_inside", m_inside},
           {"structures_touched", std::move(structures)},
+          {"min_distance_mm", std::move(distances)},
           {"undo_bytes", result.bytes},
           {"tick_us", micros([this](double share) { return m_times.processor(share); })},
           {"tick_wall_us", micros([this](double share) { return m_times.wall(share); })},

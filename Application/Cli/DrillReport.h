@@ -8,6 +8,7 @@
 #include "Context.h"
 #include "DrillLog.h"
 #include "petrous/Core/TickTimes.h"
+#include "petrous/Presenters/StructureDistances.h"
 
 namespace petrous::cli
 {
@@ -16,8 +17,12 @@ namespace petrous::cli
 class DrillReport
 {
 public:
-  /// `log` is the file of `--log`, or empty. Case and scene must outlive this.
-  DrillReport(scene::Case& value, presenters::TouchScene& scene, const std::string& log);
+  /// radius     of the burr, mm
+  /// log        the file of `--log`, or empty
+  /// distances  how near the burr comes to each labelled structure is asked for
+  /// Case and scene must outlive this.
+  DrillReport(scene::Case& value, presenters::TouchScene& scene, double radius,
+              const std::string& log, bool distances);
 
   /// The servo's tick, timed.
   template <typename Call>
@@ -37,7 +42,7 @@ public:
 
   /// The report in words, and its JSON object.
   void say(const Context& context) const;
-  nlohmann::json json() const;
+  nlohmann::json json();
 
 private:
   struct Cut
@@ -51,8 +56,10 @@ private:
 
   scene::Case& m_case;
   std::optional<DrillLog> m_log;
+  std::optional<presenters::StructureDistances> m_distances;
   std::size_t m_applied; // when it began
   std::set<std::shared_ptr<const dissection::Stroke>> m_before;
+  bool m_placed = false; // the hand has taken up the tool
   core::TickTimes m_times;
   double m_force = 0.0;       // N, the hardest of all ticks
   double m_torque = 0.0;      // N mm

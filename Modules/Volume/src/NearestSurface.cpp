@@ -112,11 +112,11 @@ NearestSurfaceSearch::NearestSurfaceSearch(const TissueField& field, double reac
 }
 
 std::vector<NearestSurfaceSearch::Candidate>
-NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient) const
+NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient, double reach) const
 {
   const core::GridGeometry& grid = m_field.geometry();
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(m_reach);
-  const core::IndexBox box = grid.boxCovering(patient - reach, patient + reach);
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
+  const core::IndexBox box = grid.boxCovering(patient - around, patient + around);
   std::vector<Candidate> blocks;
   if (box.empty())
     return blocks;
@@ -129,7 +129,7 @@ NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient) const
         const Eigen::Vector3d center =
             grid.patientFromVoxel({(i + 0.5) * kBlock, (j + 0.5) * kBlock, (k + 0.5) * kBlock});
         const double distance = (center - patient).norm() - blockRadius;
-        if (distance < m_reach)
+        if (distance < reach)
           blocks.push_back({distance, {i, j, k}});
       }
   std::sort(blocks.begin(), blocks.end(),
@@ -226,12 +226,13 @@ const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::
   return entry->second;
 }
 
-std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& patient)
+std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& patient,
+                                                         double reach)
 {
   const core::GridGeometry& grid = m_field.geometry();
   const double cellRadius = 0.5 * grid.spacing().norm();
-  Nearest best{m_reach, patient};
-  for (const Candidate& block : blocksWithinReach(patient))
+  Nearest best{reach, patient};
+  for (const Candidate& block : blocksWithinReach(patient, reach))
   {
     if (block.distance > best.distance)
       break;
@@ -243,7 +244,7 @@ std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& 
         searchCell(m_field, patient, cell, m_subdivisions, best);
     }
   }
-  if (best.distance >= m_reach)
+  if (best.distance >= reach)
     return std::nullopt;
   refine(m_field, patient, best);
   return NearestSurface{m_field.value(patient) > 0.0 ? -best.distance : best.distance, best.point,

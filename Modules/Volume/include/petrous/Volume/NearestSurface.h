@@ -31,7 +31,13 @@ public:
   NearestSurfaceSearch(const TissueField& field, double reach);
 
   /// Nothing when no surface lies within reach.
-  std::optional<NearestSurface> find(const Eigen::Vector3d& patient);
+  std::optional<NearestSurface> find(const Eigen::Vector3d& patient)
+  {
+    return find(patient, m_reach);
+  }
+
+  /// For who knows how far the surface is at most.
+  std::optional<NearestSurface> find(const Eigen::Vector3d& patient, double reach);
 
 private:
   struct Candidate
@@ -39,7 +45,7 @@ private:
     double distance;
     core::Index3 block;
   };
-  std::vector<Candidate> blocksWithinReach(const Eigen::Vector3d& patient) const;
+  std::vector<Candidate> blocksWithinReach(const Eigen::Vector3d& patient, double reach) const;
   const std::vector<core::Index3>& crossedCells(const core::Index3& block);
   void markFine(const core::IndexBox& corners, bool* cells) const;
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "petrous/Scene/Case.h"
+
+namespace petrous::presenters
+{
+
+/// How near a burr came to each labelled structure on its way: the smallest distance from the ball
+/// to the structure's surface as the file gave it (the 1/2 level of its own smoothed union, whole,
+/// whatever else was drilled or lies before it).
+///
+/// Within kTolerance of the surface's own distance. Positions are kept, and asked of at the end
+/// where the ones before and after, and the way between, leave room for something nearer. One
+/// thread.
+class StructureDistances
+{
+public:
+  static constexpr double kTolerance = 0.02; ///< mm
+
+  /// Loads the labels. `radius` of the burr, mm.
+  StructureDistances(const scene::Case& value, double radius);
+  ~StructureDistances();
+
+  void add(const Eigen::Vector3d& centre); ///< of the burr, patient LPS mm
+
+  /// By name, mm; 0 where the ball reached the structure. Empty before the first position.
+  std::map<std::string, double> smallest();
+
+private:
+  struct Structure;
+  double nearest(Structure& structure) const;
+
+  std::vector<std::unique_ptr<Structure>> m_structures;
+  std::vector<Eigen::Vector3d> m_positions;
+  std::vector<double> m_way; // mm, from the first position to this one
+  double m_radius;
+};
+
+} // namespace petrous::presenters

@@ -11,7 +11,6 @@
 #include "HandKeeper.h"
 #include "Theme.h"
 #include "ThreeDView.h"
-#include "petrous/Devices/PedalledDevice.h"
 
 namespace petrous::workstation
 {
@@ -19,26 +18,16 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kFrame = 16;        // ms
-constexpr double kSilence = 3.0;  // s; a picture drawn on the processor can take one
 constexpr int kFaultShown = 1500; // ms after the last tick that had one
 constexpr int kStart = 500;       // ms in which a device that was taken up comes to rest
 constexpr int kGone = 1000;       // ms; a server that crashed is back sooner
 constexpr int kAnew = 300;        // ms after the last change of what is in the hand
-constexpr double kPedalDown = 0.5;
-constexpr double kStill = 0.02; // mm
-constexpr int kReadAgain = 500; // ms, while the tip rests: tissue may have come back
+constexpr double kStill = 0.02;   // mm
+constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have come back
 
 using haptics::DeviceVerdict;
 using simulation::ServoFault;
 using simulation::TickRecord;
-
-// Whether its poses mean something.
-bool isPlaced(const TickRecord& record)
-{
-  const auto fault = static_cast<ServoFault>(record.fault);
-  return record.input.now > 0.0 && fault != ServoFault::Device && fault != ServoFault::Clock &&
-         fault != ServoFault::Parameters;
-}
 
 QString textOf(const presenters::PlaceReading& reading)
 {
@@ -62,7 +51,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   , m_view(view)
   , m_bar(bar)
   , m_hands(hands)
-  , m_aim([&model](const interaction::SightLine& line) { return model.tissueAlong(line); })
+  , m_lead(model, view, hands)
 {
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
@@ -106,17 +95,13 @@ void DrillController::connectView()
   connect(&m_view, &ThreeDView::drillHeld, this,
           [this](const interaction::SightLine& line)
           {
-            if (m_model.touching() && m_pointer)
-              point(line);
+            if (m_model.touching())
+              m_lead.point(line);
           });
   connect(&m_view, &ThreeDView::drillReleased, this, &DrillController::release);
-  connect(&m_view, &ThreeDView::clutchHeld, this, &DrillController::setClutch);
+  connect(&m_view, &ThreeDView::clutchHeld, this, [this](bool held) { m_lead.clutch(held); });
   connect(&m_view, &ThreeDView::wheelLed, this,
-          [this](double notches, bool fine)
-          {
-            m_aim.wheel(notches, fine);
-            send();
-          });
+          [this](double notches, bool fine) { m_lead.wheel(notches, fine); });
 }
 
 void DrillController::connectHands()
@@ -146,14 +131,14 @@ void DrillController::applyBar()
 {
   using Mode = interaction::AimSettings::Mode;
   const bool wheel = m_bar.wheelAction()->isChecked() && !m_hands.device();
-  interaction::AimSettings settings = m_aim.settings();
+  interaction::AimSettings settings;
   settings.burrRadius = toolRadius();
   settings.thrust = m_bar.thrust();
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
-  settings.lift = m_tool == Tool::Pointer ? 0.0 : interaction::AimSettings().lift;
-  m_aim.setSettings(settings);
+  if (m_tool == Tool::Pointer)
+    settings.lift = 0.0;
   m_view.setWheelLeads(wheel);
-  send();
+  m_lead.set(settings, m_tool == Tool::Burr);
 }
 
 void DrillController::layDown()
@@ -167,11 +152,8 @@ void DrillController::setTool(Tool tool)
     return;
   m_view.setDrillMode(false); // lets go of the drill first
   putAway();
-  if (m_tool == Tool::None) // comes to hand: its origin is the place looked at
-  {
-    m_place.reset();
-    m_handPlace.setZero();
-  }
+  if (m_tool == Tool::None)
+    m_lead.beginThere();
   m_tool = tool;
   m_view.setDrillMode(tool == Tool::Burr);
   m_view.setPointing(tool == Tool::Pointer);
@@ -183,8 +165,7 @@ void DrillController::setTool(Tool tool)
 
 void DrillController::handCame()
 {
-  m_place.reset();
-  m_handPlace.setZero();
+  m_lead.beginThere();
   m_view.setButtonDrills(!m_hands.device());
   m_bar.setPresses(!m_hands.device(),
                    !m_hands.device() || !m_hands.device()->description().givesForce);
@@ -207,52 +188,8 @@ void DrillController::bringHere()
   if (!m_hands.device() || m_tool == Tool::None)
     return;
   putAway();
-  m_place = placeLookedAt();
+  m_lead.beginHere();
   takeTool();
-}
-
-// With the burr just before the tissue.
-Eigen::Vector3d DrillController::placeLookedAt()
-{
-  const interaction::SightLine line = m_view.sightLine({-1.0, -1.0}); // the middle
-  const auto hit = m_model.tissueAlong(line);
-  if (!hit)
-    return m_model.crosshair();
-  return line.at(std::max(*hit - toolRadius() - interaction::AimSettings().lift, 0.0));
-}
-
-// The device that is to lead the tool, and what it makes of the setup.
-haptics::Device& DrillController::prepare(presenters::TouchSession::Setup& setup)
-{
-  setup.tool.burr = m_bar.burr();
-  setup.cuts = m_tool == Tool::Burr;
-  if (m_tool == Tool::Pointer)
-  {
-    setup.tool.burr.diameter = 2.0 * kPointerRadius;
-    setup.tool.mode = presenters::TouchTool::Mode::ThreeDof; // its shaft is in nobody's way
-  }
-  m_pointer = nullptr;
-  if (presenters::HeldDevice* device = m_hands.device())
-  {
-    device->setPedal(m_hands.pedal());
-    const core::CameraPose camera = m_view.picture().camera();
-    presenters::fit(setup, device->description(), lead(), device->endless());
-    setup.parameters = presenters::parametersFor(device->description(), lead(), camera, {});
-    setup.center =
-        presenters::centerFor(m_place.value_or(placeLookedAt()), m_handPlace, lead().scale, camera);
-    return *device;
-  }
-  setup.center = m_model.value().ct.geometry.center();
-  m_aim.apply(setup.parameters);
-  interaction::PointerDevice::Limits limits;
-  limits.silence = kSilence;
-  auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);
-  m_pointer = pointer.get();
-  if (m_hands.pedal())
-    m_mouse = std::make_unique<devices::PedalledDevice>(std::move(pointer), m_hands.pedal());
-  else
-    m_mouse = std::move(pointer);
-  return *m_mouse;
 }
 
 bool DrillController::takeTool()
@@ -268,7 +205,14 @@ bool DrillController::takeTool()
   try
   {
     presenters::TouchSession::Setup setup;
-    haptics::Device& device = prepare(setup);
+    setup.tool.burr = m_bar.burr();
+    setup.cuts = m_tool == Tool::Burr;
+    if (m_tool == Tool::Pointer)
+    {
+      setup.tool.burr.diameter = 2.0 * kPointerRadius;
+      setup.tool.mode = presenters::TouchTool::Mode::ThreeDof; // its shaft is in nobody's way
+    }
+    haptics::Device& device = m_lead.prepare(setup);
     m_model.startTouch(device, setup);
   }
   catch (const core::Error& error)
@@ -286,9 +230,10 @@ bool DrillController::takeTool()
     emit said(why);
     return false;
   }
-  emit said(m_pointer ? QString()
-                      : tr("%1 leads the tool").arg(words(m_hands.device()->description().name)));
-  send();
+  emit said(m_lead.byMouse()
+                ? QString()
+                : tr("%1 leads the tool").arg(words(m_hands.device()->description().name)));
+  m_lead.send();
   m_sinceTaken.start();
   m_frames.start();
   return true;
@@ -305,52 +250,9 @@ void DrillController::putAway()
   m_fault.clear();
   m_sinceGone.invalidate();
   m_tip.reset();
-  m_held.drill = false;
-  m_foot = false;
-  m_aim.press(interaction::PointerAim::Press::None);
+  m_lead.letGo();
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke);
-}
-
-void DrillController::point(const interaction::SightLine& line)
-{
-  m_aim.setCamera(m_view.picture().camera());
-  m_aim.point(line);
-  send();
-}
-
-presenters::DeviceLead DrillController::lead() const
-{
-  presenters::DeviceLead lead = m_hands.lead();
-  lead.thrust = m_bar.thrust();
-  return lead;
-}
-
-void DrillController::send()
-{
-  if (!m_model.touching())
-    return;
-  simulation::ServoParameters parameters;
-  if (m_pointer)
-  {
-    if (m_aim.wanted())
-      m_pointer->want(*m_aim.wanted());
-    m_pointer->setButtons(m_aim.buttons());
-    m_aim.apply(parameters);
-    parameters.clutch = m_held.clutch ? 1 : 0;
-  }
-  else if (const presenters::HeldDevice* device = m_hands.device())
-    parameters =
-        presenters::parametersFor(device->description(), lead(), m_view.picture().camera(), m_held);
-  if (m_tool == Tool::Pointer)
-    parameters.drill = 0, parameters.drillButtons = 0;
-  m_model.touch()->setParameters(parameters);
-}
-
-void DrillController::setClutch(bool held)
-{
-  m_held.clutch = held;
-  send();
 }
 
 void DrillController::hover(const interaction::SightLine& line)
@@ -360,16 +262,8 @@ void DrillController::hover(const interaction::SightLine& line)
     emit pointed(*hit);
   else if (!reads)
     emit pointedNowhere();
-  if (m_tool != Tool::None && takeTool() && m_pointer)
-    point(line);
-}
-
-// By button or key, and by foot: the mouse presses the burr on the bone with both.
-void DrillController::pressPointer()
-{
-  using Press = interaction::PointerAim::Press;
-  m_aim.press(m_held.drill || m_foot ? Press::Drill : Press::None);
-  send();
+  if (m_tool != Tool::None && takeTool())
+    m_lead.point(line);
 }
 
 void DrillController::press(const interaction::SightLine& line)
@@ -377,20 +271,14 @@ void DrillController::press(const interaction::SightLine& line)
   if (!takeTool())
     return;
   m_model.touch()->setCamera(m_view.picture().camera());
-  m_held.drill = true;
-  if (!m_pointer)
-    return send();
-  pressPointer();
-  point(line);
+  m_lead.drill(true);
+  m_lead.point(line);
 }
 
 void DrillController::release()
 {
-  m_held.drill = false;
-  if (!m_pointer)
-    return send(); // the servo's next tick ends the stroke
-  pressPointer();
-  if (!m_foot)
+  m_lead.drill(false);
+  if (m_lead.byMouse() && !m_lead.pedalDown()) // a device's stroke ends with the servo's next tick
     hear(m_model.endStroke());
 }
 
@@ -410,15 +298,7 @@ void DrillController::hear(const presenters::TouchSession::News& news)
   if (!m_model.drilling()) // of the stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
   const TickRecord& record = *news.record;
-  m_pointer ? m_aim.see(record, m_pointer->see(record)) : follow(record);
-  if (m_pointer)
-  {
-    const bool foot = record.input.pedal >= kPedalDown && m_tool == Tool::Burr;
-    if (std::exchange(m_foot, foot) != foot)
-      pressPointer();
-    m_aim.update();
-  }
-  send();
+  m_lead.see(record);
   m_view.display().setTouch(record, toolRadius());
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
@@ -432,15 +312,6 @@ void DrillController::hear(const presenters::TouchSession::News& news)
   }
   if (isLost(record))
     m_hands.giveUp(whyLost());
-}
-
-// Where hand and tool are, so that another burr goes on from there.
-void DrillController::follow(const TickRecord& record)
-{
-  if (!isPlaced(record))
-    return;
-  m_place = record.proxy.pose().position;
-  m_handPlace = record.input.device.pose().position;
 }
 
 void DrillController::read(const TickRecord& record)
@@ -464,7 +335,8 @@ void DrillController::read(const TickRecord& record)
 bool DrillController::isLost(const TickRecord& record)
 {
   const auto verdict = static_cast<DeviceVerdict>(record.verdict);
-  const bool gone = !m_pointer && static_cast<ServoFault>(record.fault) == ServoFault::Device &&
+  const bool gone = !m_lead.byMouse() &&
+                    static_cast<ServoFault>(record.fault) == ServoFault::Device &&
                     (verdict == DeviceVerdict::Disconnected || verdict == DeviceVerdict::Faulty ||
                      verdict == DeviceVerdict::NotReady);
   if (!gone)

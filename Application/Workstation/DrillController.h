@@ -7,10 +7,7 @@
 #include <QObject>
 #include <QTimer>
 
-#include "petrous/Interaction/PointerAim.h"
-#include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Presenters/DeviceLead.h"
-#include "petrous/Presenters/WorkstationModel.h"
+#include "ToolLead.h"
 
 namespace petrous::workstation
 {
@@ -58,20 +55,12 @@ private:
   void press(const interaction::SightLine& line);
   void release();
   bool takeTool(); // into the hand, unless it is there
-  haptics::Device& prepare(presenters::TouchSession::Setup& setup);
-  Eigen::Vector3d placeLookedAt();
   void putAway();
   void takeAnew();
   void applyBar();
   void handCame();
-  void setClutch(bool held);
-  void point(const interaction::SightLine& line);
-  presenters::DeviceLead lead() const;
-  void send();
-  void pressPointer();
   void frame();
   void hear(const presenters::TouchSession::News& news);
-  void follow(const simulation::TickRecord& record);
   void read(const simulation::TickRecord& record);
   void showFault(const presenters::TouchSession::News& news);
   QString whyLost() const;
@@ -82,21 +71,15 @@ private:
   ThreeDView& m_view;
   DrillBar& m_bar;
   HandKeeper& m_hands;
-  interaction::PointerAim m_aim;
-  std::unique_ptr<haptics::Device> m_mouse;        // of the touch that runs: the mouse's
-  interaction::PointerDevice* m_pointer = nullptr; // in it
-  std::optional<Eigen::Vector3d> m_place;          // of the tool, when a device led it last
-  Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0};      // frame D, at the same time
-  std::optional<Eigen::Vector3d> m_tip;            // that was read last
+  ToolLead m_lead;
+  std::optional<Eigen::Vector3d> m_tip; // that was read last
   QTimer m_frames;
   QTimer m_anew;
   QElapsedTimer m_sinceFault;
   QElapsedTimer m_sinceTaken;
   QElapsedTimer m_sinceGone;
   QElapsedTimer m_sinceRead;
-  QString m_fault;                   // as shown
-  presenters::DeviceSwitches m_held; // keys and mouse button
-  bool m_foot = false;               // the pedal is down
+  QString m_fault; // as shown
   Tool m_tool = Tool::None;
   bool m_slicesFollow = true;
 };

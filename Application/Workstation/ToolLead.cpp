@@ -1,0 +1,185 @@
+#include "ToolLead.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "HandKeeper.h"
+#include "ThreeDView.h"
+#include "petrous/Devices/PedalledDevice.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr double kSilence = 3.0; // s; a picture drawn on the processor can take one
+constexpr double kPedalDown = 0.5;
+} // namespace
+
+bool isPlaced(const simulation::TickRecord& record)
+{
+  using simulation::ServoFault;
+  const auto fault = static_cast<ServoFault>(record.fault);
+  return record.input.now > 0.0 && fault != ServoFault::Device && fault != ServoFault::Clock &&
+         fault != ServoFault::Parameters;
+}
+
+ToolLead::ToolLead(presenters::WorkstationModel& model, ThreeDView& view, HandKeeper& hands)
+  : m_model(model)
+  , m_view(view)
+  , m_hands(hands)
+  , m_aim([&model](const interaction::SightLine& line) { return model.tissueAlong(line); })
+{
+}
+
+void ToolLead::set(const interaction::AimSettings& settings, bool cuts)
+{
+  m_cuts = cuts;
+  m_aim.setSettings(settings);
+  send();
+}
+
+void ToolLead::beginThere() noexcept
+{
+  m_place.reset();
+  m_handPlace.setZero();
+}
+
+void ToolLead::beginHere()
+{
+  m_place = placeLookedAt();
+}
+
+// With the burr just before the tissue.
+Eigen::Vector3d ToolLead::placeLookedAt()
+{
+  const interaction::SightLine line = m_view.sightLine({-1.0, -1.0}); // the middle
+  const auto hit = m_model.tissueAlong(line);
+  if (!hit)
+    return m_model.crosshair();
+  const double before = m_aim.settings().burrRadius + interaction::AimSettings().lift;
+  return line.at(std::max(*hit - before, 0.0));
+}
+
+presenters::DeviceLead ToolLead::lead() const
+{
+  presenters::DeviceLead lead = m_hands.lead();
+  lead.thrust = m_aim.settings().thrust;
+  return lead;
+}
+
+haptics::Device& ToolLead::prepare(presenters::TouchSession::Setup& setup)
+{
+  m_pointer = nullptr;
+  if (presenters::HeldDevice* device = m_hands.device())
+  {
+    device->setPedal(m_hands.pedal());
+    const core::CameraPose camera = m_view.picture().camera();
+    presenters::fit(setup, device->description(), lead(), device->endless());
+    setup.parameters = presenters::parametersFor(device->description(), lead(), camera, {});
+    if (!m_place)
+      m_place = placeLookedAt();
+    setup.center = presenters::centerFor(*m_place, m_handPlace, lead().scale, camera);
+    return *device;
+  }
+  setup.center = m_model.value().ct.geometry.center();
+  m_aim.apply(setup.parameters);
+  interaction::PointerDevice::Limits limits;
+  limits.silence = kSilence;
+  auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);
+  m_pointer = pointer.get();
+  if (m_hands.pedal())
+    m_mouse = std::make_unique<devices::PedalledDevice>(std::move(pointer), m_hands.pedal());
+  else
+    m_mouse = std::move(pointer);
+  return *m_mouse;
+}
+
+void ToolLead::send()
+{
+  if (!m_model.touching())
+    return;
+  simulation::ServoParameters parameters;
+  if (m_pointer)
+  {
+    if (m_aim.wanted())
+      m_pointer->want(*m_aim.wanted());
+    m_pointer->setButtons(m_aim.buttons());
+    m_aim.apply(parameters);
+    parameters.clutch = m_held.clutch ? 1 : 0;
+  }
+  else if (const presenters::HeldDevice* device = m_hands.device())
+    parameters =
+        presenters::parametersFor(device->description(), lead(), m_view.picture().camera(), m_held);
+  if (!m_cuts)
+  {
+    parameters.drill = 0;
+    parameters.drillButtons = 0;
+  }
+  m_model.touch()->setParameters(parameters);
+}
+
+void ToolLead::point(const interaction::SightLine& line)
+{
+  if (!m_pointer)
+    return;
+  m_aim.setCamera(m_view.picture().camera());
+  m_aim.point(line);
+  send();
+}
+
+void ToolLead::wheel(double notches, bool fine)
+{
+  m_aim.wheel(notches, fine);
+  send();
+}
+
+// By button or key, and by foot: the mouse presses the burr on the bone with both.
+void ToolLead::press()
+{
+  using Press = interaction::PointerAim::Press;
+  m_aim.press(m_pointer && (m_held.drill || m_foot) ? Press::Drill : Press::None);
+  send();
+}
+
+void ToolLead::drill(bool held)
+{
+  m_held.drill = held;
+  press();
+}
+
+void ToolLead::clutch(bool held)
+{
+  m_held.clutch = held;
+  send();
+}
+
+void ToolLead::letGo()
+{
+  m_foot = false;
+  drill(false);
+}
+
+void ToolLead::see(const simulation::TickRecord& record)
+{
+  if (m_pointer)
+    seeByMouse(record);
+  else if (isPlaced(record))
+  {
+    // So that another burr goes on from there.
+    m_place = record.proxy.pose().position;
+    m_handPlace = record.input.device.pose().position;
+  }
+  send();
+}
+
+void ToolLead::seeByMouse(const simulation::TickRecord& record)
+{
+  m_aim.see(record, m_pointer->see(record));
+  const bool foot = record.input.pedal >= kPedalDown && m_cuts;
+  if (std::exchange(m_foot, foot) != foot)
+    press();
+  m_aim.update();
+}
+
+} // namespace petrous::workstation

@@ -29,7 +29,7 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
             ? nullptr
             : std::make_unique<simulation::RecordingWriter>(
                   options.recording, scene.recordingOf(options.tool, m_servo.setup(), "tool path")))
-  , m_law(m_radius)
+  , m_law(m_radius, kFeed)
   , m_feed(m_law)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
            hooks(scene, options))

@@ -23,6 +23,11 @@ namespace petrous::presenters
 class PathDrill
 {
 public:
+  /// mm/s per N of thrust. A written path does not wait for the burr as a hand does: led at v mm/s
+  /// by a coupling of k N/mm the burr lags by v / (kFeed k), here 0.25 mm at 5 mm/s. With a live
+  /// hand's feed (TouchSession::kFeed) it would be 2.5 mm, which the path would leave undrilled.
+  static constexpr double kFeed = 20.0;
+
   struct Options
   {
     TouchTool tool;

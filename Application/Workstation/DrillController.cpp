@@ -40,6 +40,10 @@ QString textOf(const presenters::PlaceReading& reading)
                ? DrillController::tr("%1 mm to the surface").arg(*reading.surface, 0, 'f', 1)
                : DrillController::tr("no surface within %1 mm")
                      .arg(presenters::PlaceReader::kReach, 0, 'f', 0);
+  if (reading.near)
+    lines += DrillController::tr("%1 mm to %2")
+                 .arg(reading.near->distance, 0, 'f', 1)
+                 .arg(words(reading.near->name).replace('_', ' '));
   return lines.join('\n');
 }
 } // namespace
@@ -323,10 +327,11 @@ void DrillController::read(const TickRecord& record)
   if (still && m_sinceRead.elapsed() < kReadAgain)
     return;
   m_sinceRead.start();
-  m_view.display().setReading(textOf(m_model.readPlace(tip)));
+  if (!still)
+    m_tip = tip;
+  m_view.display().setReading(textOf(m_model.readPlace(*m_tip)));
   if (still)
     return;
-  m_tip = tip;
   emit pointed(tip);
   if (m_slicesFollow)
     m_model.setCrosshair(tip);

@@ -72,6 +72,7 @@ void WorkstationModel::notStored()
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   forgetTissue();
+  m_borders.reset();
   m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
   m_unsaved = unsaved;
@@ -285,7 +286,19 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
 {
   if (!m_reader)
     m_reader = std::make_unique<PlaceReader>(*m_case, session().field());
-  return m_reader->at(patient);
+  PlaceReading reading = m_reader->at(patient);
+  if (!reading.structure.empty())
+    return reading;
+  if (!m_borders) // after the reader, which makes the voxels of the meshes
+    m_borders = std::make_unique<StructureBorders>(*m_case);
+  reading.near = m_borders->nearest(patient, PlaceReader::kReach,
+                                    [this](const std::string& name)
+                                    {
+                                      const auto* part = scene::findStructure(*m_case, name);
+                                      const auto* mesh = scene::findMesh(*m_case, name);
+                                      return part ? part->look.shown : mesh && mesh->look.shown;
+                                    });
+  return reading;
 }
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)

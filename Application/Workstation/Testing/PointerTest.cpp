@@ -25,11 +25,8 @@ protected:
     QTest::mouseMove(&view(), pixel);
   }
 
-  Vector3d tip()
-  {
-    const auto& tool = *view().display().tool();
-    return tool.center - DrillController::kPointerRadius * tool.axisToHand;
-  }
+  // The slices go through it.
+  Vector3d tip() { return window().model().crosshair(); }
 
   // What the command says of the same place.
   QJsonObject probed(const Vector3d& place)
@@ -67,7 +64,10 @@ TEST_F(Pointer, ReadsAtItsTipWhatTheCommandReadsThere)
     const QJsonObject truth = probed(tip());
     ASSERT_TRUE(truth.contains("hu"));
     EXPECT_EQ(read.front(), QString("%1 HU").arg(std::lround(truth["hu"].toDouble())));
-    EXPECT_EQ(read.back(),
+    ASSERT_EQ(read.size(), 3);
+    EXPECT_TRUE(read[2].endsWith(" mm to nerve")) << read[2].toStdString();
+    EXPECT_NEAR(read[2].split(' ').front().toDouble(), (tip() - kBallCenter).norm() - 4.0, 0.3);
+    EXPECT_EQ(read[1],
               QString("%1 mm to the surface").arg(truth["distance_mm"].toDouble(), 0, 'f', 1));
     EXPECT_LT(std::abs(truth["distance_mm"].toDouble()), 0.5) << "it touches";
   }

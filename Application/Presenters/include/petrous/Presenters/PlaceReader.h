@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Presenters/StructureBorders.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Volume/NearestSurface.h"
@@ -15,10 +16,12 @@ namespace petrous::presenters
 /// What there is at a place.
 struct PlaceReading
 {
-  std::optional<double> hounsfield; ///< nothing outside the CT
-  std::string structure;            ///< that the place lies in; empty: none
-  std::optional<double> surface;    ///< mm to the nearest surface of tissue as it is drilled now,
-                                    ///< negative in tissue; nothing beyond kReach
+  std::optional<double> hounsfield;  ///< nothing outside the CT
+  std::string structure;             ///< that the place lies in; empty: none
+  std::optional<double> surface;     ///< mm to the nearest surface of tissue as it is drilled now,
+                                     ///< negative in tissue; nothing beyond kReach
+  std::optional<NearStructure> near; ///< the nearest that is shown, where the place lies in none;
+                                     ///< nothing beyond kReach
 };
 
 /// Reads a case at places, by the same rules as `petrous probe`. Holds for the tissue as it was at

@@ -47,7 +47,7 @@ public:
     haptics::DeviceGuard::Limits guard;
     haptics::ForceLimits::Limits limits; ///< of the device
     std::optional<haptics::PassivityGuard::Parameters> passivity;
-    bool cuts = true;  ///< false: takes nothing and opens no stroke, whatever asks for the drill
+    bool cuts = true;    ///< false: takes nothing and opens no stroke, whatever asks for the drill
     double feed = kFeed; ///< mm/s per N of thrust, > 0
   };
 

@@ -77,8 +77,8 @@ public:
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
   std::string structureAt(const Eigen::Vector3d& patient) const; ///< empty: none
-  /// The same and more, as `petrous probe` says it; only with a case. The first reading after a cut
-  /// or a change of structures takes longest.
+  /// The same and more, as `petrous probe` says it, and the nearest structure; only with a case.
+  /// The first reading of a case looks through its labels (some tenths of a second).
   PlaceReading readPlace(const Eigen::Vector3d& patient);
   /// Where the line meets tissue, mm from its origin.
   std::optional<double> tissueAlong(const interaction::SightLine& line);
@@ -113,8 +113,9 @@ private:
   SceneAssembly m_assembly;
   std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
   std::unique_ptr<TouchScene> m_scene;
-  std::unique_ptr<TouchSession> m_touch; ///< after m_scene, which it uses
-  std::unique_ptr<PlaceReader> m_reader; ///< when first asked for; likewise
+  std::unique_ptr<TouchSession> m_touch;       ///< after m_scene, which it uses
+  std::unique_ptr<PlaceReader> m_reader;       ///< when first asked for; likewise
+  std::unique_ptr<StructureBorders> m_borders; ///< likewise; a cut changes nothing of them
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;

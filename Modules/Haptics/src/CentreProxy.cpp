@@ -104,6 +104,8 @@ void CentreProxy::place(const Pose& pose) noexcept
   if (!pose.finite())
     return;
   m_refuge->place(pose);
+  if (m_soft)
+    m_soft->begin({pose.position, Eigen::Quaterniond::Identity()});
   m_tick.pose = m_sweep.pose();
 }
 
@@ -219,7 +221,8 @@ void CentreProxy::follow(const Vector3d& goal) noexcept
   double lift = 2.0 * kSkin * h;
   int stretches = 0;
   keepPlanes();
-  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches)
+  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches &&
+         !(m_soft && m_soft->spent()))
   {
     m_sweep.findNear(ahead);
     const Vector3d found = solve(goal - m_sweep.pose().position, kSkin * h);

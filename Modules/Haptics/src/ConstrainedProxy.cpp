@@ -67,8 +67,11 @@ ConstrainedProxy::~ConstrainedProxy() = default;
 
 void ConstrainedProxy::place(const Pose& pose) noexcept
 {
-  if (pose.finite())
-    m_refuge->place(pose);
+  if (!pose.finite())
+    return;
+  m_refuge->place(pose);
+  if (m_soft)
+    m_soft->begin(pose);
 }
 
 // Two problems. In the first, standing still is allowed, and its forces are what the hand feels. In
@@ -181,7 +184,8 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
   double lift = 2.0 * kSkin * h;
   int stretches = 0;
   m_hitCount = 0;
-  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches)
+  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches &&
+         !(m_soft && m_soft->spent()))
   {
     const Motion wanted = motionBetween(m_sweep.pose(), goal);
     m_sweep.findNear(ahead);

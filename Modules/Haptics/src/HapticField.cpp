@@ -314,8 +314,11 @@ double HapticField::steepness(const Eigen::Vector3d& voxel) const noexcept
 
 std::size_t HapticField::residentBytes() const noexcept
 {
-  return m_distance.size() * sizeof(m_distance.front()) +
-         m_steepness.size() * sizeof(m_steepness.front());
+  std::size_t bytes = m_distance.size() * sizeof(m_distance.front()) +
+                      m_steepness.size() * sizeof(m_steepness.front());
+  for (const SoftStructure& structure : m_soft)
+    bytes += structure.depth->bytes();
+  return bytes;
 }
 
 } // namespace petrous::haptics

@@ -13,8 +13,14 @@ namespace petrous::haptics
 namespace
 {
 
-constexpr double kStep = 0.5;        // voxels of the field
-constexpr double kSteepest = 1.05;   // of a map's depth, per mm, about
+constexpr double kStep = 0.5;        // voxels of the field: how far contacts look ahead,
+constexpr double kFastStep = 1.5;    // and how far with a fast hand,
+constexpr double kHandShare = 0.25;  // of whose motion in a tick it is this much
+constexpr float kSteepest = 1.05F;   // of a map's depth, per mm, about
+constexpr double kFar = 1.5;         // mm: structures beyond it are not looked at point by point
+constexpr double kLeastWay = 1e-12;  // mm
+constexpr double kRounding = 1e-5;   // mm, of bounds
+constexpr int kMostSteps = 8;        // of a tick
 constexpr double kCreep = 0.02;      // mm a tick beyond the hand's motion
 constexpr double kAhead = 2.0;       // of the hand's motion in a tick, that the tool may make
 constexpr double kWhole = 0.4999;    // of the mask's operand: nothing is cut here
@@ -39,39 +45,65 @@ SoftContacts::SoftContacts(const HapticField& field, const PointShell& shell,
   , m_step(kStep * field.voxel())
   , m_ramp(field.geometry().spacing().norm())
 {
-  for (const Eigen::Vector3d& point : shell.points)
-    m_arm.push_back(point.norm());
+  m_arm.resize(static_cast<Eigen::Index>(shell.points.size()));
+  for (std::size_t i = 0; i < shell.points.size(); ++i)
+    m_arm[static_cast<Eigen::Index>(i)] = static_cast<float>(shell.points[i].norm());
   for (const SoftStructure& soft : field.soft())
   {
     Structure structure{soft.depth.get(), 1.0 / std::sqrt(soft.stiffness), {}, 0.0, 0.0, 0.0};
     structure.top = std::numeric_limits<double>::max();
-    structure.bound.assign(shell.points.size(), structure.top);
+    structure.bound.setConstant(m_arm.size(), std::numeric_limits<float>::max());
     m_structures.push_back(std::move(structure));
   }
   m_looks.resize(shell.points.size() * m_structures.size());
   m_order.reserve(m_structures.size());
+  m_near.reserve(m_structures.size());
   m_contacts.reserve((kMostOfOne + 1) * kMostSprings);
 }
 
 void SoftContacts::begin(const Pose& goal) noexcept
 {
   const Motion way = motionBetween(m_goal, goal);
-  m_behind = spent();
+  m_behind = m_spent;
+  m_spent = false;
+  m_steps = 0;
+  const double voxel = m_field.voxel();
+  m_step =
+      std::clamp(kHandShare * longestWay(way, m_shell.reach), kStep * voxel, kFastStep * voxel);
   m_left = kAhead * std::hypot(way.linear.norm(), m_lever * way.angular.norm()) + kCreep;
   m_goal = goal;
 }
 
+double SoftContacts::shareOf(const Structure& structure, double linear,
+                             double angular) const noexcept
+{
+  const auto way = static_cast<float>(linear + kLeastWay) + static_cast<float>(angular) * m_arm;
+  const auto spare = (static_cast<float>(structure.least) - structure.bound).max(0.0F);
+  return double{((static_cast<float>(m_step) + spare / kSteepest) / way).minCoeff()};
+}
+
 double SoftContacts::share(const Motion& motion) noexcept
 {
-  const double way = longestWay(motion, m_shell.reach);
-  double share = std::min(1.0, (m_step + m_away) / std::max(way, 1e-12));
+  const double linear = motion.linear.norm();
+  const double angular = motion.angular.norm();
+  double share = std::min(1.0, m_away / std::max(longestWay(motion, m_shell.reach), kLeastWay));
+  // A point with a contact may go a step. The others may go on until they could need one.
+  if (share * longestWay(motion, m_shell.reach) > m_step)
+    for (const std::size_t n : m_near)
+      share = std::min(share, shareOf(m_structures[n], linear, angular));
+  m_spent = ++m_steps >= kMostSteps;
   const auto inside = [](const Contact& contact) { return contact.depth > 0.0; };
   if (m_pressed || m_behind || std::any_of(m_contacts.begin(), m_contacts.end(), inside))
   {
-    const double length = std::hypot(motion.linear.norm(), m_lever * motion.angular.norm());
-    share = std::min(share, std::max(0.0, m_left / std::max(length, 1e-12)));
-    m_left -= share * length * (1.0 + 1e-12);
+    const double length = std::hypot(linear, m_lever * angular);
+    if (m_left < share * length)
+    {
+      share = m_left / length;
+      m_spent = true;
+    }
+    m_left -= share * length;
   }
+  m_spent = m_spent && share < 1.0;
   return share;
 }
 
@@ -100,7 +132,7 @@ Eigen::Vector3d SoftContacts::slopeBelowCut(const Eigen::Vector3d& voxel) const 
 // At a point `arm` (patient axes) from the tool's origin. `bound` becomes its depth in the map
 // where that is looked at.
 SoftContacts::Look SoftContacts::lookAt(const volume::DistanceMap& map, const Eigen::Vector3d& arm,
-                                        double& bound) const noexcept
+                                        float& bound) const noexcept
 {
   Look look;
   look.arm = arm;
@@ -109,7 +141,8 @@ SoftContacts::Look SoftContacts::lookAt(const volume::DistanceMap& map, const Ei
   const double away = map.away(voxel);
   if (away > 0.0)
   {
-    look.at.depth = bound = -away;
+    look.at.depth = -away;
+    bound = static_cast<float>(-away);
     return look;
   }
   const double left = m_field.left(m_field.geometry().voxelFromPatient(patient), *m_state);
@@ -120,7 +153,7 @@ SoftContacts::Look SoftContacts::lookAt(const volume::DistanceMap& map, const Ei
     return look;
   }
   look.at = map.at(voxel);
-  bound = look.at.depth;
+  bound = static_cast<float>(look.at.depth);
   look.cut = most < look.at.depth;
   if (look.cut)
     look.at.depth = most;
@@ -139,11 +172,11 @@ void SoftContacts::complete(Look& look) const noexcept
 // a bound that grows by what the tool moves.
 void SoftContacts::look(Structure& structure) noexcept
 {
-  for (std::size_t i = 0; i < m_arm.size(); ++i)
-    structure.bound[i] += kSteepest * (structure.linear + structure.angular * m_arm[i]);
+  structure.bound += static_cast<float>(double{kSteepest} * structure.linear + kRounding) +
+                     static_cast<float>(double{kSteepest} * structure.angular) * m_arm;
   structure.linear = structure.angular = 0.0;
-  const double band = 2.0 * kSteepest * m_step;
-  const double reach = kSteepest * m_step;
+  const double reach = double{kSteepest} * m_step;
+  const double band = 2.0 * reach;
   double deepest = -std::numeric_limits<double>::max();
   Look* const looks = &m_looks[structure.first];
   structure.count = 0;
@@ -161,16 +194,13 @@ void SoftContacts::look(Structure& structure) noexcept
   };
   const std::uint32_t seed = structure.last;
   lookAtPoint(seed);
-  structure.top = structure.bound[seed];
   for (std::uint32_t i = 0; i < m_arm.size(); ++i)
-  {
-    if (i != seed && structure.bound[i] >= std::max(deepest - band, -reach))
+    if (double{structure.bound[i]} >= std::max(deepest - band, -reach) && i != seed)
       lookAtPoint(i);
-    structure.top = std::max(structure.top, structure.bound[i]);
-  }
+  structure.top = double{structure.bound.maxCoeff()};
   structure.depth = deepest;
-  const double least = std::max(deepest - band, -reach);
-  const auto shallow = [&](const Look& look) { return look.at.depth < least; };
+  structure.least = std::max(deepest - band, -reach);
+  const auto shallow = [&](const Look& look) { return look.at.depth < structure.least; };
   structure.count =
       static_cast<std::size_t>(std::remove_if(looks, looks + structure.count, shallow) - looks);
   if (structure.count > kMostOfOne)
@@ -189,22 +219,22 @@ void SoftContacts::find(const Pose& pose, const volume::MaskState& state, ProxyQ
   m_contacts.clear();
   m_order.clear();
   m_away = std::numeric_limits<double>::max();
+  m_near.clear();
   for (std::size_t n = 0; n < m_structures.size(); ++n)
   {
     Structure& structure = m_structures[n];
     structure.linear += way.linear.norm();
     structure.angular += way.angular.norm();
     const double top =
-        structure.top + kSteepest * (structure.linear + structure.angular * m_shell.reach);
-    if (top < -kSteepest * m_step)
+        structure.top + double{kSteepest} * (structure.linear + structure.angular * m_shell.reach);
+    if (top < -kFar)
     {
-      m_away = std::min(m_away, -top / kSteepest);
+      m_away = std::min(m_away, -top / double{kSteepest});
       continue;
     }
-    structure.first = n * m_arm.size();
+    structure.first = n * m_shell.points.size();
     look(structure);
-    // Points that were not looked at are no deeper than their bound.
-    m_away = std::min(m_away, std::max(0.0, -structure.top / kSteepest));
+    m_near.push_back(n);
     if (structure.count > 0)
       m_order.push_back(n);
   }
@@ -265,7 +295,7 @@ bool SoftContacts::addBall(const Structure& structure, std::size_t spring) noexc
   const double radius = m_shell.burrRadius;
   const auto lookTo = [&](const Eigen::Vector3d& direction)
   {
-    double bound = 0.0;
+    float bound = 0.0F;
     Look look = lookAt(*structure.map, radius * direction, bound);
     complete(look);
     return look;

@@ -66,7 +66,7 @@ public:
   double share(const Motion& motion) noexcept;
 
   /// The tool is held back for the rest of the tick: what the hand feels is the coupling's pull.
-  bool spent() const noexcept { return m_left <= 0.0; }
+  bool spent() const noexcept { return m_spent; }
   Wrench pull(const Pose& pose) const noexcept;
 
 private:
@@ -74,12 +74,13 @@ private:
   {
     const volume::DistanceMap* map;
     double give;
-    std::vector<double> bound; // mm, on the depth of each point, from above
-    double linear = 0.0;       // mm and rad of motion that bounds do not know of
+    Eigen::ArrayXf bound; // mm, on the depth of each point, from above
+    double linear = 0.0;  // mm and rad of motion that bounds do not know of
     double angular = 0.0;
     double top;             // the greatest bound
     std::uint32_t last = 0; // deepest point
     double depth = 0.0;     // mm, of that
+    double least = 0.0;     // mm: points less deep have no contact
     std::size_t first = 0;  // of its points that were looked at
     std::size_t count = 0;
   };
@@ -94,9 +95,10 @@ private:
   double belowCut(double left) const noexcept;
   Eigen::Vector3d slopeBelowCut(const Eigen::Vector3d& voxel) const noexcept;
   Look lookAt(const volume::DistanceMap& map, const Eigen::Vector3d& arm,
-              double& bound) const noexcept;
+              float& bound) const noexcept;
   void complete(Look& look) const noexcept;
   void look(Structure& structure) noexcept;
+  double shareOf(const Structure& structure, double linear, double angular) const noexcept;
   void addContacts(const Structure& structure, std::size_t spring) noexcept;
   bool addBall(const Structure& structure, std::size_t spring) noexcept;
   void add(const Structure& structure, std::size_t spring, const Look& look) noexcept;
@@ -109,10 +111,11 @@ private:
   double m_lever;            // mm: angular over linear stiffness, its root
   double m_step;             // mm, S: contacts are found for a way of so much
   double m_ramp;             // mm, from a cut's surface to where the mask is whole
-  std::vector<double> m_arm;
+  Eigen::ArrayXf m_arm;      // mm, of each point from the origin
   std::vector<Structure> m_structures;
   std::vector<Look> m_looks;
-  std::vector<std::size_t> m_order; // of structures, deepest first
+  std::vector<std::size_t> m_near;  // structures whose points were looked at
+  std::vector<std::size_t> m_order; // of structures, those with contacts
   std::vector<Contact> m_contacts;
   Pose m_pose;
   Pose m_goal;
@@ -121,7 +124,9 @@ private:
   bool m_pressed = false;     // in the last solution
   double m_away = 0.0;        // mm, to the nearest structure at least
   double m_left = 1.0;        // mm, of what the tool may still move in this tick
-  bool m_behind = false;      // held back at the end of the last tick
+  int m_steps = 0;
+  bool m_spent = false;
+  bool m_behind = false; // held back at the end of the last tick
 };
 
 } // namespace petrous::haptics

@@ -26,23 +26,11 @@ haptics::Pose handAt(double t)
           Quaterniond(Eigen::AngleAxisd(0.5 * std::sin(t), Vector3d(0.6, 0.8, 0.0)))};
 }
 
-} // namespace
-
-TEST(AllocationHook, SeesNewAndMalloc)
-{
-  const std::uint64_t before = allocationCount();
-  auto* volatile number = new int(3);
-  delete number;
-  void* volatile memory = std::malloc(10);
-  std::free(memory);
-  EXPECT_EQ(allocationCount() - before, 4u);
-}
-
-TEST(ServoTick, AllocatesNothingInTenThousandTicksWithFaultsAndCuts)
+void tickThrough(const std::vector<haptics::SoftStructure>& soft)
 {
   LoopScene scene;
   DissectionLoop loop(scene.work, *scene.mask, scene.feed);
-  const auto field = boneOf(scene.mask);
+  const auto field = boneOf(scene.mask, soft);
   const haptics::PointShell shell = haptics::makeBurrShell({}, 0.3, 800);
   ServoSetup setup = Session::plainSetup();
   setup.burrPoints = shell.burrCount;
@@ -84,6 +72,28 @@ TEST(ServoTick, AllocatesNothingInTenThousandTicksWithFaultsAndCuts)
   EXPECT_GT(contacts, 3000u);
   EXPECT_GT(faults, 50u);
   EXPECT_GT(loop.cuts(), 300u);
+}
+
+} // namespace
+
+TEST(AllocationHook, SeesNewAndMalloc)
+{
+  const std::uint64_t before = allocationCount();
+  auto* volatile number = new int(3);
+  delete number;
+  void* volatile memory = std::malloc(10);
+  std::free(memory);
+  EXPECT_EQ(allocationCount() - before, 4u);
+}
+
+TEST(ServoTick, AllocatesNothingInTenThousandTicksWithFaultsAndCuts)
+{
+  tickThrough({});
+}
+
+TEST(ServoTick, AllocatesNothingInSoftTissue)
+{
+  tickThrough({softLayer()});
 }
 
 // What the tick is made of cannot throw.

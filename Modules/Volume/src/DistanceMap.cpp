@@ -19,6 +19,8 @@ constexpr double kFinest = 0.5; // voxels of the share: the map's own
 constexpr double kSharp = 3.0;  // of the map's voxels: nearer than this the spline is sharpened,
 constexpr double kFullySharp = 1.5; // and fully so up to here
 
+constexpr double kNoSurface = 1e6; // mm: the structure fills its grid
+
 struct MapGrid
 {
   Eigen::Vector3d origin; // of the first node, mm along the share's axes from its first voxel
@@ -223,9 +225,8 @@ std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
             const std::size_t node = own.linearIndex(i, j, k);
             const Eigen::Vector3d voxel(i, j, k);
             const Eigen::Vector3d position = grid.origin + grid.edge * voxel;
-            double distance = from.patientBounds()[1].norm() + from.patientBounds()[0].norm();
-            if (closest.any())
-              distance = surface.refined(position, closest.point(node));
+            const double distance =
+                closest.any() ? surface.refined(position, closest.point(node)) : kNoSurface;
             const double inside = surface.at(position).value > 0.0 ? distance : -distance;
             const Eigen::Vector3d patient = own.patientFromVoxel(voxel);
             depth.data()[node] = static_cast<float>(

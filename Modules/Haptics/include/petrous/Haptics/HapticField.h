@@ -88,7 +88,7 @@ public:
   double steepness(const Eigen::Vector3d& voxel) const noexcept;
   double leftSteepness() const noexcept { return m_leftSteepness; }
 
-  std::size_t residentBytes() const noexcept; ///< of what was made here
+  std::size_t residentBytes() const noexcept; ///< of what was made here, and soft maps
 
 private:
   struct Solid

@@ -144,6 +144,21 @@ TEST_F(AppearanceCommand, SetsColourOpacityAndSource)
   EXPECT_EQ(part("cochlea")["source"], "ct");
 }
 
+TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
+{
+  EXPECT_TRUE(part("cochlea")["stiffness_n_per_mm"].is_null()) << "all is rigid to begin with";
+  json("appearance ear --stiffness cochlea=0.4 --stiffness incus=2");
+  EXPECT_EQ(part("cochlea")["stiffness_n_per_mm"], 0.4);
+  EXPECT_EQ(part("incus")["stiffness_n_per_mm"], 2.0);
+  EXPECT_NE(run("appearance ear --list").out.find(", 0.4 N/mm,"), std::string::npos);
+  const auto outcome = run("appearance ear --stiffness cochlea=1 --flags cochlea=shown");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("'cochlea' is not felt"), std::string::npos) << outcome.err;
+  json("appearance ear --stiffness cochlea=rigid --set incus=ossicle");
+  EXPECT_TRUE(part("cochlea")["stiffness_n_per_mm"].is_null());
+  EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";
+}
+
 TEST_F(AppearanceCommand, BoneCanBeHiddenButStaysTissue)
 {
   const auto outcome = run("appearance ear --flags ct=none");
@@ -174,6 +189,10 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --color cochlea=255,0,0", 2, "0 to 1");
   expectRefused("appearance ear --color cochlea=#12345", 2, "#rrggbb");
   expectRefused("appearance ear --opacity cochlea=1.5", 2, "0 to 1");
+  expectRefused("appearance ear --stiffness cochlea=0", 2, "rigid");
+  expectRefused("appearance ear --stiffness cochlea=1000", 2, "0.001 to 100");
+  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "no number");
+  expectRefused("appearance ear --stiffness ct=1", 3, "bone is rigid");
   expectRefused("appearance ear --iso much", 2, "--iso");
   expectRefused("appearance ear --tissue cochlea=bone", 2, "not built yet");
   expectRefused("appearance --list", 2, "CASE");

@@ -50,6 +50,22 @@ protected:
     return m_folder / "other.nrrd";
   }
 
+  // A structure "pad" of ten voxels' height on the bone.
+  void writePad() const
+  {
+    std::ofstream file(m_folder / "pad.nrrd", std::ios::binary);
+    file << "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 48 48 48\nspace directions: (0.4,0,0) (0,0.4,0) (0,0,0.4)\n"
+         << "space origin: (-9.4,-9.4,-9.4)\nencoding: raw\n\n";
+    for (int k = 0; k < 48; ++k)
+      for (int j = 0; j < 48; ++j)
+        for (int i = 0; i < 48; ++i)
+        {
+          const bool inside = k >= 24 && k < 34 && j > 6 && j < 42 && i > 6 && i < 42;
+          file.put(inside ? '\1' : '\0');
+        }
+  }
+
   // Down from 5 mm above the surface to a device height, in 0.5 s, and 0.5 s there.
   std::filesystem::path press(double height, bool drill)
   {
@@ -120,6 +136,52 @@ TEST_F(TouchCommand, KeepsTheCentreOutInThreeDegreesOfFreedom)
   EXPECT_GT(answer["max_penetration_mm"], 1.5) << "the burr sinks in by up to its radius";
   for (const Row& row : log("log.csv"))
     ASSERT_GE(row.at("pz_mm"), kTop - 0.01 * 0.4);
+}
+
+// A pad of 0.5 N/mm on the bone, up to z = 4 mm: the coupling of 1 N/mm and the pad are two springs
+// in a row.
+TEST_F(TouchCommand, PressesASoftStructureInAsItsStiffnessSays)
+{
+  writePad();
+  json("add plane --labels " + quoted(m_folder / "pad.nrrd"));
+  const double depth = 1.0; // of the hand below contact, which is at z = 6
+  json(drill(press(6.0 - depth, false), ""));
+  EXPECT_NEAR(log("log.csv").back().at("fz_n"), depth, 0.03) << "rigid until it is told";
+  json("appearance plane --stiffness pad=0.5");
+  for (const char* mode : {"6dof", "3dof"})
+  {
+    SCOPED_TRACE(mode);
+    const auto answer = json(drill(press(6.0 - depth, false), std::string(" --mode ") + mode));
+    EXPECT_EQ(answer["removed_mm3"], 0.0);
+    EXPECT_EQ(answer["max_penetration_mm"], 0.0) << "of what is rigid";
+    const auto rows = log("log.csv");
+    EXPECT_NEAR(rows.back().at("fz_n"), depth / 3.0, 0.01);
+    EXPECT_NEAR(rows.back().at("thrust_n"), depth / 3.0, 0.01);
+    EXPECT_NEAR(rows.back().at("pz_mm"), 6.0 - depth * 2.0 / 3.0, 0.02);
+    EXPECT_NEAR(std::hypot(rows.back().at("fx_n"), rows.back().at("fy_n")), 0.0, 0.01);
+    for (std::size_t n = 1; n < rows.size(); ++n)
+      ASSERT_LT(std::abs(rows[n].at("fz_n") - rows[n - 1].at("fz_n")), 0.01);
+  }
+  // All the way through to the bone, which stops it as ever.
+  json(drill(press(0.13, false), ""));
+  for (const Row& row : log("log.csv"))
+    ASSERT_GE(row.at("pz_mm"), kTop + 2.0 - 0.05 * 0.4);
+}
+
+TEST_F(TouchCommand, DrillsASoftStructure)
+{
+  writePad();
+  json("add plane --labels " + quoted(m_folder / "pad.nrrd"));
+  json("appearance plane --stiffness pad=0.5");
+  const auto first = json(drill(press(5.0, true), ""));
+  EXPECT_EQ(first["strokes"], 1);
+  EXPECT_GT(first["removed_mm3"], 0.5);
+  EXPECT_EQ(first["structures_touched"][0]["label"], "pad");
+  const auto rows = log("log.csv");
+  EXPECT_NEAR(rows.back().at("fz_n"), 0.0, 0.05) << "what was in the way is gone";
+  json("appearance plane --flags pad=shown,touchable");
+  json("undo plane");
+  EXPECT_EQ(json(drill(press(5.0, true), ""))["removed_mm3"], 0.0);
 }
 
 TEST_F(TouchCommand, PressesWithTheThrustThatIsAsked)

@@ -20,14 +20,14 @@ using appearance::StructureLook;
 struct Options
 {
   std::string name, iso;
-  std::vector<std::string> set, tf, color, opacity, source, flags, tissue;
+  std::vector<std::string> set, tf, color, opacity, source, flags, stiffness, tissue;
   bool list = false;
   bool presets = false;
 
   bool changes() const
   {
     return !iso.empty() || !set.empty() || !tf.empty() || !color.empty() || !opacity.empty() ||
-           !source.empty() || !flags.empty();
+           !source.empty() || !flags.empty() || !stiffness.empty();
   }
 };
 
@@ -108,10 +108,15 @@ std::string hex(const std::array<float, 3>& color)
   return text;
 }
 
+std::string yielding(const StructureLook& look)
+{
+  return look.stiffness > 0.0 ? ", " + nlohmann::json(look.stiffness).dump() + " N/mm" : "";
+}
+
 std::string describe(const StructureLook& look, const volume::IntensityScale& scale)
 {
   return look.preset + " " + hex(look.color) + ", " + appearance::flagsOf(look) +
-         (look.solid ? "" : ", a lumen") + ", opacity " +
+         (look.solid ? "" : ", a lumen") + yielding(look) + ", opacity " +
          fixed(static_cast<double>(look.opacity), 2) + ", " + valuesOf(look, scale) +
          (look.sourceImage.empty() ? "" : ", from " + look.sourceImage);
 }
@@ -156,7 +161,7 @@ void listPresets(const Context& context)
     j["name"] = look.preset;
     presets.push_back(std::move(j));
     context.say("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
-                (look.solid ? "" : " (a lumen)") + ", " + valuesOf(look, {}));
+                (look.solid ? "" : " (a lumen)") + yielding(look) + ", " + valuesOf(look, {}));
   }
   context.give({{"presets", std::move(presets)}});
 }
@@ -309,6 +314,21 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
   context.remark("bone stays touchable and drillable; of its flags only 'shown' can be changed");
 }
 
+void setStiffness(const Context& context, scene::Case& value, const std::string& assignment)
+{
+  const auto [part, text] = split(value, assignment, "--stiffness PART=N_PER_MM|rigid");
+  if (part.bone)
+    throw core::InvalidParameter("bone is rigid; only structures and meshes can yield");
+  const double stiffness = text == "rigid" ? 0.0 : parseNumbers(text, 1, "--stiffness").front();
+  if (text != "rigid" && (stiffness < appearance::kSoftest || stiffness > appearance::kStiffest))
+    throw UsageError("--stiffness: goes from 0.001 to 100 N/mm, or is 'rigid', not " + text);
+  for (StructureLook* look : part.looks)
+    appearance::setStiffness(*look, stiffness);
+  if (const auto& look = *part.looks.front(); stiffness > 0.0 && !(look.solid && look.touchable))
+    context.remark("'" + part.name + "' is not felt" +
+                   (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
+}
+
 void run(const Context& context, const Options& options)
 {
   if (!options.tissue.empty())
@@ -323,7 +343,7 @@ void run(const Context& context, const Options& options)
     throw UsageError("appearance: CASE is required");
   if (!options.changes() && !options.list)
     throw UsageError("appearance: nothing to do; give --iso, --set, --tf, --color, --opacity, "
-                     "--source, --flags, --list or --presets");
+                     "--source, --flags, --stiffness, --list or --presets");
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.name);
   if (!options.iso.empty())
@@ -341,6 +361,8 @@ void run(const Context& context, const Options& options)
     setSource(context, value, assignment);
   for (const std::string& assignment : options.flags)
     setPartFlags(context, value, assignment);
+  for (const std::string& assignment : options.stiffness)
+    setStiffness(context, value, assignment);
   if (options.changes())
     library.save(value);
   list(context, value);
@@ -367,6 +389,8 @@ void addAppearanceCommand(CLI::App& app, Context& context)
   perPart("--source", options->source, "The image whose intensities are read", "PART=ct|MRNAME");
   perPart("--flags", options->flags, "The flags that hold; 'none' for none of them",
           "PART=shown,touchable,drillable");
+  perPart("--stiffness", options->stiffness, "How a structure yields: newtons a millimetre deep",
+          "PART=N_PER_MM|rigid");
   command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
   command->add_flag("--presets", options->presets, "List the looks of the catalogue");
   // In the contract, not built yet: refused when asked for, not offered.

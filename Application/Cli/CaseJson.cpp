@@ -45,6 +45,7 @@ json lookJson(const appearance::StructureLook& look)
           {"solid", look.solid},
           {"shininess", look.shininess},
           {"priority", look.priority},
+          {"stiffness_n_per_mm", look.stiffness > 0.0 ? json(look.stiffness) : json()},
           {"source", look.sourceImage.empty() ? "ct" : look.sourceImage},
           {"transfer", std::move(transfer)}};
 }

@@ -18,8 +18,9 @@ nlohmann::json directionJson(const Eigen::Matrix3d& direction);
 /// dims, spacing_mm, origin_mm, direction.
 nlohmann::json gridJson(const core::GridGeometry& grid);
 
-/// preset, color, opacity, flags, solid, shininess, priority, source ("ct" or an MR's name) and
-/// transfer: null, or {"relative", "points"} as a --tf file has them.
+/// preset, color, opacity, flags, solid, shininess, priority, stiffness_n_per_mm (null: rigid),
+/// source ("ct" or an MR's name) and transfer: null, or {"relative", "points"} as a --tf file has
+/// them.
 nlohmann::json lookJson(const appearance::StructureLook& look);
 
 /// Why the hand does not feel a mesh (scene::untouchable), or the mesh's file cannot be read; empty

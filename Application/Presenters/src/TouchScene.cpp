@@ -5,6 +5,7 @@
 #include "petrous/Haptics/CentreProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/PointShell.h"
+#include "petrous/Scene/CaseField.h"
 
 namespace petrous::presenters
 {
@@ -15,7 +16,11 @@ TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::
   , m_mask(std::make_shared<volume::PublishedMask>(value.dissection->mask(), firstState))
 {
   progress.check("feeling the tissue");
-  m_field = std::make_shared<const haptics::HapticField>(m_drill.field(), m_mask);
+  scene::TouchTissue tissue = scene::touchTissue(value, m_drill.field(), progress);
+  std::vector<haptics::SoftStructure> soft;
+  for (scene::SoftSolid& solid : tissue.soft)
+    soft.push_back({std::move(solid.depth), solid.stiffness});
+  m_field = std::make_shared<const haptics::HapticField>(tissue.rigid, m_mask, std::move(soft));
 }
 
 void TouchScene::publish(const std::vector<std::size_t>& bricks)

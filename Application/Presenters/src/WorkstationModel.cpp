@@ -199,7 +199,8 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
   if (!found && !mesh)
     return;
   appearance::StructureLook& present = found ? found->look : mesh->look;
-  if (present.touchable != look.touchable || present.drillable != look.drillable)
+  if (present.touchable != look.touchable || present.drillable != look.drillable ||
+      present.stiffness != look.stiffness)
     forgetTissue();
   present = look;
   tell(events.appearanceChanged);

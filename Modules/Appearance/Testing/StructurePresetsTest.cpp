@@ -145,6 +145,28 @@ TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
   EXPECT_EQ(boneLook().opacity, 1.0F);
 }
 
+// None of the values that are known is measured on these structures: nothing yields by itself.
+TEST(StructurePresets, YieldOnlyWhereTheCatalogueSaysHow)
+{
+  for (const StructureLook& look : StructurePresets::builtIn().all())
+    EXPECT_EQ(look.stiffness, 0.0) << look.preset;
+  const auto catalogue = [](const std::string& stiffness)
+  {
+    return R"({"other": {"name": "other", "color": [1, 1, 1], "opacity": 1, "solid": true},
+               "presets": [{"name": "jelly", "words": ["jelly"], "color": [1, 0, 0], "opacity": 1,
+                            "solid": true, "stiffness_n_per_mm": )" +
+           stiffness + "}]}";
+  };
+  const StructurePresets presets(catalogue("0.25"));
+  EXPECT_EQ(presets.lookFor("jelly_left").stiffness, 0.25);
+  EXPECT_EQ(presets.lookFor("bone").stiffness, 0.0);
+  StructureLook look;
+  applyPreset(look, presets.preset("jelly"));
+  EXPECT_EQ(look.stiffness, 0.25);
+  for (const char* wrong : {"-1", "0.0001", "1000", "\"soft\""})
+    EXPECT_THROW(StructurePresets{catalogue(wrong)}, petrous::core::InvalidParameter) << wrong;
+}
+
 TEST(StructureLook, FlagsGoThereAndBack)
 {
   StructureLook look;

@@ -44,6 +44,15 @@ std::string flagsOf(const StructureLook& look)
   return flags.empty() ? "none" : flags;
 }
 
+void setStiffness(StructureLook& look, double newtonPerMillimetre)
+{
+  if (newtonPerMillimetre != 0.0 &&
+      !(newtonPerMillimetre >= kSoftest && newtonPerMillimetre <= kStiffest))
+    throw core::InvalidParameter("the stiffness of a soft structure must lie within 0.001 to 100 "
+                                 "N/mm; 0 is rigid");
+  look.stiffness = newtonPerMillimetre;
+}
+
 void setColor(StructureLook& look, const std::array<float, 3>& color)
 {
   if (std::any_of(color.begin(), color.end(), [](float x) { return !(x >= 0.0F && x <= 1.0F); }))

@@ -32,6 +32,14 @@ StructureLook lookFrom(const json& entry)
     refuse("colour and opacity must lie in 0 to 1");
   if (!(look.shininess >= kSmallestShininess && look.shininess <= kLargestShininess))
     refuse("shininess must lie in 1 to 200");
+  try
+  {
+    setStiffness(look, entry.value("stiffness_n_per_mm", 0.0));
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    refuse(error.what());
+  }
   if (!entry.contains("transfer"))
     return look;
   json transfer = entry.at("transfer");

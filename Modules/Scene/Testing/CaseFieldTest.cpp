@@ -48,6 +48,62 @@ TEST(CaseField, HoldsSolidTouchableStructuresOnly)
   EXPECT_LT(scene::tissueField(cubeInAir(true, false)).value(kInside), 0.0) << "not touchable";
 }
 
+TEST(CaseField, LeavesSoftStructuresOutOfWhatIsRigidAndMeasuresThem)
+{
+  scene::Case value = cubeInAir(true, true);
+  const auto whole = scene::tissueField(value);
+  const auto hard = scene::touchTissue(value, whole);
+  EXPECT_TRUE(hard.soft.empty());
+  EXPECT_EQ(hard.rigid.solids(), whole.solids()) << "nothing is made twice";
+
+  value.labels[0].structures[0].look.stiffness = 0.4;
+  const auto soft = scene::touchTissue(value, scene::tissueField(value));
+  EXPECT_GT(scene::tissueField(value).value(kInside), 0.0) << "it stays tissue to eye and drill";
+  EXPECT_LT(soft.rigid.value(kInside), 0.0);
+  ASSERT_EQ(soft.soft.size(), 1U);
+  EXPECT_EQ(soft.soft[0].name, "cube");
+  EXPECT_EQ(soft.soft[0].stiffness, 0.4);
+  // Eight voxels of 0.5 mm: 2 mm to each face.
+  EXPECT_NEAR(soft.soft[0].depth->depth(kInside), 2.0, 0.1);
+  EXPECT_NEAR(soft.soft[0].depth->depth({3.75, 5.75, 5.75}), 0.0, 0.02);
+  EXPECT_NEAR(soft.soft[0].depth->depth({4.75, 5.75, 5.75}), 1.0, 0.02);
+
+  value.labels[0].structures[0].look.touchable = false;
+  EXPECT_TRUE(scene::touchTissue(value, scene::tissueField(value)).soft.empty());
+  value.labels[0].structures[0].look.touchable = true;
+  value.labels[0].structures[0].look.solid = false;
+  EXPECT_TRUE(scene::touchTissue(value, scene::tissueField(value)).soft.empty()) << "a lumen";
+}
+
+// What is soft takes nothing from what is hard beside it.
+TEST(CaseField, KeepsRigidStructuresBesideSoftOnes)
+{
+  scene::Case value = cubeInAir(true, true);
+  auto labels =
+      std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+  for (int k = 8; k < 16; ++k)
+    for (int j = 8; j < 16; ++j)
+      for (int i = 8; i < 16; ++i)
+        labels->at(i, j, k) = i < 12 ? 1 : 2;
+  value.labels[0].labels =
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
+  scene::StructurePart hard = value.labels[0].structures[0];
+  hard.name = "hard";
+  hard.index = 1;
+  scene::StructurePart soft = hard;
+  soft.name = "soft";
+  soft.index = 2;
+  soft.look.stiffness = 1.0;
+  value.labels[0].structures = {hard, soft};
+  const auto tissue = scene::touchTissue(value, scene::tissueField(value));
+  EXPECT_GT(tissue.rigid.value({4.75, 5.75, 5.75}), 0.0);
+  EXPECT_LT(tissue.rigid.value({6.75, 5.75, 5.75}), 0.0);
+  // Both end half-way between their voxels.
+  EXPECT_NEAR(tissue.rigid.value({5.75, 5.75, 5.75}), 0.0, 1e-3);
+  ASSERT_EQ(tissue.soft.size(), 1U);
+  EXPECT_NEAR(tissue.soft[0].depth->depth({5.75, 5.75, 5.75}), 0.0, 0.02);
+}
+
 TEST(CaseField, FollowsTheCutAsItGoesOn)
 {
   scene::Case value = cubeInAir(true, true);

@@ -44,6 +44,7 @@ scene::Case fullCase()
   s.look.sourceImage = "t2";
   s.look.shininess = 47.5F;
   s.look.priority = 3;
+  s.look.stiffness = 0.35;
   part.structures = {s};
   value.labels = {part};
   scene::MeshPart mesh;
@@ -94,6 +95,8 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_EQ(look.sourceImage, "t2");
   EXPECT_EQ(look.shininess, 47.5F);
   EXPECT_EQ(look.priority, 3);
+  EXPECT_EQ(look.stiffness, 0.35);
+  EXPECT_EQ(back.meshes[0].look.stiffness, 0.0);
   EXPECT_EQ(back.denseBone, 21034.7);
   EXPECT_EQ(back.boneLook.transfer, value.boneLook.transfer);
   EXPECT_TRUE(back.boneLook.relative);

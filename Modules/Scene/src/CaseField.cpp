@@ -14,6 +14,16 @@ namespace
 
 using Wanted = std::function<bool(const appearance::StructureLook&)>;
 
+bool felt(const appearance::StructureLook& look)
+{
+  return look.solid && look.touchable;
+}
+
+bool yields(const appearance::StructureLook& look)
+{
+  return felt(look) && look.stiffness > 0.0;
+}
+
 constexpr std::size_t kMostMaterials = std::numeric_limits<std::uint8_t>::max();
 
 struct Wish
@@ -50,6 +60,16 @@ std::vector<volume::TissueField::SolidUnion> unionOf(const Case& value, const Wa
   if (!field)
     return {};
   return {field->share};
+}
+
+// What is solid in f: one union of the structures, and each mesh for itself.
+std::vector<volume::TissueField::SolidUnion> solidsOf(const Case& value, const Wanted& wanted,
+                                                      const core::Progress& progress)
+{
+  auto solids = unionOf(value, wanted, progress.part(0.0, 0.5));
+  for (MeshSolid& mesh : meshSolids(value, wanted, progress.part(0.5, 1.0)))
+    solids.push_back(std::move(mesh.share));
+  return solids;
 }
 
 // The voxels whose centres lie in a solid, as a label map with the one index 1.
@@ -119,12 +139,41 @@ volume::TissueField tissueField(const Case& value, const core::Progress& progres
   std::shared_ptr<const volume::CutMask> mask;
   if (value.dissection)
     mask = {value.dissection, &std::as_const(*value.dissection).mask()};
-  const auto felt = [](const auto& look) { return look.solid && look.touchable; };
-  auto solids = unionOf(value, felt, progress.part(0.0, 0.5));
-  for (MeshSolid& mesh : meshSolids(value, felt, progress.part(0.5, 1.0)))
-    solids.push_back(std::move(mesh.share));
-  return {value.ct.volume.get(), std::move(solids), std::move(mask),
+  return {value.ct.volume.get(), solidsOf(value, felt, progress), std::move(mask),
           volume::TissueField::Parameters{value.iso, kFieldScale}};
+}
+
+TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
+                        const core::Progress& progress)
+{
+  const auto soft = wishes(value, yields);
+  const auto meshes = meshSolids(value, yields, progress.part(0.0, 0.1));
+  if (soft.empty() && meshes.empty())
+    return {whole, {}};
+  const auto rigid = [](const auto& look) { return felt(look) && !yields(look); };
+  TouchTissue result{
+      {whole.ct(), solidsOf(value, rigid, progress.part(0.1, 0.3)), nullptr, whole.parameters()},
+      {}};
+  const auto count = static_cast<double>(soft.size() + meshes.size());
+  std::size_t done = 0;
+  const auto add =
+      [&](const std::string& name, const volume::Volume<float>& share, double stiffness)
+  {
+    const double begin = 0.3 + 0.7 * static_cast<double>(done++) / count;
+    if (auto depth = volume::makeDistanceMap(share, value.ct.geometry,
+                                             progress.part(begin, begin + 0.7 / count)))
+      result.soft.push_back({name, std::move(depth), stiffness});
+  };
+  for (const Wish& wish : soft)
+  {
+    const auto field = volume::makeLabelField(
+        {{wish.part->labels.get(), wish.structure->index, 1, true}}, progress.part(0.3, 0.3));
+    if (field)
+      add(wish.structure->name, *field->share, wish.structure->look.stiffness);
+  }
+  for (const MeshSolid& mesh : meshes)
+    add(mesh.part->name, *mesh.share, mesh.part->look.stiffness);
+  return result;
 }
 
 dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress)

@@ -87,6 +87,8 @@ json lookOut(const appearance::StructureLook& look)
   }
   if (!look.sourceImage.empty())
     j["source_image"] = look.sourceImage;
+  if (look.stiffness > 0.0)
+    j["stiffness_n_per_mm"] = look.stiffness;
   return j;
 }
 
@@ -103,6 +105,7 @@ appearance::StructureLook lookIn(const json& j, const appearance::StructurePrese
   look.priority =
       j.contains("priority") ? j.at("priority").get<int>() : presets.lookFor(look.preset).priority;
   look.sourceImage = j.value("source_image", std::string());
+  appearance::setStiffness(look, j.value("stiffness_n_per_mm", 0.0));
   if (j.contains("transfer"))
   {
     json transfer = j.at("transfer");

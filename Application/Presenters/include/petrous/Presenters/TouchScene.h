@@ -37,8 +37,9 @@ struct TouchTool
 class TouchScene
 {
 public:
-  /// Reads the CT once (about a second for 512^3). `firstState` is the number of the mask's state
-  /// as the servo sees it: a session that is played again counts as it did. Throws CancelledError.
+  /// Reads the CT once (about a second for 512^3), and measures soft structures. `firstState` is
+  /// the number of the mask's state as the servo sees it: a session that is played again counts as
+  /// it did. Throws CancelledError.
   explicit TouchScene(scene::Case& value, const core::Progress& progress = {},
                       std::uint64_t firstState = 0);
 

@@ -18,7 +18,8 @@ struct StructureLook
   bool shown = true;
   bool touchable = true; ///< part of the tissue field of the hand
   bool drillable = true;
-  bool solid = true; ///< false: a lumen, coloured and named but no tissue
+  bool solid = true;      ///< false: a lumen, coloured and named but no tissue
+  double stiffness = 0.0; ///< N/mm, of the spring that it is under the hand; 0: rigid
 
   std::optional<TransferFunction> transfer; ///< absent: `color` at every intensity
   bool relative = false;   ///< the values of `transfer` are stretched to the case (onScale)
@@ -29,6 +30,11 @@ struct StructureLook
 
 constexpr float kSmallestShininess = 1.0F;
 constexpr float kLargestShininess = 200.0F;
+constexpr double kSoftest = 0.001; ///< N/mm
+constexpr double kStiffest = 100.0;
+
+/// Throws InvalidParameter unless the stiffness is 0 (rigid) or lies within kSoftest to kStiffest.
+void setStiffness(StructureLook& look, double newtonPerMillimetre);
 
 /// Sets shown, touchable and drillable from a comma-separated list of the flags that hold, e.g.
 /// "shown,drillable"; "none" clears all. Throws InvalidParameter naming an unknown flag.
@@ -41,8 +47,8 @@ std::string flagsOf(const StructureLook& look);
 /// each of its points is beside the look's colour. Throws InvalidParameter outside 0 to 1.
 void setColor(StructureLook& look, const std::array<float, 3>& color);
 
-/// Takes over how `preset` looks, whether it is a lumen, and its priority; flags and the image that
-/// is read stay.
+/// Takes over how `preset` looks, whether it is a lumen, how it yields, and its priority; flags and
+/// the image that is read stay.
 void applyPreset(StructureLook& look, const StructureLook& preset);
 
 } // namespace petrous::appearance

@@ -7,6 +7,7 @@
 
 #include "petrous/Dissection/RemovedVolume.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Volume/DistanceMap.h"
 #include "petrous/Volume/LabelField.h"
 #include "petrous/Volume/TissueField.h"
 
@@ -58,6 +59,28 @@ std::string untouchable(const Case& value, const MeshPart& mesh);
 /// by volume::makeLabelField, as the eye's are; each mesh is a solid of its own. Throws
 /// CancelledError.
 volume::TissueField tissueField(const Case& value, const core::Progress& progress = {});
+
+/// A structure or mesh that yields under the hand.
+struct SoftSolid
+{
+  std::string name;
+  std::shared_ptr<const volume::DistanceMap> depth;
+  double stiffness = 0.0; ///< N/mm (StructureLook::stiffness)
+};
+
+/// The tissue of a case as a tool meets it: soft structures take no part in f.
+struct TouchTissue
+{
+  volume::TissueField rigid;
+  std::vector<SoftSolid> soft;
+};
+
+/// `whole` is the case's tissueField, and what is rigid where no touchable structure is soft. Each
+/// soft structure is measured for itself, from the surface that its own voxels give (about a second
+/// each). Where a rigid structure has the same voxels, or bone's intensity reaches into it, it is
+/// rigid there. Throws CancelledError.
+TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
+                        const core::Progress& progress = {});
 
 /// Structures and meshes that the drill must leave (`drillable` off), lumens among them.
 dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress = {});

@@ -72,7 +72,7 @@ void WorkstationModel::notStored()
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   forgetTissue();
-  m_borders.reset();
+  m_surfaces.reset();
   m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
   m_unsaved = unsaved;
@@ -290,9 +290,9 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
   PlaceReading reading = m_reader->at(patient);
   if (!reading.structure.empty())
     return reading;
-  if (!m_borders) // after the reader, which makes the voxels of the meshes
-    m_borders = std::make_unique<StructureBorders>(*m_case);
-  reading.near = m_borders->nearest(patient, PlaceReader::kReach,
+  if (!m_surfaces) // after the reader, which makes the voxels of the meshes
+    m_surfaces = std::make_unique<StructureSurfaces>(*m_case);
+  reading.near = m_surfaces->nearest(patient, PlaceReader::kReach,
                                     [this](const std::string& name)
                                     {
                                       const auto* part = scene::findStructure(*m_case, name);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "petrous/Presenters/StructureBorders.h"
+#include "petrous/Presenters/StructureSurfaces.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Volume/NearestSurface.h"

@@ -1,18 +1,16 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "petrous/Scene/Case.h"
+#include "petrous/Presenters/StructureSurfaces.h"
 
 namespace petrous::presenters
 {
 
-/// How near a burr came to each labelled structure on its way: the smallest distance from the ball
-/// to the structure's surface as the file gave it (the 1/2 level of its own smoothed union, whole,
-/// whatever else was drilled or lies before it).
+/// How near a burr came to each structure on its way: the smallest distance from the ball to its
+/// surface as StructureSurfaces has it.
 ///
 /// Within kTolerance of the surface's own distance. Positions are kept, and asked of at the end
 /// where the ones before and after, and the way between, leave room for something nearer. One
@@ -24,7 +22,6 @@ public:
 
   /// Loads the labels. `radius` of the burr, mm.
   StructureDistances(const scene::Case& value, double radius);
-  ~StructureDistances();
 
   void add(const Eigen::Vector3d& centre); ///< of the burr, patient LPS mm
 
@@ -32,10 +29,9 @@ public:
   std::map<std::string, double> smallest();
 
 private:
-  struct Structure;
-  double nearest(Structure& structure) const;
+  double nearest(std::size_t structure);
 
-  std::vector<std::unique_ptr<Structure>> m_structures;
+  StructureSurfaces m_surfaces;
   std::vector<Eigen::Vector3d> m_positions;
   std::vector<double> m_way; // mm, from the first position to this one
   double m_radius;

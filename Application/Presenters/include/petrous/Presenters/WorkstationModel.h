@@ -115,7 +115,7 @@ private:
   std::unique_ptr<TouchScene> m_scene;
   std::unique_ptr<TouchSession> m_touch;       ///< after m_scene, which it uses
   std::unique_ptr<PlaceReader> m_reader;       ///< when first asked for; likewise
-  std::unique_ptr<StructureBorders> m_borders; ///< likewise; a cut changes nothing of them
+  std::unique_ptr<StructureSurfaces> m_surfaces; ///< likewise; a cut changes nothing of them
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;

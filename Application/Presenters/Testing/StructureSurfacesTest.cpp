@@ -1,4 +1,4 @@
-#include "petrous/Presenters/StructureBorders.h"
+#include "petrous/Presenters/StructureSurfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,8 @@ const Vector3d kBall(4.0, -3.0, 10.0);
 const Vector3d kOther(16.0, -3.0, 10.0);
 constexpr double kVoxel = 0.4;  // mm
 constexpr double kRadius = 3.0; // mm
+// The smoothed surface of voxels lies within a fifth of one of the ball's.
+constexpr double kBias = 0.2 * kVoxel;
 
 // Two balls, of indices 3 and 7, on a grid that is turned about z.
 scene::Case balls()
@@ -54,34 +56,34 @@ bool any(const std::string&)
 
 } // namespace
 
-TEST(StructureBorders, TellTheNearestStructureToHalfAVoxel)
+TEST(StructureSurfaces, TellTheNearestStructureAndHowFarItIs)
 {
   const scene::Case value = balls();
-  const StructureBorders borders(value);
+  StructureSurfaces surfaces(value);
   for (const Vector3d& away :
        {Vector3d(0.0, 0.0, 3.3), Vector3d(-4.0, 1.0, 2.0), Vector3d(2.0, 4.0, -3.0),
         Vector3d(-8.0, -7.0, 9.0), Vector3d(5.0, 0.0, 0.0)})
   {
-    const auto near = borders.nearest(kBall + away, 20.0, any);
+    const auto near = surfaces.nearest(kBall + away, 20.0, any);
     ASSERT_TRUE(near);
     EXPECT_EQ(near->name, "facial_nerve");
-    EXPECT_NEAR(near->distance, away.norm() - kRadius, 0.5 * kVoxel) << away.transpose();
+    EXPECT_NEAR(near->distance, away.norm() - kRadius, kBias) << away.transpose();
   }
-  const auto other = borders.nearest(kOther + Vector3d(0.0, 5.0, 0.0), 20.0, any);
+  const auto other = surfaces.nearest(kOther + Vector3d(0.0, 5.0, 0.0), 20.0, any);
   ASSERT_TRUE(other);
   EXPECT_EQ(other->name, "carotid");
 }
 
-TEST(StructureBorders, LeaveOutWhatIsNotWantedOrTooFar)
+TEST(StructureSurfaces, LeaveOutWhatIsNotWantedOrTooFar)
 {
   const scene::Case value = balls();
-  const StructureBorders borders(value);
+  StructureSurfaces surfaces(value);
   const Vector3d place = kBall + Vector3d(-4.0, 0.0, 0.0);
   const auto near =
-      borders.nearest(place, 20.0, [](const std::string& name) { return name == "carotid"; });
+      surfaces.nearest(place, 20.0, [](const std::string& name) { return name == "carotid"; });
   ASSERT_TRUE(near);
   EXPECT_EQ(near->name, "carotid");
-  EXPECT_NEAR(near->distance, 16.0 - kRadius, 0.5 * kVoxel);
-  EXPECT_FALSE(borders.nearest(place, 0.5, any));
-  EXPECT_FALSE(StructureBorders(scene::Case()).nearest(place, 20.0, any));
+  EXPECT_NEAR(near->distance, 16.0 - kRadius, kBias);
+  EXPECT_FALSE(surfaces.nearest(place, 0.5, any));
+  EXPECT_FALSE(StructureSurfaces(scene::Case()).nearest(place, 20.0, any));
 }

@@ -18,7 +18,7 @@ constexpr int kFinestParts = 2; // of a cell's edge, between points
 constexpr int kTurns = 6;
 constexpr double kSettled = 0.002;   // voxels: a step that is none
 constexpr double kOnSurface = 0.005; // voxels: a point that counts as lying on the surface
-constexpr int kMostRounds = 6;
+constexpr int kMostRounds = 1;       // what is left is put right on the surface itself
 
 } // namespace
 
@@ -243,8 +243,8 @@ bool ClosestPoints::sweep(const core::Index3& way)
       {
         const std::ptrdiff_t node = i + row * j + plane * k;
         const Eigen::Vector3f at = positionOf(i, j, k);
-        // The neighbours that this sweep has passed: along axes, faces and the cube's diagonal.
-        for (int n = 1; n < 8; ++n)
+        // The neighbours along the axes that this sweep has passed.
+        for (const int n : {1, 2, 4})
         {
           const int x = n & 1;
           const int y = n >> 1 & 1;

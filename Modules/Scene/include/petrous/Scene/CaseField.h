@@ -76,7 +76,7 @@ struct TouchTissue
 };
 
 /// `whole` is the case's tissueField, and what is rigid where no touchable structure is soft. Each
-/// soft structure is measured for itself, from the surface that its own voxels give (about a second
+/// soft structure is measured for itself, from the surface that its own voxels give (some seconds
 /// each). Where a rigid structure has the same voxels, or bone's intensity reaches into it, it is
 /// rigid there. Throws CancelledError.
 TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,

@@ -55,7 +55,7 @@ private:
   double m_deepest = 0.0;
 };
 
-constexpr std::size_t kMostDistanceVoxels = 24'000'000; ///< 96 MB
+constexpr std::size_t kMostDistanceVoxels = 8'000'000; ///< 32 MB
 
 /// Measures a structure from its share. Beyond the hull of `domain` and of the share's own grid
 /// there is no tissue, so these are surfaces where the structure reaches them.

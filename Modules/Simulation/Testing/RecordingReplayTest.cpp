@@ -192,8 +192,8 @@ TEST_P(RecordingReplayTest, OfASessionThatAnotherThreadCutIsTheSessionToTheLastB
   Workplace first(GetParam());
   liveSession(first, 8);
   // A session worth the name: several states felt in contact, tissue that came back round the tool.
-  EXPECT_GT(count(first, MaskEdit::Kind::Cut), 50u);
-  EXPECT_GT(count(first, MaskEdit::Kind::Undo), 3u);
+  EXPECT_GT(count(first, MaskEdit::Kind::Cut), 20u);
+  EXPECT_GT(count(first, MaskEdit::Kind::Undo), 1u);
   std::size_t states = 0, pressed = 0, retreats = 0;
   for (std::size_t n = 1; n < live.size(); ++n)
   {
@@ -201,8 +201,8 @@ TEST_P(RecordingReplayTest, OfASessionThatAnotherThreadCutIsTheSessionToTheLastB
     pressed += live[n].thrust > 0.0;
     retreats += live[n].status == static_cast<std::uint8_t>(haptics::ProxyStatus::Retreated);
   }
-  EXPECT_GT(states, 50u);
-  EXPECT_GT(pressed, live.size() / 2);
+  EXPECT_GT(states, 20u);
+  EXPECT_GT(pressed, live.size() / 4);
   EXPECT_GT(retreats, 0u);
 
   Workplace second(GetParam());

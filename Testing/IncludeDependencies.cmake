@@ -24,8 +24,8 @@ set(allowed_Interaction
   Core Volume Appearance Haptics Dissection Simulation Scene Rendering)
 # The application's view models: made like a module, and free of Qt (no toolkit below).
 set(allowed_Presenters
-  Core Volume Appearance Imaging Registration Haptics Dissection Simulation Scene Library Rendering
-  Interaction)
+  Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library
+  Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
   Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library

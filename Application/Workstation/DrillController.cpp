@@ -61,7 +61,12 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
   m_anew.setSingleShot(true);
   m_anew.setInterval(kAnew);
-  connect(&m_anew, &QTimer::timeout, this, [this] { takeTool(); });
+  connect(&m_anew, &QTimer::timeout, this,
+          [this]
+          {
+            // A slider on the move would have it made anew at each step.
+            QApplication::mouseButtons() == Qt::NoButton ? void(takeTool()) : m_anew.start();
+          });
   connectBar();
   connectView();
   connectHands();
@@ -295,27 +300,30 @@ void DrillController::frame()
 
 void DrillController::hear(const presenters::TouchSession::News& news)
 {
+  if (news.record)
+    show(news);
   for (const auto& stroke : news.strokes)
-    emit strokeEnded(stroke);
-  if (!news.record || !m_model.touching()) // saving may have asked the user, who closed the case
-    return;
+    emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
+  if (news.record && m_model.touching() && isLost(*news.record))
+    m_hands.giveUp(whyLost());
+}
+
+void DrillController::show(const presenters::TouchSession::News& news)
+{
+  const TickRecord& record = *news.record;
   if (!m_model.drilling()) // of the stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
-  const TickRecord& record = *news.record;
   m_lead.see(record);
   m_view.display().setTouch(record, toolRadius());
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);
-  if (m_model.drilling())
-  {
-    const Eigen::Vector3d burr = record.proxy.pose().position;
-    emit pointed(burr);
-    if (m_slicesFollow)
-      m_model.setCrosshair(burr);
-  }
-  if (isLost(record))
-    m_hands.giveUp(whyLost());
+  if (!m_model.drilling())
+    return;
+  const Eigen::Vector3d burr = record.proxy.pose().position;
+  emit pointed(burr);
+  if (m_slicesFollow)
+    m_model.setCrosshair(burr);
 }
 
 void DrillController::read(const TickRecord& record)

@@ -61,6 +61,7 @@ private:
   void handCame();
   void frame();
   void hear(const presenters::TouchSession::News& news);
+  void show(const presenters::TouchSession::News& news);
   void read(const simulation::TickRecord& record);
   void showFault(const presenters::TouchSession::News& news);
   QString whyLost() const;

@@ -1,6 +1,10 @@
 #include "HandTest.h"
 
+#include <csignal>
+#include <iterator>
+
 #include <QDoubleSpinBox>
+#include <QLabel>
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -23,6 +27,19 @@ void describe(petrous_device_block& block)
 Vector3d forceOf(const petrous_device_wrench& wrench)
 {
   return {wrench.force[0], wrench.force[1], wrench.force[2]};
+}
+
+// Of the server of that name; 0 while there is none.
+int processOf(const std::string& name)
+{
+  for (const auto& entry : std::filesystem::directory_iterator("/proc"))
+  {
+    std::ifstream file(entry.path() / "cmdline");
+    const std::string line{std::istreambuf_iterator<char>(file), {}};
+    if (line.find("/petrous-device-" + name) != std::string::npos)
+      return std::stoi(entry.path().filename().string());
+  }
+  return 0;
 }
 
 } // namespace
@@ -242,4 +259,77 @@ TEST_F(Hand, APedalDrillsWithTheMouse)
   EXPECT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
   EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
   EXPECT_TRUE(library().open("ball").strokes.front().info.camera.has_value());
+}
+
+TEST_F(Hand, TheClutchHoldsTheMousesToolWhileThePointerGoes)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QPoint middle = view().rect().center();
+  const auto pointAt = [this](const QPoint& pixel)
+  {
+    QTest::mouseMove(&view(), pixel + QPoint(1, 0));
+    QTest::mouseMove(&view(), pixel);
+  };
+  const auto across = [this] { return (axes().transpose() * (tool() - kBallCenter)).x(); };
+  pointAt(middle);
+  ASSERT_TRUE(hasTool());
+  ASSERT_TRUE(waitFor([&] { return std::abs(across()) < 0.5; }, 5000)) << across();
+  QTest::keyPress(&view(), Qt::Key_X);
+  QTest::qWait(200);
+  pointAt(middle + QPoint(90, 0));
+  QTest::qWait(500);
+  EXPECT_LT(std::abs(across()), 0.5);
+  QTest::keyRelease(&view(), Qt::Key_X);
+  EXPECT_TRUE(waitFor([&] { return across() > 3.0; }, 10000)) << "it comes under the pointer";
+}
+
+TEST_F(Hand, AnotherBurrGoesOnFromWhereADevicesToolWas)
+{
+  saveBall("ball");
+  installServer(serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
+  FakeServer server(serverName(), describe);
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  const Vector3d begin = tool();
+  const Vector3d hand(8.0, 6.0, 4.0);
+  glide(server, Vector3d::Zero(), hand);
+  const auto at = [&]
+  { return (axes().transpose() * (tool() - begin) - 0.5 * hand).norm() < 0.05; };
+  ASSERT_TRUE(waitFor(at, 10000));
+  window().findChild<QDoubleSpinBox*>("burrDiameter")->setValue(3.0);
+  ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
+  ASSERT_TRUE(hasTool());
+  EXPECT_EQ(view().display().tool()->radius, 1.5);
+  EXPECT_TRUE(waitFor(at, 10000)) << (axes().transpose() * (tool() - begin)).transpose();
+}
+
+TEST_F(Hand, AServerThatIsKilledComesBackAndEndsWithTheWindow)
+{
+  saveBall("ball");
+  std::filesystem::create_symlink(PETROUS_EXAMPLE_SERVER, servers() / serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  const int first = processOf(serverName());
+  ASSERT_GT(first, 0);
+  QTest::qWait(700); // beyond the time in which a start is no fault
+  ASSERT_EQ(::kill(first, SIGKILL), 0);
+  auto& fault = *window().findChild<QLabel*>("touchFault");
+  EXPECT_TRUE(waitFor([&] { return !fault.text().isEmpty(); }, 10000));
+  EXPECT_TRUE(waitFor([&] { return fault.text().isEmpty(); }, 10000));
+  const int second = processOf(serverName());
+  EXPECT_GT(second, 0);
+  EXPECT_NE(second, first);
+  EXPECT_EQ(choice().currentText(), QString::fromStdString(serverName()));
+  const Vector3d before = tool();
+  EXPECT_TRUE(waitFor([&] { return (tool() - before).norm() > 1.0; }, 10000)) << "it goes on";
+  closeWindow();
+  EXPECT_EQ(processOf(serverName()), 0);
+  openWindow();
 }

@@ -41,11 +41,26 @@ HandKeeper::~HandKeeper()
 void HandKeeper::showHands()
 {
   m_bar.showHands(m_finder.found(), m_hand.id);
+  tellAdvice();
   const bool pedal = m_finder.pedal() != nullptr;
   if (std::exchange(m_hadPedal, pedal) == pedal)
     return;
   emit said(tr("The pedal drills"));
   emit pedalCame();
+}
+
+// What is plugged in but cannot be used: each advice once.
+void HandKeeper::tellAdvice()
+{
+  std::set<std::string> advice;
+  for (const Hand& hand : m_finder.found().hands)
+    advice.insert(hand.advice);
+  advice.insert(m_finder.found().pedalAdvice);
+  advice.erase("");
+  for (const std::string& line : advice)
+    if (m_told.count(line) == 0)
+      emit said(words(line));
+  m_told = std::move(advice);
 }
 
 void HandKeeper::choose(const Hand& hand)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <string>
 
 #include <QObject>
 
@@ -44,12 +46,14 @@ signals:
 private:
   void take();
   void showHands();
+  void tellAdvice();
 
   HandFinder& m_finder;
   HandBar& m_bar;
   WindowSettings& m_settings;
   presenters::Hand m_hand; // chosen
   std::shared_ptr<presenters::HeldDevice> m_device;
+  std::set<std::string> m_told; // advice on what is plugged in
   bool m_hadPedal = false;
 };
 

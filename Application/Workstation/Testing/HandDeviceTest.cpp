@@ -60,6 +60,17 @@ TEST_F(Hand, WhatIsPluggedInComesUpInTheListAndGoes)
   EXPECT_FALSE(started("omega.7"));
 }
 
+TEST_F(Hand, WhatMayNotBeOpenedSaysWhyAndCannotBeChosen)
+{
+  saveBall("ball");
+  openWindow();
+  bench.play("plug /nowhere/hidraw9 256f c635 1 8 SpaceMouse Compact\n");
+  ASSERT_TRUE(offers("SpaceMouse Compact"));
+  EXPECT_TRUE(message().contains("/nowhere/hidraw9")) << message().toStdString();
+  const auto* items = qobject_cast<QStandardItemModel*>(choice().model());
+  EXPECT_FALSE(items->item(choice().findText("SpaceMouse Compact"))->isEnabled());
+}
+
 TEST_F(Hand, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
 {
   saveBall("ball");

@@ -47,10 +47,13 @@ TEST(ConstrainedProxy, GivesNoForceWhileItIsPlacedInTissueUntilItIsFree)
       ASSERT_FALSE(wasFree);
       ASSERT_TRUE(forceless(tick));
       ASSERT_GT(deep, 0.0);
+      // The ball's lowest point, of 300; deeper than the ball nothing is told.
+      ASSERT_NEAR(tick.penetration, std::min(kRadius - goal.position.z(), kRadius), 0.02);
       ASSERT_EQ(tick.pose.position, goal.position) << "it goes where the hand goes";
       continue;
     }
     ASSERT_LE(deep, 0.0);
+    ASSERT_EQ(tick.penetration, 0.0);
     if (!wasFree)
     {
       EXPECT_NEAR(tick.pose.position.z(), kRadius, 0.05 * kVoxel + 0.004);

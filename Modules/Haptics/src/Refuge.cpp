@@ -18,7 +18,8 @@ Refuge::Refuge(ShellSweep& sweep)
 
 void Refuge::settle() noexcept
 {
-  m_inside = !m_sweep.freeAt(m_sweep.pose());
+  m_sweep.measure();
+  m_inside = m_sweep.penetration() > 0.0;
   if (!m_inside)
     remember();
 }
@@ -77,6 +78,7 @@ bool Refuge::notice() noexcept
   if (m_inside || m_sweep.freeAt(m_sweep.pose()))
     return false;
   m_inside = !retreat();
+  m_sweep.measure();
   return !m_inside;
 }
 

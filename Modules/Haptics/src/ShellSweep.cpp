@@ -92,15 +92,34 @@ bool ShellSweep::freeAt(const Pose& pose) const noexcept
                      { return sampleAt(map.linear * p + map.offset).value <= 0.0; });
 }
 
-bool ShellSweep::nearFreeAt(const Pose& pose) const noexcept
+bool ShellSweep::nearFreeAt(const Pose& pose) noexcept
 {
   const VoxelMap map = mapOf(pose);
-  return std::all_of(begin(), end(),
-                     [&](const Near& near)
-                     {
-                       const Eigen::Vector3d& p = m_shell.points[near.point];
-                       return sampleAt(map.linear * p + map.offset).value <= 0.0;
-                     });
+  m_deepest = volume::TissueField::kAir;
+  for (const Near& near : *this)
+  {
+    deepen(sampleAt(map.linear * m_shell.points[near.point] + map.offset).value, near.point);
+    if (m_deepest > 0.0)
+      return false;
+  }
+  return true;
+}
+
+void ShellSweep::measure() noexcept
+{
+  m_deepest = volume::TissueField::kAir;
+  for (std::uint32_t i = 0; i < m_shell.points.size(); ++i)
+    deepen(sampleAt(voxelOf(i)).value, i);
+}
+
+double ShellSweep::penetration() const noexcept
+{
+  if (!(m_deepest > 0.0))
+    return 0.0;
+  const Eigen::Vector3d voxel = voxelOf(m_deepestPoint);
+  const double slope = m_field->gradient(voxel, m_field->sample(voxel, *m_state), *m_state).norm();
+  return std::min(m_deepest / std::max(slope, 1e-9),
+                  std::max(m_shell.burrRadius, m_field->voxel()));
 }
 
 // Where on the chord f rises above 0: the share of it that is free, 1 when all of it is.
@@ -210,10 +229,23 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
     }
   }
   hit.free = perStep * best;
+  if (!hit.any)
+  {
+    // Where it came to stand is the end of a chord.
+    m_deepest = volume::TissueField::kAir;
+    for (std::size_t n = 0; n < m_nearCount; ++n)
+      if (m_known[n])
+        deepen(m_near[n].sample.value, m_near[n].point);
+  }
   // The samples lie on chords: where the tool comes to stand is looked at itself.
   if (hit.any)
+  {
+    const double before = m_deepest;
     for (int tries = 0; hit.free > 0.0 && !nearFreeAt(moved(m_pose, motion, hit.free)); ++tries)
       hit.free = tries < 4 ? 0.9 * hit.free : 0.0;
+    if (!(hit.free > 0.0))
+      m_deepest = before;
+  }
   commit(motion, hit.free);
   return hit;
 }

@@ -52,7 +52,7 @@ struct ProxyTick
   std::size_t contactCount = 0; ///< contacts that press
   std::array<ProxyContact, kMostContacts> contacts;
   double thrust = 0.0;      ///< N, sum over the burr's contacts
-  double penetration = 0.0; ///< mm, deepest shell point in rigid tissue
+  double penetration = 0.0; ///< mm, of the deepest shell point in rigid tissue, as it was sampled
   int rounds = 0;
   std::size_t nearPoints = 0;  ///< shell points that were looked at
   std::size_t samples = 0;     ///< of the field

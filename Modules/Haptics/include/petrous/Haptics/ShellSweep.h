@@ -82,6 +82,13 @@ public:
   /// f <= 0 at every point of the shell.
   bool freeAt(const Pose& pose) const noexcept;
 
+  /// Depth of the deepest point where the tool stands, mm; 0 where f <= 0 at all. It is that of the
+  /// points that were looked at when it came there (the others cannot be in tissue), or of all of
+  /// them after `measure`. In the flat inside of tissue, where nothing tells more, the burr's
+  /// radius.
+  double penetration() const noexcept;
+  void measure() noexcept;
+
   /// Moves the tool as far as it goes freely, at most `motion` and at most kMostSteps chords, and
   /// not beyond the chord at which `samples` reaches `mostSamples`; near points must have been
   /// found for it. f <= 0 at every near point where it comes to stand.
@@ -106,7 +113,15 @@ private:
   double firstInside(const Eigen::Vector3d& from, const FieldSample& atFrom,
                      const Eigen::Vector3d& to, const FieldSample& atTo,
                      double limit) const noexcept;
-  bool nearFreeAt(const Pose& pose) const noexcept;
+  bool nearFreeAt(const Pose& pose) noexcept;
+  void deepen(double value, std::uint32_t point) noexcept
+  {
+    if (value > m_deepest)
+    {
+      m_deepest = value;
+      m_deepestPoint = point;
+    }
+  }
   void commit(const Motion& motion, double share) noexcept;
 
   std::shared_ptr<const HapticField> m_field;
@@ -124,6 +139,8 @@ private:
   std::array<VoxelMap, kMostSteps + 1> m_maps;
   const volume::MaskState* m_state = nullptr;
   Pose m_pose;
+  double m_deepest = volume::TissueField::kAir; // f, where the tool stands
+  std::uint32_t m_deepestPoint = 0;
 };
 
 } // namespace petrous::haptics

@@ -24,8 +24,8 @@ struct ForceLook
 ///
 /// What is shown is the coupling's force before the device's limits, so a mouse has one as well;
 /// where the servo gives none (fault, pause) there is none. The arrow starts at the burr's centre
-/// and points where the hand is pushed. It is drawn over tool and tissue, so that it is always seen.
-/// Main thread only.
+/// and points where the hand is pushed. It is drawn over tool and tissue, so that it is always
+/// seen. Main thread only.
 class ForceDisplay
 {
 public:

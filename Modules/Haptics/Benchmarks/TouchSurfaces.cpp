@@ -114,7 +114,7 @@ std::vector<Setting> settings(bool quick)
        static_cast<double>(standard.rounds),
        [](ProxyParameters& p, std::size_t&, double value) { p.rounds = static_cast<int>(value); }},
       {"samples",
-       {200, 500, 1000, 2000, 4000, 20000},
+       {200, 600, 1200, 2400, 5000, 20000},
        static_cast<double>(standard.samples),
        [](ProxyParameters& p, std::size_t&, double value) { p.samples = static_cast<int>(value); }},
       {"near_gap_voxels",

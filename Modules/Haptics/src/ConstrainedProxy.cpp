@@ -80,7 +80,7 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
 Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
 {
   const double skin = kSkin * m_sweep.field().voxel();
-  m_finder->find(m_hits.data(), m_hitCount);
+  m_finder->find(m_hits.data(), std::min(m_hitCount, kMostHits));
   m_found += m_finder->samples();
   m_rowCount = 0;
   bool tight = false;
@@ -181,9 +181,15 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
   const double h = m_sweep.field().voxel();
   const double reach = m_sweep.shell().reach;
   const double ahead = (m_parameters.nearGap + kSkin) * h;
-  double lift = 2.0 * kSkin * h;
   int stretches = 0;
-  m_hitCount = 0;
+  // What stopped a tick that made no way is still there in the next one; so a tick need not find it
+  // all, and its work can be bounded without the tool being caught on a bump.
+  if (!m_caught || m_caughtIn != m_sweep.state().number())
+  {
+    m_hitCount = 0;
+    m_lift = 2.0 * kSkin * h;
+  }
+  double made = 0.0; // mm
   while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches &&
          !(m_soft && m_soft->spent()))
   {
@@ -194,29 +200,32 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     const double part = m_soft ? m_soft->share(found) : 1.0;
     const Motion motion{part * found.linear, part * found.angular};
     const double way = longestWay(motion, reach);
-    if (way < m_parameters.deadband)
+    if (way < m_parameters.deadband || (made > 0.0 && spent()))
       break;
     const ShellSweep::Hit hit = advance(motion, way);
     m_refuge->remember();
+    made += hit.free * way;
+    if (hit.any)
+    {
+      ++m_tick.rounds;
+      m_hits[m_hitCount % kMostHits] = hit;
+      ++m_hitCount;
+    }
     if ((!hit.any && hit.free >= 1.0 && part >= 1.0) || spent())
       break;
     if (!hit.any)
-    {
       ++stretches;
-      continue;
-    }
-    ++m_tick.rounds;
-    if (m_hitCount < kMostHits)
-      m_hits[m_hitCount++] = hit;
-    if (hit.free * way < lift && m_tick.rounds < m_parameters.rounds)
+    else if (hit.free * way < m_lift && m_tick.rounds < m_parameters.rounds)
     {
       // It lies on a bump that a smooth normal does not know: up first, then on.
       m_sweep.findNear(ahead);
-      const Motion up = solve({}, lift);
+      const Motion up = solve({}, m_lift);
       advance(up, longestWay(up, reach));
-      lift = std::min(2.0 * lift, kMostLift * h);
+      m_lift = std::min(2.0 * m_lift, kMostLift * h);
     }
   }
+  m_caught = made < kSkin * h && m_hitCount > 0;
+  m_caughtIn = m_sweep.state().number();
   if (m_soft && m_soft->spent())
     m_tick.wrench = m_soft->pull(m_sweep.pose());
 }

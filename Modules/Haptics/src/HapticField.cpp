@@ -85,8 +85,8 @@ struct HapticField::Cell
   }
 };
 
-HapticField::Cell HapticField::cellAt(const Eigen::Vector3d& voxel,
-                                      const core::Index3& dims) noexcept
+[[gnu::always_inline]] inline HapticField::Cell
+HapticField::cellAt(const Eigen::Vector3d& voxel, const core::Index3& dims) noexcept
 {
   Cell cell{};
   // Positions are not negative: to cut is to round down.
@@ -106,7 +106,22 @@ HapticField::Cell HapticField::cellAt(const Eigen::Vector3d& voxel,
   return cell;
 }
 
-double HapticField::ct(const Cell& cell) const noexcept
+[[gnu::always_inline]] inline double HapticField::hull(const Eigen::Vector3d& voxel) const noexcept
+{
+  return kHullSlope * std::min(voxel.minCoeff(), (m_last - voxel).minCoeff());
+}
+
+[[gnu::always_inline]] inline std::size_t
+HapticField::brickAt(const Eigen::Vector3d& voxel) const noexcept
+{
+  return static_cast<std::size_t>(static_cast<int>(voxel.x()) / kTissueBrick) +
+         static_cast<std::size_t>(m_bricks[0]) *
+             (static_cast<std::size_t>(static_cast<int>(voxel.y()) / kTissueBrick) +
+              static_cast<std::size_t>(m_bricks[1]) *
+                  static_cast<std::size_t>(static_cast<int>(voxel.z()) / kTissueBrick));
+}
+
+[[gnu::always_inline]] inline double HapticField::ct(const Cell& cell) const noexcept
 {
   const double hounsfield = m_ct->visit(
       [&cell](const auto& volume)
@@ -182,11 +197,6 @@ double HapticField::left(const Eigen::Vector3d& voxel, const volume::MaskState& 
   return hull(voxel) >= 0.0 ? left(cellAt(voxel, m_geometry.dims()), mask) : 0.5;
 }
 
-double HapticField::hull(const Eigen::Vector3d& voxel) const noexcept
-{
-  return kHullSlope * std::min(voxel.minCoeff(), (m_last - voxel).minCoeff());
-}
-
 FieldSample HapticField::sample(const Eigen::Vector3d& voxel,
                                 const volume::MaskState& mask) const noexcept
 {
@@ -258,15 +268,6 @@ double HapticField::slope(const Eigen::Vector3d& voxel, const Eigen::Vector3d& d
 {
   const Eigen::Vector3d step = m_geometry.voxelFromPatientLinear() * (reach * direction);
   return (sample(voxel + step, mask).value - sample(voxel - step, mask).value) / (2.0 * reach);
-}
-
-std::size_t HapticField::brickAt(const Eigen::Vector3d& voxel) const noexcept
-{
-  return static_cast<std::size_t>(static_cast<int>(voxel.x()) / kTissueBrick) +
-         static_cast<std::size_t>(m_bricks[0]) *
-             (static_cast<std::size_t>(static_cast<int>(voxel.y()) / kTissueBrick) +
-              static_cast<std::size_t>(m_bricks[1]) *
-                  static_cast<std::size_t>(static_cast<int>(voxel.z()) / kTissueBrick));
 }
 
 double HapticField::clearance(const Eigen::Vector3d& voxel) const noexcept

@@ -53,10 +53,9 @@ void ShellSweep::forgetClearances() noexcept
   std::fill(m_clearance.begin(), m_clearance.end(), 0.0);
 }
 
+// Of a point whose known clearance is not enough.
 void ShellSweep::judge(std::size_t point, double way) noexcept
 {
-  if (m_clearance[point] > way)
-    return;
   const Eigen::Vector3d voxel = voxelOf(static_cast<std::uint32_t>(point));
   m_clearance[point] = m_field->clearance(voxel);
   if (m_clearance[point] > way)
@@ -73,15 +72,19 @@ void ShellSweep::findNear(double distance) noexcept
 {
   std::fill(m_isNear.begin(), m_isNear.end(), false);
   m_nearCount = 0;
-  for (std::size_t i = 0; i < m_shell.points.size(); ++i)
-    judge(i, distance);
+  for (std::size_t i = 0; i < m_clearance.size(); ++i)
+    if (!(m_clearance[i] > distance))
+      judge(i, distance);
 }
 
 void ShellSweep::addNear(double linear, double angular) noexcept
 {
-  for (std::size_t i = 0; i < m_shell.points.size(); ++i)
-    if (!m_isNear[i])
-      judge(i, linear + angular * m_arm[i]);
+  for (std::size_t i = 0; i < m_clearance.size(); ++i)
+  {
+    const double way = linear + angular * m_arm[i];
+    if (!(m_clearance[i] > way) && !m_isNear[i])
+      judge(i, way);
+  }
 }
 
 bool ShellSweep::freeAt(const Pose& pose) const noexcept

@@ -69,8 +69,11 @@ private:
   std::size_t m_rowCount = 0;
   ContactQp::Vector6 m_forced = ContactQp::Vector6::Zero(); // a - u, before the skin
 
-  std::array<ShellSweep::Hit, kMostHits> m_hits; // of this tick
+  std::array<ShellSweep::Hit, kMostHits> m_hits; // since the tool last made some way; the latest
   std::size_t m_hitCount = 0;
+  double m_lift = 0.0;              // mm, over the next bump
+  bool m_caught = false;            // the last tick made no way
+  std::uint64_t m_caughtIn = 0;     // number of the mask's state in which that was
   std::unique_ptr<Refuge> m_refuge; // moves m_sweep
   ProxyTick m_tick;
 };

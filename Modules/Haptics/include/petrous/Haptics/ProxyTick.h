@@ -19,7 +19,7 @@ struct ProxyParameters
   int bisections = 10;            ///< of a sweep's step, to the surface, in [1, 30]
   int rounds = 5;                 ///< motions of a tick that end at new contacts, in [1, 20]
   double deadband = 0.001;        ///< mm: a shorter motion is not made
-  int samples = 2000; ///< of the field in a tick, in [100, 1000000]; the way left is made later
+  int samples = 1200; ///< of the field in a tick, in [100, 1000000]; the way left is made later
 };
 
 enum class ProxyStatus : std::uint8_t

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <vector>
 
 #include "Numbers.h"
@@ -18,6 +19,7 @@ using Points = std::vector<core::BenchmarkPoint>;
 
 constexpr double kLeft = 90.0;
 constexpr double kTop = 50.0;
+constexpr std::size_t kPeerColor = 7;
 
 std::string programOf(const core::BenchmarkPoint& point)
 {
@@ -106,13 +108,21 @@ Points chosen(const core::BenchmarkReport& report, const std::string& series)
   return points;
 }
 
-// The values that were varied, joined.
+// The values that were varied, joined, of each program for itself.
 std::string joined(const Points& points, const Panel& panel, const std::string& color)
 {
+  const auto colorOf = [&color](const core::BenchmarkPoint& point)
+  { return point.peer.empty() ? color : svg::color(kPeerColor); };
   std::string result;
-  for (std::size_t n = 1; n < points.size(); ++n)
-    result += svg::line(panel.x(points[n - 1]), panel.y(points[n - 1]), panel.x(points[n]),
-                        panel.y(points[n]), color);
+  std::map<std::string, const core::BenchmarkPoint*> last;
+  for (const auto& point : points)
+  {
+    const core::BenchmarkPoint*& before = last[point.peer];
+    if (before)
+      result += svg::line(panel.x(*before), panel.y(*before), panel.x(point), panel.y(point),
+                          colorOf(point));
+    before = &point;
+  }
   svg::Labels labels(panel.px(0), panel.py(1), panel.px(1), panel.py(0));
   for (const auto& point : points)
     labels.keepClear(panel.x(point), panel.y(point), point.isDefault ? 9.0 : 5.0);
@@ -121,7 +131,8 @@ std::string joined(const Points& points, const Panel& panel, const std::string& 
       if (point.isDefault == ringed)
         result += labels.beside(panel.x(point), panel.y(point), point.setting.at(point.series));
   for (const auto& point : points)
-    result += svg::dot(panel.x(point), panel.y(point), color, hintOf(point), point.isDefault);
+    result +=
+        svg::dot(panel.x(point), panel.y(point), colorOf(point), hintOf(point), point.isDefault);
   return result;
 }
 
@@ -141,7 +152,7 @@ std::string strip(const Points& points, double top, double width)
     const double x = px(axis.share(point.seconds));
     const bool right = axis.share(point.seconds) > 0.5;
     const std::string words = programOf(point) + ": " + fixed(1e3 * point.seconds, 0) + " ms";
-    result += svg::dot(x, row, point.peer.empty() ? svg::color(0) : svg::color(7), words) +
+    result += svg::dot(x, row, point.peer.empty() ? svg::color(0) : svg::color(kPeerColor), words) +
               svg::text(x + (right ? -10 : 10), row + 4, words,
                         right ? "text-anchor=\"end\" font-size=\"11\"" : "font-size=\"11\"");
     row += 20.0;
@@ -218,6 +229,11 @@ std::string seriesSvg(const core::BenchmarkReport& report)
                         "The same scene by other programs, which draw other "
                         "optics: time alone") +
               strip(others, stripTop, stepX * columns - 60.0);
+  const auto peer =
+      std::find_if(all.begin(), all.end(), [](const auto& point) { return !point.peer.empty(); });
+  if (peer != all.end())
+    result += svg::dot(kLeft, height - 14, svg::color(kPeerColor), peer->peer) +
+              svg::text(kLeft + 12, height - 10, peer->peer);
   return result +
          svg::text(width - 60, height - 10, "time, s; ringed: the default",
                    "text-anchor=\"end\" fill=\"#666\"") +

@@ -12,8 +12,9 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kWidth = 1040.0;
-constexpr double kLeft = 400.0;
+constexpr double kPlot = 610.0;  // px
+constexpr double kLeast = 400.0; // px, of the names' column
+constexpr double kLetter = 6.2;  // px, of their letters about
 constexpr double kRight = 30.0;
 constexpr double kTop = 110.0;
 constexpr double kRow = 24.0;
@@ -25,6 +26,13 @@ std::size_t placeOf(std::vector<std::string>& names, const std::string& name)
   if (found == names.end())
     names.push_back(name);
   return place;
+}
+
+std::string inWords(double seconds)
+{
+  if (seconds < 1e-3)
+    return fixed(1e6 * seconds, seconds < 1e-5 ? 1 : 0) + " \u00b5s";
+  return fixed(1e3 * seconds, seconds < 0.01 ? 2 : 0) + " ms";
 }
 
 } // namespace
@@ -40,10 +48,14 @@ std::string rowsSvg(const core::BenchmarkReport& report)
       placeOf(programs, point.peer.empty() ? "petrous" : point.peer);
       seconds.push_back(point.seconds);
     }
+  double left = kLeast;
+  for (const std::string& scene : scenes)
+    left = std::max(left, 20.0 + kLetter * static_cast<double>(scene.size()));
+  const double width = left + kPlot + kRight;
   const svg::LogAxis axis(seconds);
   const double bottom = kTop + kRow * static_cast<double>(scenes.size());
-  const auto px = [&](double share) { return kLeft + share * (kWidth - kLeft - kRight); };
-  std::string result = svg::start(kWidth, bottom + 50.0, "Median time of a frame, s");
+  const auto px = [&](double share) { return left + share * kPlot; };
+  std::string result = svg::start(width, bottom + 50.0, "Median time, s");
   for (std::size_t n = 0; n < programs.size(); ++n)
   {
     const double x = 30.0 + 330.0 * static_cast<double>(n % 3);
@@ -54,7 +66,7 @@ std::string rowsSvg(const core::BenchmarkReport& report)
     result += svg::line(px(tick.share), kTop, px(tick.share), bottom) +
               svg::text(px(tick.share), bottom + 18, tick.label, "text-anchor=\"middle\"");
   for (std::size_t n = 0; n < scenes.size(); ++n)
-    result += svg::text(kLeft - 12, kTop + kRow * (static_cast<double>(n) + 0.5) + 4, scenes[n],
+    result += svg::text(left - 12, kTop + kRow * (static_cast<double>(n) + 0.5) + 4, scenes[n],
                         "text-anchor=\"end\" font-size=\"11\"");
   for (const auto& point : report.points)
   {
@@ -63,11 +75,11 @@ std::string rowsSvg(const core::BenchmarkReport& report)
     const double x = px(axis.share(point.seconds));
     const double y = kTop + kRow * (static_cast<double>(placeOf(scenes, point.scene)) + 0.5);
     const std::string program = point.peer.empty() ? "petrous" : point.peer;
-    const std::string milliseconds = fixed(1e3 * point.seconds, point.seconds < 0.01 ? 2 : 0);
+    const std::string words = inWords(point.seconds);
     result += svg::dot(x, y, svg::color(placeOf(programs, program)),
-                       program + ", " + point.scene + ": " + milliseconds + " ms");
+                       program + ", " + point.scene + ": " + words);
     if (point.peer.empty())
-      result += svg::text(x, y - 8, milliseconds + " ms", "text-anchor=\"middle\" font-size=\"9\"");
+      result += svg::text(x, y - 8, words, "text-anchor=\"middle\" font-size=\"9\"");
   }
   return result + "</svg>\n";
 }

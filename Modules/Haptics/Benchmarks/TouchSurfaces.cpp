@@ -155,11 +155,14 @@ std::vector<core::BenchmarkPoint> touchSurfaces(bool quick, const core::Progress
           else
             proxy = std::make_unique<SteppedSphere>(scene.field, shell);
           points.push_back(measure(surface, h, *proxy, ticks, 6.0 / ticks));
-          points.back().scene = surface.name + (tilted ? ", tilted" : ", axis-aligned");
-          points.back().peer = ours ? "" : kPeer;
-          points.back().isDefault = ours && h == 0.3;
-          heights.push_back(h * std::hypot(points.back().extra["bias_voxels"],
-                                           points.back().extra["ripple_voxels"]));
+          core::BenchmarkPoint& point = points.back();
+          point.scene = tilted ? "known surfaces, tilted" : "known surfaces, axis-aligned";
+          point.series = surface.name + ", voxel in mm";
+          point.setting[point.series] = shown(h);
+          point.peer = ours ? "" : kPeer;
+          point.isDefault = ours && h == 0.3;
+          heights.push_back(h *
+                            std::hypot(point.extra["bias_voxels"], point.extra["ripple_voxels"]));
         }
         const double order = orderOf(voxels, heights);
         for (std::size_t n = first; n < points.size(); ++n)

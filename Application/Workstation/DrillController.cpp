@@ -314,7 +314,7 @@ void DrillController::show(const presenters::TouchSession::News& news)
   if (!m_model.drilling()) // of the stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
   m_lead.see(record);
-  m_view.display().setTouch(record, toolRadius());
+  m_view.display().setTouch(record, toolRadius(), m_tool != Tool::Pointer);
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);

@@ -117,12 +117,12 @@ void SceneDisplay::setTool(const std::optional<rendering::ToolPose>& tool)
   redraw(true);
 }
 
-void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRadius)
+void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRadius, bool handpiece)
 {
   if (m_follower)
-    m_follower->setTouch(record, burrRadius);
-  if (!m_touch || m_touch->burrRadius() != burrRadius)
-    m_touch.reset(new TouchOverlay(*m_renderer, burrRadius));
+    m_follower->setTouch(record, burrRadius, handpiece);
+  if (!m_touch || m_touch->burrRadius() != burrRadius || m_touch->handpiece() != handpiece)
+    m_touch.reset(new TouchOverlay(*m_renderer, burrRadius, handpiece));
   if (!m_touch->update(record))
     return;
   m_contents.tool = m_touch->tool();

@@ -55,7 +55,7 @@ public:
   void setTool(const std::optional<rendering::ToolPose>& tool);
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }
   /// The tool in the hand, with its force, as the servo has it; drawn where it moved.
-  void setTouch(const simulation::TickRecord& record, double burrRadius);
+  void setTouch(const simulation::TickRecord& record, double burrRadius, bool handpiece = true);
   /// What a pointer in the hand reads, some lines; after setTouch.
   void setReading(const QString& text);
   const QString& reading() const noexcept { return m_reading; }

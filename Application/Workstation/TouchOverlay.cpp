@@ -21,9 +21,10 @@ constexpr double kReadingBottom = 48.0;
 constexpr int kReadingSize = 17;
 } // namespace
 
-TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius)
+TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius, bool handpiece)
   : m_renderer(&renderer)
   , m_burrRadius(burrRadius)
+  , m_handpiece(handpiece)
   , m_view(burrRadius)
 {
   m_view.addTo(&renderer);
@@ -60,7 +61,9 @@ bool TouchOverlay::setReading(const std::string& text)
 
 bool TouchOverlay::update(const simulation::TickRecord& record)
 {
-  const auto tool = m_view.update(record);
+  auto tool = m_view.update(record);
+  if (tool)
+    tool->handpiece = m_handpiece;
   m_force.update(record);
   const auto same = [](double a, double b, double tolerance)
   { return std::abs(a - b) < tolerance; };

@@ -20,12 +20,14 @@ namespace petrous::workstation
 class TouchOverlay
 {
 public:
-  TouchOverlay(vtkRenderer& renderer, double burrRadius); ///< mm
+  /// `burrRadius` in mm; `handpiece`: false for a pointer, which has none.
+  TouchOverlay(vtkRenderer& renderer, double burrRadius, bool handpiece);
   ~TouchOverlay();
   TouchOverlay(const TouchOverlay&) = delete;
   TouchOverlay& operator=(const TouchOverlay&) = delete;
 
   double burrRadius() const noexcept { return m_burrRadius; }
+  bool handpiece() const noexcept { return m_handpiece; }
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_tool; }
 
   /// True when the picture looks different now.
@@ -36,6 +38,7 @@ public:
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;
   double m_burrRadius;
+  bool m_handpiece;
   interaction::ToolView m_view;
   interaction::ForceDisplay m_force;
   vtkNew<vtkTextActor> m_reading;

@@ -98,9 +98,10 @@ void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ra
       tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
   add(meetCylinder(ray, tool.center, axis, tool::kShaftLength, tool::kShaftRatio * tool.radius),
       tool::kShaftColor);
-  add(meetCylinder(ray, tool.center + tool::kShaftLength * axis, axis, tool::kHandpieceLength,
-                   tool::handpieceRadius(tool)),
-      tool::kHandpieceColor);
+  if (tool.handpiece)
+    add(meetCylinder(ray, tool.center + tool::kShaftLength * axis, axis, tool::kHandpieceLength,
+                     tool::handpieceRadius(tool)),
+        tool::kHandpieceColor);
 }
 
 } // namespace

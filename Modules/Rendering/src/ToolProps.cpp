@@ -64,6 +64,8 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
   const bool shown = tool && isShown(*tool);
   for (const auto& actor : m_actors)
     actor->SetVisibility(shown ? 1 : 0);
+  if (shown && !tool->handpiece)
+    m_actors[2]->SetVisibility(0);
   if (!shown)
     return;
   m_burr->SetRadius(tool->radius);

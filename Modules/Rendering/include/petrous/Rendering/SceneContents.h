@@ -31,6 +31,7 @@ struct ToolPose
   Eigen::Vector3d axisToHand{0.0, 0.0, 1.0}; ///< from the burr along the shaft
   double radius = 2.0;                       ///< of the burr
   bool drilling = false;                     ///< drawn brighter
+  bool handpiece = true;                     ///< false: ball and shaft alone, as of a pointer
 };
 
 /// The lamp sits at the camera, as in a microscope.

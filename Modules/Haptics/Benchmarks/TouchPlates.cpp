@@ -8,6 +8,7 @@
 #include "../Testing/ProxyChecks.h"
 #include "SteppedSphere.h"
 #include "petrous/Core/TickTimes.h"
+#include "petrous/Haptics/CentreProxy.h"
 
 namespace petrous::haptics
 {
@@ -23,6 +24,13 @@ constexpr double kReach = 3.5;     // mm, of the tool
 constexpr double kWithin = 3.0;    // mm, of the hand
 constexpr double kSlope = 0.4;     // of f a mm: 400 HU a mm over 1000 HU
 constexpr std::size_t kPhases = 4; // of the plate between the voxels, for each thickness
+enum Program : std::size_t
+{
+  SixDof,
+  ThreeDof,
+  Stepped,
+  kPrograms
+};
 
 struct Walk
 {
@@ -42,7 +50,7 @@ struct Walk
   }
 };
 
-// The side is told by the ball's centre for the peer, and by every point of the shell for ours.
+// The side is told by the ball's centre, and by every point of the shell in six degrees of freedom.
 Walk walk(Proxy& proxy, const PointShell& shell, bool anyPoint, const volume::TissueField& tissue,
           const Vector3d& normal, double offset, unsigned seed, long ticks)
 {
@@ -75,21 +83,23 @@ Walk walk(Proxy& proxy, const PointShell& shell, bool anyPoint, const volume::Ti
   return result;
 }
 
-core::BenchmarkPoint pointOf(const Walk& walk, double thickness, const char* peer)
+core::BenchmarkPoint pointOf(const Walk& walk, double thickness, Program program)
 {
   core::BenchmarkPoint point;
-  char scene[48];
-  std::snprintf(scene, sizeof scene, "random hand, plate of %.1f voxels", thickness);
+  char scene[64];
+  std::snprintf(scene, sizeof scene, "random hand%s, plate of %.1f voxels",
+                program == ThreeDof ? ", burr alone" : "", thickness);
   point.scene = scene;
   point.setting["voxel_mm"] = "0.3";
-  point.peer = peer;
-  point.isDefault = point.peer.empty();
+  if (program == Stepped)
+    point.peer = "stepped sphere, no sweep";
+  point.isDefault = program == SixDof;
   walk.times.enter(point);
   point.error = static_cast<double>(walk.crossings);
   point.errorUnit = "crossings";
   point.extra["ticks_beyond"] = static_cast<double>(walk.crossed);
   point.extra["ticks_in_contact"] = static_cast<double>(walk.touched);
-  if (point.peer.empty())
+  if (program == SixDof)
     point.extra["deepest_voxels"] = walk.deepest / kVoxel;
   return point;
 }
@@ -100,7 +110,7 @@ std::vector<core::BenchmarkPoint> touchPlates(bool quick, const core::Progress& 
 {
   constexpr std::array<double, 3> thicknesses{1.0, 1.5, 2.0};
   const long ticks = (quick ? 10000 : 1000000) / static_cast<long>(thicknesses.size() * kPhases);
-  std::array<std::array<std::array<Walk, 2>, kPhases>, thicknesses.size()> walks;
+  std::array<std::array<std::array<Walk, kPrograms>, kPhases>, thicknesses.size()> walks;
   std::atomic<int> done{0};
   tbb::parallel_for(
       std::size_t{0}, thicknesses.size() * kPhases,
@@ -119,23 +129,26 @@ std::vector<core::BenchmarkPoint> touchPlates(bool quick, const core::Progress& 
         const auto seed = static_cast<unsigned>(n + 1);
         const PointShell burr = testing::shortBurr(kRadius, kReach, kVoxel, 500);
         ConstrainedProxy ours(scene.field, burr);
-        walks[which][phase][0] = walk(ours, burr, true, *scene.tissue, normal, offset, seed, ticks);
+        auto& of = walks[which][phase];
+        of[SixDof] = walk(ours, burr, true, *scene.tissue, normal, offset, seed, ticks);
         const PointShell ball = testing::ballShell(kRadius, 300);
+        CentreBurr alone;
+        alone.radius = kRadius;
+        CentreProxy centre(scene.field, alone);
+        of[ThreeDof] = walk(centre, ball, false, *scene.tissue, normal, offset, seed, ticks);
         SteppedSphere peer(scene.field, ball);
-        walks[which][phase][1] =
-            walk(peer, ball, false, *scene.tissue, normal, offset, seed, ticks);
+        of[Stepped] = walk(peer, ball, false, *scene.tissue, normal, offset, seed, ticks);
         progress.report(static_cast<double>(++done) / (thicknesses.size() * kPhases),
                         "a hand at random over thin plates");
       });
   std::vector<core::BenchmarkPoint> points;
   for (std::size_t which = 0; which < thicknesses.size(); ++which)
-    for (const std::size_t program : {0, 1})
+    for (const Program program : {SixDof, ThreeDof, Stepped})
     {
       Walk all;
       for (std::size_t phase = 0; phase < kPhases; ++phase)
         all.add(walks[which][phase][program]);
-      points.push_back(
-          pointOf(all, thicknesses[which], program == 0 ? "" : "stepped sphere, no sweep"));
+      points.push_back(pointOf(all, thicknesses[which], program));
     }
   return points;
 }

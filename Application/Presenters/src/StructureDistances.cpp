@@ -9,8 +9,8 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr double kFar = 1000.0; // mm: nothing of a patient's head is farther
-constexpr double kStep = 0.01;  // mm between positions that are kept
+constexpr double kFar = StructureSurfaces::kFar;
+constexpr double kStep = 0.01; // mm between positions that are kept
 
 } // namespace
 

@@ -11,9 +11,6 @@ namespace petrous::presenters
 namespace
 {
 
-// Nothing of a patient's head is farther.
-constexpr double kFar = 1000.0; // mm
-
 // A field in which there is the structure and nothing else.
 volume::TissueField alone(const std::shared_ptr<const volume::Volume<float>>& share)
 {

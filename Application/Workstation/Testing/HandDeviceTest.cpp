@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <iterator>
+#include <optional>
 
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -10,8 +11,6 @@ using namespace petrous;
 using namespace petrous::workstation;
 using devices::testing::FakeServer;
 using Eigen::Vector3d;
-
-using Hand = HandTest;
 
 namespace
 {
@@ -41,6 +40,31 @@ int processOf(const std::string& name)
   }
   return 0;
 }
+
+class Hand : public HandTest
+{
+protected:
+  void TearDown() override
+  {
+    served.reset();
+    HandTest::TearDown();
+  }
+
+  /// The ball is open and the burr in the hand of a server, which is the test itself.
+  void drillByServer()
+  {
+    saveBall("ball");
+    installServer(serverName());
+    openWindow();
+    choose(QString::fromStdString(serverName()));
+    ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
+    served.emplace(serverName(), describe);
+    QTest::keyClick(&view(), Qt::Key_D);
+    ASSERT_TRUE(hasTool());
+  }
+
+  std::optional<FakeServer> served;
+};
 
 } // namespace
 
@@ -128,14 +152,8 @@ TEST_F(Hand, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInCharge)
 
 TEST_F(Hand, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
 {
-  saveBall("ball");
-  installServer(serverName());
-  openWindow();
-  choose(QString::fromStdString(serverName()));
-  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
-  FakeServer server(serverName(), describe);
-  QTest::keyClick(&view(), Qt::Key_D);
-  ASSERT_TRUE(hasTool());
+  ASSERT_NO_FATAL_FAILURE(drillByServer());
+  FakeServer& server = *served;
   const Vector3d begin = tool();
   EXPECT_NEAR((begin - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.2);
 
@@ -181,14 +199,8 @@ TEST_F(Hand, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
 
 TEST_F(Hand, TheForceStaysWithinTheUsersLimit)
 {
-  saveBall("ball");
-  installServer(serverName());
-  openWindow();
-  choose(QString::fromStdString(serverName()));
-  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
-  FakeServer server(serverName(), describe);
-  QTest::keyClick(&view(), Qt::Key_D);
-  ASSERT_TRUE(hasTool());
+  ASSERT_NO_FATAL_FAILURE(drillByServer());
+  FakeServer& server = *served;
   auto* limit = window().findChild<QDoubleSpinBox*>("forceLimit");
   ASSERT_TRUE(limit->isVisible());
   EXPECT_EQ(limit->value(), 3.0) << "what the device can";
@@ -218,14 +230,8 @@ TEST_F(Hand, TheForceStaysWithinTheUsersLimit)
 
 TEST_F(Hand, AServerWithoutItsDeviceGivesTheToolBackToTheMouse)
 {
-  saveBall("ball");
-  installServer(serverName());
-  openWindow();
-  choose(QString::fromStdString(serverName()));
-  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
-  FakeServer server(serverName(), describe);
-  QTest::keyClick(&view(), Qt::Key_D);
-  ASSERT_TRUE(hasTool());
+  ASSERT_NO_FATAL_FAILURE(drillByServer());
+  FakeServer& server = *served;
   glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0});
   ASSERT_TRUE(waitFor([&] { return forceOf(server.wrench()).z() > 1.0; }));
   server.say(PETROUS_SERVER_NO_DEVICE, "its plug was pulled");
@@ -298,14 +304,8 @@ TEST_F(Hand, TheClutchHoldsTheMousesToolWhileThePointerGoes)
 
 TEST_F(Hand, AnotherBurrGoesOnFromWhereADevicesToolWas)
 {
-  saveBall("ball");
-  installServer(serverName());
-  openWindow();
-  choose(QString::fromStdString(serverName()));
-  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
-  FakeServer server(serverName(), describe);
-  QTest::keyClick(&view(), Qt::Key_D);
-  ASSERT_TRUE(hasTool());
+  ASSERT_NO_FATAL_FAILURE(drillByServer());
+  FakeServer& server = *served;
   const Vector3d begin = tool();
   const Vector3d hand(8.0, 6.0, 4.0);
   glide(server, Vector3d::Zero(), hand);

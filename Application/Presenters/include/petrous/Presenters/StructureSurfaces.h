@@ -28,6 +28,8 @@ struct NearStructure
 class StructureSurfaces
 {
 public:
+  static constexpr double kFar = 1000.0; ///< mm; nothing of a patient's head is farther
+
   /// Loads the labels of the case and looks through their voxels once. Of meshes those are taken
   /// that have voxels for touch already.
   explicit StructureSurfaces(const scene::Case& value);

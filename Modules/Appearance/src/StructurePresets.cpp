@@ -23,6 +23,7 @@ StructureLook lookFrom(const json& entry)
   look.color = entry.at("color").get<std::array<float, 3>>();
   look.opacity = entry.at("opacity").get<float>();
   look.solid = entry.at("solid").get<bool>();
+  look.tissue = entry.value("tissue", std::string());
   look.priority = entry.value("priority", look.priority);
   look.shininess = entry.value("shininess", look.shininess);
   const auto refuse = [&look](const std::string& what)

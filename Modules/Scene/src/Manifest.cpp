@@ -76,10 +76,10 @@ ImagePart imageIn(const json& j)
 
 json lookOut(const appearance::StructureLook& look)
 {
-  json j{{"preset", look.preset},    {"color", look.color},
-         {"opacity", look.opacity},  {"flags", appearance::flagsOf(look)},
-         {"solid", look.solid},      {"shininess", look.shininess},
-         {"priority", look.priority}};
+  json j{{"preset", look.preset},     {"color", look.color},
+         {"opacity", look.opacity},   {"flags", appearance::flagsOf(look)},
+         {"solid", look.solid},       {"shininess", look.shininess},
+         {"priority", look.priority}, {"tissue", look.tissue}};
   if (look.transfer)
   {
     j["transfer"] = json::parse(look.transfer->toJson());
@@ -104,6 +104,8 @@ appearance::StructureLook lookIn(const json& j, const appearance::StructurePrese
   look.shininess = j.value("shininess", look.shininess);
   look.priority =
       j.contains("priority") ? j.at("priority").get<int>() : presets.lookFor(look.preset).priority;
+  look.tissue = j.contains("tissue") ? j.at("tissue").get<std::string>()
+                                     : presets.lookFor(look.preset).tissue;
   look.sourceImage = j.value("source_image", std::string());
   appearance::setStiffness(look, j.value("stiffness_n_per_mm", 0.0));
   if (j.contains("transfer"))

@@ -20,6 +20,7 @@ struct StructureLook
   bool drillable = true;
   bool solid = true;      ///< false: a lumen, coloured and named but no tissue
   double stiffness = 0.0; ///< N/mm, of the spring that it is under the hand; 0: rigid
+  std::string tissue; ///< what the drill meets (Resources/materials.json); empty: bone by density
 
   std::optional<TransferFunction> transfer; ///< absent: `color` at every intensity
   bool relative = false;   ///< the values of `transfer` are stretched to the case (onScale)
@@ -47,8 +48,8 @@ std::string flagsOf(const StructureLook& look);
 /// each of its points is beside the look's colour. Throws InvalidParameter outside 0 to 1.
 void setColor(StructureLook& look, const std::array<float, 3>& color);
 
-/// Takes over how `preset` looks, whether it is a lumen, how it yields, and its priority; flags and
-/// the image that is read stay.
+/// Takes over how `preset` looks, whether it is a lumen, how it yields, its tissue and its priority;
+/// flags and the image that is read stay.
 void applyPreset(StructureLook& look, const StructureLook& preset);
 
 } // namespace petrous::appearance

@@ -1,0 +1,166 @@
+#include "petrous/Dissection/RemovalLaw.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "petrous/Core/Error.h"
+#include "petrous/Dissection/BurrCatalogue.h"
+
+using namespace petrous;
+using dissection::AbrasiveWear;
+using dissection::Burr;
+using dissection::BurrCatalogue;
+using dissection::MaterialCatalogue;
+using dissection::OrthogonalCutting;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+constexpr double kMm3 = 1e9; // of a m^3
+
+double turns(double rpm)
+{
+  return rpm * 2.0 * kPi / 60.0;
+}
+
+std::string materials(const std::string& energy, const std::string& friction,
+                      const std::string& hardness)
+{
+  return R"({"materials":[{"name":"x","specific_cutting_energy_gpa":)" + energy +
+         R"(,"friction":)" + friction + R"(,"vickers_hardness_hv":)" + hardness +
+         R"(}],"bone":{"cellular":"x","cortical":"x","from_hu":300,"to_hu":1800}})";
+}
+
+std::string burrs(double rake)
+{
+  return R"({"burrs":[{"kind":"cutting","rake_deg":)" + std::to_string(rake) +
+         R"(,"diameters_mm":[4]},{"kind":"diamond","wear_coefficient":0.1,"diameters_mm":[4]}]})";
+}
+
+std::string thrown(const std::function<void()>& call)
+{
+  try
+  {
+    call();
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+} // namespace
+
+// The force triangle itself: thrust and cutting force are the sum of the normal and friction forces
+// on the tool's face, with friction = mu normal.
+TEST(RemovalLaw, CuttingForceClosesTheForceTriangle)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int checked = 0;
+  for (int n = 0; n < 100000; ++n)
+  {
+    const double rake = (60.0 * share(random) - 45.0) * kDegree;
+    const double friction = 1.5 * share(random);
+    const double thrust = 0.1 + 10.0 * share(random);
+    if (friction - std::tan(rake) < OrthogonalCutting::kLeastDifference ||
+        1.0 + friction * std::tan(rake) <= 0.0)
+      continue;
+    const double cutting = OrthogonalCutting(3e9, friction, rake).cuttingForce(thrust);
+    // Merchant: friction force F = Fc sin a + Ft cos a, normal force N = Fc cos a - Ft sin a.
+    const double along = cutting * std::sin(rake) + thrust * std::cos(rake);
+    const double normal = cutting * std::cos(rake) - thrust * std::sin(rake);
+    EXPECT_NEAR(along, friction * normal, 1e-9 * (std::abs(along) + std::abs(normal)));
+    ++checked;
+  }
+  EXPECT_GT(checked, 50000);
+}
+
+// Work balance, W_c dV = F_c dx with dx = r omega dt [Chan2016, Eq. 6, 7].
+TEST(RemovalLaw, CuttingSpendsTheWorkOfTheCuttingForce)
+{
+  const OrthogonalCutting law(3e9, 0.5, -10.0 * kDegree);
+  const double arm = 2e-3;
+  EXPECT_NEAR(3e9 * law.rate(1.5, arm, turns(60000)), law.cuttingForce(1.5) * arm * turns(60000),
+              1e-9);
+}
+
+TEST(RemovalLaw, RatesAreThoseOfTheTable)
+{
+  // 5 mm burr, 70,000 turns a minute, 1 N, friction 0.5, rake -10 degrees.
+  const auto cutting = [](double energy)
+  { return kMm3 * OrthogonalCutting(energy, 0.5, -10 * kDegree).rate(1.0, 2.5e-3, turns(70000)); };
+  EXPECT_NEAR(cutting(150e6), 165.0, 1.0);
+  EXPECT_NEAR(cutting(2e9), 12.0, 0.5);
+  EXPECT_NEAR(cutting(5e9), 5.0, 0.1);
+  // Diamond, 4 mm, 60,000 turns a minute, 417 MPa, 1 N.
+  const auto diamond = [](double k)
+  { return kMm3 * AbrasiveWear(417e6, k).rate(1.0, 2e-3, turns(60000)); };
+  EXPECT_NEAR(diamond(0.05), 0.50, 0.005);
+  EXPECT_NEAR(diamond(0.1), 1.00, 0.01);
+  EXPECT_NEAR(diamond(0.2), 2.01, 0.01);
+}
+
+TEST(RemovalLaw, OutOfItsDomainIsRefused)
+{
+  EXPECT_THROW(OrthogonalCutting(0.0, 0.5, 0.0), core::InvalidParameter);
+  EXPECT_THROW(OrthogonalCutting(-1e9, 0.5, 0.0), core::InvalidParameter);
+  EXPECT_THROW(OrthogonalCutting(std::nan(""), 0.5, 0.0), core::InvalidParameter);
+  EXPECT_THROW(OrthogonalCutting(3e9, 0.09, 0.0), core::InvalidParameter); // difference 0.09
+  EXPECT_NO_THROW(OrthogonalCutting(3e9, 0.1, 0.0));
+  EXPECT_THROW(OrthogonalCutting(3e9, 0.5, 25.0 * kDegree), core::InvalidParameter);
+  EXPECT_THROW(OrthogonalCutting(3e9, 2.0, -30.0 * kDegree), core::InvalidParameter); // 1 + mu tan
+  EXPECT_THROW(OrthogonalCutting(3e9, 0.5, -80.0 * kDegree), core::InvalidParameter);
+  EXPECT_THROW(AbrasiveWear(0.0, 0.1), core::InvalidParameter);
+  EXPECT_THROW(AbrasiveWear(4e8, 0.0), core::InvalidParameter);
+  EXPECT_THROW(AbrasiveWear(4e8, 1.5), core::InvalidParameter);
+}
+
+TEST(MaterialCatalogue, EveryPairThatComesWithTheProgramIsInTheDomain)
+{
+  EXPECT_NO_THROW(checkPairs(MaterialCatalogue::builtIn(), BurrCatalogue::builtIn()));
+  for (const char* name :
+       {"cortical-bone", "cellular-bone", "ossicle", "nerve", "vessel", "soft-tissue", "implant"})
+  {
+    ASSERT_TRUE(MaterialCatalogue::builtIn().contains(name)) << name;
+    EXPECT_FALSE(MaterialCatalogue::builtIn().material(name).status.empty()) << name;
+  }
+}
+
+TEST(MaterialCatalogue, ResistanceIsThatOfTheLawInNewtonsAndMillimetres)
+{
+  const auto catalogue = MaterialCatalogue::builtIn();
+  const auto& bone = catalogue.material("cortical-bone");
+  const auto burrs = BurrCatalogue::builtIn();
+  EXPECT_DOUBLE_EQ(resistanceOf(bone, burrs.model(Burr::Kind::Cutting)),
+                   1e-6 * OrthogonalCutting(3e9, 0.5, -10.0 * kDegree).resistance());
+  EXPECT_DOUBLE_EQ(resistanceOf(bone, burrs.model(Burr::Kind::Diamond)),
+                   1e-6 * 3.0 * 42.5 * 9.807e6 / 0.1);
+}
+
+TEST(MaterialCatalogue, WhatIsWrongIsNamed)
+{
+  const auto load = [](const std::string& text)
+  { return [text] { MaterialCatalogue(text, "F"); }; };
+  EXPECT_EQ(thrown(load(materials("3", "0.5", "40"))), "");
+  EXPECT_EQ(thrown(load(materials("0", "0.5", "40"))),
+            "F: material 'x': 'specific_cutting_energy_gpa' must be above 0, it is 0");
+  EXPECT_EQ(thrown(load(materials("3", "0.5", "-2"))),
+            "F: material 'x': 'vickers_hardness_hv' must be above 0, it is -2");
+  EXPECT_NE(thrown(load("{")).find("F: "), std::string::npos);
+  const auto good = MaterialCatalogue(materials("3", "0.5", "40"), "F");
+  EXPECT_EQ(thrown([&] { good.material("y"); }), "there is no material 'y'; there are x");
+  const std::string pair = thrown([&] { checkPairs(good, BurrCatalogue(burrs(25.0), "B")); });
+  EXPECT_NE(pair.find("material 'x' with the cutting burr: friction less the rake's tangent"),
+            std::string::npos)
+      << pair;
+  EXPECT_NE(thrown([] { BurrCatalogue(R"({"burrs":[]})", "B"); }).find("one burr of the kind"),
+            std::string::npos);
+}

@@ -1,0 +1,72 @@
+#pragma once
+
+namespace petrous::dissection
+{
+
+/// The two laws by which a burr removes tissue, in SI units. Both say that the work done at the
+/// contact, F_t r omega a second, removes a volume in proportion:
+///
+///   dV/dt = F_t r omega / w       F_t    thrust, N
+///                                 r      of the contact from the spindle's axis, m
+///                                 omega  spindle speed, rad/s
+///                                 w      resistance, Pa = J/m^3: what a unit of volume takes
+
+/// Orthogonal cutting, for the cutting burr [Chan2016, Eq. 5 and 8; signs as in
+/// Documentation/equations.md, "Removal"]:
+///
+///   F_c = F_t (1 + mu tan alpha) / (mu - tan alpha)
+///   w   = W_c (mu - tan alpha) / (1 + mu tan alpha)
+///
+/// Domain: mu - tan alpha >= 0.1 and 1 + mu tan alpha > 0. Below the first the force that pushes
+/// the chip off would have no bound.
+class OrthogonalCutting
+{
+public:
+  static constexpr double kLeastDifference = 0.1; ///< of mu - tan alpha
+
+  /// specificEnergy  W_c, Pa, > 0
+  /// friction        mu of the chip on the tool's face, 0 to 2
+  /// rake            alpha, rad, within +-pi/3
+  /// Throws InvalidParameter that says which value, or which pair, is out of the domain.
+  OrthogonalCutting(double specificEnergy, double friction, double rake);
+
+  double resistance() const noexcept { return m_resistance; } ///< Pa
+
+  /// F_c, N, for a thrust in N.
+  double cuttingForce(double thrust) const noexcept { return m_ratio * thrust; }
+
+  /// dV/dt, m^3/s.
+  double rate(double thrust, double arm, double speed) const noexcept
+  {
+    return thrust * arm * speed / m_resistance;
+  }
+
+private:
+  double m_ratio = 0.0; // F_c / F_t
+  double m_resistance = 0.0;
+};
+
+/// Abrasive wear, for the diamond burr [Chan2016, Eq. 9, after Misra & Finnie]:
+///
+///   w = 3 H / k       H  Vickers hardness, Pa;  k  wear coefficient
+class AbrasiveWear
+{
+public:
+  /// hardness         H, Pa, > 0
+  /// wearCoefficient  k, above 0 to 1
+  /// Throws InvalidParameter that says which value is out of the domain.
+  AbrasiveWear(double hardness, double wearCoefficient);
+
+  double resistance() const noexcept { return m_resistance; } ///< Pa
+
+  /// dV/dt, m^3/s.
+  double rate(double thrust, double arm, double speed) const noexcept
+  {
+    return thrust * arm * speed / m_resistance;
+  }
+
+private:
+  double m_resistance = 0.0;
+};
+
+} // namespace petrous::dissection

@@ -1,7 +1,11 @@
 #include "petrous/Dissection/SweptSphereCut.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "BurrCoverage.h"
+#include "Protection.h"
 
 namespace petrous::dissection
 {
@@ -11,106 +15,37 @@ namespace
 
 using volume::CutMask;
 
-// Everything about the cut that does not change from voxel to voxel.
-class Coverage
-{
-public:
-  Coverage(const SweptSphere& burr, const core::GridGeometry& grid)
-    : m_burr(burr)
-    , m_axis(burr.to - burr.from)
-    , m_axisSquared(m_axis.squaredNorm())
-    , m_direction(grid.direction())
-    , m_halfWidth(grid.spacing().norm())
-    , m_bias(grid.spacing().cwiseAbs2() / 12.0)
-    , m_biasLimit(0.25 * grid.minSpacing())
-  {
-  }
-
-  double reach() const { return m_burr.radius + m_halfWidth + m_biasLimit; }
-
-  double at(const Eigen::Vector3d& p) const
-  {
-    const double along = m_axisSquared > 0.0
-                             ? std::clamp((p - m_burr.from).dot(m_axis) / m_axisSquared, 0.0, 1.0)
-                             : 0.0;
-    const Eigen::Vector3d offset = p - (m_burr.from + along * m_axis);
-    const double rho = offset.norm();
-    const double d = rho - m_burr.radius;
-    if (d > m_halfWidth + m_biasLimit)
-      return 0.0;
-    return 0.5 - (d - curvatureBias(offset, rho, along)) / (2.0 * m_halfWidth);
-  }
-
-private:
-  // sum_a h_a^2/12 e_a' H e_a, with the Hessian H of the distance: (I - nn')/rho beyond the ends
-  // of the segment, (I - nn' - tt')/rho beside it.
-  double curvatureBias(const Eigen::Vector3d& offset, double rho, double along) const
-  {
-    if (rho < 1e-9)
-      return 0.0;
-    const Eigen::Vector3d n = m_direction.transpose() * offset / rho;
-    Eigen::Vector3d curvature = Eigen::Vector3d::Ones() - n.cwiseAbs2();
-    if (along > 0.0 && along < 1.0)
-    {
-      const Eigen::Vector3d t = m_direction.transpose() * m_axis;
-      curvature -= t.cwiseAbs2() / m_axisSquared;
-    }
-    return std::min(m_bias.dot(curvature) / rho, m_biasLimit);
-  }
-
-  SweptSphere m_burr;
-  Eigen::Vector3d m_axis;
-  double m_axisSquared;
-  Eigen::Matrix3d m_direction;
-  double m_halfWidth;
-  Eigen::Vector3d m_bias;
-  double m_biasLimit;
-};
-
-double protection(const ProtectedTissue& keep, const Eigen::Vector3d& patient)
-{
-  double most = 0.0;
-  for (const auto& field : keep)
-  {
-    const Eigen::Vector3d voxel = field->geometry().voxelFromPatient(patient);
-    if (field->geometry().hullContains(voxel))
-      most = std::max(most, volume::sampleTrilinear(*field, voxel));
-  }
-  return most;
-}
-
-std::uint16_t quantised(double share)
-{
-  return static_cast<std::uint16_t>(
-      std::lround(std::clamp(share, 0.0, 1.0) * double{CutMask::kUntouched}));
-}
-
 // Null when no voxel of the brick is lowered.
 CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const core::IndexBox& box,
-                               const Coverage& burr, const ProtectedTissue& keep)
+                               const BurrCoverage& burr, const ProtectedTissue& keep)
 {
   constexpr int edge = CutMask::kBrickEdge;
   const CutMask::BrickVersion old = mask.brick(index);
   std::shared_ptr<CutMask::Brick> changed;
-  const core::IndexBox part = mask.brickBox(index).intersected(box);
+  const core::IndexBox whole = mask.brickBox(index);
+  const core::IndexBox part = whole.intersected(box);
   const core::GridGeometry& grid = mask.geometry();
+  const int count = part.upper[0] - part.lower[0];
+  std::array<std::uint16_t, edge> left{};
   for (int k = part.lower[2]; k < part.upper[2]; ++k)
     for (int j = part.lower[1]; j < part.upper[1]; ++j)
-      for (int i = part.lower[0]; i < part.upper[0]; ++i)
+    {
+      const auto first =
+          static_cast<std::size_t>(part.lower[0] - whole.lower[0] +
+                                   edge * (j - whole.lower[1] + edge * (k - whole.lower[2])));
+      burr.row(part.lower[0], j, k, count, left.data());
+      for (int n = 0; n < count; ++n)
       {
-        const Eigen::Vector3d p = grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k});
-        const double taken = burr.at(p);
-        if (taken <= 0.0)
-          continue;
-        double left = 1.0 - taken;
-        if (!keep.empty())
-          left = std::max(left, protection(keep, p));
-        const std::size_t n =
-            static_cast<std::size_t>(i % edge + edge * (j % edge + edge * (k % edge)));
-        const std::uint16_t value = quantised(left);
-        const std::uint16_t present = changed ? (*changed)[n]
-                                      : old   ? (*old)[n]
+        const std::size_t at = first + static_cast<std::size_t>(n);
+        const std::uint16_t present = changed ? (*changed)[at]
+                                      : old   ? (*old)[at]
                                               : CutMask::kUntouched;
+        std::uint16_t value = left[static_cast<std::size_t>(n)];
+        if (value >= present)
+          continue;
+        if (!keep.empty())
+          value = std::max(value, leastLeft(keep, grid.patientFromVoxel({1.0 * (part.lower[0] + n),
+                                                                         1.0 * j, 1.0 * k})));
         if (value >= present)
           continue;
         if (!changed)
@@ -121,18 +56,31 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
           else
             changed->fill(CutMask::kUntouched);
         }
-        (*changed)[n] = value;
+        (*changed)[at] = value;
       }
+    }
   return changed;
 }
 
-} // namespace
-
-double coverage(const SweptSphere& burr, const core::GridGeometry& grid,
-                const Eigen::Vector3d& patient) noexcept
+// Whether the burr's way comes near enough to the voxels of the box to take some of one.
+bool reaches(const SweptSphere& burr, double reach, const core::GridGeometry& grid,
+             const core::IndexBox& box)
 {
-  return std::clamp(Coverage(burr, grid).at(patient), 0.0, 1.0);
+  Eigen::Vector3d center, half;
+  for (int a = 0; a < 3; ++a)
+  {
+    const auto axis = static_cast<std::size_t>(a);
+    center[a] = 0.5 * (box.lower[axis] + box.upper[axis] - 1);
+    half[a] = 0.5 * (box.upper[axis] - 1 - box.lower[axis]) * grid.spacing()[a];
+  }
+  const Eigen::Vector3d p = grid.patientFromVoxel(center);
+  const Eigen::Vector3d way = burr.to - burr.from;
+  const double square = way.squaredNorm();
+  const double t = square > 0.0 ? std::clamp((p - burr.from).dot(way) / square, 0.0, 1.0) : 0.0;
+  return (p - burr.from - t * way).norm() <= reach + half.norm();
 }
+
+} // namespace
 
 std::vector<std::size_t> cut(CutMask& mask, const SweptSphere& burr, const ProtectedTissue& keep)
 {
@@ -141,8 +89,8 @@ std::vector<std::size_t> cut(CutMask& mask, const SweptSphere& burr, const Prote
   if (!burr.from.allFinite() || !burr.to.allFinite())
     throw core::InvalidParameter("cut: the burr's position is not finite");
 
-  const Coverage shape(burr, mask.geometry());
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(shape.reach());
+  const BurrCoverage coverage(burr, mask.geometry());
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(coverage.reach());
   const core::IndexBox box = mask.geometry().boxCovering(burr.from.cwiseMin(burr.to) - margin,
                                                          burr.from.cwiseMax(burr.to) + margin);
   std::vector<std::size_t> changed;
@@ -152,7 +100,9 @@ std::vector<std::size_t> cut(CutMask& mask, const SweptSphere& burr, const Prote
       for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
       {
         const std::size_t index = mask.brickIndex({i, j, k});
-        if (auto version = cutBrick(mask, index, box, shape, keep))
+        if (!reaches(burr, coverage.reach(), mask.geometry(), mask.brickBox(index)))
+          continue;
+        if (auto version = cutBrick(mask, index, box, coverage, keep))
         {
           mask.setBrick(index, std::move(version));
           changed.push_back(index);

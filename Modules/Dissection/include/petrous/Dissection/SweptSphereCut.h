@@ -19,7 +19,12 @@ struct SweptSphere
 /// Structures that the drill must leave: their smoothed unions (SmoothedUnion.h).
 using ProtectedTissue = std::vector<std::shared_ptr<const volume::Volume<float>>>;
 
-/// Share of a voxel that the burr takes, before clamping to [0, 1] (Documentation/adr/0006):
+/// Lowers the mask: mask = min(mask, 1 - coverage), never below what is protected. A burr that
+/// rests removes exactly nothing the second time. Returns the bricks that changed; each gets a
+/// new version. Parts outside the grid cut nothing.
+///
+/// coverage is the share of a voxel that the burr takes, clamped to [0, 1]
+/// (Documentation/adr/0006):
 ///
 ///   coverage = 1/2 - (d - b) / (2 w)       d  signed distance to the swept sphere, mm
 ///   b = sum_a h_a^2/12 d2d/dx_a2           mean excess of trilinear interpolation of d
@@ -27,12 +32,7 @@ using ProtectedTissue = std::vector<std::shared_ptr<const volume::Volume<float>>
 ///
 /// With this w no corner of a cell that the surface crosses is clamped, so the 1/2 level of the
 /// interpolated mask is the sphere and not its voxels; b takes out the bias of its curvature.
-double coverage(const SweptSphere& burr, const core::GridGeometry& grid,
-                const Eigen::Vector3d& patient) noexcept;
-
-/// Lowers the mask: mask = min(mask, 1 - coverage), never below what is protected. A burr that
-/// rests removes exactly nothing the second time. Returns the bricks that changed; each gets a
-/// new version. Parts outside the grid cut nothing.
+///
 /// Throws InvalidParameter when the radius is not above 0 or a position is not finite.
 std::vector<std::size_t> cut(volume::CutMask& mask, const SweptSphere& burr,
                              const ProtectedTissue& keep = {});

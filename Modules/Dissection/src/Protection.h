@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "petrous/Dissection/SweptSphereCut.h"
+
+namespace petrous::dissection
+{
+
+/// The least that a cut leaves of a voxel at a patient point, in steps of the mask.
+inline std::uint16_t leastLeft(const ProtectedTissue& keep, const Eigen::Vector3d& patient)
+{
+  double most = 0.0;
+  for (const auto& field : keep)
+  {
+    const Eigen::Vector3d voxel = field->geometry().voxelFromPatient(patient);
+    if (field->geometry().hullContains(voxel))
+      most = std::max(most, volume::sampleTrilinear(*field, voxel));
+  }
+  return static_cast<std::uint16_t>(
+      std::lround(std::min(most, 1.0) * double{volume::CutMask::kUntouched}));
+}
+
+} // namespace petrous::dissection

@@ -266,6 +266,7 @@ void CaseKeeper::endJob()
 
 bool CaseKeeper::settle()
 {
+  m_model.stopTouch(); // what was drilled until now is in the case
   if (!m_job)
     return true;
   const WaitCursor wait;

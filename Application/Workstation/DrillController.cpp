@@ -286,9 +286,7 @@ void DrillController::press(const interaction::SightLine& line)
 
 void DrillController::release()
 {
-  m_lead.drill(false);
-  if (m_lead.byMouse() && !m_lead.pedalDown()) // a device's stroke ends with the servo's next tick
-    hear(m_model.endStroke());
+  m_lead.drill(false); // the stroke ends with the servo's next tick
 }
 
 void DrillController::frame()
@@ -304,6 +302,11 @@ void DrillController::hear(const presenters::TouchSession::News& news)
     show(news);
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
+  if (!news.failure.empty())
+  {
+    layDown();
+    emit said(words(news.failure));
+  }
   if (news.record && m_model.touching() && isLost(*news.record))
     m_hands.giveUp(whyLost());
 }

@@ -169,6 +169,7 @@ void MainWindow::connectModel()
   m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.stateChanged = [this] { stateChanged(); };
+  m_model.events.stepped = [this](bool back) { stepped(back); };
   connect(m_slices, &SliceColumn::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
@@ -202,8 +203,8 @@ void MainWindow::connectActions()
   on(m_actions->save, [this] { m_keeper->save(); });
   on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
   on(m_actions->quit, [this] { close(); });
-  on(m_actions->undo, [this] { step(true); });
-  on(m_actions->redo, [this] { step(false); });
+  on(m_actions->undo, [this] { m_model.undo(); });
+  on(m_actions->redo, [this] { m_model.redo(); });
   on(m_actions->centerView,
      [this]
      {
@@ -305,9 +306,8 @@ void MainWindow::showView(rendering::StandardView view)
     m_view->setCamera(presenters::standardCamera(m_model.value(), view));
 }
 
-void MainWindow::step(bool back)
+void MainWindow::stepped(bool back)
 {
-  back ? m_model.undo() : m_model.redo(); // closes the open stroke first
   const scene::Case& value = m_model.value();
   const std::size_t stroke = back ? value.applied : value.applied - 1;
   if (m_actions->strokeCamera->isChecked() && stroke < value.strokes.size() &&

@@ -65,7 +65,7 @@ private:
   void stateChanged();
   void showPlace(const Eigen::Vector3d& patient);
   void showView(rendering::StandardView view);
-  void step(bool back); // undo, or redo
+  void stepped(bool back); // an undo, or a redo
   QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
   bool secure(); // what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);

@@ -42,8 +42,7 @@ public:
   void letGo(); ///< of drill and pedal
 
   void see(const simulation::TickRecord& record); ///< of a touch that runs
-  bool pedalDown() const noexcept { return m_foot; }
-  void send(); ///< camera, switches and settings as they are now
+  void send();                                    ///< camera, switches and settings as they are now
 
 private:
   Eigen::Vector3d placeLookedAt();

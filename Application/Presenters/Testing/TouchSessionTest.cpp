@@ -70,7 +70,13 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   ASSERT_TRUE(drillSome());
   EXPECT_TRUE(session.drilling());
   hand.drill(false);
-  const auto news = session.endStroke();
+  TouchSession::News news;
+  ASSERT_TRUE(until(
+      [&]
+      {
+        news = frame();
+        return !news.strokes.empty();
+      }));
   EXPECT_FALSE(session.drilling());
   ASSERT_EQ(news.strokes.size(), 1u);
   ASSERT_TRUE(news.strokes.front());
@@ -95,31 +101,37 @@ TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
       }));
 }
 
-TEST_F(TouchSessionTest, ACallNeverCutsDeeperThanHalfARadius)
-{
-  ASSERT_TRUE(drillSome());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300)); // 6 mm at this feed: a slow picture
-  const double before = frame().record->proxy.pose().position.z();
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  // In between the tool only came to the bottom of what the last call took.
-  EXPECT_GE(frame().record->proxy.pose().position.z(), before - 1.0 - 0.1);
-}
-
 TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
 {
   ASSERT_TRUE(drillSome());
-  ASSERT_TRUE(session.undo());
-  EXPECT_TRUE(value.dissection->mask().untouched());
+  const auto step = [this](bool back)
+  {
+    back ? session.undo() : session.redo();
+    TouchSession::News news;
+    EXPECT_TRUE(until(
+        [&]
+        {
+          news = frame();
+          return !news.steps.empty();
+        }));
+    EXPECT_EQ(news.steps, std::vector<bool>{back});
+    EXPECT_FALSE(news.bricks.empty());
+  };
+  step(true);
   EXPECT_EQ(value.applied, 0u);
-  EXPECT_FALSE(frame().bricks.empty());
   // The drill is still held: the next stroke takes the place of the one undone.
-  ASSERT_TRUE(until([this] { return !frame().bricks.empty(); }));
+  ASSERT_TRUE(until(
+      [this]
+      {
+        frame();
+        return session.drilling() && !value.dissection->mask().untouched();
+      }));
   hand.drill(false);
-  session.endStroke();
+  ASSERT_TRUE(until([this] { return !frame().strokes.empty(); }));
   ASSERT_EQ(value.strokes.size(), 1u);
-  ASSERT_TRUE(session.undo());
-  ASSERT_TRUE(session.redo());
-  EXPECT_FALSE(session.redo());
+  step(true);
+  EXPECT_TRUE(value.dissection->mask().untouched());
+  step(false);
   EXPECT_EQ(value.applied, 1u);
   EXPECT_FALSE(value.dissection->mask().untouched());
   ASSERT_TRUE(until(
@@ -128,6 +140,10 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
         const auto record = frame().record;
         return record && record->fault == 0 && std::abs(record->thrust - 1.0) < 0.1;
       }));
+  session.redo(); // there is none
+  const auto news = session.stop();
+  EXPECT_TRUE(news.steps.empty());
+  EXPECT_EQ(value.applied, 1u);
 }
 
 TEST_F(TouchSessionTest, StopClosesTheStrokeAndEndsTheServo)

@@ -54,7 +54,7 @@ protected:
     EXPECT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
     EXPECT_TRUE(model.drilling());
     hand.drill(false);
-    EXPECT_EQ(model.endStroke().strokes.size(), 1u);
+    EXPECT_TRUE(until([&model] { return model.advanceTouch().strokes.size() == 1; }));
     model.stopTouch();
     EXPECT_FALSE(model.touching());
   }
@@ -116,9 +116,18 @@ TEST_F(WorkstationModelTest, UndoesTheOpenStrokeWhileTheToolIsInTheHand)
   ASSERT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
   EXPECT_TRUE(model.canUndo());
   hand.drill(false);
+  bool back = false;
+  model.events.stepped = [&back](bool undone) { back = undone; };
   model.undo();
+  EXPECT_TRUE(until(
+      [&]
+      {
+        model.advanceTouch();
+        return back;
+      }));
   EXPECT_TRUE(model.touching());
   EXPECT_FALSE(model.drilling());
+  EXPECT_TRUE(model.unsaved());
   EXPECT_EQ(model.value().applied, 0u);
   EXPECT_TRUE(model.value().dissection->mask().untouched());
   EXPECT_TRUE(model.canRedo());

@@ -53,12 +53,17 @@ std::shared_ptr<const dissection::Stroke> DrillSession::end()
   if (!drilling())
     return nullptr;
   auto& work = *m_case.dissection;
-  auto removed = dissection::measureRemoved(m_field, work.maskBeforeStroke(), work.mask(),
-                                            work.openBricks(), m_structures);
+  auto removed = measure(work);
   work.openInfo().removed = removed.total;
   work.openInfo().structures = std::move(removed.structures);
   m_last.reset();
   return scene::endStroke(m_case);
+}
+
+dissection::RemovedVolume DrillSession::measure(const dissection::Dissection& work) const
+{
+  return dissection::measureRemoved(m_field, work.maskBeforeStroke(), work.mask(),
+                                    work.openBricks(), m_structures);
 }
 
 std::string utcNow()

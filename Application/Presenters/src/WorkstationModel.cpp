@@ -145,27 +145,16 @@ bool WorkstationModel::canRedo() const noexcept
 
 void WorkstationModel::step(bool back)
 {
-  std::vector<std::size_t> bricks;
   if (m_touch)
-  {
-    const bool moved = back ? m_touch->undo() : m_touch->redo();
-    bricks = m_touch->advance().bricks;
-    if (!moved)
-    {
-      tellMask(bricks);
-      return tell(events.stateChanged);
-    }
-  }
-  else
-  {
-    if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
-      return;
-    bricks = m_case->dissection->mask().takeDirty();
-    if (m_scene)
-      m_scene->publish(bricks);
-  }
+    return back ? m_touch->undo() : m_touch->redo();
+  if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
+    return;
+  const std::vector<std::size_t> bricks = m_case->dissection->mask().takeDirty();
+  if (m_scene)
+    m_scene->publish(bricks);
   tellMask(bricks);
   setUnsaved(true);
+  tell(events.stepped, back);
 }
 
 void WorkstationModel::undo()
@@ -277,8 +266,8 @@ DrillSession& WorkstationModel::session()
 // What was made of the case's voxels, threshold and structures.
 void WorkstationModel::forgetTissue()
 {
+  stopTouch();
   m_reader.reset();
-  m_touch.reset();
   m_scene.reset();
   m_session.reset();
 }
@@ -293,12 +282,12 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
   if (!m_surfaces) // after the reader, which makes the voxels of the meshes
     m_surfaces = std::make_unique<StructureSurfaces>(*m_case);
   reading.near = m_surfaces->nearest(patient, PlaceReader::kReach,
-                                    [this](const std::string& name)
-                                    {
-                                      const auto* part = scene::findStructure(*m_case, name);
-                                      const auto* mesh = scene::findMesh(*m_case, name);
-                                      return part ? part->look.shown : mesh && mesh->look.shown;
-                                    });
+                                     [this](const std::string& name)
+                                     {
+                                       const auto* part = scene::findStructure(*m_case, name);
+                                       const auto* mesh = scene::findMesh(*m_case, name);
+                                       return part ? part->look.shown : mesh && mesh->look.shown;
+                                     });
   return reading;
 }
 
@@ -335,8 +324,11 @@ TouchSession::News WorkstationModel::hear(TouchSession::News news)
   tellMask(news.bricks);
   for (const auto& stroke : news.strokes)
     m_unsaved = m_unsaved || stroke;
-  if (!news.strokes.empty())
+  m_unsaved = m_unsaved || !news.steps.empty();
+  if (!news.strokes.empty() || !news.steps.empty())
     tell(events.stateChanged);
+  if (!news.steps.empty())
+    tell(events.stepped, static_cast<bool>(news.steps.back()));
   return news;
 }
 
@@ -351,16 +343,17 @@ TouchSession::News WorkstationModel::advanceTouch()
   return news;
 }
 
-TouchSession::News WorkstationModel::endStroke()
-{
-  return m_touch ? hear(m_touch->endStroke()) : TouchSession::News();
-}
-
 TouchSession::News WorkstationModel::stopTouch()
 {
   if (!m_touch)
     return {};
   TouchSession::News news = m_touch->stop();
+  if (m_touch->failed()) // the hand's tissue may not be the eye's any more
+  {
+    m_reader.reset();
+    m_touch.reset();
+    m_scene.reset();
+  }
   m_touch.reset();
   return hear(std::move(news));
 }

@@ -76,6 +76,7 @@ TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
   QTest::keyPress(&view(), Qt::Key_Space);
   QTest::qWait(500);
   QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_TRUE(strokeEnds());
   ASSERT_EQ(window().model().value().strokes.size(), 1u);
   EXPECT_GT(window().model().value().removedVolume(), 0.0);
 }
@@ -116,6 +117,7 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   QTest::keyPress(&view(), Qt::Key_Space);
   EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
   QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_TRUE(strokeEnds());
   EXPECT_EQ(window().model().value().strokes.size(), 1u);
   QTest::keyClick(&view(), Qt::Key_M);
   turn(1); // zooms again

@@ -154,6 +154,12 @@ void GuiTest::drill(int milliseconds, int pixels)
     QApplication::sendEvent(&view(), &move);
   }
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_TRUE(strokeEnds());
+}
+
+bool GuiTest::strokeEnds()
+{
+  return waitFor([this] { return !m_window->model().drilling(); });
 }
 
 void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)

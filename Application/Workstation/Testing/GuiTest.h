@@ -46,6 +46,7 @@ protected:
   void dropPath(const std::filesystem::path& path);
   /// Drills from the view's middle for `milliseconds`, moving right by `pixels`.
   void drill(int milliseconds, int pixels = 0);
+  bool strokeEnds(); ///< after the drill was let go: it is cut in a thread of its own
 
   /// Calls `react` with the next message box (polling), which must close it.
   void onMessage(const std::function<void(QMessageBox&)>& react);

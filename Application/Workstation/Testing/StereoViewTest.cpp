@@ -251,6 +251,7 @@ TEST_F(PictureView, TheSurgeonDrillsInTheirOwnWindow)
     QTest::mousePress(&surgeon, Qt::LeftButton, Qt::NoModifier, middle);
     QTest::qWait(600);
     QTest::mouseRelease(&surgeon, Qt::LeftButton, Qt::NoModifier, middle);
+    EXPECT_TRUE(strokeEnds());
   }
   ASSERT_GE(window().model().value().strokes.size(), 1u);
   EXPECT_GT(removed(), 0.1);
@@ -293,6 +294,7 @@ TEST_F(PictureView, TheWindowMayBeResizedWhileTheDrillIsOn)
     EXPECT_TRUE(view().drilling());
   }
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  EXPECT_TRUE(strokeEnds());
   ASSERT_EQ(window().model().value().strokes.size(), 1u);
   const QImage image = picture();
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);

@@ -36,12 +36,16 @@ std::shared_ptr<const dissection::Stroke> endStroke(Case& value)
   if (!value.dissection)
     return nullptr;
   auto stroke = value.dissection->endStroke();
-  if (!stroke)
-    return nullptr;
-  value.strokes.resize(value.applied);
-  value.strokes.push_back({"", 0, stroke->info});
-  value.applied = value.strokes.size();
+  if (stroke)
+    listStroke(value, *stroke);
   return stroke;
+}
+
+void listStroke(Case& value, const dissection::Stroke& stroke)
+{
+  value.strokes.resize(value.applied);
+  value.strokes.push_back({"", 0, stroke.info});
+  value.applied = value.strokes.size();
 }
 
 const StructurePart* findStructure(const Case& value, const std::string& name)

@@ -142,14 +142,15 @@ protected:
     SpscRing<TickRecord> ring(1 << 15);
     ServoParameters parameters;
     ServoThread thread(servo, device, ring, parameters);
-    DissectionThread dissection(ring, loop,
-                                [&](const TickRecord& record)
-                                {
-                                  recorder.add(&record, 1);
-                                  live.push_back(record);
-                                  retreats += record.status == static_cast<std::uint8_t>(
-                                                                   haptics::ProxyStatus::Retreated);
-                                });
+    DissectionThread dissection(
+        ring, loop,
+        {[&](const TickRecord& record)
+         {
+           recorder.add(&record, 1);
+           live.push_back(record);
+           retreats += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Retreated);
+         },
+         {}});
     // A slow machine has fewer ticks for the same way of the hand: on until tissue that came back
     // has met the tool.
     for (int n = 0; n < rounds || (retreats == 0 && n < 10 * rounds); ++n)

@@ -83,7 +83,7 @@ void touchCutAndUndo(LoopScene& scene, Servo& tool)
   std::uint64_t recorded = 0;
   {
     ServoThread servo(tool, device, ring, parameters);
-    DissectionThread dissection(ring, loop, [&recorded](const TickRecord&) { ++recorded; });
+    DissectionThread dissection(ring, loop, {[&recorded](const TickRecord&) { ++recorded; }, {}});
     for (int n = 0; n < 12; ++n)
     {
       const std::uint64_t from = servo.state().ticks;
@@ -225,11 +225,12 @@ TEST(DissectionThread, GoesOnCuttingWhenTheRecordingFails)
   session.pedal = 1.0;
   int calls = 0;
   DissectionThread thread(ring, loop,
-                          [&calls](const TickRecord&)
-                          {
-                            ++calls;
-                            throw std::runtime_error("the disk is full");
-                          });
+                          {[&calls](const TickRecord&)
+                           {
+                             ++calls;
+                             throw std::runtime_error("the disk is full");
+                           },
+                           {}});
   for (int n = 0; n < 50; ++n)
     ring.push(session.tick({{0.0, 0.0, 1.0}, Quaterniond::Identity()}));
   thread.stop();

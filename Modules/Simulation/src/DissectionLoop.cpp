@@ -61,8 +61,16 @@ void DissectionLoop::tell(MaskEdit edit) const
 
 bool DissectionLoop::cut(const dissection::SweptSphere& burr)
 {
-  if (!m_dissection.cut(burr, m_keep))
-    return false;
+  try
+  {
+    if (!m_dissection.cut(burr, m_keep))
+      return false;
+  }
+  catch (...)
+  {
+    putBack();
+    throw;
+  }
   ++m_cuts;
   publish(false);
   MaskEdit edit{MaskEdit::Kind::Cut};
@@ -74,6 +82,15 @@ bool DissectionLoop::cut(const dissection::SweptSphere& burr)
   edit.radius = burr.radius;
   tell(edit);
   return true;
+}
+
+// What half a cut has changed, and no stroke would list.
+void DissectionLoop::putBack()
+{
+  volume::CutMask& mask = m_dissection.mask();
+  for (const std::size_t brick : mask.takeDirty())
+    mask.setBrick(brick, m_mask.brick(brick));
+  mask.takeDirty();
 }
 
 void DissectionLoop::publish(bool raised)
@@ -114,7 +131,7 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
     if (!bite)
       continue;
     if (pending && (bite->from - pending->from).norm() <= kTogether)
-      pending->to += bite->to - bite->from;
+      pending->to = bite->to;
     else
     {
       flush();

@@ -14,10 +14,12 @@ constexpr std::chrono::milliseconds kPoll(1);
 
 } // namespace
 
-DissectionThread::DissectionThread(SpscRing<TickRecord>& records, DissectionLoop& loop, Sink sink)
+DissectionThread::DissectionThread(SpscRing<TickRecord>& records, DissectionLoop& loop, Hooks hooks,
+                                   bool cuts)
   : m_records(records)
   , m_loop(loop)
-  , m_sink(std::move(sink))
+  , m_hooks(std::move(hooks))
+  , m_cuts(cuts)
   , m_batch(kBatch)
   , m_thread([this] { run(); })
 {
@@ -63,13 +65,14 @@ std::string DissectionThread::takeFailure()
   return std::exchange(m_failure, {});
 }
 
-// The session goes on whatever fails here; the first failure is kept for whoever asks.
+// The first failure is kept for whoever asks.
 template <typename Work>
-void DissectionThread::attempt(const char* what, Work work)
+bool DissectionThread::attempt(const char* what, Work work)
 {
   try
   {
     work();
+    return true;
   }
   catch (const std::exception& error)
   {
@@ -77,26 +80,38 @@ void DissectionThread::attempt(const char* what, Work work)
     if (m_failure.empty())
       m_failure = std::string(what) + " failed: " + error.what();
   }
+  return false;
+}
+
+// What cannot go on without.
+template <typename Work>
+void DissectionThread::need(const char* what, Work work)
+{
+  if (attempt(what, std::move(work)) || m_failed.exchange(true))
+    return;
+  attempt("Closing the stroke", [this] { m_loop.endStroke(); });
+}
+
+void DissectionThread::pass()
+{
+  if (m_hooks.after)
+    need("Passing on what was cut", [this] { m_hooks.after(); });
 }
 
 void DissectionThread::drain()
 {
   while (const std::size_t count = m_records.pop(m_batch.data(), m_batch.size()))
   {
-    if (m_sink)
+    const auto record = [&]
     {
-      bool done = false;
-      attempt("Recording",
-              [&]
-              {
-                for (std::size_t n = 0; n < count; ++n)
-                  m_sink(m_batch[n]);
-                done = true;
-              });
-      if (!done)
-        m_sink = {};
-    }
-    attempt("Cutting", [&] { m_loop.step(m_batch.data(), count); });
+      for (std::size_t n = 0; n < count; ++n)
+        m_hooks.tick(m_batch[n]);
+    };
+    if (m_hooks.tick && !attempt("Recording", record))
+      m_hooks.tick = {};
+    if (m_cuts && !m_failed)
+      need("Cutting", [&] { m_loop.step(m_batch.data(), count); });
+    pass();
   }
 }
 
@@ -107,12 +122,14 @@ void DissectionThread::obey()
     const std::lock_guard<std::mutex> lock(m_mutex);
     asked.swap(m_asked);
   }
+  if (asked.empty())
+    return;
   for (const bool undo : asked)
-    attempt(undo ? "Undo" : "Redo", [&] { undo ? m_loop.undo() : m_loop.redo(); });
+    need(undo ? "Undo" : "Redo", [&] { undo ? m_loop.undo() : m_loop.redo(); });
   // A tick that begins from now on sees the new state.
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  if (!asked.empty())
-    m_loop.ignoreUntil(now.count());
+  m_loop.ignoreUntil(now.count());
+  pass();
 }
 
 void DissectionThread::run()
@@ -130,7 +147,8 @@ void DissectionThread::run()
     if (stop)
       break;
   }
-  attempt("Closing the stroke", [this] { m_loop.endStroke(); });
+  need("Closing the stroke", [this] { m_loop.endStroke(); });
+  pass();
 }
 
 } // namespace petrous::simulation

@@ -41,6 +41,10 @@ public:
   /// changed nothing.
   std::shared_ptr<const dissection::Stroke> end();
 
+  /// What the open stroke of a dissection of this case, or of a copy, has removed so far. Pure: of
+  /// what this holds it reads nothing that drilling changes, so that another thread may ask.
+  dissection::RemovedVolume measure(const dissection::Dissection& work) const;
+
 private:
   scene::Case& m_case;
   volume::TissueField m_field;

@@ -27,6 +27,8 @@ public:
     std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
     std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
     std::function<void()> crosshairMoved;
+    /// One stroke back (true) or forth, on request; the case's list is there already.
+    std::function<void(bool back)> stepped;
     std::function<void()> stateChanged; ///< name, saved or not, what can be undone
   };
 
@@ -62,6 +64,8 @@ public:
 
   bool canUndo() const noexcept;
   bool canRedo() const noexcept;
+  /// While a tool is in the hand they are only asked for, and told some milliseconds later; see
+  /// Events::stepped.
   void undo();
   void redo();
 
@@ -94,10 +98,9 @@ public:
   TouchSession* touch() noexcept { return m_touch.get(); }
   bool drilling() const noexcept { return m_touch && m_touch->drilling(); }
 
-  /// Once a picture: cuts what was drilled since. The strokes are not saved yet.
+  /// Once a picture: shows what was drilled since. The strokes are not saved yet.
   TouchSession::News advanceTouch();
-  TouchSession::News endStroke(); ///< see TouchSession; nothing happens without a touch
-  TouchSession::News stopTouch();
+  TouchSession::News stopTouch(); ///< see TouchSession; nothing happens without a touch
 
 private:
   DrillSession& session();
@@ -113,8 +116,8 @@ private:
   SceneAssembly m_assembly;
   std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
   std::unique_ptr<TouchScene> m_scene;
-  std::unique_ptr<TouchSession> m_touch;       ///< after m_scene, which it uses
-  std::unique_ptr<PlaceReader> m_reader;       ///< when first asked for; likewise
+  std::unique_ptr<TouchSession> m_touch;         ///< after m_scene, which it uses
+  std::unique_ptr<PlaceReader> m_reader;         ///< when first asked for; likewise
   std::unique_ptr<StructureSurfaces> m_surfaces; ///< likewise; a cut changes nothing of them
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;

@@ -107,6 +107,9 @@ std::size_t redo(Case& value, std::size_t count);
 /// Closes the open stroke of `dissection` and lists it. Null when it changed nothing.
 std::shared_ptr<const dissection::Stroke> endStroke(Case& value);
 
+/// Lists a stroke that `dissection` has already; those that were undone are given up.
+void listStroke(Case& value, const dissection::Stroke& stroke);
+
 /// The structure, or null.
 StructurePart* findStructure(Case& value, const std::string& name);
 const StructurePart* findStructure(const Case& value, const std::string& name);

@@ -17,6 +17,8 @@ namespace petrous::simulation
 ///
 /// Alternating with the servo (tick, step, tick, step ...) the same records give the same mask; in
 /// a thread of its own it may lag, and takes bites at nearly one place together.
+///
+/// When a cut throws (no memory), mask and stroke are as they were before it.
 class DissectionLoop
 {
 public:
@@ -39,7 +41,7 @@ public:
   bool step(const TickRecord& record);
 
   /// What follows `count` ticks, oldest first: where the tool hardly moved (`kTogether`) between
-  /// bites they are made as one, of the same depth in all.
+  /// bites only the last is made, which goes on from the others (Feed).
   bool step(const TickRecord* records, std::size_t count);
   static constexpr double kTogether = 0.05; ///< mm
 
@@ -73,6 +75,7 @@ private:
   void open();
   bool turn(bool back);
   void publish(bool raised);
+  void putBack();
   void tell(MaskEdit edit) const;
 
   dissection::Dissection& m_dissection;

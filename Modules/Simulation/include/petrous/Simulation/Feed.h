@@ -15,7 +15,9 @@ public:
   virtual ~Feed() = default;
 
   /// The space that the burr takes in `seconds` of a tick with the drill on; nothing where it takes
-  /// nothing.
+  /// nothing. The servo may not have felt the last bites yet, or not made way for them: for a loop
+  /// that lags, a bite at their place holds them, too (OwedFeed). It must end within about a voxel
+  /// of the tool, so that a loop that stood still does not run ahead of what is felt.
   virtual std::optional<dissection::SweptSphere> bite(const TickRecord& record, double seconds) = 0;
 };
 
@@ -39,9 +41,10 @@ private:
   double m_gain;
 };
 
-/// Carries depth over where a bite is smaller than what the burr stands off the surface of its last
-/// one: what the burr has not come forward by is owed, and the next bite takes it with its own. For
-/// a loop in step with the servo, which feels each bite before the next.
+/// Carries depth over: what the burr has not come forward by since its last bite is owed, and the
+/// next bite takes it with its own. So it drills at the feed's rate where a bite is smaller than
+/// what the burr stands off the surface of the last one, and where the servo feels it some ticks
+/// later; a loop that stood still takes `kMost` at a place, however many ticks wait for it.
 class OwedFeed : public Feed
 {
 public:

@@ -31,6 +31,13 @@ public:
     return block ? (*block)[index % kBlock].get() : nullptr;
   }
 
+  /// The same, to be kept.
+  CutMask::BrickVersion version(std::size_t index) const
+  {
+    const Block* block = m_blocks[index / kBlock].get();
+    return block ? (*block)[index % kBlock] : nullptr;
+  }
+
   std::uint64_t number() const noexcept { return m_number; } ///< of the state, rising
 
   /// How often tissue came back (undo, another case): until this changes, the tissue of a later
@@ -67,6 +74,9 @@ public:
 
   /// Writer: number of the present state.
   std::uint64_t number() const noexcept { return m_states.back()->number(); }
+
+  /// Writer: a brick in the present state.
+  CutMask::BrickVersion brick(std::size_t index) const { return m_states.back()->version(index); }
 
   /// Writer: states that are kept for the reader's sake, the present one included.
   std::size_t statesHeld() const noexcept { return m_states.size(); }

@@ -1,0 +1,110 @@
+#include "petrous/Presenters/TouchDissection.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+class LiveFeed final : public simulation::Feed
+{
+public:
+  LiveFeed(double radius, double gain)
+    : m_law(radius, gain)
+  {
+  }
+  std::optional<dissection::SweptSphere> bite(const simulation::TickRecord& record,
+                                              double seconds) override
+  {
+    return m_owed.bite(record, seconds);
+  }
+
+private:
+  simulation::SimpleFeed m_law;
+  simulation::OwedFeed m_owed{m_law};
+};
+
+// Nothing in it is new to the servo or the case.
+dissection::Dissection forkOf(const dissection::Dissection& start)
+{
+  dissection::Dissection fork = start;
+  fork.mask().takeDirty();
+  return fork;
+}
+
+// The one place where a live session gets its feed. `work` is the mask that it goes into.
+std::unique_ptr<simulation::Feed> feedOf(const TouchScene&, const TouchDissection::Setup& setup,
+                                         const dissection::Dissection&)
+{
+  return std::make_unique<LiveFeed>(0.5 * setup.burr.diameter, setup.feed);
+}
+
+} // namespace
+
+TouchDissection::TouchDissection(const dissection::Dissection& start, TouchScene& scene,
+                                 simulation::SpscRing<simulation::TickRecord>& ring, Setup setup)
+  : m_setup(std::move(setup))
+  , m_work(forkOf(start))
+  , m_feed(feedOf(scene, m_setup, m_work))
+  , m_reporter(m_work, m_mailbox)
+  , m_loop(m_work, *scene.mask(), *m_feed, scene.drill().protectedTissue(), hooks(scene))
+  , m_thread(ring, m_loop,
+             {[this](const simulation::TickRecord& record)
+              {
+                m_reporter.note(record);
+                if (m_setup.recorder)
+                  m_setup.recorder->add(&record, 1);
+              },
+              [this] { pass(); }},
+             m_setup.cuts)
+{
+}
+
+simulation::DissectionLoop::Hooks TouchDissection::hooks(TouchScene& scene)
+{
+  auto hooks = scene.hooksOf(m_setup.burr,
+                             [this]
+                             {
+                               const std::lock_guard<std::mutex> lock(m_mutex);
+                               return m_camera;
+                             });
+  if (m_setup.recorder)
+    hooks.edited = [this](const simulation::MaskEdit& edit) { m_setup.recorder->add(edit); };
+  return m_reporter.listen(std::move(hooks),
+                           [&drill = std::as_const(scene.drill())](dissection::Dissection& work)
+                           {
+                             auto removed = drill.measure(work);
+                             work.openInfo().removed = removed.total;
+                             work.openInfo().structures = std::move(removed.structures);
+                           });
+}
+
+void TouchDissection::pass()
+{
+  if (m_setup.recorder)
+    if (const std::string fault = m_setup.recorder->takeFailure(); !fault.empty())
+      m_reporter.note(fault);
+  m_reporter.post();
+  if (const std::string complaint = m_reporter.takeComplaint(); !complaint.empty())
+    throw std::runtime_error(complaint);
+}
+
+void TouchDissection::setCamera(const core::CameraPose& camera)
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  m_camera = camera;
+}
+
+void TouchDissection::stop()
+{
+  m_thread.stop();
+  if (!m_setup.recorder)
+    return;
+  m_setup.recorder->close();
+  pass();
+}
+
+} // namespace petrous::presenters

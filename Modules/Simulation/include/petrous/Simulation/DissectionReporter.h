@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+
+#include "petrous/Simulation/DissectionLoop.h"
+#include "petrous/Simulation/DissectionMail.h"
+
+namespace petrous::simulation
+{
+
+/// Notes what a DissectionLoop does and posts it. For the thread that cuts.
+class DissectionReporter
+{
+public:
+  /// Fills in what is known of a stroke only at its end (its removed volume). What it throws is
+  /// told once by `complain`, and the stroke is closed without.
+  using Complete = std::function<void(dissection::Dissection&)>;
+
+  /// Both must outlive this; `work` is the loop's dissection.
+  DissectionReporter(const dissection::Dissection& work, DissectionMailbox& mailbox);
+
+  /// The loop's hooks, so that this hears of all. Of `others` begin and edited are called, too.
+  DissectionLoop::Hooks listen(DissectionLoop::Hooks others, Complete complete);
+
+  void note(const TickRecord& record); ///< for its fault
+  void note(const std::string& recordingFault);
+
+  /// Posts what was noted since: once after several ticks, so that bricks, events and history fit
+  /// each other.
+  void post();
+
+  std::string takeComplaint(); ///< why a stroke was not completed, once; empty otherwise
+
+private:
+  void close(dissection::Dissection& work, const Complete& complete);
+  void note(const MaskEdit& edit);
+
+  const dissection::Dissection& m_work;
+  DissectionMailbox& m_mailbox;
+  DissectionMail m_mail;
+  std::shared_ptr<const dissection::Stroke> m_closed;
+  std::string m_complaint;
+};
+
+} // namespace petrous::simulation

@@ -8,6 +8,7 @@
 #include "BenchPlot.h"
 #include "Commands.h"
 #include "CutBenchmark.h"
+#include "DistanceBenchmark.h"
 #include "ImportBenchmark.h"
 #include "Numbers.h"
 #include "QpBenchmark.h"
@@ -42,6 +43,8 @@ constexpr Benchmark kBenchmarks[] = {
      { return imaging::runImportBenchmark(work, options.quick, progress); }},
     {"cut", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return dissection::runCutBenchmark(work, options.quick, progress); }},
+    {"distance", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return volume::runDistanceBenchmark(options.quick, progress); }},
     {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return library::runSaveBenchmark(work, options.quick, progress); }},
     {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)

@@ -4,6 +4,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Scene/ExposedSurfaces.h"
 
 namespace petrous::cli
 {
@@ -193,16 +194,33 @@ void addRemove(CLI::App& app, Context& context)
 void addInfo(CLI::App& app, Context& context)
 {
   auto name = std::make_shared<std::string>();
-  context
-      .addCommand(app, "info", "What a case holds",
-                  [name, &context]
-                  {
-                    const scene::Case value = context.openLibrary().open(*name);
-                    sayCase(context, value);
-                    context.give(infoJson(value));
-                  })
-      ->add_option("CASE", *name)
-      ->required();
+  auto exposed = std::make_shared<bool>(false);
+  CLI::App* command = context.addCommand(
+      app, "info", "What a case holds",
+      [name, exposed, &context]
+      {
+        const library::Library library = context.openLibrary();
+        scene::Case value = library.open(*name);
+        nlohmann::json areas = nlohmann::json::array();
+        sayCase(context, value);
+        if (*exposed)
+        {
+          library.loadDissection(value);
+          for (const auto& surface : scene::exposedSurfaces(value, context.progress()))
+          {
+            context.say("  of '" + surface.name + "' laid open: " + fixed(surface.area, 1) +
+                        " mm2");
+            areas.push_back({{"label", surface.name}, {"area_mm2", surface.area}});
+          }
+        }
+        nlohmann::json info = infoJson(value);
+        if (*exposed)
+          info["dissection"]["exposed"] = std::move(areas);
+        context.give(info);
+      });
+  command->add_option("CASE", *name)->required();
+  command->add_flag("--exposed", *exposed,
+                    "Also how much of each structure's surface was laid open (takes a moment)");
 }
 
 void addLibrary(CLI::App& app, Context& context)

@@ -9,35 +9,6 @@
 namespace petrous::volume
 {
 
-/// The surface share = 1/2 of trilinear cells. Positions are mm along the axes of the share's grid,
-/// (0, 0, 0) its first voxel's centre.
-class ShareSurface
-{
-public:
-  explicit ShareSurface(const Volume<float>& share);
-
-  struct Sample
-  {
-    double value;             ///< share - 1/2, beyond the grid as on its hull
-    Eigen::Vector3d gradient; ///< per mm, of the cell
-  };
-  Sample at(const Eigen::Vector3d& position) const noexcept;
-
-  /// Points on the surface, some in each cell that it crosses.
-  std::vector<Eigen::Vector3f> points(const core::Progress& progress) const;
-
-  /// Distance to the surface, from a point on it that is nearly the closest.
-  double refined(const Eigen::Vector3d& position, const Eigen::Vector3f& near) const noexcept;
-
-private:
-  std::vector<core::Index3> crossedCells(const core::Progress& progress) const;
-  void addPoints(const core::Index3& cell, int parts, std::vector<Eigen::Vector3f>& points) const;
-
-  const Volume<float>& m_share;
-  Eigen::Vector3d m_spacing;
-  Eigen::Vector3d m_last; // voxel coordinate
-};
-
 /// Which of many points is closest, for every node of a grid of cubes: nodes beside a point look at
 /// it, and the closest one found is handed on from node to node until nothing changes (after
 /// Danielsson 1980, doi 10.1016/0146-664X(80)90054-4, with the points themselves in place of

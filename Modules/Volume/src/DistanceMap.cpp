@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "ClosestPoints.h"
+#include "ShareSurface.h"
 
 namespace petrous::volume
 {

@@ -4,6 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 namespace petrous::volume
 {
 
@@ -46,6 +49,42 @@ LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
     }
   std::sort(names.begin(), names.end(), byIndex);
   return {std::move(voxels), std::move(names)};
+}
+
+std::vector<core::IndexBox> boxesOf(const LabelMap& labels)
+{
+  constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
+  std::vector<std::uint16_t> segmentOf(std::size_t{none} + 1, none);
+  for (std::size_t n = 0; n < labels.segments.size(); ++n)
+    segmentOf[labels.segments[n].index] = static_cast<std::uint16_t>(n);
+  using Boxes = std::vector<core::IndexBox>;
+  tbb::enumerable_thread_specific<Boxes> parts(Boxes(labels.segments.size()));
+  const core::Index3& dims = labels.voxels->geometry().dims();
+  tbb::parallel_for(0, dims[2],
+                    [&](int k)
+                    {
+                      Boxes& boxes = parts.local();
+                      for (int j = 0; j < dims[1]; ++j)
+                      {
+                        const std::uint16_t* row = &labels.voxels->at(0, j, k);
+                        for (int i = 0; i < dims[0];)
+                        {
+                          const std::uint16_t value = row[i];
+                          const int first = i;
+                          while (i < dims[0] && row[i] == value)
+                            ++i;
+                          if (value == 0 || segmentOf[value] == none)
+                            continue;
+                          core::IndexBox& box = boxes[segmentOf[value]];
+                          box = box.united({{first, j, k}, {i, j + 1, k + 1}});
+                        }
+                      }
+                    });
+  Boxes all(labels.segments.size());
+  for (const Boxes& boxes : parts)
+    for (std::size_t n = 0; n < all.size(); ++n)
+      all[n] = all[n].united(boxes[n]);
+  return all;
 }
 
 } // namespace petrous::volume

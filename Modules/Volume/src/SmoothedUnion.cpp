@@ -27,22 +27,24 @@ std::vector<bool> wantedTable(const LabelMap& labels,
   return table;
 }
 
-core::IndexBox boxOf(const Volume<std::uint16_t>& voxels, const std::vector<bool>& table)
+core::IndexBox boxOf(const Volume<std::uint16_t>& voxels, const std::vector<bool>& table,
+                     const core::IndexBox& within)
 {
-  const core::Index3 dims = voxels.geometry().dims();
   core::IndexBox box;
-  for (int k = 0; k < dims[2]; ++k)
-    for (int j = 0; j < dims[1]; ++j)
+  const int width = within.size()[0];
+  for (int k = within.lower[2]; k < within.upper[2]; ++k)
+    for (int j = within.lower[1]; j < within.upper[1]; ++j)
     {
-      const std::uint16_t* row = &voxels.at(0, j, k);
+      const std::uint16_t* row = &voxels.at(within.lower[0], j, k);
       const auto isWanted = [&table](std::uint16_t value) { return table[value]; };
-      const std::uint16_t* first = std::find_if(row, row + dims[0], isWanted);
-      if (first == row + dims[0])
+      const std::uint16_t* first = std::find_if(row, row + width, isWanted);
+      if (first == row + width)
         continue;
-      int last = dims[0] - 1;
+      int last = width - 1;
       while (!table[row[last]])
         --last;
-      box = box.united({{static_cast<int>(first - row), j, k}, {last + 1, j + 1, k + 1}});
+      box = box.united({{within.lower[0] + static_cast<int>(first - row), j, k},
+                        {within.lower[0] + last + 1, j + 1, k + 1}});
     }
   return box;
 }
@@ -55,8 +57,16 @@ constexpr int kSlab = 16;
 std::shared_ptr<const Volume<float>>
 makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted)
 {
+  return makeSmoothedUnion(labels, wanted, labels.voxels->geometry().fullBox());
+}
+
+std::shared_ptr<const Volume<float>>
+makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted,
+                  const core::IndexBox& within)
+{
   const auto table = wantedTable(labels, wanted);
-  const core::IndexBox box = boxOf(*labels.voxels, table);
+  const core::IndexBox box =
+      boxOf(*labels.voxels, table, within.intersected(labels.voxels->geometry().fullBox()));
   if (box.empty())
     return nullptr;
 

@@ -39,4 +39,8 @@ struct LabelMap
 LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
                       std::vector<Segment> names);
 
+/// The box round each segment's voxels, in the order of `segments`; empty where there are none.
+/// Looks at every voxel once (about 0.1 s for 512^3).
+std::vector<core::IndexBox> boxesOf(const LabelMap& labels);
+
 } // namespace petrous::volume

@@ -19,6 +19,12 @@ namespace petrous::volume
 std::shared_ptr<const Volume<float>>
 makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted);
 
+/// The same, for who knows a box of voxels that holds all that is wanted (boxesOf): not every voxel
+/// of the map is looked at.
+std::shared_ptr<const Volume<float>>
+makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted,
+                  const core::IndexBox& within);
+
 constexpr float kInsideFloor = 0.55F;
 
 } // namespace petrous::volume

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "petrous/Dissection/ExposedArea.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::scene
+{
+
+/// How much of a structure's surface the drilling has laid open.
+struct ExposedSurface
+{
+  std::string name;
+  double area = 0.0; ///< mm^2, above 0
+};
+
+/// What the drilling has laid open of each structure and mesh, in `mask`: the case's present one,
+/// or that of another state of its dissection. See dissection::exposedArea. Meshes take part where
+/// they are touchable. Loads the CT, labels and meshes; takes a second or more for large
+/// structures. Throws CancelledError.
+std::vector<ExposedSurface> exposedSurfaces(const Case& value, const volume::CutMask& mask,
+                                            const core::Progress& progress = {});
+
+/// Of the case as it is drilled now. Throws InvalidParameter unless its dissection is loaded.
+std::vector<ExposedSurface> exposedSurfaces(const Case& value, const core::Progress& progress = {});
+
+} // namespace petrous::scene

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "petrous/Scene/Case.h"
+
+namespace petrous::scene
+{
+
+/// A structure of a case, whole and alone, as the share whose 1/2 level is its surface.
+struct StructureShare
+{
+  std::string name;
+  core::GridGeometry drawnOn; ///< the grid that it was drawn on; of a mesh, that of its voxels
+  core::GridGeometry around;  ///< part of that grid: nothing of the structure is outside its hull
+  /// Makes the share: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
+  std::function<std::shared_ptr<const volume::Volume<float>>()> make;
+};
+
+/// The structures of all label maps, and those meshes that have voxels for touch already. Loads the
+/// labels and looks at their voxels once; makes no share yet.
+std::vector<StructureShare> structureShares(const Case& value);
+
+} // namespace petrous::scene

@@ -1,0 +1,53 @@
+#include "petrous/Scene/StructureShares.h"
+
+#include "petrous/Volume/SmoothedUnion.h"
+
+namespace petrous::scene
+{
+
+namespace
+{
+
+// The voxels of a box and one beyond them to each side.
+core::GridGeometry grownGrid(const core::GridGeometry& grid, const core::IndexBox& box)
+{
+  const core::Index3 size = box.size();
+  return {
+      {size[0] + 2, size[1] + 2, size[2] + 2},
+      grid.spacing(),
+      grid.patientFromVoxel(Eigen::Vector3d(box.lower[0] - 1, box.lower[1] - 1, box.lower[2] - 1)),
+      grid.direction()};
+}
+
+} // namespace
+
+std::vector<StructureShare> structureShares(const Case& value)
+{
+  std::vector<StructureShare> shares;
+  for (const LabelPart& part : value.labels)
+  {
+    const std::shared_ptr<const volume::LabelMap> labels = part.labels.get();
+    const core::GridGeometry& grid = labels->voxels->geometry();
+    const auto boxes = volume::boxesOf(*labels);
+    for (const StructurePart& structure : part.structures)
+      for (std::size_t n = 0; n < boxes.size(); ++n)
+      {
+        const std::uint16_t index = labels->segments[n].index;
+        if (index != structure.index || boxes[n].empty())
+          continue;
+        shares.push_back({structure.name, grid, grownGrid(grid, boxes[n]),
+                          [labels, index, box = boxes[n]]
+                          {
+                            return volume::makeSmoothedUnion(
+                                *labels, [index](std::uint16_t i) { return i == index; }, box);
+                          }});
+      }
+  }
+  for (const MeshPart& mesh : value.meshes)
+    if (const auto solid = mesh.touch.resident())
+      shares.push_back(
+          {mesh.name, solid->geometry(), solid->geometry(), [solid] { return solid; }});
+  return shares;
+}
+
+} // namespace petrous::scene

@@ -23,7 +23,7 @@ struct Options
   double diameter = 4.0;
   double rpm = 60000.0;
   double rate = 1000.0;
-  std::string mode = "6dof", log, record, replay;
+  std::string mode = "6dof", log, record, replay, materials, burrs;
   std::optional<double> thrust;
   const CLI::App* command = nullptr;
 
@@ -83,6 +83,14 @@ void checkTool(const Options& options, const simulation::RecordingSetup& recorde
     refuse("--mode " + options.mode);
 }
 
+// What is named by an option counts before what lies in the library.
+dissection::Catalogues cataloguesFrom(const Options& options, const std::filesystem::path& folder)
+{
+  if (options.materials.empty() && options.burrs.empty())
+    return dissection::Catalogues::in(folder);
+  return dissection::Catalogues::read(options.materials, options.burrs);
+}
+
 void openCase(library::Library& library, const std::string& name, scene::Case& value)
 {
   value = library.open(name);
@@ -98,6 +106,25 @@ void save(const Context& context, library::Library& library, scene::Case& value,
     context.remark("nothing was cut; the case is as it was");
 }
 
+double armAt(const presenters::PathDrill& session, const simulation::TickRecord& record)
+{
+  return record.drill ? session.removal().arm()
+                      : simulation::RemovalFeed::armOf(session.radius(), record.elevation, 0.0);
+}
+
+void sayBalance(const Context& context, const presenters::PathDrill& session,
+                nlohmann::json& answer)
+{
+  const simulation::RemovalBalance balance = session.removal().balance();
+  context.say("the laws predict " + fixed(balance.predicted, 2) +
+              " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
+              " owed, " + fixed(balance.forfeited, 2) + " forfeited");
+  answer["predicted_mm3"] = balance.predicted;
+  answer["owed_mm3"] = balance.owed;
+  answer["forfeited_mm3"] = balance.forfeited;
+  answer["swept_mm3"] = session.swept();
+}
+
 void play(const Context& context, const Options& options)
 {
   presenters::PathDrill::Options tool = toolFrom(options);
@@ -109,6 +136,7 @@ void play(const Context& context, const Options& options)
   openCase(library, options.caseName, value);
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
+  tool.catalogues = cataloguesFrom(options, library.folder());
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress);
   presenters::PathDrill session(value, touch, tool);
@@ -125,7 +153,9 @@ void play(const Context& context, const Options& options)
               const simulation::TickRecord& record = report.feel(
                   [&]() -> const simulation::TickRecord& { return session.feel(tick); });
               session.cut(tick);
-              report.add(record);
+              const simulation::RemovalBalance balance = session.removal().balance();
+              report.add(record, TickRemoval{record.thrust > 0.0 ? armAt(session, record) : 0.0,
+                                             balance.removed + session.swept(), balance.predicted});
             });
   session.end();
   report.close();
@@ -133,6 +163,7 @@ void play(const Context& context, const Options& options)
 
   report.say(context);
   nlohmann::json answer = report.json();
+  sayBalance(context, session, answer);
   if (const simulation::RecordingWriter* recording = session.recording())
   {
     context.say("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
@@ -236,6 +267,16 @@ void addDrillCommand(CLI::App& app, Context& context)
                    "Press the tool on the surface with so many newtons; the path gives place and "
                    "heading")
       ->type_name("N")
+      ->excludes(replayed);
+  command
+      ->add_option("--materials", options->materials,
+                   "What tissues are to the drill (materials.json in the library, else built in)")
+      ->type_name("F.json")
+      ->excludes(replayed);
+  command
+      ->add_option("--burrs", options->burrs,
+                   "What burrs there are (burrs.json in the library, else built in)")
+      ->type_name("F.json")
       ->excludes(replayed);
   command
       ->add_option("--record", options->record,

@@ -60,17 +60,23 @@ void DrillLog::measure()
   m_before = now;
 }
 
-void DrillLog::add(const simulation::TickRecord& record)
+void DrillLog::add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal)
 {
-  measure();
+  if (!removal)
+    measure();
   m_file << record.time();
   write(m_file, record.mapped);
   write(m_file, record.proxy);
   write(m_file, record.wrench);
   write(m_file, record.output);
-  // Until a law of removal predicts a volume, there is none to state.
-  m_file << ',' << record.contacts << ',' << record.thrust << ',' << record.contactRadius << ','
-         << record.elevation << ',' << record.penetration << ',' << m_removed << ",nan\n";
+  const double thrust = Eigen::Map<const Eigen::Vector3d>(record.burrForce).norm();
+  m_file << ',' << record.contacts << ',' << thrust << ','
+         << (removal ? removal->arm : record.contactRadius) << ',' << record.elevation << ','
+         << record.penetration << ',' << (removal ? removal->removed : m_removed) << ',';
+  if (removal)
+    m_file << removal->predicted << '\n';
+  else
+    m_file << "nan\n";
 }
 
 void DrillLog::close()

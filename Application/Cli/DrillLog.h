@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 #include "petrous/Dissection/RemovedVolume.h"
 #include "petrous/Presenters/TouchScene.h"
@@ -11,8 +12,16 @@
 namespace petrous::cli
 {
 
-/// `drill --log`: one row a tick. The volume that is gone is measured tick by tick, so a log takes
-/// its time.
+/// What the removal laws made of a tick.
+struct TickRemoval
+{
+  double arm = 0.0;       ///< mm, of the contact from the spindle's axis, as the law took it
+  double removed = 0.0;   ///< mm^3 until then, with what was swept
+  double predicted = 0.0; ///< mm^3 until then
+};
+
+/// `drill --log`: one row a tick. Where no law is at work (a replay), the volume that is gone is
+/// measured tick by tick, which takes its time.
 class DrillLog
 {
 public:
@@ -20,7 +29,7 @@ public:
   DrillLog(const std::filesystem::path& file, const scene::Case& value,
            presenters::TouchScene& scene);
 
-  void add(const simulation::TickRecord& record);
+  void add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal);
 
   /// Throws when not everything could be written.
   void close();

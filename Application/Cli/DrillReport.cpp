@@ -20,7 +20,8 @@ DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, doub
     m_distances.emplace(value, radius);
 }
 
-void DrillReport::add(const simulation::TickRecord& record)
+void DrillReport::add(const simulation::TickRecord& record,
+                      const std::optional<TickRemoval>& removal)
 {
   const haptics::Wrench wrench = record.wrench.wrench();
   m_force = std::max(m_force, wrench.linear.norm());
@@ -28,7 +29,7 @@ void DrillReport::add(const simulation::TickRecord& record)
   m_penetration = std::max(m_penetration, record.penetration);
   m_inside += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
   if (m_log)
-    m_log->add(record);
+    m_log->add(record, removal);
   using simulation::ServoFault;
   const auto fault = static_cast<ServoFault>(record.fault);
   m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&

@@ -31,8 +31,8 @@ public:
     return m_times.take(call);
   }
 
-  /// The tick, once what follows it in the tissue is done.
-  void add(const simulation::TickRecord& record);
+  /// The tick, once what follows it in the tissue is done. `removal`: where a law is at work.
+  void add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal = {});
 
   /// After the last tick: closes the log.
   void close();

@@ -40,7 +40,6 @@ protected:
     // A burr that sinks into bone takes at once what it overlaps; it must not come out below.
     const bool sinks = GetParam() == TouchTool::Mode::ThreeDof;
     const std::uint64_t states = sinks ? 1 : 8;
-    hand.setup.feed = 3.0;
     TouchSession session(value, scene, hand.device, hand.setup);
     std::uint64_t felt = 0; // number of the mask's state
     double thrust = 0.0;    // N

@@ -26,7 +26,7 @@ public:
     setup.parameters.constantThrust = 1;
     setup.parameters.drillButtons = interaction::PointerDevice::kDrill;
     setup.parameters.approach[2] = -1.0;
-    setup.feed = 20.0; // the tests need not wait
+    setup.tool.burr.rpm = 600000.0; // ten times as fast: the tests need not wait
   }
 
   void drill(bool on) { device.setButtons(on ? interaction::PointerDevice::kDrill : 0U); }

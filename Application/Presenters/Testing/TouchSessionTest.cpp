@@ -195,9 +195,9 @@ TEST(TouchSession, RefusesBadParameters)
   scene::Case value = block();
   TouchScene scene(value);
   HeldTool hand(Vector3d(6.0, 6.0, 10.0));
-  hand.setup.feed = 0.0;
+  hand.setup.tool.burr.rpm = -1.0;
   EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
-  hand.setup.feed = 2.0;
+  hand.setup.tool.burr.rpm = 60000.0;
   hand.setup.parameters.thrust = 50.0;
   EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
 }

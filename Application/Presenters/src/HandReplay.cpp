@@ -83,7 +83,6 @@ HandReplay::HandReplay(scene::Case& value, TouchScene& scene, simulation::Record
                        const std::string& name, std::optional<core::CameraPose> camera)
   : m_proxy(scene.proxyOf(toolOf(fitting(value, scene, reader.setup(), name))))
   , m_servo(*m_proxy, reader.setup().servo)
-  , m_feed(0.5 * reader.setup().burr.diameter)
   , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
            scene.hooksOf(reader.setup().burr, [camera] { return camera; }))
   , m_replay(reader, m_servo, m_loop)

@@ -21,7 +21,9 @@ simulation::ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 } // namespace
 
 PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& options)
-  : m_radius(0.5 * options.tool.burr.diameter)
+  : m_dissection(*value.dissection)
+  , m_tissue(scene.drill().field())
+  , m_radius(0.5 * options.tool.burr.diameter)
   , m_proxy(scene.proxyOf(options.tool))
   , m_servo(*m_proxy, setupOf(scene, options.tool))
   , m_recording(
@@ -29,9 +31,8 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
             ? nullptr
             : std::make_unique<simulation::RecordingWriter>(
                   options.recording, scene.recordingOf(options.tool, m_servo.setup(), "tool path")))
-  , m_law(m_radius, kFeed)
-  , m_feed(m_law)
-  , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
+  , m_removal(scene.removalOf(options.tool.burr, options.catalogues))
+  , m_loop(*value.dissection, *scene.mask(), m_removal->feed, scene.drill().protectedTissue(),
            hooks(scene, options))
 {
   m_parameters.constantThrust = options.thrust ? 1 : 0;
@@ -42,6 +43,8 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
 simulation::DissectionLoop::Hooks PathDrill::hooks(TouchScene& scene, const Options& options)
 {
   auto hooks = scene.hooksOf(options.tool.burr, [camera = options.camera] { return camera; });
+  hooks.changed = [this](const std::vector<std::size_t>& bricks)
+  { m_changed.insert(m_changed.end(), bricks.begin(), bricks.end()); };
   if (m_recording)
     hooks.edited = [this](const simulation::MaskEdit& edit) { m_recording->add(edit); };
   return hooks;
@@ -66,12 +69,21 @@ void PathDrill::cut(const dissection::ToolSample& sample)
   if (!inside || !sample.drill)
   {
     m_swept.reset();
+    m_changed.clear();
     m_loop.step(m_record);
     return;
   }
-  const Eigen::Vector3d at = sample.pose.translation();
+  sweep(sample.pose.translation());
+}
+
+void PathDrill::sweep(const Eigen::Vector3d& at)
+{
+  const volume::CutMask before = m_dissection.mask();
+  m_changed.clear();
   m_loop.sweep(m_record, {m_swept.value_or(at), at, m_radius});
   m_swept = at;
+  m_sweptVolume +=
+      dissection::measureRemoved(m_tissue, before, m_dissection.mask(), m_changed, {}).total;
 }
 
 void PathDrill::end()

@@ -9,24 +9,6 @@ namespace petrous::presenters
 namespace
 {
 
-class LiveFeed final : public simulation::Feed
-{
-public:
-  LiveFeed(double radius, double gain)
-    : m_law(radius, gain)
-  {
-  }
-  std::optional<dissection::SweptSphere> bite(const simulation::TickRecord& record,
-                                              double seconds) override
-  {
-    return m_owed.bite(record, seconds);
-  }
-
-private:
-  simulation::SimpleFeed m_law;
-  simulation::OwedFeed m_owed{m_law};
-};
-
 // Nothing in it is new to the servo or the case.
 dissection::Dissection forkOf(const dissection::Dissection& start)
 {
@@ -35,22 +17,15 @@ dissection::Dissection forkOf(const dissection::Dissection& start)
   return fork;
 }
 
-// The one place where a live session gets its feed. `work` is the mask that it goes into.
-std::unique_ptr<simulation::Feed> feedOf(const TouchScene&, const TouchDissection::Setup& setup,
-                                         const dissection::Dissection&)
-{
-  return std::make_unique<LiveFeed>(0.5 * setup.burr.diameter, setup.feed);
-}
-
 } // namespace
 
 TouchDissection::TouchDissection(const dissection::Dissection& start, TouchScene& scene,
                                  simulation::SpscRing<simulation::TickRecord>& ring, Setup setup)
   : m_setup(std::move(setup))
   , m_work(forkOf(start))
-  , m_feed(feedOf(scene, m_setup, m_work))
+  , m_removal(scene.removalOf(m_setup.burr, m_setup.catalogues))
   , m_reporter(m_work, m_mailbox)
-  , m_loop(m_work, *scene.mask(), *m_feed, scene.drill().protectedTissue(), hooks(scene))
+  , m_loop(m_work, *scene.mask(), m_removal->feed, scene.drill().protectedTissue(), hooks(scene))
   , m_thread(ring, m_loop,
              {[this](const simulation::TickRecord& record)
               {

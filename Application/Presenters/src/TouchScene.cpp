@@ -73,6 +73,13 @@ simulation::RecordingSetup TouchScene::recordingOf(const TouchTool& tool,
   return setup;
 }
 
+std::unique_ptr<CaseRemoval> TouchScene::removalOf(const dissection::Burr& burr,
+                                                   const dissection::Catalogues& catalogues) const
+{
+  return std::make_unique<CaseRemoval>(m_case, m_drill.field(), m_drill.protectedTissue(), burr,
+                                       catalogues);
+}
+
 simulation::DissectionLoop::Hooks
 TouchScene::hooksOf(const dissection::Burr& burr,
                     std::function<std::optional<core::CameraPose>()> camera)

@@ -25,15 +25,17 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
   const core::IndexBox whole = mask.brickBox(index);
   const core::IndexBox part = whole.intersected(box);
   const core::GridGeometry& grid = mask.geometry();
-  const int count = part.upper[0] - part.lower[0];
   std::array<std::uint16_t, edge> left{};
   for (int k = part.lower[2]; k < part.upper[2]; ++k)
     for (int j = part.lower[1]; j < part.upper[1]; ++j)
     {
-      const auto first =
-          static_cast<std::size_t>(part.lower[0] - whole.lower[0] +
-                                   edge * (j - whole.lower[1] + edge * (k - whole.lower[2])));
-      burr.row(part.lower[0], j, k, count, left.data());
+      const auto span = burr.span(j, k, part.lower[0], part.upper[0]);
+      const int count = span.end - span.begin;
+      if (count <= 0)
+        continue;
+      const auto first = static_cast<std::size_t>(
+          span.begin - whole.lower[0] + edge * (j - whole.lower[1] + edge * (k - whole.lower[2])));
+      burr.row(span.begin, j, k, count, left.data());
       for (int n = 0; n < count; ++n)
       {
         const std::size_t at = first + static_cast<std::size_t>(n);
@@ -44,8 +46,8 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
         if (value >= present)
           continue;
         if (!keep.empty())
-          value = std::max(value, leastLeft(keep, grid.patientFromVoxel({1.0 * (part.lower[0] + n),
-                                                                         1.0 * j, 1.0 * k})));
+          value = std::max(value, leastLeft(keep, grid.patientFromVoxel(
+                                                      {1.0 * (span.begin + n), 1.0 * j, 1.0 * k})));
         if (value >= present)
           continue;
         if (!changed)

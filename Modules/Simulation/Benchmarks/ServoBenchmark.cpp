@@ -9,6 +9,7 @@
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/RecordingReplay.h"
 #include "petrous/Simulation/RecordingWriter.h"
+#include "petrous/Simulation/RemovalFeed.h"
 
 namespace petrous::simulation
 {
@@ -23,36 +24,47 @@ core::GridGeometry gridOf(double h)
 }
 
 // Bone below z = 0, its surface a ramp of a voxel or two, as a scanner shows it.
+volume::TissueField boneOn(const core::GridGeometry& grid)
+{
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+  for (int k = 0; k < grid.dims()[2]; ++k)
+  {
+    const double z = grid.patientFromVoxel({0.0, 0.0, 1.0 * k}).z();
+    const double hu = std::clamp(300.0 - 2000.0 * z, -1000.0, 1500.0);
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+        voxels->at(i, j, k) = static_cast<std::int16_t>(hu);
+  }
+  return {std::make_shared<volume::IntensityVolume>(
+              std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
+          {},
+          nullptr,
+          {}};
+}
+
 struct Block
 {
   explicit Block(double h)
     : work(gridOf(h))
     , mask(std::make_shared<volume::PublishedMask>(work.mask()))
     , shell(haptics::makeBurrShell({}, h))
+    , tissue(boneOn(work.mask().geometry()))
+    , tool(std::make_unique<haptics::ConstrainedProxy>(
+          std::make_shared<haptics::HapticField>(tissue, mask), shell))
+    , resistance(tissue.ct(), {300.0, 1800.0, 741.0, 2224.0}, {}) // N/mm2, a cutting burr's
+    , search(tissue, resistance, {}, 2.0)
+    , feed(search, {}, h)
   {
-    const core::GridGeometry& grid = work.mask().geometry();
-    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
-    for (int k = 0; k < grid.dims()[2]; ++k)
-    {
-      const double z = grid.patientFromVoxel({0.0, 0.0, 1.0 * k}).z();
-      const double hu = std::clamp(300.0 - 2000.0 * z, -1000.0, 1500.0);
-      for (int j = 0; j < grid.dims()[1]; ++j)
-        for (int i = 0; i < grid.dims()[0]; ++i)
-          voxels->at(i, j, k) = static_cast<std::int16_t>(hu);
-    }
-    const volume::TissueField tissue(
-        std::make_shared<volume::IntensityVolume>(
-            std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
-        {}, nullptr, {});
-    tool = std::make_unique<haptics::ConstrainedProxy>(
-        std::make_shared<haptics::HapticField>(tissue, mask), shell);
   }
 
   dissection::Dissection work;
   std::shared_ptr<volume::PublishedMask> mask;
   haptics::PointShell shell;
+  volume::TissueField tissue;
   std::unique_ptr<haptics::ConstrainedProxy> tool;
-  SimpleFeed feed{2.0};
+  dissection::TissueResistance resistance;
+  dissection::BiteSearch search;
+  RemovalFeed feed;
 };
 
 haptics::Pose handAt(double t)

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "PlainFeed.h"
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -88,7 +89,7 @@ struct Workplace
   std::shared_ptr<volume::PublishedMask> mask;
   RecordingSetup setup;
   std::unique_ptr<haptics::Proxy> proxy;
-  SimpleFeed feed{kRadius};
+  PlainFeed feed{kRadius};
   SessionRecorder* recorder = nullptr;
   std::vector<MaskEdit> edits;
 };

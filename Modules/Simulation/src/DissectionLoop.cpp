@@ -12,6 +12,13 @@ namespace
 // A tick after a stall must not bite for the time in which nobody drilled.
 constexpr double kLongestTick = 0.01; // s
 
+bool together(const TickRecord& record, const TickRecord& next)
+{
+  return next.drill && next.thrust > 0.0 &&
+         (next.proxy.pose().position - record.proxy.pose().position).norm() <=
+             DissectionLoop::kTogether;
+}
+
 } // namespace
 
 DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
@@ -39,7 +46,10 @@ bool DissectionLoop::follow(const TickRecord& record)
   if (drill)
     open();
   else
+  {
+    m_feed.release();
     endStroke();
+  }
   return drill;
 }
 
@@ -109,36 +119,28 @@ bool DissectionLoop::step(const TickRecord& record)
 bool DissectionLoop::step(const TickRecord* records, std::size_t count)
 {
   bool any = false;
-  std::optional<dissection::SweptSphere> pending;
-  const auto flush = [&]
-  {
-    if (pending)
-      any = cut(*pending) || any;
-    pending.reset();
-  };
   for (std::size_t n = 0; n < count; ++n)
   {
     const TickRecord& record = records[n];
     const double seconds = secondsOf(record);
-    if (!record.drill)
-      flush();
     if (!follow(record))
       continue;
     m_dissection.openInfo().duration += seconds;
     if (!(record.thrust > 0.0))
-      continue;
-    const auto bite = m_feed.bite(record, seconds);
-    if (!bite)
-      continue;
-    if (pending && (bite->from - pending->from).norm() <= kTogether)
-      pending->to = bite->to;
-    else
     {
-      flush();
-      pending = bite;
+      m_feed.release();
+      continue;
     }
+    m_feed.press(record, seconds);
+    // Where the tool hardly moves on, what the next tick does is bitten off with this one's.
+    if (n + 1 < count && together(record, records[n + 1]))
+      continue;
+    while (const auto bite = m_feed.bite(m_dissection.mask()))
+      if (cut(*bite))
+        any = true;
+      else
+        break;
   }
-  flush();
   return any;
 }
 
@@ -148,6 +150,7 @@ bool DissectionLoop::sweep(const TickRecord& record, const dissection::SweptSphe
   if (!(record.time() > m_ignoreUntil))
     return false;
   open();
+  m_feed.release();
   m_dissection.openInfo().duration += seconds;
   return cut(burr);
 }
@@ -167,6 +170,7 @@ void DissectionLoop::endStroke()
 
 bool DissectionLoop::turn(bool back)
 {
+  m_feed.release();
   endStroke();
   const bool done = m_hooks.turn ? m_hooks.turn(back)
                     : back       ? m_dissection.undo()

@@ -23,14 +23,10 @@ namespace petrous::presenters
 class PathDrill
 {
 public:
-  /// mm/s per N of thrust. A written path does not wait for the burr as a hand does: led at v mm/s
-  /// by a coupling of k N/mm the burr lags by v / (kFeed k), here 0.25 mm at 5 mm/s. With a live
-  /// hand's feed (TouchSession::kFeed) it would be 2.5 mm, which the path would leave undrilled.
-  static constexpr double kFeed = 20.0;
-
   struct Options
   {
     TouchTool tool;
+    dissection::Catalogues catalogues = dissection::Catalogues::builtIn();
     std::optional<double> thrust;           ///< N: the tool is pressed on the surface with it
     std::optional<core::CameraPose> camera; ///< noted with each stroke
     std::filesystem::path recording;        ///< ticks and cuts are written there; empty: not
@@ -49,22 +45,34 @@ public:
   /// Drill off: closes the stroke that is open, and the recording. Throws RecordingError.
   void end();
 
+  /// What the laws say of the drilling, and what went into them at the last tick.
+  const simulation::RemovalFeed& removal() const noexcept { return m_removal->feed; }
+
+  double radius() const noexcept { return m_radius; } ///< mm, of the burr
+
+  /// mm^3 taken besides, where the tool stood in tissue: of that no law says anything.
+  double swept() const noexcept { return m_sweptVolume; }
+
   /// Null when there is none.
   const simulation::RecordingWriter* recording() const noexcept { return m_recording.get(); }
 
 private:
   simulation::DissectionLoop::Hooks hooks(TouchScene& scene, const Options& options);
+  void sweep(const Eigen::Vector3d& at);
 
+  const dissection::Dissection& m_dissection;
+  const volume::TissueField& m_tissue;
   double m_radius; // mm
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
   std::unique_ptr<simulation::RecordingWriter> m_recording;
-  simulation::SimpleFeed m_law;
-  simulation::OwedFeed m_feed; // looks at m_law
+  std::unique_ptr<CaseRemoval> m_removal;
   simulation::DissectionLoop m_loop;
   simulation::ServoParameters m_parameters;
   simulation::TickRecord m_record;
   std::optional<Eigen::Vector3d> m_swept; // where the drill was last in tissue, mm
+  std::vector<std::size_t> m_changed;     // bricks, while it sweeps
+  double m_sweptVolume = 0.0;             // mm^3
 };
 
 } // namespace petrous::presenters

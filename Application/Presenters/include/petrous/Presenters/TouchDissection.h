@@ -26,8 +26,8 @@ public:
   struct Setup
   {
     dissection::Burr burr;
-    double feed = 2.0; ///< mm/s per N of thrust, > 0
-    bool cuts = true;  ///< false: takes nothing and opens no stroke
+    dissection::Catalogues catalogues;
+    bool cuts = true; ///< false: takes nothing and opens no stroke
     std::unique_ptr<simulation::SessionRecorder> recorder; ///< null: nothing is recorded
   };
 
@@ -63,7 +63,7 @@ private:
   std::mutex m_mutex; // guards m_camera
   std::optional<core::CameraPose> m_camera;
   dissection::Dissection m_work;
-  std::unique_ptr<simulation::Feed> m_feed;
+  std::unique_ptr<CaseRemoval> m_removal;
   simulation::DissectionMailbox m_mailbox;
   simulation::DissectionReporter m_reporter;
   simulation::DissectionLoop m_loop;

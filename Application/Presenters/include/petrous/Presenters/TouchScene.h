@@ -8,6 +8,7 @@
 #include "petrous/Haptics/HapticField.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
+#include "petrous/Presenters/CaseRemoval.h"
 #include "petrous/Presenters/DrillSession.h"
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/Recording.h"
@@ -68,6 +69,11 @@ public:
   /// note   for people: what kind of session
   simulation::RecordingSetup recordingOf(const TouchTool& tool, const simulation::ServoSetup& servo,
                                          const std::string& note) const;
+
+  /// What the burr removes, by the laws, in a `loop` of its own. `catalogues` say what it meets.
+  /// Loads what the case's tissues need. Throws InvalidParameter.
+  std::unique_ptr<CaseRemoval> removalOf(const dissection::Burr& burr,
+                                         const dissection::Catalogues& catalogues) const;
 
   /// What a dissection loop tells the case: strokes are opened and listed as by a DrillSession, and
   /// the case goes through its list when one is undone or redone.

@@ -25,11 +25,6 @@ namespace petrous::presenters
 class TouchSession
 {
 public:
-  /// mm/s per N of thrust: at 1 N a burr of 4 mm sinks in within 2 s, as slowly as a hand can lead
-  /// it. A tool path has ten times that (PathDrill::kFeed), which no hand could follow: at 1 N the
-  /// burr would be in within 0.2 s, the time in which one begins to answer.
-  static constexpr double kFeed = 2.0;
-
   struct Setup
   {
     TouchTool tool;
@@ -40,8 +35,8 @@ public:
     haptics::DeviceGuard::Limits guard;
     haptics::ForceLimits::Limits limits; ///< of the device
     std::optional<haptics::PassivityGuard::Parameters> passivity;
-    bool cuts = true;    ///< false: takes nothing and opens no stroke, whatever asks for the drill
-    double feed = kFeed; ///< mm/s per N of thrust, > 0
+    bool cuts = true; ///< false: takes nothing and opens no stroke, whatever asks for the drill
+    dissection::Catalogues catalogues = dissection::Catalogues::builtIn();
   };
 
   /// What happened since the last call.

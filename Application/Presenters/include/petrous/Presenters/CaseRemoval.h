@@ -1,0 +1,31 @@
+#pragma once
+
+#include "petrous/Scene/CaseMaterials.h"
+#include "petrous/Simulation/RemovalFeed.h"
+
+namespace petrous::presenters
+{
+
+/// A burr in a case: what it meets there and how far it goes in, by the removal laws.
+struct CaseRemoval
+{
+  /// tissue  of the case, asked for f before any mask; must outlive this
+  /// keep    structures that are not drilled
+  /// Throws InvalidParameter that names what is wrong.
+  CaseRemoval(const scene::Case& value, const volume::TissueField& tissue,
+              const dissection::ProtectedTissue& keep, const dissection::Burr& burr,
+              const dissection::Catalogues& catalogues)
+    : resistance(scene::tissueResistance(value, catalogues, burr.kind))
+    , search(tissue, resistance, keep, 0.5 * burr.diameter)
+    , feed(search, burr, tissue.geometry().minSpacing())
+  {
+  }
+  CaseRemoval(const CaseRemoval&) = delete;
+  CaseRemoval& operator=(const CaseRemoval&) = delete;
+
+  const dissection::TissueResistance resistance;
+  dissection::BiteSearch search;
+  simulation::RemovalFeed feed;
+};
+
+} // namespace petrous::presenters

@@ -1,0 +1,217 @@
+#include "BiteWindow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "Protection.h"
+
+namespace petrous::dissection
+{
+
+using volume::CutMask;
+
+BiteWindow::BiteWindow(const volume::TissueField& tissue, const TissueResistance& resistance,
+                       ProtectedTissue keep)
+  : m_grid(tissue.geometry())
+  , m_keep(std::move(keep))
+  , m_tissue(tissue, resistance)
+  , m_sums(m_grid)
+{
+}
+
+void BiteWindow::load(const CutMask& mask, const core::IndexBox& box)
+{
+  constexpr int edge = CutMask::kBrickEdge;
+  m_box = box;
+  m_dims = box.size();
+  m_now.resize(box.count());
+  std::uint16_t* to = m_now.data();
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0];)
+      {
+        const int end = std::min((i / edge + 1) * edge, box.upper[0]);
+        const auto count = static_cast<std::size_t>(end - i);
+        const auto& brick = mask.brick(mask.brickIndex({i / edge, j / edge, k / edge}));
+        if (brick)
+          std::memcpy(to, brick->data() + (i % edge) + edge * ((j % edge) + edge * (k % edge)),
+                      count * sizeof *to);
+        else
+          std::fill_n(to, count, CutMask::kUntouched);
+        to += count;
+        i = end;
+      }
+}
+
+bool BiteWindow::gather(const CutMask& mask, const SweptSphere& way)
+{
+  const BurrCoverage burr(way, m_grid, true);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(burr.reach());
+  core::IndexBox box =
+      m_grid.boxCovering(way.from.cwiseMin(way.to) - margin, way.from.cwiseMax(way.to) + margin);
+  if (box.empty())
+    return false;
+  // One more voxel on each side, so that every cell of a voxel that changes lies within.
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    box.lower[a] = std::max(box.lower[a] - 1, 0);
+    box.upper[a] = std::min(box.upper[a] + 1, m_grid.dims()[a]);
+  }
+  load(mask, box);
+  m_after = m_now;
+  m_voxels.clear();
+  m_x.clear();
+  m_y.clear();
+  m_z.clear();
+  m_least.clear();
+  m_row.resize(static_cast<std::size_t>(m_dims[0]));
+
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      if (const auto span = burr.span(j, k, box.lower[0], box.upper[0]); span.begin < span.end)
+        gatherRow(burr, span.begin, j, k, span.end - span.begin);
+  gatherCells();
+  return !m_cells.empty();
+}
+
+void BiteWindow::gatherRow(const BurrCoverage& burr, int first, int j, int k, int count)
+{
+  const std::size_t start =
+      static_cast<std::size_t>(first - m_box.lower[0]) +
+      static_cast<std::size_t>(m_dims[0]) *
+          (static_cast<std::size_t>(j - m_box.lower[1]) +
+           static_cast<std::size_t>(m_dims[1]) * static_cast<std::size_t>(k - m_box.lower[2]));
+  const std::uint16_t* now = &m_now[start];
+  if (std::all_of(now, now + count, [](std::uint16_t value) { return value == 0; }))
+    return;
+  burr.row(first, j, k, count, m_row.data());
+  const Eigen::Vector3d& h = m_grid.spacing();
+  for (int n = 0; n < count; ++n)
+  {
+    const std::uint16_t left = m_row[static_cast<std::size_t>(n)];
+    if (left >= now[n])
+      continue;
+    const std::size_t at = start + static_cast<std::size_t>(n);
+    m_after[at] = left;
+    m_voxels.push_back(static_cast<std::uint32_t>(at));
+    m_x.push_back(h[0] * (first + n));
+    m_y.push_back(h[1] * j);
+    m_z.push_back(h[2] * k);
+    if (!m_keep.empty())
+      m_least.push_back(
+          leastLeft(m_keep, m_grid.patientFromVoxel({1.0 * (first + n), 1.0 * j, 1.0 * k})));
+  }
+}
+
+BiteWindow::Corners BiteWindow::cornersOf(const std::vector<std::uint16_t>& values,
+                                          std::uint32_t corner) const noexcept
+{
+  const auto row = static_cast<std::size_t>(m_dims[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(m_dims[1]);
+  const std::uint16_t* v = values.data() + corner;
+  return {v[0],     v[1],         v[row],         v[row + 1],
+          v[slice], v[slice + 1], v[slice + row], v[slice + row + 1]};
+}
+
+// The cells of which such a voxel is a corner, and in which the mask passes where it counts.
+void BiteWindow::gatherCells()
+{
+  const auto row = static_cast<std::size_t>(m_dims[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(m_dims[1]);
+  m_marked.assign(m_now.size(), 0);
+  m_left.resize(m_voxels.size());
+  // At the border of the grid a mark may fall on the row before, whose last cell there is not.
+  for (const std::size_t voxel : m_voxels)
+    for (const std::size_t down : {std::size_t{0}, row, slice, slice + row})
+    {
+      if (voxel >= down)
+        m_marked[voxel - down] = 1;
+      if (voxel > down)
+        m_marked[voxel - down - 1] = 1;
+    }
+  m_tissue.begin();
+  m_cells.clear();
+  for (int z = 0; z + 1 < m_dims[2]; ++z)
+    for (int y = 0; y + 1 < m_dims[1]; ++y)
+    {
+      const std::size_t start =
+          row * static_cast<std::size_t>(y) + slice * static_cast<std::size_t>(z);
+      const auto begin = m_marked.begin() + static_cast<std::ptrdiff_t>(start);
+      const auto end = begin + static_cast<std::ptrdiff_t>(row) - 1;
+      for (auto mark = std::find(begin, end, 1); mark != end; mark = std::find(mark + 1, end, 1))
+      {
+        const auto x = static_cast<int>(mark - begin);
+        addCell(x, y, z, static_cast<std::uint32_t>(start) + static_cast<std::uint32_t>(x));
+      }
+    }
+}
+
+void BiteWindow::addCell(int x, int y, int z, std::uint32_t corner)
+{
+  const Corners now = cornersOf(m_now, corner);
+  if (*std::max_element(now.begin(), now.end()) <= m_sums.low())
+    return; // nothing of it is left
+  const Corners least = cornersOf(m_after, corner);
+  if (*std::min_element(least.begin(), least.end()) >= m_sums.high())
+    return; // nothing of it goes
+  CellContent& content = m_tissue.at(m_box.lower[0] + x, m_box.lower[1] + y, m_box.lower[2] + z);
+  if (!content.empty)
+    m_cells.push_back({corner, &content, m_sums.known(now, content), {}});
+}
+
+void BiteWindow::lower(const Eigen::Vector3d& place, double radius)
+{
+  const BurrCoverage burr({place, place, radius}, m_grid);
+  const std::size_t count = m_voxels.size();
+  burr.list(m_x.data(), m_y.data(), m_z.data(), count, m_left.data());
+  for (std::size_t n = 0; n < m_least.size(); ++n)
+    m_left[n] = std::max(m_left[n], m_least[n]);
+  for (std::size_t n = 0; n < count; ++n)
+    m_after[m_voxels[n]] = std::min(m_left[n], m_now[m_voxels[n]]);
+}
+
+double BiteWindow::work(const Eigen::Vector3d& place, double radius)
+{
+  lower(place, radius);
+  double sum = 0.0;
+  for (Cell& cell : m_cells)
+  {
+    const Corners corners = cornersOf(m_after, cell.corner);
+    cell.after = corners == cornersOf(m_now, cell.corner) ? cell.before
+                                                          : m_sums.solid(corners, *cell.content);
+    sum += static_cast<double>(cell.before.work - cell.after.work);
+  }
+  return sum * m_sums.partVolume();
+}
+
+BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius,
+                                    const Eigen::Vector3d& axis)
+{
+  Taken taken;
+  taken.work = work(place, radius);
+  const auto row = static_cast<std::uint32_t>(m_dims[0]);
+  const std::uint32_t slice = row * static_cast<std::uint32_t>(m_dims[1]);
+  double moment = 0.0;
+  for (const Cell& cell : m_cells)
+  {
+    BiteSums::keep(cornersOf(m_after, cell.corner), cell.after, *cell.content);
+    const auto volume = static_cast<double>(cell.before.volume - cell.after.volume);
+    if (volume == 0.0)
+      continue;
+    const Eigen::Vector3d middle(m_box.lower[0] + cell.corner % row + 0.5,
+                                 m_box.lower[1] + cell.corner / row % m_dims[1] + 0.5,
+                                 m_box.lower[2] + cell.corner / slice + 0.5);
+    const Eigen::Vector3d offset = m_grid.patientFromVoxel(middle) - place;
+    const double along = offset.dot(axis);
+    taken.volume += volume;
+    // Of the place on the burr that takes it.
+    moment +=
+        volume * radius * std::sqrt(std::max(0.0, 1.0 - along * along / offset.squaredNorm()));
+  }
+  taken.spread = taken.volume > 0.0 ? moment / taken.volume : 0.0;
+  taken.volume *= m_sums.partVolume();
+  return taken;
+}
+
+} // namespace petrous::dissection

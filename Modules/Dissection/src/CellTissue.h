@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "petrous/Dissection/TissueResistance.h"
+#include "petrous/Volume/TissueField.h"
+
+namespace petrous::dissection
+{
+
+/// What lies in a cell between eight voxel centres before any cut: resistance at 4^3 points, which
+/// stand in the middles of equal parts; 0 where there is no tissue.
+struct CellContent
+{
+  static constexpr int kPoints = 4; ///< along an axis
+
+  std::int64_t cell = -1;
+  std::uint64_t asked = 0; ///< by which search last
+  // What was reckoned of it last, kept for whoever asks the same again.
+  std::array<std::uint16_t, 8> corners{}; ///< of the mask
+  float work = 0.0F;
+  float volume = 0.0F;
+  bool reckoned = false;
+  bool empty = true;
+  alignas(16) std::array<float, kPoints * kPoints * kPoints> resistance{};
+};
+
+/// The cells' contents, made when first asked for and kept where there is room: a table in which
+/// cells near each other have places of their own.
+class CellTissue
+{
+public:
+  /// Both must outlive this; `tissue` is asked for f before any mask.
+  CellTissue(const volume::TissueField& tissue, const TissueResistance& resistance);
+
+  /// A search begins: what it is given holds until the next one begins.
+  void begin();
+
+  /// Of the cell whose lowest corner is the voxel (i, j, k), which has a neighbour above it on each
+  /// axis.
+  CellContent& at(int i, int j, int k);
+
+private:
+  bool airAround(int i, int j, int k) const;
+  void fill(int i, int j, int k, CellContent& content) const;
+
+  const volume::TissueField& m_tissue;
+  const TissueResistance& m_resistance;
+  std::vector<CellContent> m_table;
+  std::deque<CellContent> m_besides; // whose places in the table are taken by the same search
+  std::uint64_t m_search = 0;
+};
+
+} // namespace petrous::dissection

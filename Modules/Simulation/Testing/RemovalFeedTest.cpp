@@ -1,0 +1,246 @@
+#include "petrous/Simulation/RemovalFeed.h"
+
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "LawScene.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Dissection/RemovedVolume.h"
+
+using namespace petrous;
+using namespace petrous::simulation;
+using namespace petrous::simulation::testing;
+using dissection::Burr;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+
+double measured(const LawScene& scene)
+{
+  const volume::CutMask before(scene.work.mask().geometry());
+  return dissection::measureRemoved(scene.tissue, before, scene.work.mask(),
+                                    scene.work.openBricks(), {})
+      .total;
+}
+
+double total(const RemovalBalance& balance)
+{
+  return balance.removed + balance.owed + balance.forfeited;
+}
+
+LawScene::Setting settingOf(Burr::Kind kind, double thrust, double degrees, double voxel,
+                            double tick)
+{
+  LawScene::Setting setting;
+  setting.burr.kind = kind;
+  setting.thrust = thrust;
+  setting.elevation = degrees * kDegree;
+  setting.voxel = voxel;
+  setting.tick = tick;
+  return setting;
+}
+
+} // namespace
+
+struct LawCase
+{
+  Burr::Kind kind;
+  double thrust, degrees, voxel, tick, seconds;
+};
+
+class RemovalLaws : public ::testing::TestWithParam<LawCase>
+{
+};
+
+// What is gone, measured from the mask by another quadrature, is Eq. (8) or (9) summed over the
+// ticks: F_t from the record, r at least r_b cos(theta), with the constants of the catalogue.
+TEST_P(RemovalLaws, AreWhatIsRemoved)
+{
+  const LawCase& p = GetParam();
+  LawScene scene(settingOf(p.kind, p.thrust, p.degrees, p.voxel, p.tick));
+  const double slope = std::tan(-10.0 * kDegree);
+  const double pascal = p.kind == Burr::Kind::Cutting ? 3e9 * (0.5 - slope) / (1.0 + 0.5 * slope)
+                                                      : 3.0 * 42.5 * 9.807e6 / 0.1;
+  double expected = 0.0; // mm^3
+  scene.drill(
+      p.seconds,
+      [&](const TickRecord& record)
+      {
+        const double force =
+            Eigen::Vector3d(record.burrForce[0], record.burrForce[1], record.burrForce[2]).norm();
+        EXPECT_GE(scene.feed.arm(), 2.0 * std::cos(record.elevation) - 1e-9);
+        EXPECT_LE(scene.feed.arm(), 2.0);
+        const double rate = force * 1e-3 * scene.feed.arm() * 2000.0 * kPi / pascal; // m3/s
+        expected += 1e9 * rate * p.tick;
+      });
+  const RemovalBalance balance = scene.feed.balance();
+  EXPECT_NEAR(balance.predicted, expected, 0.02 * expected);
+  EXPECT_NEAR(total(balance), balance.predicted, 0.02 * balance.predicted);
+  EXPECT_LT(balance.owed + balance.forfeited, 0.05 * expected);
+  EXPECT_NEAR(measured(scene) + balance.owed + balance.forfeited, expected,
+              0.03 * expected + 0.002);
+}
+
+INSTANTIATE_TEST_SUITE_P(OverTheirRange, RemovalLaws,
+                         ::testing::Values(LawCase{Burr::Kind::Cutting, 1.0, 40.0, 0.3, 1e-3, 0.15},
+                                           LawCase{Burr::Kind::Cutting, 0.2, 0.0, 0.2, 1e-3, 0.4},
+                                           LawCase{Burr::Kind::Cutting, 5.0, 0.0, 0.4, 2e-3, 0.06},
+                                           LawCase{Burr::Kind::Cutting, 5.0, 80.0, 0.3, 5e-4, 0.06},
+                                           LawCase{Burr::Kind::Cutting, 1.0, 80.0, 0.2, 2e-3, 0.3},
+                                           LawCase{Burr::Kind::Diamond, 5.0, 40.0, 0.3, 1e-3, 0.15},
+                                           LawCase{Burr::Kind::Diamond, 1.0, 0.0, 0.2, 2e-3, 0.3},
+                                           LawCase{Burr::Kind::Diamond, 0.2, 80.0, 0.4, 1e-3, 1.5},
+                                           LawCase{Burr::Kind::Diamond, 5.0, 80.0, 0.2, 5e-4,
+                                                   0.1}));
+
+TEST(RemovalFeed, TakesTheSameAtAnyTickAndVoxel)
+{
+  const auto removed = [](double degrees, double voxel, double tick)
+  {
+    LawScene scene(settingOf(Burr::Kind::Cutting, 1.0, degrees, voxel, tick));
+    scene.drill(0.3);
+    return total(scene.feed.balance());
+  };
+  const double usual = removed(0.0, 0.2, 1e-3);
+  EXPECT_GT(usual, 1.0); // mm^3
+  EXPECT_NEAR(removed(0.0, 0.4, 1e-3), usual, 0.02 * usual);
+  EXPECT_NEAR(removed(0.0, 0.2, 5e-4), usual, 0.02 * usual);
+  EXPECT_NEAR(removed(0.0, 0.3, 2e-3), usual, 0.02 * usual);
+  // Where r follows the contact's place: the thrust goes with the normal, which wanders by a degree
+  // or two in a hollow of coarse voxels.
+  const double tilted = removed(40.0, 0.2, 1e-3);
+  EXPECT_NEAR(removed(40.0, 0.4, 2e-3), tilted, 0.04 * tilted);
+}
+
+// 0.05 mm3/s: a seventh of a micrometre a second on the whole hemisphere, less than a step of an
+// 8-bit mask in ten ticks.
+TEST(RemovalFeed, ASlowDiamondBurrDoesNotStall)
+{
+  LawScene scene(settingOf(Burr::Kind::Diamond, 0.05, 0.0, 0.3, 1e-3));
+  scene.drill(0.5);
+  const RemovalBalance half = scene.feed.balance();
+  scene.drill(0.5);
+  const RemovalBalance all = scene.feed.balance();
+  EXPECT_NEAR(all.predicted, 0.05, 0.002);
+  EXPECT_NEAR(all.removed - half.removed, 0.025, 0.002);
+  EXPECT_NEAR(total(all), all.predicted, 0.02 * all.predicted);
+}
+
+TEST(RemovalFeed, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
+{
+  LawScene::Setting still;
+  still.burr.rpm = 0.0;
+  LawScene stands(still);
+  stands.drill(0.1);
+  EXPECT_TRUE(stands.work.mask().untouched());
+  EXPECT_EQ(stands.feed.balance().predicted, 0.0);
+
+  LawScene idle(LawScene::Setting{});
+  const haptics::Pose place{{0.0, 0.0, -1.0}, Eigen::Quaterniond::Identity()};
+  for (int n = 0; n < 200; ++n)
+    idle.tick(place);
+  EXPECT_GT(idle.session.records.back().thrust, 0.5); // it lies on the bone
+  EXPECT_TRUE(idle.work.mask().untouched());
+  EXPECT_EQ(idle.feed.balance().predicted, 0.0);
+}
+
+// Half of the burr meets bone that takes a third of the work: the work done is the work that the
+// volumes take, each in its tissue.
+TEST(RemovalFeed, TissuesShareTheWorkOfABite)
+{
+  LawScene::Setting setting;
+  setting.border = 0.0;
+  LawScene scene(setting);
+  double work = 0.0; // N mm
+  scene.drill(0.3, [&](const TickRecord&)
+              { work += scene.feed.thrust() * scene.feed.arm() * 2000.0 * kPi * setting.tick; });
+  const volume::CutMask before(scene.work.mask().geometry());
+  const auto taken =
+      dissection::measureRemoved(scene.tissue, before, scene.work.mask(), scene.work.openBricks(),
+                                 {{"cortical", scene.sides, 1}, {"cellular", scene.sides, 2}});
+  ASSERT_EQ(taken.structures.size(), 2u);
+  const double spent =
+      LawScene::resistance(setting.burr, "cortical-bone") * taken.structures[0].volume +
+      LawScene::resistance(setting.burr, "cellular-bone") * taken.structures[1].volume;
+  EXPECT_GT(taken.structures[1].volume, taken.structures[0].volume);
+  EXPECT_NEAR(spent, work, 0.03 * work);
+  const RemovalBalance balance = scene.feed.balance();
+  EXPECT_NEAR(total(balance), balance.predicted, 0.02 * balance.predicted);
+}
+
+TEST(RemovalFeed, WhatIsOwedIsForfeitedWhenContactEnds)
+{
+  LawScene scene(settingOf(Burr::Kind::Diamond, 0.2, 40.0, 0.3, 1e-3));
+  scene.drill(0.2);
+  while (!(scene.feed.balance().owed > 1e-6))
+    scene.drill(0.001);
+  const RemovalBalance before = scene.feed.balance();
+  scene.session.pedal = 0.0;
+  scene.tick({{0.0, 0.0, -1.0}, Eigen::Quaterniond::Identity()});
+  const RemovalBalance after = scene.feed.balance();
+  EXPECT_EQ(after.owed, 0.0);
+  EXPECT_NEAR(after.forfeited, before.forfeited + before.owed, 1e-12);
+  EXPECT_EQ(after.removed, before.removed);
+}
+
+// A hole of just the burr's size, which the field holds to a hundredth of a voxel, must not jam it.
+TEST(RemovalFeed, DrillsOnBeyondItsEquator)
+{
+  for (const double degrees : {90.0, 80.0})
+  {
+    LawScene::Setting setting = settingOf(Burr::Kind::Cutting, 5.0, degrees, 0.3, 1e-3);
+    setting.burr.diameter = 2.0;
+    LawScene scene(setting);
+    scene.drill(0.6);
+    EXPECT_LT(scene.session.records.back().proxy.pose().position.z(), -0.6) << degrees;
+    EXPECT_LT(scene.feed.balance().forfeited, 0.02 * scene.feed.balance().predicted) << degrees;
+  }
+}
+
+TEST(RemovalFeed, DoesNotBoreOnWhileTheToolIsHeld)
+{
+  // The servo says that the burr stays where it is, whatever is taken.
+  LawScene scene(LawScene::Setting{});
+  const Eigen::Vector3d at(0.0, 0.0, 2.0);
+  for (int n = 0; n < 500; ++n)
+  {
+    TickRecord record;
+    record.input.now = 0.001 * n;
+    record.proxy = PoseValues::of({at, Eigen::Quaterniond::Identity()});
+    record.thrust = record.burrForce[2] = 3.0;
+    record.elevation = 0.0;
+    record.drill = 1;
+    scene.loop.step(record);
+  }
+  const auto& grid = scene.work.mask().geometry();
+  const double deepest = RemovalFeed::kLeastAhead + 0.05 * 0.3;
+  EXPECT_EQ(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -deepest - 0.9})), 1.0);
+  EXPECT_GT(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -deepest})), 0.5);
+  const RemovalBalance balance = scene.feed.balance();
+  EXPECT_NEAR(total(balance), balance.predicted, 1e-6 * balance.predicted);
+  EXPECT_GT(balance.forfeited, 0.5 * balance.predicted);
+}
+
+TEST(RemovalFeed, RefusesASpindleThatTurnsBack)
+{
+  LawScene scene(LawScene::Setting{});
+  Burr burr;
+  burr.rpm = -1.0;
+  EXPECT_THROW(RemovalFeed(scene.search, burr, 0.3), core::InvalidParameter);
+}
+
+// Away from the pole r_b cos(theta); at the pole the mean over the patch.
+TEST(RemovalFeed, ArmIsThatOfTheContact)
+{
+  EXPECT_NEAR(RemovalFeed::armOf(2.0, 0.0, 0.0), 2.0, 1e-6);
+  EXPECT_EQ(RemovalFeed::armOf(2.0, 0.0, 1.0), 2.0);
+  const double contact = 2.0 * std::cos(60.0 * kDegree);
+  EXPECT_NEAR(RemovalFeed::armOf(2.0, 60.0 * kDegree, 0.3), contact, 0.003 * contact);
+  EXPECT_NEAR(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.7), 0.7, 1e-6);
+  EXPECT_GT(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.0), 0.01);
+  EXPECT_LT(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.0), 0.1);
+}

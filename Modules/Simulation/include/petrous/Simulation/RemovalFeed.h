@@ -1,0 +1,87 @@
+#pragma once
+
+#include "petrous/Dissection/BiteSearch.h"
+#include "petrous/Dissection/Stroke.h"
+#include "petrous/Simulation/Feed.h"
+
+namespace petrous::simulation
+{
+
+/// The balance of a drill: removed + owed + forfeited = predicted.
+struct RemovalBalance
+{
+  double predicted = 0.0; ///< mm^3, sum of law times dt over the ticks with drill on and thrust
+  double removed = 0.0;   ///< mm^3 lost from {f > 0}
+  double owed = 0.0;      ///< mm^3 that the work done so far will still take
+  double forfeited = 0.0; ///< mm^3 that were owed when contact ended, or that protected tissue kept
+};
+
+/// Removal by the laws [Chan2016, Eq. 8 and 9; Documentation/equations.md, "Removal"]. Each tick
+/// does work at the contact,
+///
+///   dW = F_t r omega dt,
+///
+/// which takes tissue as far as it reaches (BiteSearch); what is less than a step of the search is
+/// owed and goes into the next bite.
+///
+/// F_t  N, what the burr's contacts push back together, so that walls between which the burr is
+///      wedged do not count twice
+/// r    mm, the distance of that force's line of contact from the spindle's axis, r_b cos(theta);
+///      where the contact lies at the pole, the mean over the patch: `armOf`
+class RemovalFeed : public Feed
+{
+public:
+  /// Tissue is taken at most this far ahead of where the servo knows the burr to be: a burr that is
+  /// held back (by its shaft, by what may not be drilled) does not bore on alone. What is left is
+  /// owed, at most for kLongestOwed.
+  static constexpr double kVoxelsAhead = 0.25; ///< voxels
+  static constexpr double kLeastAhead = 0.1;   ///< mm
+  static constexpr double kLongestOwed = 0.05; ///< s of work at the present rate
+
+  /// A bite that would not move the burr by so much waits for more work, but not for long.
+  static constexpr double kLeastAdvance = 0.005; ///< voxels
+  static constexpr double kLongestWait = 0.02;   ///< s of work at the present rate
+
+  /// search  for this burr; must outlive this
+  /// Throws InvalidParameter when the spindle's speed is below 0.
+  RemovalFeed(dissection::BiteSearch& search, const dissection::Burr& burr, double voxel);
+
+  void press(const TickRecord& record, double seconds) override;
+  std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) override;
+  void release() override;
+
+  RemovalBalance balance() const noexcept;
+
+  /// Of the last press: what went into the law.
+  double thrust() const noexcept { return m_thrust; } ///< F_t, N
+  double arm() const noexcept { return m_arm; }       ///< r, mm
+
+  /// r, mm: (r_c^4 + s^4)^(1/4), at most r_b.
+  ///
+  /// radius     r_b, mm
+  /// elevation  theta, rad, of the spindle above the surface: r_c = r_b cos(theta)
+  /// spread     s, mm, mean distance of the contact patch from its middle: what r is at the pole
+  static double armOf(double radius, double elevation, double spread) noexcept;
+
+private:
+  double resistance(const volume::CutMask& mask);
+  void account(const dissection::Bite& bite);
+  void forfeit(double work);
+
+  dissection::BiteSearch& m_search;
+  double m_speed; // rad/s
+  double m_voxel; // mm
+  double m_ahead; // mm
+  dissection::BiteSearch::Wish m_wish;
+  bool m_pressed = false; // since the last bite that said there is nothing more
+  double m_thrust = 0.0;
+  double m_arm = 0.0;
+  double m_spread = 0.0;     // mm, of the last bite
+  double m_rate = 0.0;       // N mm/s
+  double m_resistance = 0.0; // N/mm^2, of the last bite; 0: not known in this contact
+  double m_unpriced = 0.0;   // N mm done before the resistance was known
+  double m_owed = 0.0;       // N mm
+  RemovalBalance m_balance;  // but for what is owed
+};
+
+} // namespace petrous::simulation

@@ -1,0 +1,135 @@
+#include "petrous/Simulation/RemovalFeed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::simulation
+{
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+// mm that a burr on a flat surface has sunk in before anything is taken: what two turns of a
+// cutting burr with ten teeth take at a tenth of a micrometre each. It makes the least patch.
+constexpr double kLeastSink = 0.002;
+
+} // namespace
+
+RemovalFeed::RemovalFeed(dissection::BiteSearch& search, const dissection::Burr& burr, double voxel)
+  : m_search(search)
+  , m_speed(burr.rpm * 2.0 * kPi / 60.0)
+  , m_voxel(voxel)
+  , m_ahead(std::max(kVoxelsAhead * voxel, kLeastAhead))
+{
+  if (!(burr.rpm >= 0.0) || !std::isfinite(burr.rpm))
+    throw core::InvalidParameter("drill: the spindle's speed must be at least 0 turns a minute");
+}
+
+double RemovalFeed::armOf(double radius, double elevation, double spread) noexcept
+{
+  const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kLeastSink);
+  const double contact = radius * std::abs(std::cos(elevation));
+  // Both squared twice: within 0.2 % of the contact's own distance once that is thrice the spread.
+  const double mean = std::max(spread, least);
+  return std::min(radius, std::sqrt(std::hypot(contact * contact, mean * mean)));
+}
+
+void RemovalFeed::press(const TickRecord& record, double seconds)
+{
+  const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);
+  const haptics::Pose tool = record.proxy.pose();
+  const double thrust = force.norm();
+  if (!(thrust > 0.0) || !std::isfinite(thrust) || !tool.position.allFinite())
+    return release();
+  m_thrust = thrust;
+  m_arm = armOf(m_search.radius(), record.elevation, m_spread);
+  m_wish.place = tool.position;
+  m_wish.into = -force / thrust;
+  m_wish.deepest = m_ahead;
+  m_rate = thrust * m_arm * m_speed;
+  const double work = m_rate * seconds;
+  m_owed += work;
+  if (m_resistance > 0.0)
+    m_balance.predicted += work / m_resistance;
+  else
+    m_unpriced += work;
+  m_pressed = true;
+}
+
+// Known from the last bite; at first, from what lies ahead.
+double RemovalFeed::resistance(const volume::CutMask& mask)
+{
+  if (m_resistance > 0.0)
+    return m_resistance;
+  m_resistance = m_search.ahead(mask, m_wish.place, m_wish.into).value_or(0.0);
+  if (m_resistance > 0.0)
+    m_balance.predicted += std::exchange(m_unpriced, 0.0) / m_resistance;
+  return m_resistance;
+}
+
+void RemovalFeed::account(const dissection::Bite& bite)
+{
+  m_owed -= bite.work;
+  m_balance.removed += bite.volume;
+  m_resistance = bite.work / bite.volume;
+  m_spread = bite.spread;
+}
+
+void RemovalFeed::forfeit(double work)
+{
+  m_owed -= work;
+  if (m_resistance > 0.0)
+    m_balance.forfeited += work / m_resistance;
+  else
+    m_unpriced -= work; // nothing that could be taken: no volume was promised
+}
+
+std::optional<dissection::SweptSphere> RemovalFeed::bite(const volume::CutMask& mask)
+{
+  if (!std::exchange(m_pressed, false))
+    return std::nullopt;
+  if (!(resistance(mask) > 0.0))
+  {
+    forfeit(m_owed);
+    return std::nullopt;
+  }
+  const bool little = m_owed * m_search.yielding() < kLeastAdvance * m_voxel;
+  if (little && m_search.yielding() > 0.0 && m_owed < kLongestWait * m_rate)
+    return std::nullopt;
+  m_wish.work = m_owed;
+  const auto bite = m_search.find(mask, m_wish);
+  if (bite && bite->volume > 0.0)
+  {
+    account(*bite);
+    m_pressed = bite->capped;
+    return bite->burr;
+  }
+  // Within reach nothing may be taken, or the tool is held back: it does not save up for later.
+  if (bite)
+    forfeit(m_owed);
+  else if (const double most = kLongestOwed * m_rate; m_owed > most)
+    forfeit(m_owed - most);
+  return std::nullopt;
+}
+
+void RemovalFeed::release()
+{
+  forfeit(m_owed);
+  m_owed = m_unpriced = 0.0;
+  m_resistance = m_spread = 0.0;
+  m_pressed = false;
+  m_search.forget();
+}
+
+RemovalBalance RemovalFeed::balance() const noexcept
+{
+  RemovalBalance balance = m_balance;
+  balance.owed = m_resistance > 0.0 ? m_owed / m_resistance : 0.0;
+  return balance;
+}
+
+} // namespace petrous::simulation

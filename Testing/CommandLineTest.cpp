@@ -112,6 +112,64 @@ TEST_F(CommandLine, RendersTheSamePixelsInAFreshProcess)
   EXPECT_TRUE(render("e.png") == drilled);
 }
 
+TEST_F(CommandLine, KeepsApproachesSideBySide)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto drill = [this](const std::array<double, 3>& to, const std::string& options)
+  {
+    const auto path = writePath({-35, 0, 0}, to);
+    return json("drill bone --path " + quoted(path) + options)["removed_mm3"].get<double>();
+  };
+  const double first = drill({-33, 0, 0}, "");
+  const double second = drill({-33, 3, 0}, "");
+  json("undo bone");
+  const double other = drill({-33, 0, 4}, " --diameter 5"); // the second stays, set aside
+  json("branch bone 'from above' --from 1");
+  const double above = drill({-33, -4, 0}, "");
+
+  const auto info = json("info bone")["dissection"];
+  EXPECT_EQ(info["branch"], "from above");
+  EXPECT_EQ(info["strokes"], 4);
+  EXPECT_EQ(info["undo"], 2);
+  EXPECT_EQ(info["redo"], 0);
+  EXPECT_DOUBLE_EQ(info["removed_mm3"], first + above);
+  const auto both = json("branch bone --compare main main~1");
+  EXPECT_EQ(both["common_strokes"], 1);
+  EXPECT_DOUBLE_EQ(both["compare"][0]["removed_mm3"], first + other);
+  EXPECT_DOUBLE_EQ(both["compare"][1]["removed_mm3"], first + second);
+  EXPECT_NE(run("branch bone --compare main main~1").out.find("main~1"), std::string::npos);
+
+  // The voxels are those of the branch that one is on.
+  const auto mask = [this](const std::string& branch)
+  {
+    json("branch bone '" + branch + "'");
+    json("export bone --what mask --out " + quoted(m_folder / "mask.nrrd"));
+    return textOf(m_folder / "mask.nrrd");
+  };
+  const std::string there = mask("from above");
+  EXPECT_NE(mask("main"), there);
+  EXPECT_EQ(mask("from above"), there);
+
+  const auto history = json("history bone");
+  ASSERT_EQ(history["branches"].size(), 3u);
+  EXPECT_EQ(history["strokes"][3]["parent"], 1);
+  EXPECT_TRUE(history["strokes"][3]["done"]);
+  EXPECT_FALSE(history["strokes"][1]["done"]);
+  json("branch bone main~1 --rename deep");
+  EXPECT_EQ(json("branch bone deep --delete")["strokes"], 3);
+
+  const auto before = libraryContent();
+  expectRefused("branch bone nowhere --from 9", 3, "has 2 strokes");
+  expectRefused("branch bone main --from 1", 3, "there already");
+  expectRefused("branch bone 'from above' --delete", 3, "present");
+  expectRefused("branch bone --compare main deep", 3, "there are: main, from above");
+  expectRefused("branch bone main --rename 'from above'", 3, "there already");
+  expectRefused("branch bone", 2, "NAME");
+  expectRefused("branch bone x --list", 2, "NAME");
+  expectRefused("branch bone x --from 1 --delete", 2, "one of");
+  EXPECT_EQ(libraryContent(), before);
+}
+
 TEST_F(CommandLine, ProbesTheFieldThatIsDrilled)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));

@@ -71,8 +71,8 @@ void sayCase(const Context& context, const scene::Case& value)
     context.say("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
                 (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
-  context.say("  " + std::to_string(value.applied) + " strokes done, " +
-              std::to_string(value.strokes.size() - value.applied) + " to redo, " +
+  context.say("  " + std::to_string(value.applied()) + " strokes done, " +
+              std::to_string(value.history.ahead()) + " to redo, " +
               fixed(value.removedVolume(), 1) + " mm3 removed");
 }
 

@@ -1,6 +1,7 @@
 #include "CaseJson.h"
 
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
 
 namespace petrous::cli
@@ -115,35 +116,59 @@ json infoJson(const scene::Case& value)
           {"meshes", std::move(meshes)},
           {"dissection",
            {{"strokes", value.strokes.size()},
-            {"undo", value.applied},
-            {"redo", value.strokes.size() - value.applied},
+            {"undo", value.applied()},
+            {"redo", value.history.ahead()},
             {"removed_mm3", value.removedVolume()},
-            {"branch", "main"}}},
+            {"branch", value.history.branch().name}}},
           {"resources", residentResources(value)}};
+}
+
+json touchedJson(const std::vector<dissection::TouchedStructure>& structures)
+{
+  json list = json::array();
+  for (const auto& touched : structures)
+    list.push_back({{"label", touched.name}, {"volume_mm3", touched.volume}});
+  return list;
 }
 
 json strokesJson(const scene::Case& value)
 {
+  std::vector<bool> done(value.strokes.size(), false);
+  for (const std::size_t n : value.history.lineTo(value.history.position()))
+    done[n] = true;
   json strokes = json::array();
   for (std::size_t n = 0; n < value.strokes.size(); ++n)
   {
     const scene::StrokePart& stroke = value.strokes[n];
-    json structures = json::array();
-    for (const auto& touched : stroke.info.structures)
-      structures.push_back({{"label", touched.name}, {"volume_mm3", touched.volume}});
     const auto& burr = stroke.info.burr;
     strokes.push_back({{"number", n + 1},
-                       {"done", n < value.applied},
+                       {"parent", value.history.parent(n) + 1},
+                       {"done", static_cast<bool>(done[n])},
+                       {"recovered", stroke.info.recovered},
                        {"started_at", stroke.info.startedAt},
                        {"duration_s", stroke.info.duration},
                        {"burr", dissection::nameOf(burr.kind)},
                        {"diameter_mm", burr.diameter},
                        {"rpm", burr.rpm},
                        {"removed_mm3", stroke.info.removed},
-                       {"structures_touched", std::move(structures)},
+                       {"structures_touched", touchedJson(stroke.info.structures)},
                        {"bytes", stroke.bytes}});
   }
   return strokes;
+}
+
+json branchJson(const scene::Case& value, const dissection::History::Branch& branch)
+{
+  const scene::StateSummary summary = scene::summaryOf(value, branch.position);
+  return {{"name", branch.name},
+          {"present", &branch == &value.history.branch()},
+          {"set_aside", branch.setAside},
+          {"tip", branch.tip + 1},
+          {"position", branch.position + 1},
+          {"strokes", summary.strokes},
+          {"redo", value.history.lineTo(branch.tip).size() - summary.strokes},
+          {"removed_mm3", summary.removed},
+          {"structures_touched", touchedJson(summary.structures)}};
 }
 
 std::map<std::string, std::size_t> residentResources(const scene::Case& value)

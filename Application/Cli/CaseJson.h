@@ -30,8 +30,14 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh);
 /// What `petrous info` gives.
 nlohmann::json infoJson(const scene::Case& value);
 
-/// What `petrous history` gives of the strokes.
+/// [{"label", "volume_mm3"}].
+nlohmann::json touchedJson(const std::vector<dissection::TouchedStructure>& structures);
+
+/// What `petrous history` gives of the strokes. Numbers count from 1; parent 0 is untouched bone.
 nlohmann::json strokesJson(const scene::Case& value);
+
+/// A branch and what it took, up to where it stands.
+nlohmann::json branchJson(const scene::Case& value, const dissection::History::Branch& branch);
 
 /// Voxels and bricks of the case that are in memory now, in bytes.
 std::map<std::string, std::size_t> residentResources(const scene::Case& value);

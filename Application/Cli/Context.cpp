@@ -41,19 +41,26 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
 
 library::Library Context::openLibrary() const
 {
+  library::Library library(libraryFolder());
+  library.onNotice([this](const std::string& words) { remark(words); });
+  return library;
+}
+
+std::filesystem::path Context::libraryFolder() const
+{
   if (!m_library.empty())
-    return library::Library(m_library);
+    return m_library;
   const auto fromEnvironment = [](const char* name)
   {
     const char* value = std::getenv(name);
     return std::filesystem::path(value ? value : "");
   };
   if (const auto path = fromEnvironment("PETROUS_LIBRARY"); !path.empty())
-    return library::Library(path);
+    return path;
   if (const auto path = fromEnvironment("XDG_DATA_HOME"); !path.empty())
-    return library::Library(path / "petrous");
+    return path / "petrous";
   if (const auto path = fromEnvironment("HOME"); !path.empty())
-    return library::Library(path / ".local/share/petrous");
+    return path / ".local/share/petrous";
   throw UsageError("no home folder for the library; give --library DIR");
 }
 

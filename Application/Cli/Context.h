@@ -48,6 +48,8 @@ public:
   core::Progress progress() const;
 
 private:
+  std::filesystem::path libraryFolder() const;
+
   std::string m_library;
   bool m_json = false;
   bool m_quiet = false;

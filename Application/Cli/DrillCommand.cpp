@@ -7,6 +7,7 @@
 #include "Numbers.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/ToolPath.h"
+#include "petrous/Library/Journal.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/HandReplay.h"
 #include "petrous/Presenters/PathDrill.h"
@@ -125,6 +126,14 @@ void sayBalance(const Context& context, const presenters::PathDrill& session,
   answer["swept_mm3"] = session.swept();
 }
 
+// What is drilled outlives a kill; a command that ends otherwise leaves no journal.
+std::unique_ptr<library::Journal> journalOf(const library::Library& library,
+                                            const scene::Case& value, presenters::TouchScene& touch)
+{
+  return std::make_unique<library::Journal>(
+      library, value, [&touch](const dissection::Dissection&) { return touch.drill().measured(); });
+}
+
 void play(const Context& context, const Options& options)
 {
   presenters::PathDrill::Options tool = toolFrom(options);
@@ -139,6 +148,7 @@ void play(const Context& context, const Options& options)
   tool.catalogues = cataloguesFrom(options, library.folder());
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress);
+  const auto journal = journalOf(library, value, touch);
   presenters::PathDrill session(value, touch, tool);
   DrillReport report(value, touch, 0.5 * tool.tool.burr.diameter, options.log, context.json());
 
@@ -153,11 +163,13 @@ void play(const Context& context, const Options& options)
               const simulation::TickRecord& record = report.feel(
                   [&]() -> const simulation::TickRecord& { return session.feel(tick); });
               session.cut(tick);
+              journal->follow(*value.dissection);
               const simulation::RemovalBalance balance = session.removal().balance();
               report.add(record, TickRemoval{record.thrust > 0.0 ? armAt(session, record) : 0.0,
                                              balance.removed + session.swept(), balance.predicted});
             });
   session.end();
+  journal->follow(*value.dissection);
   report.close();
   save(context, library, value, report, progress);
 
@@ -186,6 +198,7 @@ void replay(const Context& context, const Options& options)
   const auto camera = presenters::currentCamera(value);
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress, reader.setup().scene.firstState);
+  const auto journal = journalOf(library, value, touch);
   presenters::HandReplay session(value, touch, reader, options.replay, camera);
   DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
 
@@ -197,6 +210,7 @@ void replay(const Context& context, const Options& options)
     const simulation::TickRecord& record =
         report.feel([&]() -> const simulation::TickRecord& { return session.feel(); });
     session.follow();
+    journal->follow(*value.dissection);
     report.add(record);
   }
   report.close();

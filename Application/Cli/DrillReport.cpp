@@ -11,8 +11,8 @@ namespace petrous::cli
 DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, double radius,
                          const std::string& log, bool distances)
   : m_case(value)
-  , m_applied(value.applied)
-  , m_before(value.dissection->strokes().begin(), value.dissection->strokes().end())
+  , m_position(value.history.position())
+  , m_before(value.strokes.size())
 {
   if (!log.empty())
     m_log.emplace(log, value, scene);
@@ -46,16 +46,16 @@ void DrillReport::close()
 
 bool DrillReport::changed() const
 {
-  return m_case.applied != m_applied || cut().strokes > 0;
+  return m_case.history.position() != m_position || m_case.strokes.size() != m_before;
 }
 
 // Of the strokes that were made here and stand.
 DrillReport::Cut DrillReport::cut() const
 {
   Cut result;
-  for (std::size_t n = 0; n < m_case.applied; ++n)
+  for (const std::size_t n : m_case.history.lineTo(m_case.history.position()))
   {
-    if (m_before.count(m_case.dissection->strokes()[n]) > 0)
+    if (n < m_before)
       continue;
     ++result.strokes;
     result.removed += m_case.strokes[n].info.removed;

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "Context.h"
@@ -57,9 +56,9 @@ private:
   scene::Case& m_case;
   std::optional<DrillLog> m_log;
   std::optional<presenters::StructureDistances> m_distances;
-  std::size_t m_applied; // when it began
-  std::set<std::shared_ptr<const dissection::Stroke>> m_before;
-  bool m_placed = false; // the hand has taken up the tool
+  std::size_t m_position; // when it began
+  std::size_t m_before;   // strokes there were then
+  bool m_placed = false;  // the hand has taken up the tool
   core::TickTimes m_times;
   double m_force = 0.0;       // N, the hardest of all ticks
   double m_torque = 0.0;      // N mm

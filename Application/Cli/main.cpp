@@ -23,7 +23,7 @@ enum ExitCode
 };
 
 // Named in the contract of the command line; their issues come later.
-constexpr std::array<const char*, 7> kNotBuilt{"register", "branch",  "archive", "restore",
+constexpr std::array<const char*, 6> kNotBuilt{"register", "archive", "restore",
                                                "send",     "receive", "nodes"};
 
 int exitCodeOf(core::Fault fault)
@@ -81,6 +81,7 @@ int runCommand(int argc, char** argv)
   cli::addProbeCommand(app, context);
   cli::addDrillCommand(app, context);
   cli::addHistoryCommands(app, context);
+  cli::addBranchCommand(app, context);
   cli::addExportCommand(app, context);
   cli::addBenchCommand(app, context);
   cli::addDoctorCommand(app, context);

@@ -282,10 +282,10 @@ void MainWindow::stateChanged()
   const bool unsaved = m_model.unsaved() || m_model.beingStored();
   setWindowTitle((unsaved ? QString::fromUtf8("• ") : QString()) + words(value.name) +
                  QString::fromUtf8(" — Petrous"));
-  m_sum->setText(value.applied == 0 ? tr("nothing drilled")
+  m_sum->setText(value.applied() == 0 ? tr("nothing drilled")
                                     : tr("%1 %2, %3 mm³ removed")
-                                          .arg(value.applied)
-                                          .arg(value.applied == 1 ? tr("stroke") : tr("strokes"))
+                                          .arg(value.applied())
+                                          .arg(value.applied() == 1 ? tr("stroke") : tr("strokes"))
                                           .arg(value.removedVolume(), 0, 'f', 1));
 }
 
@@ -309,12 +309,12 @@ void MainWindow::showView(rendering::StandardView view)
 void MainWindow::stepped(bool back)
 {
   const scene::Case& value = m_model.value();
-  const std::size_t stroke = back ? value.applied : value.applied - 1;
+  const std::size_t stroke = back ? value.history.next() : value.history.position();
   if (m_actions->strokeCamera->isChecked() && stroke < value.strokes.size() &&
       value.strokes[stroke].info.camera)
     m_view->setCamera(*value.strokes[stroke].info.camera);
-  statusBar()->showMessage(back ? tr("Stroke %1 undone").arg(stroke + 1)
-                                : tr("Stroke %1 drilled again").arg(stroke + 1),
+  statusBar()->showMessage(back ? tr("Stroke %1 undone").arg(value.applied() + 1)
+                                : tr("Stroke %1 drilled again").arg(value.applied()),
                            kMessage);
 }
 

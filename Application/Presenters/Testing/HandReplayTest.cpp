@@ -156,7 +156,7 @@ TEST_P(HandReplayTest, OfALiveSessionIsTheSessionToTheLastBit)
   EXPECT_FALSE(first.dissection->mask().untouched());
   EXPECT_EQ(voxels(second), voxels(first));
   ASSERT_EQ(second.strokes.size(), first.strokes.size());
-  EXPECT_EQ(second.applied, first.applied);
+  EXPECT_EQ(second.applied(), first.applied());
   for (std::size_t n = 0; n < first.strokes.size(); ++n)
   {
     EXPECT_EQ(second.strokes[n].info.removed, first.strokes[n].info.removed);
@@ -185,7 +185,7 @@ TEST_P(HandReplayTest, GoesOnFromWhereASceneWasThatOthersHadUsed)
   }
   second.dissection->append(first.dissection->strokes().front());
   second.strokes = first.strokes;
-  second.applied = first.applied;
+  second.history = first.history;
   liveSession(first, scene);
   const auto outcome = replayed(second);
   EXPECT_TRUE(outcome.equal()) << outcome.difference;
@@ -202,9 +202,9 @@ TEST_P(HandReplayTest, RefusesACaseThatIsNotAsItWas)
   const std::string done = refusal(first);
   EXPECT_NE(done.find("session.ticks: began on another dissection (0 strokes)"), std::string::npos)
       << done;
-  EXPECT_NE(done.find("petrous undo 'block' " + std::to_string(first.applied)), std::string::npos)
+  EXPECT_NE(done.find("petrous undo 'block' " + std::to_string(first.applied())), std::string::npos)
       << done;
-  scene::undo(first, first.applied);
+  scene::undo(first, first.applied());
   EXPECT_TRUE(replayed(first).equal());
 
   scene::Case other = block();

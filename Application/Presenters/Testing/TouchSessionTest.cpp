@@ -84,7 +84,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   ASSERT_TRUE(news.strokes.front()->info.camera);
   EXPECT_EQ(news.strokes.front()->info.camera->position, camera.position);
   ASSERT_EQ(value.strokes.size(), 1u);
-  EXPECT_EQ(value.applied, 1u);
+  EXPECT_EQ(value.applied(), 1u);
   EXPECT_TRUE(session.stop().strokes.empty()); // it is closed already
 }
 
@@ -118,8 +118,8 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
     EXPECT_FALSE(news.bricks.empty());
   };
   step(true);
-  EXPECT_EQ(value.applied, 0u);
-  // The drill is still held: the next stroke takes the place of the one undone.
+  EXPECT_EQ(value.applied(), 0u);
+  // The drill is still held: the branch goes on with the next stroke.
   ASSERT_TRUE(until(
       [this]
       {
@@ -128,11 +128,12 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
       }));
   hand.drill(false);
   ASSERT_TRUE(until([this] { return !frame().strokes.empty(); }));
-  ASSERT_EQ(value.strokes.size(), 1u);
+  ASSERT_EQ(value.strokes.size(), 2u) << "the one undone is kept";
+  EXPECT_TRUE(value.history.find("main~1"));
   step(true);
   EXPECT_TRUE(value.dissection->mask().untouched());
   step(false);
-  EXPECT_EQ(value.applied, 1u);
+  EXPECT_EQ(value.applied(), 1u);
   EXPECT_FALSE(value.dissection->mask().untouched());
   ASSERT_TRUE(until(
       [this]
@@ -143,7 +144,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
   session.redo(); // there is none
   const auto news = session.stop();
   EXPECT_TRUE(news.steps.empty());
-  EXPECT_EQ(value.applied, 1u);
+  EXPECT_EQ(value.applied(), 1u);
 }
 
 TEST_F(TouchSessionTest, StopClosesTheStrokeAndEndsTheServo)

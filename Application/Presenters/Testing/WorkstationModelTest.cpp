@@ -128,7 +128,7 @@ TEST_F(WorkstationModelTest, UndoesTheOpenStrokeWhileTheToolIsInTheHand)
   EXPECT_TRUE(model.touching());
   EXPECT_FALSE(model.drilling());
   EXPECT_TRUE(model.unsaved());
-  EXPECT_EQ(model.value().applied, 0u);
+  EXPECT_EQ(model.value().applied(), 0u);
   EXPECT_TRUE(model.value().dissection->mask().untouched());
   EXPECT_TRUE(model.canRedo());
 }
@@ -199,7 +199,7 @@ TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
   library::Library two(folder / "two");
   auto opened = two.open("block");
   two.loadDissection(opened);
-  EXPECT_EQ(opened.applied, 1u);
+  EXPECT_EQ(opened.applied(), 1u);
   EXPECT_EQ(opened.ct.volume.get()->at(1, 1, 1), 1500.0);
   EXPECT_EQ(model.library().folder(), folder / "two");
 }

@@ -23,12 +23,12 @@ std::string strokes(std::uint64_t count)
 // What to do so that the dissection is as it was; there may be nothing.
 std::string wayTo(std::uint64_t then, const scene::Case& value)
 {
-  if (value.applied > then)
+  if (value.applied() > then)
     return "; take back what came after: petrous undo '" + value.name + "' " +
-           std::to_string(value.applied - then);
-  if (value.applied < then && value.strokes.size() >= then)
+           std::to_string(value.applied() - then);
+  if (value.applied() < then && value.applied() + value.history.ahead() >= then)
     return "; bring back what was there: petrous redo '" + value.name + "' " +
-           std::to_string(then - value.applied);
+           std::to_string(then - value.applied());
   return {};
 }
 
@@ -51,7 +51,7 @@ void checkFit(const scene::Case& value, const TouchScene& scene,
            "' --list");
   if (now.mask != then.mask)
     refuse("began on another dissection (" + strokes(then.applied) + ") than '" + value.name +
-           "' has (" + strokes(value.applied) + ")" + wayTo(then.applied, value));
+           "' has (" + strokes(value.applied()) + ")" + wayTo(then.applied, value));
   const TouchTool tool = toolOf(setup);
   if (scene.servoOf(tool).burrPoints != setup.servo.burrPoints)
     refuse("was recorded by another version of this program, whose tool had other points");

@@ -42,15 +42,15 @@ void list(const Event& event, scene::Case& value, TouchSession::News& news)
     break;
   case Event::Kind::StrokeClosed:
     if (event.stroke)
-      scene::listStroke(value, *event.stroke);
+      scene::listStroke(value, event.stroke);
     news.strokes.push_back(event.stroke);
     break;
   case Event::Kind::Undone:
-    --value.applied;
+    value.history.back();
     news.steps.push_back(true);
     break;
   case Event::Kind::Redone:
-    ++value.applied;
+    value.history.forth();
     news.steps.push_back(false);
     break;
   }

@@ -135,12 +135,12 @@ void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const 
 // A stroke that is still open is closed first.
 bool WorkstationModel::canUndo() const noexcept
 {
-  return m_case && (m_case->applied > 0 || drilling());
+  return m_case && (m_case->applied() > 0 || drilling());
 }
 
 bool WorkstationModel::canRedo() const noexcept
 {
-  return m_case && !drilling() && m_case->applied < m_case->strokes.size();
+  return m_case && !drilling() && m_case->history.ahead() > 0;
 }
 
 void WorkstationModel::step(bool back)

@@ -19,7 +19,7 @@ TEST_F(Drill, AStrokeRemovesBoneAndIsSavedAtOnce)
   EXPECT_GT(differentPixels(before, after, 12), 200);
   const auto saved = library().open("ball");
   ASSERT_EQ(saved.strokes.size(), 1u);
-  EXPECT_EQ(saved.applied, 1u);
+  EXPECT_EQ(saved.applied(), 1u);
   EXPECT_GT(saved.strokes.front().info.removed, 0.5);
   EXPECT_TRUE(saved.strokes.front().info.camera.has_value());
   EXPECT_GT(saved.strokes.front().info.duration, 0.5);
@@ -49,7 +49,7 @@ TEST_F(Drill, UndoBringsThePictureBackAndRedoTheHole)
   ASSERT_TRUE(action("Undo")->isEnabled());
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(differentPixels(whole, picture()), 0);
-  EXPECT_EQ(window().model().value().applied, 0u);
+  EXPECT_EQ(window().model().value().applied(), 0u);
   ASSERT_TRUE(action("Redo")->isEnabled());
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(differentPixels(drilled, picture()), 0);
@@ -64,7 +64,7 @@ TEST_F(Drill, AFreshWindowShowsTheSameHole)
   const QImage before = picture();
   closeWindow();
   openWindow("ball");
-  ASSERT_EQ(window().model().value().applied, 1u);
+  ASSERT_EQ(window().model().value().applied(), 1u);
   EXPECT_EQ(differentPixels(before, picture()), 0);
 }
 

@@ -118,7 +118,7 @@ TEST_F(Hand, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
   ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0, 1),
                            [this]
                            {
-                             return window().model().value().applied > 0 ||
+                             return window().model().value().applied() > 0 ||
                                     !window().model().value().dissection->mask().untouched();
                            }));
   bench.play(capHeld(0, 350, 0, 0));

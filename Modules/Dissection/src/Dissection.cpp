@@ -1,10 +1,25 @@
 #include "petrous/Dissection/Dissection.h"
 
-#include <set>
 #include <utility>
+
+#include "petrous/Dissection/StrokeCodec.h"
 
 namespace petrous::dissection
 {
+
+namespace
+{
+
+// Where the strokes of `history` begin.
+History atStart(const History& history)
+{
+  std::vector<std::size_t> parents(history.size());
+  for (std::size_t n = 0; n < parents.size(); ++n)
+    parents[n] = history.parent(n);
+  return {std::move(parents), {{History::kMain}}, 0};
+}
+
+} // namespace
 
 Dissection::Dissection(const core::GridGeometry& geometry)
   : m_mask(geometry)
@@ -12,24 +27,68 @@ Dissection::Dissection(const core::GridGeometry& geometry)
 {
 }
 
+Dissection::Dissection(const core::GridGeometry& geometry,
+                       std::vector<std::shared_ptr<const Stroke>> strokes, const History& history)
+  : m_mask(geometry)
+  , m_before(geometry)
+  , m_strokes(std::move(strokes))
+  , m_history(atStart(history))
+{
+  follow(history);
+  m_mask.takeDirty();
+}
+
+void Dissection::change(std::vector<BrickDelta> deltas)
+{
+  for (BrickDelta& delta : deltas)
+    m_mask.setBrick(delta.brick, std::move(delta.after));
+}
+
+void Dissection::follow(const History& next)
+{
+  if (m_open)
+    throw core::InvalidParameter("dissection: a stroke is open");
+  if (next.size() != m_strokes.size())
+    throw core::InvalidParameter("dissection: the history is that of other strokes");
+  const History::Way way = next.way(m_history.position(), next.position());
+  BrickDraft draft(m_mask);
+  for (const std::size_t stroke : way.back)
+    applyDeltas(m_strokes[stroke]->packed, Way::Back, draft);
+  for (const std::size_t stroke : way.forth)
+    applyDeltas(m_strokes[stroke]->packed, Way::Forth, draft);
+  History history = next;
+  change(draft.take());
+  m_history = std::move(history);
+  ++m_changes;
+}
+
 bool Dissection::undo()
 {
-  if (m_open || m_applied == 0)
+  History next = m_history;
+  if (m_open || !next.back())
     return false;
-  --m_applied;
-  for (const BrickDelta& delta : m_strokes[m_applied]->deltas)
-    m_mask.setBrick(delta.brick, delta.before);
+  follow(next);
   return true;
 }
 
 bool Dissection::redo()
 {
-  if (m_open || m_applied == m_strokes.size())
+  History next = m_history;
+  if (m_open || !next.forth())
     return false;
-  for (const BrickDelta& delta : m_strokes[m_applied]->deltas)
-    m_mask.setBrick(delta.brick, delta.after);
-  ++m_applied;
+  follow(next);
   return true;
+}
+
+std::vector<std::size_t> Dissection::removeBranch(const std::string& name)
+{
+  const std::vector<std::size_t> kept = m_history.remove(name);
+  std::vector<std::shared_ptr<const Stroke>> strokes;
+  for (const std::size_t stroke : kept)
+    strokes.push_back(m_strokes[stroke]);
+  m_strokes = std::move(strokes);
+  ++m_changes;
+  return kept;
 }
 
 void Dissection::beginStroke(const StrokeInfo& info)
@@ -52,6 +111,18 @@ bool Dissection::cut(const SweptSphere& burr, const ProtectedTissue& keep)
   return !changed.empty();
 }
 
+void Dissection::cutAgain(const std::vector<std::uint8_t>& packed)
+{
+  if (!m_open)
+    throw core::InvalidParameter("dissection: no stroke is open");
+  BrickDraft draft(m_mask);
+  applyDeltas(packed, Way::Forth, draft);
+  auto deltas = draft.take();
+  for (const BrickDelta& delta : deltas)
+    m_touched.emplace(delta.brick, m_before.brick(delta.brick));
+  change(std::move(deltas));
+}
+
 std::vector<std::size_t> Dissection::openBricks() const
 {
   std::vector<std::size_t> bricks;
@@ -65,42 +136,49 @@ std::shared_ptr<const Stroke> Dissection::endStroke()
 {
   if (!m_open)
     return nullptr;
+  std::shared_ptr<Stroke> stroke;
+  if (!m_touched.empty())
+  {
+    std::vector<BrickDelta> deltas;
+    deltas.reserve(m_touched.size());
+    for (const auto& [brick, before] : m_touched)
+      deltas.push_back({brick, before, m_mask.brick(brick)});
+    stroke = std::make_shared<Stroke>(Stroke{m_info, encodeDeltas(deltas)});
+    m_strokes.push_back(stroke);
+    m_history.add();
+    ++m_changes;
+  }
   m_open = false;
-  if (m_touched.empty())
-    return nullptr;
-  auto stroke = std::make_shared<Stroke>();
-  stroke->info = m_info;
-  stroke->deltas.reserve(m_touched.size());
-  for (const auto& [brick, before] : m_touched)
-    stroke->deltas.push_back({brick, before, m_mask.brick(brick)});
   m_touched.clear();
-  m_strokes.resize(m_applied);
-  m_strokes.push_back(stroke);
-  m_applied = m_strokes.size();
+  m_before = volume::CutMask(m_mask.geometry()); // lets go of the bricks as they were
   return stroke;
 }
 
 void Dissection::append(std::shared_ptr<const Stroke> stroke)
 {
-  if (m_open || m_applied != m_strokes.size())
-    throw core::InvalidParameter("dissection: strokes are appended only at the end");
-  for (const BrickDelta& delta : stroke->deltas)
-    m_mask.setBrick(delta.brick, delta.after);
+  if (m_open)
+    throw core::InvalidParameter("dissection: a stroke is open");
+  BrickDraft draft(m_mask);
+  applyDeltas(stroke->packed, Way::Forth, draft);
   m_strokes.push_back(std::move(stroke));
-  m_applied = m_strokes.size();
+  m_history.add();
+  ++m_changes;
+  change(draft.take());
 }
 
 std::size_t Dissection::historyBytes() const
 {
-  std::set<const volume::CutMask::Brick*> versions;
+  std::size_t bytes = m_strokes.capacity() * sizeof m_strokes.front();
   for (const auto& stroke : m_strokes)
-    for (const BrickDelta& delta : stroke->deltas)
-    {
-      versions.insert(delta.before.get());
-      versions.insert(delta.after.get());
-    }
-  versions.erase(nullptr);
-  return versions.size() * sizeof(volume::CutMask::Brick);
+  {
+    bytes += sizeof(Stroke) + stroke->packed.capacity() + stroke->info.startedAt.capacity() +
+             stroke->info.structures.capacity() * sizeof(TouchedStructure);
+    for (const TouchedStructure& touched : stroke->info.structures)
+      bytes += touched.name.capacity();
+  }
+  for (const auto& [brick, before] : m_touched)
+    bytes += before ? sizeof(volume::CutMask::Brick) : 0;
+  return bytes;
 }
 
 } // namespace petrous::dissection

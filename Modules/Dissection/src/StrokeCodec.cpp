@@ -1,8 +1,7 @@
 #include "petrous/Dissection/StrokeCodec.h"
 
+#include <algorithm>
 #include <cstring>
-#include <limits>
-#include <memory>
 
 #include <zstd.h>
 
@@ -87,12 +86,14 @@ std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas)
   if (ZSTD_isError(size))
     throw core::Error(core::Fault::Internal, "stroke: could not be compressed");
   packed.resize(size);
+  packed.shrink_to_fit(); // it may be kept for long
   return packed;
 }
 
-std::vector<BrickDelta> decodeDeltas(const std::vector<std::uint8_t>& bytes, const CutMask& before)
+void applyDeltas(const std::vector<std::uint8_t>& packed, Way way, BrickDraft& draft)
 {
-  const auto raw = decompress(bytes, kHeader + before.brickCount() * (4 + kBrickBytes));
+  const volume::CutMask& mask = draft.mask();
+  const auto raw = decompress(packed, kHeader + mask.brickCount() * (4 + kBrickBytes));
   const std::size_t count = getU32(&raw[12]);
   if (std::memcmp(raw.data(), kMagic, sizeof kMagic) != 0)
     damaged("it does not begin as a stroke does");
@@ -101,26 +102,55 @@ std::vector<BrickDelta> decodeDeltas(const std::vector<std::uint8_t>& bytes, con
   if (raw.size() != kHeader + count * (4 + kBrickBytes))
     damaged("it is too short");
 
-  std::vector<BrickDelta> deltas(count);
+  const int sign = way == Way::Back ? 1 : -1;
   const std::uint8_t* voxels = raw.data() + kHeader + 4 * count;
+  std::size_t least = 0;
   for (std::size_t d = 0; d < count; ++d)
   {
     const std::size_t brick = getU32(&raw[kHeader + 4 * d]);
-    if (brick >= before.brickCount() || (d > 0 && brick <= deltas[d - 1].brick))
+    if (brick >= mask.brickCount() || brick < least)
       damaged("it names a brick that is not in the grid");
-    auto after = std::make_shared<CutMask::Brick>();
-    const CutMask::BrickVersion& start = before.brick(brick);
+    least = brick + 1;
+    CutMask::Brick& values = draft.edit(brick);
+    bool fits = true;
     for (std::size_t n = 0; n < CutMask::kBrickVoxels; ++n)
     {
       const int taken = voxels[n] | voxels[CutMask::kBrickVoxels + n] << 8;
-      const int left = valueOf(start, n) - taken;
-      if (left < 0)
-        damaged("it takes more than is there");
-      (*after)[n] = static_cast<std::uint16_t>(left);
+      const int value = values[n] + sign * taken;
+      fits = fits && value >= 0 && value <= CutMask::kUntouched;
+      values[n] = static_cast<std::uint16_t>(value);
     }
-    deltas[d] = {brick, start, std::move(after)};
+    if (!fits)
+      damaged("it takes more than is there");
     voxels += kBrickBytes;
   }
+}
+
+CutMask::Brick& BrickDraft::edit(std::size_t brick)
+{
+  auto& draft = m_bricks[brick];
+  if (!draft)
+  {
+    draft = std::make_shared<CutMask::Brick>();
+    if (const auto& version = m_mask.brick(brick))
+      *draft = *version;
+    else
+      draft->fill(CutMask::kUntouched);
+  }
+  return *draft;
+}
+
+std::vector<BrickDelta> BrickDraft::take()
+{
+  std::vector<BrickDelta> deltas;
+  deltas.reserve(m_bricks.size());
+  for (auto& [brick, draft] : m_bricks)
+  {
+    const bool untouched = std::all_of(draft->begin(), draft->end(),
+                                       [](std::uint16_t v) { return v == CutMask::kUntouched; });
+    deltas.push_back({brick, m_mask.brick(brick), untouched ? nullptr : std::move(draft)});
+  }
+  m_bricks.clear();
   return deltas;
 }
 

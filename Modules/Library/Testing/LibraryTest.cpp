@@ -79,7 +79,7 @@ TEST(Library, StrokesComeBackAfterReopening)
   library.save(value);
 
   scene::Case back = library.open("ear");
-  EXPECT_EQ(back.applied, 2u);
+  EXPECT_EQ(back.applied(), 2u);
   EXPECT_EQ(back.strokes.size(), 3u);
   library.loadDissection(back);
   EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));

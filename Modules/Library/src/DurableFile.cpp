@@ -36,13 +36,13 @@ private:
   int m_fd;
 };
 
+} // namespace
+
 void syncFolder(const fs::path& folder)
 {
   const Descriptor d(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
   ::fsync(d.get()); // some file systems cannot; the rename itself is atomic either way
 }
-
-} // namespace
 
 void throwForErrno(int error, const fs::path& path)
 {
@@ -52,6 +52,7 @@ void throwForErrno(int error, const fs::path& path)
   {
   case ENOSPC:
   case EDQUOT:
+  case EFBIG: // a limit of this process
     throw LibraryError(Reason::DiskFull, name + ": the disk is full; nothing was changed, free "
                                                 "some space and try again");
   case EACCES:

@@ -17,6 +17,9 @@ void writeDurably(const std::filesystem::path& path, std::string_view bytes);
 /// Renames and makes the folder's entry durable.
 void renameDurably(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Makes the entries of a folder durable.
+void syncFolder(const std::filesystem::path& folder);
+
 /// Makes a folder and its parents. Throws LibraryError.
 void makeFolder(const std::filesystem::path& path);
 

@@ -11,7 +11,8 @@
 
 #include "Catalogue.h"
 #include "DurableFile.h"
-#include "petrous/Dissection/StrokeCodec.h"
+#include "JournalFile.h"
+#include "Recovery.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
@@ -69,7 +70,7 @@ CaseSummary summaryOf(const scene::Case& value, const std::string& modified)
   summary.dims = value.ct.geometry.dims();
   for (const auto& part : value.labels)
     summary.structures += part.structures.size();
-  summary.strokes = value.applied;
+  summary.strokes = value.applied();
   summary.removed = value.removedVolume();
   return summary;
 }
@@ -95,15 +96,12 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
     if (mesh.object.empty())
       mesh.object = store.add("obj", [&](const fs::path& path)
                               { imaging::writeMesh(path, *mesh.mesh.get()); });
-  for (std::size_t n = 0; n < value.strokes.size(); ++n)
-  {
-    scene::StrokePart& stroke = value.strokes[n];
-    if (!stroke.object.empty())
-      continue;
-    const auto bytes = dissection::encodeDeltas(value.dissection->strokes().at(n)->deltas);
-    stroke.bytes = bytes.size();
-    stroke.object = store.add("stroke", bytes);
-  }
+  for (scene::StrokePart& part : value.strokes)
+    if (part.object.empty())
+    {
+      part.bytes = part.stroke->packed.size();
+      part.object = store.add("stroke", part.stroke->packed);
+    }
 }
 
 } // namespace
@@ -184,7 +182,14 @@ scene::Case Library::open(const std::string& name) const
                        "no case '" + name + "' in " + m_folder.string() + "; " +
                            (there.empty() ? "the library is empty" : "there are: " + there));
   }
-  scene::Case value = scene::fromManifest(readText(path), path.string());
+  const auto read = [&path] { return scene::fromManifest(readText(path), path.string()); };
+  scene::Case value = read();
+  if (value.name == name && fs::exists(journalPath(m_folder, name)))
+  {
+    const std::string words = recover(*this, value, read);
+    if (m_notice && !words.empty())
+      m_notice(words);
+  }
   attach(value);
   return value;
 }
@@ -218,25 +223,22 @@ void Library::loadDissection(scene::Case& value) const
   if (value.dissection)
     return;
   const ObjectStore store(objectFolder());
-  auto loaded = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
   for (const scene::StrokePart& part : value.strokes)
+    strokes.push_back(part.stroke ? part.stroke
+                                  : std::make_shared<const dissection::Stroke>(dissection::Stroke{
+                                        part.info, store.readWhole(part.object)}));
+  try
   {
-    auto stroke = std::make_shared<dissection::Stroke>();
-    stroke->info = part.info;
-    try
-    {
-      stroke->deltas = dissection::decodeDeltas(store.read(part.object), loaded->mask());
-    }
-    catch (const core::InvalidParameter& error)
-    {
-      throw LibraryError(Reason::Damaged, store.path(part.object).string() + ": " + error.what());
-    }
-    loaded->append(std::move(stroke));
+    value.dissection =
+        std::make_shared<dissection::Dissection>(value.ct.geometry, strokes, value.history);
   }
-  for (std::size_t n = value.applied; n < value.strokes.size(); ++n)
-    loaded->undo();
-  loaded->mask().takeDirty();
-  value.dissection = std::move(loaded);
+  catch (const core::InvalidParameter& error)
+  {
+    throw LibraryError(Reason::Damaged, manifestPath(value.name).string() + ": " + error.what());
+  }
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    value.strokes[n].stroke = std::move(strokes[n]);
 }
 
 void Library::save(scene::Case& value, const core::Progress& progress)

@@ -31,6 +31,20 @@ struct TemporaryFile
   }
 };
 
+using Digest = std::array<unsigned char, 32>;
+
+std::string hexadecimal(const Digest& digest)
+{
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : digest)
+  {
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
+  }
+  return text;
+}
+
 bool isObjectName(const std::string& name)
 {
   const auto hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
@@ -54,16 +68,16 @@ std::string sha256OfFile(const fs::path& path)
   if (file.bad())
     throw LibraryError(LibraryError::Reason::Damaged,
                        path.string() + ": cannot be read to its end");
-  std::array<unsigned char, 32> digest{};
+  Digest digest{};
   EVP_DigestFinal_ex(context.get(), digest.data(), nullptr);
-  std::string text;
-  for (const unsigned char byte : digest)
-  {
-    constexpr const char* digits = "0123456789abcdef";
-    text += digits[byte >> 4];
-    text += digits[byte & 15];
-  }
-  return text;
+  return hexadecimal(digest);
+}
+
+std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
+{
+  Digest digest{};
+  EVP_Digest(bytes, count, digest.data(), nullptr, EVP_sha256(), nullptr);
+  return hexadecimal(digest);
 }
 
 ObjectStore::ObjectStore(fs::path folder)
@@ -115,6 +129,16 @@ std::vector<std::uint8_t> ObjectStore::read(const std::string& object) const
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!stream)
     throw LibraryError(LibraryError::Reason::Damaged, file.string() + ": cannot be read");
+  return bytes;
+}
+
+std::vector<std::uint8_t> ObjectStore::readWhole(const std::string& object) const
+{
+  auto bytes = read(object);
+  if (sha256Of(bytes.data(), bytes.size()) != object.substr(0, kHashDigits))
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       path(object).string() +
+                           ": is not what was written there; restore the library from a copy");
   return bytes;
 }
 

@@ -63,8 +63,13 @@ scene::Case fullCase()
   stroke.info.removed = 1.0 / 7.0;
   stroke.info.structures = {{"nerve", 0.25}};
   stroke.info.camera = core::CameraPose{};
-  value.strokes = {stroke, stroke};
-  value.applied = 1;
+  stroke.info.recovered = true;
+  value.strokes = {stroke, stroke, stroke};
+  value.history = dissection::History::line(1, 1);
+  value.history.start("zweiter Zugang ü", 0);
+  value.history.add();
+  value.history.add();
+  value.history.back();
   return value;
 }
 
@@ -145,10 +150,56 @@ TEST(Manifest, RefusesADamagedTransferFunctionByName)
   }
 }
 
+TEST(Manifest, KeepsTheTreeOfStrokes)
+{
+  const scene::Case back = scene::fromManifest(scene::toManifest(fullCase()), "m.json");
+  EXPECT_EQ(back.history.branch().name, "zweiter Zugang ü");
+  EXPECT_EQ(back.history.lineTo(back.history.branch().tip), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(back.applied(), 2u);
+  EXPECT_EQ(back.history.ahead(), 1u);
+  EXPECT_EQ(back.history.find("main")->tip, 0u);
+  EXPECT_TRUE(back.strokes[1].info.recovered);
+}
+
+// The history of the first format: a list and a count.
+TEST(Manifest, OpensOneWithoutBranches)
+{
+  auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
+  j["petrous_case"] = 1;
+  j["dissection"].erase("history");
+  j["dissection"]["applied"] = 2;
+  const scene::Case back = scene::fromManifest(j.dump(), "m.json");
+  EXPECT_EQ(back.history.branch().name, "main");
+  EXPECT_EQ(back.applied(), 2u);
+  EXPECT_EQ(back.history.ahead(), 1u);
+  j["dissection"]["applied"] = 4;
+  EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError);
+}
+
+TEST(Manifest, RefusesABranchThatIsNone)
+{
+  const auto good = nlohmann::json::parse(scene::toManifest(fullCase()));
+  const auto refused = [&good](const char* pointer, const nlohmann::json& bad)
+  {
+    auto j = good;
+    j[nlohmann::json::json_pointer(std::string("/dissection/history") + pointer)] = bad;
+    EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError) << pointer << bad;
+  };
+  refused("/branch", "gone");
+  refused("/branches/0/tip", 9);
+  refused("/branches/0/tip", -1);
+  refused("/branches/0/tip", 1.5);
+  refused("/branches/1/name", "main");
+  refused("/branches/1/name", "");
+  refused("/branches/1/position", 4);
+  refused("/parents", {0, 1, 3});
+  refused("/parents", {0, 1});
+}
+
 TEST(Manifest, RefusesANewerFormatInWords)
 {
   std::string text = scene::toManifest(fullCase());
-  const auto at = text.find("\"petrous_case\": 1");
+  const auto at = text.find("\"petrous_case\": 2");
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 17, "\"petrous_case\": 9");
   try
@@ -173,7 +224,7 @@ TEST(Manifest, RefusesEveryTruncation)
 TEST(Manifest, RefusesWhatContradictsItself)
 {
   scene::Case value = fullCase();
-  value.applied = 3;
+  value.history.add();
   EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "m.json"), scene::ManifestError);
   value = fullCase();
   value.name = "../escape";

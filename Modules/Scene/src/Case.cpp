@@ -1,34 +1,42 @@
 #include "petrous/Scene/Case.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "petrous/Scene/Branches.h"
 
 namespace petrous::scene
 {
 
 double Case::removedVolume() const
 {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < applied; ++n)
-    sum += strokes[n].info.removed;
-  return sum;
+  return summaryOf(*this, history.position()).removed;
 }
+
+namespace
+{
+
+std::size_t step(Case& value, std::size_t count, bool back)
+{
+  dissection::History next = value.history;
+  std::size_t steps = 0;
+  while (steps < count && (back ? next.back() : next.forth()))
+    ++steps;
+  if (steps > 0)
+    follow(value, std::move(next));
+  return steps;
+}
+
+} // namespace
 
 std::size_t undo(Case& value, std::size_t count)
 {
-  const std::size_t steps = std::min(count, value.applied);
-  for (std::size_t n = 0; n < steps && value.dissection; ++n)
-    value.dissection->undo();
-  value.applied -= steps;
-  return steps;
+  return step(value, count, true);
 }
 
 std::size_t redo(Case& value, std::size_t count)
 {
-  const std::size_t steps = std::min(count, value.strokes.size() - value.applied);
-  for (std::size_t n = 0; n < steps && value.dissection; ++n)
-    value.dissection->redo();
-  value.applied += steps;
-  return steps;
+  return step(value, count, false);
 }
 
 std::shared_ptr<const dissection::Stroke> endStroke(Case& value)
@@ -37,15 +45,14 @@ std::shared_ptr<const dissection::Stroke> endStroke(Case& value)
     return nullptr;
   auto stroke = value.dissection->endStroke();
   if (stroke)
-    listStroke(value, *stroke);
+    listStroke(value, stroke);
   return stroke;
 }
 
-void listStroke(Case& value, const dissection::Stroke& stroke)
+void listStroke(Case& value, const std::shared_ptr<const dissection::Stroke>& stroke)
 {
-  value.strokes.resize(value.applied);
-  value.strokes.push_back({"", 0, stroke.info});
-  value.applied = value.strokes.size();
+  value.strokes.push_back({"", stroke->packed.size(), stroke->info, stroke});
+  value.history.add();
 }
 
 const StructurePart* findStructure(const Case& value, const std::string& name)
@@ -182,6 +189,14 @@ bool isUtf8(const std::string& text)
 }
 
 } // namespace
+
+void checkBranchName(const std::string& name)
+{
+  if (name.empty() || name.size() > 100 || !isUtf8(name) || name.front() == '-' ||
+      std::any_of(name.begin(), name.end(), isControl))
+    throw core::InvalidParameter("the name of a branch must be 1 to 100 bytes of UTF-8 without "
+                                 "control characters or a dash in front");
+}
 
 void checkPartName(const std::string& name)
 {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "petrous/Dissection/BurrName.h"
+#include "DissectionJson.h"
 
 namespace petrous::scene
 {
@@ -12,16 +12,7 @@ namespace
 
 using nlohmann::json;
 
-json vectorOut(const Eigen::Vector3d& v)
-{
-  return {v[0], v[1], v[2]};
-}
-
-Eigen::Vector3d vectorIn(const json& j)
-{
-  const auto v = j.get<std::array<double, 3>>();
-  return {v[0], v[1], v[2]};
-}
+constexpr int kFirstFormatWithBranches = 2;
 
 json gridOut(const core::GridGeometry& grid)
 {
@@ -118,71 +109,6 @@ appearance::StructureLook lookIn(const json& j, const appearance::StructurePrese
   return look;
 }
 
-json cameraOut(const core::CameraPose& camera)
-{
-  json j{{"position_mm", vectorOut(camera.position)},
-         {"focal_point_mm", vectorOut(camera.focalPoint)},
-         {"view_up", vectorOut(camera.viewUp)}};
-  if (camera.parallelScale)
-    j["parallel_scale_mm"] = *camera.parallelScale;
-  else
-    j["view_angle_deg"] = camera.viewAngle;
-  return j;
-}
-
-core::CameraPose cameraIn(const json& j)
-{
-  core::CameraPose camera;
-  camera.position = vectorIn(j.at("position_mm"));
-  camera.focalPoint = vectorIn(j.at("focal_point_mm"));
-  camera.viewUp = vectorIn(j.at("view_up"));
-  if (j.contains("parallel_scale_mm"))
-    camera.parallelScale = j.at("parallel_scale_mm").get<double>();
-  else
-    camera.viewAngle = j.at("view_angle_deg").get<double>();
-  return camera;
-}
-
-json strokeOut(const StrokePart& stroke)
-{
-  json structures = json::array();
-  for (const auto& touched : stroke.info.structures)
-    structures.push_back({{"name", touched.name}, {"removed_mm3", touched.volume}});
-  const dissection::Burr& burr = stroke.info.burr;
-  json j{{"object", stroke.object},
-         {"bytes", stroke.bytes},
-         {"started_at", stroke.info.startedAt},
-         {"duration_s", stroke.info.duration},
-         {"burr", dissection::nameOf(burr.kind)},
-         {"diameter_mm", burr.diameter},
-         {"rpm", burr.rpm},
-         {"removed_mm3", stroke.info.removed},
-         {"structures", structures}};
-  if (stroke.info.camera)
-    j["camera"] = cameraOut(*stroke.info.camera);
-  return j;
-}
-
-StrokePart strokeIn(const json& j)
-{
-  StrokePart stroke;
-  stroke.object = j.at("object").get<std::string>();
-  stroke.bytes = j.at("bytes").get<std::size_t>();
-  stroke.info.startedAt = j.at("started_at").get<std::string>();
-  stroke.info.duration = j.at("duration_s").get<double>();
-  stroke.info.burr.kind = dissection::parseBurrKind(j.at("burr").get<std::string>())
-                              .value_or(dissection::Burr::Kind::Cutting);
-  stroke.info.burr.diameter = j.at("diameter_mm").get<double>();
-  stroke.info.burr.rpm = j.at("rpm").get<double>();
-  stroke.info.removed = j.at("removed_mm3").get<double>();
-  for (const json& touched : j.at("structures"))
-    stroke.info.structures.push_back(
-        {touched.at("name").get<std::string>(), touched.at("removed_mm3").get<double>()});
-  if (j.contains("camera"))
-    stroke.info.camera = cameraIn(j.at("camera"));
-  return stroke;
-}
-
 json labelsOut(const LabelPart& part)
 {
   json structures = json::array();
@@ -238,11 +164,16 @@ Case caseIn(const json& j)
   }
   if (j.contains("camera"))
     value.camera = cameraIn(j.at("camera"));
-  for (const json& stroke : j.at("dissection").at("strokes"))
+  const json& dissection = j.at("dissection");
+  for (const json& stroke : dissection.at("strokes"))
     value.strokes.push_back(strokeIn(stroke));
-  value.applied = j.at("dissection").at("applied").get<std::size_t>();
-  if (value.applied > value.strokes.size())
-    throw core::InvalidParameter("more strokes applied than there are");
+  if (j.at("petrous_case").get<int>() < kFirstFormatWithBranches)
+    value.history = dissection::History::line(value.strokes.size(),
+                                              dissection.at("applied").get<std::size_t>());
+  else
+    value.history = historyIn(dissection.at("history"));
+  if (value.history.size() != value.strokes.size())
+    throw core::InvalidParameter("the history is that of other strokes");
   checkCaseName(value.name);
   return value;
 }
@@ -282,7 +213,7 @@ std::string toManifest(const Case& value)
   json strokes = json::array();
   for (const StrokePart& stroke : value.strokes)
     strokes.push_back(strokeOut(stroke));
-  j["dissection"] = {{"applied", value.applied}, {"strokes", std::move(strokes)}};
+  j["dissection"] = {{"history", historyOut(value.history)}, {"strokes", std::move(strokes)}};
   return j.dump(1) + "\n";
 }
 

@@ -2,8 +2,10 @@
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "petrous/Dissection/History.h"
 #include "petrous/Dissection/Stroke.h"
 #include "petrous/Dissection/SweptSphereCut.h"
 
@@ -18,22 +20,39 @@ class Dissection
 public:
   explicit Dissection(const core::GridGeometry& geometry);
 
+  /// What was saved, at the state of `history`. Throws InvalidParameter when a stroke that is done
+  /// is damaged, or does not fit the grid or the one before.
+  Dissection(const core::GridGeometry& geometry, std::vector<std::shared_ptr<const Stroke>> strokes,
+             const History& history);
+
   const volume::CutMask& mask() const noexcept { return m_mask; }
   volume::CutMask& mask() noexcept ///< for takeDirty
   {
     return m_mask;
   }
 
-  /// All strokes; the first `applied()` of them are in the mask, the rest can be redone.
+  /// All strokes in the order in which they were made, and how they follow each other.
   const std::vector<std::shared_ptr<const Stroke>>& strokes() const noexcept { return m_strokes; }
-  std::size_t applied() const noexcept { return m_applied; }
+  const History& history() const noexcept { return m_history; }
+  std::size_t applied() const { return m_history.applied(); } ///< strokes that are in the mask
 
-  /// One stroke back or forth; false when there is none. Not during a stroke.
+  /// Grows whenever strokes or history change.
+  std::uint64_t changes() const noexcept { return m_changes; }
+
+  /// One stroke back or forth along the present branch; false when there is none. Not during a
+  /// stroke.
   bool undo();
   bool redo();
 
-  /// Opens a stroke; the strokes that were undone are given up once it cuts. Throws
-  /// InvalidParameter when one is open already.
+  /// Goes to the state of `next`, which must have the strokes of this history: undo and redo of any
+  /// depth, or another branch. Throws InvalidParameter, and nothing has changed, during a stroke or
+  /// where a stroke that came from disk is damaged.
+  void follow(const History& next);
+
+  /// See History::remove.
+  std::vector<std::size_t> removeBranch(const std::string& name);
+
+  /// Opens a stroke. Throws InvalidParameter when one is open already.
   void beginStroke(const StrokeInfo& info);
   bool strokeOpen() const noexcept { return m_open; }
 
@@ -48,22 +67,28 @@ public:
 
   /// Information of the open stroke, to be completed before it ends.
   StrokeInfo& openInfo() noexcept { return m_info; }
+  const StrokeInfo& openInfo() const noexcept { return m_info; }
 
-  /// Closes the stroke; null (and no entry) when it changed nothing.
+  /// Takes once more what was taken of voxels elsewhere, within the open stroke; see applyDeltas.
+  void cutAgain(const std::vector<std::uint8_t>& packed);
+
+  /// Closes the stroke and adds it to the history; null (and no entry) when it changed nothing.
   std::shared_ptr<const Stroke> endStroke();
 
-  /// Appends a stroke read from disk, which must start from the present mask, and applies it.
-  /// Only while nothing is undone.
+  /// Adds a stroke that starts from the present state and applies it. Throws as `follow` does.
   void append(std::shared_ptr<const Stroke> stroke);
 
-  /// Memory that the strokes' brick versions hold, each shared version counted once, bytes.
+  /// Memory that the strokes hold, bytes: packed ones, and of an open one its bricks as they were.
   std::size_t historyBytes() const;
 
 private:
+  void change(std::vector<BrickDelta> deltas);
+
   volume::CutMask m_mask;
   volume::CutMask m_before;
   std::vector<std::shared_ptr<const Stroke>> m_strokes;
-  std::size_t m_applied = 0;
+  History m_history;
+  std::uint64_t m_changes = 0;
   bool m_open = false;
   StrokeInfo m_info;
   std::map<std::size_t, volume::CutMask::BrickVersion> m_touched; ///< brick -> version before

@@ -40,6 +40,8 @@ struct StrokeInfo
   double removed = 0.0; ///< mm^3 lost from {f > 0}
   std::vector<TouchedStructure> structures;
   std::optional<core::CameraPose> camera; ///< from where it was drilled
+  /// It was open when the program ended without closing it: what is there came from the journal.
+  bool recovered = false;
 };
 
 /// A brick before and after; null stands for all untouched.
@@ -53,7 +55,7 @@ struct BrickDelta
 struct Stroke
 {
   StrokeInfo info;
-  std::vector<BrickDelta> deltas; ///< sorted by brick, each brick once
+  std::vector<std::uint8_t> packed; ///< its voxels, see StrokeCodec.h
 };
 
 } // namespace petrous::dissection

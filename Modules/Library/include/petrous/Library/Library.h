@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -36,10 +38,14 @@ public:
 
   const std::filesystem::path& folder() const noexcept { return m_folder; }
 
+  /// Is told in words what the user should know of a case that was opened: one sentence.
+  void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
+
   std::vector<CaseSummary> list() const; ///< by name
   bool contains(const std::string& name) const;
 
-  /// The case without its voxels: they are read where a part is asked for.
+  /// The case without its voxels: they are read where a part is asked for. What a session drilled
+  /// that ended without saving (see Journal) is brought back and saved first.
   /// Throws LibraryError (NotFound, Damaged) and ManifestError.
   scene::Case open(const std::string& name) const;
 
@@ -57,6 +63,7 @@ private:
   void attach(scene::Case& value) const;
 
   std::filesystem::path m_folder;
+  std::function<void(const std::string&)> m_notice;
 };
 
 } // namespace petrous::library

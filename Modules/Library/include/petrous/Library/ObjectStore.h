@@ -34,6 +34,10 @@ public:
 
   std::vector<std::uint8_t> read(const std::string& object) const;
 
+  /// The same, and the content must have the hash that the name says: throws LibraryError (Damaged)
+  /// otherwise.
+  std::vector<std::uint8_t> readWhole(const std::string& object) const;
+
   /// Objects that this store added since `forget`, newest last; `discardNew` removes them again.
   void discardNew() noexcept;
   void forget() noexcept;
@@ -45,6 +49,9 @@ private:
   std::filesystem::path m_folder;
   std::vector<std::filesystem::path> m_new;
 };
+
+/// SHA-256 in lower-case hexadecimal.
+std::string sha256Of(const std::uint8_t* bytes, std::size_t count);
 
 /// SHA-256 of a file in lower-case hexadecimal. Throws LibraryError when it cannot be read.
 std::string sha256OfFile(const std::filesystem::path& path);

@@ -70,12 +70,16 @@ struct StrokePart
   std::string object;
   std::size_t bytes = 0; ///< on disk
   dissection::StrokeInfo info;
+  std::shared_ptr<const dissection::Stroke>
+      stroke; ///< with its voxels; null until these are loaded
 };
 
 /// One patient's case as a value: what was put together, how it looks, what was drilled.
 ///
-/// The strokes are kept twice: as a list that is always there, and as voxels in `dissection`, which
-/// is loaded only where somebody drills, draws or asks the field (Library::loadDissection).
+/// What is known of the strokes is always there; their voxels are in `dissection`, which is loaded
+/// only where somebody drills, draws or asks the field (Library::loadDissection). Then `history` is
+/// that of `dissection` as of the last call of a function here: its own may be moved on by another
+/// thread.
 struct Case
 {
   std::string name;
@@ -91,24 +95,25 @@ struct Case
   std::vector<MeshPart> meshes;
   std::optional<core::CameraPose> camera; ///< last view; none: the lateral one
 
-  std::vector<StrokePart> strokes;
-  std::size_t applied = 0; ///< strokes [0, applied) are done, the rest can be redone
+  std::vector<StrokePart> strokes; ///< all, in the order in which they were made
+  dissection::History history;     ///< how they follow each other, and which are done
   std::shared_ptr<dissection::Dissection> dissection;
 
-  double removedVolume() const; ///< mm^3, of the strokes that are done
+  std::size_t applied() const { return history.applied(); } ///< strokes that are done
+  double removedVolume() const;                             ///< mm^3, of those
   volume::IntensityScale intensityScale() const { return {iso, denseBone}; }
 };
 
-/// Steps `count` strokes back (or forth) in the list and in the voxels where they are loaded.
-/// Returns how many steps there were.
+/// Steps `count` strokes back (or forth) along the present branch, also in the voxels where they
+/// are loaded. Returns how many steps there were. Throws as Dissection::follow does.
 std::size_t undo(Case& value, std::size_t count);
 std::size_t redo(Case& value, std::size_t count);
 
 /// Closes the open stroke of `dissection` and lists it. Null when it changed nothing.
 std::shared_ptr<const dissection::Stroke> endStroke(Case& value);
 
-/// Lists a stroke that `dissection` has already; those that were undone are given up.
-void listStroke(Case& value, const dissection::Stroke& stroke);
+/// Lists a stroke that `dissection` has already, at the present state.
+void listStroke(Case& value, const std::shared_ptr<const dissection::Stroke>& stroke);
 
 /// The structure, or null.
 StructurePart* findStructure(Case& value, const std::string& name);

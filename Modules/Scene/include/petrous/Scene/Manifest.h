@@ -20,7 +20,8 @@ struct ManifestError : core::Error
   Reason reason;
 };
 
-constexpr int kManifestFormat = 1;
+/// 2: branches. A manifest of an older format opens.
+constexpr int kManifestFormat = 2;
 
 /// The case as JSON: everything but the voxels, which it names by their objects. Two equal cases
 /// give the same text. Numbers go there and back without loss.

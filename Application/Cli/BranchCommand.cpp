@@ -1,0 +1,176 @@
+#include <cstdio>
+#include <optional>
+
+#include "CaseJson.h"
+#include "Commands.h"
+#include "Numbers.h"
+#include "petrous/Scene/Branches.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+using Branch = dissection::History::Branch;
+
+struct Options
+{
+  std::string caseName, name, newName;
+  std::vector<std::string> compared;
+  std::size_t after = 0;
+  bool list = false, remove = false;
+  const CLI::App* command = nullptr;
+
+  bool given(const char* option) const { return command->count(option) > 0; }
+};
+
+std::string strokesInWords(std::size_t count)
+{
+  return std::to_string(count) + (count == 1 ? " stroke" : " strokes");
+}
+
+std::string inWords(const scene::Case& value, const Branch& branch)
+{
+  const auto summary = scene::summaryOf(value, branch.position);
+  const std::size_t ahead = value.history.lineTo(branch.tip).size() - summary.strokes;
+  return branch.name + ": " + strokesInWords(summary.strokes) + ", " + fixed(summary.removed, 1) +
+         " mm3 removed" + (ahead > 0 ? ", " + std::to_string(ahead) + " to redo" : "") +
+         (branch.setAside ? " (set aside by drilling after an undo)" : "");
+}
+
+nlohmann::json allJson(const scene::Case& value)
+{
+  nlohmann::json branches = nlohmann::json::array();
+  for (const Branch& branch : value.history.branches())
+    branches.push_back(branchJson(value, branch));
+  return {{"case", value.name},
+          {"branch", value.history.branch().name},
+          {"strokes", value.strokes.size()},
+          {"undo", value.applied()},
+          {"redo", value.history.ahead()},
+          {"removed_mm3", value.removedVolume()},
+          {"branches", std::move(branches)}};
+}
+
+const Branch& branchOf(const scene::Case& value, const std::string& name)
+{
+  if (const Branch* branch = value.history.find(name))
+    return *branch;
+  dissection::History history = value.history;
+  history.goTo(name); // says which there are
+  return value.history.branch();
+}
+
+void sayRow(const Context& context, const std::string& what, const std::string& a,
+            const std::string& b)
+{
+  char row[256];
+  std::snprintf(row, sizeof row, "%-28s %20s %20s", what.c_str(), a.c_str(), b.c_str());
+  context.say(row);
+}
+
+void compare(const Context& context, const scene::Case& value, const Options& options)
+{
+  const Branch& a = branchOf(value, options.compared[0]);
+  const Branch& b = branchOf(value, options.compared[1]);
+  const auto ofA = scene::summaryOf(value, a.position);
+  const auto ofB = scene::summaryOf(value, b.position);
+  const std::size_t common = ofA.strokes - value.history.way(a.position, b.position).back.size();
+  sayRow(context, "", a.name, b.name);
+  sayRow(context, "strokes (" + std::to_string(common) + " in common)", std::to_string(ofA.strokes),
+         std::to_string(ofB.strokes));
+  sayRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
+  std::map<std::string, std::pair<double, double>> structures;
+  for (const auto& touched : ofA.structures)
+    structures[touched.name].first = touched.volume;
+  for (const auto& touched : ofB.structures)
+    structures[touched.name].second = touched.volume;
+  for (const auto& [name, volumes] : structures)
+    sayRow(context, "  of " + name + ", mm3", fixed(volumes.first, 2), fixed(volumes.second, 2));
+  context.give({{"case", value.name},
+                {"common_strokes", common},
+                {"compare", {branchJson(value, a), branchJson(value, b)}}});
+}
+
+void list(const Context& context, const scene::Case& value)
+{
+  for (const Branch& branch : value.history.branches())
+    context.say((&branch == &value.history.branch() ? "* " : "  ") + inWords(value, branch));
+  context.give(allJson(value));
+}
+
+// What is done, in words.
+std::string change(scene::Case& value, const Options& options)
+{
+  const std::string& name = options.name;
+  if (options.given("--rename"))
+  {
+    scene::renameBranch(value, name, options.newName);
+    return "'" + name + "' is now '" + options.newName + "'";
+  }
+  if (options.remove)
+    return "branch '" + name + "' deleted, and " +
+           strokesInWords(scene::removeBranch(value, name)) + " that only it led to";
+  const bool there = value.history.find(name) != nullptr;
+  if (there && options.given("--from"))
+    throw core::InvalidParameter("branch '" + name + "' is there already; --from is for a new one");
+  if (there)
+    scene::goToBranch(value, name);
+  else if (options.given("--from"))
+    scene::startBranch(value, name, options.after);
+  else
+    scene::startBranch(value, name);
+  return std::string(there ? "on branch " : "new branch ") + inWords(value, value.history.branch());
+}
+
+void branch(const Context& context, const Options& options)
+{
+  const int ways = static_cast<int>(options.list) + static_cast<int>(options.remove) +
+                   static_cast<int>(options.given("--rename")) +
+                   static_cast<int>(options.given("--from")) +
+                   static_cast<int>(options.given("--compare"));
+  const bool named = options.given("NAME");
+  if (ways > 1)
+    throw UsageError("branch: give one of --list, --compare, --from, --rename, --delete");
+  if (named == (options.list || options.given("--compare")))
+    throw UsageError(named ? "branch: --list and --compare take no NAME"
+                           : "branch: give the NAME of a branch, or --list");
+  library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  if (options.list)
+    return list(context, value);
+  if (options.given("--compare"))
+    return compare(context, value, options);
+  const std::string done = change(value, options);
+  library.save(value);
+  context.say(done);
+  context.give(allJson(value));
+}
+
+} // namespace
+
+void addBranchCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command = context.addCommand(
+      app, "branch", "Approaches: go to one, begin one from any earlier state, compare two",
+      [options, &context] { branch(context, *options); });
+  options->command = command;
+  command->add_option("CASE", options->caseName)->required();
+  command->add_option("NAME", options->name,
+                      "Goes to that branch, or makes it where the case stands");
+  command->add_flag("--list", options->list, "The branches of the case");
+  command
+      ->add_option("--from", options->after,
+                   "A new branch begins after the first N strokes of the present one")
+      ->type_name("N");
+  command->add_option("--compare", options->compared, "What two branches took, side by side")
+      ->expected(2)
+      ->type_name("A B");
+  command->add_option("--rename", options->newName, "Another name for branch NAME");
+  command->add_flag("--delete", options->remove,
+                    "Removes branch NAME and the strokes that only it leads to");
+}
+
+} // namespace petrous::cli

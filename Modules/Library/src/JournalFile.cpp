@@ -1,0 +1,283 @@
+#include "JournalFile.h"
+
+#include <cerrno>
+#include <utility>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "DurableFile.h"
+#include "petrous/Library/LibraryError.h"
+#include "petrous/Library/ObjectStore.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using nlohmann::json;
+
+// A frame: u64 length of the rest, its SHA-256 in hexadecimal, then the rest: kind, u32 length of
+// the text, text, bytes. Little endian.
+constexpr std::size_t kHash = 64;
+constexpr std::size_t kBefore = 8 + kHash;
+constexpr std::size_t kLeast = 5;
+constexpr int kFormat = 1;
+
+void putNumber(std::string& to, std::uint64_t value, int bytes)
+{
+  for (int n = 0; n < bytes; ++n)
+    to += static_cast<char>(value >> (8 * n) & 255U);
+}
+
+std::uint64_t numberIn(std::string_view from, int bytes)
+{
+  std::uint64_t value = 0;
+  for (int n = 0; n < bytes; ++n)
+    value |=
+        static_cast<std::uint64_t>(static_cast<unsigned char>(from[static_cast<std::size_t>(n)]))
+        << (8 * n);
+  return value;
+}
+
+std::string hashOf(std::string_view bytes)
+{
+  return sha256Of(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
+// The frame at the beginning of `bytes`; its length, or 0 where there is no good one.
+std::size_t frameIn(std::string_view bytes, JournalFrame& frame)
+{
+  if (bytes.size() < kBefore + kLeast)
+    return 0;
+  const std::uint64_t length = numberIn(bytes, 8);
+  if (length < kLeast || length > bytes.size() - kBefore)
+    return 0;
+  const std::string_view rest = bytes.substr(kBefore, static_cast<std::size_t>(length));
+  const std::size_t text = static_cast<std::size_t>(numberIn(rest.substr(1), 4));
+  if (hashOf(rest) != bytes.substr(8, kHash) || text > rest.size() - kLeast)
+    return 0;
+  frame.kind = static_cast<JournalFrame::Kind>(rest[0]);
+  frame.text = rest.substr(kLeast, text);
+  const std::string_view voxels = rest.substr(kLeast + text);
+  frame.bytes.assign(voxels.begin(), voxels.end());
+  return kBefore + rest.size();
+}
+
+bool headIn(const JournalFrame& frame, JournalHead& head)
+{
+  const json j = json::parse(frame.text, nullptr, false);
+  if (frame.kind != JournalFrame::Kind::Head || !j.is_object() ||
+      j.value("petrous_journal", json()) != kFormat)
+    return false;
+  const auto name = j.find("case"), revision = j.find("revision"), strokes = j.find("strokes");
+  if (name == j.end() || revision == j.end() || strokes == j.end() || !name->is_string() ||
+      !revision->is_number_unsigned() || !strokes->is_number_unsigned())
+    return false;
+  head = {name->get<std::string>(), revision->get<std::uint64_t>(), strokes->get<std::size_t>()};
+  return true;
+}
+
+} // namespace
+
+std::string encoded(const JournalFrame& frame)
+{
+  std::string rest(1, static_cast<char>(frame.kind));
+  putNumber(rest, frame.text.size(), 4);
+  rest += frame.text;
+  rest.append(frame.bytes.begin(), frame.bytes.end());
+  std::string bytes;
+  putNumber(bytes, rest.size(), 8);
+  return bytes + hashOf(rest) + rest;
+}
+
+std::string encoded(const JournalHead& head)
+{
+  const json j{{"petrous_journal", kFormat},
+               {"case", head.caseName},
+               {"revision", head.revision},
+               {"strokes", head.strokes}};
+  return encoded(JournalFrame{JournalFrame::Kind::Head, j.dump(), {}});
+}
+
+JournalContent journalFrom(std::string_view bytes)
+{
+  JournalContent content;
+  JournalFrame frame;
+  std::size_t length = frameIn(bytes, frame);
+  content.headed = length > 0 && headIn(frame, content.head);
+  while (content.headed && length > 0)
+  {
+    bytes.remove_prefix(length);
+    frame = {};
+    length = frameIn(bytes, frame);
+    if (length > 0)
+      content.frames.push_back(std::move(frame));
+  }
+  content.leftOver = bytes.size();
+  return content;
+}
+
+fs::path journalPath(const fs::path& library, const std::string& name)
+{
+  return library / "cases" / (name + ".journal");
+}
+
+fs::path setAside(const fs::path& journal)
+{
+  for (int n = 1;; ++n)
+  {
+    const fs::path aside = journal.string() + ".aside-" + std::to_string(n);
+    if (fs::exists(aside))
+      continue;
+    renameDurably(journal, aside);
+    return aside;
+  }
+}
+
+JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
+  : m_path(path)
+{
+  // A reader may take the empty file for one that was left behind, and remove it: then once more.
+  struct stat info
+  {
+  };
+  do
+  {
+    if (m_descriptor >= 0)
+      ::close(m_descriptor);
+    m_descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
+    if (m_descriptor < 0)
+      throwForErrno(errno, path);
+    while (::flock(m_descriptor, LOCK_EX) != 0 && errno == EINTR)
+    {
+    }
+  } while (::fstat(m_descriptor, &info) == 0 && info.st_nlink == 0);
+  m_held = true;
+  try
+  {
+    append(encoded(head));
+    syncFolder(path.parent_path());
+  }
+  catch (...)
+  {
+    remove();
+    throw;
+  }
+}
+
+JournalFile::JournalFile(const fs::path& path)
+  : m_path(path)
+{
+  m_descriptor = ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
+  if (m_descriptor < 0 && (errno == EROFS || errno == EACCES))
+    m_descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (m_descriptor < 0 && errno == ENOENT)
+    return;
+  if (m_descriptor < 0)
+    throwForErrno(errno, path);
+  m_held = ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0;
+  struct stat info
+  {
+  };
+  if (::fstat(m_descriptor, &info) == 0 && info.st_nlink > 0)
+  {
+    m_size = static_cast<std::size_t>(info.st_size);
+    return;
+  }
+  ::close(m_descriptor); // its owner has just removed it
+  m_descriptor = -1;
+}
+
+JournalFile::~JournalFile()
+{
+  if (m_descriptor >= 0)
+    ::close(m_descriptor);
+}
+
+JournalFile::JournalFile(JournalFile&& other) noexcept
+  : m_path(std::move(other.m_path))
+  , m_descriptor(std::exchange(other.m_descriptor, -1))
+  , m_held(other.m_held)
+  , m_size(other.m_size)
+{
+}
+
+JournalFile& JournalFile::operator=(JournalFile&& other) noexcept
+{
+  std::swap(m_path, other.m_path);
+  std::swap(m_descriptor, other.m_descriptor);
+  std::swap(m_held, other.m_held);
+  std::swap(m_size, other.m_size);
+  return *this;
+}
+
+std::string JournalFile::read() const
+{
+  std::string bytes(m_size, '\0');
+  std::size_t got = 0;
+  while (got < bytes.size())
+  {
+    const ssize_t count =
+        ::pread(m_descriptor, &bytes[got], bytes.size() - got, static_cast<off_t>(got));
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count <= 0)
+      break;
+    got += static_cast<std::size_t>(count);
+  }
+  bytes.resize(got);
+  return bytes;
+}
+
+void JournalFile::append(std::string_view frames)
+{
+  const std::size_t before = m_size;
+  try
+  {
+    write(frames);
+  }
+  catch (...)
+  {
+    if (::ftruncate(m_descriptor, static_cast<off_t>(before)) == 0)
+      m_size = before;
+    throw;
+  }
+}
+
+void JournalFile::write(std::string_view bytes)
+{
+  while (!bytes.empty())
+  {
+    const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR)
+      continue;
+    if (written < 0)
+      throwForErrno(errno, m_path);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    m_size += static_cast<std::size_t>(written);
+  }
+  if (::fdatasync(m_descriptor) != 0)
+    throwForErrno(errno, m_path);
+}
+
+void JournalFile::moveTo(const fs::path& path)
+{
+  renameDurably(m_path, path);
+  m_path = path;
+}
+
+void JournalFile::remove() noexcept
+{
+  ::unlink(m_path.c_str());
+  if (m_descriptor >= 0)
+    ::close(std::exchange(m_descriptor, -1));
+}
+
+} // namespace petrous::library

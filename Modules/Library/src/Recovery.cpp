@@ -1,0 +1,220 @@
+#include "Recovery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "JournalFile.h"
+#include "petrous/Library/Library.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/HistoryText.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using Kind = JournalFrame::Kind;
+
+std::string nameIn(const JournalFrame& stroke)
+{
+  return sha256Of(stroke.bytes.data(), stroke.bytes.size()) + ".stroke";
+}
+
+struct Standing
+{
+  bool fits = false;
+  std::size_t saved = 0; ///< strokes of the journal that the manifest has already
+};
+
+// A journal goes on from the manifest of its revision, or from the one after it where that has
+// strokes of the journal: the program ended after it had saved them.
+Standing standingOf(const JournalContent& content, const scene::Case& value)
+{
+  Standing standing;
+  const JournalHead& head = content.head;
+  if (head.caseName != value.name || head.strokes > value.strokes.size())
+    return standing;
+  const std::size_t since = value.strokes.size() - head.strokes;
+  if (head.revision == value.revision)
+    standing.fits = since == 0;
+  else if (head.revision + 1 == value.revision && since > 0)
+  {
+    for (const JournalFrame& frame : content.frames)
+      if (frame.kind == Kind::Stroke && standing.saved < since &&
+          nameIn(frame) == value.strokes[head.strokes + standing.saved].object)
+        ++standing.saved;
+    standing.fits = standing.saved == since;
+  }
+  return standing;
+}
+
+struct Recovered
+{
+  std::size_t strokes = 0; ///< that had ended
+  double part = -1.0;      ///< s of a stroke that was open; below 0: none was
+};
+
+std::shared_ptr<dissection::Stroke> strokeOf(const JournalFrame& frame)
+{
+  return std::make_shared<dissection::Stroke>(
+      dissection::Stroke{scene::strokeFromText(frame.text).info, frame.bytes});
+}
+
+// Throws InvalidParameter where a frame does not fit what it follows.
+Recovered play(const JournalContent& content, std::size_t saved, dissection::Dissection& work)
+{
+  Recovered result;
+  std::vector<const JournalFrame*> parts;
+  for (const JournalFrame& frame : content.frames)
+  {
+    const bool known = saved > 0;
+    switch (frame.kind)
+    {
+    case Kind::Stroke:
+      parts.clear();
+      if (known)
+        --saved;
+      else
+      {
+        work.append(strokeOf(frame));
+        ++result.strokes;
+      }
+      break;
+    case Kind::History:
+      if (!known)
+        work.follow(scene::historyFromText(frame.text));
+      break;
+    case Kind::Part:
+      if (!known)
+        parts.push_back(&frame);
+      break;
+    case Kind::Head:
+      break;
+    }
+  }
+  if (parts.empty())
+    return result;
+  dissection::StrokeInfo info = scene::strokeFromText(parts.back()->text).info;
+  info.recovered = true;
+  result.part = info.duration;
+  work.beginStroke(info);
+  for (const JournalFrame* part : parts)
+    work.cutAgain(part->bytes);
+  work.endStroke();
+  return result;
+}
+
+std::string inWords(const Recovered& what, std::size_t leftOver)
+{
+  std::string text;
+  if (what.strokes > 0)
+    text = std::to_string(what.strokes) + (what.strokes == 1 ? " stroke" : " strokes");
+  if (what.part >= 0.0)
+    text += (text.empty() ? "" : " and ") + std::string("the first ") +
+            std::to_string(std::lround(what.part)) + " s of a stroke that was being drilled";
+  if (text.empty())
+    text = "the place in the history";
+  return text + (leftOver > 0 ? " (the end of its journal was not whole)" : "");
+}
+
+// The case with what the dissection has more.
+scene::Case withNew(scene::Case value, const dissection::Dissection& work)
+{
+  for (std::size_t n = value.strokes.size(); n < work.strokes().size(); ++n)
+  {
+    const auto& stroke = work.strokes()[n];
+    value.strokes.push_back({"", stroke->packed.size(), stroke->info, stroke});
+  }
+  value.history = work.history();
+  return value;
+}
+
+std::string recoverFrom(JournalFile& file, const fs::path& path, Library& library,
+                        scene::Case& value)
+{
+  const std::string bytes = file.read();
+  const JournalContent content = journalFrom(bytes);
+  const std::string about = "case '" + value.name + "': ";
+  const auto aside = [&](const std::string& why)
+  { return about + why + "; it was set aside as " + setAside(path).string(); };
+  if (!content.headed)
+  {
+    if (bytes.size() > encoded(JournalHead{value.name, value.revision, 0}).size() + 8)
+      return aside("the journal of a session that ended without saving cannot be read");
+    file.remove(); // it ended before anything was in it
+    return {};
+  }
+  const Standing standing = standingOf(content, value);
+  const auto holdsVoxels = [](const JournalFrame& frame)
+  { return frame.kind == Kind::Stroke || frame.kind == Kind::Part; };
+  if (!standing.fits && std::none_of(content.frames.begin(), content.frames.end(), holdsVoxels))
+  {
+    file.remove(); // nobody drilled
+    return {};
+  }
+  if (!standing.fits)
+    return aside("the journal of a session that ended without saving belongs to another state of "
+                 "the case");
+  scene::Case next = value;
+  Recovered what;
+  try
+  {
+    library.loadDissection(next);
+    what = play(content, standing.saved, *next.dissection);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    return aside(std::string("the journal of a session that ended without saving does not fit (") +
+                 error.what() + ")");
+  }
+  const dissection::Dissection work = *next.dissection;
+  const bool moved = scene::toText(work.history()) != scene::toText(value.history);
+  if (what.strokes > 0 || what.part >= 0.0 || moved)
+  {
+    if (what.part >= 0.0) // so that the journal is known to be spent once this is saved
+    {
+      const auto& last = work.strokes().back();
+      file.append(encoded(JournalFrame{
+          Kind::Stroke, scene::toText(scene::StrokePart{{}, last->packed.size(), last->info, {}}),
+          last->packed}));
+    }
+    next = withNew(value, work);
+    library.save(next);
+    for (scene::StrokePart& stroke : next.strokes)
+      stroke.stroke = nullptr;
+    value = std::move(next);
+  }
+  file.remove();
+  if (what.strokes == 0 && what.part < 0.0 && !moved)
+    return {};
+  return about + "the last session ended without saving; " + inWords(what, content.leftOver) +
+         " came back";
+}
+
+} // namespace
+
+std::string recover(Library library, scene::Case& value, const std::function<scene::Case()>& read)
+{
+  const fs::path path = journalPath(library.folder(), value.name);
+  try
+  {
+    JournalFile file(path);
+    value = read();
+    if (!file.there() || !file.held())
+      return {};
+    return recoverFrom(file, path, library, value);
+  }
+  catch (const core::Error& error)
+  {
+    return "case '" + value.name + "': " + path.string() +
+           " holds what a session drilled and did not save, and could not be brought back now: " +
+           error.what() + "; it stays there for the next time";
+  }
+}
+
+} // namespace petrous::library

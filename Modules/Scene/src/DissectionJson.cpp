@@ -1,0 +1,183 @@
+#include "DissectionJson.h"
+
+#include "petrous/Dissection/BurrName.h"
+#include "petrous/Scene/Branches.h"
+#include "petrous/Scene/HistoryText.h"
+#include "petrous/Scene/Manifest.h"
+
+namespace petrous::scene
+{
+
+using dissection::History;
+using nlohmann::json;
+
+namespace
+{
+
+// kStart + 1 is 0.
+std::size_t numberOf(std::size_t state)
+{
+  return state + 1;
+}
+
+std::size_t stateOf(const json& number)
+{
+  if (!number.is_number_unsigned())
+    throw core::InvalidParameter("history: a stroke's number is none");
+  return number.get<std::size_t>() - 1;
+}
+
+template <class Parse>
+auto parsed(std::string_view text, Parse parse)
+{
+  try
+  {
+    return parse(json::parse(text));
+  }
+  catch (const json::exception&)
+  {
+    throw core::InvalidParameter("history: not the text that was written");
+  }
+}
+
+} // namespace
+
+json vectorOut(const Eigen::Vector3d& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::Vector3d vectorIn(const json& j)
+{
+  const auto v = j.get<std::array<double, 3>>();
+  return {v[0], v[1], v[2]};
+}
+
+json cameraOut(const core::CameraPose& camera)
+{
+  json j{{"position_mm", vectorOut(camera.position)},
+         {"focal_point_mm", vectorOut(camera.focalPoint)},
+         {"view_up", vectorOut(camera.viewUp)}};
+  if (camera.parallelScale)
+    j["parallel_scale_mm"] = *camera.parallelScale;
+  else
+    j["view_angle_deg"] = camera.viewAngle;
+  return j;
+}
+
+core::CameraPose cameraIn(const json& j)
+{
+  core::CameraPose camera;
+  camera.position = vectorIn(j.at("position_mm"));
+  camera.focalPoint = vectorIn(j.at("focal_point_mm"));
+  camera.viewUp = vectorIn(j.at("view_up"));
+  if (j.contains("parallel_scale_mm"))
+    camera.parallelScale = j.at("parallel_scale_mm").get<double>();
+  else
+    camera.viewAngle = j.at("view_angle_deg").get<double>();
+  return camera;
+}
+
+json strokeOut(const StrokePart& stroke)
+{
+  json structures = json::array();
+  for (const auto& touched : stroke.info.structures)
+    structures.push_back({{"name", touched.name}, {"removed_mm3", touched.volume}});
+  const dissection::Burr& burr = stroke.info.burr;
+  json j{{"object", stroke.object},
+         {"bytes", stroke.bytes},
+         {"started_at", stroke.info.startedAt},
+         {"duration_s", stroke.info.duration},
+         {"burr", dissection::nameOf(burr.kind)},
+         {"diameter_mm", burr.diameter},
+         {"rpm", burr.rpm},
+         {"removed_mm3", stroke.info.removed},
+         {"structures", structures}};
+  if (stroke.info.camera)
+    j["camera"] = cameraOut(*stroke.info.camera);
+  if (stroke.info.recovered)
+    j["recovered"] = true;
+  return j;
+}
+
+StrokePart strokeIn(const json& j)
+{
+  StrokePart stroke;
+  stroke.object = j.at("object").get<std::string>();
+  stroke.bytes = j.at("bytes").get<std::size_t>();
+  stroke.info.startedAt = j.at("started_at").get<std::string>();
+  stroke.info.duration = j.at("duration_s").get<double>();
+  stroke.info.burr.kind = dissection::parseBurrKind(j.at("burr").get<std::string>())
+                              .value_or(dissection::Burr::Kind::Cutting);
+  stroke.info.burr.diameter = j.at("diameter_mm").get<double>();
+  stroke.info.burr.rpm = j.at("rpm").get<double>();
+  stroke.info.removed = j.at("removed_mm3").get<double>();
+  for (const json& touched : j.at("structures"))
+    stroke.info.structures.push_back(
+        {touched.at("name").get<std::string>(), touched.at("removed_mm3").get<double>()});
+  if (j.contains("camera"))
+    stroke.info.camera = cameraIn(j.at("camera"));
+  stroke.info.recovered = j.value("recovered", false);
+  return stroke;
+}
+
+json historyOut(const History& history)
+{
+  json parents = json::array();
+  for (std::size_t n = 0; n < history.size(); ++n)
+    parents.push_back(numberOf(history.parent(n)));
+  json branches = json::array();
+  for (const History::Branch& branch : history.branches())
+  {
+    branches.push_back({{"name", branch.name},
+                        {"tip", numberOf(branch.tip)},
+                        {"position", numberOf(branch.position)}});
+    if (branch.setAside)
+      branches.back()["set_aside"] = true;
+  }
+  return {{"branch", history.branch().name},
+          {"branches", std::move(branches)},
+          {"parents", std::move(parents)}};
+}
+
+History historyIn(const json& j)
+{
+  std::vector<std::size_t> parents;
+  for (const json& parent : j.at("parents"))
+    parents.push_back(stateOf(parent));
+  std::vector<History::Branch> branches;
+  const auto name = j.at("branch").get<std::string>();
+  std::size_t present = History::kStart;
+  for (const json& b : j.at("branches"))
+  {
+    History::Branch branch{b.at("name").get<std::string>(), stateOf(b.at("tip")),
+                           stateOf(b.at("position")), b.value("set_aside", false)};
+    checkBranchName(branch.name);
+    if (branch.name == name)
+      present = branches.size();
+    branches.push_back(std::move(branch));
+  }
+  return {std::move(parents), std::move(branches), present};
+}
+
+std::string toText(const StrokePart& stroke)
+{
+  return strokeOut(stroke).dump();
+}
+
+std::string toText(const History& history)
+{
+  return historyOut(history).dump();
+}
+
+StrokePart strokeFromText(std::string_view text)
+{
+  return parsed(text, strokeIn);
+}
+
+History historyFromText(std::string_view text)
+{
+  return parsed(text, historyIn);
+}
+
+} // namespace petrous::scene

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "petrous/Scene/Case.h"
+
+namespace petrous::scene
+{
+
+// The parts of a manifest that a journal has, too. `...In` throws json::exception or
+// InvalidParameter.
+
+nlohmann::json vectorOut(const Eigen::Vector3d& v);
+Eigen::Vector3d vectorIn(const nlohmann::json& j);
+
+nlohmann::json cameraOut(const core::CameraPose& camera);
+core::CameraPose cameraIn(const nlohmann::json& j);
+
+nlohmann::json strokeOut(const StrokePart& stroke);
+StrokePart strokeIn(const nlohmann::json& j);
+
+/// Strokes count from 1 there; 0 is the untouched bone.
+nlohmann::json historyOut(const dissection::History& history);
+dissection::History historyIn(const nlohmann::json& j);
+
+} // namespace petrous::scene

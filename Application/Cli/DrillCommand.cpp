@@ -130,8 +130,15 @@ void sayBalance(const Context& context, const presenters::PathDrill& session,
 std::unique_ptr<library::Journal> journalOf(const library::Library& library,
                                             const scene::Case& value, presenters::TouchScene& touch)
 {
-  return std::make_unique<library::Journal>(
-      library, value, [&touch](const dissection::Dissection&) { return touch.drill().measured(); });
+  const auto measured = [&touch](const dissection::Dissection& work)
+  {
+    dissection::StrokeInfo info = work.openInfo();
+    auto removed = touch.drill().measure(work);
+    info.removed = removed.total;
+    info.structures = std::move(removed.structures);
+    return info;
+  };
+  return std::make_unique<library::Journal>(library, value, measured);
 }
 
 void play(const Context& context, const Options& options)

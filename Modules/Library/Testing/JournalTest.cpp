@@ -1,1 +1,530 @@
+#include <atomic>
+#include <csignal>
+#include <thread>
+
 #include <gtest/gtest.h>
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include "../src/JournalFile.h"
+#include "TestCase.h"
+#include "petrous/Library/Journal.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Branches.h"
+
+using namespace petrous;
+using namespace petrous::library;
+using test::contentOf;
+using test::smallCase;
+using test::TemporaryFolder;
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+std::vector<std::uint16_t> voxelsOf(const scene::Case& value)
+{
+  const auto dense = std::as_const(*value.dissection).mask().dense();
+  return {dense.data(), dense.data() + dense.size()};
+}
+
+scene::Case savedCase(Library& library, const std::string& name = "ear")
+{
+  scene::Case value = smallCase(name);
+  library.save(value);
+  library.loadDissection(value);
+  return value;
+}
+
+// One step of 0.5 s of a stroke that goes on in a line of voxels.
+void drillStep(scene::Case& value, int step, int line)
+{
+  const auto at = [&](double i) {
+    return value.ct.geometry.patientFromVoxel({2.0 + i, 3.0 + line, 4.0 + line});
+  };
+  value.dissection->cut({at(step), at(step + 1), 0.7});
+  value.dissection->openInfo().duration += 0.5;
+}
+
+void drillLine(scene::Case& value, Journal& journal, int line, int steps)
+{
+  value.dissection->beginStroke({});
+  for (int step = 0; step < steps; ++step)
+  {
+    drillStep(value, step, line);
+    journal.follow(*value.dissection);
+  }
+  scene::endStroke(value);
+  journal.follow(*value.dissection);
+}
+
+// What a kill leaves: the files as they are now, in a library of their own.
+struct Killed
+{
+  TemporaryFolder folder;
+  std::vector<std::string> notices;
+  Library library{folder.path()};
+
+  explicit Killed(const Library& other)
+  {
+    fs::copy(other.folder(), folder.path(), fs::copy_options::recursive);
+    library.onNotice([this](const std::string& words) { notices.push_back(words); });
+  }
+  fs::path journal() const { return folder.path() / "cases/ear.journal"; }
+  scene::Case open()
+  {
+    scene::Case value = library.open("ear");
+    library.loadDissection(value);
+    return value;
+  }
+};
+
+} // namespace
+
+TEST(Journal, BringsBackStrokesThatWereNotSaved)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  drillLine(value, journal, 3, 4);
+  scene::undo(value, 1);
+  journal.follow(*value.dissection);
+  drillLine(value, journal, 6, 4);
+
+  Killed killed(library);
+  const scene::Case back = killed.open();
+  EXPECT_EQ(voxelsOf(back), voxelsOf(value));
+  EXPECT_EQ(back.strokes.size(), 3u);
+  EXPECT_EQ(back.applied(), 2u);
+  EXPECT_TRUE(back.history.find("main~1"));
+  EXPECT_FALSE(back.strokes[2].info.recovered) << "it had ended";
+  EXPECT_FALSE(fs::exists(killed.journal()));
+  ASSERT_EQ(killed.notices.size(), 1u);
+  EXPECT_NE(killed.notices[0].find("3 strokes came back"), std::string::npos) << killed.notices[0];
+  // From now on it is a case as any other.
+  const auto content = contentOf(killed.folder.path());
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
+  EXPECT_EQ(contentOf(killed.folder.path()), content);
+  EXPECT_EQ(killed.notices.size(), 1u);
+}
+
+TEST(Journal, LosesAtMostFiveSecondsOfALongStroke)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value,
+                  [](const dissection::Dissection& work)
+                  {
+                    auto info = work.openInfo();
+                    info.removed = info.duration; // 1 mm^3 a second
+                    return info;
+                  });
+  value.dissection->beginStroke({});
+  std::vector<std::vector<std::uint16_t>> states;
+  for (int step = 0; step < 34; ++step)
+  {
+    drillStep(value, step % 17, step / 17 * 6);
+    states.push_back(voxelsOf(value));
+    journal.follow(*value.dissection);
+  }
+  Killed killed(library); // 17 s in
+  const scene::Case back = killed.open();
+  EXPECT_EQ(voxelsOf(back), states[29]) << "of 15 s";
+  ASSERT_EQ(back.strokes.size(), 1u);
+  EXPECT_TRUE(back.strokes[0].info.recovered);
+  EXPECT_DOUBLE_EQ(back.strokes[0].info.duration, 15.0);
+  EXPECT_DOUBLE_EQ(back.strokes[0].info.removed, 15.0);
+  EXPECT_NE(killed.notices.at(0).find("15 s of a stroke"), std::string::npos);
+}
+
+TEST(Journal, IsThereOnlyWhileSomethingIsNotSaved)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  const auto before = contentOf(folder.path());
+  const fs::path path = folder.path() / "cases/ear.journal";
+  {
+    Journal journal(library, value);
+    journal.follow(*value.dissection);
+    EXPECT_EQ(contentOf(folder.path()), before);
+    drillLine(value, journal, 0, 3);
+    EXPECT_TRUE(fs::exists(path));
+    EXPECT_EQ(journal.bytes(), fs::file_size(path));
+    library.save(value);
+    journal.saved(value);
+    EXPECT_FALSE(fs::exists(path));
+    drillLine(value, journal, 3, 3);
+    EXPECT_TRUE(fs::exists(path));
+  }
+  EXPECT_FALSE(fs::exists(path)) << "the session ended in order";
+}
+
+// Another thread drills on while the case is being saved.
+TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  scene::Case snapshot = value;
+  snapshot.dissection = nullptr;
+  drillLine(value, journal, 3, 4);
+  value.dissection->beginStroke({});
+  for (int step = 0; step < 11; ++step)
+  {
+    drillStep(value, step, 6);
+    journal.follow(*value.dissection);
+  }
+  const std::size_t all = journal.bytes();
+  library.save(snapshot);
+  Killed between(library); // the manifest has the first stroke, and so has the journal
+  journal.saved(snapshot);
+  EXPECT_LT(journal.bytes(), all);
+  Killed after(library);
+  const auto expected = voxelsOf(between.open());
+  EXPECT_EQ(voxelsOf(after.open()), expected);
+  const scene::Case back = after.open();
+  EXPECT_EQ(back.strokes.size(), 3u);
+  EXPECT_TRUE(back.strokes[2].info.recovered);
+  for (auto* killed : {&between, &after})
+    for (const auto& [name, content] : contentOf(killed->folder.path()))
+      EXPECT_EQ(name.find("journal"), std::string::npos) << name;
+}
+
+TEST(Journal, IsLeftAloneWhileItsProgramRuns)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  const auto before = contentOf(folder.path());
+  scene::Case other = library.open("ear");
+  EXPECT_EQ(other.strokes.size(), 0u);
+  EXPECT_EQ(contentOf(folder.path()), before);
+  library.loadDissection(other);
+  try
+  {
+    Journal second(library, other);
+    FAIL();
+  }
+  catch (const LibraryError& error)
+  {
+    EXPECT_EQ(error.reason, LibraryError::Reason::Conflict);
+  }
+}
+
+TEST(Journal, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  Killed killed(library);
+  {
+    // Another program, which does not look for journals, changes the case.
+    const fs::path manifest = killed.folder.path() / "cases/ear.json";
+    auto text = contentOf(killed.folder.path()).at("cases/ear.json");
+    const auto at = text.find("\"revision\": 1");
+    ASSERT_NE(at, std::string::npos);
+    std::ofstream(manifest) << text.replace(at, 13, "\"revision\": 2");
+  }
+  EXPECT_EQ(killed.open().strokes.size(), 0u);
+  ASSERT_EQ(killed.notices.size(), 1u);
+  EXPECT_NE(killed.notices[0].find("ear.journal.aside-1"), std::string::npos) << killed.notices[0];
+  EXPECT_TRUE(fs::exists(killed.folder.path() / "cases/ear.journal.aside-1"));
+  EXPECT_EQ(killed.library.list().size(), 1u);
+}
+
+TEST(Journal, ADamagedEndCostsOnlyTheEnd)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  const auto first = voxelsOf(value);
+  const std::size_t good = journal.bytes();
+  drillLine(value, journal, 3, 4);
+  for (const std::size_t size : {good, good + 1, good + 50, good + 300, journal.bytes() - 1})
+  {
+    Killed killed(library);
+    fs::resize_file(killed.journal(), size);
+    const scene::Case back = killed.open();
+    EXPECT_EQ(back.strokes.size() == 2 ? voxelsOf(value) : first, voxelsOf(back)) << size;
+    EXPECT_EQ(killed.notices.at(0).find("not whole") == std::string::npos, size == good);
+  }
+}
+
+TEST(Journal, OneThatFitsNothingIsSetAside)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  const std::string bytes = contentOf(folder.path()).at("cases/ear.journal");
+  const auto content = journalFrom(bytes);
+  const auto expectAside = [&](const std::string& journalBytes)
+  {
+    Killed killed(library);
+    std::ofstream(killed.journal(), std::ios::binary) << journalBytes;
+    EXPECT_EQ(killed.open().strokes.size(), 0u);
+    EXPECT_EQ(contentOf(killed.folder.path()).at("cases/ear.journal.aside-1"), journalBytes);
+    EXPECT_EQ(killed.notices.size(), 1u);
+  };
+  JournalFrame stroke = content.frames.at(0);
+  const std::string head = encoded(content.head);
+  expectAside(head + encoded(stroke) + encoded(stroke)); // takes the same voxels twice
+  stroke.text = "{}";
+  expectAside(head + encoded(stroke));
+  stroke = content.frames[0];
+  stroke.bytes.resize(7);
+  expectAside(head + encoded(stroke));
+  JournalHead other = content.head;
+  other.caseName = "eye";
+  expectAside(encoded(other) + bytes.substr(head.size()));
+  expectAside(std::string(1000, 'x'));
+  JournalFrame history = content.frames.at(1);
+  history.text.replace(history.text.find("\"parents\":[0]"), 13, "\"parents\":[7]");
+  expectAside(head + encoded(content.frames[0]) + encoded(history));
+}
+
+TEST(Journal, SurvivesTenThousandDamagedFiles)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  drillLine(value, journal, 3, 12);
+  const std::string bytes = contentOf(folder.path()).at("cases/ear.journal");
+  const std::size_t frames = journalFrom(bytes).frames.size();
+  std::mt19937 random(7);
+  for (int n = 0; n < 10000; ++n)
+  {
+    std::string damaged = bytes;
+    if (random() % 2)
+      damaged.resize(random() % damaged.size());
+    for (std::size_t flips = random() % 3; flips > 0 && !damaged.empty(); --flips)
+      damaged[random() % damaged.size()] ^= static_cast<char>(1U << random() % 8);
+    const auto content = journalFrom(damaged);
+    EXPECT_LE(content.frames.size(), frames);
+    EXPECT_EQ(content.frames.size() == frames, damaged == bytes);
+    if (n % 100 != 0)
+      continue;
+    Killed killed(library);
+    std::ofstream(killed.journal(), std::ios::binary) << damaged;
+    ASSERT_NO_THROW(killed.open());
+  }
+}
+
+// A limit on the size of files stands for a disk that is full.
+TEST(Journal, AFullDiskIsToldAndARetryWorks)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  const std::string before = contentOf(folder.path()).at("cases/ear.journal");
+  rlimit unlimited{};
+  ::getrlimit(RLIMIT_FSIZE, &unlimited);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit full = unlimited;
+  full.rlim_cur = before.size() + 100;
+  ::setrlimit(RLIMIT_FSIZE, &full);
+  std::string words;
+  try
+  {
+    drillLine(value, journal, 3, 4);
+  }
+  catch (const LibraryError& error)
+  {
+    EXPECT_EQ(error.reason, LibraryError::Reason::DiskFull);
+    words = error.what();
+  }
+  const std::string then = contentOf(folder.path()).at("cases/ear.journal");
+  ::setrlimit(RLIMIT_FSIZE, &unlimited);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(words.find("disk is full"), std::string::npos) << words;
+  EXPECT_EQ(then, before);
+  EXPECT_EQ(value.strokes.size(), 2u) << "the stroke is still there";
+  journal.follow(*value.dissection);
+  Killed killed(library);
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
+}
+
+TEST(Journal, WhatCannotBeBroughtBackNowStays)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  Killed killed(library);
+  fs::rename(killed.folder.path() / "objects", killed.folder.path() / "gone");
+  std::ofstream(killed.folder.path() / "objects") << "a file stands here";
+  EXPECT_EQ(killed.library.open("ear").strokes.size(), 0u);
+  EXPECT_NE(killed.notices.at(0).find("stays there"), std::string::npos);
+  fs::remove(killed.folder.path() / "objects");
+  fs::rename(killed.folder.path() / "gone", killed.folder.path() / "objects");
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
+}
+
+namespace
+{
+
+// A session by script: strokes of 1 to 17 steps of half a second, saves, undo, redo, branches. The
+// same every time; `each` is called with what was drilled in s whenever something has changed.
+template <class Each>
+void session(Library& library, scene::Case& value, Each each)
+{
+  Journal journal(library, value);
+  std::mt19937 random(99);
+  double seconds = 0.0;
+  const auto changed = [&]
+  {
+    journal.follow(*value.dissection);
+    each(seconds, value);
+  };
+  for (int stroke = 0; seconds < 120.0; ++stroke)
+  {
+    value.dissection->beginStroke({});
+    const int length = 1 + static_cast<int>(random() % 17);
+    for (int n = 0; n < length; ++n)
+    {
+      drillStep(value, n, stroke % 14);
+      seconds += 0.5;
+      changed();
+    }
+    scene::endStroke(value);
+    changed();
+    switch (random() % 6)
+    {
+    case 0:
+      library.save(value);
+      journal.saved(value);
+      break;
+    case 1:
+      scene::undo(value, 1 + random() % 2);
+      break;
+    case 2:
+      scene::redo(value, 1);
+      break;
+    case 3:
+      scene::startBranch(value, "b" + std::to_string(stroke), random() % (value.applied() + 1));
+      break;
+    case 4:
+      scene::goToBranch(value,
+                        value.history.branches()[random() % value.history.branches().size()].name);
+      break;
+    default:
+      break;
+    }
+    changed();
+  }
+}
+
+// What one thread of a child tells its parent.
+struct Shared
+{
+  std::atomic<std::size_t>* done;
+  Shared()
+    : done(static_cast<std::atomic<std::size_t>*>(::mmap(nullptr, sizeof(std::atomic<std::size_t>),
+                                                         PROT_READ | PROT_WRITE,
+                                                         MAP_SHARED | MAP_ANONYMOUS, -1, 0)))
+  {
+  }
+  ~Shared() { ::munmap(done, sizeof(std::atomic<std::size_t>)); }
+};
+
+} // namespace
+
+TEST(Journal, KilledAtTwoHundredMomentsLosesAtMostFiveSeconds)
+{
+  // In memory where there is such a place: a kill, unlike a power cut, asks nothing of the disk.
+  const fs::path memory = "/dev/shm";
+  const TemporaryFolder folder(fs::exists(memory) ? memory : fs::temp_directory_path());
+  // What the session leads to, change by change.
+  std::vector<std::pair<double, std::vector<std::uint16_t>>> states;
+  {
+    Library library(folder.path() / "truth");
+    scene::Case value = savedCase(library);
+    states.emplace_back(0.0, voxelsOf(value));
+    session(library, value,
+            [&](double seconds, const scene::Case& now)
+            { states.emplace_back(seconds, voxelsOf(now)); });
+  }
+  const Shared shared;
+  std::mt19937 random(1);
+  int told = 0;
+  double most = 0.0;
+  for (int round = 0; round < 200; ++round)
+  {
+    const fs::path place = folder.path() / std::to_string(round);
+    Library library(place);
+    {
+      scene::Case fresh = smallCase("ear");
+      library.save(fresh);
+    }
+    new (shared.done) std::atomic<std::size_t>(0);
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      try
+      {
+        scene::Case own = library.open("ear");
+        library.loadDissection(own);
+        session(library, own,
+                [&](double, const scene::Case&)
+                {
+                  if (++*shared.done + 1 == states.size())
+                    ::pause(); // only a kill ends it
+                });
+      }
+      catch (...)
+      {
+      }
+      ::_exit(0);
+    }
+    const std::size_t target = random() % (states.size() - 1);
+    while (*shared.done < target)
+      std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 1000));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    const std::size_t reached = *shared.done;
+
+    library.onNotice([&told](const std::string&) { ++told; });
+    scene::Case back = library.open("ear");
+    ASSERT_NO_THROW(library.loadDissection(back)) << "round " << round;
+    const auto now = voxelsOf(back);
+    double lost = 1e9;
+    for (std::size_t n = 0; n < std::min(reached + 2, states.size()); ++n)
+      if (states[n].second == now)
+        lost = std::max(0.0, states[reached].first - states[n].first);
+    ASSERT_LE(lost, 5.0) << "round " << round << " after " << reached << " changes";
+    most = std::max(most, lost);
+    for (const auto& [name, content] : contentOf(place / "objects"))
+    {
+      const bool whole =
+          name[0] == '.' || sha256OfFile(place / "objects" / name) == name.substr(0, 64);
+      EXPECT_TRUE(whole) << name;
+    }
+    for (const auto& [name, content] : contentOf(place))
+      EXPECT_EQ(name.find("journal"), std::string::npos) << name << ", round " << round;
+    fs::remove_all(place);
+  }
+  EXPECT_GT(told, 100);
+  EXPECT_GT(most, 0.0) << "some were killed in the middle of a stroke";
+}

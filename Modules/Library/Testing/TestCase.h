@@ -18,10 +18,10 @@ namespace petrous::library::test
 class TemporaryFolder
 {
 public:
-  TemporaryFolder()
-    : m_path(std::filesystem::temp_directory_path() /
-             ("petrous-library-" + std::to_string(::getpid()) + "-" +
-              std::to_string(std::random_device{}())))
+  explicit TemporaryFolder(
+      const std::filesystem::path& place = std::filesystem::temp_directory_path())
+    : m_path(place / ("petrous-library-" + std::to_string(::getpid()) + "-" +
+                      std::to_string(std::random_device{}())))
   {
     std::filesystem::create_directories(m_path);
   }

@@ -20,6 +20,12 @@ namespace
 
 std::atomic<std::uint64_t> allocations{0};
 std::atomic<std::uint64_t> releases{0};
+thread_local std::uint64_t failing = 0; // in so many calls
+
+bool fails() noexcept
+{
+  return failing > 0 && --failing == 0;
+}
 
 } // namespace
 
@@ -28,32 +34,42 @@ extern "C"
   void* malloc(std::size_t size)
   {
     allocations.fetch_add(1, std::memory_order_relaxed);
+    if (fails())
+      return nullptr;
     return __libc_malloc(size);
   }
   void* calloc(std::size_t count, std::size_t size)
   {
     allocations.fetch_add(1, std::memory_order_relaxed);
+    if (fails())
+      return nullptr;
     return __libc_calloc(count, size);
   }
   void* realloc(void* old, std::size_t size)
   {
     allocations.fetch_add(1, std::memory_order_relaxed);
+    if (fails())
+      return nullptr;
     return __libc_realloc(old, size);
   }
   void* memalign(std::size_t alignment, std::size_t size)
   {
     allocations.fetch_add(1, std::memory_order_relaxed);
+    if (fails())
+      return nullptr;
     return __libc_memalign(alignment, size);
   }
   void* aligned_alloc(std::size_t alignment, std::size_t size)
   {
     allocations.fetch_add(1, std::memory_order_relaxed);
+    if (fails())
+      return nullptr;
     return __libc_memalign(alignment, size);
   }
   int posix_memalign(void** result, std::size_t alignment, std::size_t size)
   {
     allocations.fetch_add(1, std::memory_order_relaxed);
-    *result = __libc_memalign(alignment, size);
+    *result = fails() ? nullptr : __libc_memalign(alignment, size);
     return *result ? 0 : ENOMEM;
   }
   void free(void* memory)
@@ -70,6 +86,11 @@ namespace petrous::simulation::testing
 std::uint64_t allocationCount() noexcept
 {
   return allocations.load(std::memory_order_relaxed) + releases.load(std::memory_order_relaxed);
+}
+
+void failAllocation(std::uint64_t n) noexcept
+{
+  failing = n;
 }
 
 } // namespace petrous::simulation::testing

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <memory>
+#include <new>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 #include "petrous/Core/SnapshotBuffer.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
+#include "petrous/Simulation/DissectionReporter.h"
 #include "petrous/Simulation/ServoThread.h"
 #include "petrous/Simulation/SpscRing.h"
 
@@ -94,6 +97,53 @@ TEST(ServoTick, AllocatesNothingInTenThousandTicksWithFaultsAndCuts)
 TEST(ServoTick, AllocatesNothingInSoftTissue)
 {
   tickThrough({softLayer()});
+}
+
+TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
+{
+  int failures = 0;
+  for (std::uint64_t n = 1; n < 1000; ++n)
+  {
+    LoopScene scene;
+    const dissection::SweptSphere first{{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 2.0};
+    dissection::Dissection seen = scene.work;
+    DissectionMailbox mailbox;
+    DissectionReporter reporter(scene.work, mailbox);
+    DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}));
+    TickRecord record;
+    record.input.now = 1.0;
+    ASSERT_TRUE(loop.sweep(record, first));
+    bool failed = false;
+    failAllocation(n);
+    try
+    {
+      // Bricks of the first cut and new ones.
+      loop.sweep(record, {{0.0, 0.0, 1.0}, {3.0, 0.0, -3.0}, 2.0});
+    }
+    catch (const std::bad_alloc&)
+    {
+      failed = true;
+    }
+    failAllocation(0);
+    loop.endStroke();
+    reporter.post();
+    DissectionMail mail = mailbox.take();
+    follow(mail, seen);
+    const auto cut = scene.voxels();
+    const auto dense = seen.mask().dense();
+    ASSERT_TRUE(std::equal(cut.begin(), cut.end(), dense.data())) << n;
+    ASSERT_TRUE(loop.undo());
+    ASSERT_TRUE(scene.work.mask().untouched()) << n << ": cut, and in no stroke";
+    ASSERT_TRUE(loop.redo());
+    ASSERT_EQ(scene.voxels(), cut) << n;
+    if (!failed)
+    {
+      EXPECT_GT(failures, 5);
+      return;
+    }
+    ++failures;
+  }
+  FAIL() << "no cut came through";
 }
 
 // What the tick is made of cannot throw.

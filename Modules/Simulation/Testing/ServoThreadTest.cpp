@@ -75,7 +75,8 @@ private:
 // Touch in one thread; cuts, undo and redo in another; a window's questions in this one.
 void touchCutAndUndo(LoopScene& scene, Servo& tool)
 {
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  OwedFeed feed(scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, feed);
   haptics::SimulatedDevice device(pressing);
   SpscRing<TickRecord> ring(4096);
   ServoParameters parameters;

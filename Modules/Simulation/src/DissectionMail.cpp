@@ -44,6 +44,9 @@ void DissectionMail::append(DissectionMail& next)
   next.bricks.merge(bricks); // only what it lacks: its own are later
   bricks.swap(next.bricks);
   next.bricks.clear();
+  if (next.history) // knows also what could not be noted for want of memory
+    for (auto& [brick, version] : bricks)
+      version = next.history->mask().brick(brick);
   if (next.history)
     history = std::exchange(next.history, std::nullopt);
   if (next.fault)
@@ -70,7 +73,14 @@ DissectionMail DissectionMailbox::take()
 std::vector<std::size_t> follow(DissectionMail& mail, dissection::Dissection& copy)
 {
   if (mail.history)
+  {
+    // Likewise where the mask changed, and no mail could be written.
+    const volume::CutMask& now = mail.history->mask();
+    for (std::size_t brick = 0; brick < now.brickCount(); ++brick)
+      if (now.brick(brick) != copy.mask().brick(brick))
+        mail.bricks.emplace(brick, now.brick(brick));
     copy = *std::exchange(mail.history, std::nullopt);
+  }
   std::vector<std::size_t> bricks;
   bricks.reserve(mail.bricks.size());
   for (auto& [brick, version] : mail.bricks)

@@ -68,12 +68,12 @@ core::IndexBox CutMask::bricksCovering(const core::IndexBox& voxels) const noexc
 
 void CutMask::setBrick(std::size_t index, BrickVersion version)
 {
-  m_bricks[index] = std::move(version);
   if (!m_isDirty[index])
   {
+    m_dirty.push_back(index); // first: without memory nothing has changed
     m_isDirty[index] = true;
-    m_dirty.push_back(index);
   }
+  m_bricks[index] = std::move(version);
 }
 
 std::uint16_t CutMask::at(int i, int j, int k) const noexcept

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "BoneCase.h"
 #include "HeldTool.h"
@@ -158,6 +159,79 @@ TEST_F(TouchSessionTest, StopClosesTheStrokeAndEndsTheServo)
   const auto after = session.stop();
   EXPECT_TRUE(after.strokes.empty());
   EXPECT_TRUE(after.bricks.empty());
+}
+
+namespace
+{
+
+// Led at 6 mm/s over the bone, with the drill on from 0.3 s to 0.9 s after the first reading.
+class ScriptedDevice final : public haptics::Device
+{
+public:
+  explicit ScriptedDevice(const Vector3d& place) { m_reading.pose.position = place; }
+  const haptics::DeviceDescription& description() const noexcept override { return m_about; }
+  haptics::DeviceReading read(double now) noexcept override
+  {
+    m_start = std::min(m_start, now);
+    m_reading.pose.position.x() = 3.0 + 6.0 * (now - m_start);
+    m_reading.time = now;
+    m_reading.health = haptics::DeviceHealth::Good;
+    m_reading.buttons = now > m_start + 0.3 && now < m_start + 0.9 ? 1U : 0U;
+    return m_reading;
+  }
+  void send(const haptics::Wrench&) noexcept override {}
+
+private:
+  haptics::DeviceDescription m_about;
+  haptics::DeviceReading m_reading;
+  double m_start = std::numeric_limits<double>::max(); // s
+};
+
+struct Drilled
+{
+  double rate = 0.0;        // mm^3/s
+  std::uint64_t states = 0; // of the mask, that the servo felt
+};
+
+Drilled drilledAt(double picturesPerSecond)
+{
+  scene::Case value = block();
+  TouchScene scene(value);
+  ScriptedDevice device(Vector3d(6.0, 6.0, kTop + 2.2));
+  TouchSession::Setup setup;
+  setup.parameters.constantThrust = 1;
+  setup.parameters.drillButtons = 1;
+  setup.parameters.approach[2] = -1.0;
+  TouchSession session(value, scene, device, setup);
+  Drilled drilled;
+  for (bool over = false; !over;)
+  {
+    std::this_thread::sleep_for(std::chrono::duration<double>(1.0 / picturesPerSecond));
+    const auto news = session.advance();
+    over = !news.strokes.empty();
+    drilled.states = news.record ? news.record->maskState : 0;
+  }
+  session.stop();
+  EXPECT_EQ(value.strokes.size(), 1u);
+  const auto& info = value.strokes.front().info;
+  EXPECT_GT(info.duration, 0.3);
+  drilled.rate = info.removed / info.duration;
+  return drilled;
+}
+
+} // namespace
+
+TEST(TouchSession, DrillsAtTheSameRateHoweverSeldomPicturesAreDrawn)
+{
+  const Drilled often = drilledAt(60.0);
+  for (const double picturesPerSecond : {5.0, 1.5})
+  {
+    const Drilled seldom = drilledAt(picturesPerSecond);
+    // The way of a burr that slides in its groove is never the same twice.
+    EXPECT_NEAR(seldom.rate, often.rate, 0.25 * often.rate) << picturesPerSecond << " Hz";
+    EXPECT_GT(seldom.states, 100u); // 3 pictures, and 1, while it drilled
+  }
+  EXPECT_GT(often.rate, 0.5);
 }
 
 TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)

@@ -45,8 +45,7 @@ protected:
   dissection::Dissection seen = scene.work;
   DissectionMailbox mailbox;
   DissectionReporter reporter{scene.work, mailbox};
-  OwedFeed feed{scene.feed};
-  DissectionLoop loop{scene.work, *scene.mask, feed, {}, reporter.listen({}, {})};
+  DissectionLoop loop{scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {})};
   SpscRing<TickRecord> ring{1 << 15};
   std::size_t applied = 0, closed = 0; // as the events say
 
@@ -251,23 +250,14 @@ TEST_F(Following, StopLosesNoStrokeAndNoRequest)
 
 TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
 {
-  // No memory at the 21st bite, as far as the thread can see.
-  struct Failing final : Feed
+  int cuts = 0; // and no memory after the 21st
+  DissectionLoop::Hooks failing;
+  failing.edited = [&cuts](const MaskEdit& edit)
   {
-    explicit Failing(Feed& with)
-      : feed(with)
-    {
-    }
-    std::optional<dissection::SweptSphere> bite(const TickRecord& record, double seconds) override
-    {
-      if (++calls > 20)
-        throw std::bad_alloc();
-      return feed.bite(record, seconds);
-    }
-    Feed& feed;
-    int calls = 0;
-  } failing(feed);
-  DissectionLoop cutter(scene.work, *scene.mask, failing, {}, reporter.listen({}, {}));
+    if (edit.kind == MaskEdit::Kind::Cut && ++cuts > 20)
+      throw std::bad_alloc();
+  };
+  DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {}, reporter.listen(failing, {}));
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);
   session.pedal = 1.0;
@@ -286,7 +276,7 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
   EXPECT_TRUE(thread.failed());
   thread.stop();
   EXPECT_NE(failure.find("Cutting failed"), std::string::npos) << failure;
-  EXPECT_EQ(failing.calls, 21);
+  EXPECT_EQ(cuts, 21);
   follow();
   EXPECT_EQ(closed, 1u);
   EXPECT_FALSE(seen.mask().untouched());
@@ -296,7 +286,7 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
 
 TEST_F(Following, AStrokeIsClosedAlsoWhereItCannotBeMeasured)
 {
-  DissectionLoop cutter(scene.work, *scene.mask, feed, {},
+  DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {},
                         reporter.listen({}, [](dissection::Dissection&)
                                         { throw std::runtime_error("the labels are damaged"); }));
   Session& session = scene.session;

@@ -75,8 +75,7 @@ private:
 // Touch in one thread; cuts, undo and redo in another; a window's questions in this one.
 void touchCutAndUndo(LoopScene& scene, Servo& tool)
 {
-  OwedFeed feed(scene.feed);
-  DissectionLoop loop(scene.work, *scene.mask, feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
   haptics::SimulatedDevice device(pressing);
   SpscRing<TickRecord> ring(4096);
   ServoParameters parameters;

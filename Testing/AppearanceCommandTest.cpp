@@ -159,6 +159,18 @@ TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
   EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";
 }
 
+TEST_F(AppearanceCommand, SaysHowNearABurrMayCome)
+{
+  EXPECT_EQ(part("cochlea")["warn_mm"], 1.0) << "as its preset";
+  json("appearance ear --warn cochlea=1.5 --warn incus=3");
+  EXPECT_EQ(part("cochlea")["warn_mm"], 1.5);
+  EXPECT_EQ(part("incus")["warn_mm"], 3.0);
+  EXPECT_NE(run("appearance ear --list").out.find(", warned of at 1.5 mm,"), std::string::npos);
+  json("appearance ear --warn cochlea=none --set incus=ossicle");
+  EXPECT_EQ(part("cochlea")["warn_mm"], 0.0);
+  EXPECT_EQ(part("incus")["warn_mm"], 1.0);
+}
+
 TEST_F(AppearanceCommand, BoneCanBeHiddenButStaysTissue)
 {
   const auto outcome = run("appearance ear --flags ct=none");
@@ -193,6 +205,9 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --stiffness cochlea=1000", 2, "0.001 to 100");
   expectRefused("appearance ear --stiffness cochlea=jelly", 2, "no number");
   expectRefused("appearance ear --stiffness ct=1", 3, "bone is rigid");
+  expectRefused("appearance ear --warn cochlea=51", 2, "0 to 50 mm");
+  expectRefused("appearance ear --warn cochlea=near", 2, "no number");
+  expectRefused("appearance ear --warn ct=1", 3, "bone");
   expectRefused("appearance ear --iso much", 2, "--iso");
   expectRefused("appearance ear --tissue cochlea=bone", 2, "not built yet");
   expectRefused("appearance --list", 2, "CASE");

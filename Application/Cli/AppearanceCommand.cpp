@@ -20,14 +20,14 @@ using appearance::StructureLook;
 struct Options
 {
   std::string name, iso;
-  std::vector<std::string> set, tf, color, opacity, source, flags, stiffness, tissue;
+  std::vector<std::string> set, tf, color, opacity, source, flags, stiffness, warn, tissue;
   bool list = false;
   bool presets = false;
 
   bool changes() const
   {
     return !iso.empty() || !set.empty() || !tf.empty() || !color.empty() || !opacity.empty() ||
-           !source.empty() || !flags.empty() || !stiffness.empty();
+           !source.empty() || !flags.empty() || !stiffness.empty() || !warn.empty();
   }
 };
 
@@ -113,10 +113,15 @@ std::string yielding(const StructureLook& look)
   return look.stiffness > 0.0 ? ", " + nlohmann::json(look.stiffness).dump() + " N/mm" : "";
 }
 
+std::string warned(const StructureLook& look)
+{
+  return look.warning > 0.0 ? ", warned of at " + fixed(look.warning, 1) + " mm" : "";
+}
+
 std::string describe(const StructureLook& look, const volume::IntensityScale& scale)
 {
   return look.preset + " " + hex(look.color) + ", " + appearance::flagsOf(look) +
-         (look.solid ? "" : ", a lumen") + yielding(look) + ", opacity " +
+         (look.solid ? "" : ", a lumen") + yielding(look) + warned(look) + ", opacity " +
          fixed(static_cast<double>(look.opacity), 2) + ", " + valuesOf(look, scale) +
          (look.sourceImage.empty() ? "" : ", from " + look.sourceImage);
 }
@@ -161,7 +166,8 @@ void listPresets(const Context& context)
     j["name"] = look.preset;
     presets.push_back(std::move(j));
     context.say("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
-                (look.solid ? "" : " (a lumen)") + yielding(look) + ", " + valuesOf(look, {}));
+                (look.solid ? "" : " (a lumen)") + yielding(look) + warned(look) + ", " +
+                valuesOf(look, {}));
   }
   context.give({{"presets", std::move(presets)}});
 }
@@ -329,6 +335,19 @@ void setStiffness(const Context& context, scene::Case& value, const std::string&
                    (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
 }
 
+void setWarning(scene::Case& value, const std::string& assignment)
+{
+  const auto [part, text] = split(value, assignment, "--warn PART=MM|none");
+  if (part.bone)
+    throw core::InvalidParameter("bone is what is drilled; only structures and meshes are warned "
+                                 "of");
+  const double distance = text == "none" ? 0.0 : parseNumbers(text, 1, "--warn").front();
+  if (!(distance >= 0.0 && distance <= appearance::kFarthestWarning))
+    throw UsageError("--warn: goes from 0 to 50 mm, or is 'none', not " + text);
+  for (StructureLook* look : part.looks)
+    appearance::setWarning(*look, distance);
+}
+
 void run(const Context& context, const Options& options)
 {
   if (!options.tissue.empty())
@@ -343,7 +362,7 @@ void run(const Context& context, const Options& options)
     throw UsageError("appearance: CASE is required");
   if (!options.changes() && !options.list)
     throw UsageError("appearance: nothing to do; give --iso, --set, --tf, --color, --opacity, "
-                     "--source, --flags, --stiffness, --list or --presets");
+                     "--source, --flags, --stiffness, --warn, --list or --presets");
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.name);
   if (!options.iso.empty())
@@ -363,6 +382,8 @@ void run(const Context& context, const Options& options)
     setPartFlags(context, value, assignment);
   for (const std::string& assignment : options.stiffness)
     setStiffness(context, value, assignment);
+  for (const std::string& assignment : options.warn)
+    setWarning(value, assignment);
   if (options.changes())
     library.save(value);
   list(context, value);
@@ -391,6 +412,8 @@ void addAppearanceCommand(CLI::App& app, Context& context)
           "PART=shown,touchable,drillable");
   perPart("--stiffness", options->stiffness, "How a structure yields: newtons a millimetre deep",
           "PART=N_PER_MM|rigid");
+  perPart("--warn", options->warn, "How near a burr may come before it is warned of",
+          "PART=MM|none");
   command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
   command->add_flag("--presets", options->presets, "List the looks of the catalogue");
   // In the contract, not built yet: refused when asked for, not offered.

@@ -89,6 +89,9 @@ nlohmann::json DrillReport::json()
   if (m_distances)
     for (const auto& [name, distance] : m_distances->smallest())
       distances[name] = distance;
+  auto resources = residentResources(m_case);
+  if (m_distances)
+    resources.merge(m_distances->resources());
   const auto micros = [](const auto& within) -> nlohmann::json
   {
     return {{"p50", 1e6 * within(0.5)},
@@ -109,7 +112,7 @@ nlohmann::json DrillReport::json()
           {"undo_bytes", result.bytes},
           {"tick_us", micros([this](double share) { return m_times.processor(share); })},
           {"tick_wall_us", micros([this](double share) { return m_times.wall(share); })},
-          {"resources", residentResources(m_case)}};
+          {"resources", std::move(resources)}};
 }
 
 } // namespace petrous::cli

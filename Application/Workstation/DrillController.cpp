@@ -254,6 +254,7 @@ void DrillController::putAway()
   m_frames.stop();
   const auto news = m_model.stopTouch();
   m_view.display().endTouch();
+  emit burrGone();
   if (!m_fault.isEmpty())
     emit faulted({});
   m_fault.clear();
@@ -321,9 +322,11 @@ void DrillController::show(const presenters::TouchSession::News& news)
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);
+  const Eigen::Vector3d burr = record.proxy.pose().position;
+  if (m_tool == Tool::Burr && isPlaced(record))
+    emit burrMoved(burr, toolRadius());
   if (!m_model.drilling())
     return;
-  const Eigen::Vector3d burr = record.proxy.pose().position;
   emit pointed(burr);
   if (m_slicesFollow)
     m_model.setCrosshair(burr);

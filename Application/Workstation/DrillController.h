@@ -35,6 +35,8 @@ public:
 signals:
   void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
   void pointedNowhere();
+  void burrMoved(const Eigen::Vector3d& center, double radius); ///< patient LPS mm; each picture
+  void burrGone();                                              ///< out of the hand
   /// Null when nothing was cut.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
   void said(const QString& line);    ///< what takes a while, or what does not work

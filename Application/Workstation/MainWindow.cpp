@@ -21,6 +21,7 @@
 #include "HandBar.h"
 #include "HandFinder.h"
 #include "HandKeeper.h"
+#include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
 #include "SliceColumn.h"
@@ -67,6 +68,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
   , m_panel(new StructuresPanel(m_model))
+  , m_nearby(new NearbyPanel(m_model))
   , m_pages(new QStackedWidget)
   , m_place(new QLabel)
   , m_sum(new QLabel)
@@ -98,6 +100,7 @@ MainWindow::~MainWindow()
   m_drill->layDown(); // before the hands that hold it
   delete m_drill;
   delete m_hands;
+  delete m_nearby;  // asks the model when it is hidden
   delete m_finder;  // a server ends now
   delete m_picture; // the surgeon's window follows the view
   delete m_keeper;  // its thread must not outlive the model
@@ -123,6 +126,7 @@ void MainWindow::layOut()
 
   auto* structures = addDock(tr("Structures"), "structuresDock", m_panel, Qt::Key_F9);
   auto* picture = addDock(tr("Picture"), "pictureDock", m_picture->panel(), Qt::Key_F8);
+  addDock(tr("Near the burr"), "nearbyDock", m_nearby, Qt::Key_F7);
   tabifyDockWidget(structures, picture);
   structures->raise();
 
@@ -173,6 +177,8 @@ void MainWindow::connectModel()
   connect(m_slices, &SliceColumn::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
+  connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
+  connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)
@@ -254,6 +260,7 @@ void MainWindow::caseChanged()
   m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
   m_panel->caseChanged();
+  m_nearby->caseChanged();
   m_view->setFocus();
   QString notes;
   for (const std::string& note : value.ct.notes)
@@ -278,6 +285,7 @@ void MainWindow::stateChanged()
   m_actions->redo->setEnabled(m_model.canRedo());
   if (!open)
     return setWindowTitle("Petrous");
+  m_nearby->stateChanged();
   const scene::Case& value = m_model.value();
   const bool unsaved = m_model.unsaved() || m_model.beingStored();
   setWindowTitle((unsaved ? QString::fromUtf8("• ") : QString()) + words(value.name) +

@@ -21,6 +21,7 @@ class DrillController;
 class HandBar;
 class HandFinder;
 class HandKeeper;
+class NearbyPanel;
 class PictureController;
 class SliceColumn;
 class StructuresPanel;
@@ -78,6 +79,7 @@ private:
   ThreeDView* m_view;
   SliceColumn* m_slices;
   StructuresPanel* m_panel;
+  NearbyPanel* m_nearby;
   QStackedWidget* m_pages;
   QLabel* m_place;
   QLabel* m_sum;

@@ -127,6 +127,15 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::ToolTipRole)
       return tr("Volume in mm³");
     return {};
+  case Warning:
+    if (role == Qt::EditRole)
+      return row.look.warning;
+    if (role == Qt::DisplayRole)
+      return row.look.warning > 0.0 ? QString::number(row.look.warning, 'f', 1)
+                                    : QString::fromUtf8("–");
+    if (role == Qt::TextAlignmentRole)
+      return int(Qt::AlignRight | Qt::AlignVCenter);
+    return {};
   default:
     if (role == Qt::ToolTipRole && index.column() == Touchable && row.isMesh)
       return untouchableText(row.name);
@@ -140,11 +149,14 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
 {
   if (orientation != Qt::Horizontal)
     return {};
-  static const char* const titles[] = {"Structure", "mm³", "Show", "Touch", "Drill"};
+  static const char* const titles[] = {"Structure", "mm³", "Show", "Touch", "Drill", "Warn"};
   static const char* const tips[] = {
-      "Name and colour", "Volume, mm³", "Drawn in 3D and outlined in the slices",
+      "Name and colour",
+      "Volume, mm³",
+      "Drawn in 3D and outlined in the slices",
       "Felt by the burr: part of the tissue it rests on",
-      "Taken by the drill; without the mark the drill leaves it whole"};
+      "Taken by the drill; without the mark the drill leaves it whole",
+      "How near a burr may come before it is warned of, mm; 0: no warning. Double click to change"};
   if (section < 0 || section >= ColumnCount)
     return {};
   if (role == Qt::DisplayRole)
@@ -152,7 +164,8 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
   if (role == Qt::ToolTipRole)
     return tr(tips[section]);
   if (role == Qt::TextAlignmentRole)
-    return int((section == VolumeColumn ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    return int((section == VolumeColumn || section == Warning ? Qt::AlignRight : Qt::AlignLeft) |
+               Qt::AlignVCenter);
   return {};
 }
 
@@ -161,13 +174,28 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
   if (!index.isValid())
     return Qt::NoItemFlags;
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
-  if (index.column() >= Shown)
+  if (index.column() == Warning)
+    flags |= Qt::ItemIsEditable;
+  else if (index.column() >= Shown)
     flags |= Qt::ItemIsUserCheckable;
   return flags;
 }
 
+bool StructuresModel::setWarning(const QModelIndex& index, double millimetres)
+{
+  if (!(millimetres >= 0.0 && millimetres <= appearance::kFarthestWarning) || m_model.drilling())
+    return false;
+  Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  row.look.warning = millimetres;
+  m_model.setLook(row.name, row.look);
+  emit dataChanged(index, index);
+  return true;
+}
+
 bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, int role)
 {
+  if (index.isValid() && index.column() == Warning && role == Qt::EditRole)
+    return setWarning(index, value.toDouble());
   if (role != Qt::CheckStateRole || !(flags(index) & Qt::ItemIsUserCheckable) || m_model.drilling())
     return false;
   Row& row = m_rows[static_cast<std::size_t>(index.row())];

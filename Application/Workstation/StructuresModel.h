@@ -22,6 +22,7 @@ public:
     Shown,
     Touchable,
     Drillable,
+    Warning, ///< mm; can be edited
     ColumnCount
   };
 
@@ -46,6 +47,7 @@ private:
     appearance::StructureLook look;
   };
   std::vector<Row> rows() const;
+  bool setWarning(const QModelIndex& index, double millimetres);
   QString untouchableText(const std::string& mesh) const;
 
   presenters::WorkstationModel& m_model;

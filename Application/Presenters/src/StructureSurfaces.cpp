@@ -3,71 +3,67 @@
 #include <algorithm>
 #include <utility>
 
-#include "petrous/Volume/SmoothedUnion.h"
+#include "petrous/Scene/StructureShares.h"
+#include "petrous/Volume/SurfaceDistance.h"
 
 namespace petrous::presenters
 {
 
-namespace
-{
-
-// A field in which there is the structure and nothing else.
-volume::TissueField alone(const std::shared_ptr<const volume::Volume<float>>& share)
-{
-  auto air = std::make_shared<volume::Volume<std::int16_t>>(share->geometry());
-  std::fill(air->data(), air->data() + air->size(), std::int16_t{-1000});
-  return {std::make_shared<volume::IntensityVolume>(
-              std::shared_ptr<const volume::Volume<std::int16_t>>(air)),
-          {share},
-          nullptr,
-          {}};
-}
-
-} // namespace
-
 struct StructureSurfaces::Structure
 {
-  Structure(std::string label, const std::shared_ptr<const volume::Volume<float>>& share)
-    : name(std::move(label))
-    , field(alone(share))
-    , search(field, kFar)
+  Structure(scene::StructureShare known, const SurfaceUncertainty& surface)
+    : share(std::move(known))
+    , uncertainty(surface)
   {
-    const auto bounds = share->geometry().patientBounds();
+    const auto bounds = share.around.patientBounds();
     box = Eigen::AlignedBox3d(bounds[0], bounds[1]);
   }
 
-  std::string name;
-  volume::TissueField field;
-  volume::NearestSurfaceSearch search; // looks at the field
-  Eigen::AlignedBox3d box;             // patient mm; nothing of the structure is outside
+  const volume::SurfaceDistance& surface(const core::Progress& progress = {})
+  {
+    if (!measured)
+    {
+      progress.check("measuring structures");
+      measured = std::make_unique<const volume::SurfaceDistance>(share.make(), progress);
+    }
+    return *measured;
+  }
+
+  scene::StructureShare share;
+  SurfaceUncertainty uncertainty;
+  Eigen::AlignedBox3d box; // patient mm
+  std::unique_ptr<const volume::SurfaceDistance> measured;
 };
 
 StructureSurfaces::StructureSurfaces(const scene::Case& value)
 {
-  for (const scene::LabelPart& part : value.labels)
-    for (const scene::StructurePart& structure : part.structures)
-    {
-      const auto share =
-          volume::makeSmoothedUnion(*part.labels.get(), [&structure](std::uint16_t index)
-                                    { return index == structure.index; });
-      if (share)
-        m_structures.push_back(std::make_unique<Structure>(structure.name, share));
-    }
-  for (const scene::MeshPart& mesh : value.meshes)
-    if (const auto solid = mesh.touch.resident())
-      m_structures.push_back(std::make_unique<Structure>(mesh.name, solid));
+  for (scene::StructureShare& share : scene::structureShares(value))
+  {
+    const SurfaceUncertainty uncertainty = uncertaintyOf(value, share.drawnOn);
+    m_structures.push_back(std::make_unique<Structure>(std::move(share), uncertainty));
+  }
 }
 
 StructureSurfaces::~StructureSurfaces() = default;
 
 const std::string& StructureSurfaces::name(std::size_t structure) const
 {
-  return m_structures[structure]->name;
+  return m_structures[structure]->share.name;
 }
 
 double StructureSurfaces::spacing(std::size_t structure) const
 {
-  return m_structures[structure]->field.finestSpacing();
+  return m_structures[structure]->share.drawnOn.minSpacing();
+}
+
+const SurfaceUncertainty& StructureSurfaces::uncertainty(std::size_t structure) const
+{
+  return m_structures[structure]->uncertainty;
+}
+
+void StructureSurfaces::measure(std::size_t structure, const core::Progress& progress)
+{
+  m_structures[structure]->surface(progress);
 }
 
 double StructureSurfaces::distance(std::size_t structure, const Eigen::Vector3d& patient,
@@ -76,8 +72,7 @@ double StructureSurfaces::distance(std::size_t structure, const Eigen::Vector3d&
   Structure& asked = *m_structures[structure];
   if (asked.box.squaredExteriorDistance(patient) >= most * most)
     return most;
-  const auto found = asked.search.find(patient, std::min(most, kFar));
-  return found ? found->distance : most;
+  return asked.surface().at(patient, most);
 }
 
 std::optional<NearStructure>
@@ -88,15 +83,24 @@ StructureSurfaces::nearest(const Eigen::Vector3d& patient, double reach,
   double best = reach;
   for (std::size_t n = 0; n < m_structures.size(); ++n)
   {
-    if (!wanted(m_structures[n]->name))
+    if (!wanted(m_structures[n]->share.name))
       continue;
     const double there = distance(n, patient, best);
     if (!(there < best))
       continue;
     best = std::abs(there);
-    nearest = NearStructure{m_structures[n]->name, there};
+    nearest = NearStructure{m_structures[n]->share.name, there};
   }
   return nearest;
+}
+
+std::map<std::string, std::size_t> StructureSurfaces::resources() const
+{
+  std::map<std::string, std::size_t> resources;
+  for (const auto& structure : m_structures)
+    if (structure->measured)
+      resources["labels.distance." + structure->share.name] = structure->measured->bytes();
+  return resources;
 }
 
 } // namespace petrous::presenters

@@ -72,7 +72,7 @@ void WorkstationModel::notStored()
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   forgetTissue();
-  m_surfaces.reset();
+  m_nearby.reset();
   m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
   m_unsaved = unsaved;
@@ -279,16 +279,34 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
   PlaceReading reading = m_reader->at(patient);
   if (!reading.structure.empty())
     return reading;
-  if (!m_surfaces) // after the reader, which makes the voxels of the meshes
-    m_surfaces = std::make_unique<StructureSurfaces>(*m_case);
-  reading.near = m_surfaces->nearest(patient, PlaceReader::kReach,
-                                     [this](const std::string& name)
-                                     {
-                                       const auto* part = scene::findStructure(*m_case, name);
-                                       const auto* mesh = scene::findMesh(*m_case, name);
-                                       return part ? part->look.shown : mesh && mesh->look.shown;
-                                     });
+  if (!m_nearby) // after the reader, which makes the voxels of the meshes
+    m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  reading.near =
+      m_nearby->surfaces().nearest(patient, PlaceReader::kReach,
+                                   [this](const std::string& name)
+                                   {
+                                     const auto* part = scene::findStructure(*m_case, name);
+                                     const auto* mesh = scene::findMesh(*m_case, name);
+                                     return part ? part->look.shown : mesh && mesh->look.shown;
+                                   });
   return reading;
+}
+
+std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
+                                                                     double radius)
+{
+  if (!m_case)
+    return std::nullopt;
+  if (!m_nearby)
+    m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  if (!m_nearby->ready())
+    return std::nullopt;
+  return m_nearby->around(*m_case, burr, radius, kNear);
+}
+
+void WorkstationModel::forgetNearby()
+{
+  m_nearby.reset();
 }
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "petrous/Appearance/StructurePresets.h"
@@ -165,6 +167,21 @@ TEST(StructurePresets, YieldOnlyWhereTheCatalogueSaysHow)
   EXPECT_EQ(look.stiffness, 0.25);
   for (const char* wrong : {"-1", "0.0001", "1000", "\"soft\""})
     EXPECT_THROW(StructurePresets{catalogue(wrong)}, petrous::core::InvalidParameter) << wrong;
+}
+
+TEST(StructurePresets, WarnOfWhatMustNotBeTouched)
+{
+  const StructurePresets presets = StructurePresets::builtIn();
+  EXPECT_EQ(presets.lookFor("facial_nerve").warning, 2.0);
+  EXPECT_EQ(presets.lookFor("sigmoid sinus").warning, 2.0);
+  EXPECT_EQ(presets.lookFor("cochlea").warning, 1.0);
+  EXPECT_EQ(boneLook().warning, 0.0);
+  StructureLook look;
+  applyPreset(look, presets.preset("nerve"));
+  EXPECT_EQ(look.warning, 2.0);
+  for (const double wrong : {-0.1, 50.1, std::nan("")})
+    EXPECT_THROW(setWarning(look, wrong), petrous::core::InvalidParameter) << wrong;
+  EXPECT_EQ(look.warning, 2.0);
 }
 
 TEST(StructureLook, FlagsGoThereAndBack)

@@ -53,6 +53,14 @@ void setStiffness(StructureLook& look, double newtonPerMillimetre)
   look.stiffness = newtonPerMillimetre;
 }
 
+void setWarning(StructureLook& look, double millimetres)
+{
+  if (!(millimetres >= 0.0 && millimetres <= kFarthestWarning))
+    throw core::InvalidParameter("the warning distance of a structure must lie within 0 to 50 mm; "
+                                 "0 is none");
+  look.warning = millimetres;
+}
+
 void setColor(StructureLook& look, const std::array<float, 3>& color)
 {
   if (std::any_of(color.begin(), color.end(), [](float x) { return !(x >= 0.0F && x <= 1.0F); }))

@@ -36,6 +36,7 @@ StructureLook lookFrom(const json& entry)
   try
   {
     setStiffness(look, entry.value("stiffness_n_per_mm", 0.0));
+    setWarning(look, entry.value("warn_mm", 0.0));
   }
   catch (const core::InvalidParameter& error)
   {

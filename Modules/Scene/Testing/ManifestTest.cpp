@@ -45,6 +45,7 @@ scene::Case fullCase()
   s.look.shininess = 47.5F;
   s.look.priority = 3;
   s.look.stiffness = 0.35;
+  s.look.warning = 1.25;
   part.structures = {s};
   value.labels = {part};
   scene::MeshPart mesh;
@@ -102,6 +103,7 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_EQ(look.priority, 3);
   EXPECT_EQ(look.stiffness, 0.35);
   EXPECT_EQ(back.meshes[0].look.stiffness, 0.0);
+  EXPECT_EQ(look.warning, 1.25);
   EXPECT_EQ(back.denseBone, 21034.7);
   EXPECT_EQ(back.boneLook.transfer, value.boneLook.transfer);
   EXPECT_TRUE(back.boneLook.relative);
@@ -132,6 +134,8 @@ TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
   EXPECT_EQ(nerve.shininess, 18.0F);
   EXPECT_EQ(nerve.sourceImage, "");
   EXPECT_LT(nerve.priority, appearance::StructureLook{}.priority) << "as its preset";
+  EXPECT_EQ(nerve.warning, appearance::StructurePresets::builtIn().preset("nerve").warning);
+  EXPECT_GT(nerve.warning, 0.0);
 }
 
 TEST(Manifest, RefusesADamagedTransferFunctionByName)

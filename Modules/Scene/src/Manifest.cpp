@@ -80,6 +80,7 @@ json lookOut(const appearance::StructureLook& look)
     j["source_image"] = look.sourceImage;
   if (look.stiffness > 0.0)
     j["stiffness_n_per_mm"] = look.stiffness;
+  j["warn_mm"] = look.warning;
   return j;
 }
 
@@ -99,6 +100,8 @@ appearance::StructureLook lookIn(const json& j, const appearance::StructurePrese
                                      : presets.lookFor(look.preset).tissue;
   look.sourceImage = j.value("source_image", std::string());
   appearance::setStiffness(look, j.value("stiffness_n_per_mm", 0.0));
+  appearance::setWarning(look, j.contains("warn_mm") ? j.at("warn_mm").get<double>()
+                                                     : presets.lookFor(look.preset).warning);
   if (j.contains("transfer"))
   {
     json transfer = j.at("transfer");

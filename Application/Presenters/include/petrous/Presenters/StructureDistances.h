@@ -28,6 +28,8 @@ public:
   /// By name, mm; 0 where the ball reached the structure. Empty before the first position.
   std::map<std::string, double> smallest();
 
+  std::map<std::string, std::size_t> resources() const { return m_surfaces.resources(); }
+
 private:
   double nearest(std::size_t structure);
 

@@ -8,6 +8,7 @@
 
 #include "petrous/Interaction/SightLine.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PlaceReader.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Presenters/TouchSession.h"
@@ -84,6 +85,14 @@ public:
   /// The same and more, as `petrous probe` says it, and the nearest structure; only with a case.
   /// The first reading of a case looks through its labels (some tenths of a second).
   PlaceReading readPlace(const Eigen::Vector3d& patient);
+  static constexpr double kNear = 20.0; ///< mm; farther structures are nobody's concern
+  /// Structures within kNear of a burr (patient LPS mm) and those that are injured, the nearest
+  /// first. The first question of a case has them measured, in a thread of its own: nothing until
+  /// that is done, and nothing without a case.
+  std::optional<std::vector<NearbyStructure>> nearby(const Eigen::Vector3d& burr, double radius);
+  bool measuresNearby() const noexcept { return m_nearby != nullptr; }
+  void forgetNearby(); ///< nobody looks at it any more: gives its memory back
+
   /// Where the line meets tissue, mm from its origin.
   std::optional<double> tissueAlong(const interaction::SightLine& line);
   /// The same as a place, patient LPS mm.
@@ -116,9 +125,9 @@ private:
   SceneAssembly m_assembly;
   std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
   std::unique_ptr<TouchScene> m_scene;
-  std::unique_ptr<TouchSession> m_touch;         ///< after m_scene, which it uses
-  std::unique_ptr<PlaceReader> m_reader;         ///< when first asked for; likewise
-  std::unique_ptr<StructureSurfaces> m_surfaces; ///< likewise; a cut changes nothing of them
+  std::unique_ptr<TouchSession> m_touch;       ///< after m_scene, which it uses
+  std::unique_ptr<PlaceReader> m_reader;       ///< when first asked for; likewise
+  std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; a cut changes nothing of them
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;

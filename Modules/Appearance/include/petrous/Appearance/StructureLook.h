@@ -20,6 +20,7 @@ struct StructureLook
   bool drillable = true;
   bool solid = true;      ///< false: a lumen, coloured and named but no tissue
   double stiffness = 0.0; ///< N/mm, of the spring that it is under the hand; 0: rigid
+  double warning = 0.0;   ///< mm from its surface: a burr that is nearer is warned of; 0: none
   std::string tissue; ///< what the drill meets (Resources/materials.json); empty: bone by density
 
   std::optional<TransferFunction> transfer; ///< absent: `color` at every intensity
@@ -33,9 +34,13 @@ constexpr float kSmallestShininess = 1.0F;
 constexpr float kLargestShininess = 200.0F;
 constexpr double kSoftest = 0.001; ///< N/mm
 constexpr double kStiffest = 100.0;
+constexpr double kFarthestWarning = 50.0; ///< mm
 
 /// Throws InvalidParameter unless the stiffness is 0 (rigid) or lies within kSoftest to kStiffest.
 void setStiffness(StructureLook& look, double newtonPerMillimetre);
+
+/// Throws InvalidParameter unless the distance lies within 0 (no warning) to kFarthestWarning.
+void setWarning(StructureLook& look, double millimetres);
 
 /// Sets shown, touchable and drillable from a comma-separated list of the flags that hold, e.g.
 /// "shown,drillable"; "none" clears all. Throws InvalidParameter naming an unknown flag.
@@ -48,8 +53,8 @@ std::string flagsOf(const StructureLook& look);
 /// each of its points is beside the look's colour. Throws InvalidParameter outside 0 to 1.
 void setColor(StructureLook& look, const std::array<float, 3>& color);
 
-/// Takes over how `preset` looks, whether it is a lumen, how it yields, its tissue and its priority;
-/// flags and the image that is read stay.
+/// Takes over how `preset` looks, whether it is a lumen, how it yields, its tissue, its warning
+/// distance and its priority; flags and the image that is read stay.
 void applyPreset(StructureLook& look, const StructureLook& preset);
 
 } // namespace petrous::appearance

@@ -1,0 +1,170 @@
+#include "petrous/Presenters/NearbyStructures.h"
+
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+using State = NearbyStructure::State;
+
+namespace
+{
+
+const Vector3d kNerve(4.0, -3.0, 10.0);
+const Vector3d kVessel(16.0, -3.0, 10.0);
+constexpr double kVoxel = 0.4;          // mm
+constexpr double kSlice = 0.8;          // mm
+constexpr double kRadius = 3.0;         // mm, of both balls
+constexpr double kBias = 0.25 * kSlice; // the smoothed surface of voxels lies so near to the ball's
+
+// Two balls in slices that are twice as far apart as the pixels.
+scene::Case balls()
+{
+  scene::Case value;
+  const core::GridGeometry grid({70, 40, 25}, {kVoxel, kVoxel, kSlice}, {-4.0, -11.0, 0.0});
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  for (int k = 0; k < 25; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 70; ++i)
+      {
+        const Vector3d at = grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k});
+        voxels->at(i, j, k) = (at - kNerve).norm() < kRadius    ? 3
+                              : (at - kVessel).norm() < kRadius ? 7
+                                                                : 0;
+      }
+  scene::LabelPart part;
+  part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+  scene::StructurePart nerve;
+  nerve.name = "facial_nerve";
+  nerve.index = 3;
+  nerve.look.warning = 2.0;
+  scene::StructurePart vessel;
+  vessel.name = "carotid";
+  vessel.index = 7;
+  part.structures = {nerve, vessel};
+  value.labels.push_back(part);
+  return value;
+}
+
+scene::StrokePart stroke(const std::string& name, double volume)
+{
+  scene::StrokePart part;
+  part.info.structures = {{name, volume}};
+  return part;
+}
+
+} // namespace
+
+TEST(NearbyStructures, TellDistancesOfTheBurrsBallTheNearestFirst)
+{
+  const scene::Case value = balls();
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const Vector3d place = kNerve + Vector3d(0.0, 0.0, 7.0);
+  const auto near = nearby.around(value, place, 2.0, 50.0);
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0].name, "facial_nerve");
+  EXPECT_NEAR(near[0].distance, 7.0 - kRadius - 2.0, kBias);
+  EXPECT_EQ(near[1].name, "carotid");
+  EXPECT_NEAR(near[1].distance, (place - kVessel).norm() - kRadius - 2.0, kBias);
+  // Half of what lies between two slices.
+  EXPECT_NEAR(near[0].uncertainty.millimetres(), 0.5 * kSlice, 1e-12);
+  EXPECT_EQ(nearby.around(value, place, 2.0, 4.0).size(), 1U) << "the other one is too far";
+}
+
+TEST(NearbyStructures, WarnWithinTheDistanceAndTellOfATouch)
+{
+  scene::Case value = balls();
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const auto stateAt = [&](double away)
+  {
+    const auto near = nearby.around(value, kNerve + Vector3d(0.0, away, 0.0), 1.0, 50.0);
+    EXPECT_EQ(near.front().name, "facial_nerve");
+    return near.front().state;
+  };
+  EXPECT_EQ(stateAt(kRadius + 1.0 + 2.3), State::Clear);
+  EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Warned);
+  EXPECT_EQ(stateAt(kRadius + 1.0 - 0.3), State::Touched);
+  EXPECT_EQ(stateAt(0.0), State::Touched);
+  value.labels[0].structures[0].look.warning = 0.0; // the case's present word counts
+  EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Clear);
+}
+
+TEST(NearbyStructures, LeaveOutWhatIsHidden)
+{
+  scene::Case value = balls();
+  value.labels[0].structures[0].look.shown = false;
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const auto near = nearby.around(value, kNerve, 1.0, 50.0);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].name, "carotid");
+  const auto resources = nearby.surfaces().resources();
+  EXPECT_EQ(resources.size(), 1U) << "nobody measures what is not shown";
+  EXPECT_GT(resources.at("labels.distance.carotid"), 1000U);
+}
+
+TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
+{
+  scene::Case value = balls();
+  value.strokes = {stroke("carotid", 0.5), stroke("carotid", 0.25), stroke("facial_nerve", 4.0)};
+  value.applied = 2;
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const auto near = nearby.around(value, kNerve + Vector3d(-30.0, 0.0, 0.0), 1.0, 5.0);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].name, "carotid");
+  EXPECT_NEAR(near[0].injured, 0.75, 1e-12);
+  EXPECT_EQ(injuredVolumes(value).size(), 1U) << "the third stroke is undone";
+}
+
+TEST(NearbyStructures, AreThereAfterAWhile)
+{
+  const scene::Case value = balls();
+  NearbyStructures nearby(value);
+  for (int n = 0; n < 1000 && !nearby.ready(); ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(nearby.ready());
+  EXPECT_EQ(nearby.around(value, kNerve, 1.0, 50.0).size(), 2U);
+}
+
+TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
+{
+  scene::Case value = balls();
+  const core::GridGeometry& grid = value.labels[0].labels.get()->voxels->geometry();
+  value.ct.geometry = core::GridGeometry({50, 50, 50}, Vector3d::Constant(0.5), Vector3d::Zero());
+  SurfaceUncertainty found = uncertaintyOf(value, grid);
+  EXPECT_TRUE(found.drawnOn.empty());
+  EXPECT_FALSE(found.incomplete());
+  EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart");
+
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = grid;
+  value.mr.push_back(mr);
+  found = uncertaintyOf(value, grid);
+  EXPECT_EQ(found.drawnOn, "T2");
+  EXPECT_TRUE(found.incomplete());
+  EXPECT_FALSE(found.registration);
+  EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
+                            "'T2', registration unknown");
+  NearbyStructure near;
+  near.name = "facial_nerve";
+  near.distance = 1.84;
+  near.uncertainty = found;
+  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.4; registration unknown");
+
+  found.registered = true;
+  found.registration = 0.3;
+  EXPECT_FALSE(found.incomplete());
+  EXPECT_NEAR(found.millimetres(), 0.5, 1e-12);
+  near.uncertainty = found;
+  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.5");
+
+  value.ct.geometry = grid; // the CT's own grid
+  EXPECT_TRUE(uncertaintyOf(value, grid).drawnOn.empty());
+}

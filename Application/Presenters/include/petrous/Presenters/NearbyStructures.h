@@ -1,0 +1,71 @@
+#pragma once
+
+#include <future>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "petrous/Presenters/StructureSurfaces.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::presenters
+{
+
+/// A structure as the burr sees it.
+struct NearbyStructure
+{
+  enum class State
+  {
+    Clear,
+    Warned, ///< the burr is nearer than the structure's warning distance
+    Touched ///< the burr reaches it
+  };
+
+  std::string name;
+  std::array<float, 3> color{}; ///< RGB, 0 to 1
+  double distance = 0.0;        ///< mm from the burr's ball to its surface; 0: it is touched
+  SurfaceUncertainty uncertainty;
+  double warning = 0.0; ///< mm; 0: none
+  State state = State::Clear;
+  double injured = 0.0; ///< mm^3 taken of it by the strokes that are done
+};
+
+/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration unknown" where the
+/// number leaves something out.
+std::string inWords(const NearbyStructure& structure);
+
+/// What the strokes that are done have taken of each structure, mm^3.
+std::map<std::string, double> injuredVolumes(const scene::Case& value);
+
+/// How far a burr is from the structures of a case that are shown, as often as a picture is drawn.
+///
+/// The structures are measured in a thread of their own; until that is done there is no answer. Not
+/// for more than one thread; the case may change meanwhile, but for its labels and meshes.
+class NearbyStructures
+{
+public:
+  explicit NearbyStructures(const scene::Case& value);
+  ~NearbyStructures();
+
+  /// Whether the structures are measured, or that has failed.
+  bool ready() const;
+
+  /// Structures of the case that are shown, the nearest first; those that are injured however far.
+  /// Empty until `ready`. Throws what stood in the way of measuring.
+  ///
+  /// value   the same case, as it is now: looks, strokes
+  /// center  of the burr, patient LPS mm; `radius` mm
+  /// reach   mm; what is farther is left out
+  std::vector<NearbyStructure> around(const scene::Case& value, const Eigen::Vector3d& center,
+                                      double radius, double reach);
+
+  /// See StructureSurfaces.
+  StructureSurfaces& surfaces() const; ///< waits for them
+
+private:
+  std::shared_ptr<core::CancelToken> m_stop;
+  std::shared_future<std::shared_ptr<StructureSurfaces>> m_surfaces;
+};
+
+} // namespace petrous::presenters

@@ -1,0 +1,126 @@
+#include "petrous/Presenters/NearbyStructures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+const appearance::StructureLook* lookOf(const scene::Case& value, const std::string& name)
+{
+  if (const auto* structure = scene::findStructure(value, name))
+    return &structure->look;
+  for (const scene::MeshPart& mesh : value.meshes)
+    if (mesh.name == name)
+      return &mesh.look;
+  return nullptr;
+}
+
+bool shown(const scene::Case& value, const std::string& name)
+{
+  const auto* look = lookOf(value, name);
+  return look && look->shown;
+}
+
+} // namespace
+
+std::string inWords(const NearbyStructure& structure)
+{
+  std::string text = structure.name;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  char number[64];
+  if (structure.state == NearbyStructure::State::Touched)
+    std::snprintf(number, sizeof number, " touched (± %.1f mm)",
+                  structure.uncertainty.millimetres());
+  else
+    std::snprintf(number, sizeof number, " %.1f mm ± %.1f", structure.distance,
+                  structure.uncertainty.millimetres());
+  text += number;
+  if (structure.uncertainty.incomplete())
+    text += structure.uncertainty.registered ? "; registration's error unknown"
+                                             : "; registration unknown";
+  return text;
+}
+
+std::map<std::string, double> injuredVolumes(const scene::Case& value)
+{
+  std::map<std::string, double> volumes;
+  for (std::size_t n = 0; n < value.applied; ++n)
+    for (const auto& touched : value.strokes[n].info.structures)
+      volumes[touched.name] += touched.volume;
+  return volumes;
+}
+
+NearbyStructures::NearbyStructures(const scene::Case& value)
+  : m_stop(std::make_shared<core::CancelToken>())
+{
+  scene::Case copy = value; // shares voxels
+  copy.dissection.reset();  // another thread writes there
+  m_surfaces = std::async(std::launch::async,
+                          [copy = std::move(copy), progress = core::Progress(nullptr, m_stop)]
+                          {
+                            auto surfaces = std::make_shared<StructureSurfaces>(copy);
+                            for (std::size_t n = 0; n < surfaces->count(); ++n)
+                              if (shown(copy, surfaces->name(n)))
+                                surfaces->measure(n, progress);
+                            return surfaces;
+                          });
+}
+
+NearbyStructures::~NearbyStructures()
+{
+  m_stop->cancel(); // the future waits
+}
+
+bool NearbyStructures::ready() const
+{
+  return m_surfaces.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+StructureSurfaces& NearbyStructures::surfaces() const
+{
+  return *m_surfaces.get();
+}
+
+std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
+                                                      const Eigen::Vector3d& center, double radius,
+                                                      double reach)
+{
+  std::vector<NearbyStructure> near;
+  if (!ready())
+    return near;
+  StructureSurfaces& surfaces = this->surfaces();
+  const auto injured = injuredVolumes(value);
+  for (std::size_t n = 0; n < surfaces.count(); ++n)
+  {
+    NearbyStructure structure;
+    structure.name = surfaces.name(n);
+    const auto* look = lookOf(value, structure.name);
+    if (!look || !look->shown)
+      continue;
+    const auto taken = injured.find(structure.name);
+    structure.injured = taken == injured.end() ? 0.0 : taken->second;
+    const double most = structure.injured > 0.0 ? StructureSurfaces::kFar : reach + radius;
+    const double away = surfaces.distance(n, center, most);
+    if (!(away < most))
+      continue;
+    structure.distance = std::max(0.0, away - radius);
+    structure.color = look->color;
+    structure.uncertainty = surfaces.uncertainty(n);
+    structure.warning = look->warning;
+    structure.state = away <= radius                       ? NearbyStructure::State::Touched
+                      : structure.distance < look->warning ? NearbyStructure::State::Warned
+                                                           : NearbyStructure::State::Clear;
+    near.push_back(std::move(structure));
+  }
+  std::sort(near.begin(), near.end(),
+            [](const NearbyStructure& a, const NearbyStructure& b)
+            { return a.distance < b.distance || (a.distance == b.distance && a.name < b.name); });
+  return near;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,108 @@
+#include "HandTest.h"
+
+#include <QDockWidget>
+#include <QLabel>
+#include <QTreeView>
+
+#include "NearbyModel.h"
+#include "StructuresModel.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class Nearby : public HandTest
+{
+protected:
+  QDockWidget& dock() { return *window().findChild<QDockWidget*>("nearbyDock"); }
+  QAbstractItemModel& rows() { return *window().findChild<QTreeView*>("nearby")->model(); }
+  QString cell(int column) { return rows().index(0, column).data().toString(); }
+  bool listed()
+  {
+    return waitFor([this] { return rows().rowCount() > 0; });
+  }
+  void takeUpBurr()
+  {
+    QTest::keyClick(&view(), Qt::Key_D);
+    QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 0));
+    QTest::mouseMove(&view(), view().rect().center());
+    ASSERT_TRUE(hasTool());
+  }
+  void warnAt(double millimetres)
+  {
+    auto& structures = *window().findChild<QTreeView*>("structures")->model();
+    EXPECT_TRUE(structures.setData(structures.index(0, StructuresModel::Warning), millimetres,
+                                   Qt::EditRole));
+  }
+};
+
+} // namespace
+
+TEST_F(Nearby, AsksNothingWhileItIsHidden)
+{
+  saveBall("ball");
+  openWindow();
+  EXPECT_FALSE(dock().isVisible());
+  takeUpBurr();
+  QTest::qWait(500);
+  EXPECT_FALSE(window().model().measuresNearby());
+  QTest::keyClick(&window(), Qt::Key_F7);
+  ASSERT_TRUE(listed());
+  EXPECT_TRUE(window().model().measuresNearby());
+  QTest::keyClick(&window(), Qt::Key_F7);
+  EXPECT_FALSE(dock().isVisible());
+  EXPECT_FALSE(window().model().measuresNearby()) << "the memory is given back";
+}
+
+TEST_F(Nearby, TellsHowFarTheBurrIs)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  takeUpBurr();
+  ASSERT_TRUE(listed());
+  QTest::qWait(500); // until it rests
+  EXPECT_EQ(cell(NearbyModel::Name), "nerve");
+  const QStringList distance = cell(NearbyModel::Distance).split(' ');
+  ASSERT_EQ(distance.size(), 4) << cell(NearbyModel::Distance).toStdString();
+  // The nerve is a ball of 4 mm about the middle, the burr one of 2 mm.
+  EXPECT_NEAR(distance[0].toDouble(), (tool() - kBallCenter).norm() - 4.0 - 2.0, 0.3);
+  EXPECT_EQ(cell(NearbyModel::Note), "clear");
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_EQ(rows().rowCount(), 0) << "no burr, no distance";
+}
+
+TEST_F(Nearby, WarnsInWordsAndBySignWithinTheDistanceOfTheCase)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  takeUpBurr();
+  ASSERT_TRUE(listed());
+  const auto sign = [this] {
+    return rows().index(0, NearbyModel::Name).data(Qt::DecorationRole).value<QPixmap>().toImage();
+  };
+  const QImage clear = sign();
+  warnAt(12.0);
+  ASSERT_TRUE(waitFor([this] { return cell(NearbyModel::Note) == "within 12.0 mm"; }))
+      << cell(NearbyModel::Note).toStdString();
+  EXPECT_NE(sign(), clear);
+  picture();
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(library().open("ball").labels[0].structures[0].look.warning, 12.0);
+}
+
+TEST_F(Nearby, ListsWhatIsInjuredAndWhatWasRemoved)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  auto* removed = window().findChild<QLabel*>("removed");
+  EXPECT_EQ(removed->text(), QString::fromUtf8("Removed: 0.0 mm³ in 0 strokes"));
+  drill(800, 30);
+  EXPECT_TRUE(removed->text().endsWith(" in 1 stroke")) << removed->text().toStdString();
+  EXPECT_FALSE(removed->text().startsWith("Removed: 0.0 "));
+}

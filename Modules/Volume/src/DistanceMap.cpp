@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "ClosestPoints.h"
+#include "DistanceGrid.h"
 #include "ShareSurface.h"
 
 namespace petrous::volume
@@ -16,62 +17,10 @@ namespace
 {
 
 constexpr double kMargin = 2.5; // voxels of the share beyond those inside
-constexpr double kFinest = 0.5; // voxels of the share: the map's own
 constexpr double kSharp = 3.0;  // of the map's voxels: nearer than this the spline is sharpened,
 constexpr double kFullySharp = 1.5; // and fully so up to here
 
 constexpr double kNoSurface = 1e6; // mm: the structure fills its grid
-
-struct MapGrid
-{
-  Eigen::Vector3d origin; // of the first node, mm along the share's axes from its first voxel
-  double edge;            // mm
-  core::Index3 dims;
-};
-
-core::IndexBox insideBox(const Volume<float>& share)
-{
-  const core::Index3& dims = share.geometry().dims();
-  core::IndexBox box{dims, {0, 0, 0}};
-  for (int k = 0; k < dims[2]; ++k)
-    for (int j = 0; j < dims[1]; ++j)
-      for (int i = 0; i < dims[0]; ++i)
-        if (share.at(i, j, k) > 0.5F)
-        {
-          const core::Index3 at{i, j, k};
-          for (std::size_t a = 0; a < 3; ++a)
-          {
-            box.lower[a] = std::min(box.lower[a], at[a]);
-            box.upper[a] = std::max(box.upper[a], at[a] + 1);
-          }
-        }
-  return box;
-}
-
-MapGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box, std::size_t mostVoxels)
-{
-  MapGrid grid;
-  grid.edge = kFinest * share.minSpacing();
-  Eigen::Vector3d size;
-  for (;; grid.edge *= 1.25)
-  {
-    // Three nodes at least: a spline reaches over two to each side.
-    const double margin = kMargin * share.minSpacing() + grid.edge;
-    std::size_t count = 1;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      const auto axis = static_cast<Eigen::Index>(a);
-      const double h = share.spacing()[axis];
-      const double beyond = std::max(margin, h + grid.edge);
-      grid.origin[axis] = box.lower[a] * h - beyond;
-      size[axis] = (box.upper[a] - 1) * h + beyond - grid.origin[axis];
-      grid.dims[a] = static_cast<int>(std::ceil(size[axis] / grid.edge)) + 1;
-      count *= static_cast<std::size_t>(grid.dims[a]);
-    }
-    if (count <= mostVoxels || grid.edge > size.maxCoeff())
-      return grid;
-  }
-}
 
 // Depth below the faces of a grid's hull, mm.
 double belowHull(const core::GridGeometry& grid, const Eigen::Vector3d& patient)
@@ -207,14 +156,12 @@ std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
   const core::IndexBox box = insideBox(share);
   if (box.empty())
     return nullptr;
-  const MapGrid grid = gridFor(from, box, mostVoxels);
+  const DistanceGrid grid = gridFor(from, box, kMargin * from.minSpacing(), mostVoxels);
   const ShareSurface surface(share);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));
 
-  const core::GridGeometry own(grid.dims, Eigen::Vector3d::Constant(grid.edge),
-                               from.patientFromVoxel(grid.origin.cwiseQuotient(from.spacing())),
-                               from.direction());
+  const core::GridGeometry own = geometryOf(grid, from);
   Volume<float> depth(own);
   tbb::parallel_for(
       0, grid.dims[2],

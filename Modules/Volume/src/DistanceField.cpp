@@ -1,0 +1,60 @@
+#include "petrous/Volume/DistanceField.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+#include "ClosestPoints.h"
+#include "DistanceGrid.h"
+#include "ShareSurface.h"
+
+namespace petrous::volume
+{
+
+std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,
+                                                       const core::Progress& progress,
+                                                       std::size_t mostVoxels)
+{
+  if (!(reach > 0.0))
+    throw core::InvalidParameter("distance field: the reach must be above 0 mm");
+  const core::GridGeometry& from = share.geometry();
+  const core::IndexBox box = insideBox(share);
+  if (box.empty())
+    return nullptr;
+  // The surface may lie up to a voxel beyond the voxels inside.
+  const DistanceGrid grid = gridFor(from, box, reach + from.spacing().maxCoeff(), mostVoxels);
+  const ShareSurface surface(share);
+  const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
+                              grid.edge, progress.part(0.2, 0.8));
+  auto field = std::make_shared<Volume<float>>(geometryOf(grid, from));
+  const double most = reach + 2.0 * grid.edge; // what interpolation up to the reach can ask for
+  const auto distanceAt = [&](const Eigen::Vector3d& position, std::size_t node)
+  {
+    if (!closest.any())
+      return most; // the structure fills its grid
+    const Eigen::Vector3f& point = closest.point(node);
+    const double near = (position - point.cast<double>()).norm();
+    return near > most ? most : surface.refined(position, point);
+  };
+  tbb::parallel_for(0, grid.dims[2],
+                    [&](int k)
+                    {
+                      for (int j = 0; j < grid.dims[1]; ++j)
+                        for (int i = 0; i < grid.dims[0]; ++i)
+                        {
+                          const Eigen::Vector3d position =
+                              grid.origin + grid.edge * Eigen::Vector3d(i, j, k);
+                          const std::size_t node = field->geometry().linearIndex(i, j, k);
+                          const double distance = distanceAt(position, node);
+                          // A share ends where it is 0 or where the image does.
+                          const Eigen::Vector3d voxel = position.cwiseQuotient(from.spacing());
+                          const bool inside =
+                              from.hullContains(voxel) && surface.at(position).value > 0.0;
+                          field->data()[node] = static_cast<float>(inside ? -distance : distance);
+                        }
+                    });
+  progress.report(1.0, "measuring structures");
+  return field;
+}
+
+} // namespace petrous::volume

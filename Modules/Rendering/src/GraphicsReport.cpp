@@ -70,6 +70,7 @@ std::vector<Change> features()
             materials(contents);
             contents.materials.front().surfaceOpacity = 0.5F;
           },
+          [](SceneContents& contents) { contents.thickness.distance = filled<float>(1.0F); },
           [](SceneContents& contents) { contents.clipping.emplace_back(); }};
 }
 

@@ -34,6 +34,11 @@ namespace petrous::rendering
 /// plane, n is that face's normal and v is taken at x itself. A flat field (n = 0) faces the eye,
 /// and so does tissue that the eye stands in. The first surface gives the depth, whatever its
 /// opacity.
+///
+/// Thickness over a structure: where a surface that is no such face has bone's material or a
+/// lumen's, and d, the distance to the structure there (trilinear, ThicknessOverlay), lies below
+/// `farthest`, the colour of the transfer function gives way to thicknessColor(d / farthest); its
+/// light and highlight stay.
 namespace optics
 {
 

@@ -106,6 +106,8 @@ void RayCaster::setContents(const SceneContents& contents)
   m_newCt |= !sameCt;
   m_newLabels |= contents.labels != m_contents.labels;
   m_newSecond |= contents.second.volume != m_contents.second.volume;
+  m_newThickness |= contents.thickness.distance != m_contents.thickness.distance ||
+                    contents.thickness.farthest != m_contents.thickness.farthest;
   const OccupancyGrid::Rules before =
       m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
   m_newMaterials |= !sameMaterials(contents.materials, m_contents.materials);
@@ -180,6 +182,7 @@ RayFeatures RayCaster::features() const
   features.mask = m_mask.inUse();
   features.second = readsSecond(m_contents);
   features.interior = translucent(m_contents.materials);
+  features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   return features;
 }
@@ -228,6 +231,10 @@ void RayCaster::upload()
     m_labels.upload(*m_contents.labels, m_quality.largestTexture);
   if (!m_contents.labels)
     m_labels.release();
+  if (!m_contents.thickness.distance)
+    m_thickness.texture.release();
+  else if (m_newThickness || !m_thickness.texture)
+    m_thickness.upload(m_contents.thickness);
   if (m_newMaterials || !m_materials.look)
     m_materials.upload(m_contents.materials, m_quality.tableSize, m_ctRange, m_secondRange);
 
@@ -264,7 +271,7 @@ void RayCaster::upload()
     m_statistics.editMilliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-  m_newCt = m_newLabels = m_newMaterials = m_newSecond = m_newRules = false;
+  m_newCt = m_newLabels = m_newMaterials = m_newSecond = m_newRules = m_newThickness = false;
   m_statistics.notes.clear();
   if (m_ct.reduction != core::Index3{1, 1, 1})
     note("the CT", m_ct.reduction);
@@ -282,6 +289,7 @@ void RayCaster::upload()
   };
   add("mask.texture", m_mask.texture().bytes());
   add("labels.texture", m_labels.share.bytes() + m_labels.index.bytes());
+  add("labels.thickness", m_thickness.texture.bytes());
   add("mr.texture", m_second.texture.bytes());
 }
 
@@ -354,6 +362,7 @@ void RayCaster::releaseData()
   m_second.texture.release();
   m_mask.release();
   m_labels.release();
+  m_thickness.texture.release();
   m_materials.release();
   m_bricks.release();
 }

@@ -81,6 +81,7 @@ private:
   std::unique_ptr<OccupancyGrid> m_occupancy;
 
   bool m_newCt = false, m_newLabels = false, m_newMaterials = false, m_newSecond = false;
+  bool m_newThickness = false;
   bool m_newRules = false;
   core::IndexBox m_dirtyBricks;
   core::IndexBox m_tissueBricks; // all that can be seen lies in them
@@ -89,6 +90,7 @@ private:
   IntensityTexture m_ct, m_second;
   MaskTexture m_mask;
   LabelTextures m_labels;
+  ThicknessTexture m_thickness;
   MaterialTables m_materials;
   GlTexture m_bricks;
   RayTarget m_target;

@@ -30,6 +30,7 @@ enum Unit : int
   ShareUnit,
   IndexUnit,
   SecondUnit,
+  ThicknessUnit,
   DepthUnit
 };
 
@@ -56,6 +57,8 @@ void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
   }
   if (m_second.texture)
     bind(m_second.texture, SecondUnit, "secondTexture");
+  if (m_thickness.texture)
+    bind(m_thickness.texture, ThicknessUnit, "thicknessTexture");
   glActiveTexture(GL_TEXTURE0 + OpaqueUnit);
   glBindTexture(GL_TEXTURE_2D, frame.opaque);
   program.set("opaqueTexture", int{OpaqueUnit});
@@ -144,6 +147,19 @@ void RayCaster::setVolume(GlProgram& program) const
     program.set("labelBlock", Eigen::Vector3d(m_labels.reduction[0], m_labels.reduction[1],
                                               m_labels.reduction[2]));
     program.set("normalFromLabel", Eigen::Matrix3d(labels.voxelFromPatientLinear().transpose()));
+  }
+  if (m_thickness.texture)
+  {
+    const core::GridGeometry& own = m_contents.thickness.distance->geometry();
+    program.set("thicknessFromVoxel",
+                Eigen::Matrix3d(own.voxelFromPatientLinear() * voxelFromMm.inverse()));
+    program.set("thicknessOrigin",
+                own.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero())));
+    program.set("thicknessUpper", upperOf(own.dims()));
+    program.set("thicknessScale", m_thickness.map.scale);
+    program.set("thicknessOffset", m_thickness.map.offset);
+    program.set("thicknessUnit", m_thickness.unit);
+    program.set("thicknessFarthest", m_contents.thickness.farthest);
   }
   if (m_second.texture && m_contents.second.volume)
   {

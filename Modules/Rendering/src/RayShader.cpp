@@ -8,6 +8,7 @@
 #include "RayCastShader.h"
 #include "RayOpticsShader.h"
 #include "RaySceneShader.h"
+#include "petrous/Rendering/ThicknessColor.h"
 
 namespace petrous::rendering
 {
@@ -29,6 +30,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::second, "PETROUS_SECOND", "second"},
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
+    {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
 };
 
@@ -44,6 +46,17 @@ std::string constants()
     std::snprintf(digits, sizeof digits, "%.9g", value);
     text += std::string("const float ") + name + " = float(" + digits + ");\n";
   }
+  const auto add = [&text](const char* format, auto... values)
+  {
+    char part[96];
+    std::snprintf(part, sizeof part, format, values...);
+    text += part;
+  };
+  add("const vec3 kThicknessColors[%zu] = vec3[](", kThicknessColors.size());
+  for (std::size_t n = 0; n < kThicknessColors.size(); ++n)
+    add("%svec3(%.6g, %.6g, %.6g)", n == 0 ? "" : ", ", double{kThicknessColors[n][0]},
+        double{kThicknessColors[n][1]}, double{kThicknessColors[n][2]});
+  text += ");\n";
   const std::pair<const char*, unsigned> flags[] = {{"kMixed", OccupancyGrid::Mixed},
                                                     {"kLabels", OccupancyGrid::Labels},
                                                     {"kBorder", OccupancyGrid::Border}};

@@ -57,6 +57,8 @@ void check(const SceneContents& contents)
   if (contents.clipping.size() > kMostPlanes)
     refuse("at most " + std::to_string(kMostPlanes) + " clipping planes can be drawn, not " +
            std::to_string(contents.clipping.size()));
+  if (contents.thickness.distance && !(contents.thickness.farthest > 0.0))
+    refuse("the farthest thickness must be above 0 mm");
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)

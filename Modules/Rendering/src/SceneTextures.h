@@ -78,6 +78,18 @@ struct LabelTextures
   void release();
 };
 
+/// Distances to a structure; mm = texel * unit.
+struct ThicknessTexture
+{
+  static constexpr double kReach = 2.0; ///< of the farthest: values are held within that
+
+  GlTexture texture;
+  TextureMap map;
+  double unit = 1.0;
+
+  void upload(const ThicknessOverlay& overlay);
+};
+
 /// Materials as tables over their intensities; see RayCast.frag.glsl.
 struct MaterialTables
 {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Volume/Sampling.h"
 
 namespace petrous::rendering
@@ -28,6 +29,8 @@ const SceneContents& checked(const SceneContents& contents)
   require(std::isfinite(contents.iso), "the surface's intensity is not a number");
   require(!contents.mask || core::sameGrid(contents.mask->geometry(), contents.ct->geometry()),
           "the mask does not lie on the CT's grid");
+  require(!contents.thickness.distance || contents.thickness.farthest > 0.0,
+          "the farthest thickness must be above 0 mm");
   if (contents.labels)
     require(
         contents.labels->share && contents.labels->index &&
@@ -56,6 +59,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
   , m_second(contents.second)
   , m_materials(contents.materials)
   , m_light(contents.light)
+  , m_thickness(contents.thickness)
   , m_field(makeField(contents))
 {
   if (m_materials.empty())
@@ -141,6 +145,19 @@ Eigen::Vector3d TissueOptics::shareNormal(const Eigen::Vector3d& patient) const
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }
 
+// The colour in place of bone's own.
+std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_thickness.distance)
+    return std::nullopt;
+  const core::GridGeometry& grid = m_thickness.distance->geometry();
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  if (!grid.hullContains(voxel))
+    return std::nullopt;
+  const double share = volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
+  return share < 1.0 ? std::optional(thicknessColor(share)) : std::nullopt;
+}
+
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
                                               const std::optional<Eigen::Vector3d>& face) const
 {
@@ -156,8 +173,10 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   }
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
   const appearance::Material& material = surfaceMaterial(point);
-  return {optics::surfaceColor(material.transfer.at(intensity(material, below)), material.shininess,
-                               cosine, m_light, t),
+  auto look = material.transfer.at(intensity(material, below));
+  if (!face && (&material == &m_materials.front() || material.lumen))
+    look.color = overlayAt(point).value_or(look.color);
+  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t),
           material.surfaceOpacity};
 }
 

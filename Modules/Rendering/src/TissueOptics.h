@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -61,6 +62,7 @@ private:
   double shareAt(const Eigen::Vector3d& patient) const;
   std::size_t indexAt(const Eigen::Vector3d& patient) const;
   const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient) const;
+  std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d shareNormal(const Eigen::Vector3d& patient) const;
 
   std::shared_ptr<const volume::IntensityVolume> m_ct;
@@ -69,6 +71,7 @@ private:
   SecondImage m_second;
   std::vector<appearance::Material> m_materials;
   LightSettings m_light;
+  ThicknessOverlay m_thickness;
   volume::TissueField m_field;
 };
 

@@ -325,6 +325,8 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
     slopeMm = normalFromVoxel * ctSlope;
     along = dot(ctSlope, ray.direction);
   }
+  bool bony = facing < 0.0 && (ray.material == 0 || ray.more.x > 0.5);
+  vec4 overlay = bony ? overlayAt(v) : vec4(0.0);
   float size = length(slopeMm);
   vec3 below = v;
   if (facing < 0.0)
@@ -336,7 +338,8 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
       below += voxelFromMm * (slopeMm * (colorDepth / size));
     }
   }
-  vec3 lit = surfaceColor(ray.material, ray.row, intensityAt(below, ray.more), facing, hit);
+  vec3 lit = surfaceColor(ray.material, ray.row, intensityAt(below, ray.more), facing, hit,
+                          overlay);
   ray.color += ray.transmittance * ray.row.z * lit;
   ray.transmittance *= 1.0 - ray.row.z;
 }

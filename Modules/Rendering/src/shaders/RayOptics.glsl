@@ -26,12 +26,35 @@ float rowCoordinate(int material)
   return (float(material) + 0.5) / float(textureSize(materialTexture, 0).y);
 }
 
-vec3 surfaceColor(int material, vec4 row, float value, float facing, float t)
+// What takes the place of bone's own colour, and whether anything does (a).
+vec4 overlayAt(vec3 v)
+{
+#ifdef PETROUS_THICKNESS
+  vec3 at = thicknessFromVoxel * v + thicknessOrigin;
+  if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, thicknessUpper)))
+    return vec4(0.0);
+  COUNT(1);
+  float distance = texture(thicknessTexture, at * thicknessScale + thicknessOffset).r * thicknessUnit;
+  float share = distance / thicknessFarthest;
+  if (share >= 1.0)
+    return vec4(0.0);
+  int last = kThicknessColors.length() - 1;
+  float place = float(last) * max(share, 0.0);
+  int below = min(int(place), last - 1);
+  return vec4(mix(kThicknessColors[below], kThicknessColors[below + 1], place - float(below)), 1.0);
+#else
+  return vec4(0.0);
+#endif
+}
+
+// `overlay`: see overlayAt.
+vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay)
 {
   COUNT(1);
   float width = float(textureSize(lookTexture, 0).x);
   float u = clamp((value - row.x) * row.y, 0.0, 1.0) * (1.0 - 1.0 / width) + 0.5 / width;
   vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
+  look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   float diffuse = light.y + (1.0 - light.y) * facing;
   float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
   return clamp(lightAt(t) * (look.rgb * diffuse + highlight), 0.0, 1.0);

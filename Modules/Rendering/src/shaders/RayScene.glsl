@@ -6,9 +6,10 @@
 //   BONE       the CT's own surface            MASK     the cut
 //   LABELS     structures                      SECOND   a second image for some materials
 //   INTERIOR   tissue can be looked into       CLIP     clipping planes
+//   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
 // Before it stand the numbers that the C++ states (RayShader.cpp): kMostPlanes, kInteriorFacing,
-// kWetShininess, kShareThreshold (OpticalModel.h), kMixed, kLabels, kBorder (OccupancyGrid.h).
+// kWetShininess, kShareThreshold (OpticalModel.h), kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h).
 //
 // Textures (linear unless named otherwise):
 //   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
@@ -22,6 +23,7 @@
 //                  and of extinction (1/mm)
 //   materialTexture RGBA32F, nearest, 2 x rows: (first intensity, 1 / range, surface opacity,
 //                  shininess), (lumen, reads the second image, -, -)
+//   thicknessTexture R16_SNORM, mm to a structure = texel * thicknessUnit, own grid
 //   opaqueTexture  window depth of opaque polygons
 
 in vec2 ndc;
@@ -82,6 +84,15 @@ uniform vec3 secondOrigin;
 uniform float secondUnit;
 uniform vec3 secondUpper;
 uniform vec3 secondScale, secondOffset;
+#endif
+#ifdef PETROUS_THICKNESS
+uniform sampler3D thicknessTexture;
+uniform mat3 thicknessFromVoxel;
+uniform vec3 thicknessOrigin;
+uniform vec3 thicknessUpper; // dims - 1
+uniform vec3 thicknessScale, thicknessOffset;
+uniform float thicknessUnit; // mm
+uniform float thicknessFarthest; // mm
 #endif
 #ifdef PETROUS_INTERIOR
 uniform sampler2D depthTexture;

@@ -13,6 +13,7 @@
 #include "petrous/Volume/CutMask.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelField.h"
+#include "petrous/Volume/Volume.h"
 
 namespace petrous::rendering
 {
@@ -52,6 +53,16 @@ struct SecondImage
   core::RigidTransform secondFromCt; ///< takes CT patient points to its patient points, LPS mm
 };
 
+/// Colours bone by how far its surface is from a structure, so that one sees how much is left to
+/// drill. Only the structure's distance counts: what has been cut in between is not asked.
+struct ThicknessOverlay
+{
+  /// mm from the structure's surface, negative within; volume::makeDistanceField with a reach of at
+  /// least `farthest`. What its hull does not hold is farther. Null: no overlay.
+  std::shared_ptr<const volume::Volume<float>> distance;
+  double farthest = 5.0; ///< mm, > 0; thicker bone keeps its colour
+};
+
 /// What lies on the negative side is not drawn; patient LPS mm.
 struct ClippingPlane
 {
@@ -71,6 +82,7 @@ struct SceneContents
   SecondImage second;
   std::vector<ClippingPlane> clipping;
   std::optional<core::IndexBox> crop; ///< voxels of the CT that are drawn; none: all
+  ThicknessOverlay thickness;
   std::vector<MeshContents> meshes;
   std::optional<ToolPose> tool;
   LightSettings light;

@@ -171,6 +171,18 @@ TEST_F(AppearanceCommand, SaysHowNearABurrMayCome)
   EXPECT_EQ(part("incus")["warn_mm"], 1.0);
 }
 
+TEST_F(AppearanceCommand, SaysWhatTheDrillMeetsInAStructure)
+{
+  EXPECT_EQ(part("cochlea")["tissue"], "soft-tissue") << "as its preset";
+  json("appearance ear --tissue cochlea=cortical-bone --tissue incus=implant");
+  EXPECT_EQ(part("cochlea")["tissue"], "cortical-bone");
+  EXPECT_EQ(part("incus")["tissue"], "implant");
+  EXPECT_NE(run("appearance ear --list").out.find(", drilled as cortical-bone,"),
+            std::string::npos);
+  json("appearance ear --tissue cochlea=bone");
+  EXPECT_EQ(part("cochlea")["tissue"], "bone") << "by its density";
+}
+
 TEST_F(AppearanceCommand, BoneCanBeHiddenButStaysTissue)
 {
   const auto outcome = run("appearance ear --flags ct=none");
@@ -209,7 +221,8 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --warn cochlea=near", 2, "no number");
   expectRefused("appearance ear --warn ct=1", 3, "bone");
   expectRefused("appearance ear --iso much", 2, "--iso");
-  expectRefused("appearance ear --tissue cochlea=bone", 2, "not built yet");
+  expectRefused("appearance ear --tissue cochlea=jelly", 3, "cortical-bone");
+  expectRefused("appearance ear --tissue ct=nerve", 3, "density");
   expectRefused("appearance --list", 2, "CASE");
   expectRefused("appearance ear", 2, "nothing to do");
   EXPECT_EQ(libraryContent(), before);

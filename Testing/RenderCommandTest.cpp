@@ -19,28 +19,51 @@ protected:
   void SetUp() override
   {
     CommandLine::SetUp();
-    constexpr int edge = 32;
-    constexpr double spacing = 1.5;
-    const double half = 0.5 * spacing * (edge - 1);
     std::vector<float> voxels;
     for (int k = 0; k < edge; ++k)
       for (int j = 0; j < edge; ++j)
         for (int i = 0; i < edge; ++i)
         {
-          const auto square = [half](int n) { return std::pow(n * spacing - half, 2); };
-          const double depth = kRadius - std::sqrt(square(i) + square(j) + square(k));
+          const double depth = kRadius - fromCenter(i, j, k);
           voxels.push_back(static_cast<float>(std::clamp(300.0 + 200.0 * depth, -1000.0, 2000.0)));
         }
-    std::ofstream file(m_folder / "ball.nrrd", std::ios::binary);
-    file << "NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\n"
+    write("ball.nrrd", "float", voxels);
+    json("new ball --ct " + quoted(m_folder / "ball.nrrd"));
+    json("appearance ball --iso 300"); // not what its few grey values suggest
+  }
+
+  static constexpr int edge = 32;
+  static constexpr double spacing = 1.5;
+  static constexpr double half = 0.5 * spacing * (edge - 1);
+
+  static double fromCenter(int i, int j, int k) // mm
+  {
+    const auto square = [](int n) { return std::pow(n * spacing - half, 2); };
+    return std::sqrt(square(i) + square(j) + square(k));
+  }
+
+  template <class T>
+  void write(const std::string& name, const std::string& type, const std::vector<T>& voxels)
+  {
+    std::ofstream file(m_folder / name, std::ios::binary);
+    file << "NRRD0004\ntype: " << type << "\ndimension: 3\nspace: left-posterior-superior\n"
          << "sizes: 32 32 32\nspace directions: (1.5,0,0) (0,1.5,0) (0,0,1.5)\n"
          << "space origin: (" << kCenter[0] - half << ',' << kCenter[1] - half << ','
          << kCenter[2] - half << ")\nencoding: raw\nendian: little\n\n";
     file.write(reinterpret_cast<const char*>(voxels.data()),
-               static_cast<std::streamsize>(voxels.size() * sizeof(float)));
-    file.close();
-    json("new ball --ct " + quoted(m_folder / "ball.nrrd"));
-    json("appearance ball --iso 300"); // not what its few grey values suggest
+               static_cast<std::streamsize>(voxels.size() * sizeof(T)));
+  }
+
+  // A ball of 12 mm in the ball, as a structure.
+  void addNerve()
+  {
+    std::vector<unsigned char> inside;
+    for (int k = 0; k < edge; ++k)
+      for (int j = 0; j < edge; ++j)
+        for (int i = 0; i < edge; ++i)
+          inside.push_back(fromCenter(i, j, k) < 12.0 ? 1 : 0);
+    write("nerve.nrrd", "uint8", inside);
+    json("add ball --labels nerve=" + quoted(m_folder / "nerve.nrrd"));
   }
 
   std::filesystem::path camera(const std::string& text)
@@ -187,13 +210,49 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
 }
 
+TEST_F(RenderCommand, ColorsBoneByItsThicknessOverAStructure)
+{
+  addNerve();
+  json(render(""));
+  const std::string plain = textOf(m_folder / "p.png");
+  const auto answer = json(render("--thickness nerve"));
+  EXPECT_NE(textOf(m_folder / "p.png"), plain);
+  const auto& variant = answer["variant"];
+  EXPECT_EQ(std::count(variant.begin(), variant.end(), "thickness"), 1);
+  EXPECT_GT(answer["resources"]["labels.thickness"].get<double>(), 1000.0);
+  EXPECT_EQ(answer["thickness"]["structure"], "nerve");
+  EXPECT_EQ(answer["thickness"]["farthest_mm"], 5.0);
+  EXPECT_EQ(answer["thickness"]["colors"].size(), 9U);
+  json(render("--thickness nerve --engine reference"));
+  EXPECT_NE(textOf(m_folder / "p.png"), plain);
+  EXPECT_TRUE(json(render(""))["thickness"].is_null());
+  EXPECT_EQ(textOf(m_folder / "p.png"), plain);
+  expectRefused(render("--thickness sinus"), 3, "it has nerve");
+}
+
+TEST_F(RenderCommand, InfoTellsWhatWasLaidOpenWhereItIsAskedFor)
+{
+  addNerve();
+  EXPECT_TRUE(json("info ball --exposed")["dissection"]["exposed"].empty());
+  // From the right to 11 mm from the middle with a burr of 6 mm: 4 mm into the structure.
+  json("drill ball --diameter 6 --path " +
+       quoted(writePath({kCenter[0] - 25.0, kCenter[1], kCenter[2]},
+                        {kCenter[0] - 11.0, kCenter[1], kCenter[2]})));
+  EXPECT_FALSE(json("info ball")["dissection"].contains("exposed"));
+  const auto exposed = json("info ball --exposed")["dissection"]["exposed"];
+  ASSERT_EQ(exposed.size(), 1U);
+  EXPECT_EQ(exposed[0]["label"], "nerve");
+  EXPECT_GT(exposed[0]["area_mm2"].get<double>(), 1.0);
+  EXPECT_LT(exposed[0]["area_mm2"].get<double>(), 80.0);
+}
+
 TEST_F(RenderCommand, DoctorNamesTheRayCastersVariants)
 {
   const auto answer = json("doctor");
   EXPECT_TRUE(answer["gl_renderer"].is_string());
   EXPECT_GE(answer["largest_3d_texture"].get<int>(), 256);
   EXPECT_TRUE(answer["ray_caster"]["works"].get<bool>());
-  EXPECT_EQ(answer["ray_caster"]["variants"].size(), 7u);
+  EXPECT_EQ(answer["ray_caster"]["variants"].size(), 8u);
   EXPECT_NE(run("doctor").out.find("ray caster"), std::string::npos);
 }
 

@@ -1,12 +1,11 @@
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
-#include "CaseJson.h"
+#include "AppearanceList.h"
 #include "Commands.h"
 #include "Numbers.h"
-#include "petrous/Appearance/LookMaterial.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Dissection/MaterialCatalogue.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::cli
@@ -27,7 +26,8 @@ struct Options
   bool changes() const
   {
     return !iso.empty() || !set.empty() || !tf.empty() || !color.empty() || !opacity.empty() ||
-           !source.empty() || !flags.empty() || !stiffness.empty() || !warn.empty();
+           !source.empty() || !flags.empty() || !stiffness.empty() || !warn.empty() ||
+           !tissue.empty();
   }
 };
 
@@ -83,93 +83,6 @@ std::pair<Part, std::string> split(scene::Case& value, const std::string& assign
       return {std::move(*part), assignment.substr(at + 1)};
   throw core::InvalidParameter("case '" + value.name + "' has no structure or mesh '" +
                                assignment.substr(0, first) + "'; it has " + lookedAtParts(value));
-}
-
-/// The points as they lie among the intensities of an image.
-std::string valuesOf(const StructureLook& look, const volume::IntensityScale& scale)
-{
-  if (!look.transfer)
-    return "one colour";
-  const auto transfer = look.relative ? onScale(*look.transfer, scale) : *look.transfer;
-  const auto& points = transfer.points();
-  const std::string from = fixed(points.front().value, 0);
-  return (look.relative ? "" : "own values, ") +
-         (points.size() == 1 ? "1 point at " + from
-                             : std::to_string(points.size()) + " points from " + from + " to " +
-                                   fixed(points.back().value, 0));
-}
-
-std::string hex(const std::array<float, 3>& color)
-{
-  char text[8];
-  const auto byte = [&color](std::size_t c)
-  { return static_cast<unsigned>(std::lround(color[c] * 255.0F)) & 0xFFU; };
-  std::snprintf(text, sizeof(text), "#%02x%02x%02x", byte(0), byte(1), byte(2));
-  return text;
-}
-
-std::string yielding(const StructureLook& look)
-{
-  return look.stiffness > 0.0 ? ", " + nlohmann::json(look.stiffness).dump() + " N/mm" : "";
-}
-
-std::string warned(const StructureLook& look)
-{
-  return look.warning > 0.0 ? ", warned of at " + fixed(look.warning, 1) + " mm" : "";
-}
-
-std::string describe(const StructureLook& look, const volume::IntensityScale& scale)
-{
-  return look.preset + " " + hex(look.color) + ", " + appearance::flagsOf(look) +
-         (look.solid ? "" : ", a lumen") + yielding(look) + warned(look) + ", opacity " +
-         fixed(static_cast<double>(look.opacity), 2) + ", " + valuesOf(look, scale) +
-         (look.sourceImage.empty() ? "" : ", from " + look.sourceImage);
-}
-
-void list(const Context& context, const scene::Case& value)
-{
-  const auto entry = [&context, scale = value.intensityScale()](const std::string& name,
-                                                                const std::string& kind,
-                                                                const StructureLook& look)
-  {
-    nlohmann::json j = lookJson(look);
-    j["name"] = name;
-    j["kind"] = kind;
-    context.say("  " + name + " (" + kind + "): " + describe(look, scale));
-    return j;
-  };
-  context.say("surface at " + fixed(value.iso, 1) + " HU, dense bone at " +
-              fixed(value.denseBone, 1) + " HU");
-  nlohmann::json bone = entry("ct", "bone", value.boneLook);
-  nlohmann::json parts = nlohmann::json::array();
-  for (const auto& part : value.labels)
-    for (const auto& structure : part.structures)
-      parts.push_back(entry(structure.name, "structure", structure.look));
-  for (const auto& mesh : value.meshes)
-    parts.push_back(entry(mesh.name, "mesh", mesh.look));
-  context.give({{"case", value.name},
-                {"iso_hu", value.iso},
-                {"dense_bone_hu", value.denseBone},
-                {"bone", std::move(bone)},
-                {"parts", std::move(parts)}});
-}
-
-void listPresets(const Context& context)
-{
-  nlohmann::json presets = nlohmann::json::array();
-  for (const StructureLook& look : appearance::StructurePresets::builtIn().all())
-  {
-    nlohmann::json j = lookJson(look);
-    j.erase("preset");
-    j.erase("flags");
-    j.erase("source");
-    j["name"] = look.preset;
-    presets.push_back(std::move(j));
-    context.say("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
-                (look.solid ? "" : " (a lumen)") + yielding(look) + warned(look) + ", " +
-                valuesOf(look, {}));
-  }
-  context.give({{"presets", std::move(presets)}});
 }
 
 void setIso(const Context& context, scene::Case& value, const std::string& text)
@@ -348,10 +261,24 @@ void setWarning(scene::Case& value, const std::string& assignment)
     appearance::setWarning(*look, distance);
 }
 
+// What the drill meets there.
+void setTissue(const Context& context, scene::Case& value, const std::string& assignment)
+{
+  const auto [part, text] = split(value, assignment, "--tissue PART=MATERIAL|bone");
+  if (part.bone)
+    throw core::InvalidParameter("bone is what its density says; only structures and meshes have a "
+                                 "tissue of their own");
+  const std::string tissue = text == "bone" ? std::string() : text;
+  if (!tissue.empty())
+    dissection::MaterialCatalogue::builtIn().material(tissue); // refuses what it does not know
+  for (StructureLook* look : part.looks)
+    look->tissue = tissue;
+  if (!tissue.empty() && !part.looks.front()->solid)
+    context.remark("'" + part.name + "' is a lumen: the drill meets nothing in it");
+}
+
 void run(const Context& context, const Options& options)
 {
-  if (!options.tissue.empty())
-    notBuiltYet("--tissue");
   if (options.presets)
   {
     if (options.changes() || options.list)
@@ -362,7 +289,7 @@ void run(const Context& context, const Options& options)
     throw UsageError("appearance: CASE is required");
   if (!options.changes() && !options.list)
     throw UsageError("appearance: nothing to do; give --iso, --set, --tf, --color, --opacity, "
-                     "--source, --flags, --stiffness, --warn, --list or --presets");
+                     "--source, --flags, --stiffness, --warn, --tissue, --list or --presets");
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.name);
   if (!options.iso.empty())
@@ -384,9 +311,11 @@ void run(const Context& context, const Options& options)
     setStiffness(context, value, assignment);
   for (const std::string& assignment : options.warn)
     setWarning(value, assignment);
+  for (const std::string& assignment : options.tissue)
+    setTissue(context, value, assignment);
   if (options.changes())
     library.save(value);
-  list(context, value);
+  listAppearance(context, value);
 }
 
 } // namespace
@@ -414,10 +343,10 @@ void addAppearanceCommand(CLI::App& app, Context& context)
           "PART=N_PER_MM|rigid");
   perPart("--warn", options->warn, "How near a burr may come before it is warned of",
           "PART=MM|none");
+  perPart("--tissue", options->tissue, "What the drill meets in it; 'bone': bone by its density",
+          "PART=MATERIAL|bone");
   command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
   command->add_flag("--presets", options->presets, "List the looks of the catalogue");
-  // In the contract, not built yet: refused when asked for, not offered.
-  command->add_option("--tissue", options->tissue)->allow_extra_args(false)->group("");
 }
 
 } // namespace petrous::cli

@@ -47,6 +47,7 @@ json lookJson(const appearance::StructureLook& look)
           {"shininess", look.shininess},
           {"priority", look.priority},
           {"stiffness_n_per_mm", look.stiffness > 0.0 ? json(look.stiffness) : json()},
+          {"tissue", look.tissue.empty() ? "bone" : look.tissue},
           {"warn_mm", look.warning},
           {"source", look.sourceImage.empty() ? "ct" : look.sourceImage},
           {"transfer", std::move(transfer)}};

@@ -7,10 +7,12 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "RenderOptions.h"
+#include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ThicknessColor.h"
 
 namespace petrous::cli
 {
@@ -165,6 +167,16 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
   }
 }
 
+// The scale of the colours, for who reads the picture.
+nlohmann::json thicknessJson(const RenderOptions& options)
+{
+  if (options.thickness.empty())
+    return nullptr;
+  return {{"structure", options.thickness},
+          {"farthest_mm", presenters::kFarthestThickness},
+          {"colors", rendering::kThicknessColors}};
+}
+
 void render(const Context& context, const RenderOptions& options)
 {
   Shot shot = parseShot(options);
@@ -198,8 +210,12 @@ void render(const Context& context, const RenderOptions& options)
                         {"engine", options.engine},
                         {"camera", cameraJson(shot.camera)},
                         {"stereo", std::move(stereo)},
+                        {"thickness", thicknessJson(options)},
                         {"out", options.out},
                         {"resources", result.resources}});
+  if (!options.thickness.empty())
+    context.say("bone is coloured by its thickness over '" + options.thickness +
+                "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
   context.say(options.out + ": " + options.size + ", " +
               fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
   context.give(result.report);

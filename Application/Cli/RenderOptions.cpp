@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "Numbers.h"
-#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/SceneAssembly.h"
 
 namespace petrous::cli
 {
@@ -102,7 +102,9 @@ Shot parseShot(const RenderOptions& options)
 
 rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value)
 {
-  rendering::SceneContents contents = presenters::sceneContents(value);
+  presenters::SceneAssembly assembly;
+  assembly.showThickness(options.thickness);
+  rendering::SceneContents contents = assembly.contents(value);
   contents.light.falloff = options.falloff;
   contents.light.wetness = options.wetness;
   for (const std::string& plane : options.clip)
@@ -134,6 +136,10 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
                   "Distance at which the lamp's light is halved; 0: the same everywhere (0)")
       ->type_name("MM");
   command.add_option("--wetness", options.wetness, "Gloss of a wet surface, 0 to 1 (0)");
+  command
+      .add_option("--thickness", options.thickness,
+                  "Colour bone by its thickness over a structure, 0 to 5 mm")
+      ->type_name("STRUCTURE");
   command
       .add_option("--clip", options.clip,
                   "Plane through a point, patient LPS mm; the normal points to what stays (up to "

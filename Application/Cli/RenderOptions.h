@@ -16,6 +16,7 @@ namespace petrous::cli
 struct RenderOptions
 {
   std::string caseName, out, size = "800x600", view, camera, stereo = "none", engine = "gpu", depth;
+  std::string thickness;
   std::string crop, roi;
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;

@@ -28,6 +28,7 @@
 #include "StartPage.h"
 #include "StructuresPanel.h"
 #include "Theme.h"
+#include "ThicknessController.h"
 #include "ThreeDView.h"
 #include "WindowActions.h"
 #include "WindowSettings.h"
@@ -80,6 +81,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
+  , m_thickness(new ThicknessController(m_model, *m_view, *m_panel, *m_actions->boneThickness))
 {
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
@@ -194,6 +196,8 @@ void MainWindow::connectModel()
           [this] { m_settings->keepThrust(m_bar->thrust()); });
   connect(m_keeper, &CaseKeeper::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_thickness, &ThicknessController::said, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_picture, &PictureController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
 }
@@ -261,6 +265,7 @@ void MainWindow::caseChanged()
   m_slices->caseChanged();
   m_panel->caseChanged();
   m_nearby->caseChanged();
+  m_thickness->caseChanged();
   m_view->setFocus();
   QString notes;
   for (const std::string& note : value.ct.notes)

@@ -25,6 +25,7 @@ class NearbyPanel;
 class PictureController;
 class SliceColumn;
 class StructuresPanel;
+class ThicknessController;
 class ThreeDView;
 class WindowActions;
 class WindowSettings;
@@ -90,6 +91,7 @@ private:
   HandKeeper* m_hands;
   DrillController* m_drill;
   PictureController* m_picture;
+  ThicknessController* m_thickness;
 };
 
 } // namespace petrous::workstation

@@ -57,6 +57,28 @@ std::vector<StructuresModel::Row> StructuresModel::rows() const
   return rows;
 }
 
+std::string StructuresModel::nameAt(const QModelIndex& index) const
+{
+  return index.isValid() && index.row() < rowCount()
+             ? m_rows[static_cast<std::size_t>(index.row())].name
+             : std::string();
+}
+
+QModelIndex StructuresModel::rowOf(const std::string& name) const
+{
+  for (int row = 0; row < rowCount(); ++row)
+    if (m_rows[static_cast<std::size_t>(row)].name == name)
+      return index(row, Name);
+  return {};
+}
+
+appearance::StructureLook StructuresModel::lookAt(const QModelIndex& index) const
+{
+  return index.isValid() && index.row() < rowCount()
+             ? m_rows[static_cast<std::size_t>(index.row())].look
+             : appearance::StructureLook();
+}
+
 void StructuresModel::caseChanged()
 {
   beginResetModel();

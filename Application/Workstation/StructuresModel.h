@@ -28,6 +28,10 @@ public:
 
   explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
+  std::string nameAt(const QModelIndex& index) const; ///< of the row; empty: there is none
+  QModelIndex rowOf(const std::string& name) const;   ///< not valid: there is none
+  appearance::StructureLook lookAt(const QModelIndex& index) const;
+
   void caseChanged();
   void appearanceChanged();
 

@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMenu>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
@@ -12,6 +13,8 @@
 #include <QVBoxLayout>
 
 #include "StructuresModel.h"
+#include "Theme.h"
+#include "petrous/Dissection/MaterialCatalogue.h"
 
 namespace petrous::workstation
 {
@@ -67,6 +70,9 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
     m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 46 : 48);
   m_list->header()->setSectionResizeMode(StructuresModel::Name, QHeaderView::Stretch);
 
+  m_list->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(m_list, &QTreeView::customContextMenuRequested, this, &StructuresPanel::offer);
+
   auto* threshold = new QLabel(tr("&Bone threshold"));
   threshold->setBuddy(m_box);
   auto* top = new QHBoxLayout;
@@ -83,6 +89,50 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   layout->addLayout(head);
   layout->addWidget(m_list, 1);
   setMinimumWidth(280);
+}
+
+QString StructuresPanel::chosen() const
+{
+  return words(m_structures->nameAt(m_list->currentIndex()));
+}
+
+// What the drill meets in the structure.
+void StructuresPanel::addTissues(QMenu& menu, const QString& name)
+{
+  const auto look = m_structures->lookAt(m_structures->rowOf(bytes(name)));
+  QMenu* tissues = menu.addMenu(tr("The drill meets"));
+  const auto add = [&](const QString& title, const std::string& tissue)
+  {
+    QAction* action = tissues->addAction(title);
+    action->setCheckable(true);
+    action->setChecked(look.tissue == tissue);
+    connect(action, &QAction::triggered, this,
+            [this, name, tissue]
+            {
+              auto next = m_structures->lookAt(m_structures->rowOf(bytes(name)));
+              next.tissue = tissue;
+              m_model.setLook(bytes(name), next);
+            });
+  };
+  add(tr("Bone, by its density"), {});
+  const auto catalogue = dissection::MaterialCatalogue::builtIn();
+  for (const auto& material : catalogue.all())
+    add(words(material.title), material.name);
+}
+
+void StructuresPanel::offer(const QPoint& position)
+{
+  const QString name = words(m_structures->nameAt(m_list->indexAt(position)));
+  if (name.isEmpty())
+    return;
+  QMenu menu;
+  addTissues(menu, name);
+  QAction* thickness = menu.addAction(
+      tr("Colour bone by its thickness over %1").arg(QString(name).replace('_', ' ')));
+  thickness->setCheckable(true);
+  thickness->setChecked(m_model.thicknessOver() == bytes(name));
+  if (menu.exec(m_list->viewport()->mapToGlobal(position)) == thickness)
+    emit thicknessAsked(name);
 }
 
 void StructuresPanel::showIso()

@@ -5,6 +5,7 @@
 
 #include "petrous/Presenters/WorkstationModel.h"
 
+class QMenu;
 class QSlider;
 class QSpinBox;
 class QTreeView;
@@ -21,10 +22,18 @@ class StructuresPanel : public QWidget
 public:
   explicit StructuresPanel(presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
+  /// The structure of the row that is chosen; empty: none.
+  QString chosen() const;
+
   void caseChanged();
   void appearanceChanged();
 
+signals:
+  void thicknessAsked(const QString& structure); ///< again: no longer
+
 private:
+  void offer(const QPoint& position);
+  void addTissues(QMenu& menu, const QString& name);
   void showIso();
 
   presenters::WorkstationModel& m_model;

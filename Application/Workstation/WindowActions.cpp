@@ -85,6 +85,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& h
   }
   centerView = make(m_view, tr("&Centre on the crosshair"), Qt::Key_C,
                     tr("The 3D view turns and zooms about the crosshair from now on"));
+  boneThickness = make(m_view, tr("Bone &thickness over the structure"), Qt::Key_F6,
+                       tr("Colours bone by how much of it is left over the structure that is "
+                          "chosen in the list"));
+  boneThickness->setCheckable(true);
   m_view->addSeparator();
   boneWindow = make(m_view, tr("&Bone window"), Qt::Key_B, tr("Grey from -1300 to 2700 HU"));
   softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
@@ -139,8 +143,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& h
   window.addToolBar(&drillBar);
   window.addToolBar(&handBar);
 
-  m_needCase.insert(m_needCase.end(), {save, saveAs, centerView, boneWindow, softWindow, fitSlices,
-                                       drillBar.drillAction(), drillBar.pointerAction()});
+  m_needCase.insert(m_needCase.end(),
+                    {save, saveAs, centerView, boneThickness, boneWindow, softWindow, fitSlices,
+                     drillBar.drillAction(), drillBar.pointerAction()});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

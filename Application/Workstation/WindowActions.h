@@ -40,6 +40,7 @@ public:
   QAction* undo;
   QAction* redo;
   QAction* centerView;
+  QAction* boneThickness; ///< checkable
   QAction* boneWindow;
   QAction* softWindow;
   QAction* fitSlices;

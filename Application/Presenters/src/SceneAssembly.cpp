@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Scene/CaseField.h"
 
 namespace petrous::presenters
@@ -76,6 +77,13 @@ std::vector<Material> materialsOf(const scene::Case& value, const Structures& st
 
 } // namespace
 
+void SceneAssembly::showThickness(const std::string& structure)
+{
+  if (structure != m_thicknessOver)
+    m_thickness = nullptr;
+  m_thicknessOver = structure;
+}
+
 rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
                                                  const core::Progress& progress)
 {
@@ -99,6 +107,10 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
     contents.second = {second->volume.get(), second->mrFromCt};
   contents.boneShown = value.boneLook.shown;
   contents.materials = materialsOf(value, shown.structures, second);
+
+  if (!m_thicknessOver.empty() && !m_thickness)
+    m_thickness = boneThickness(value, m_thicknessOver, progress);
+  contents.thickness = {m_thickness, kFarthestThickness};
 
   for (const auto& mesh : value.meshes)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))

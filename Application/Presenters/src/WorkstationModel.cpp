@@ -189,7 +189,7 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
     return;
   appearance::StructureLook& present = found ? found->look : mesh->look;
   if (present.touchable != look.touchable || present.drillable != look.drillable ||
-      present.stiffness != look.stiffness)
+      present.stiffness != look.stiffness || present.tissue != look.tissue)
     forgetTissue();
   present = look;
   tell(events.appearanceChanged);
@@ -290,23 +290,6 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
                                      return part ? part->look.shown : mesh && mesh->look.shown;
                                    });
   return reading;
-}
-
-std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
-                                                                     double radius)
-{
-  if (!m_case)
-    return std::nullopt;
-  if (!m_nearby)
-    m_nearby = std::make_unique<NearbyStructures>(*m_case);
-  if (!m_nearby->ready())
-    return std::nullopt;
-  return m_nearby->around(*m_case, burr, radius, kNear);
-}
-
-void WorkstationModel::forgetNearby()
-{
-  m_nearby.reset();
 }
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)

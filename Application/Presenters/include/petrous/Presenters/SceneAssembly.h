@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -26,7 +27,14 @@ public:
   /// CancelledError, and what loading the parts throws.
   rendering::SceneContents contents(const scene::Case& value, const core::Progress& progress = {});
 
+  /// Bone is coloured by its thickness over this structure (BoneThickness.h) from the next
+  /// `contents` on, which throws where there is none of this name; empty: no longer.
+  void showThickness(const std::string& structure);
+  const std::string& thicknessOver() const noexcept { return m_thicknessOver; }
+
 private:
+  std::string m_thicknessOver;
+  std::shared_ptr<const volume::Volume<float>> m_thickness; ///< of m_thicknessOver, once asked for
   std::vector<volume::LabelSource> m_sources;
   std::shared_ptr<const volume::LabelField> m_labels; ///< of `m_sources`
 };

@@ -77,6 +77,11 @@ public:
   /// What a picture of the case shows, only with a case; see SceneAssembly.
   rendering::SceneContents sceneContents() { return m_assembly.contents(*m_case); }
 
+  /// Colours bone by its thickness over a structure; empty: no longer. Takes about a second.
+  /// Throws InvalidParameter, and nothing changes, where it cannot be measured.
+  void showThickness(const std::string& structure);
+  const std::string& thicknessOver() const noexcept { return m_assembly.thicknessOver(); }
+
   const Eigen::Vector3d& crosshair() const noexcept { return m_crosshair; }
   void setCrosshair(const Eigen::Vector3d& patient); ///< held within the CT
 

@@ -1,0 +1,36 @@
+#include "petrous/Presenters/BoneThickness.h"
+
+#include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/StructureShares.h"
+#include "petrous/Volume/DistanceField.h"
+
+namespace petrous::presenters
+{
+
+std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& value,
+                                                           const std::string& structure,
+                                                           const core::Progress& progress)
+{
+  std::string there;
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& known : part.structures)
+      there += (there.empty() ? "" : ", ") + known.name;
+  for (const scene::MeshPart& mesh : value.meshes)
+  {
+    if (!scene::findStructure(value, mesh.name))
+      there += (there.empty() ? "" : ", ") + mesh.name;
+    if (mesh.name == structure && !mesh.touch.resident())
+      mesh.touch.solid(mesh.mesh.get(), value.ct.geometry, progress.part(0.0, 0.3));
+  }
+  for (const scene::StructureShare& share : scene::structureShares(value))
+    if (share.name == structure)
+      if (auto field =
+              volume::makeDistanceField(*share.make(), kFarthestThickness, progress.part(0.3, 1.0)))
+        return field;
+  if (there.empty())
+    throw core::InvalidParameter("thickness: case '" + value.name + "' has no structures");
+  throw core::InvalidParameter("thickness: case '" + value.name + "' has no structure '" +
+                               structure + "' with voxels; it has " + there);
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,39 @@
+// What a planner asks of the open case while drilling: how near structures are, how thick bone is.
+
+#include <utility>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::presenters
+{
+
+std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
+                                                                     double radius)
+{
+  if (!m_case)
+    return std::nullopt;
+  if (!m_nearby)
+    m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  if (!m_nearby->ready())
+    return std::nullopt;
+  return m_nearby->around(*m_case, burr, radius, kNear);
+}
+
+void WorkstationModel::forgetNearby()
+{
+  m_nearby.reset();
+}
+
+void WorkstationModel::showThickness(const std::string& structure)
+{
+  if (!m_case || structure == thicknessOver())
+    return;
+  SceneAssembly next = m_assembly;
+  next.showThickness(structure);
+  next.contents(*m_case);
+  m_assembly = std::move(next);
+  if (events.appearanceChanged)
+    events.appearanceChanged();
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,89 @@
+#include "GuiTest.h"
+
+#include <QStatusBar>
+#include <QTreeView>
+
+#include "ThicknessLegend.h"
+#include "petrous/Rendering/ThicknessColor.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class Thickness : public GuiTest
+{
+protected:
+  // The nerve is a ball of 9.5 mm in one of bone of 12 mm.
+  void saveThinBall()
+  {
+    scene::Case value = ballCase("ball");
+    auto voxels =
+        std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+    const core::Index3& dims = value.ct.geometry.dims();
+    for (int k = 0; k < dims[2]; ++k)
+      for (int j = 0; j < dims[1]; ++j)
+        for (int i = 0; i < dims[0]; ++i)
+          if ((value.ct.geometry.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}) - kBallCenter)
+                  .norm() < 9.5)
+            voxels->at(i, j, k) = 1;
+    value.labels[0].labels =
+        std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+    library().save(value);
+  }
+  ThicknessLegend& legend() { return *window().findChild<ThicknessLegend*>("thicknessLegend"); }
+  void choose(int row)
+  {
+    auto* list = window().findChild<QTreeView*>("structures");
+    list->setCurrentIndex(list->model()->index(row, 0));
+  }
+};
+
+} // namespace
+
+TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
+{
+  saveThinBall();
+  openWindow();
+  const QImage before = picture();
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_FALSE(legend().isVisible()) << "nothing is chosen";
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("Choose a structure"));
+  EXPECT_EQ(differentPixels(before, picture()), 0);
+
+  choose(0);
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_TRUE(legend().isVisible());
+  EXPECT_EQ(legend().structure(), "nerve");
+  const QImage colored = picture();
+  EXPECT_GT(differentPixels(before, colored, 20), 5000);
+  // 2.5 mm, half of the scale: red, under a lamp; beside the highlight in the ball's middle.
+  const QPoint center = colored.rect().center();
+  int radius = 0;
+  while (center.x() + radius < colored.width() &&
+         colored.pixelColor(center.x() + radius, center.y()) != colored.pixelColor(0, 0))
+    ++radius;
+  ASSERT_GT(radius, 50);
+  const QColor red = colored.pixelColor(center.x() + radius * 2 / 3, center.y());
+  const auto wanted = rendering::thicknessColor(0.5);
+  EXPECT_NEAR(red.greenF() / red.redF(), wanted[1] / wanted[0], 0.12);
+  EXPECT_NEAR(red.blueF() / red.redF(), wanted[2] / wanted[0], 0.12);
+
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_FALSE(legend().isVisible());
+  EXPECT_EQ(differentPixels(before, picture()), 0);
+}
+
+TEST_F(Thickness, IsOfTheCaseThatIsOpen)
+{
+  saveThinBall();
+  saveBall("other");
+  openWindow("ball");
+  choose(0);
+  QTest::keyClick(&window(), Qt::Key_F6);
+  ASSERT_TRUE(legend().isVisible());
+  const_cast<presenters::WorkstationModel&>(window().model()).open("other");
+  EXPECT_FALSE(legend().isVisible());
+  EXPECT_TRUE(window().model().thicknessOver().empty());
+}

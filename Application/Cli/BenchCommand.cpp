@@ -9,6 +9,8 @@
 #include "Commands.h"
 #include "CutBenchmark.h"
 #include "DistanceBenchmark.h"
+#include "GrowthPlot.h"
+#include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
 #include "Numbers.h"
 #include "QpBenchmark.h"
@@ -36,6 +38,7 @@ struct Benchmark
   const char* name;
   core::BenchmarkReport (*run)(const std::filesystem::path& work, const BenchOptions&,
                                const core::Progress&);
+  std::map<std::string, std::string> (*plots)(const core::BenchmarkReport&) = plotsOf;
 };
 
 constexpr Benchmark kBenchmarks[] = {
@@ -45,6 +48,12 @@ constexpr Benchmark kBenchmarks[] = {
      { return dissection::runCutBenchmark(work, options.quick, progress); }},
     {"distance", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return volume::runDistanceBenchmark(options.quick, progress); }},
+    {"history",
+     [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return dissection::runHistoryBenchmark(options.quick, progress); },
+     [](const core::BenchmarkReport& report) {
+       return std::map<std::string, std::string>{{"", growthSvg(report, "strokes", "memory_mb")}};
+     }},
     {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return library::runSaveBenchmark(work, options.quick, progress); }},
     {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)
@@ -159,7 +168,7 @@ void bench(const Context& context, const BenchOptions& options)
     const auto json = reportJson(report);
     const std::filesystem::path base = std::filesystem::path(out) / report.name;
     writeTextFile(base.string() + ".json", json.dump(1) + "\n");
-    for (const auto& [part, svg] : plotsOf(report))
+    for (const auto& [part, svg] : benchmark.plots(report))
       writeTextFile(base.string() + part + ".svg", svg);
     all.push_back(json);
     context.say(report.title);
@@ -179,7 +188,9 @@ void addBenchCommand(CLI::App& app, Context& context)
   CLI::App* command =
       context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
                          [options, &context] { bench(context, *options); });
-  command->add_option("NAME", options->name, "import, cut, save, qp, touch, servo, renderer or all")
+  command
+      ->add_option("NAME", options->name,
+                   "import, cut, history, save, qp, touch, servo, renderer or all")
       ->required();
   command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
       ->type_name("DIR")

@@ -5,6 +5,7 @@
 
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Volume/MaskComparison.h"
 
 namespace petrous::library
 {
@@ -28,22 +29,6 @@ std::uintmax_t bytesBelow(const fs::path& folder)
     if (entry.is_regular_file())
       sum += entry.file_size();
   return sum;
-}
-
-std::size_t differences(const volume::CutMask& a, const volume::CutMask& b)
-{
-  std::size_t count = 0;
-  for (std::size_t n = 0; n < a.brickCount(); ++n)
-  {
-    if (a.brick(n) == b.brick(n))
-      continue;
-    const core::IndexBox box = a.brickBox(n);
-    for (int k = box.lower[2]; k < box.upper[2]; ++k)
-      for (int j = box.lower[1]; j < box.upper[1]; ++j)
-        for (int i = box.lower[0]; i < box.upper[0]; ++i)
-          count += a.at(i, j, k) != b.at(i, j, k);
-  }
-  return count;
 }
 
 } // namespace
@@ -97,7 +82,8 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   ours.scene = scene;
   ours.isDefault = true;
   ours.seconds = median(seconds);
-  ours.error = static_cast<double>(differences(value.dissection->mask(), again.dissection->mask()));
+  ours.error = static_cast<double>(
+      volume::differentVoxels(value.dissection->mask(), again.dissection->mask()));
   ours.errorUnit = "voxels that differ after reopening";
   ours.extra["slowest_ms"] = 1e3 * *std::max_element(seconds.begin(), seconds.end());
   ours.extra["written_kb"] = median(written) / 1e3;

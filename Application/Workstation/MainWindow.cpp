@@ -176,6 +176,7 @@ void MainWindow::connectModel()
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.stateChanged = [this] { stateChanged(); };
   m_model.events.stepped = [this](bool back) { stepped(back); };
+  m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
   connect(m_slices, &SliceColumn::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
@@ -295,11 +296,22 @@ void MainWindow::stateChanged()
   const bool unsaved = m_model.unsaved() || m_model.beingStored();
   setWindowTitle((unsaved ? QString::fromUtf8("• ") : QString()) + words(value.name) +
                  QString::fromUtf8(" — Petrous"));
-  m_sum->setText(value.applied() == 0 ? tr("nothing drilled")
-                                    : tr("%1 %2, %3 mm³ removed")
-                                          .arg(value.applied())
-                                          .arg(value.applied() == 1 ? tr("stroke") : tr("strokes"))
-                                          .arg(value.removedVolume(), 0, 'f', 1));
+  m_sum->setText(value.applied() == 0
+                     ? tr("nothing drilled")
+                     : tr("%1 %2, %3 mm³ removed")
+                           .arg(value.applied())
+                           .arg(value.applied() == 1 ? tr("stroke") : tr("strokes"))
+                           .arg(value.removedVolume(), 0, 'f', 1));
+}
+
+// Beside the case, which is shown at once.
+void MainWindow::notice(const QString& text)
+{
+  auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box->open();
 }
 
 void MainWindow::showPlace(const Eigen::Vector3d& patient)

@@ -65,6 +65,7 @@ private:
   void caseChanged();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
+  void notice(const QString& text);
   void showPlace(const Eigen::Vector3d& patient);
   void showView(rendering::StandardView view);
   void stepped(bool back); // an undo, or a redo

@@ -69,8 +69,8 @@ void NearbyPanel::stateChanged()
   const scene::Case& value = m_model.value();
   QString text = tr("Removed: %1 mm³ in %2 %3")
                      .arg(value.removedVolume(), 0, 'f', 1)
-                     .arg(value.applied)
-                     .arg(value.applied == 1 ? tr("stroke") : tr("strokes"));
+                     .arg(value.applied())
+                     .arg(value.applied() == 1 ? tr("stroke") : tr("strokes"));
   for (const auto& [name, volume] : presenters::injuredVolumes(value))
     text += tr("\nInjured: %1, %2 mm³").arg(words(name).replace('_', ' ')).arg(volume, 0, 'f', 2);
   m_removed->setText(text);

@@ -112,7 +112,7 @@ TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
 {
   scene::Case value = balls();
   value.strokes = {stroke("carotid", 0.5), stroke("carotid", 0.25), stroke("facial_nerve", 4.0)};
-  value.applied = 2;
+  value.history = dissection::History::line(3, 2);
   NearbyStructures nearby(value);
   nearby.surfaces();
   const auto near = nearby.around(value, kNerve + Vector3d(-30.0, 0.0, 0.0), 1.0, 5.0);

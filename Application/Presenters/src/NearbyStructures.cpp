@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include "petrous/Scene/Branches.h"
+
 namespace petrous::presenters
 {
 
@@ -49,9 +51,8 @@ std::string inWords(const NearbyStructure& structure)
 std::map<std::string, double> injuredVolumes(const scene::Case& value)
 {
   std::map<std::string, double> volumes;
-  for (std::size_t n = 0; n < value.applied; ++n)
-    for (const auto& touched : value.strokes[n].info.structures)
-      volumes[touched.name] += touched.volume;
+  for (const auto& touched : scene::summaryOf(value, value.history.position()).structures)
+    volumes[touched.name] = touched.volume;
   return volumes;
 }
 

@@ -20,6 +20,12 @@ void tell(const Event& event, const Arguments&... arguments)
 WorkstationModel::WorkstationModel(library::Library library)
   : m_library(std::move(library))
 {
+  listen();
+}
+
+void WorkstationModel::listen()
+{
+  m_library.onNotice([this](const std::string& words) { tell(events.noticed, words); });
 }
 
 std::optional<std::string> WorkstationModel::latestCase() const
@@ -129,6 +135,7 @@ void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const 
   elsewhere.save(next);
   *m_case = std::move(next);
   m_library = std::move(elsewhere);
+  listen();
   setUnsaved(false);
 }
 

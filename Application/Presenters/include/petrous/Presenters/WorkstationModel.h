@@ -28,6 +28,9 @@ public:
     std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
     std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
     std::function<void()> crosshairMoved;
+    /// What the user should know of a case that is being opened, one sentence: see
+    /// Library::onNotice.
+    std::function<void(const std::string&)> noticed;
     /// One stroke back (true) or forth, on request; the case's list is there already.
     std::function<void(bool back)> stepped;
     std::function<void()> stateChanged; ///< name, saved or not, what can be undone
@@ -118,6 +121,7 @@ public:
 
 private:
   DrillSession& session();
+  void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
   void forgetTissue();
   void tellMask(const std::vector<std::size_t>& bricks);

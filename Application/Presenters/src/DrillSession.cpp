@@ -7,6 +7,19 @@
 namespace petrous::presenters
 {
 
+namespace
+{
+
+dissection::RemovedVolume removedBy(const dissection::Dissection& work,
+                                    const volume::TissueField& field,
+                                    const std::vector<dissection::NamedStructure>& structures)
+{
+  return dissection::measureRemoved(field, work.maskBeforeStroke(), work.mask(), work.openBricks(),
+                                    structures);
+}
+
+} // namespace
+
 DrillSession::DrillSession(scene::Case& value)
   : m_case(value)
   , m_field(scene::tissueField(value))
@@ -62,8 +75,14 @@ std::shared_ptr<const dissection::Stroke> DrillSession::end()
 
 dissection::RemovedVolume DrillSession::measure(const dissection::Dissection& work) const
 {
-  return dissection::measureRemoved(m_field, work.maskBeforeStroke(), work.mask(),
-                                    work.openBricks(), m_structures);
+  return removedBy(work, m_field, m_structures);
+}
+
+std::function<dissection::RemovedVolume(const dissection::Dissection&)>
+DrillSession::measurer() const
+{
+  return [field = m_field, structures = m_structures](const dissection::Dissection& work)
+  { return removedBy(work, field, structures); };
 }
 
 std::string utcNow()

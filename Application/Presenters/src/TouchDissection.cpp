@@ -23,6 +23,7 @@ TouchDissection::TouchDissection(const dissection::Dissection& start, TouchScene
                                  simulation::SpscRing<simulation::TickRecord>& ring, Setup setup)
   : m_setup(std::move(setup))
   , m_work(forkOf(start))
+  , m_changes(m_work.changes())
   , m_removal(scene.removalOf(m_setup.burr, m_setup.catalogues))
   , m_reporter(m_work, m_mailbox)
   , m_loop(m_work, *scene.mask(), m_removal->feed, scene.drill().protectedTissue(), hooks(scene))
@@ -57,8 +58,21 @@ simulation::DissectionLoop::Hooks TouchDissection::hooks(TouchScene& scene)
                            });
 }
 
+void TouchDissection::journal()
+{
+  const auto now = std::chrono::steady_clock::now();
+  const bool due =
+      m_work.strokeOpen() && std::chrono::duration<double>(now - m_journalled).count() >= kJournal;
+  if (!m_setup.journal || (m_work.changes() == m_changes && !due))
+    return;
+  m_setup.journal(m_work);
+  m_changes = m_work.changes();
+  m_journalled = now;
+}
+
 void TouchDissection::pass()
 {
+  journal();
   if (m_setup.recorder)
     if (const std::string fault = m_setup.recorder->takeFailure(); !fault.empty())
       m_reporter.note(fault);

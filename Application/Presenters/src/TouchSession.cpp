@@ -65,7 +65,8 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
   , m_servo(*m_proxy, setupOf(scene, setup))
   , m_ring(kRing)
   , m_dissection(*value.dissection, scene, m_ring,
-                 {setup.tool.burr, setup.catalogues, setup.cuts, recorderOf(scene, setup, m_servo)})
+                 {setup.tool.burr, setup.catalogues, setup.cuts, recorderOf(scene, setup, m_servo),
+                  setup.journal})
   , m_thread(std::make_unique<simulation::ServoThread>(m_servo, device, m_ring, setup.parameters))
 {
 }

@@ -4,28 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "Tell.h"
+
 namespace petrous::presenters
 {
-
-namespace
-{
-template <class Event, class... Arguments>
-void tell(const Event& event, const Arguments&... arguments)
-{
-  if (event)
-    event(arguments...);
-}
-} // namespace
 
 WorkstationModel::WorkstationModel(library::Library library)
   : m_library(std::move(library))
 {
   listen();
-}
-
-void WorkstationModel::listen()
-{
-  m_library.onNotice([this](const std::string& words) { tell(events.noticed, words); });
 }
 
 std::optional<std::string> WorkstationModel::latestCase() const
@@ -37,47 +24,10 @@ std::optional<std::string> WorkstationModel::latestCase() const
   return latest ? std::optional(latest->name) : std::nullopt;
 }
 
-void WorkstationModel::open(const std::string& name)
-{
-  auto next = std::make_unique<scene::Case>(m_library.open(name));
-  m_library.loadDissection(*next);
-  next->ct.volume.get(); // a missing object is told now
-  show(std::move(next), false);
-}
-
-void WorkstationModel::adopt(scene::Case value)
-{
-  auto next = std::make_unique<scene::Case>(std::move(value));
-  m_library.loadDissection(*next);
-  m_beingStored = true;
-  show(std::move(next), false);
-}
-
-void WorkstationModel::stored(const scene::Case& saved)
-{
-  m_beingStored = false;
-  if (!m_case || m_case->name != saved.name)
-    return;
-  m_case->revision = saved.revision;
-  m_case->ct.object = saved.ct.object;
-  for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
-    m_case->mr[n].object = saved.mr[n].object;
-  for (std::size_t n = 0; n < std::min(m_case->labels.size(), saved.labels.size()); ++n)
-    m_case->labels[n].object = saved.labels[n].object;
-  for (std::size_t n = 0; n < std::min(m_case->meshes.size(), saved.meshes.size()); ++n)
-    m_case->meshes[n].object = saved.meshes[n].object;
-  tell(events.stateChanged);
-}
-
-void WorkstationModel::notStored()
-{
-  m_beingStored = false;
-  setUnsaved(true);
-}
-
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   forgetTissue();
+  m_journal.reset();
   m_nearby.reset();
   m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
@@ -97,46 +47,6 @@ void WorkstationModel::setCamera(const core::CameraPose& camera)
 {
   if (m_case)
     m_case->camera = camera;
-}
-
-void WorkstationModel::save()
-{
-  if (!m_case)
-    return;
-  m_library.save(*m_case);
-  setUnsaved(false);
-}
-
-void WorkstationModel::saveAs(const std::string& name)
-{
-  scene::Case next = *m_case;
-  next.name = name;
-  next.revision = 0;
-  m_library.save(next);
-  *m_case = std::move(next);
-  setUnsaved(false);
-}
-
-void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const std::string& name)
-{
-  library::Library elsewhere(folder);
-  scene::Case next = *m_case;
-  next.name = name;
-  next.revision = 0;
-  next.ct.object.clear();
-  for (auto& mr : next.mr)
-    mr.object.clear();
-  for (auto& part : next.labels)
-    part.object.clear();
-  for (auto& mesh : next.meshes)
-    mesh.object.clear();
-  for (auto& stroke : next.strokes)
-    stroke.object.clear();
-  elsewhere.save(next);
-  *m_case = std::move(next);
-  m_library = std::move(elsewhere);
-  listen();
-  setUnsaved(false);
 }
 
 // A stroke that is still open is closed first.
@@ -159,6 +69,8 @@ void WorkstationModel::step(bool back)
   const std::vector<std::size_t> bricks = m_case->dissection->mask().takeDirty();
   if (m_scene)
     m_scene->publish(bricks);
+  if (m_journal)
+    m_journal->follow(*m_case->dissection);
   tellMask(bricks);
   setUnsaved(true);
   tell(events.stepped, back);
@@ -323,12 +235,18 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
     m_session.reset();
     m_scene = std::make_unique<TouchScene>(*m_case);
   }
-  m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, setup);
+  TouchSession::Setup whole = setup;
+  if (m_journal)
+    whole.journal = [journal = m_journal.get(), measure = m_scene->drill().measurer()](
+                        const dissection::Dissection& work) { journal->follow(work, measure); };
+  m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, whole);
 }
 
 // Passes on what the news say of the case.
 TouchSession::News WorkstationModel::hear(TouchSession::News news)
 {
+  if (const std::string why = m_journal ? m_journal->takeFailure() : ""; !why.empty())
+    tell(events.noticed, why);
   tellMask(news.bricks);
   for (const auto& stroke : news.strokes)
     m_unsaved = m_unsaved || stroke;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,6 +45,9 @@ public:
   /// What the open stroke of a dissection of this case, or of a copy, has removed so far. Pure: of
   /// what this holds it reads nothing that drilling changes, so that another thread may ask.
   dissection::RemovedVolume measure(const dissection::Dissection& work) const;
+
+  /// The same by itself, also when this is gone.
+  std::function<dissection::RemovedVolume(const dissection::Dissection&)> measurer() const;
 
 private:
   scene::Case& m_case;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,7 +32,12 @@ public:
     dissection::Catalogues catalogues;
     bool cuts = true; ///< false: takes nothing and opens no stroke
     std::unique_ptr<simulation::SessionRecorder> recorder; ///< null: nothing is recorded
+    /// Gets the fork, in its thread, before what it has new can be taken: at each step of the
+    /// history, and every kJournal in an open stroke. May be empty; what it throws ends the
+    /// session.
+    std::function<void(const dissection::Dissection&)> journal;
   };
+  static constexpr double kJournal = 0.05; ///< s
 
   /// start   forked; scene.mask() must have been published from it
   /// ring    the servo's; it and the scene must outlive this
@@ -58,11 +66,14 @@ public:
 private:
   simulation::DissectionLoop::Hooks hooks(TouchScene& scene);
   void pass();
+  void journal();
 
   Setup m_setup;
   std::mutex m_mutex; // guards m_camera
   std::optional<core::CameraPose> m_camera;
   dissection::Dissection m_work;
+  std::uint64_t m_changes = 0; // of the fork, that the journal has
+  std::chrono::steady_clock::time_point m_journalled;
   std::unique_ptr<CaseRemoval> m_removal;
   simulation::DissectionMailbox m_mailbox;
   simulation::DissectionReporter m_reporter;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ public:
     std::optional<haptics::PassivityGuard::Parameters> passivity;
     bool cuts = true; ///< false: takes nothing and opens no stroke, whatever asks for the drill
     dissection::Catalogues catalogues = dissection::Catalogues::builtIn();
+    std::function<void(const dissection::Dissection&)> journal; ///< see TouchDissection
   };
 
   /// What happened since the last call.

@@ -8,6 +8,7 @@
 
 #include "petrous/Interaction/SightLine.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/JournalThread.h"
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PlaceReader.h"
 #include "petrous/Presenters/SceneAssembly.h"
@@ -33,10 +34,13 @@ public:
     std::function<void(const std::string&)> noticed;
     /// One stroke back (true) or forth, on request; the case's list is there already.
     std::function<void(bool back)> stepped;
-    std::function<void()> stateChanged; ///< name, saved or not, what can be undone
+    std::function<void(const std::string&)> noticed; ///< of what was drilled and is not saved
+    std::function<void()> stateChanged;              ///< name, saved or not, what can be undone
   };
 
   explicit WorkstationModel(library::Library library);
+  WorkstationModel(const WorkstationModel&) = delete;
+  WorkstationModel& operator=(const WorkstationModel&) = delete;
 
   Events events;
 
@@ -128,14 +132,17 @@ private:
   TouchSession::News hear(TouchSession::News news);
   void step(bool back);
   void setUnsaved(bool unsaved);
+  void listen();
+  void keepJournal();
 
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
   SceneAssembly m_assembly;
-  std::optional<DrillSession> m_session; ///< made when first asked for, until there is m_scene
+  std::optional<DrillSession> m_session;    ///< made when first asked for, until there is m_scene
+  std::unique_ptr<JournalThread> m_journal; ///< of a case that is in the library
   std::unique_ptr<TouchScene> m_scene;
-  std::unique_ptr<TouchSession> m_touch;       ///< after m_scene, which it uses
-  std::unique_ptr<PlaceReader> m_reader;       ///< when first asked for; likewise
+  std::unique_ptr<TouchSession> m_touch;      ///< after m_scene, which it uses
+  std::unique_ptr<PlaceReader> m_reader;      ///< when first asked for; likewise
   std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; a cut changes nothing of them
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;

@@ -1,0 +1,168 @@
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "BoneCase.h"
+#include "HeldTool.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+using petrous::presenters::testing::block;
+using petrous::presenters::testing::HeldTool;
+using petrous::presenters::testing::kTop;
+using petrous::presenters::testing::until;
+
+namespace
+{
+
+class JournalThreadTest : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    std::filesystem::create_directories(folder);
+    scene::Case value = block();
+    library::Library(folder).save(value);
+  }
+  void TearDown() override
+  {
+    std::filesystem::remove_all(folder);
+    std::filesystem::remove_all(killed);
+  }
+
+  // The library as a program that is killed now leaves it.
+  std::string reopened(scene::Case& value) const
+  {
+    std::filesystem::remove_all(killed);
+    std::filesystem::copy(folder, killed, std::filesystem::copy_options::recursive);
+    library::Library library(killed);
+    std::string notice;
+    library.onNotice([&notice](const std::string& words) { notice = words; });
+    value = library.open("block");
+    library.loadDissection(value);
+    return notice;
+  }
+  static std::vector<std::uint16_t> voxels(const scene::Case& value)
+  {
+    const auto dense = value.dissection->mask().dense();
+    return {dense.data(), dense.data() + dense.size()};
+  }
+  bool journalled() const
+  {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.path().filename().string().find("journal") != std::string::npos &&
+          entry.is_regular_file())
+        return true;
+    return false;
+  }
+  static void stroke(WorkstationModel& model, HeldTool& hand)
+  {
+    hand.drill(true);
+    ASSERT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
+    hand.drill(false);
+    ASSERT_TRUE(until([&model] { return !model.advanceTouch().strokes.empty(); }));
+  }
+
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("petrous-journal-" + std::to_string(::getpid()));
+  std::filesystem::path killed = folder.string() + "-killed";
+};
+
+} // namespace
+
+TEST_F(JournalThreadTest, BringsBackTheStrokesOfAProgramThatWasKilled)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.open("block");
+  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(hand.device, hand.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  EXPECT_TRUE(model.unsaved());
+  scene::Case again;
+  ASSERT_TRUE(until([&] { return reopened(again).size() > 10 && again.strokes.size() == 1; }));
+  EXPECT_EQ(voxels(again), voxels(model.value()));
+  EXPECT_EQ(again.strokes[0].info.removed, model.value().strokes[0].info.removed);
+
+  model.save();
+  ASSERT_TRUE(until([this] { return !journalled(); }));
+  EXPECT_EQ(reopened(again), "");
+  EXPECT_EQ(voxels(again), voxels(model.value()));
+
+  // An undo with nothing in the hand, and one with the tool.
+  model.stopTouch();
+  model.undo();
+  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.applied() == 0; }));
+  EXPECT_EQ(again.strokes.size(), 1u);
+  model.startTouch(hand.device, hand.setup);
+  model.redo();
+  ASSERT_TRUE(until(
+      [&]
+      {
+        model.advanceTouch();
+        reopened(again);
+        return model.value().applied() == 1 && again.applied() == 1;
+      }));
+}
+
+TEST_F(JournalThreadTest, HasAPartOfAStrokeThatIsOpenForLong)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.open("block");
+  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(hand.device, hand.setup);
+  hand.drill(true);
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(until(
+      [&]
+      {
+        const auto news = model.advanceTouch();
+        if (news.record)
+          hand.device.see(*news.record);
+        return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(4000) &&
+               journalled();
+      }));
+  EXPECT_TRUE(model.drilling());
+  scene::Case again;
+  EXPECT_FALSE(reopened(again).empty());
+  ASSERT_EQ(again.strokes.size(), 1u);
+  EXPECT_GT(again.strokes[0].info.removed, 0.0);
+  EXPECT_FALSE(again.dissection->mask().untouched());
+}
+
+TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
+{
+  scene::Case value = library::Library(folder).open("block");
+  library::Library library(folder);
+  library.loadDissection(value);
+  JournalThread journal(library, value);
+  EXPECT_EQ(journal.takeFailure(), "");
+  value.dissection->beginStroke({});
+  value.dissection->cut({{6.0, 6.0, kTop}, {6.0, 6.0, kTop}, 1.0});
+  const auto stroke = value.dissection->endStroke();
+  // Nothing can be made where the library was.
+  const std::filesystem::path away = folder.string() + "-away";
+  std::filesystem::rename(folder, away);
+  journal.follow(*value.dissection);
+  std::string why;
+  EXPECT_TRUE(until(
+      [&]
+      {
+        why = journal.takeFailure();
+        return !why.empty();
+      }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_EQ(journal.takeFailure(), "") << "told once";
+  std::filesystem::rename(away, folder);
+  EXPECT_TRUE(until([this] { return journalled(); }));
+  scene::Case again;
+  EXPECT_FALSE(reopened(again).empty());
+  EXPECT_EQ(again.strokes.size(), 1u);
+  EXPECT_EQ(voxels(again), voxels(value));
+}

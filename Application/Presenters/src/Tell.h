@@ -1,0 +1,14 @@
+#pragma once
+
+namespace petrous::presenters
+{
+
+/// Calls what somebody may have asked to hear of.
+template <class Event, class... Arguments>
+void tell(const Event& event, const Arguments&... arguments)
+{
+  if (event)
+    event(arguments...);
+}
+
+} // namespace petrous::presenters

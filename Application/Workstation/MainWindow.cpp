@@ -13,7 +13,6 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTimer>
 #include <QUrl>
 
 #include "CaseKeeper.h"
@@ -294,9 +293,9 @@ void MainWindow::stateChanged()
     return setWindowTitle("Petrous");
   m_nearby->stateChanged();
   const scene::Case& value = m_model.value();
-  const bool unsaved = m_model.unsaved() || m_model.beingStored();
-  setWindowTitle((unsaved ? QString::fromUtf8("• ") : QString()) + words(value.name) +
-                 QString::fromUtf8(" — Petrous"));
+  setWindowTitle(
+      (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
+      words(value.name) + QString::fromUtf8(" — Petrous"));
   m_sum->setText(value.applied() == 0
                      ? tr("nothing drilled")
                      : tr("%1 %2, %3 mm³ removed")
@@ -311,7 +310,6 @@ void MainWindow::notice(const QString& text)
   auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
-  box->setTextInteractionFlags(Qt::TextSelectableByMouse);
   box->open();
 }
 

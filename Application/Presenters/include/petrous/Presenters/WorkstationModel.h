@@ -29,13 +29,12 @@ public:
     std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
     std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
     std::function<void()> crosshairMoved;
-    /// What the user should know of a case that is being opened, one sentence: see
-    /// Library::onNotice.
-    std::function<void(const std::string&)> noticed;
     /// One stroke back (true) or forth, on request; the case's list is there already.
     std::function<void(bool back)> stepped;
-    std::function<void(const std::string&)> noticed; ///< of what was drilled and is not saved
-    std::function<void()> stateChanged;              ///< name, saved or not, what can be undone
+    /// What the user should know of what was drilled and is not saved, or came back from a journal
+    /// (Library::onNotice); one sentence.
+    std::function<void(const std::string&)> noticed;
+    std::function<void()> stateChanged; ///< name, saved or not, what can be undone
   };
 
   explicit WorkstationModel(library::Library library);

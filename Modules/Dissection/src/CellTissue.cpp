@@ -44,46 +44,19 @@ CellContent& CellTissue::at(int i, int j, int k)
   return *content;
 }
 
-bool CellTissue::airAround(int i, int j, int k) const
-{
-  for (int c = 0; c < 8; ++c)
-    if (m_tissue.ct()->at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) > m_tissue.parameters().iso)
-      return false;
-  const Eigen::Vector3d middle = m_tissue.geometry().patientFromVoxel({i + 0.5, j + 0.5, k + 0.5});
-  const double around = m_tissue.geometry().spacing().norm(); // twice what is needed
-  for (const auto& solid : m_tissue.solids())
-  {
-    const core::GridGeometry& grid = solid->geometry();
-    const Eigen::Vector3d voxel = grid.voxelFromPatient(middle);
-    const double margin = around / grid.minSpacing();
-    bool near = true;
-    for (int a = 0; a < 3; ++a)
-      near = near && voxel[a] > -margin &&
-             voxel[a] < grid.dims()[static_cast<std::size_t>(a)] - 1 + margin;
-    if (near)
-      return false;
-  }
-  return true;
-}
-
 void CellTissue::fill(int i, int j, int k, CellContent& content) const
 {
-  constexpr int n = CellContent::kPoints;
-  content.empty = true;
-  if (airAround(i, j, k))
+  content.empty = !cellShares(m_tissue, i, j, k, content.share);
+  if (content.empty)
     return;
-  const auto middle = [](int part) { return (part + 0.5) / n; };
   std::size_t point = 0;
-  for (int c = 0; c < n; ++c)
-    for (int b = 0; b < n; ++b)
-      for (int a = 0; a < n; ++a, ++point)
-      {
-        const Eigen::Vector3d p =
-            m_tissue.geometry().patientFromVoxel({i + middle(a), j + middle(b), k + middle(c)});
-        const bool solid = m_tissue.uncut(p) > 0.0;
-        content.resistance[point] = solid ? static_cast<float>(m_resistance.at(p)) : 0.0F;
-        content.empty = content.empty && !solid;
-      }
+  for (int c = 0; c < kCellPoints; ++c)
+    for (int b = 0; b < kCellPoints; ++b)
+      for (int a = 0; a < kCellPoints; ++a, ++point)
+        content.resistance[point] = content.share[point] > 0.0F
+                                        ? static_cast<float>(m_resistance.at(
+                                              cellPoint(m_tissue.geometry(), i, j, k, a, b, c)))
+                                        : 0.0F;
 }
 
 } // namespace petrous::dissection

@@ -5,18 +5,16 @@
 #include <deque>
 #include <vector>
 
+#include "CellShares.h"
 #include "petrous/Dissection/TissueResistance.h"
 #include "petrous/Volume/TissueField.h"
 
 namespace petrous::dissection
 {
 
-/// What lies in a cell between eight voxel centres before any cut: resistance at 4^3 points, which
-/// stand in the middles of equal parts; 0 where there is no tissue.
+/// What lies in a cell between eight voxel centres before any cut.
 struct CellContent
 {
-  static constexpr int kPoints = 4; ///< along an axis
-
   std::int64_t cell = -1;
   std::uint64_t asked = 0; ///< by which search last
   // What was reckoned of it last, kept for whoever asks the same again.
@@ -25,7 +23,8 @@ struct CellContent
   float volume = 0.0F;
   bool reckoned = false;
   bool empty = true;
-  alignas(16) std::array<float, kPoints * kPoints * kPoints> resistance{};
+  alignas(16) CellValues share{};      ///< of a point's part that is tissue, 0 to 1
+  alignas(16) CellValues resistance{}; ///< N/mm^2; 0 where there is no tissue
 };
 
 /// The cells' contents, made when first asked for and kept where there is room: a table in which
@@ -44,7 +43,6 @@ public:
   CellContent& at(int i, int j, int k);
 
 private:
-  bool airAround(int i, int j, int k) const;
   void fill(int i, int j, int k, CellContent& content) const;
 
   const volume::TissueField& m_tissue;

@@ -6,6 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "BiteSums.h"
+
 namespace petrous::dissection
 {
 
@@ -13,37 +15,21 @@ namespace
 {
 
 using volume::CutMask;
+using Corners = std::array<std::uint16_t, 8>;
 
-constexpr int kPointsPerAxis = 4;
-constexpr std::uint16_t kHalf = CutMask::kUntouched / 2;
-
-// Range of the mask over a voxel and its neighbours: all that interpolation in it can see.
-struct MaskRange
+Corners cornersOf(const CutMask& mask, int i, int j, int k)
 {
-  std::uint16_t low = CutMask::kUntouched;
-  std::uint16_t high = 0;
-};
-
-MaskRange rangeAround(const CutMask& mask, const core::Index3& v)
-{
-  const core::Index3& dims = mask.geometry().dims();
-  MaskRange range;
-  for (int k = std::max(v[2] - 1, 0); k <= std::min(v[2] + 1, dims[2] - 1); ++k)
-    for (int j = std::max(v[1] - 1, 0); j <= std::min(v[1] + 1, dims[1] - 1); ++j)
-      for (int i = std::max(v[0] - 1, 0); i <= std::min(v[0] + 1, dims[0] - 1); ++i)
-      {
-        const std::uint16_t value = mask.at(i, j, k);
-        range.low = std::min(range.low, value);
-        range.high = std::max(range.high, value);
-      }
-  return range;
+  Corners corners{};
+  for (int c = 0; c < 8; ++c)
+    corners[static_cast<std::size_t>(c)] = mask.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+  return corners;
 }
 
-// Counts of removed sub-points: all, and those in each structure.
+// Points that went: all, and those in each structure; each counts by the share of its part.
 struct Count
 {
-  std::uint64_t total = 0;
-  std::vector<std::uint64_t> structures;
+  double total = 0.0;
+  std::vector<double> structures;
 };
 
 class Quadrature
@@ -55,37 +41,38 @@ public:
     , m_before(before)
     , m_after(after)
     , m_structures(structures)
+    , m_sums(before.geometry())
   {
   }
 
-  void addVoxel(const core::Index3& v, Count& count) const
+  /// The cell above the voxel (i, j, k).
+  void addCell(int i, int j, int k, Count& count) const
   {
-    const MaskRange after = rangeAround(m_after, v);
-    if (after.low > kHalf)
-      return; // nothing of it is gone
-    const MaskRange before = rangeAround(m_before, v);
-    if (before.high <= kHalf)
-      return; // all of it was gone already
-    const core::GridGeometry& grid = m_before.geometry();
-    for (int c = 0; c < kPointsPerAxis; ++c)
-      for (int b = 0; b < kPointsPerAxis; ++b)
-        for (int a = 0; a < kPointsPerAxis; ++a)
-        {
-          const auto offset = [](int n) { return (n + 0.5) / kPointsPerAxis - 0.5; };
-          const Eigen::Vector3d voxel(v[0] + offset(a), v[1] + offset(b), v[2] + offset(c));
-          if (!grid.hullContains(voxel) || m_after.sample(voxel) > 0.5 ||
-              m_before.sample(voxel) <= 0.5)
-            continue;
-          const Eigen::Vector3d p = grid.patientFromVoxel(voxel);
-          if (!(m_tissue.uncut(p) > 0.0))
-            continue;
-          ++count.total;
-          addToStructures(p, count);
-        }
+    const Corners after = cornersOf(m_after, i, j, k);
+    const Corners before = cornersOf(m_before, i, j, k);
+    CellValues tissue, left, had;
+    if (before == after || *std::min_element(after.begin(), after.end()) >= m_sums.high() ||
+        *std::max_element(before.begin(), before.end()) <= m_sums.low() ||
+        !cellShares(m_tissue, i, j, k, tissue))
+      return;
+    m_sums.left(before, tissue, had);
+    m_sums.left(after, tissue, left);
+    std::size_t point = 0;
+    for (int c = 0; c < kCellPoints; ++c)
+      for (int b = 0; b < kCellPoints; ++b)
+        for (int a = 0; a < kCellPoints; ++a, ++point)
+          if (const auto gone = static_cast<double>(had[point] - left[point]); gone != 0.0)
+          {
+            count.total += gone;
+            if (!m_structures.empty())
+              addToStructures(cellPoint(m_before.geometry(), i, j, k, a, b, c), gone, count);
+          }
   }
+
+  double pointVolume() const noexcept { return m_sums.partVolume(); } ///< mm^3
 
 private:
-  void addToStructures(const Eigen::Vector3d& p, Count& count) const
+  void addToStructures(const Eigen::Vector3d& p, double gone, Count& count) const
   {
     for (std::size_t s = 0; s < m_structures.size(); ++s)
     {
@@ -96,7 +83,7 @@ private:
                                  static_cast<int>(std::lround(v[2]))};
       if (voxels.geometry().fullBox().contains(nearest) &&
           voxels.at(nearest[0], nearest[1], nearest[2]) == m_structures[s].index)
-        ++count.structures[s];
+        count.structures[s] += gone;
     }
   }
 
@@ -104,6 +91,7 @@ private:
   const CutMask& m_before;
   const CutMask& m_after;
   const std::vector<NamedStructure>& m_structures;
+  BiteSums m_sums;
 };
 
 // A changed voxel is seen from its neighbours too: one voxel round each brick belongs to it.
@@ -129,19 +117,20 @@ RemovedVolume measureRemoved(const volume::TissueField& tissue, const CutMask& b
 {
   const auto all = withNeighbours(after, bricks);
   const Quadrature quadrature(tissue, before, after, structures);
+  const core::Index3& dims = after.geometry().dims();
   std::vector<Count> counts(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(),
                     [&](std::size_t n)
                     {
                       counts[n].structures.resize(structures.size());
                       const core::IndexBox box = after.brickBox(all[n]);
-                      for (int k = box.lower[2]; k < box.upper[2]; ++k)
-                        for (int j = box.lower[1]; j < box.upper[1]; ++j)
-                          for (int i = box.lower[0]; i < box.upper[0]; ++i)
-                            quadrature.addVoxel({i, j, k}, counts[n]);
+                      for (int k = box.lower[2]; k < std::min(box.upper[2], dims[2] - 1); ++k)
+                        for (int j = box.lower[1]; j < std::min(box.upper[1], dims[1] - 1); ++j)
+                          for (int i = box.lower[0]; i < std::min(box.upper[0], dims[0] - 1); ++i)
+                            quadrature.addCell(i, j, k, counts[n]);
                     });
 
-  // Summed as whole numbers in brick order: the same result whatever the threads did.
+  // Summed in brick order: the same result whatever the threads did.
   Count sum;
   sum.structures.resize(structures.size());
   for (const Count& count : counts)
@@ -150,13 +139,12 @@ RemovedVolume measureRemoved(const volume::TissueField& tissue, const CutMask& b
     for (std::size_t s = 0; s < structures.size(); ++s)
       sum.structures[s] += count.structures[s];
   }
-  const double point = after.geometry().voxelVolume() / std::pow(kPointsPerAxis, 3);
   RemovedVolume result;
-  result.total = static_cast<double>(sum.total) * point;
+  result.total = sum.total * quadrature.pointVolume();
   for (std::size_t s = 0; s < structures.size(); ++s)
-    if (sum.structures[s] > 0)
+    if (sum.structures[s] > 0.0)
       result.structures.push_back(
-          {structures[s].name, static_cast<double>(sum.structures[s]) * point});
+          {structures[s].name, sum.structures[s] * quadrature.pointVolume()});
   return result;
 }
 

@@ -1,6 +1,6 @@
 #include "petrous/Simulation/RemovalFeed.h"
 
-#include <tuple>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,32 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
+// By counting points of the fields, 8^3 a voxel, wherever the mask was lowered at all.
 double measured(const LawScene& scene)
 {
-  const volume::CutMask before(scene.work.mask().geometry());
-  return dissection::measureRemoved(scene.tissue, before, scene.work.mask(),
-                                    scene.work.openBricks(), {})
-      .total;
+  const volume::CutMask& mask = scene.work.mask();
+  const core::GridGeometry& grid = mask.geometry();
+  const core::IndexBox box = mask.boxOf(scene.work.openBricks());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(0.0, 1.0);
+  std::uint64_t gone = 0;
+  for (int k = box.lower[2]; k < std::min(box.upper[2], grid.dims()[2] - 1); ++k)
+    for (int j = box.lower[1]; j < std::min(box.upper[1], grid.dims()[1] - 1); ++j)
+      for (int i = box.lower[0]; i < std::min(box.upper[0], grid.dims()[0] - 1); ++i)
+      {
+        bool lowered = false;
+        for (int c = 0; c < 8; ++c)
+          lowered = lowered || mask.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) < 40000;
+        for (int n = 0; lowered && n < 512; ++n)
+        {
+          const Eigen::Vector3d voxel(i + ((n & 7) + jitter(random)) / 8.0,
+                                      j + ((n >> 3 & 7) + jitter(random)) / 8.0,
+                                      k + ((n >> 6) + jitter(random)) / 8.0);
+          gone +=
+              mask.sample(voxel) <= 0.5 && scene.tissue.uncut(grid.patientFromVoxel(voxel)) > 0.0;
+        }
+      }
+  return static_cast<double>(gone) * grid.voxelVolume() / 512.0;
 }
 
 double total(const RemovalBalance& balance)
@@ -81,8 +101,7 @@ TEST_P(RemovalLaws, AreWhatIsRemoved)
   EXPECT_NEAR(balance.predicted, expected, 0.02 * expected);
   EXPECT_NEAR(total(balance), balance.predicted, 0.02 * balance.predicted);
   EXPECT_LT(balance.owed + balance.forfeited, 0.05 * expected);
-  EXPECT_NEAR(measured(scene) + balance.owed + balance.forfeited, expected,
-              0.03 * expected + 0.002);
+  EXPECT_NEAR(measured(scene) + balance.owed + balance.forfeited, expected, 0.03 * expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(OverTheirRange, RemovalLaws,
@@ -125,7 +144,7 @@ TEST(RemovalFeed, ASlowDiamondBurrDoesNotStall)
   const RemovalBalance half = scene.feed.balance();
   scene.drill(0.5);
   const RemovalBalance all = scene.feed.balance();
-  EXPECT_NEAR(all.predicted, 0.05, 0.002);
+  EXPECT_NEAR(all.predicted, 0.05, 0.004);
   EXPECT_NEAR(all.removed - half.removed, 0.025, 0.002);
   EXPECT_NEAR(total(all), all.predicted, 0.02 * all.predicted);
 }

@@ -131,7 +131,6 @@ private:
   TouchSession::News hear(TouchSession::News news);
   void step(bool back);
   void setUnsaved(bool unsaved);
-  void listen();
   void keepJournal();
 
   library::Library m_library;

@@ -26,8 +26,9 @@ struct RemovedVolume
 };
 
 /// Volume lost from {f > 0} between two masks, by quadrature of the interpolated fields with 4^3
-/// points a voxel where a surface passes (Documentation/adr/0001). `bricks` are those in which the
-/// masks differ. `tissue` is asked for f before any mask.
+/// points a cell, each of which counts by how much of its part is tissue and is left
+/// (Documentation/adr/0011). `bricks` are those in which the masks differ. `tissue` is asked for f
+/// before any mask.
 RemovedVolume measureRemoved(const volume::TissueField& tissue, const volume::CutMask& before,
                              const volume::CutMask& after, const std::vector<std::size_t>& bricks,
                              const std::vector<NamedStructure>& structures);

@@ -1,0 +1,135 @@
+#include <csignal>
+#include <thread>
+
+#include <fcntl.h>
+
+#include "CommandRunner.h"
+
+using namespace petrous::testing;
+
+namespace
+{
+
+// A block of bone whose face towards +x lies at x = 10 mm.
+class RecoveryCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    std::ofstream file(m_folder / "bone.nrrd", std::ios::binary);
+    file << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 60 60 60\nspace directions: (0.5,0,0) (0,0.5,0) (0,0,0.5)\n"
+         << "space origin: (-15,-15,-15)\nencoding: raw\nendian: little\n\n";
+    for (int n = 0; n < 60 * 60 * 60; ++n)
+    {
+      const std::int16_t value = n % 60 < 51 ? 1500 : -1000;
+      file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    file.close();
+    json("new bone --ct " + quoted(m_folder / "bone.nrrd"));
+  }
+
+  // Into the bone for 8 s, off for 1 s, and again beside it, for two minutes.
+  std::filesystem::path writeSession() const
+  {
+    std::ofstream file(m_folder / "session.csv");
+    file << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n";
+    const auto row = [&file](double time, double x, double y, int drill)
+    {
+      file << time << ',' << x << ',' << y << ",0,0.70710678118654757,0,0.70710678118654757,0,"
+           << drill << '\n';
+    };
+    for (int n = 0; n < 13; ++n)
+    {
+      const double y = n - 6.0;
+      row(9.0 * n, 14.0, y, 1);
+      row(9.0 * n + 7.0, 8.0, y, 1);
+      row(9.0 * n + 8.0, 14.0, y, 0);
+    }
+    row(9.0 * 13, 14.0, 0.0, 0);
+    return m_folder / "session.csv";
+  }
+
+  std::filesystem::path journal() const { return library() / "cases/bone.journal"; }
+
+  // The drill command, killed once its journal has grown to `bytes`. False: it ended before.
+  bool killDrill(const std::filesystem::path& session, std::uintmax_t bytes) const
+  {
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      const int nowhere = ::open("/dev/null", O_RDWR);
+      for (const int stream : {0, 1, 2})
+        ::dup2(nowhere, stream);
+      ::setenv("PETROUS_LIBRARY", library().c_str(), 1);
+      ::execl(PETROUS_PROGRAM, PETROUS_PROGRAM, "drill", "bone", "--path", session.c_str(),
+              nullptr);
+      ::_exit(127);
+    }
+    std::error_code error;
+    int status = 0;
+    while (true)
+    {
+      if (::waitpid(child, &status, WNOHANG) == child)
+        return false;
+      const auto size = std::filesystem::file_size(journal(), error);
+      if (!error && size > bytes)
+        break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    return true;
+  }
+};
+
+} // namespace
+
+TEST_F(RecoveryCommand, WhatAKilledDrillTookIsThereAgain)
+{
+  const auto session = writeSession();
+  json("drill bone --path " + quoted(session));
+  const auto whole = json("history bone")["strokes"];
+  ASSERT_GE(whole.size(), 5u);
+  json("undo bone 99");
+  for (const std::uintmax_t bytes : {0U, 3000U, 30000U})
+  {
+    json("branch bone 'killed at " + std::to_string(bytes) + "' --from 0");
+    const std::size_t before = json("info bone")["dissection"]["strokes"];
+    ASSERT_TRUE(killDrill(session, bytes)) << bytes;
+    ASSERT_TRUE(std::filesystem::exists(journal()));
+
+    const Outcome outcome = run("info bone --json");
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("ended without saving"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(journal()));
+    EXPECT_EQ(run("info bone --json").err, "") << "it is told once";
+    const auto strokes = json("history bone")["strokes"];
+    ASSERT_GT(strokes.size(), before);
+    for (std::size_t n = before; n < strokes.size(); ++n)
+    {
+      const auto& full = whole[n - before];
+      if (strokes[n]["recovered"])
+      {
+        EXPECT_EQ(n + 1, strokes.size());
+        EXPECT_LE(strokes[n]["removed_mm3"], full["removed_mm3"]);
+        EXPECT_GE(strokes[n]["duration_s"], 5.0);
+      }
+      else
+        EXPECT_EQ(strokes[n]["removed_mm3"], full["removed_mm3"]);
+    }
+    EXPECT_EQ(json("render bone --size 64x48 --out " + quoted(m_folder / "a.png"))["size"][0], 64);
+  }
+}
+
+TEST_F(RecoveryCommand, AFailedDrillLeavesTheLibraryAsItWas)
+{
+  const auto session = writeSession();
+  const auto before = libraryContent();
+  const Outcome outcome =
+      run("drill bone --path " + quoted(session) + " --log /dev/full --tick-hz 200");
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_EQ(libraryContent(), before) << outcome.err;
+}

@@ -118,7 +118,8 @@ TEST_F(CommandLine, KeepsApproachesSideBySide)
   const auto drill = [this](const std::array<double, 3>& to, const std::string& options)
   {
     const auto path = writePath({-35, 0, 0}, to);
-    return json("drill bone --path " + quoted(path) + options)["removed_mm3"].get<double>();
+    return json("drill bone --mode 3dof --path " + quoted(path) + options)["removed_mm3"]
+        .get<double>();
   };
   const double first = drill({-33, 0, 0}, "");
   const double second = drill({-33, 3, 0}, "");

@@ -228,7 +228,7 @@ TEST(TouchSession, DrillsAtTheSameRateHoweverSeldomPicturesAreDrawn)
   {
     const Drilled seldom = drilledAt(picturesPerSecond);
     // The way of a burr that slides in its groove is never the same twice.
-    EXPECT_NEAR(seldom.rate, often.rate, 0.25 * often.rate) << picturesPerSecond << " Hz";
+    EXPECT_NEAR(seldom.rate, often.rate, 0.12 * often.rate) << picturesPerSecond << " Hz";
     EXPECT_GT(seldom.states, 100u); // 3 pictures, and 1, while it drilled
   }
   EXPECT_GT(often.rate, 0.5);

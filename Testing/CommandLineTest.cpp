@@ -115,18 +115,18 @@ TEST_F(CommandLine, RendersTheSamePixelsInAFreshProcess)
 TEST_F(CommandLine, KeepsApproachesSideBySide)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));
-  const auto drill = [this](const std::array<double, 3>& to, const std::string& options)
+  const auto drill = [this](const std::array<double, 3>& at, const std::string& options)
   {
-    const auto path = writePath({-35, 0, 0}, to);
+    const auto path = writePath(at, {at[0] + 2.0, at[1], at[2]});
     return json("drill bone --mode 3dof --path " + quoted(path) + options)["removed_mm3"]
         .get<double>();
   };
-  const double first = drill({-33, 0, 0}, "");
-  const double second = drill({-33, 3, 0}, "");
+  const double first = drill({-35, 0, 0}, "");
+  const double second = drill({-35, 8, 0}, "");
   json("undo bone");
-  const double other = drill({-33, 0, 4}, " --diameter 5"); // the second stays, set aside
+  const double other = drill({-35, 0, 8}, " --diameter 5"); // the second stays, set aside
   json("branch bone 'from above' --from 1");
-  const double above = drill({-33, -4, 0}, "");
+  const double above = drill({-35, -8, 0}, "");
 
   const auto info = json("info bone")["dissection"];
   EXPECT_EQ(info["branch"], "from above");

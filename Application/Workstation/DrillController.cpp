@@ -303,6 +303,8 @@ void DrillController::hear(const presenters::TouchSession::News& news)
     show(news);
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
+  if (!news.journalFault.empty())
+    emit said(tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
   if (!news.failure.empty())
   {
     layDown();

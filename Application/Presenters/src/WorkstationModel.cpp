@@ -245,8 +245,8 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
 // Passes on what the news say of the case.
 TouchSession::News WorkstationModel::hear(TouchSession::News news)
 {
-  if (const std::string why = m_journal ? m_journal->takeFailure() : ""; !why.empty())
-    tell(events.noticed, why);
+  if (m_journal)
+    news.journalFault = m_journal->takeFailure();
   tellMask(news.bricks);
   for (const auto& stroke : news.strokes)
     m_unsaved = m_unsaved || stroke;

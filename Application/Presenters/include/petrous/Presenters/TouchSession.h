@@ -50,6 +50,7 @@ public:
     std::vector<bool> steps;    ///< of the history; true: a stroke was undone, false: redone
     std::string fault;          ///< the latest one, one sentence; empty while all is well
     std::string recordingFault; ///< why the recording ended before the session; empty otherwise
+    std::string journalFault;   ///< why what is drilled is not on the disk; told once
     std::string failure;        ///< why nothing is cut any more, told once; see `failed`
   };
 

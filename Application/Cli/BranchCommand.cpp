@@ -1,10 +1,12 @@
 #include <cstdio>
+#include <map>
 #include <optional>
 
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/ExposedSurfaces.h"
 
 namespace petrous::cli
 {
@@ -70,6 +72,20 @@ void sayRow(const Context& context, const std::string& what, const std::string& 
   context.say(row);
 }
 
+// mm^2 of each structure that the branch has laid open, by name.
+std::map<std::string, double> exposedBy(const Context& context, const scene::Case& value,
+                                        const Branch& branch)
+{
+  dissection::History there = value.history;
+  there.goTo(branch.name);
+  dissection::Dissection work = *value.dissection;
+  work.follow(there);
+  std::map<std::string, double> areas;
+  for (const auto& surface : scene::exposedSurfaces(value, work.mask(), context.progress()))
+    areas[surface.name] = surface.area;
+  return areas;
+}
+
 void compare(const Context& context, const scene::Case& value, const Options& options)
 {
   const Branch& a = branchOf(value, options.compared[0]);
@@ -88,9 +104,19 @@ void compare(const Context& context, const scene::Case& value, const Options& op
     structures[touched.name].second = touched.volume;
   for (const auto& [name, volumes] : structures)
     sayRow(context, "  of " + name + ", mm3", fixed(volumes.first, 2), fixed(volumes.second, 2));
-  context.give({{"case", value.name},
-                {"common_strokes", common},
-                {"compare", {branchJson(value, a), branchJson(value, b)}}});
+  const auto openA = exposedBy(context, value, a);
+  const auto openB = exposedBy(context, value, b);
+  std::map<std::string, std::pair<double, double>> open;
+  for (const auto& [name, area] : openA)
+    open[name].first = area;
+  for (const auto& [name, area] : openB)
+    open[name].second = area;
+  for (const auto& [name, areas] : open)
+    sayRow(context, "exposed " + name + ", mm2", fixed(areas.first, 1), fixed(areas.second, 1));
+  nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
+  sides[0]["exposed_mm2"] = nlohmann::json(openA);
+  sides[1]["exposed_mm2"] = nlohmann::json(openB);
+  context.give({{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
 }
 
 void list(const Context& context, const scene::Case& value)
@@ -141,7 +167,10 @@ void branch(const Context& context, const Options& options)
   if (options.list)
     return list(context, value);
   if (options.given("--compare"))
+  {
+    library.loadDissection(value);
     return compare(context, value, options);
+  }
   const std::string done = change(value, options);
   library.save(value);
   context.say(done);
@@ -165,7 +194,9 @@ void addBranchCommand(CLI::App& app, Context& context)
       ->add_option("--from", options->after,
                    "A new branch begins after the first N strokes of the present one")
       ->type_name("N");
-  command->add_option("--compare", options->compared, "What two branches took, side by side")
+  command
+      ->add_option("--compare", options->compared,
+                   "What two branches took and laid open, side by side")
       ->expected(2)
       ->type_name("A B");
   command->add_option("--rename", options->newName, "Another name for branch NAME");

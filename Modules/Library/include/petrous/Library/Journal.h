@@ -30,7 +30,7 @@ class JournalFile;
 class Journal
 {
 public:
-  static constexpr double kInterval = 5.0; ///< s, of the clock on the wall or of simulated time
+  static constexpr double kInterval = 4.5; ///< s, of the clock on the wall or of simulated time
 
   /// What is known of the open stroke, with what it removed so far. Asked in the thread that calls
   /// `follow`, once a part is due.

@@ -1,3 +1,4 @@
+#include <map>
 #include <set>
 #include <string>
 
@@ -64,6 +65,51 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
                                            "table_entries", "termination"}));
   EXPECT_EQ(marked, varied) << "each curve marks the setting that the product uses";
   for (const char* name : {"renderer.json", "renderer.svg", "renderer-frames.svg"})
+    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+}
+
+// The law, and the balls that were cut, are the truth; whole voxels follow neither thrust nor law.
+TEST_F(BenchCommand, MeasuresRemovalBesideTheLawAndWholeVoxels)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench removal --quick --out " + quoted(out));
+  std::set<std::string> scenes;
+  int peers = 0;
+  std::map<std::string, double> peerRates; // tick -> mm^3/s
+  for (const auto& point : report.at("points"))
+  {
+    const auto& setting = point.at("setting");
+    const std::string scene = setting.at("scene");
+    const auto& extra = point.at("extra");
+    const double error = point.at("error").get<double>();
+    scenes.insert(scene);
+    EXPECT_TRUE(setting.contains("varied")) << scene;
+    EXPECT_GT(extra.at("ticks").get<double>(), 0.0) << scene;
+    EXPECT_LE(point.at("seconds").get<double>(), 1e-6 * extra.at("processor_us_max").get<double>());
+    if (!point.at("peer").is_null())
+    {
+      ++peers;
+      if (setting.at("varied") == "tick_ms, 4 mm burr")
+        peerRates[setting.at("tick_ms")] = extra.at("rate_mm3_per_s").get<double>();
+      EXPECT_GT(error, 50.0) << setting;
+    }
+    else if (extra.contains("max_voxels"))
+    {
+      EXPECT_LE(error, 0.05) << setting;
+      EXPECT_LE(extra.at("max_voxels").get<double>(), 0.25) << setting;
+      EXPECT_GT(extra.at("points").get<double>(), 100.0) << setting;
+    }
+    else
+    {
+      EXPECT_LE(error, 2.0) << setting;
+    }
+  }
+  EXPECT_EQ(scenes.size(), 5U);
+  EXPECT_EQ(peers, 5);
+  // Six voxels of 0.2 mm a tick.
+  EXPECT_NEAR(peerRates["1.0"], 6.0 * 0.008 / 1e-3, 0.5);
+  EXPECT_NEAR(peerRates["2.0"], 6.0 * 0.008 / 2e-3, 0.5);
+  for (const char* name : {"removal.json", "removal.svg", "removal-5.svg"})
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
 }
 

@@ -14,6 +14,7 @@
 #include "ImportBenchmark.h"
 #include "Numbers.h"
 #include "QpBenchmark.h"
+#include "RemovalBenchmark.h"
 #include "RendererBenchmark.h"
 #include "SaveBenchmark.h"
 #include "ServoBenchmark.h"
@@ -67,6 +68,8 @@ constexpr Benchmark kBenchmarks[] = {
      }},
     {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return simulation::runServoBenchmark(work, options.quick, progress); }},
+    {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return simulation::runRemovalBenchmark(options.quick, progress); }},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
        return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
      }}};
@@ -190,7 +193,8 @@ void addBenchCommand(CLI::App& app, Context& context)
                          [options, &context] { bench(context, *options); });
   command
       ->add_option("NAME", options->name,
-                   "import, cut, history, save, qp, touch, servo, renderer or all")
+                   "import, cut, distance, history, save, qp, touch, servo, removal, renderer or "
+                   "all")
       ->required();
   command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
       ->type_name("DIR")

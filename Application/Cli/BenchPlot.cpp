@@ -108,6 +108,12 @@ Points chosen(const core::BenchmarkReport& report, const std::string& series)
   return points;
 }
 
+// Of the parameter that is varied.
+const std::string& valueOf(const core::BenchmarkPoint& point)
+{
+  return point.setting.at(point.series.substr(0, point.series.find(',')));
+}
+
 // The values that were varied, joined, of each program for itself.
 std::string joined(const Points& points, const Panel& panel, const std::string& color)
 {
@@ -129,7 +135,7 @@ std::string joined(const Points& points, const Panel& panel, const std::string& 
   for (const bool ringed : {true, false}) // the default's value has the first choice
     for (const auto& point : points)
       if (point.isDefault == ringed)
-        result += labels.beside(panel.x(point), panel.y(point), point.setting.at(point.series));
+        result += labels.beside(panel.x(point), panel.y(point), valueOf(point));
   for (const auto& point : points)
     result +=
         svg::dot(panel.x(point), panel.y(point), colorOf(point), hintOf(point), point.isDefault);

@@ -20,7 +20,8 @@ std::string seriesSvg(const core::BenchmarkReport& report);
 std::string rowsSvg(const core::BenchmarkReport& report);
 
 /// What `petrous bench` writes: file name's end -> SVG. A report without series is one plot ("");
-/// else there is a plot for each scene of a series ("", "-2", ...) and the rows ("-frames").
+/// else there is a plot for each scene of a series ("", "-2", ...) and,
+/// for the points without, the rows ("-frames").
 std::map<std::string, std::string> plotsOf(const core::BenchmarkReport& report);
 
 } // namespace petrous::cli

@@ -102,7 +102,9 @@ std::map<std::string, std::string> plotsOf(const core::BenchmarkReport& report)
         part.points.push_back(point);
     plots[n == 0 ? "" : "-" + std::to_string(n + 1)] = seriesSvg(part);
   }
-  plots["-frames"] = rowsSvg(report);
+  if (std::any_of(report.points.begin(), report.points.end(),
+                  [](const auto& point) { return point.series.empty(); }))
+    plots["-frames"] = rowsSvg(report);
   return plots;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "Session.h"
 #include "petrous/Dissection/Catalogues.h"
@@ -28,6 +29,8 @@ public:
     double voxel = 0.3;           // mm
     double tick = 0.001;          // s
     std::optional<double> border; // x, mm
+    double speed = 0.0;           // mm/s, to and fro along y
+    double travel = 1.5;          // mm, to either side
     Eigen::Vector3d place{0.013, -0.027, 0.0};
   };
 
@@ -40,7 +43,7 @@ public:
     , meets(meetsOf(setting, tissue, sides))
     , search(tissue, meets, {}, 0.5 * setting.burr.diameter)
     , feed(search, setting.burr, setting.voxel)
-    , loop(work, *mask, feed)
+    , loop(work, *mask, feed, {}, hooks())
     , m_shell(shellOf(setting))
     , m_tool(std::make_shared<haptics::HapticField>(tissue, mask), m_shell)
     , session(setupOf(m_shell), m_tool)
@@ -49,6 +52,12 @@ public:
     session.parameters.thrust = setting.thrust;
     session.parameters.approach[2] = -1.0;
   }
+
+  /// What follows a tick; the loop, unless another rule is measured.
+  std::function<void(const TickRecord&)> follow = [this](const TickRecord& record)
+  { loop.step(record); };
+
+  std::vector<dissection::SweptSphere> bites; // in the order in which they were cut
 
   /// Pressed, with the drill on, for so many seconds of contact; each such tick is told.
   void drill(double seconds, const std::function<void(const TickRecord&)>& told = {})
@@ -68,18 +77,22 @@ public:
     const auto wanted = static_cast<int>(std::lround(seconds / m_setting.tick));
     const int most = 5 * wanted + 2000; // it may come out below
     for (int n = 0, done = 0; done < wanted && n < most; ++n)
-      if (const TickRecord& record = tick(place); record.drill && record.thrust > 0.0)
+    {
+      haptics::Pose there = place;
+      there.position.y() += aside();
+      if (const TickRecord& record = tick(there); record.drill && record.thrust > 0.0)
       {
         ++done;
         if (told)
           told(record);
       }
+    }
   }
 
   const TickRecord& tick(const haptics::Pose& place)
   {
     const TickRecord& record = session.tick(place, m_setting.tick);
-    loop.step(record);
+    follow(record);
     return record;
   }
 
@@ -90,7 +103,31 @@ public:
     return resistanceOf(catalogues.materials.material(material), catalogues.burrs.model(burr.kind));
   }
 
+  /// rad/s.
+  static double speedOf(const dissection::Burr& burr)
+  {
+    return burr.rpm * 3.14159265358979323846 / 30.0;
+  }
+
 private:
+  // mm along y: a triangle wave of the session's time.
+  double aside() const
+  {
+    const double way = m_setting.speed * (session.now - kStart) / m_setting.travel;
+    return m_setting.travel * (1.0 - std::abs(std::fmod(way + 1.0, 4.0) - 2.0));
+  }
+
+  DissectionLoop::Hooks hooks()
+  {
+    DissectionLoop::Hooks hooks;
+    hooks.edited = [this](const MaskEdit& edit)
+    {
+      if (edit.kind == MaskEdit::Kind::Cut)
+        bites.push_back(edit.burr());
+    };
+    return hooks;
+  }
+
   static core::GridGeometry gridOf(const Setting& s)
   {
     const double half = 0.5 * s.burr.diameter + 2.5;
@@ -157,6 +194,8 @@ private:
     setup.burrPoints = shell.burrCount;
     return setup;
   }
+
+  static constexpr double kStart = 100.0; // s, of the session's clock
 
   Setting m_setting;
 

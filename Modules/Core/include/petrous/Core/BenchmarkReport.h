@@ -18,7 +18,8 @@ struct BenchmarkPoint
   double error = 0.0;                         ///< in errorUnit, against the stated truth
   std::string errorUnit;
   std::string peer;   ///< the other program or rule measured in the same run; empty for ours
-  std::string series; ///< the parameter that is varied; its points are joined in the plot
+  std::string series; ///< the parameter that is varied; its points are joined in the plot. What
+                      ///< else tells the series from others follows after a comma.
   std::map<std::string, double> extra; ///< further figures, unit in the name
 };
 

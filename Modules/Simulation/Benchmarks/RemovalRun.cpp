@@ -1,0 +1,194 @@
+#include "RemovalRun.h"
+
+#include <algorithm>
+
+#include "petrous/Dissection/RemovedVolume.h"
+
+namespace petrous::simulation
+{
+
+namespace
+{
+
+using testing::LawScene;
+using volume::CutMask;
+
+double forceOn(const TickRecord& record)
+{
+  return Eigen::Vector3d(record.burrForce[0], record.burrForce[1], record.burrForce[2]).norm();
+}
+
+double resistanceOf(const LawScene::Setting& setting)
+{
+  return LawScene::resistance(setting.burr, "cortical-bone"); // N/mm^2
+}
+
+// Voxels that are there or not, in the mask that the tool feels.
+class VoxelDeletion
+{
+public:
+  VoxelDeletion(LawScene& scene, double diameter)
+    : m_scene(scene)
+    , m_radius(0.5 * diameter)
+    , m_most(static_cast<std::size_t>(deletedPerTick(diameter)))
+  {
+    takeAir();
+  }
+
+  /// How many are gone.
+  std::size_t step(const TickRecord& record)
+  {
+    if (!record.drill || !(record.thrust > 0.0))
+      return 0;
+    gather(record.proxy.pose().position);
+    const std::size_t count = std::min(m_most, m_near.size());
+    std::partial_sort(m_near.begin(), m_near.begin() + static_cast<std::ptrdiff_t>(count),
+                      m_near.end());
+    for (std::size_t n = 0; n < count; ++n)
+      remove(m_near[n].second);
+    if (count > 0)
+    {
+      CutMask& mask = m_scene.work.mask();
+      m_scene.mask->publish(mask, mask.takeDirty(), false);
+    }
+    return count;
+  }
+
+private:
+  // What is no bone is gone from the start, so that all that is felt is voxels.
+  void takeAir()
+  {
+    CutMask& mask = m_scene.work.mask();
+    const core::GridGeometry& grid = mask.geometry();
+    for (std::size_t index = 0; index < mask.brickCount(); ++index)
+    {
+      auto brick = std::make_shared<CutMask::Brick>();
+      brick->fill(CutMask::kUntouched);
+      const core::IndexBox box = mask.brickBox(index);
+      for (int k = box.lower[2]; k < box.upper[2]; ++k)
+        for (int j = box.lower[1]; j < box.upper[1]; ++j)
+          for (int i = box.lower[0]; i < box.upper[0]; ++i)
+            if (!(m_scene.tissue.uncut(grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})) > 0.0))
+              (*brick)[placeOf({i, j, k})] = 0;
+      mask.setBrick(index, std::move(brick));
+    }
+    m_scene.mask->publish(mask, mask.takeDirty(), false);
+  }
+
+  static std::size_t placeOf(const core::Index3& voxel) // in its brick
+  {
+    constexpr int edge = CutMask::kBrickEdge;
+    return static_cast<std::size_t>(voxel[0] % edge +
+                                    edge * (voxel[1] % edge + edge * (voxel[2] % edge)));
+  }
+
+  void gather(const Eigen::Vector3d& center)
+  {
+    const CutMask& mask = m_scene.work.mask();
+    const core::GridGeometry& grid = mask.geometry();
+    const double h = grid.minSpacing();
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(m_radius + h);
+    const core::IndexBox box = grid.boxCovering(center - reach, center + reach);
+    m_near.clear();
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        {
+          const Eigen::Vector3d p = grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k});
+          const Eigen::Vector3d away =
+              ((p - center).cwiseAbs() - Eigen::Vector3d::Constant(0.5 * h)).cwiseMax(0.0);
+          if (away.norm() < m_radius + 0.5 * h && mask.at(i, j, k) > 0)
+            m_near.push_back({(p - center).norm(), {i, j, k}});
+        }
+  }
+
+  void remove(const core::Index3& voxel)
+  {
+    constexpr int edge = CutMask::kBrickEdge;
+    CutMask& mask = m_scene.work.mask();
+    const std::size_t index = mask.brickIndex({voxel[0] / edge, voxel[1] / edge, voxel[2] / edge});
+    auto brick = std::make_shared<CutMask::Brick>(*mask.brick(index));
+    (*brick)[placeOf(voxel)] = 0;
+    mask.setBrick(index, std::move(brick));
+  }
+
+  LawScene& m_scene;
+  double m_radius;
+  std::size_t m_most;
+  std::vector<std::pair<double, core::Index3>> m_near;
+};
+
+} // namespace
+
+int deletedPerTick(double diameter)
+{
+  return diameter < 2.0 ? 1 : diameter < 4.0 ? 3 : diameter < 6.0 ? 6 : 10;
+}
+
+double lawRate(const LawScene::Setting& setting)
+{
+  const double arm = RemovalFeed::armOf(0.5 * setting.burr.diameter, setting.elevation, 0.0);
+  return setting.thrust * arm * LawScene::speedOf(setting.burr) / resistanceOf(setting);
+}
+
+RemovalRun runByLaw(const LawScene::Setting& setting, double seconds)
+{
+  LawScene scene(setting);
+  RemovalRun run;
+  const double pace = LawScene::speedOf(setting.burr) / resistanceOf(setting);
+  scene.follow = [&](const TickRecord& record)
+  {
+    core::TickTimes time;
+    if (time.take([&] { return scene.loop.step(record); }))
+      run.times.add(time);
+  };
+  scene.drill(seconds,
+              [&](const TickRecord& record)
+              {
+                run.predicted += forceOn(record) * scene.feed.arm() * pace * setting.tick;
+                run.contact += setting.tick;
+              });
+  const RemovalBalance balance = scene.feed.balance();
+  run.owed = balance.owed;
+  run.forfeited = balance.forfeited;
+  const CutMask before(scene.work.mask().geometry());
+  run.measured = dissection::measureRemoved(scene.tissue, before, scene.work.mask(),
+                                            scene.work.openBricks(), {})
+                     .total;
+  return run;
+}
+
+RemovalRun runByDeletion(const LawScene::Setting& setting, double seconds, double most)
+{
+  LawScene scene(setting);
+  RemovalRun run;
+  const double pace = LawScene::speedOf(setting.burr) / resistanceOf(setting);
+  const double radius = 0.5 * setting.burr.diameter;
+  VoxelDeletion deletion(scene, setting.burr.diameter);
+  std::size_t gone = 0;
+  scene.follow = [&](const TickRecord& record)
+  {
+    core::TickTimes time;
+    const std::size_t count = time.take([&] { return deletion.step(record); });
+    gone += count;
+    if (count > 0)
+      run.times.add(time);
+  };
+  while (run.contact < seconds && run.measured < most)
+  {
+    const double before = run.contact;
+    scene.drill(setting.tick,
+                [&](const TickRecord& record)
+                {
+                  const double arm = RemovalFeed::armOf(radius, record.elevation, 0.0);
+                  run.predicted += forceOn(record) * arm * pace * setting.tick;
+                  run.contact += setting.tick;
+                });
+    run.measured = static_cast<double>(gone) * scene.work.mask().geometry().voxelVolume();
+    if (run.contact == before)
+      break; // it touches nothing any more
+  }
+  return run;
+}
+
+} // namespace petrous::simulation

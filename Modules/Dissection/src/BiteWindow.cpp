@@ -11,6 +11,13 @@ namespace petrous::dissection
 
 using volume::CutMask;
 
+namespace
+{
+
+constexpr int kGone = 8; // voxels in a row that are gone: worth passing over
+
+}
+
 BiteWindow::BiteWindow(const volume::TissueField& tissue, const TissueResistance& resistance,
                        ProtectedTissue keep)
   : m_grid(tissue.geometry())
@@ -60,6 +67,7 @@ bool BiteWindow::gather(const CutMask& mask, const SweptSphere& way)
   }
   load(mask, box);
   m_after = m_now;
+  m_reckoned = false;
   m_voxels.clear();
   m_x.clear();
   m_y.clear();
@@ -83,8 +91,25 @@ void BiteWindow::gatherRow(const BurrCoverage& burr, int first, int j, int k, in
           (static_cast<std::size_t>(j - m_box.lower[1]) +
            static_cast<std::size_t>(m_dims[1]) * static_cast<std::size_t>(k - m_box.lower[2]));
   const std::uint16_t* now = &m_now[start];
-  if (std::all_of(now, now + count, [](std::uint16_t value) { return value == 0; }))
-    return;
+  // In its own hole, what lies between the walls is gone already.
+  for (int begin = 0; begin < count;)
+  {
+    int end = begin;
+    for (int n = begin; n < count && n - end < kGone; ++n)
+      if (now[n] != 0)
+        end = n + 1;
+    if (end > begin)
+      gatherRun(burr, first + begin, j, k, end - begin, start + static_cast<std::size_t>(begin));
+    begin = end + 1; // 0 there, or the end
+    while (begin < count && now[begin] == 0)
+      ++begin;
+  }
+}
+
+void BiteWindow::gatherRun(const BurrCoverage& burr, int first, int j, int k, int count,
+                           std::size_t start)
+{
+  const std::uint16_t* now = &m_now[start];
   burr.row(first, j, k, count, m_row.data());
   const Eigen::Vector3d& h = m_grid.spacing();
   for (int n = 0; n < count; ++n)
@@ -173,6 +198,9 @@ void BiteWindow::lower(const Eigen::Vector3d& place, double radius)
 
 double BiteWindow::work(const Eigen::Vector3d& place, double radius)
 {
+  // The bite that is made is most often the one that was tried last.
+  if (m_reckoned && place == m_place && radius == m_radius)
+    return m_work;
   lower(place, radius);
   double sum = 0.0;
   for (Cell& cell : m_cells)
@@ -182,7 +210,11 @@ double BiteWindow::work(const Eigen::Vector3d& place, double radius)
                                                           : m_sums.solid(corners, *cell.content);
     sum += static_cast<double>(cell.before.work - cell.after.work);
   }
-  return sum * m_sums.partVolume();
+  m_reckoned = true;
+  m_place = place;
+  m_radius = radius;
+  m_work = sum * m_sums.partVolume();
+  return m_work;
 }
 
 BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius,

@@ -45,6 +45,7 @@ private:
   };
   void load(const volume::CutMask& mask, const core::IndexBox& box);
   void gatherRow(const BurrCoverage& burr, int first, int j, int k, int count);
+  void gatherRun(const BurrCoverage& burr, int first, int j, int k, int count, std::size_t start);
   void gatherCells();
   void addCell(int x, int y, int z, std::uint32_t corner);
   using Corners = std::array<std::uint16_t, 8>;
@@ -68,6 +69,12 @@ private:
   std::vector<std::uint16_t> m_least;  // that protection leaves; empty without any
   std::vector<std::uint16_t> m_left;
   std::vector<Cell> m_cells;
+
+  // What m_after and the cells' sums are of.
+  bool m_reckoned = false;
+  Eigen::Vector3d m_place{0.0, 0.0, 0.0};
+  double m_radius = 0.0;
+  double m_work = 0.0;
 };
 
 } // namespace petrous::dissection

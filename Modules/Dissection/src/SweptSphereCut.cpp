@@ -35,8 +35,17 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
         continue;
       const auto first = static_cast<std::size_t>(
           span.begin - whole.lower[0] + edge * (j - whole.lower[1] + edge * (k - whole.lower[2])));
-      burr.row(span.begin, j, k, count, left.data());
-      for (int n = 0; n < count; ++n)
+      // Most of what a burr in its own hole covers is gone already.
+      int begin = 0;
+      int end = count;
+      while (old && begin < end && (*old)[first + static_cast<std::size_t>(begin)] == 0)
+        ++begin;
+      while (old && begin < end && (*old)[first + static_cast<std::size_t>(end - 1)] == 0)
+        --end;
+      if (begin == end)
+        continue;
+      burr.row(span.begin + begin, j, k, end - begin, left.data() + begin);
+      for (int n = begin; n < end; ++n)
       {
         const std::size_t at = first + static_cast<std::size_t>(n);
         const std::uint16_t present = changed ? (*changed)[at]

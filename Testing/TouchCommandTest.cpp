@@ -226,6 +226,44 @@ TEST_F(TouchCommand, RemovesNothingThatItDoesNotTouch)
   EXPECT_EQ(answer["max_force_n"], 0.0);
 }
 
+TEST_F(TouchCommand, ABurrThatStandsStillRemovesNothing)
+{
+  for (const double height : {1.13, -1.0}) // pressed on bone, and led through it
+    EXPECT_EQ(json(drill(press(height, true), " --rpm 0"))["removed_mm3"], 0.0);
+  std::ofstream inside(m_folder / "inside.csv");
+  inside
+      << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n0,0.3,0.2,-2,1,0,0,0,1\n0.2,0.5,0.2,-2,1,0,0,0,1\n";
+  inside.close();
+  const auto still = json(drill(m_folder / "inside.csv", " --rpm 0"));
+  EXPECT_GT(still["ticks_inside"], 100);
+  EXPECT_EQ(still["removed_mm3"], 0.0);
+  EXPECT_EQ(still["swept_mm3"], 0.0);
+  const auto turning = json(drill(m_folder / "inside.csv", ""));
+  EXPECT_GT(turning["removed_mm3"], 1.0);
+  EXPECT_NEAR(turning["swept_mm3"].get<double>(), turning["removed_mm3"].get<double>(), 0.05);
+  EXPECT_EQ(turning["predicted_mm3"], 0.0);
+}
+
+TEST_F(TouchCommand, RefusesMaterialsThatNoLawHoldsFor)
+{
+  const auto materials = [this](const std::string& energy, const std::string& friction)
+  {
+    std::ofstream(m_folder / "materials.json")
+        << R"({"materials":[{"name":"odd","specific_cutting_energy_gpa":)" << energy
+        << R"(,"friction":)" << friction << R"(,"vickers_hardness_hv":40}],)"
+        << R"("bone":{"cellular":"odd","cortical":"odd","from_hu":300,"to_hu":1800}})";
+    return "drill plane --path " + quoted(press(1.13, true)) + " --materials " +
+           quoted(m_folder / "materials.json");
+  };
+  EXPECT_EQ(run(materials("3", "0.5")).code, 0);
+  expectRefused(materials("0", "0.5"), 3, "'specific_cutting_energy_gpa' must be above 0, it is 0");
+  std::ofstream(m_folder / "burrs.json")
+      << R"({"burrs":[{"kind":"cutting","rake_deg":25,"diameters_mm":[4]},)"
+      << R"({"kind":"diamond","wear_coefficient":0.1,"diameters_mm":[4]}]})";
+  expectRefused(materials("3", "0.5") + " --burrs " + quoted(m_folder / "burrs.json"), 3,
+                "material 'odd' with the cutting burr");
+}
+
 TEST_F(TouchCommand, PlaysARecordingAgainToTheLastBit)
 {
   for (const std::string mode : {"6dof", "3dof"})

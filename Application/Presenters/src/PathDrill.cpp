@@ -24,6 +24,7 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
   : m_dissection(*value.dissection)
   , m_tissue(scene.drill().field())
   , m_radius(0.5 * options.tool.burr.diameter)
+  , m_turns(options.tool.burr.rpm > 0.0)
   , m_proxy(scene.proxyOf(options.tool))
   , m_servo(*m_proxy, setupOf(scene, options.tool))
   , m_recording(
@@ -66,7 +67,7 @@ void PathDrill::cut(const dissection::ToolSample& sample)
   if (m_recording)
     m_recording->add(m_record);
   const bool inside = m_record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
-  if (!inside || !sample.drill)
+  if (!inside || !sample.drill || !m_turns)
   {
     m_swept.reset();
     m_changed.clear();

@@ -192,7 +192,7 @@ TEST(GraphicsReport, EveryVariantCompilesHere)
   const GraphicsReport report = reportGraphics();
   EXPECT_FALSE(report.renderer.empty());
   EXPECT_GE(report.largestTexture3d, 256); // what OpenGL 3.2 asks of every driver
-  ASSERT_EQ(report.variants.size(), 7u);
+  ASSERT_EQ(report.variants.size(), 8u);
   for (const auto& variant : report.variants)
     EXPECT_TRUE(variant.compiles) << variant.error;
   EXPECT_EQ(report.variants.front().features, (std::vector<std::string>{"ct", "bone"}));

@@ -63,6 +63,7 @@ private:
   const dissection::Dissection& m_dissection;
   const volume::TissueField& m_tissue;
   double m_radius; // mm
+  bool m_turns;    // a burr that stands still takes nothing, wherever it is
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
   std::unique_ptr<simulation::RecordingWriter> m_recording;

@@ -7,6 +7,7 @@
 class QAction;
 class QComboBox;
 class QDoubleSpinBox;
+class QSpinBox;
 
 namespace petrous::workstation
 {
@@ -48,6 +49,7 @@ private:
   QAction* m_wheel;
   QDoubleSpinBox* m_diameter;
   QComboBox* m_kind;
+  QSpinBox* m_speed;
   QDoubleSpinBox* m_thrust;
 };
 

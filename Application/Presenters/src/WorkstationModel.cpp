@@ -236,6 +236,7 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
     m_scene = std::make_unique<TouchScene>(*m_case);
   }
   TouchSession::Setup whole = setup;
+  whole.catalogues = dissection::Catalogues::in(m_library.folder());
   if (m_journal)
     whole.journal = [journal = m_journal.get(), measure = m_scene->drill().measurer()](
                         const dissection::Dissection& work) { journal->follow(work, measure); };

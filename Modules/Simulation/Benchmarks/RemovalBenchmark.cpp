@@ -34,9 +34,9 @@ struct Scope
   std::vector<double> degrees{0.0, 40.0, 80.0};
   std::vector<double> burrs{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}; // mm
   std::vector<double> peerBurrs{1.0, 2.0, 4.0, 6.0};            // mm
-  double volume = 1.5;                                          // mm^3 that a run shall take
-  double least = 0.06, most = 1.5;                              // s of contact
-  double groove = 3.0;                                          // s
+  double volume = 1.0;                                          // mm^3 that a run shall take
+  double least = 0.06, most = 1.0;                              // s of contact
+  double groove = 2.5;                                          // s
   int centers = 200, directions = 400;
 
   static Scope of(bool quick)
@@ -107,11 +107,16 @@ Points balances(const Scope& scope, const core::Progress& progress)
   Points points;
   const std::array<Burr::Kind, 2> kinds{Burr::Kind::Cutting, Burr::Kind::Diamond};
   const double all = static_cast<double>(kinds.size() * scope.ticks.size() * scope.voxels.size());
+  std::map<double, std::shared_ptr<const haptics::PointShell>> shells; // by voxel
   for (const Burr::Kind kind : kinds)
   {
     const auto run = [&](double thrust, double degrees, double voxel, double tick)
     {
-      const auto setting = settingOf(kind, kUsualBurr, thrust, degrees, voxel, tick);
+      auto setting = settingOf(kind, kUsualBurr, thrust, degrees, voxel, tick);
+      auto& shell = shells[voxel];
+      if (!shell)
+        shell = testing::shellOf(setting);
+      setting.shell = shell;
       return runByLaw(setting,
                       std::clamp(scope.volume / lawRate(setting), scope.least, scope.most));
     };

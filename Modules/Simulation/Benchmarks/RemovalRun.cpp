@@ -20,7 +20,7 @@ double forceOn(const TickRecord& record)
 
 double resistanceOf(const LawScene::Setting& setting)
 {
-  return LawScene::resistance(setting.burr, "cortical-bone"); // N/mm^2
+  return testing::resistance(setting.burr, "cortical-bone"); // N/mm^2
 }
 
 // Voxels that are there or not, in the mask that the tool feels.
@@ -128,14 +128,14 @@ int deletedPerTick(double diameter)
 double lawRate(const LawScene::Setting& setting)
 {
   const double arm = RemovalFeed::armOf(0.5 * setting.burr.diameter, setting.elevation, 0.0);
-  return setting.thrust * arm * LawScene::speedOf(setting.burr) / resistanceOf(setting);
+  return setting.thrust * arm * testing::speedOf(setting.burr) / resistanceOf(setting);
 }
 
 RemovalRun runByLaw(const LawScene::Setting& setting, double seconds)
 {
   LawScene scene(setting);
   RemovalRun run;
-  const double pace = LawScene::speedOf(setting.burr) / resistanceOf(setting);
+  const double pace = testing::speedOf(setting.burr) / resistanceOf(setting);
   scene.follow = [&](const TickRecord& record)
   {
     core::TickTimes time;
@@ -162,7 +162,7 @@ RemovalRun runByDeletion(const LawScene::Setting& setting, double seconds, doubl
 {
   LawScene scene(setting);
   RemovalRun run;
-  const double pace = LawScene::speedOf(setting.burr) / resistanceOf(setting);
+  const double pace = testing::speedOf(setting.burr) / resistanceOf(setting);
   const double radius = 0.5 * setting.burr.diameter;
   VoxelDeletion deletion(scene, setting.burr.diameter);
   std::size_t gone = 0;

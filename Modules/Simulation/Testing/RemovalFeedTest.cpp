@@ -183,9 +183,8 @@ TEST(RemovalFeed, TissuesShareTheWorkOfABite)
       dissection::measureRemoved(scene.tissue, before, scene.work.mask(), scene.work.openBricks(),
                                  {{"cortical", scene.sides, 1}, {"cellular", scene.sides, 2}});
   ASSERT_EQ(taken.structures.size(), 2u);
-  const double spent =
-      LawScene::resistance(setting.burr, "cortical-bone") * taken.structures[0].volume +
-      LawScene::resistance(setting.burr, "cellular-bone") * taken.structures[1].volume;
+  const double spent = resistance(setting.burr, "cortical-bone") * taken.structures[0].volume +
+                       resistance(setting.burr, "cellular-bone") * taken.structures[1].volume;
   EXPECT_GT(taken.structures[1].volume, taken.structures[0].volume);
   EXPECT_NEAR(spent, work, 0.03 * work);
   const RemovalBalance balance = scene.feed.balance();

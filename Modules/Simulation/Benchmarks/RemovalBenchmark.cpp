@@ -34,8 +34,8 @@ struct Scope
   std::vector<double> degrees{0.0, 40.0, 80.0};
   std::vector<double> burrs{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}; // mm
   std::vector<double> peerBurrs{1.0, 2.0, 4.0, 6.0};            // mm
-  double volume = 1.0;                                          // mm^3 that a run shall take
-  double least = 0.06, most = 1.0;                              // s of contact
+  double volume = 0.6;                                          // mm^3 that a run shall take
+  double least = 0.06, most = 4.0;                              // s of contact
   double groove = 2.5;                                          // s
   int centers = 200, directions = 400;
 
@@ -129,7 +129,7 @@ Points balances(const Scope& scope, const core::Progress& progress)
       {
         progress.report(static_cast<double>(points.size()) / all, "removal by the laws");
         core::TickTimes times;
-        double worst = 0.0, mean = 0.0, forfeited = 0.0, drift = 0.0;
+        double worst = 0.0, mean = 0.0, forfeited = 0.0, drift = 0.0, plainDrift = 0.0, told = 0.0;
         std::array<double, 2> at{}, driftAt{};
         for (const auto& [where, volume] : usual)
         {
@@ -141,7 +141,11 @@ Points balances(const Scope& scope, const core::Progress& progress)
             worst = std::abs(result.error());
             at = {where.first, where.second};
           }
-          if (const double off = 100.0 * std::abs(result.taken() / volume - 1.0); off > drift)
+          told = std::max(told, 100.0 * std::abs(result.balance() / result.predicted - 1.0));
+          const double off = 100.0 * std::abs(result.taken() / volume - 1.0);
+          if (where.second <= 40.0)
+            plainDrift = std::max(plainDrift, off);
+          if (off > drift)
           {
             drift = off;
             driftAt = {where.first, where.second};
@@ -156,6 +160,8 @@ Points balances(const Scope& scope, const core::Progress& progress)
         point.extra["worst_at_thrust_n"] = at[0];
         point.extra["worst_at_degrees"] = at[1];
         point.extra["off_from_0.2_mm_1_ms_percent"] = drift;
+        point.extra["off_up_to_40_degrees_percent"] = plainDrift;
+        point.extra["own_balance_error_percent"] = told;
         point.extra["off_at_thrust_n"] = driftAt[0];
         point.extra["off_at_degrees"] = driftAt[1];
         point.extra["forfeited_percent"] = forfeited;

@@ -10,7 +10,8 @@ namespace petrous::simulation
 struct RemovalRun
 {
   double predicted = 0.0; ///< the law, summed over the ticks with thrust
-  double measured = 0.0;  ///< gone, supersampled from the mask
+  double measured = 0.0;  ///< gone, supersampled from the mask, 8^3 points a cell
+  double told = 0.0;      ///< gone, as the drill's own balance says
   double owed = 0.0;
   double forfeited = 0.0;
   double contact = 0.0;  ///< s
@@ -20,6 +21,7 @@ struct RemovalRun
   {
     return 100.0 * ((measured + owed + forfeited) / predicted - 1.0);
   }
+  double balance() const { return told + owed + forfeited; }
   double taken() const { return measured + owed; }
 };
 

@@ -19,6 +19,7 @@ using Points = std::vector<core::BenchmarkPoint>;
 
 constexpr double kLeft = 90.0;
 constexpr double kTop = 50.0;
+constexpr double kDigit = 7.5; // px, about, of an axis' label
 constexpr std::size_t kPeerColor = 7;
 
 std::string programOf(const core::BenchmarkPoint& point)
@@ -76,9 +77,16 @@ public:
   std::string axes() const
   {
     std::string result;
+    double free = -1.0; // where the next label has room
     for (const auto& tick : m_x.ticks())
-      result += svg::line(px(tick.share), py(0), px(tick.share), py(1)) +
-                svg::text(px(tick.share), py(0) + 18, tick.label, "text-anchor=\"middle\"");
+    {
+      const double half = 0.5 * kDigit * static_cast<double>(tick.label.size());
+      result += svg::line(px(tick.share), py(0), px(tick.share), py(1));
+      if (px(tick.share) - half < free)
+        continue;
+      result += svg::text(px(tick.share), py(0) + 18, tick.label, "text-anchor=\"middle\"");
+      free = px(tick.share) + half + kDigit;
+    }
     for (const auto& tick : m_y.ticks())
       result += svg::line(px(0), py(tick.share), px(1), py(tick.share)) +
                 svg::text(px(0) - 8, py(tick.share) + 4,

@@ -34,9 +34,9 @@ struct Scope
   std::vector<double> degrees{0.0, 40.0, 80.0};
   std::vector<double> burrs{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}; // mm
   std::vector<double> peerBurrs{1.0, 2.0, 4.0, 6.0};            // mm
-  double volume = 0.6;                                          // mm^3 that a run shall take
-  double least = 0.06, most = 4.0;                              // s of contact
-  double groove = 2.5;                                          // s
+  double volume = 0.4;                                          // mm^3 that a run shall take
+  double least = 0.06, most = 2.5;                              // s of contact
+  double groove = 1.5;                                          // s
   int centers = 200, directions = 400;
 
   static Scope of(bool quick)

@@ -10,7 +10,7 @@ namespace petrous::simulation
 struct RemovalRun
 {
   double predicted = 0.0; ///< the law, summed over the ticks with thrust
-  double measured = 0.0;  ///< gone, supersampled from the mask, 8^3 points a cell
+  double measured = 0.0;  ///< gone, supersampled from the mask, 512 points a cell
   double told = 0.0;      ///< gone, as the drill's own balance says
   double owed = 0.0;
   double forfeited = 0.0;

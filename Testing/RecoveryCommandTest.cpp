@@ -115,7 +115,7 @@ TEST_F(RecoveryCommand, WhatAKilledDrillTookIsThereAgain)
       {
         EXPECT_EQ(n + 1, strokes.size());
         EXPECT_LE(strokes[n]["removed_mm3"], full["removed_mm3"]);
-        EXPECT_GE(strokes[n]["duration_s"], 5.0);
+        EXPECT_GE(strokes[n]["duration_s"], 4.5);
       }
       else
         EXPECT_EQ(strokes[n]["removed_mm3"], full["removed_mm3"]);

@@ -235,9 +235,11 @@ TEST_F(RenderCommand, InfoTellsWhatWasLaidOpenWhereItIsAskedFor)
   addNerve();
   EXPECT_TRUE(json("info ball --exposed")["dissection"]["exposed"].empty());
   // From the right to 11 mm from the middle with a burr of 6 mm: 4 mm into the structure.
-  json("drill ball --diameter 6 --path " +
-       quoted(writePath({kCenter[0] - 25.0, kCenter[1], kCenter[2]},
-                        {kCenter[0] - 11.0, kCenter[1], kCenter[2]})));
+  const auto path = m_folder / "slow.csv";
+  std::ofstream(path) << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n0," << kCenter[0] - 25.0 << ','
+                      << kCenter[1] << ',' << kCenter[2] << ",1,0,0,0,1\n8," << kCenter[0] - 11.0
+                      << ',' << kCenter[1] << ',' << kCenter[2] << ",1,0,0,0,1\n";
+  json("drill ball --diameter 6 --mode 3dof --rpm 200000 --tick-hz 250 --path " + quoted(path));
   EXPECT_FALSE(json("info ball")["dissection"].contains("exposed"));
   const auto exposed = json("info ball --exposed")["dissection"]["exposed"];
   ASSERT_EQ(exposed.size(), 1U);

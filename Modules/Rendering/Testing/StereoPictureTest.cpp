@@ -196,7 +196,7 @@ TEST(GraphicsReport, EveryVariantCompilesHere)
   for (const auto& variant : report.variants)
     EXPECT_TRUE(variant.compiles) << variant.error;
   EXPECT_EQ(report.variants.front().features, (std::vector<std::string>{"ct", "bone"}));
-  EXPECT_EQ(
-      report.variants.back().features,
-      (std::vector<std::string>{"ct", "bone", "labels", "mask", "second", "interior", "clipping"}));
+  EXPECT_EQ(report.variants.back().features,
+            (std::vector<std::string>{"ct", "bone", "labels", "mask", "second", "interior",
+                                      "clipping", "thickness"}));
 }

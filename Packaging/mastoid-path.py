@@ -5,7 +5,7 @@ usage: mastoid-path.py PETROUS LIBRARY CASE OUT.csv
 
 The cortex is found by asking the case itself (`petrous probe`): rays run from the lateral
 border towards the middle until they meet tissue. The path then sweeps a window behind the ear
-canal in layers, the burr's centre a little deeper each time, the shaft pointing laterally. Each
+canal in layers, the burr's centre a little deeper each time, the shaft pointing laterally and up. Each
 layer is one stroke. All positions are patient LPS, mm.
 """
 import csv
@@ -22,7 +22,8 @@ ROW, STEP = 1.5, 0.5       # between rows, and between points of a row
 RADIUS = 2.0               # of the burr: the command's default
 DEPTHS = (1.5, 3.0, 4.5)   # of the burr's tip below the cortex, one a layer
 LIFT = 6.0                 # above the cortex between layers
-FEED = 10.0                # mm/s
+FEED = 6.0                 # mm/s
+TILT = math.radians(40.0)  # of the shaft above the horizontal: a burr cuts with its side
 RAY_STEP = 0.25
 
 
@@ -86,8 +87,9 @@ def main(program, library, case, out):
     if not sweep:
         sys.exit(f"mastoid-path: {case}: no bone behind the ear canal")
 
-    turn = math.sqrt(0.5)
-    heading = [turn, 0.0, side * turn, 0.0]  # takes the shaft's +z to the lateral side
+    turn = math.pi / 4 - TILT / 2
+    # Takes the shaft's +z to the lateral side, and up.
+    heading = [math.cos(turn), 0.0, side * math.sin(turn), 0.0]
     time, previous, rows = 0.0, None, []
 
     def move(x, y, z, drill):

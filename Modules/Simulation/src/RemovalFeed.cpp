@@ -51,9 +51,7 @@ void RemovalFeed::press(const TickRecord& record, double seconds)
   m_wish.into = -force / thrust;
   m_wish.deepest = m_ahead;
   m_rate = thrust * m_arm * m_speed;
-  m_elevation = record.elevation;
   const double work = m_rate * seconds;
-  m_sinceBite += work;
   m_owed += work;
   if (m_resistance > 0.0)
     m_balance.predicted += work / m_resistance;
@@ -79,13 +77,6 @@ void RemovalFeed::account(const dissection::Bite& bite)
   m_balance.removed += bite.volume;
   m_resistance = bite.work / bite.volume;
   m_spread = bite.spread;
-  // The patch grew with the bite: what was done since the last one was done with the mean of both.
-  const double arm = armOf(m_search.radius(), m_elevation, m_spread);
-  const double more =
-      std::max(0.5 * (arm / m_arm - 1.0) * std::exchange(m_sinceBite, 0.0), -m_owed);
-  m_owed += more;
-  m_balance.predicted += more / m_resistance;
-  m_arm = 0.5 * (m_arm + arm);
 }
 
 void RemovalFeed::forfeit(double work)
@@ -129,7 +120,7 @@ void RemovalFeed::release()
 {
   forfeit(m_owed);
   m_owed = m_unpriced = 0.0;
-  m_resistance = m_spread = m_sinceBite = 0.0;
+  m_resistance = m_spread = 0.0;
   m_pressed = false;
   m_search.forget();
 }

@@ -76,8 +76,6 @@ private:
   bool m_pressed = false; // since the last bite that said there is nothing more
   double m_thrust = 0.0;
   double m_arm = 0.0;
-  double m_elevation = 0.0;  // rad
-  double m_sinceBite = 0.0;  // N mm
   double m_spread = 0.0;     // mm, of the last bite
   double m_rate = 0.0;       // N mm/s
   double m_resistance = 0.0; // N/mm^2, of the last bite; 0: not known in this contact

@@ -86,6 +86,29 @@ std::map<std::string, double> exposedBy(const Context& context, const scene::Cas
   return areas;
 }
 
+// A row for each name that either side has, 0 where one has it not.
+void sayRows(const Context& context, const std::string& before, const std::string& after,
+             const std::map<std::string, double>& a, const std::map<std::string, double>& b,
+             int digits)
+{
+  std::map<std::string, std::pair<double, double>> rows;
+  for (const auto& [name, number] : a)
+    rows[name].first = number;
+  for (const auto& [name, number] : b)
+    rows[name].second = number;
+  for (const auto& [name, numbers] : rows)
+    sayRow(context, before + name + after, fixed(numbers.first, digits),
+           fixed(numbers.second, digits));
+}
+
+std::map<std::string, double> volumesOf(const scene::StateSummary& summary)
+{
+  std::map<std::string, double> volumes;
+  for (const auto& touched : summary.structures)
+    volumes[touched.name] = touched.volume;
+  return volumes;
+}
+
 void compare(const Context& context, const scene::Case& value, const Options& options)
 {
   const Branch& a = branchOf(value, options.compared[0]);
@@ -97,22 +120,10 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   sayRow(context, "strokes (" + std::to_string(common) + " in common)", std::to_string(ofA.strokes),
          std::to_string(ofB.strokes));
   sayRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
-  std::map<std::string, std::pair<double, double>> structures;
-  for (const auto& touched : ofA.structures)
-    structures[touched.name].first = touched.volume;
-  for (const auto& touched : ofB.structures)
-    structures[touched.name].second = touched.volume;
-  for (const auto& [name, volumes] : structures)
-    sayRow(context, "  of " + name + ", mm3", fixed(volumes.first, 2), fixed(volumes.second, 2));
+  sayRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
   const auto openA = exposedBy(context, value, a);
   const auto openB = exposedBy(context, value, b);
-  std::map<std::string, std::pair<double, double>> open;
-  for (const auto& [name, area] : openA)
-    open[name].first = area;
-  for (const auto& [name, area] : openB)
-    open[name].second = area;
-  for (const auto& [name, areas] : open)
-    sayRow(context, "exposed " + name + ", mm2", fixed(areas.first, 1), fixed(areas.second, 1));
+  sayRows(context, "exposed ", ", mm2", openA, openB, 1);
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   sides[0]["exposed_mm2"] = nlohmann::json(openA);
   sides[1]["exposed_mm2"] = nlohmann::json(openB);

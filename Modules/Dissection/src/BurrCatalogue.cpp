@@ -56,14 +56,16 @@ BurrCatalogue::BurrCatalogue(std::string_view text, const std::string& source)
   try
   {
     const auto catalogue = json::parse(text);
+    std::vector<BurrModel> models;
+    for (const auto& entry : catalogue.at("burrs"))
+      models.push_back(modelFrom(entry));
     for (const Burr::Kind kind : kKinds)
     {
-      const auto& entries = catalogue.at("burrs");
-      const auto wanted = [kind](const json& entry) { return modelFrom(entry).kind == kind; };
-      if (std::count_if(entries.begin(), entries.end(), wanted) != 1)
+      const auto isIt = [kind](const BurrModel& model) { return model.kind == kind; };
+      if (std::count_if(models.begin(), models.end(), isIt) != 1)
         throw core::InvalidParameter(std::string("there must be one burr of the kind ") +
                                      nameOf(kind));
-      m_models.push_back(modelFrom(*std::find_if(entries.begin(), entries.end(), wanted)));
+      m_models.push_back(*std::find_if(models.begin(), models.end(), isIt));
     }
   }
   catch (const json::exception& error)

@@ -7,37 +7,19 @@
 
 #include <gtest/gtest.h>
 
+#include "TurnedGrid.h"
 #include "petrous/Volume/SmoothedUnion.h"
 
 using namespace petrous;
 using namespace petrous::volume;
 using Eigen::Vector3d;
+using petrous::volume::testing::filled;
+using petrous::volume::testing::turnedGrid;
 
 namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-
-core::GridGeometry turnedGrid(const core::Index3& dims, const Vector3d& spacing)
-{
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7, Vector3d(1.0, -0.4, 0.5).normalized()).toRotationMatrix();
-  const Vector3d half = 0.5 * Vector3d(dims[0] - 1, dims[1] - 1, dims[2] - 1).cwiseProduct(spacing);
-  return {dims, spacing, -(turn * half), turn};
-}
-
-template <class T>
-std::shared_ptr<Volume<T>> filled(const core::GridGeometry& grid,
-                                  const std::function<double(const Vector3d&)>& value)
-{
-  auto volume = std::make_shared<Volume<T>>(grid);
-  for (int k = 0; k < grid.dims()[2]; ++k)
-    for (int j = 0; j < grid.dims()[1]; ++j)
-      for (int i = 0; i < grid.dims()[0]; ++i)
-        volume->at(i, j, k) =
-            static_cast<T>(value(grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})));
-  return volume;
-}
 
 bool all(const Vector3d&, const Vector3d&)
 {

@@ -12,8 +12,8 @@
 namespace petrous::presenters
 {
 
-/// Drilling in a case by burr positions: until force and removal laws drive it, the burr takes
-/// what it sweeps over (the simple cut).
+/// A case as the drill knows it: its field, what is left alone, and what a stroke removed. By burr
+/// positions alone, without force and laws, the burr takes all that it sweeps over (`moveTo`).
 ///
 /// The case must have its dissection loaded and outlive the session; a change of its structures or
 /// surface threshold asks for a new session. One thread.

@@ -2,7 +2,8 @@
 # them and their headers raise no warnings of ours.
 
 find_package(ITK 5.2 REQUIRED COMPONENTS
-  ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKImageGrid ITKTransform)
+  ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKImageGrid ITKTransform
+  ITKSmoothing ITKThresholding ITKStatistics)
 add_library(petrous_itk INTERFACE)
 target_include_directories(petrous_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(petrous_itk INTERFACE ${ITK_LIBRARIES})

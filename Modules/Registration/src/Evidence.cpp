@@ -1,0 +1,112 @@
+#include "Evidence.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "ErrorModel.h"
+#include "MutualInformation.h"
+#include "Repeats.h"
+
+namespace petrous::registration
+{
+
+namespace
+{
+
+constexpr double kSurroundings = 30.0; // mm about the point, of the fit that is its own
+constexpr double kStray = 5.0;         // voxels of the finest level; a repeat further off is lost
+
+// A level with its left and right exchanged, about the middle of its content.
+Pyramid mirrored(const Pyramid& pyramid)
+{
+  Pyramid result;
+  result.content = pyramid.content;
+  const Eigen::Vector3d middle = pyramid.finest().grid().center();
+  const Eigen::Vector3d flip(-1.0, 1.0, 1.0);
+  for (const LevelImage& level : pyramid.levels)
+  {
+    const core::GridGeometry& grid = level.grid();
+    Eigen::Vector3d origin = grid.origin();
+    origin[0] = 2.0 * middle[0] - origin[0];
+    const core::GridGeometry turned(grid.dims(), grid.spacing(), origin,
+                                    flip.asDiagonal() * grid.direction());
+    // the same memory: nothing writes to a level
+    std::shared_ptr<float> memory(const_cast<float*>(level.voxels.data()), [](float*) {});
+    result.levels.push_back(
+        {volume::Volume<float>(turned, std::move(memory)), level.low, level.high, level.valid});
+  }
+  return result;
+}
+
+ImagePair coarsePart(const ImagePair& pair, std::size_t levels)
+{
+  const auto cut = [levels](const Pyramid& pyramid)
+  {
+    Pyramid result;
+    for (std::size_t n = 0; n < levels; ++n)
+    {
+      result.levels.push_back(pyramid.levels[n]);
+      result.content.push_back(pyramid.content[n]);
+    }
+    return result;
+  };
+  ImagePair part{cut(pair.fixed), cut(pair.moving), pair.fixedIsCt, pair.scales};
+  part.scales.resize(levels);
+  return part;
+}
+
+// The best score at the coarser levels, with and without the mirror.
+double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
+                   const FitOptions& options, const core::Progress& progress)
+{
+  const std::size_t levels = std::max<std::size_t>(1, pair.levels() - 1);
+  ImagePair part = coarsePart(pair, levels);
+  FitOptions again = options;
+  again.start = Start::Given;
+  again.given = mrFromCt;
+  again.search = false;
+  const Fit straight = fitPair(part, again, progress.part(0.0, 0.3), {}).fit;
+  part.moving = mirrored(part.moving);
+  again.search = true;
+  again.start = Start::Centres;
+  const Fit turned = fitPair(part, again, progress.part(0.3, 1.0), {}).fit;
+  const double reference = straight.metric * straight.overlap;
+  return reference > 0.0 ? turned.metric * turned.overlap / reference : 1.0;
+}
+
+} // namespace
+
+Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOptions& options,
+                         const Eigen::Vector3d& at, const core::Progress& progress)
+{
+  const core::RigidTransform& pose = fit.fit.mrFromCt;
+  const double voxel = pair.scales.back();
+  const double stray = std::max(3.0, kStray * voxel);
+  Evidence evidence;
+  evidence.overlap = fit.fit.overlap;
+  const double bins = options.schedule.bins - 1.0;
+  evidence.information =
+      fit.fit.metric - 0.5 * bins * bins / static_cast<double>(options.schedule.samples);
+  evidence.runnerUp = fit.score > 0.0 ? fit.runnerUp / fit.score : 0.0;
+
+  RepeatOptions repeat;
+  repeat.bins = options.schedule.bins;
+  repeat.seed = options.seed;
+  const std::vector<core::RigidTransform> repeats =
+      repeatFit(pair, pose, repeat, progress.part(0.0, 0.6));
+  evidence.strays = strayShare(pose, repeats, at, stray);
+  evidence.error = localError(pose, repeats, at, voxel, stray);
+  progress.report(0.6, "registration's error");
+  evidence.aside = (fitAround(pair, pose, at, kSurroundings, repeat) * at - pose * at).norm();
+  progress.report(0.7, "registration's verdict");
+  evidence.mirrored = mirrorShare(pair, pose, options, progress.part(0.7, 1.0));
+
+  const Pyramid& ct = pair.fixedIsCt ? pair.fixed : pair.moving;
+  const Pyramid& mr = pair.fixedIsCt ? pair.moving : pair.fixed;
+  const auto inside = [](const Pyramid& image, const Eigen::Vector3d& point)
+  { return image.finest().grid().hullContains(image.finest().grid().voxelFromPatient(point)); };
+  evidence.pointCovered = inside(ct, at) && inside(mr, pose * at);
+  return evidence;
+}
+
+} // namespace petrous::registration

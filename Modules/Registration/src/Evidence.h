@@ -1,0 +1,37 @@
+#pragma once
+
+#include "petrous/Registration/Register.h"
+
+#include "ImagePair.h"
+#include "PairFit.h"
+
+namespace petrous::registration
+{
+
+/// What speaks for and against a fit.
+struct Evidence
+{
+  double overlap = 0.0;     ///< share of the fixed image's points that fall on the other
+  double information = 0.0; ///< nats, at the finest level, less the bias of its samples
+  double strays = 1.0;      ///< share of the repeats that ended elsewhere
+  double aside = 0.0;       ///< mm, at the point: how far a fit of its surroundings alone lies off
+  double runnerUp = 0.0;    ///< best score of a clearly different pose, as a share of the fit's
+  double mirrored = 0.0;    ///< best score of the MR mirrored, as a share of the fit's
+  bool pointCovered = true; ///< the point lies in both images
+  LocalError error;
+};
+
+struct Judgement
+{
+  Verdict verdict = Verdict::Failed;
+  std::string text;
+};
+
+/// Weighs the evidence; the thresholds and the trials they were set on are in Documentation/adr.
+Judgement judge(const Evidence& evidence);
+
+/// Collects it: repeated fits, a fit about the point, a search with the MR mirrored.
+Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOptions& options,
+                         const Eigen::Vector3d& at, const core::Progress& progress);
+
+} // namespace petrous::registration

@@ -1,0 +1,81 @@
+#include <cstdio>
+
+#include "Evidence.h"
+
+namespace petrous::registration
+{
+
+namespace
+{
+
+// Set on simulated pairs, right and wrong ones: Documentation/adr.
+constexpr double kLeastOverlap = 0.25;
+constexpr double kLeastInformation = 0.05; // nats
+constexpr double kLostStrays = 0.5;
+constexpr double kSomeStrays = 0.15;
+constexpr double kRival = 0.95;
+constexpr double kMirror = 0.97;
+constexpr double kWide = 1.5;  // mm, of the p95
+constexpr double kAside = 2.0; // mm
+
+std::string text(const char* format, double a)
+{
+  char line[256];
+  std::snprintf(line, sizeof line, format, a);
+  return line;
+}
+
+} // namespace
+
+const char* nameOf(Verdict verdict)
+{
+  switch (verdict)
+  {
+  case Verdict::Good:
+    return "good";
+  case Verdict::Doubtful:
+    return "doubtful";
+  case Verdict::Failed:
+    break;
+  }
+  return "failed";
+}
+
+Judgement judge(const Evidence& e)
+{
+  if (e.overlap < kLeastOverlap)
+    return {Verdict::Failed, text("the images share too little: %.0f %% of the smaller one's field",
+                                  100.0 * e.overlap)};
+  if (e.information < kLeastInformation)
+    return {Verdict::Failed,
+            text("the images tell next to nothing about each other (%.3f nats)", e.information)};
+  if (e.strays > kLostStrays)
+    return {Verdict::Failed,
+            text("%.0f %% of the repeated fits ended elsewhere", 100.0 * e.strays)};
+
+  std::string doubts;
+  const auto doubt = [&doubts](const std::string& reason)
+  { doubts += (doubts.empty() ? "" : "; ") + reason; };
+  if (!e.pointCovered)
+    doubt("the point lies outside one of the images: its error is extrapolated");
+  if (e.mirrored > kMirror)
+    doubt(text("the MR mirrored left to right fits as well (%.2f times the score): wrong side, or "
+               "a header with the sides exchanged?",
+               e.mirrored));
+  if (e.runnerUp > kRival)
+    doubt(text("another pose fits nearly as well (%.2f times the score)", e.runnerUp));
+  if (e.strays > kSomeStrays)
+    doubt(text("%.0f %% of the repeated fits ended elsewhere", 100.0 * e.strays));
+  if (e.error.p95 > kWide)
+    doubt(text("the error may reach %.1f mm", e.error.p95));
+  if (e.aside > kAside)
+    doubt(text("what lies about the point alone fits %.1f mm beside: the images differ by more "
+               "than a rigid motion",
+               e.aside));
+  if (!doubts.empty())
+    return {Verdict::Doubtful, doubts};
+  return {Verdict::Good,
+          text("repeated fits agree; 95 of 100 errors are below %.2f mm", e.error.p95)};
+}
+
+} // namespace petrous::registration

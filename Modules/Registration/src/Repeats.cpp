@@ -1,0 +1,115 @@
+#include "Repeats.h"
+
+#include <cmath>
+#include <random>
+
+#include <tbb/parallel_for.h>
+
+#include "Ascent.h"
+#include "MutualInformation.h"
+
+namespace petrous::registration
+{
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+// The part of a level's content that the other image covers at a pose.
+core::IndexBox sharedBox(const Pyramid& here, const Pyramid& other,
+                         const core::RigidTransform& hereFromOther)
+{
+  const core::GridGeometry& grid = other.finest().grid();
+  const core::IndexBox& box = other.content.back();
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9);
+  Eigen::Vector3d high = -low;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d voxel;
+    for (std::size_t a = 0; a < 3; ++a)
+      voxel[static_cast<Eigen::Index>(a)] = corner >> a & 1 ? box.upper[a] - 1 : box.lower[a];
+    const Eigen::Vector3d p = hereFromOther * grid.patientFromVoxel(voxel);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const core::IndexBox covered = here.finest().grid().boxCovering(low, high);
+  const core::IndexBox both = covered.intersected(here.content.back());
+  return both.empty() ? here.content.back() : both;
+}
+
+core::RigidTransform perturbed(const core::RigidTransform& pose, const Eigen::Vector3d& centre,
+                               const RepeatOptions& options, std::mt19937& random)
+{
+  std::normal_distribution<double> normal;
+  const auto vector = [&]
+  { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  const Eigen::Vector3d axis = vector().normalized();
+  const Eigen::Vector3d by = options.shift * vector().normalized();
+  const Eigen::Quaterniond rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(options.degrees * kPi / 180.0, axis)) * pose.rotation();
+  return {rotation, pose * centre + by - rotation * centre};
+}
+
+AscentOptions climbOptions(double scale)
+{
+  AscentOptions options;
+  options.evaluations = 30;
+  options.change = 1e-5;
+  options.firstStep = 0.5 * scale;
+  options.longestStep = 4.0 * scale;
+  return options;
+}
+
+} // namespace
+
+std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
+                                            const core::RigidTransform& mrFromCt,
+                                            const RepeatOptions& options,
+                                            const core::Progress& progress)
+{
+  const core::RigidTransform forward = pair.movingFromFixed(mrFromCt);
+  const core::RigidTransform backward = forward.inverse();
+  const core::IndexBox swappedBox = sharedBox(pair.moving, pair.fixed, forward);
+  std::vector<core::RigidTransform> fits(static_cast<std::size_t>(options.count));
+  tbb::parallel_for(std::size_t{0}, fits.size(),
+                    [&](std::size_t n)
+                    {
+                      progress.check("registration's error");
+                      const bool swapped = n % 2 == 1;
+                      const Pyramid& fixed = swapped ? pair.moving : pair.fixed;
+                      const Pyramid& moving = swapped ? pair.fixed : pair.moving;
+                      const auto seed = options.seed + 7919 * static_cast<std::uint32_t>(n + 1);
+                      std::mt19937 random(seed);
+                      const FixedSamples samples = bootstrap(
+                          drawSamples(fixed.finest(), swapped ? swappedBox : fixed.content.back(),
+                                      options.samples, seed, options.bins),
+                          options.blocks, seed + 1);
+                      const MutualInformation metric(samples, moving.finest(), options.bins);
+                      const core::RigidTransform start =
+                          perturbed(swapped ? backward : forward, samples.centre, options, random);
+                      const core::RigidTransform top =
+                          ascend(metric, start, climbOptions(pair.scales.back())).pose;
+                      fits[n] = pair.mrFromCt(swapped ? top.inverse() : top);
+                    });
+  return fits;
+}
+
+core::RigidTransform fitAround(const ImagePair& pair, const core::RigidTransform& mrFromCt,
+                               const Eigen::Vector3d& ctPoint, double radius,
+                               const RepeatOptions& options)
+{
+  const core::RigidTransform forward = pair.movingFromFixed(mrFromCt);
+  const Eigen::Vector3d centre = pair.fixedIsCt ? ctPoint : mrFromCt * ctPoint;
+  const core::GridGeometry& grid = pair.fixed.finest().grid();
+  const core::IndexBox box = grid.boxCovering(centre - Eigen::Vector3d::Constant(radius),
+                                              centre + Eigen::Vector3d::Constant(radius));
+  if (box.empty())
+    return mrFromCt;
+  const FixedSamples samples =
+      drawSamples(pair.fixed.finest(), box, options.samples, options.seed, options.bins);
+  const MutualInformation metric(samples, pair.moving.finest(), options.bins);
+  return pair.mrFromCt(ascend(metric, forward, climbOptions(pair.scales.back())).pose);
+}
+
+} // namespace petrous::registration

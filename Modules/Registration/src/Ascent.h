@@ -10,8 +10,8 @@ namespace petrous::registration
 struct AscentOptions
 {
   int evaluations = 60;      ///< of the metric with its gradient, at most
-  double gradient = 2e-5;    ///< nats a mm: flatter is the top
-  double change = 1e-6;      ///< share of the metric that two steps on end must win
+  double gradient = 1e-6;    ///< nats a mm: flatter is the top
+  double change = 1e-8;      ///< share of the metric that two steps on end must win
   double firstStep = 1.0;    ///< mm, root mean square of the samples
   double longestStep = 10.0; ///< mm
 };

@@ -66,4 +66,21 @@ double poseDistance(const core::RigidTransform& a, const core::RigidTransform& b
   return (a * centre - b * centre).norm() + 2.0 * radius * std::sin(0.5 * angle);
 }
 
+core::RigidTransform meanPose(const std::vector<core::RigidTransform>& poses,
+                              const Eigen::Vector3d& centre)
+{
+  const Eigen::Quaterniond base = poses.front().rotation();
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mapped = Eigen::Vector3d::Zero();
+  for (const core::RigidTransform& pose : poses)
+  {
+    const Eigen::AngleAxisd turned(pose.rotation() * base.inverse());
+    vector += turned.angle() * turned.axis();
+    mapped += pose * centre;
+  }
+  const auto count = static_cast<double>(poses.size());
+  const Eigen::Quaterniond rotation = turn(vector / count) * base;
+  return {rotation, mapped / count - rotation * centre};
+}
+
 } // namespace petrous::registration

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "petrous/Core/RigidTransform.h"
@@ -35,5 +37,10 @@ private:
 /// from above: that of the centre plus 2 radius sin(angle / 2).
 double poseDistance(const core::RigidTransform& a, const core::RigidTransform& b,
                     const Eigen::Vector3d& centre, double radius);
+
+/// The mean of poses that lie close together, by rotation vectors about the first and by where they
+/// take `centre`.
+core::RigidTransform meanPose(const std::vector<core::RigidTransform>& poses,
+                              const Eigen::Vector3d& centre);
 
 } // namespace petrous::registration

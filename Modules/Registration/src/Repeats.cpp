@@ -81,10 +81,11 @@ std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
                       const Pyramid& moving = swapped ? pair.fixed : pair.moving;
                       const auto seed = options.seed + 7919 * static_cast<std::uint32_t>(n + 1);
                       std::mt19937 random(seed);
-                      const FixedSamples samples = bootstrap(
+                      FixedSamples samples =
                           drawSamples(fixed.finest(), swapped ? swappedBox : fixed.content.back(),
-                                      options.samples, seed, options.bins),
-                          options.blocks, seed + 1);
+                                      options.samples, seed, options.bins);
+                      if (options.blocks > 0)
+                        samples = bootstrap(samples, options.blocks, seed + 1);
                       const MutualInformation metric(samples, moving.finest(), options.bins);
                       const core::RigidTransform start =
                           perturbed(swapped ? backward : forward, samples.centre, options, random);

@@ -16,6 +16,13 @@ target_include_directories(petrous_itk_gdcm SYSTEM INTERFACE ${ITK_INCLUDE_DIRS}
 target_link_libraries(petrous_itk_gdcm INTERFACE ${ITK_LIBRARIES})
 add_library(Petrous::itk_gdcm ALIAS petrous_itk_gdcm)
 
+# ITK's own registration, only as a peer of the registration benchmark.
+find_package(ITK 5.2 REQUIRED COMPONENTS ITKRegistrationMethodsv4)
+add_library(petrous_itk_registration INTERFACE)
+target_include_directories(petrous_itk_registration SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+target_link_libraries(petrous_itk_registration INTERFACE ${ITK_LIBRARIES})
+add_library(Petrous::itk_registration ALIAS petrous_itk_registration)
+
 add_library(petrous_gdcm INTERFACE)
 target_include_directories(petrous_gdcm SYSTEM INTERFACE ${GDCM_INCLUDE_DIRS})
 target_link_libraries(petrous_gdcm INTERFACE gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)

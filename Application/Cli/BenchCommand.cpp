@@ -14,6 +14,8 @@
 #include "ImportBenchmark.h"
 #include "Numbers.h"
 #include "QpBenchmark.h"
+#include "RegistrationBenchmarkScenes.h"
+#include "RegistrationPlots.h"
 #include "RemovalBenchmark.h"
 #include "RendererBenchmark.h"
 #include "SaveBenchmark.h"
@@ -29,7 +31,8 @@ namespace
 
 struct BenchOptions
 {
-  std::string name, out, data;
+  std::string name, out, data, pairs, rire;
+  std::vector<std::string> parts;
   std::vector<int> edges;
   bool quick = false;
 };
@@ -70,6 +73,22 @@ constexpr Benchmark kBenchmarks[] = {
      { return simulation::runServoBenchmark(work, options.quick, progress); }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return simulation::runRemovalBenchmark(options.quick, progress); }},
+    {"registration",
+     [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     {
+       std::map<std::string, std::string> notes;
+       const auto input = registrationScenes({options.quick,
+                                              options.pairs,
+                                              options.data,
+                                              options.rire,
+                                              {options.parts.begin(), options.parts.end()},
+                                              work},
+                                             notes, progress.part(0.0, 0.05));
+       auto report = registration::runRegistrationBenchmark(input, progress.part(0.05, 1.0));
+       report.machine.insert(notes.begin(), notes.end());
+       return report;
+     },
+     registrationPlots},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
        return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
      }}};
@@ -171,8 +190,9 @@ void bench(const Context& context, const BenchOptions& options)
     const auto json = reportJson(report);
     const std::filesystem::path base = std::filesystem::path(out) / report.name;
     writeTextFile(base.string() + ".json", json.dump(1) + "\n");
-    for (const auto& [part, svg] : benchmark.plots(report))
-      writeTextFile(base.string() + part + ".svg", svg);
+    for (const auto& [part, text] : benchmark.plots(report))
+      writeTextFile(base.string() + part + (part.find('.') == std::string::npos ? ".svg" : ""),
+                    text);
     all.push_back(json);
     context.say(report.title);
     for (const auto& [key, value] : report.machine)
@@ -193,19 +213,32 @@ void addBenchCommand(CLI::App& app, Context& context)
                          [options, &context] { bench(context, *options); });
   command
       ->add_option("NAME", options->name,
-                   "import, cut, distance, history, save, qp, touch, servo, removal, renderer or "
-                   "all")
+                   "import, cut, distance, history, save, qp, touch, servo, removal, registration, "
+                   "renderer or all")
       ->required();
   command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
       ->type_name("DIR")
       ->required();
   command
-      ->add_option("--data", options->data, "Folder that holds a real CT, for renderer and touch")
+      ->add_option("--data", options->data,
+                   "Folder that holds a real CT, for renderer, touch and registration")
       ->type_name("DIR");
   command
       ->add_option("--edge", options->edges, "Voxels of the phantom's edge, for renderer (256,512)")
       ->delimiter(',')
       ->check(CLI::Range(16, 1024));
+  command
+      ->add_option("--pairs", options->pairs,
+                   "Folder of NAME/{fixed,moving}.nii.gz with NAME/truth.json, for registration")
+      ->type_name("DIR");
+  command
+      ->add_option("--rire", options->rire,
+                   "Folder with RIRE's patients: registration on those alone")
+      ->type_name("DIR");
+  command
+      ->add_option("--part", options->parts,
+                   "Of registration: pairs, capture, schedule, conditions, calibration, stress")
+      ->delimiter(',');
   command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
 }
 

@@ -142,12 +142,12 @@ BenchmarkPatient phantomPatient(int edge, const core::Progress& progress)
   return patient;
 }
 
-std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
-                                            const core::Progress& progress)
+std::shared_ptr<const volume::IntensityVolume> realCt(const std::filesystem::path& data,
+                                                      const core::Progress& progress)
 {
   if (data.empty() || !std::filesystem::is_directory(data))
-    return std::nullopt;
-  const imaging::ScanResult scan = imaging::scanDicom(data, progress.part(0.0, 0.3));
+    return nullptr;
+  const imaging::ScanResult scan = imaging::scanDicom(data, progress.part(0.0, 0.4));
   const imaging::DicomSeries* chosen = nullptr;
   for (const imaging::DicomSeries& series : scan.series)
     if (series.modality == "CT" && series.geometry.verdict == imaging::Verdict::Ok &&
@@ -155,10 +155,18 @@ std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
         (!chosen || series.geometry.grid->voxelCount() > chosen->geometry.grid->voxelCount()))
       chosen = &series;
   if (!chosen)
-    return std::nullopt;
+    return nullptr;
+  return std::make_shared<volume::IntensityVolume>(
+      imaging::readSeries(*chosen, {}, progress.part(0.4, 1.0)));
+}
+
+std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
+                                            const core::Progress& progress)
+{
   BenchmarkPatient patient;
-  patient.ct = std::make_shared<volume::IntensityVolume>(
-      imaging::readSeries(*chosen, {}, progress.part(0.3, 0.8)));
+  patient.ct = realCt(data, progress.part(0.0, 0.8));
+  if (!patient.ct)
+    return std::nullopt;
   const core::GridGeometry& grid = patient.ct->geometry();
   const core::Index3& n = grid.dims();
   char name[80];

@@ -33,7 +33,11 @@ struct BenchmarkPatient
 /// The built-in phantom on edge^3 voxels, all of its structures, noise of 20 HU.
 BenchmarkPatient phantomPatient(int edge, const core::Progress& progress);
 
-/// The largest readable CT series below `data`; nothing where there is none. Its structures are
+/// The largest CT series below `data` whose geometry is ok; null where there is none.
+std::shared_ptr<const volume::IntensityVolume> realCt(const std::filesystem::path& data,
+                                                      const core::Progress& progress);
+
+/// That CT as a patient; nothing where there is none. Its structures are
 /// stand-ins (a nerve, a sinus, a ball, placed behind the cavity): the data have none.
 std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
                                             const core::Progress& progress);

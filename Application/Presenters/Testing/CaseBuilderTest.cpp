@@ -4,10 +4,12 @@
 
 #include <unistd.h>
 
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -90,6 +92,32 @@ TEST_F(CaseBuilder, PutsTheSurfaceWhereBoneIsInUnitsOfItsOwn)
   EXPECT_EQ(calibrated.iso, 300.0);
   for (const std::string& note : calibrated.ct.notes)
     EXPECT_EQ(note.find("Hounsfield"), std::string::npos);
+}
+
+TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto write = [&](const std::string& name, const std::string& frame)
+  {
+    imaging::SeriesDescription series;
+    series.modality = imaging::SeriesDescription::Modality::Mr;
+    series.studyUid = "1.2.3";
+    series.seriesUid = imaging::deterministicUid(1, name);
+    series.frameOfReferenceUid = frame;
+    imaging::writeDicomSeries(m_folder / name, volume::IntensityVolume(scan), series);
+    m_sources.parts.mr.push_back({name, m_folder / name});
+  };
+  const std::string uid = "1.2.840.99.7.2026";
+  write("T2", uid);
+  write("DWI", uid);
+  write("T1", "1.2.840.99.8");
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(value.mr[0].frameOfReference.size(), 64u);
+  EXPECT_EQ(value.mr[0].frameOfReference, value.mr[1].frameOfReference);
+  EXPECT_NE(value.mr[0].frameOfReference, value.mr[2].frameOfReference);
+  EXPECT_EQ(scene::toManifest(value).find(uid), std::string::npos);
+  EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
 }
 
 TEST_F(CaseBuilder, CropsToTheRegionAsked)

@@ -9,6 +9,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Library/ObjectStore.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
@@ -51,6 +52,15 @@ volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeri
   }
 }
 
+// A UID leads whoever has the hospital's archive to the patient; whether two are the same can be
+// told without it.
+std::string withoutIdentity(const std::string& uid)
+{
+  if (uid.empty())
+    return {};
+  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(uid.data()), uid.size());
+}
+
 scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
                            const std::optional<imaging::PatientBox>& roi,
                            const core::Progress& progress)
@@ -72,6 +82,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
     part.volume = std::make_shared<const volume::IntensityVolume>(
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
+    part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
   }
   const auto image = part.volume.get();
   part.geometry = image->geometry();

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "petrous/Scene/LayMr.h"
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -29,6 +30,17 @@ scene::Case fullCase()
   mr.name = "t2";
   mr.registered = true;
   mr.mrFromCt = {Eigen::Quaterniond(0.9, 0.1, 0.2, 0.3), {1, 2, 3}};
+  mr.frameOfReference = std::string(64, 'a');
+  scene::Registration how;
+  how.method = scene::Registration::Method::FrameOfReference;
+  how.refined = true;
+  how.verdict = scene::Registration::Verdict::Good;
+  how.text = "alle Starts enden am selben Ort";
+  how.metric = 1.0 / 3.0;
+  how.error = scene::RegistrationError{{1.0 / 7.0, 2.0, -3.0}, "incus", 0.1, 0.2, 0.3};
+  how.through = "flair";
+  how.signOff = scene::SignOff{"A. Chirurgin ü", "2026-01-02T03:04:05Z", mr.mrFromCt};
+  mr.registration = how;
   value.mr = {mr};
   scene::LabelPart part;
   part.object = "def.seg.nrrd";
@@ -89,6 +101,55 @@ TEST(Manifest, ComesBackAsItWent)
   EXPECT_FALSE(back.labels[0].structures[0].look.touchable);
   EXPECT_EQ(back.labels[0].structures[0].voxels, 123456789012ULL);
   EXPECT_LT((back.mr[0].mrFromCt.matrix() - value.mr[0].mrFromCt.matrix()).norm(), 1e-15);
+}
+
+TEST(Manifest, KeepsHowAnMrWasRegistered)
+{
+  const scene::Case back = scene::fromManifest(scene::toManifest(fullCase()), "m.json");
+  const scene::ImagePart& mr = back.mr[0];
+  EXPECT_EQ(mr.frameOfReference, std::string(64, 'a'));
+  ASSERT_TRUE(mr.registration && mr.registration->error);
+  EXPECT_EQ(mr.registration->method, scene::Registration::Method::FrameOfReference);
+  EXPECT_TRUE(mr.registration->refined);
+  EXPECT_EQ(mr.registration->verdict, scene::Registration::Verdict::Good);
+  EXPECT_EQ(mr.registration->text, "alle Starts enden am selben Ort");
+  EXPECT_EQ(mr.registration->metric, 1.0 / 3.0);
+  EXPECT_EQ(mr.registration->error->point, Vector3d(1.0 / 7.0, 2.0, -3.0));
+  EXPECT_EQ(mr.registration->error->place, "incus");
+  EXPECT_EQ(mr.registration->error->p95, 0.2);
+  EXPECT_EQ(mr.registration->through, "flair");
+  ASSERT_TRUE(scene::validSignOff(mr));
+  EXPECT_EQ(scene::validSignOff(mr)->who, "A. Chirurgin ü");
+}
+
+// The second format knew that an MR is registered, and nothing of how.
+TEST(Manifest, OpensOneWithoutRecordsOfRegistration)
+{
+  auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
+  j["petrous_case"] = 2;
+  j["mr"][0].erase("registration");
+  j["mr"][0].erase("frame_of_reference_sha256");
+  const scene::Case back = scene::fromManifest(j.dump(), "m.json");
+  EXPECT_TRUE(back.mr[0].registered);
+  EXPECT_FALSE(back.mr[0].registration);
+  EXPECT_FALSE(scene::validSignOff(back.mr[0]));
+  EXPECT_EQ(back.mr[0].frameOfReference, "");
+}
+
+TEST(Manifest, RefusesARecordOfRegistrationThatIsNone)
+{
+  const auto good = nlohmann::json::parse(scene::toManifest(fullCase()));
+  const auto refused = [&good](const char* pointer, const nlohmann::json& bad)
+  {
+    auto j = good;
+    j[nlohmann::json::json_pointer(std::string("/mr/0/registration") + pointer)] = bad;
+    EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError) << pointer << bad;
+  };
+  refused("/method", "magic");
+  refused("/verdict", "failed");
+  refused("/error/p95_mm", 0.05);
+  refused("/error/median_mm", -0.1);
+  refused("/signed_off/mr_from_ct", nullptr);
 }
 
 TEST(Manifest, KeepsLooksToTheLastBit)
@@ -203,7 +264,7 @@ TEST(Manifest, RefusesABranchThatIsNone)
 TEST(Manifest, RefusesANewerFormatInWords)
 {
   std::string text = scene::toManifest(fullCase());
-  const auto at = text.find("\"petrous_case\": 2");
+  const auto at = text.find("\"petrous_case\": 3");
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 17, "\"petrous_case\": 9");
   try

@@ -206,6 +206,14 @@ void checkPartName(const std::string& name)
                                  "control characters, and not 'ct'; give one with NAME=FILE");
 }
 
+void checkPersonName(const std::string& name)
+{
+  if (name.size() > 100 || !isUtf8(name) || std::any_of(name.begin(), name.end(), isControl) ||
+      name.find_first_not_of(' ') == std::string::npos)
+    throw core::InvalidParameter("the name of who signs must be 1 to 100 bytes of UTF-8 without "
+                                 "control characters");
+}
+
 void checkCaseName(const std::string& name)
 {
   const auto bad = [](unsigned char c)

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "DissectionJson.h"
+#include "RegistrationJson.h"
 
 namespace petrous::scene
 {
@@ -35,23 +36,13 @@ core::GridGeometry gridIn(const json& j)
           vectorIn(j.at("origin_mm")), direction};
 }
 
-json poseOut(const core::RigidTransform& x)
-{
-  const auto& q = x.rotation();
-  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation_mm", vectorOut(x.translation())}};
-}
-
-core::RigidTransform poseIn(const json& j)
-{
-  const auto q = j.at("quaternion_wxyz").get<std::array<double, 4>>();
-  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vectorIn(j.at("translation_mm"))};
-}
-
 json imageOut(const ImagePart& image)
 {
-  return {{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
-          {"min", image.range.min}, {"max", image.range.max}, {"notes", image.notes}};
+  json j{{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
+         {"min", image.range.min}, {"max", image.range.max}, {"notes", image.notes}};
+  if (!image.frameOfReference.empty())
+    j["frame_of_reference_sha256"] = image.frameOfReference;
+  return j;
 }
 
 ImagePart imageIn(const json& j)
@@ -62,6 +53,7 @@ ImagePart imageIn(const json& j)
   image.geometry = gridIn(j.at("grid"));
   image.range = {j.at("min").get<double>(), j.at("max").get<double>()};
   image.notes = j.at("notes").get<std::vector<std::string>>();
+  image.frameOfReference = j.value("frame_of_reference_sha256", std::string());
   return image;
 }
 
@@ -151,6 +143,8 @@ Case caseIn(const json& j)
     ImagePart mr = imageIn(m);
     mr.registered = m.at("registered").get<bool>();
     mr.mrFromCt = poseIn(m.at("mr_from_ct"));
+    if (m.contains("registration"))
+      mr.registration = registrationIn(m.at("registration"));
     value.mr.push_back(std::move(mr));
   }
   for (const json& part : j.at("labels"))
@@ -201,6 +195,8 @@ std::string toManifest(const Case& value)
     json mr = imageOut(image);
     mr["registered"] = image.registered;
     mr["mr_from_ct"] = poseOut(image.mrFromCt);
+    if (image.registration)
+      mr["registration"] = registrationOut(*image.registration);
     j["mr"].push_back(std::move(mr));
   }
   for (const LabelPart& part : value.labels)

@@ -13,6 +13,7 @@
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
 #include "petrous/Scene/MeshTouch.h"
+#include "petrous/Scene/Registration.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelMap.h"
@@ -33,6 +34,11 @@ struct ImagePart
   /// registered.
   core::RigidTransform mrFromCt;
   bool registered = false;
+  /// How it came there; set by layMr (LayMr.h). Nothing until registered.
+  std::optional<Registration> registration;
+  /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images that have the same were
+  /// taken in one position of the patient, as the scanner holds it. Empty: not known.
+  std::string frameOfReference;
 };
 
 /// A structure drawn in a label map.
@@ -139,5 +145,9 @@ void checkCaseName(const std::string& name);
 /// Throws InvalidParameter unless a part can go by this name: 1 to 200 bytes of UTF-8 without
 /// control characters, and not "ct".
 void checkPartName(const std::string& name);
+
+/// Throws InvalidParameter unless somebody can sign by this name: 1 to 100 bytes of UTF-8 without
+/// control characters, not blank.
+void checkPersonName(const std::string& name);
 
 } // namespace petrous::scene

@@ -20,8 +20,9 @@ struct ManifestError : core::Error
   Reason reason;
 };
 
-/// 2: branches. A manifest of an older format opens.
-constexpr int kManifestFormat = 2;
+/// 2: branches; 3: how an MR was registered, and what was drawn on one. A manifest of an older
+/// format opens.
+constexpr int kManifestFormat = 3;
 
 /// The case as JSON: everything but the voxels, which it names by their objects. Two equal cases
 /// give the same text. Numbers go there and back without loss.

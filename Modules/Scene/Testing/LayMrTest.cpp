@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Scene/LayMr.h"
+
+using namespace petrous;
+using Eigen::Vector3d;
+using scene::Registration;
+
+namespace
+{
+
+core::RigidTransform turned(double x, double y, double z, double shift)
+{
+  return {Eigen::Quaterniond(1.0, x, y, z), {shift, -shift, 2.0 * shift}};
+}
+
+scene::Case caseWith(const std::vector<std::string>& names)
+{
+  scene::Case value;
+  value.name = "ear";
+  for (const std::string& name : names)
+  {
+    scene::ImagePart mr;
+    mr.name = name;
+    value.mr.push_back(mr);
+  }
+  return value;
+}
+
+Registration measured(const std::string& through = {})
+{
+  Registration how;
+  how.verdict = Registration::Verdict::Good;
+  how.error = scene::RegistrationError{{1.0, 2.0, 3.0}, "incus", 0.1, 0.24, 0.3};
+  how.through = through;
+  return how;
+}
+
+} // namespace
+
+TEST(LayMr, SaysHowAndHowWell)
+{
+  scene::Case value = caseWith({"T2"});
+  EXPECT_EQ(scene::registrationInWords(value.mr[0]), "not registered");
+  Registration how = measured();
+  how.method = Registration::Method::Landmarks;
+  how.refined = true;
+  scene::layMr(value, "T2", turned(0.1, 0.0, 0.0, 5.0), how);
+  EXPECT_TRUE(value.mr[0].registered);
+  EXPECT_EQ(scene::registrationInWords(value.mr[0]),
+            "registered by landmarks, refined by mutual information, good, error 0.24 mm (p95) at "
+            "incus, not signed off");
+  EXPECT_THROW(scene::layMr(value, "T1", {}, how), core::InvalidParameter);
+  scene::unlayMr(value, "T2");
+  EXPECT_FALSE(value.mr[0].registered);
+  EXPECT_EQ(value.mr[0].mrFromCt.matrix(), Eigen::Matrix4d::Identity());
+}
+
+TEST(LayMr, ASignOffHoldsForTheTransformThatWasSigned)
+{
+  scene::Case value = caseWith({"T2"});
+  EXPECT_THROW(scene::signOff(value, "T2", "A. Surgeon", "2026-01-02T03:04:05Z"),
+               core::InvalidParameter);
+  const core::RigidTransform there = turned(0.1, 0.2, 0.0, 5.0);
+  scene::layMr(value, "T2", there, measured());
+  EXPECT_FALSE(scene::validSignOff(value.mr[0])) << "never assumed";
+  for (const std::string& bad : {std::string(), std::string("  "), std::string("a\nb"),
+                                 std::string(101, 'a'), std::string("\xff")})
+    EXPECT_THROW(scene::signOff(value, "T2", bad, "2026-01-02T03:04:05Z"), core::InvalidParameter);
+  scene::signOff(value, "T2", "A. Surgeon", "2026-01-02T03:04:05Z");
+  ASSERT_TRUE(scene::validSignOff(value.mr[0]));
+  EXPECT_NE(scene::registrationInWords(value.mr[0])
+                .find("signed off by A. Surgeon on 2026-01-02T03:04:05Z"),
+            std::string::npos);
+
+  scene::Case nudged = value; // by somebody who does not know of sign-offs
+  nudged.mr[0].mrFromCt = {there.rotation(), there.translation() + Vector3d(1e-9, 0.0, 0.0)};
+  EXPECT_FALSE(scene::validSignOff(nudged.mr[0]));
+
+  Registration again = *value.mr[0].registration; // with the sign-off in it
+  scene::layMr(value, "T2", there, again);
+  EXPECT_FALSE(scene::validSignOff(value.mr[0])) << "another registration, nobody looked at it";
+}
+
+TEST(LayMr, WhatCameThroughAnotherMovesAlongAndSaysSo)
+{
+  scene::Case value = caseWith({"DWI", "T2"});
+  const core::RigidTransform first = turned(0.1, 0.2, 0.0, 5.0);
+  const core::RigidTransform step = turned(0.0, 0.01, 0.02, 0.3); // DWI from T2
+  const core::RigidTransform second = turned(-0.1, 0.0, 0.3, -8.0);
+  scene::layMr(value, "T2", first, measured());
+  scene::layMr(value, "DWI", step * first, measured("T2"));
+  scene::signOff(value, "DWI", "A. Surgeon", "2026-01-02T03:04:05Z");
+  scene::layMr(value, "T2", first, measured());
+  EXPECT_TRUE(value.mr[0].registration->error) << "nothing has moved";
+  EXPECT_TRUE(scene::validSignOff(value.mr[0]));
+
+  scene::layMr(value, "T2", second, measured());
+  const Vector3d point(10.0, -20.0, 30.0);
+  EXPECT_LT((value.mr[0].mrFromCt * point - step * (second * point)).norm(), 1e-12);
+  EXPECT_EQ(value.mr[0].registration->verdict, Registration::Verdict::NotJudged);
+  EXPECT_FALSE(value.mr[0].registration->error);
+  EXPECT_FALSE(scene::validSignOff(value.mr[0]));
+  EXPECT_NE(scene::registrationInWords(value.mr[0]).find("through 'T2', not judged"),
+            std::string::npos);
+
+  scene::unlayMr(value, "T2");
+  EXPECT_FALSE(value.mr[0].registered) << "it hung on the other";
+}
+
+TEST(LayMr, RefusesACircle)
+{
+  scene::Case value = caseWith({"A", "B", "C"});
+  EXPECT_THROW(scene::layMr(value, "A", {}, measured("A")), core::InvalidParameter);
+  scene::layMr(value, "A", {}, measured());
+  scene::layMr(value, "B", {}, measured("A"));
+  scene::layMr(value, "C", {}, measured("B"));
+  EXPECT_THROW(scene::layMr(value, "A", turned(0.1, 0.0, 0.0, 1.0), measured("C")),
+               core::InvalidParameter);
+  EXPECT_EQ(value.mr[0].registration->through, "");
+}

@@ -1,0 +1,133 @@
+#include "petrous/Scene/LayMr.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace petrous::scene
+{
+
+namespace
+{
+
+ImagePart& mrNamed(Case& value, const std::string& name)
+{
+  const auto found = std::find_if(value.mr.begin(), value.mr.end(),
+                                  [&name](const ImagePart& mr) { return mr.name == name; });
+  if (found != value.mr.end())
+    return *found;
+  std::string there;
+  for (const ImagePart& mr : value.mr)
+    there += (there.empty() ? "" : ", ") + mr.name;
+  throw core::InvalidParameter("case '" + value.name + "' has no MR '" + name + "'; " +
+                               (there.empty() ? "it has none" : "it has " + there));
+}
+
+bool came(const ImagePart& mr, const std::string& through)
+{
+  return mr.registered && mr.registration && mr.registration->through == through &&
+         mr.name != through;
+}
+
+// What came through an image that came through this one would move for ever.
+void checkThrough(const Case& value, const std::string& name, const std::string& through)
+{
+  std::string next = through;
+  for (std::size_t n = 0; n <= value.mr.size() && !next.empty(); ++n)
+  {
+    if (next == name)
+      throw core::InvalidParameter("MR '" + name + "' cannot lie on the CT through '" + through +
+                                   "', which lies there through '" + name + "'");
+    const ImagePart* mr = findMr(value, next);
+    next = mr && mr->registration ? mr->registration->through : std::string();
+  }
+}
+
+bool same(const core::RigidTransform& a, const core::RigidTransform& b)
+{
+  return a.rotation().coeffs() == b.rotation().coeffs() && a.translation() == b.translation();
+}
+
+} // namespace
+
+void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
+           Registration how)
+{
+  ImagePart& mr = mrNamed(value, name);
+  checkThrough(value, name, how.through);
+  how.signOff.reset();
+  const bool hadPlace = mr.registered;
+  const core::RigidTransform before = mr.mrFromCt;
+  mr.mrFromCt = mrFromCt;
+  mr.registered = true;
+  mr.registration = std::move(how);
+  if (!hadPlace || same(before, mrFromCt))
+    return;
+  for (ImagePart& other : value.mr)
+  {
+    if (!came(other, name))
+      continue;
+    Registration along = *other.registration;
+    along.verdict = Registration::Verdict::NotJudged;
+    along.text = "moved along with '" + name +
+                 "', which was registered again; register it again "
+                 "to know its error";
+    along.error.reset();
+    along.metric.reset();
+    layMr(value, other.name, other.mrFromCt * before.inverse() * mrFromCt, std::move(along));
+  }
+}
+
+void unlayMr(Case& value, const std::string& name)
+{
+  ImagePart& mr = mrNamed(value, name);
+  mr.mrFromCt = {};
+  mr.registered = false;
+  mr.registration.reset();
+  for (const ImagePart& other : value.mr)
+    if (came(other, name))
+      unlayMr(value, other.name);
+}
+
+void signOff(Case& value, const std::string& name, const std::string& who, const std::string& when)
+{
+  ImagePart& mr = mrNamed(value, name);
+  if (!mr.registered || !mr.registration)
+    throw core::InvalidParameter("MR '" + name + "' is not registered: there is nothing to sign");
+  checkPersonName(who);
+  mr.registration->signOff = SignOff{who, when, mr.mrFromCt};
+}
+
+const SignOff* validSignOff(const ImagePart& mr) noexcept
+{
+  if (!mr.registered || !mr.registration || !mr.registration->signOff)
+    return nullptr;
+  const SignOff& signOff = *mr.registration->signOff;
+  return same(signOff.transform, mr.mrFromCt) ? &signOff : nullptr;
+}
+
+std::string registrationInWords(const ImagePart& mr)
+{
+  if (!mr.registered)
+    return "not registered";
+  if (!mr.registration)
+    return "registered, not said how";
+  const Registration& how = *mr.registration;
+  std::string words = "registered by " + methodInWords(how) + ", " + nameOf(how.verdict);
+  if (how.error)
+  {
+    char text[64];
+    std::snprintf(text, sizeof text, ", error %.2f mm (p95)", how.error->p95);
+    words += text;
+    words += " at " + how.error->place;
+  }
+  else
+    words += ", its error unknown";
+  if (const SignOff* signOff = validSignOff(mr))
+    words += ", signed off by " + signOff->who + " on " + signOff->when;
+  else
+    words += ", not signed off";
+  return words;
+}
+
+} // namespace petrous::scene

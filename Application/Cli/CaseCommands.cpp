@@ -1,10 +1,12 @@
 #include <algorithm>
 
 #include "CaseJson.h"
+#include "CaseRemarks.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Scene/ExposedSurfaces.h"
+#include "petrous/Scene/LayMr.h"
 
 namespace petrous::cli
 {
@@ -23,25 +25,26 @@ struct PartOptions
     command.add_option("--mr", mr, "MR: DICOM folder or image file")
         ->allow_extra_args(false)
         ->type_name("[NAME=]PATH");
-    command.add_option("--labels", labels, "Structures: one a file, or one an index")
+    command
+        .add_option("--labels", labels,
+                    "Structures: one a file, or one an index; @MR: drawn on that MR")
         ->allow_extra_args(false)
-        ->type_name("[NAME=]FILE");
-    command.add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS")
+        ->type_name("[NAME=]FILE[@MR]");
+    command
+        .add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS; @MR: of that MR's patient")
         ->allow_extra_args(false)
-        ->type_name("[NAME=]FILE");
+        ->type_name("[NAME=]FILE[@MR]");
   }
 
   presenters::PartSources sources() const
   {
     presenters::PartSources result;
-    const auto parse = [](const std::vector<std::string>& from, auto& to)
-    {
-      for (const std::string& text : from)
-        to.push_back(presenters::PartSource::parse(text));
-    };
-    parse(mr, result.mr);
-    parse(labels, result.labels);
-    parse(meshes, result.meshes);
+    for (const std::string& text : mr)
+      result.mr.push_back(presenters::PartSource::parse(text));
+    for (const std::string& text : labels)
+      result.labels.push_back(presenters::PartSource::parseDrawn(text));
+    for (const std::string& text : meshes)
+      result.meshes.push_back(presenters::PartSource::parseDrawn(text));
     return result;
   }
 };
@@ -60,16 +63,18 @@ void sayCase(const Context& context, const scene::Case& value)
   context.say("  CT " + sizeText(value.ct.geometry) + ", " + fixed(value.ct.range.min, 0) + " to " +
               fixed(value.ct.range.max, 0) + " HU, surface at " + fixed(value.iso, 0) + " HU");
   for (const auto& mr : value.mr)
-    context.say("  MR '" + mr.name + "' " + sizeText(mr.geometry) +
-                (mr.registered ? "" : ", not registered"));
+    context.say("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
+                scene::registrationInWords(mr));
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
-      context.say("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " + s.look.preset);
+      context.say("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " + s.look.preset +
+                  placeText(scene::placementOf(value, part)));
   for (const auto& mesh : value.meshes)
   {
-    const std::string refusal = touchRefusal(value, mesh);
+    const scene::Placement place = scene::placementOf(value, mesh);
+    const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
     context.say("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                (refusal.empty() ? "" : ", not touchable: " + refusal));
+                placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.say("  " + std::to_string(value.applied()) + " strokes done, " +
               std::to_string(value.history.ahead()) + " to redo, " +

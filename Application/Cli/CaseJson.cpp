@@ -3,6 +3,8 @@
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
 {
@@ -65,6 +67,56 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
   }
 }
 
+json transformJson(const core::RigidTransform& transform)
+{
+  json values = json::array();
+  const Eigen::Matrix4d matrix = transform.matrix();
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      values.push_back(matrix(row, column));
+  return values;
+}
+
+json registrationJson(const scene::ImagePart& mr)
+{
+  if (!mr.registered || !mr.registration)
+    return {};
+  const scene::Registration& how = *mr.registration;
+  json error, signedOff;
+  if (how.error)
+    error = {{"at_mm", vectorJson(how.error->point)},
+             {"place", how.error->place},
+             {"median", how.error->median},
+             {"p95", how.error->p95},
+             {"max", how.error->max}};
+  if (const scene::SignOff* signOff = scene::validSignOff(mr))
+    signedOff = {{"who", signOff->who}, {"when", signOff->when}};
+  return {{"method", nameOf(how.method)},
+          {"refined", how.refined},
+          {"through", how.through.empty() ? json() : json(how.through)},
+          {"verdict", nameOf(how.verdict)},
+          {"text", how.text},
+          {"metric", how.metric ? json(*how.metric) : json()},
+          {"error_mm", std::move(error)},
+          {"signed_off", std::move(signedOff)}};
+}
+
+namespace
+{
+
+// Only what was drawn on an MR says so.
+void addPlace(json& part, const scene::Placement& place)
+{
+  if (place.drawnOn.empty())
+    return;
+  part["drawn_on"] = place.drawnOn;
+  part["placed"] = place.missing.empty();
+  if (!place.missing.empty())
+    part["placed_reason"] = place.missing;
+}
+
+} // namespace
+
 json infoJson(const scene::Case& value)
 {
   json ct = gridJson(value.ct.geometry);
@@ -74,20 +126,19 @@ json infoJson(const scene::Case& value)
   json mr = json::array();
   for (const auto& image : value.mr)
   {
-    json transform = json::array();
-    const Eigen::Matrix4d matrix = image.mrFromCt.matrix();
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column)
-        transform.push_back(matrix(row, column));
     json part = gridJson(image.geometry);
     part["name"] = image.name;
     part["registered"] = image.registered;
-    part["transform"] = std::move(transform);
+    part["transform"] = transformJson(image.mrFromCt);
+    part["registration"] = registrationJson(image);
     mr.push_back(std::move(part));
   }
   json labels = json::array();
   for (const auto& part : value.labels)
+  {
+    const scene::Placement place = scene::placementOf(value, part);
     for (const auto& s : part.structures)
+    {
       labels.push_back({{"name", s.name},
                         {"index", s.index},
                         {"voxels", s.voxels},
@@ -96,6 +147,9 @@ json infoJson(const scene::Case& value)
                         {"preset", s.look.preset},
                         {"flags", appearance::flagsOf(s.look)},
                         {"solid", s.look.solid}});
+      addPlace(labels.back(), place);
+    }
+  }
   json meshes = json::array();
   for (const auto& mesh : value.meshes)
   {
@@ -105,6 +159,7 @@ json infoJson(const scene::Case& value)
                       {"flags", appearance::flagsOf(mesh.look)},
                       {"solid", mesh.look.solid},
                       {"touchable", refusal.empty()}});
+    addPlace(meshes.back(), scene::placementOf(value, mesh));
     if (!refusal.empty())
       meshes.back()["touchable_reason"] = refusal;
   }

@@ -27,6 +27,12 @@ nlohmann::json lookJson(const appearance::StructureLook& look);
 /// when it does feel it.
 std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh);
 
+/// 16 numbers, row-major.
+nlohmann::json transformJson(const core::RigidTransform& transform);
+
+/// How an MR came to lie on the CT; null where it does not.
+nlohmann::json registrationJson(const scene::ImagePart& mr);
+
 /// What `petrous info` gives.
 nlohmann::json infoJson(const scene::Case& value);
 

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <optional>
 
+#include "CaseRemarks.h"
 #include "Commands.h"
 #include "DrillReport.h"
 #include "Numbers.h"
@@ -92,10 +93,12 @@ dissection::Catalogues cataloguesFrom(const Options& options, const std::filesys
   return dissection::Catalogues::read(options.materials, options.burrs);
 }
 
-void openCase(library::Library& library, const std::string& name, scene::Case& value)
+void openCase(const Context& context, library::Library& library, const std::string& name,
+              scene::Case& value)
 {
   value = library.open(name);
   library.loadDissection(value);
+  remarkMissingPlaces(context, value);
 }
 
 void save(const Context& context, library::Library& library, scene::Case& value,
@@ -149,7 +152,7 @@ void play(const Context& context, const Options& options)
 
   library::Library library = context.openLibrary();
   scene::Case value;
-  openCase(library, options.caseName, value);
+  openCase(context, library, options.caseName, value);
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
   tool.catalogues = cataloguesFrom(options, library.folder());
@@ -201,7 +204,7 @@ void replay(const Context& context, const Options& options)
 
   library::Library library = context.openLibrary();
   scene::Case value;
-  openCase(library, options.caseName, value);
+  openCase(context, library, options.caseName, value);
   const auto camera = presenters::currentCamera(value);
   const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress, reader.setup().scene.firstState);

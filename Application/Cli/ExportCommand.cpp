@@ -10,6 +10,7 @@
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
 {
@@ -77,7 +78,8 @@ const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& na
 
 // All structures of maps that share a grid in one map, numbered in their order; where two overlap
 // the earlier one stays.
-volume::LabelMap mergedLabels(const scene::Case& value, const std::string& only)
+volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
+                              const std::string& only)
 {
   std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
   std::vector<volume::Segment> segments;
@@ -86,7 +88,11 @@ volume::LabelMap mergedLabels(const scene::Case& value, const std::string& only)
     {
       if (!only.empty() && structure.name != only)
         continue;
-      const auto& source = *part.labels.get()->voxels;
+      const auto placed = scene::labelsOnCt(value, part);
+      if (!placed)
+        context.remark("'" + structure.name + "' is written where its MR has it, not on the CT: " +
+                       scene::missingPlace(value, structure.name));
+      const auto& source = *(placed ? placed : part.labels.get())->voxels;
       if (!voxels)
         voxels =
             std::make_shared<volume::Volume<std::uint16_t>>(source.geometry(), std::uint16_t{0});
@@ -124,7 +130,7 @@ void exportCase(const Context& context, const Options& options)
   else if (options.what == "mr")
     imaging::writeVolume(options.out, *chooseMr(value, options.part).volume.get(), progress);
   else if (options.what == "labels")
-    imaging::writeLabelFile(options.out, mergedLabels(value, options.part));
+    imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part));
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);
   else if (options.what == "dissected")

@@ -1,4 +1,5 @@
 #include "CaseJson.h"
+#include "CaseRemarks.h"
 #include "Commands.h"
 #include "PointsFile.h"
 #include "petrous/Scene/CaseField.h"
@@ -18,7 +19,9 @@ std::string structureAt(const scene::Case& value, const std::vector<scene::MeshS
 {
   for (const auto& part : value.labels)
   {
-    const auto labels = part.labels.get();
+    const auto labels = scene::labelsOnCt(value, part);
+    if (!labels)
+      continue;
     const auto& grid = labels->voxels->geometry();
     const Eigen::Vector3d v = grid.voxelFromPatient(p);
     const core::Index3 nearest{static_cast<int>(std::lround(v[0])),
@@ -53,6 +56,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
+  remarkMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::tissueField(value, progress.part(0.0, 0.2));
   const auto meshes = scene::meshSolids(

@@ -4,6 +4,7 @@
 
 #include "CameraFile.h"
 #include "CaseJson.h"
+#include "CaseRemarks.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "RenderOptions.h"
@@ -196,6 +197,7 @@ void render(const Context& context, const RenderOptions& options)
               {"convergence_mm", geometry.convergence}};
   }
   library.loadDissection(value);
+  remarkMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));
   rendering::writePng(options.out, result.picture);

@@ -82,8 +82,7 @@ QString noteOf(const NearbyStructure& structure)
   if (structure.injured > 0.0)
     notes += NearbyModel::tr("injured, %1 mm³ taken").arg(structure.injured, 0, 'f', 2);
   if (structure.uncertainty.incomplete())
-    notes += structure.uncertainty.registered ? NearbyModel::tr("registration's error unknown")
-                                              : NearbyModel::tr("registration unknown");
+    notes += NearbyModel::tr("registration's error unknown");
   return notes.isEmpty() ? NearbyModel::tr("clear") : notes.join(", ");
 }
 

@@ -6,6 +6,7 @@
 
 #include "Theme.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::workstation
 {
@@ -48,12 +49,16 @@ std::vector<StructuresModel::Row> StructuresModel::rows() const
   std::vector<Row> rows;
   if (!m_model.hasCase())
     return rows;
-  for (const auto& part : m_model.value().labels)
+  const scene::Case& value = m_model.value();
+  for (const auto& part : value.labels)
+  {
+    const std::string missing = scene::placementOf(value, part).missing;
     for (const auto& structure : part.structures)
-      rows.push_back({structure.name, structure.volume, false, structure.look});
-  for (const auto& mesh : m_model.value().meshes)
-    if (!scene::findStructure(m_model.value(), mesh.name))
-      rows.push_back({mesh.name, 0.0, true, mesh.look});
+      rows.push_back({structure.name, structure.volume, false, structure.look, missing});
+  }
+  for (const auto& mesh : value.meshes)
+    if (!scene::findStructure(value, mesh.name))
+      rows.push_back({mesh.name, 0.0, true, mesh.look, scene::placementOf(value, mesh).missing});
   return rows;
 }
 
@@ -134,9 +139,15 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
   {
   case Name:
     if (role == Qt::DisplayRole)
-      return words(row.name).replace('_', ' ');
+    {
+      const QString name = words(row.name).replace('_', ' ');
+      return row.missing.empty() ? name : tr("%1 (not on the CT)").arg(name);
+    }
     if (role == Qt::DecorationRole)
       return swatch(row.look);
+    if (role == Qt::ToolTipRole && !row.missing.empty())
+      return tr("%1 is nowhere on the CT, and neither drawn nor felt nor warned of: %2")
+          .arg(words(row.name), words(row.missing));
     if (role == Qt::ToolTipRole)
       return row.look.solid ? words(row.name)
                             : tr("%1 (a space without tissue)").arg(words(row.name));

@@ -49,6 +49,7 @@ private:
     double volume = 0.0; ///< mm^3
     bool isMesh = false;
     appearance::StructureLook look;
+    std::string missing; ///< why it is nowhere on the CT (scene::Placement); mostly empty
   };
   std::vector<Row> rows() const;
   bool setWarning(const QModelIndex& index, double millimetres);

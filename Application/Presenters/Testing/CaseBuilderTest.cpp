@@ -10,6 +10,7 @@
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Scene/Manifest.h"
+#include "petrous/Scene/Placement.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -54,6 +55,77 @@ TEST(PartSource, SplitsTheNameFromTheFile)
   EXPECT_EQ(PartSource::parse("nerve=/a/b=c.nrrd").path, "/a/b=c.nrrd");
   EXPECT_EQ(PartSource::parse("/a/b.nrrd").name, "");
   EXPECT_EQ(PartSource::parse("=x").path, "=x");
+}
+
+TEST_F(CaseBuilder, SplitsTheMrFromTheFile)
+{
+  const auto parsed = PartSource::parseDrawn("x=" + (m_folder / "incus.obj").string() + "@T2");
+  EXPECT_EQ(parsed.name, "x");
+  EXPECT_EQ(parsed.path, m_folder / "incus.obj");
+  EXPECT_EQ(parsed.drawnOn, "T2");
+  std::ofstream(m_folder / "odd@T2") << "x";
+  EXPECT_EQ(PartSource::parseDrawn((m_folder / "odd@T2").string()).path, m_folder / "odd@T2");
+  EXPECT_EQ(PartSource::parseDrawn("@T2").path, "@T2");
+  EXPECT_EQ(PartSource::parseDrawn("a@").path, "a@");
+}
+
+TEST_F(CaseBuilder, KnowsOnWhichMrLabelsWereDrawn)
+{
+  const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  voxels->at(4, 4, 4) = 1;
+  imaging::writeLabelFile(m_folder / "tumour.nii.gz", volume::makeLabelMap(voxels, {}));
+  const auto mr = [this](const std::string& name) {
+    return PartSource{name, m_folder / "mr.nrrd"};
+  };
+  const auto labels = [this](const std::string& name, const std::string& on) {
+    return PartSource{name, m_folder / "tumour.nii.gz", on};
+  };
+  m_sources.parts.labels = {labels("a", ""), {"nerve", m_folder / "facial_nerve.nii.gz"}};
+  auto value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_FALSE(value.labels[0].drawnOn) << "on a grid that nothing of the case has";
+  EXPECT_EQ(value.labels[1].drawnOn, "");
+  EXPECT_EQ(scene::missingPlace(value, "a"), "");
+
+  presenters::PartSources more;
+  more.mr = {mr("T2")};
+  more.labels = {labels("b", ""), labels("c", "ct")};
+  presenters::addParts(value, more, {});
+  EXPECT_EQ(scene::placementOf(value, value.labels[0]).drawnOn, "T2") << "its image came later";
+  EXPECT_EQ(value.labels[2].drawnOn, "T2");
+  EXPECT_EQ(value.labels[3].drawnOn, "");
+
+  presenters::PartSources second;
+  second.mr = {mr("DWI")};
+  presenters::addParts(value, second, {});
+  EXPECT_EQ(scene::placementOf(value, value.labels[0]).drawnOn, "T2") << "decided before";
+  presenters::PartSources ambiguous;
+  ambiguous.labels = {labels("d", "")};
+  const auto before = value.labels.size();
+  try
+  {
+    presenters::addParts(value, ambiguous, {});
+    FAIL() << "guessed";
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    const std::string words = error.what();
+    EXPECT_NE(words.find("tumour.nii.gz"), std::string::npos) << words;
+    EXPECT_NE(words.find("FILE@T2 or FILE@DWI"), std::string::npos) << words;
+  }
+  EXPECT_EQ(value.labels.size(), before);
+  ambiguous.labels = {labels("d", "DWI")};
+  ambiguous.meshes = {{"", m_folder / "incus.obj", "T2"}};
+  presenters::addParts(value, ambiguous, {});
+  EXPECT_EQ(value.labels.back().drawnOn, "DWI");
+  EXPECT_EQ(value.meshes[0].drawnOn, "T2");
+  ambiguous.labels = {labels("e", "T1")};
+  ambiguous.meshes.clear();
+  EXPECT_THROW(presenters::addParts(value, ambiguous, {}), core::InvalidParameter);
+  ambiguous.labels.clear();
+  ambiguous.meshes = {{"other", m_folder / "incus.obj", "T1"}};
+  EXPECT_THROW(presenters::addParts(value, ambiguous, {}), core::InvalidParameter);
 }
 
 TEST_F(CaseBuilder, PutsACaseTogether)

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "petrous/Scene/LayMr.h"
+
 using namespace petrous;
 using namespace petrous::presenters;
 using Eigen::Vector3d;
@@ -135,36 +137,61 @@ TEST(NearbyStructures, AreThereAfterAWhile)
 TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
 {
   scene::Case value = balls();
-  const core::GridGeometry& grid = value.labels[0].labels.get()->voxels->geometry();
-  value.ct.geometry = core::GridGeometry({50, 50, 50}, Vector3d::Constant(0.5), Vector3d::Zero());
-  SurfaceUncertainty found = uncertaintyOf(value, grid);
+  const auto uncertainty = [&value] { return StructureSurfaces(value).uncertainty(0); };
+  SurfaceUncertainty found = uncertainty();
   EXPECT_TRUE(found.drawnOn.empty());
   EXPECT_FALSE(found.incomplete());
   EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart");
 
   scene::ImagePart mr;
   mr.name = "T2";
-  mr.geometry = grid;
+  mr.geometry = value.labels[0].labels.get()->voxels->geometry();
   value.mr.push_back(mr);
-  found = uncertaintyOf(value, grid);
+  EXPECT_EQ(StructureSurfaces(value).count(), 0U) << "nobody knows where they are";
+
+  scene::layMr(value, "T2", {}, {});
+  found = uncertainty();
   EXPECT_EQ(found.drawnOn, "T2");
   EXPECT_TRUE(found.incomplete());
   EXPECT_FALSE(found.registration);
   EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
-                            "'T2', registration unknown");
+                            "'T2', registered, its error unknown");
   NearbyStructure near;
   near.name = "facial_nerve";
   near.distance = 1.84;
   near.uncertainty = found;
-  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.4; registration unknown");
+  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.4; registration's error unknown");
 
-  found.registered = true;
-  found.registration = 0.3;
+  scene::Registration how;
+  how.error = scene::RegistrationError{kNerve + Vector3d(0.0, 0.0, 14.0), "the incus", 0.1, 0.3, 1};
+  scene::layMr(value, "T2", {}, how);
+  found = uncertainty();
   EXPECT_FALSE(found.incomplete());
   EXPECT_NEAR(found.millimetres(), 0.5, 1e-12);
   near.uncertainty = found;
   EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.5");
+  EXPECT_NE(inWords(found).find("'T2', registered to 0.30 mm (p95) at the incus, 14 mm from here"),
+            std::string::npos)
+      << inWords(found);
 
-  value.ct.geometry = grid; // the CT's own grid
-  EXPECT_TRUE(uncertaintyOf(value, grid).drawnOn.empty());
+  value.labels[0].drawnOn = ""; // somebody said that it is the CT's
+  EXPECT_TRUE(uncertainty().drawnOn.empty());
+}
+
+TEST(NearbyStructures, AreWhereTheirMrLiesOnTheCt)
+{
+  scene::Case value = balls();
+  const core::RigidTransform mrFromCt(Eigen::Quaterniond(0.9, 0.3, -0.1, 0.2), {5.0, -9.0, 20.0});
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = value.labels[0].labels.get()->voxels->geometry();
+  value.mr.push_back(mr);
+  scene::layMr(value, "T2", mrFromCt, {});
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const auto near = nearby.around(value, mrFromCt.inverse() * kNerve, 1.0, 5.0);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].name, "facial_nerve");
+  EXPECT_EQ(near[0].state, State::Touched);
+  EXPECT_TRUE(nearby.around(value, mrFromCt * kNerve, 1.0, 5.0).empty());
 }

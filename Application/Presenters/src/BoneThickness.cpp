@@ -1,6 +1,7 @@
 #include "petrous/Presenters/BoneThickness.h"
 
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
 #include "petrous/Scene/StructureShares.h"
 #include "petrous/Volume/DistanceField.h"
 
@@ -11,6 +12,8 @@ std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& va
                                                            const std::string& structure,
                                                            const core::Progress& progress)
 {
+  if (const std::string missing = scene::missingPlace(value, structure); !missing.empty())
+    throw core::InvalidParameter("thickness: '" + structure + "' is nowhere on the CT: " + missing);
   std::string there;
   for (const scene::LabelPart& part : value.labels)
     for (const scene::StructurePart& known : part.structures)
@@ -20,7 +23,7 @@ std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& va
     if (!scene::findStructure(value, mesh.name))
       there += (there.empty() ? "" : ", ") + mesh.name;
     if (mesh.name == structure && !mesh.touch.resident())
-      mesh.touch.solid(mesh.mesh.get(), value.ct.geometry, progress.part(0.0, 0.3));
+      mesh.touch.solid(scene::meshOnCt(value, mesh), value.ct.geometry, progress.part(0.0, 0.3));
   }
   for (const scene::StructureShare& share : scene::structureShares(value))
     if (share.name == structure)

@@ -10,6 +10,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
@@ -145,6 +146,52 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   value.mr.push_back(std::move(part));
 }
 
+// The MR that somebody named with a file; empty for the CT.
+std::string drawnOnNamed(const scene::Case& value, const PartSource& source)
+{
+  if (source.drawnOn == "ct")
+    return {};
+  std::string there = "ct";
+  for (const scene::ImagePart& mr : value.mr)
+    there += ", " + mr.name;
+  if (!scene::findMr(value, source.drawnOn))
+    throw core::InvalidParameter(source.path.string() + ": case '" + value.name + "' has no MR '" +
+                                 source.drawnOn + "' on which it was drawn; " + "it has " + there);
+  return source.drawnOn;
+}
+
+// Nothing where the grid is neither the CT's nor that of an MR: an MR may come that has it.
+std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& source,
+                                   const core::GridGeometry& grid)
+{
+  if (!source.drawnOn.empty())
+    return drawnOnNamed(value, source);
+  if (core::sameGrid(grid, value.ct.geometry))
+    return std::string();
+  const auto names = scene::mrWithGrid(value, grid);
+  if (names.size() > 1)
+    throw core::InvalidParameter(source.path.string() +
+                                 ": several MR images have its grid; say on "
+                                 "which it was drawn with FILE@" +
+                                 names[0] + " or FILE@" + names[1]);
+  if (names.empty())
+    return std::nullopt;
+  return names.front();
+}
+
+// Before an MR comes that may have the same grid as another one.
+void settleDrawnOn(scene::Case& value)
+{
+  for (scene::LabelPart& part : value.labels)
+  {
+    if (part.drawnOn || value.mr.empty())
+      continue;
+    const auto names = scene::mrWithGrid(value, part.labels.get()->voxels->geometry());
+    if (names.size() == 1)
+      part.drawnOn = names.front();
+  }
+}
+
 void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
@@ -178,6 +225,7 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
       if (!names.insert(structure.name).second)
         throw core::InvalidParameter(source.path.string() + ": two structures are called '" +
                                      structure.name + "'; rename one");
+    part.drawnOn = drawnOn(value, source, map.voxels->geometry());
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
     value.labels.push_back(std::move(part));
   }
@@ -196,6 +244,8 @@ void addMesh(scene::Case& value, const PartSource& source)
   part.triangles = mesh->triangles.size();
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
+  if (!source.drawnOn.empty())
+    part.drawnOn = drawnOnNamed(value, source);
   value.meshes.push_back(std::move(part));
 }
 
@@ -207,6 +257,18 @@ PartSource PartSource::parse(const std::string& text)
   if (equals == std::string::npos || equals == 0 || fs::exists(text))
     return {"", text};
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+PartSource PartSource::parseDrawn(const std::string& text)
+{
+  PartSource source = parse(text);
+  const std::string path = source.path.string();
+  const auto at = path.rfind('@');
+  if (at == std::string::npos || at == 0 || at + 1 == path.size() || fs::exists(source.path))
+    return source;
+  source.drawnOn = path.substr(at + 1);
+  source.path = path.substr(0, at);
+  return source;
 }
 
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
@@ -233,6 +295,8 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
     const double first = static_cast<double>(done++) * size;
     return progress.part(first, first + size);
   };
+  if (!parts.mr.empty())
+    settleDrawnOn(next);
   for (const PartSource& source : parts.mr)
     addMr(next, source, share());
   for (const PartSource& source : parts.labels)

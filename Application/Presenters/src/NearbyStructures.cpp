@@ -43,8 +43,7 @@ std::string inWords(const NearbyStructure& structure)
                   structure.uncertainty.millimetres());
   text += number;
   if (structure.uncertainty.incomplete())
-    text += structure.uncertainty.registered ? "; registration's error unknown"
-                                             : "; registration unknown";
+    text += "; registration's error unknown";
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "petrous/Scene/Placement.h"
 #include "petrous/Volume/MeshSolid.h"
 
 namespace petrous::presenters
@@ -13,7 +14,8 @@ PlaceReader::PlaceReader(const scene::Case& value, const volume::TissueField& fi
   , m_surface(field, kReach)
 {
   for (const scene::LabelPart& part : value.labels)
-    m_labels.push_back({part.labels.get(), part.structures});
+    if (auto labels = scene::labelsOnCt(value, part))
+      m_labels.push_back({std::move(labels), part.structures});
 }
 
 std::string PlaceReader::structureAt(const Eigen::Vector3d& patient) const

@@ -6,6 +6,7 @@
 #include "petrous/Appearance/LookMaterial.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
 {
@@ -114,7 +115,8 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
 
   for (const auto& mesh : value.meshes)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))
-      contents.meshes.push_back({mesh.name, mesh.mesh.get(), mesh.look});
+      if (auto placed = scene::meshOnCt(value, mesh))
+        contents.meshes.push_back({mesh.name, std::move(placed), mesh.look});
   return contents;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "petrous/Scene/Placement.h"
 #include "petrous/Volume/Sampling.h"
 
 namespace petrous::presenters
@@ -65,8 +66,9 @@ SlicePresenter::SlicePresenter(const scene::Case& value)
     }
     if (layer.shown.empty())
       continue;
-    layer.labels = part.labels.get();
-    m_layers.push_back(std::move(layer));
+    layer.labels = scene::labelsOnCt(value, part);
+    if (layer.labels)
+      m_layers.push_back(std::move(layer));
   }
 }
 

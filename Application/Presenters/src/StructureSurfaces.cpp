@@ -39,7 +39,7 @@ StructureSurfaces::StructureSurfaces(const scene::Case& value)
 {
   for (scene::StructureShare& share : scene::structureShares(value))
   {
-    const SurfaceUncertainty uncertainty = uncertaintyOf(value, share.drawnOn);
+    const SurfaceUncertainty uncertainty = uncertaintyOf(value, share);
     m_structures.push_back(std::make_unique<Structure>(std::move(share), uncertainty));
   }
 }
@@ -53,7 +53,7 @@ const std::string& StructureSurfaces::name(std::size_t structure) const
 
 double StructureSurfaces::spacing(std::size_t structure) const
 {
-  return m_structures[structure]->share.drawnOn.minSpacing();
+  return m_structures[structure]->share.grid.minSpacing();
 }
 
 const SurfaceUncertainty& StructureSurfaces::uncertainty(std::size_t structure) const

@@ -11,19 +11,19 @@ double SurfaceUncertainty::millimetres() const
   return std::hypot(0.5 * sliceSpacing(), registration.value_or(0.0));
 }
 
-SurfaceUncertainty uncertaintyOf(const scene::Case& value, const core::GridGeometry& grid)
+SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureShare& structure)
 {
   SurfaceUncertainty result;
-  result.voxel = grid.spacing();
-  if (core::sameGrid(grid, value.ct.geometry))
-    return result;
-  for (const scene::ImagePart& mr : value.mr)
-    if (core::sameGrid(grid, mr.geometry))
-    {
-      result.drawnOn = mr.name;
-      result.registered = mr.registered;
-      break;
-    }
+  result.voxel = structure.grid.spacing();
+  result.drawnOn = structure.mr;
+  const scene::ImagePart* mr = scene::findMr(value, structure.mr);
+  if (mr && mr->registration && mr->registration->error)
+  {
+    const scene::RegistrationError& error = *mr->registration->error;
+    result.registration = error.p95;
+    result.place = error.place;
+    result.away = (structure.around.center() - error.point).norm();
+  }
   return result;
 }
 
@@ -37,11 +37,11 @@ std::string inWords(const SurfaceUncertainty& uncertainty)
   if (uncertainty.drawnOn.empty())
     return words;
   words += "; drawn on the MR '" + uncertainty.drawnOn + "', ";
-  if (!uncertainty.registered)
-    return words + "registration unknown";
   if (!uncertainty.registration)
     return words + "registered, its error unknown";
-  std::snprintf(text, sizeof text, "registered to %.2f mm (p95)", *uncertainty.registration);
+  std::snprintf(text, sizeof text, "registered to %.2f mm (p95) at ", *uncertainty.registration);
+  words += text + uncertainty.place;
+  std::snprintf(text, sizeof text, ", %.0f mm from here", uncertainty.away);
   return words + text;
 }
 

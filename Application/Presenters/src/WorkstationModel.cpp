@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Tell.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
 {
@@ -152,7 +153,7 @@ std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
     return {};
   for (const auto& part : m_case->labels)
   {
-    const auto labels = part.labels.peek();
+    const auto labels = part.labels.peek() ? scene::labelsOnCt(*m_case, part) : nullptr;
     if (!labels)
       continue;
     const auto& voxels = *labels->voxels;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::scene
 {
@@ -121,6 +122,19 @@ void readCtInsteadOf(Case& value, const std::string& image)
     change(mesh.look);
 }
 
+// What was drawn on an MR comes to the CT through that alone.
+void checkNothingHangsOn(const Case& value, const std::string& mr)
+{
+  std::string names;
+  for (const std::string& name : drawnOnMr(value, mr))
+    if (name != mr)
+      names += (names.empty() ? "'" : ", '") + name + "'";
+  if (!names.empty())
+    throw core::Error(core::Fault::Refused, "MR '" + mr + "' stays: " + names +
+                                                " was drawn on it and comes to the CT through it; "
+                                                "remove that first");
+}
+
 } // namespace
 
 void removePart(Case& value, const std::string& name)
@@ -134,6 +148,8 @@ void removePart(Case& value, const std::string& name)
     parts.erase(found);
     return true;
   };
+  if (findMr(value, name))
+    checkNothingHangsOn(value, name);
   bool removed = removeNamed(value.mr);
   if (removed)
     readCtInsteadOf(value, name);

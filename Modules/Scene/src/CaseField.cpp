@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "petrous/Scene/Placement.h"
+
 namespace petrous::scene
 {
 
@@ -30,6 +32,11 @@ struct Wish
 {
   const LabelPart* part;
   const StructurePart* structure;
+
+  std::shared_ptr<const volume::LabelMap> labels(const Case& value) const
+  {
+    return labelsOnCt(value, *part);
+  }
 };
 
 std::vector<Wish> wishes(const Case& value, const Wanted& wanted)
@@ -37,7 +44,7 @@ std::vector<Wish> wishes(const Case& value, const Wanted& wanted)
   std::vector<Wish> result;
   for (const LabelPart& part : value.labels)
     for (const StructurePart& structure : part.structures)
-      if (wanted(structure.look))
+      if (wanted(structure.look) && placementOf(value, part).missing.empty())
         result.push_back({&part, &structure});
   const auto place = [](const Wish& wish)
   {
@@ -55,7 +62,7 @@ std::vector<volume::TissueField::SolidUnion> unionOf(const Case& value, const Wa
 {
   std::vector<volume::LabelSource> sources;
   for (const Wish& wish : wishes(value, wanted))
-    sources.push_back({wish.part->labels.get(), wish.structure->index, 1, true});
+    sources.push_back({wish.labels(value), wish.structure->index, 1, true});
   const auto field = volume::makeLabelField(sources, progress);
   if (!field)
     return {};
@@ -96,7 +103,7 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
   for (const Wish& wish : all)
   {
     result.structures.push_back(wish.structure);
-    result.sources.push_back({wish.part->labels.get(), wish.structure->index,
+    result.sources.push_back({wish.labels(value), wish.structure->index,
                               static_cast<std::uint8_t>(result.structures.size()),
                               wish.structure->look.solid});
   }
@@ -108,14 +115,15 @@ std::vector<MeshSolid> meshSolids(const Case& value, const Wanted& wanted,
 {
   std::vector<MeshSolid> solids;
   for (const MeshPart& part : value.meshes)
-    if (wanted(part.look) && !findStructure(value, part.name))
+    if (wanted(part.look) && !findStructure(value, part.name) &&
+        placementOf(value, part).missing.empty())
       solids.push_back({&part, nullptr});
   const auto count = static_cast<double>(solids.size());
   for (std::size_t n = 0; n < solids.size(); ++n)
   {
     const MeshPart& part = *solids[n].part;
     solids[n].share = part.touch.solid(
-        part.mesh.get(), value.ct.geometry,
+        meshOnCt(value, part), value.ct.geometry,
         progress.part(static_cast<double>(n) / count, static_cast<double>(n + 1) / count));
   }
   const auto refused = [](const MeshSolid& solid) { return !solid.share; };
@@ -131,7 +139,9 @@ std::string untouchable(const Case& value, const MeshPart& mesh)
     return "it is a space without tissue";
   if (!look.touchable)
     return "its flag 'touchable' is off";
-  return structure ? "" : mesh.touch.refusal(mesh.mesh.get(), value.ct.geometry);
+  if (const std::string missing = missingPlace(value, mesh.name); !missing.empty())
+    return missing;
+  return structure ? "" : mesh.touch.refusal(meshOnCt(value, mesh), value.ct.geometry);
 }
 
 volume::TissueField tissueField(const Case& value, const core::Progress& progress)
@@ -167,7 +177,7 @@ TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
   for (const Wish& wish : soft)
   {
     const auto field = volume::makeLabelField(
-        {{wish.part->labels.get(), wish.structure->index, 1, true}}, progress.part(0.3, 0.3));
+        {{wish.labels(value), wish.structure->index, 1, true}}, progress.part(0.3, 0.3));
     if (field)
       add(wish.structure->name, *field->share, wish.structure->look.stiffness);
   }
@@ -193,8 +203,8 @@ std::vector<dissection::NamedStructure> drillableStructures(const Case& value)
   const auto drilled = [](const auto& look) { return look.drillable; };
   for (const LabelPart& part : value.labels)
     for (const StructurePart& structure : part.structures)
-      if (drilled(structure.look))
-        structures.push_back({structure.name, part.labels.get(), structure.index});
+      if (drilled(structure.look) && placementOf(value, part).missing.empty())
+        structures.push_back({structure.name, labelsOnCt(value, part), structure.index});
   for (const MeshSolid& mesh : meshSolids(value, drilled))
     structures.push_back({mesh.part->name, insideOf(*mesh.share), 1});
   return structures;

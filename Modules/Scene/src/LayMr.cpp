@@ -48,6 +48,14 @@ bool same(const core::RigidTransform& a, const core::RigidTransform& b)
   return a.rotation().coeffs() == b.rotation().coeffs() && a.translation() == b.translation();
 }
 
+// The voxels of meshes that were drawn on it lie where it lay.
+void forgetVoxels(Case& value, const std::string& mr)
+{
+  for (MeshPart& mesh : value.meshes)
+    if (mesh.drawnOn == mr)
+      mesh.touch = {};
+}
+
 } // namespace
 
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
@@ -61,6 +69,7 @@ void layMr(Case& value, const std::string& name, const core::RigidTransform& mrF
   mr.mrFromCt = mrFromCt;
   mr.registered = true;
   mr.registration = std::move(how);
+  forgetVoxels(value, name);
   if (!hadPlace || same(before, mrFromCt))
     return;
   for (ImagePart& other : value.mr)
@@ -68,7 +77,7 @@ void layMr(Case& value, const std::string& name, const core::RigidTransform& mrF
     if (!came(other, name))
       continue;
     Registration along = *other.registration;
-    along.verdict = Registration::Verdict::NotJudged;
+    along.verdict = Registration::Verdict::Doubtful;
     along.text = "moved along with '" + name +
                  "', which was registered again; register it again "
                  "to know its error";
@@ -84,6 +93,7 @@ void unlayMr(Case& value, const std::string& name)
   mr.mrFromCt = {};
   mr.registered = false;
   mr.registration.reset();
+  forgetVoxels(value, name);
   for (const ImagePart& other : value.mr)
     if (came(other, name))
       unlayMr(value, other.name);

@@ -113,18 +113,35 @@ json labelsOut(const LabelPart& part)
                           {"voxels", s.voxels},
                           {"volume_mm3", s.volume},
                           {"look", lookOut(s.look)}});
-  return {{"object", part.object}, {"structures", structures}};
+  json j{{"object", part.object}, {"structures", structures}};
+  if (part.drawnOn)
+    j["drawn_on"] = *part.drawnOn;
+  return j;
 }
 
 LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
 {
   LabelPart part;
   part.object = j.at("object").get<std::string>();
+  if (j.contains("drawn_on"))
+    part.drawnOn = j.at("drawn_on").get<std::string>();
   for (const json& s : j.at("structures"))
     part.structures.push_back({s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
                                s.at("voxels").get<std::uint64_t>(),
                                s.at("volume_mm3").get<double>(), lookIn(s.at("look"), presets)});
   return part;
+}
+
+json meshOut(const MeshPart& mesh)
+{
+  json j{{"name", mesh.name},
+         {"object", mesh.object},
+         {"triangles", mesh.triangles},
+         {"notes", mesh.notes},
+         {"look", lookOut(mesh.look)}};
+  if (!mesh.drawnOn.empty())
+    j["drawn_on"] = mesh.drawnOn;
+  return j;
 }
 
 Case caseIn(const json& j)
@@ -157,6 +174,7 @@ Case caseIn(const json& j)
     mesh.triangles = m.at("triangles").get<std::size_t>();
     mesh.notes = m.at("notes").get<std::vector<std::string>>();
     mesh.look = lookIn(m.at("look"), presets);
+    mesh.drawnOn = m.value("drawn_on", std::string());
     value.meshes.push_back(std::move(mesh));
   }
   if (j.contains("camera"))
@@ -202,11 +220,7 @@ std::string toManifest(const Case& value)
   for (const LabelPart& part : value.labels)
     j["labels"].push_back(labelsOut(part));
   for (const MeshPart& mesh : value.meshes)
-    j["meshes"].push_back({{"name", mesh.name},
-                           {"object", mesh.object},
-                           {"triangles", mesh.triangles},
-                           {"notes", mesh.notes},
-                           {"look", lookOut(mesh.look)}});
+    j["meshes"].push_back(meshOut(mesh));
   if (value.camera)
     j["camera"] = cameraOut(*value.camera);
   json strokes = json::array();

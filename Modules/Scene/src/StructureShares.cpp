@@ -1,5 +1,6 @@
 #include "petrous/Scene/StructureShares.h"
 
+#include "petrous/Scene/Placement.h"
 #include "petrous/Volume/SmoothedUnion.h"
 
 namespace petrous::scene
@@ -26,7 +27,10 @@ std::vector<StructureShare> structureShares(const Case& value)
   std::vector<StructureShare> shares;
   for (const LabelPart& part : value.labels)
   {
-    const std::shared_ptr<const volume::LabelMap> labels = part.labels.get();
+    const Placement placement = placementOf(value, part);
+    const std::shared_ptr<const volume::LabelMap> labels = labelsOnCt(value, part);
+    if (!labels)
+      continue;
     const core::GridGeometry& grid = labels->voxels->geometry();
     const auto boxes = volume::boxesOf(*labels);
     for (const StructurePart& structure : part.structures)
@@ -35,7 +39,7 @@ std::vector<StructureShare> structureShares(const Case& value)
         const std::uint16_t index = labels->segments[n].index;
         if (index != structure.index || boxes[n].empty())
           continue;
-        shares.push_back({structure.name, grid, grownGrid(grid, boxes[n]),
+        shares.push_back({structure.name, placement.drawnOn, grid, grownGrid(grid, boxes[n]),
                           [labels, index, box = boxes[n]]
                           {
                             return volume::makeSmoothedUnion(
@@ -44,9 +48,9 @@ std::vector<StructureShare> structureShares(const Case& value)
       }
   }
   for (const MeshPart& mesh : value.meshes)
-    if (const auto solid = mesh.touch.resident())
-      shares.push_back(
-          {mesh.name, solid->geometry(), solid->geometry(), [solid] { return solid; }});
+    if (const auto solid = mesh.touch.resident(); solid && placementOf(value, mesh).missing.empty())
+      shares.push_back({mesh.name, mesh.drawnOn, solid->geometry(), solid->geometry(),
+                        [solid] { return solid; }});
   return shares;
 }
 

@@ -17,9 +17,14 @@ struct PartSource
 {
   std::string name;
   std::filesystem::path path;
+  /// Structures: the MR in whose patient space they lie, "ct" for the CT's; empty: not said.
+  std::string drawnOn = {};
 
   /// "NAME=FILE" or "FILE". What names a file that is there is a FILE, whatever it contains.
   static PartSource parse(const std::string& text);
+
+  /// The same, and "@MR" may follow.
+  static PartSource parseDrawn(const std::string& text);
 };
 
 struct PartSources
@@ -38,7 +43,9 @@ struct CaseSources
 };
 
 /// A case put together in memory, not saved. What was accepted or assumed on the way is in the
-/// parts' notes. Throws the imaging module's errors, InvalidParameter, CancelledError.
+/// parts' notes. Labels of which nobody says on what they were drawn, and that have the grid of one
+/// MR and not the CT's, were drawn on that MR. Throws the imaging module's errors, InvalidParameter
+/// (also where several MR images have that grid), CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress);
 

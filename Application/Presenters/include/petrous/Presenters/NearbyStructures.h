@@ -31,8 +31,8 @@ struct NearbyStructure
   double injured = 0.0; ///< mm^3 taken of it by the strokes that are done
 };
 
-/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration unknown" where the
-/// number leaves something out.
+/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration's error unknown" where
+/// the number leaves something out.
 std::string inWords(const NearbyStructure& structure);
 
 /// What the strokes that are done have taken of each structure, mm^3.

@@ -21,6 +21,8 @@ public:
   /// Loads the CT, and label maps, meshes and an MR only where something of them is shown. The mask
   /// is shared with the case's dissection where that is loaded and something was cut.
   ///
+  /// What has no place on the CT (scene::Placement) is left out.
+  ///
   /// Material 0 is bone, the others are the shown structures as scene::labelSources orders them. Of
   /// the MR that looks ask for, the first that is registered is drawn; looks that ask for another
   /// are drawn in one colour. Throws InvalidParameter where more than 255 structures are shown,

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "petrous/Scene/Case.h"
+#include "petrous/Scene/StructureShares.h"
 
 namespace petrous::presenters
 {
@@ -13,10 +13,12 @@ namespace petrous::presenters
 struct SurfaceUncertainty
 {
   Eigen::Vector3d voxel{0.0, 0.0, 0.0}; ///< mm, of the grid that it was drawn on
-  std::string drawnOn;                  ///< the MR on whose grid it lies; empty: the CT or another
-  bool registered = true;               ///< that MR; the CT always is
-  /// mm; the 95th percentile of the registration's error. Nothing where none was estimated.
+  std::string drawnOn;                  ///< the MR that it was drawn on; empty: the CT or another
+  /// mm; the 95th percentile of the error with which that MR lies on the CT, at `place`. Nothing
+  /// where none was estimated.
   std::optional<double> registration;
+  std::string place; ///< where that error was estimated, in words
+  double away = 0.0; ///< mm from there to the structure's centre
 
   double sliceSpacing() const { return voxel.maxCoeff(); } ///< mm
 
@@ -24,17 +26,15 @@ struct SurfaceUncertainty
   /// is one, as the root of the sum of their squares.
   double millimetres() const;
 
-  /// Whether something is missing in `millimetres`, since the MR was not registered or its error
-  /// not estimated.
+  /// Whether something is missing in `millimetres`, since the registration's error was not
+  /// estimated.
   bool incomplete() const { return !drawnOn.empty() && !registration; }
 };
 
-/// Of a structure drawn on `grid`: one that has the grid of an MR, and not the CT's, was drawn on
-/// that.
-SurfaceUncertainty uncertaintyOf(const scene::Case& value, const core::GridGeometry& grid);
+SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureShare& structure);
 
 /// "voxels 0.20 x 0.20 x 0.60 mm, slices 0.60 mm apart", and where it was drawn on an MR: "; drawn
-/// on the MR 'T2', registration unknown".
+/// on the MR 'T2', registered to 0.24 mm (p95) at the incus, 14 mm from here".
 std::string inWords(const SurfaceUncertainty& uncertainty);
 
 } // namespace petrous::presenters

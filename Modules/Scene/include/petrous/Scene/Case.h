@@ -13,6 +13,7 @@
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
 #include "petrous/Scene/MeshTouch.h"
+#include "petrous/Scene/MovedPart.h"
 #include "petrous/Scene/Registration.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/IntensityVolume.h"
@@ -55,8 +56,12 @@ struct StructurePart
 struct LabelPart
 {
   std::string object;
-  core::Lazy<volume::LabelMap> labels;
+  core::Lazy<volume::LabelMap> labels; ///< as they were drawn; on the CT: labelsOnCt (Placement.h)
   std::vector<StructurePart> structures;
+  /// The MR in whose patient space they lie; empty: the CT's. Nothing where an older case does not
+  /// say it (placementOf).
+  std::optional<std::string> drawnOn;
+  MovedPart<volume::LabelMap> moved;
 };
 
 struct MeshPart
@@ -64,9 +69,11 @@ struct MeshPart
   std::string name;
   std::string object;
   std::size_t triangles = 0;
-  std::vector<std::string> notes; ///< what was assumed when the file was read, in words
-  core::Lazy<core::TriangleMesh> mesh;
+  std::vector<std::string> notes;      ///< what was assumed when the file was read, in words
+  core::Lazy<core::TriangleMesh> mesh; ///< as it was drawn; on the CT: meshOnCt (Placement.h)
   appearance::StructureLook look;
+  std::string drawnOn; ///< the MR in whose patient space it lies; empty: the CT's
+  MovedPart<core::TriangleMesh> moved;
   MeshTouch touch; ///< its voxels for hand and drill: see CaseField.h
 };
 
@@ -135,7 +142,8 @@ bool meansBone(const Case& value, const std::string& name);
 std::vector<std::string> partNames(const Case& value);
 
 /// Removes an MR, a structure or a mesh; looks that read a removed MR read the CT again. Throws
-/// InvalidParameter naming the parts there are.
+/// InvalidParameter naming the parts there are, Error (Refused) for an MR on which structures were
+/// drawn that are still there.
 void removePart(Case& value, const std::string& name);
 
 /// Throws InvalidParameter unless the name fits a file on every system: 1 to 100 bytes of UTF-8, no

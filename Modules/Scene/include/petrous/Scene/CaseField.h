@@ -25,7 +25,8 @@ struct LabelSources
   std::vector<const StructurePart*> structures; ///< material i is structures[i - 1]
 };
 
-/// The structures whose looks are wanted, in the order in which they take a voxel that several
+/// The structures whose looks are wanted and that have a place on the CT (Placement.h; of all that
+/// follows here too), in the order in which they take a voxel that several
 /// claim: solids before lumens, then by the priority of the look, then the smaller first.
 /// Priorities come from the presets (Resources/structures.json): nerve, artery, vein, ossicle,
 /// inner ear, tumour, cholesteatoma, dura, others, muscle, bone; of lumens, the ear canal before

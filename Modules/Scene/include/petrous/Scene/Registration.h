@@ -41,14 +41,13 @@ struct Registration
   };
   enum class Verdict
   {
-    NotJudged,
     Good,
-    Doubtful
+    Doubtful ///< also where nothing is known of the error
   };
 
   Method method = Method::MutualInformation;
   bool refined = false; ///< by mutual information, from where the method put it
-  Verdict verdict = Verdict::NotJudged;
+  Verdict verdict = Verdict::Doubtful;
   std::string text;             ///< the verdict's reason, in words
   std::optional<double> metric; ///< mutual information, nats
   std::optional<RegistrationError> error;
@@ -57,7 +56,7 @@ struct Registration
 };
 
 const char* nameOf(Registration::Method method) noexcept;   ///< as in manifest and JSON
-const char* nameOf(Registration::Verdict verdict) noexcept; ///< "good", "doubtful", "not judged"
+const char* nameOf(Registration::Verdict verdict) noexcept; ///< "good", "doubtful"
 
 /// Throw InvalidParameter for a name that is none of these.
 Registration::Method methodFromName(const std::string& name);

@@ -14,13 +14,15 @@ namespace petrous::scene
 struct StructureShare
 {
   std::string name;
-  core::GridGeometry drawnOn; ///< the grid that it was drawn on; of a mesh, that of its voxels
-  core::GridGeometry around;  ///< part of that grid: nothing of the structure is outside its hull
+  std::string mr;            ///< the MR that it was drawn on; empty: the CT, or another grid
+  core::GridGeometry grid;   ///< that it was drawn on, as it lies on the CT; of a mesh its voxels'
+  core::GridGeometry around; ///< part of that grid: nothing of the structure is outside its hull
   /// Makes the share: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
   std::function<std::shared_ptr<const volume::Volume<float>>()> make;
 };
 
-/// The structures of all label maps, and those meshes that have voxels for touch already. Loads the
+/// The structures of all label maps, and those meshes that have voxels for touch already, as far as
+/// they have a place on the CT. Loads the
 /// labels and looks at their voxels once; makes no share yet.
 std::vector<StructureShare> structureShares(const Case& value);
 

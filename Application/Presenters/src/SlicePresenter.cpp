@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "OverlayPainter.h"
 #include "petrous/Scene/Placement.h"
-#include "petrous/Volume/Sampling.h"
 
 namespace petrous::presenters
 {
@@ -34,19 +34,11 @@ void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, co
     for (int column = 0; column < slice.width(); ++column, ++pixel)
       body(pixel, Eigen::Vector3d(origin + column * across + row * down));
 }
-
-void blend(std::uint8_t* pixel, const std::array<float, 3>& color, float share)
-{
-  for (std::size_t c = 0; c < 3; ++c)
-  {
-    const float mixed = static_cast<float>(pixel[c]) * (1.0F - share) + color[c] * share;
-    pixel[c] = static_cast<std::uint8_t>(std::lround(std::clamp(mixed, 0.0F, 255.0F)));
-  }
-}
 } // namespace
 
 SlicePresenter::SlicePresenter(const scene::Case& value)
   : m_ct(value.ct.volume.get())
+  , m_edges(edgeLevels(value.intensityScale()))
 {
   if (value.dissection)
     m_mask = {value.dissection, &std::as_const(*value.dissection).mask()};
@@ -72,7 +64,8 @@ SlicePresenter::SlicePresenter(const scene::Case& value)
   }
 }
 
-SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& window) const
+SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& window,
+                                 const SliceOverlay* overlay) const
 {
   SlicePixels pixels;
   pixels.width = slice.width();
@@ -84,33 +77,20 @@ SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& w
     pixels.rgb[n] = kOutside[n % 3];
   if (!m_ct)
     return pixels;
-  m_ct->visit([&](const auto& ct) { drawGrey(ct, slice, window, pixels); });
+  const PlaneSamples ct = samplePlane(*m_ct, slice);
+  const GreyWindow grey{std::max(window.width, 1.0), window.level};
+  for (std::size_t n = 0; n < count; ++n)
+    if (!std::isnan(ct.values[n]))
+      std::fill_n(&pixels.rgb[3 * n], 3, greyOf(ct.values[n], grey));
+  if (overlay && overlay->mr)
+    paintOverlay(*overlay, slice, pixels);
   for (const Layer& layer : m_layers)
     drawLayer(layer, slice, pixels);
   if (m_mask && !m_mask->untouched())
     drawCut(slice, pixels);
+  if (overlay && overlay->mr && overlay->mode == OverlayMode::Edges)
+    paintEdges(ct, m_edges, slice.mmPerPixel(), pixels);
   return pixels;
-}
-
-template <class T>
-void SlicePresenter::drawGrey(const volume::Volume<T>& ct, const SliceGeometry& slice,
-                              const GreyWindow& window, SlicePixels& pixels) const
-{
-  const core::GridGeometry& grid = ct.geometry();
-  const double width = std::max(window.width, 1.0);
-  const double scale = 255.0 / width;
-  const double black = window.level - 0.5 * width;
-  forEachPixel(slice, grid,
-               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
-               {
-                 if (!grid.hullContains(voxel))
-                   return;
-                 const double grey = (volume::sampleTrilinear(ct, voxel) - black) * scale;
-                 // NaN, as a float image may hold, is black.
-                 const auto value =
-                     static_cast<std::uint8_t>(grey > 0.0 ? std::min(grey, 255.0) + 0.5 : 0.0);
-                 std::fill_n(&pixels.rgb[3 * pixel], 3, value);
-               });
 }
 
 void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,

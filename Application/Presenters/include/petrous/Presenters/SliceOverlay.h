@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "petrous/Core/RigidTransform.h"
+#include "petrous/Presenters/SliceGeometry.h"
+#include "petrous/Scene/Case.h"
+#include "petrous/Volume/IntensityHistogram.h"
+
+namespace petrous::presenters
+{
+
+/// Grey from intensity: black at level - width/2, white at level + width/2, HU.
+struct GreyWindow
+{
+  double width = 4000.0; ///< the bone window
+  double level = 700.0;
+};
+
+/// An RGB picture, 8 bits a channel, rows from the top.
+struct SlicePixels
+{
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  std::array<std::uint8_t, 3> at(int column, int row) const
+  {
+    const std::size_t first = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                   static_cast<std::size_t>(column));
+    return {rgb[first], rgb[first + 1], rgb[first + 2]};
+  }
+};
+
+/// How an MR is seen together with the CT.
+enum class OverlayMode
+{
+  Blend,  ///< mixed; the MR in a warm tint while both are seen
+  Edges,  ///< the MR alone, with the CT's contours of bone and skin
+  Checker ///< CT and MR on the squares of a board that lies still in the patient
+};
+const char* nameOf(OverlayMode mode); ///< "blend", ...
+
+/// An MR laid over a CT's slices, as a value. It shares the voxels.
+struct SliceOverlay
+{
+  std::shared_ptr<const volume::IntensityVolume> mr;
+  core::RigidTransform mrFromCt; ///< patient points, LPS mm
+  bool registered = false;       ///< else a viewer says so beside the picture
+  GreyWindow window;             ///< of the MR's own values
+  OverlayMode mode = OverlayMode::Blend;
+  double opacity = 0.5; ///< of the MR in Blend, 0 to 1
+};
+
+/// Loads the MR's voxels, and reads them all once for the grey window.
+SliceOverlay overlayOf(const scene::ImagePart& mr);
+
+/// From the second to the 99.5th percentile of what is not background: an MR has no units.
+GreyWindow suggestMrWindow(const volume::IntensityHistogram& histogram);
+
+/// Values of a CT at which its contours run over an MR.
+struct EdgeLevels
+{
+  float bone;  ///< HU, the case's threshold
+  float skin;  ///< between air and soft tissue
+  float slope; ///< per mm: where the CT changes by less a contour would follow noise
+};
+EdgeLevels edgeLevels(const volume::IntensityScale& scale);
+
+/// Side of the board's squares, mm: a round number, about 40 pixels.
+double checkerSide(double mmPerPixel);
+
+constexpr std::array<std::uint8_t, 3> kBoneEdge{255, 208, 64};
+constexpr std::array<std::uint8_t, 3> kSkinEdge{86, 214, 255};
+
+} // namespace petrous::presenters

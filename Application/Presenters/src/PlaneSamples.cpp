@@ -1,0 +1,192 @@
+#include "petrous/Presenters/PlaneSamples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+#include "petrous/Volume/Sampling.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+// Positions are computed from one corner of the picture; a pixel on the hull's border stays in it.
+constexpr double kRounding = 1e-9; // voxels
+
+// Voxel positions along a picture's columns and rows.
+struct VoxelPlane
+{
+  Eigen::Vector3d origin, across, down;
+  Eigen::Vector3d lower, upper; // of the image's domain
+
+  VoxelPlane(const core::GridGeometry& grid, const SliceGeometry& slice,
+             const core::RigidTransform& imageFromSlice)
+  {
+    const auto voxelAt = [&](double column, double row)
+    { return grid.voxelFromPatient(imageFromSlice * slice.patientFromPixel(column, row)); };
+    origin = voxelAt(0.0, 0.0);
+    across = voxelAt(1.0, 0.0) - origin;
+    down = voxelAt(0.0, 1.0) - origin;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const int count = grid.dims()[static_cast<std::size_t>(axis)];
+      const double beyond = count == 1 ? 0.5 : kRounding;
+      lower[axis] = -beyond;
+      upper[axis] = count - 1.0 + beyond;
+    }
+  }
+};
+
+template <class T>
+void sampleRow(const volume::Volume<T>& image, const VoxelPlane& plane, int row, int width,
+               float* out)
+{
+  const Eigen::Vector3d start = plane.origin + row * plane.down;
+  for (int column = 0; column < width; ++column)
+  {
+    const Eigen::Vector3d voxel = start + column * plane.across;
+    if (!((voxel.array() >= plane.lower.array()).all() &&
+          (voxel.array() <= plane.upper.array()).all()))
+      continue;
+    const auto value = static_cast<float>(volume::sampleTrilinear(image, voxel));
+    out[column] = std::isnan(value) ? -std::numeric_limits<float>::infinity() : value;
+  }
+}
+
+// One cell of four pixels: corners in turn, and the crossings on its sides.
+class Cell
+{
+public:
+  Cell(const PlaneSamples& samples, int column, int row)
+    : m_column(static_cast<float>(column))
+    , m_row(static_cast<float>(row))
+    , m_values{samples.at(column, row), samples.at(column + 1, row),
+               samples.at(column + 1, row + 1), samples.at(column, row + 1)}
+  {
+  }
+
+  bool crosses(float level) const
+  {
+    const auto [low, high] = std::minmax_element(std::begin(m_values), std::end(m_values));
+    return *low < level && *high >= level; // false with a NaN at the ends, see finite()
+  }
+  bool finite() const
+  {
+    return std::all_of(std::begin(m_values), std::end(m_values),
+                       [](float value) { return std::isfinite(value); });
+  }
+  float slope() const // of the bilinear surface in the cell's middle, a pixel
+  {
+    const float across = 0.5F * (m_values[1] + m_values[2] - m_values[0] - m_values[3]);
+    const float down = 0.5F * (m_values[2] + m_values[3] - m_values[0] - m_values[1]);
+    return std::hypot(across, down);
+  }
+  void march(float level, std::vector<ContourSegment>& out) const
+  {
+    Eigen::Vector2f crossings[4];
+    int count = 0;
+    for (int side = 0; side < 4; ++side)
+      if ((m_values[side] < level) != (m_values[(side + 1) % 4] < level))
+        crossings[count++] = crossing(side, level);
+    if (count == 2)
+      out.push_back({crossings[0], crossings[1]});
+    if (count != 4)
+      return;
+    // A saddle: the middle belongs to one pair of opposite corners, which it joins.
+    const float middle = 0.25F * (m_values[0] + m_values[1] + m_values[2] + m_values[3]);
+    const int first = (middle < level) == (m_values[0] < level) ? 0 : 3;
+    out.push_back({crossings[first], crossings[(first + 1) % 4]});
+    out.push_back({crossings[(first + 2) % 4], crossings[(first + 3) % 4]});
+  }
+
+private:
+  Eigen::Vector2f corner(int n) const
+  {
+    return {m_column + (n == 1 || n == 2 ? 1.0F : 0.0F), m_row + (n >= 2 ? 1.0F : 0.0F)};
+  }
+  Eigen::Vector2f crossing(int side, float level) const
+  {
+    const int next = (side + 1) % 4;
+    const float share = (level - m_values[side]) / (m_values[next] - m_values[side]);
+    return corner(side) + share * (corner(next) - corner(side));
+  }
+
+  float m_column, m_row;
+  float m_values[4];
+};
+
+float distance(const Eigen::Vector2f& point, const ContourSegment& segment)
+{
+  const Eigen::Vector2f along = segment.b - segment.a;
+  const float length = along.squaredNorm();
+  const float share =
+      length > 0.0F ? std::clamp((point - segment.a).dot(along) / length, 0.0F, 1.0F) : 0.0F;
+  return (point - segment.a - share * along).norm();
+}
+} // namespace
+
+PlaneSamples samplePlane(const volume::IntensityVolume& image, const SliceGeometry& slice,
+                         const core::RigidTransform& imageFromSlice)
+{
+  const auto width = static_cast<std::size_t>(slice.width());
+  PlaneSamples samples{slice.width(), slice.height(),
+                       std::vector<float>(width * static_cast<std::size_t>(slice.height()),
+                                          std::numeric_limits<float>::quiet_NaN())};
+  const VoxelPlane plane(image.geometry(), slice, imageFromSlice);
+  image.visit(
+      [&](const auto& voxels)
+      {
+        tbb::parallel_for(0, slice.height(),
+                          [&](int row)
+                          {
+                            sampleRow(voxels, plane, row, slice.width(),
+                                      &samples.values[static_cast<std::size_t>(row) * width]);
+                          });
+      });
+  return samples;
+}
+
+std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float leastSlope)
+{
+  std::vector<ContourSegment> segments;
+  for (int row = 0; row + 1 < samples.height; ++row)
+    for (int column = 0; column + 1 < samples.width; ++column)
+    {
+      const Cell cell(samples, column, row);
+      if (cell.crosses(level) && cell.finite() && cell.slope() >= leastSlope)
+        cell.march(level, segments);
+    }
+  return segments;
+}
+
+std::vector<float> coverage(const std::vector<ContourSegment>& segments, int columns, int rows,
+                            float width)
+{
+  std::vector<float> covered(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  const float reach = 0.5F * width + 0.5F;
+  for (const ContourSegment& segment : segments)
+  {
+    const Eigen::Vector2f low = segment.a.cwiseMin(segment.b).array() - reach;
+    const Eigen::Vector2f high = segment.a.cwiseMax(segment.b).array() + reach;
+    const int firstRow = std::max(static_cast<int>(std::ceil(low[1])), 0);
+    const int lastRow = std::min(static_cast<int>(std::floor(high[1])), rows - 1);
+    const int firstColumn = std::max(static_cast<int>(std::ceil(low[0])), 0);
+    const int lastColumn = std::min(static_cast<int>(std::floor(high[0])), columns - 1);
+    for (int row = firstRow; row <= lastRow; ++row)
+      for (int column = firstColumn; column <= lastColumn; ++column)
+      {
+        const float share = std::clamp(
+            reach - distance({static_cast<float>(column), static_cast<float>(row)}, segment), 0.0F,
+            1.0F);
+        float& pixel = covered[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                               static_cast<std::size_t>(column)];
+        pixel = std::max(pixel, share);
+      }
+  }
+  return covered;
+}
+
+} // namespace petrous::presenters

@@ -11,6 +11,7 @@ void addScanCommand(CLI::App& app, Context& context);
 void addCaseCommands(CLI::App& app, Context& context); ///< new, add, remove, info, library
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
+void addSliceCommand(CLI::App& app, Context& context);
 void addProbeCommand(CLI::App& app, Context& context);
 void addDrillCommand(CLI::App& app, Context& context);
 void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history

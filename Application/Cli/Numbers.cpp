@@ -38,6 +38,17 @@ int toInt(double value, const std::string& option)
   return static_cast<int>(value);
 }
 
+std::pair<int, int> parseSize(const std::string& text)
+{
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
+      height < 8 || width > 8192 || height > 8192)
+    throw UsageError("--size: WIDTHxHEIGHT with 8 to 8192 pixels each, not '" + text + "'");
+  return {width, height};
+}
+
 std::string fixed(double value, int digits)
 {
   char text[64];

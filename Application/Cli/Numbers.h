@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace petrous::cli
@@ -12,6 +13,9 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
 
 /// A whole number that fits an int; UsageError naming `option` otherwise.
 int toInt(double value, const std::string& option);
+
+/// "800x600": 8 to 8192 pixels each; UsageError otherwise.
+std::pair<int, int> parseSize(const std::string& text);
 
 /// A number for people: `digits` after the point.
 std::string fixed(double value, int digits);

@@ -14,17 +14,6 @@ namespace
 
 constexpr double kFarthestFalloff = 10000.0; // mm
 
-std::pair<int, int> parseSize(const std::string& text)
-{
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
-      height < 8 || width > 8192 || height > 8192)
-    throw UsageError("--size: WIDTHxHEIGHT with 8 to 8192 pixels each, not '" + text + "'");
-  return {width, height};
-}
-
 rendering::ClippingPlane parsePlane(const std::string& text)
 {
   const auto n = parseNumbers(text, 6, "--clip x,y,z,nx,ny,nz");

@@ -78,6 +78,7 @@ int runCommand(int argc, char** argv)
   cli::addCaseCommands(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);
+  cli::addSliceCommand(app, context);
   cli::addProbeCommand(app, context);
   cli::addDrillCommand(app, context);
   cli::addHistoryCommands(app, context);

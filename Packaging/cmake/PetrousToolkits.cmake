@@ -31,7 +31,7 @@ add_library(Petrous::gdcm ALIAS petrous_gdcm)
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonColor CommonTransforms FiltersCore FiltersGeneral FiltersGeometry
   FiltersSources ImagingCore ImagingHybrid InteractionStyle IOImage IOGeometry IOPLY RenderingCore
-  RenderingOpenGL2 RenderingVolume RenderingVolumeOpenGL2 glew)
+  RenderingFreeType RenderingOpenGL2 RenderingVolume RenderingVolumeOpenGL2 glew)
 find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
 if(PETROUS_WORKSTATION)
   find_package(Qt5 5.15 REQUIRED COMPONENTS Core Gui Widgets Test)

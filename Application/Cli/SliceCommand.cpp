@@ -1,0 +1,196 @@
+#include <chrono>
+#include <tuple>
+
+#include "CaseJson.h"
+#include "Commands.h"
+#include "Numbers.h"
+#include "Place.h"
+#include "SlicePicture.h"
+#include "petrous/Scene/LayMr.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+using presenters::OverlayMode;
+using presenters::SliceGeometry;
+using presenters::SliceOrientation;
+
+struct SliceOptions
+{
+  std::string caseName, out, plane, at, size = "800x800", overlay, mode = "blend", window;
+  std::optional<double> fieldOfView;
+  double opacity = 0.5;
+  bool noStructures = false;
+};
+
+template <class Value>
+Value choose(const std::string& option, const std::string& word,
+             std::initializer_list<Value> values, const std::function<std::string(Value)>& nameOf)
+{
+  std::string names;
+  for (const Value value : values)
+  {
+    if (nameOf(value) == word)
+      return value;
+    names += (names.empty() ? "" : ", ") + nameOf(value);
+  }
+  throw UsageError(option + ": one of " + names + ", not '" + word + "'");
+}
+
+SliceOrientation parsePlane(const std::string& word)
+{
+  return choose<SliceOrientation>(
+      "--plane", word,
+      {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal},
+      [](SliceOrientation plane)
+      {
+        std::string name = presenters::nameOf(plane);
+        name[0] = static_cast<char>(std::tolower(name[0]));
+        return name;
+      });
+}
+
+OverlayMode parseMode(const std::string& word)
+{
+  return choose<OverlayMode>("--mode", word,
+                             {OverlayMode::Blend, OverlayMode::Edges, OverlayMode::Checker},
+                             [](OverlayMode mode) { return std::string(nameOf(mode)); });
+}
+
+presenters::GreyWindow parseWindow(const std::string& text)
+{
+  if (text.empty())
+    return {};
+  const auto n = parseNumbers(text, 2, "--window WIDTH,LEVEL");
+  if (!(n[0] > 0.0))
+    throw UsageError("--window WIDTH,LEVEL: the width must be above 0 HU");
+  return {n[0], n[1]};
+}
+
+SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
+{
+  const SliceOrientation plane = parsePlane(options.plane);
+  const core::GridGeometry& grid = value.ct.geometry;
+  const Eigen::Vector3d at =
+      options.at.empty() ? grid.center() : parsePlace(options.at, value, "--at").point;
+  if (!options.fieldOfView)
+    return SliceGeometry::fitting(plane, grid, at, width, height);
+  if (!(*options.fieldOfView > 0.0 && *options.fieldOfView <= 10000.0))
+    throw UsageError("--field-of-view: above 0, at most 10000 mm across the picture");
+  return {plane, at, *options.fieldOfView / width, width, height};
+}
+
+std::optional<presenters::SliceOverlay> overlayOf(const SliceOptions& options,
+                                                  const scene::ImagePart* mr)
+{
+  if (!mr)
+    return std::nullopt;
+  presenters::SliceOverlay overlay = presenters::overlayOf(*mr);
+  overlay.mode = parseMode(options.mode);
+  overlay.opacity = options.opacity;
+  return overlay;
+}
+
+const scene::ImagePart* findOverlay(const SliceOptions& options, const scene::Case& value)
+{
+  if (options.overlay.empty())
+    return nullptr;
+  const scene::ImagePart* mr = scene::findMr(value, options.overlay);
+  if (mr)
+    return mr;
+  std::string names;
+  for (const auto& image : value.mr)
+    names += " '" + image.name + "'";
+  throw UsageError("--overlay: no MR '" + options.overlay + "' in the case" +
+                   (names.empty() ? "; it has none" : "; it has" + names));
+}
+
+nlohmann::json overlayJson(const scene::ImagePart& mr, const presenters::SliceOverlay& overlay)
+{
+  return {{"mr", mr.name},
+          {"registered", mr.registered},
+          {"mode", nameOf(overlay.mode)},
+          {"opacity", overlay.mode == OverlayMode::Blend ? nlohmann::json(overlay.opacity)
+                                                         : nlohmann::json(nullptr)},
+          {"window", {{"width", overlay.window.width}, {"level", overlay.window.level}}},
+          {"text", scene::registrationInWords(mr)}};
+}
+
+void slice(const Context& context, const SliceOptions& options)
+{
+  const auto [width, height] = parseSize(options.size);
+  const presenters::GreyWindow window = parseWindow(options.window);
+  parsePlane(options.plane);
+  parseMode(options.mode);
+  if (!(options.opacity >= 0.0 && options.opacity <= 1.0))
+    throw UsageError("--opacity: 0 (CT alone) to 1 (MR alone)");
+  const library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  const scene::ImagePart* mr = findOverlay(options, value);
+  const SliceGeometry geometry = sliceOf(options, value, width, height);
+  if (value.applied() > 0)
+    library.loadDissection(value);
+  if (options.noStructures)
+    value.labels.clear();
+  const auto overlay = overlayOf(options, mr);
+  const presenters::SlicePresenter presenter(value);
+
+  const auto start = std::chrono::steady_clock::now();
+  auto pixels = presenter.draw(geometry, window, overlay ? &*overlay : nullptr);
+  const double elapsed =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+  std::vector<std::string> lines{presenters::nameOf(geometry.orientation())};
+  if (mr)
+    lines.push_back("MR " + mr->name + (mr->registered ? "" : ": not registered"));
+  rendering::writePng(options.out, labelled(std::move(pixels), geometry, lines));
+  if (mr && !mr->registered)
+    context.remark("MR '" + mr->name +
+                   "' is not registered with the CT; it is shown where its own file puts it");
+  context.say(options.out + ": " + options.plane + ", " + options.size + ", " +
+              fixed(geometry.mmPerPixel(), 3) + " mm a pixel, " + fixed(elapsed, 1) + " ms");
+  context.give({{"case", value.name},
+                {"out", options.out},
+                {"plane", options.plane},
+                {"size", {width, height}},
+                {"center_mm", vectorJson(geometry.center())},
+                {"mm_per_pixel", geometry.mmPerPixel()},
+                {"milliseconds", elapsed},
+                {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
+                {"resources", residentResources(value)}});
+}
+
+} // namespace
+
+void addSliceCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<SliceOptions>();
+  CLI::App* command =
+      context.addCommand(app, "slice", "Draw a slice of a case into a PNG, an MR over the CT",
+                         [options, &context] { slice(context, *options); });
+  command->add_option("CASE", options->caseName)->required();
+  command->add_option("--out", options->out, "Picture to write")->type_name("F.png")->required();
+  command->add_option("--plane", options->plane, "axial, coronal or sagittal")->required();
+  command
+      ->add_option("--at", options->at,
+                   "Point of the slice, patient LPS mm, or a structure (the CT's middle)")
+      ->type_name("x,y,z|LABEL");
+  command->add_option("--size", options->size, "Pixels (800x800)")->type_name("WxH");
+  command
+      ->add_option("--field-of-view", options->fieldOfView,
+                   "Width of the picture, which then lies about --at (the whole slice)")
+      ->type_name("MM");
+  command->add_option("--window", options->window, "Grey of the CT, HU (4000,700: bone)")
+      ->type_name("WIDTH,LEVEL");
+  command->add_option("--overlay", options->overlay, "An MR of the case to see with the CT")
+      ->type_name("MR");
+  command->add_option("--mode", options->mode,
+                      "blend, edges (the CT's contours over the MR) or checker (blend)");
+  command->add_option("--opacity", options->opacity, "Of the MR in a blend, 0 to 1 (0.5)");
+  command->add_flag("--no-structures", options->noStructures, "CT and MR only");
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,95 @@
+#include <vector>
+
+#include "CommandRunner.h"
+
+using namespace petrous::testing;
+
+namespace
+{
+
+class SliceCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    makePatient();
+    const auto patient = m_folder / "patient";
+    json("new ear --ct " + quoted(patient / "ct") + " --mr T2=" + quoted(patient / "mr") +
+         " --labels " + quoted(patient / "labels.seg.nrrd"));
+  }
+
+  std::string slice(const std::string& options) const
+  {
+    return "slice ear --out " + quoted(m_folder / "slice.png") + " " + options;
+  }
+  std::string picture() const { return textOf(m_folder / "slice.png"); }
+};
+
+int bigEndian(const std::string& bytes, std::size_t at)
+{
+  int value = 0;
+  for (std::size_t n = 0; n < 4; ++n)
+    value = 256 * value + static_cast<unsigned char>(bytes[at + n]);
+  return value;
+}
+
+} // namespace
+
+TEST_F(SliceCommand, DrawsTheSizeAndPlaceThatWereAskedFor)
+{
+  const auto report = json(slice("--plane coronal --at -30,4,2 --size 300x200 --field-of-view 60"));
+  EXPECT_EQ(report["center_mm"], (std::vector<double>{-30.0, 4.0, 2.0}));
+  EXPECT_DOUBLE_EQ(report["mm_per_pixel"].get<double>(), 0.2);
+  EXPECT_TRUE(report["overlay"].is_null());
+  const std::string png = picture();
+  ASSERT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(bigEndian(png, 16), 300); // IHDR
+  EXPECT_EQ(bigEndian(png, 20), 200);
+}
+
+TEST_F(SliceCommand, FindsAStructuresCentre)
+{
+  const auto truth = nlohmann::json::parse(textOf(m_folder / "patient" / "truth.json"));
+  const auto report = json(slice("--plane axial --at sigmoid_sinus --field-of-view 40"));
+  const auto corner = json(slice("--plane axial --at -1000,0,0 --field-of-view 40"));
+  EXPECT_NE(report["center_mm"], corner["center_mm"]);
+  // Within the phantom.
+  for (int a = 0; a < 3; ++a)
+    EXPECT_LT(std::abs(report["center_mm"][a].get<double>() - truth["center_mm"][a].get<double>()),
+              32.0);
+}
+
+TEST_F(SliceCommand, LoadsNoMrUnlessAskedAndSaysThatItIsNotRegistered)
+{
+  const auto alone = json(slice("--plane axial"));
+  EXPECT_FALSE(alone["resources"].contains("mr.T2"));
+  const std::string ct = picture();
+  const auto both = run(slice("--plane axial --overlay T2 --mode blend --json"));
+  EXPECT_EQ(both.code, 0);
+  EXPECT_NE(both.err.find("'T2' is not registered"), std::string::npos) << both.err;
+  const auto report = nlohmann::json::parse(both.out);
+  EXPECT_TRUE(report["resources"].contains("mr.T2"));
+  EXPECT_EQ(report["overlay"]["registered"], false);
+  EXPECT_EQ(report["overlay"]["text"], "not registered");
+  const std::string blend = picture();
+  EXPECT_NE(blend, ct);
+  json(slice("--plane axial --overlay T2 --mode edges"));
+  const std::string edges = picture();
+  json(slice("--plane axial --overlay T2 --mode checker"));
+  EXPECT_NE(edges, blend);
+  EXPECT_NE(edges, picture());
+}
+
+TEST_F(SliceCommand, RefusesWhatCannotBeInOneLine)
+{
+  expectRefused(slice("--plane oblique"), 2, "axial, coronal, sagittal");
+  expectRefused(slice("--plane axial --overlay T7"), 2, "it has 'T2'");
+  expectRefused(slice("--plane axial --at nowhere"), 2, "name of a structure");
+  expectRefused(slice("--plane axial --opacity 1.5"), 2, "--opacity");
+  expectRefused(slice("--plane axial --mode glow"), 2, "blend, edges, checker");
+  expectRefused(slice("--plane axial --field-of-view 0"), 2, "--field-of-view");
+  expectRefused(slice("--plane axial --window 0,40"), 2, "--window");
+  expectRefused(slice("--plane axial --size 3x3"), 2, "--size");
+  expectRefused("slice ear --plane axial --out /nowhere/slice.png", 4, "cannot be written");
+}

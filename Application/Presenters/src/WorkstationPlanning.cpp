@@ -1,7 +1,8 @@
-// What a planner asks of the open case while drilling: how near structures are, how thick bone is.
+// What a planner asks of the open case: how near structures are, how thick bone is, how MRs lie.
 
 #include <utility>
 
+#include "Tell.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::presenters
@@ -34,6 +35,17 @@ void WorkstationModel::showThickness(const std::string& structure)
   m_assembly = std::move(next);
   if (events.appearanceChanged)
     events.appearanceChanged();
+}
+
+void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
+{
+  if (!m_case || drilling())
+    return;
+  forgetTissue();
+  m_nearby.reset();
+  change(*m_case);
+  tell(events.mrMoved);
+  setUnsaved(true);
 }
 
 } // namespace petrous::presenters

@@ -13,6 +13,7 @@
 #include "petrous/Presenters/PlaceReader.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Presenters/TouchSession.h"
+#include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
@@ -22,20 +23,7 @@ namespace petrous::presenters
 class WorkstationModel
 {
 public:
-  /// What the window hears; each may be empty. Called after the change.
-  struct Events
-  {
-    std::function<void()> caseChanged;       ///< another case
-    std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
-    std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
-    std::function<void()> crosshairMoved;
-    /// One stroke back (true) or forth, on request; the case's list is there already.
-    std::function<void(bool back)> stepped;
-    /// What the user should know of what was drilled and is not saved, or came back from a journal
-    /// (Library::onNotice); one sentence.
-    std::function<void(const std::string&)> noticed;
-    std::function<void()> stateChanged; ///< name, saved or not, what can be undone
-  };
+  using Events = WorkstationEvents;
 
   explicit WorkstationModel(library::Library library);
   WorkstationModel(const WorkstationModel&) = delete;
@@ -79,6 +67,10 @@ public:
   void setIso(double hounsfield);
   void setLook(const std::string& structure, const appearance::StructureLook& look);
   void setBoneLook(const appearance::StructureLook& look);
+
+  /// Changes how MRs lie on the CT (Scene/LayMr.h), which may move structures: a tool that is held
+  /// is put away. Nothing happens while it drills; what `change` throws goes on.
+  void changeMr(const std::function<void(scene::Case&)>& change);
 
   /// What a picture of the case shows, only with a case; see SceneAssembly.
   rendering::SceneContents sceneContents() { return m_assembly.contents(*m_case); }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "petrous/Core/GridGeometry.h"
+
+namespace petrous::presenters
+{
+
+/// What the window hears of WorkstationModel; each may be empty. Called after the change.
+struct WorkstationEvents
+{
+  std::function<void()> caseChanged;       ///< another case
+  std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
+  std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
+  std::function<void()> crosshairMoved;
+  std::function<void()> mrMoved; ///< how an MR lies on the CT, or who signed that
+  /// One stroke back (true) or forth, on request; the case's list is there already.
+  std::function<void(bool back)> stepped;
+  /// What the user should know of what was drilled and is not saved, or came back from a journal
+  /// (Library::onNotice); one sentence.
+  std::function<void(const std::string&)> noticed;
+  std::function<void()> stateChanged; ///< name, saved or not, what can be undone
+};
+
+} // namespace petrous::presenters

@@ -1,6 +1,7 @@
 #include "petrous/Simulation/ConstantThrust.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace petrous::simulation
 {
@@ -10,9 +11,15 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Share of what is new in a tick: about 10 ms at 1 kHz. A burr that rolls over an edge should not
-// make the force jump about.
-constexpr double kFollow = 0.1;
+// s in which the force follows what the contacts say. A burr that rolls over an edge should not make
+// it jump about.
+constexpr double kFollowTime = 0.01;
+
+// A place that lies L beyond the tool pulls sideways by k L where the force turns by one, against
+// that turn: followed as fast as anything else, a weak force would swing about from tick to tick.
+constexpr double kMostGain = 0.5;
+
+constexpr double kArrived = 0.001; // mm
 
 // A tool that is held back sideways pulls at most with F, but follows the hand at 0.2 m/s at least.
 constexpr double kLeastSideways = 0.2; // mm a tick
@@ -33,6 +40,10 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
       push += tick.contacts[n].thrust * tick.contacts[n].normal;
   const double length = push.norm();
   const bool contact = length > 0.0;
+  // A tick's work is bounded (ConstrainedProxy): what has given way far has not been fallen through.
+  const bool falling =
+      m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived && !m_falling;
+  const double follow = 1.0 - std::exp(-dt / kFollowTime);
   if (contact && !m_contact)
   {
     m_direction = -push / length;
@@ -40,16 +51,18 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
   }
   else if (contact)
   {
-    const Vector3d turned = m_direction - kFollow * (push / length + m_direction);
+    const double share = std::min(follow, kMostGain * m_turning);
+    const Vector3d turned = m_direction - share * (push / length + m_direction);
     const double norm = turned.norm();
     m_direction = norm > 0.1 ? Vector3d(turned / norm) : Vector3d(-push / length);
     if (m_hasProxy)
     {
       const double way = m_direction.dot(tick.pose.position - m_proxy);
-      m_advance += kFollow * (std::clamp(way, 0.0, speed * dt) - m_advance);
+      m_advance += follow * (std::clamp(way, 0.0, speed * dt) - m_advance);
     }
   }
-  m_contact = contact;
+  m_contact = contact || falling;
+  m_falling = falling;
   m_inside = tick.status == haptics::ProxyStatus::Inside;
   m_proxy = tick.pose.position;
   m_hasProxy = true;
@@ -57,7 +70,7 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
 
 haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Pose& proxy,
                                    const Vector3d& approach, double thrust, double speed,
-                                   double dt) const noexcept
+                                   double dt) noexcept
 {
   Vector3d direction = m_direction;
   if (!m_contact)
@@ -69,6 +82,7 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   const Vector3d offset = place.position - proxy.position;
   Vector3d sideways = offset - direction.dot(offset) * direction;
   const double press = thrust / m_stiffness;
+  m_turning = press / std::max(press + std::abs(direction.dot(offset)), kArrived);
   double along = press + m_advance;
   if (m_inside)
     along = -speed * dt;
@@ -78,7 +92,8 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   const double length = sideways.norm();
   if (m_contact && length > most)
     sideways *= most / length;
-  return {proxy.position + sideways + along * direction, place.rotation};
+  m_goal = proxy.position + sideways + along * direction;
+  return {m_goal, place.rotation};
 }
 
 } // namespace petrous::simulation

@@ -36,7 +36,7 @@ public:
   /// speed     mm/s, dt s
   haptics::Pose goal(const haptics::Pose& place, const haptics::Pose& proxy,
                      const Eigen::Vector3d& approach, double thrust, double speed,
-                     double dt) const noexcept;
+                     double dt) noexcept;
 
 private:
   double m_stiffness;
@@ -44,8 +44,11 @@ private:
   bool m_contact = false;
   bool m_inside = false;
   bool m_hasProxy = false;
+  bool m_falling = false; // for one tick: no contact yet, but the goal is not reached either
   Eigen::Vector3d m_direction{0.0, 0.0, 0.0}; // unit, into the tissue
   Eigen::Vector3d m_proxy{0.0, 0.0, 0.0};
+  Eigen::Vector3d m_goal{0.0, 0.0, 0.0};
+  double m_turning = 1.0; // of the force, by what comes from its pull to the side
   double m_advance = 0.0; // mm a tick, as the surface gives way
 };
 

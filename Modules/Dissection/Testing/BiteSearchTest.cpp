@@ -117,6 +117,36 @@ TEST(BiteSearch, GoesAsDeepAsACapOfTheVolumeIs)
     }
 }
 
+// Of a cap that a ball takes from a half-space: the middle is the surface's normal, the spread the
+// mean of r sin(t) over the cap's volume, between the surface at (r - d)/cos(t) and r.
+TEST(BiteSearch, SaysWhereTheBurrTakesIt)
+{
+  for (const double h : {0.1, 0.15, 0.3, 0.4})
+    for (const double volume : {0.005, 0.05, 0.3})
+    {
+      SCOPED_TRACE(h);
+      SCOPED_TRACE(volume);
+      BoneBelow bone(h);
+      const auto bite = bone.search.find(bone.mask, BoneBelow::down(kRadius, volume));
+      ASSERT_TRUE(bite);
+      ASSERT_GT(bite->volume, 0.0);
+      const double r = kRadius + BiteSearch::kClearance * h;
+      const double depth = bite->depth + BiteSearch::kClearance * h;
+      double all = 0.0, moment = 0.0;
+      const int steps = 2000;
+      const double widest = std::acos(1.0 - depth / r);
+      for (int n = 0; n < steps; ++n)
+      {
+        const double t = widest * (n + 0.5) / steps;
+        const double part = std::sin(t) * (r * r * r - std::pow((r - depth) / std::cos(t), 3));
+        all += part;
+        moment += part * r * std::sin(t);
+      }
+      EXPECT_LT(std::acos(bite->patch.middle.dot(-Vector3d::UnitZ())), 0.02);
+      EXPECT_NEAR(bite->patch.spread, moment / all, 0.05 * moment / all + 0.02 * h);
+    }
+}
+
 TEST(BiteSearch, TakesNothingFromAirNorBeyondItsReach)
 {
   BoneBelow bone(0.3);

@@ -123,7 +123,7 @@ std::optional<Bite> BiteSearch::find(const volume::CutMask& mask, const Wish& wi
   for (double back = kSkin * p.h; !found; back = std::max(4.0 * back, kStep * p.h))
   {
     if (!p.window.gather(mask, {at(bracket.low), at(bracket.high), p.radius}))
-      return Bite{{at(top), at(top), p.radius}, top, 0.0, 0.0, 0.0, true};
+      return Bite{{at(top), at(top), p.radius}, top, 0.0, 0.0, {}, true};
     for (int trial = 0; trial < kMostTrials && !found; ++trial)
     {
       if (bracket.high - bracket.low < kFinest * p.h)
@@ -153,7 +153,7 @@ std::optional<Bite> BiteSearch::find(const volume::CutMask& mask, const Wish& wi
   }
   if (!found)
     depth = bracket.low;
-  const BiteWindow::Taken taken = p.window.taken(at(depth), p.radius, wish.into);
+  const BiteWindow::Taken taken = p.window.taken(at(depth), p.radius);
   const bool capped = depth >= top;
   if (!(taken.volume > 0.0) && !capped)
     return std::nullopt;
@@ -163,7 +163,7 @@ std::optional<Bite> BiteSearch::find(const volume::CutMask& mask, const Wish& wi
     p.yielding = (depth - begin) / taken.work;
   p.known = true;
   p.end = at(depth);
-  return Bite{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.spread, capped};
+  return Bite{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
 }
 
 std::optional<double> BiteSearch::ahead(const volume::CutMask& mask, const Vector3d& place,

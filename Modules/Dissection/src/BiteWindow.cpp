@@ -15,8 +15,9 @@ namespace
 {
 
 constexpr int kGone = 8; // voxels in a row that are gone: worth passing over
+constexpr std::size_t kFewCells = 200;
 
-}
+} // namespace
 
 BiteWindow::BiteWindow(const volume::TissueField& tissue, const TissueResistance& resistance,
                        ProtectedTissue keep)
@@ -217,32 +218,55 @@ double BiteWindow::work(const Eigen::Vector3d& place, double radius)
   return m_work;
 }
 
-BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius,
-                                    const Eigen::Vector3d& axis)
+// Directions of a patch of few cells are those of its points; of many, the cells' middles do.
+void BiteWindow::addToPatch(const Cell& cell, const Eigen::Vector3d& center, bool fine)
+{
+  const auto row = static_cast<std::uint32_t>(m_dims[0]);
+  const std::uint32_t slice = row * static_cast<std::uint32_t>(m_dims[1]);
+  const Eigen::Vector3d& h = m_grid.spacing();
+  const Eigen::Vector3d corner(m_box.lower[0] + cell.corner % row,
+                               m_box.lower[1] + cell.corner / row % m_dims[1],
+                               m_box.lower[2] + cell.corner / slice);
+  const Eigen::Vector3d offset = h.cwiseProduct(corner) - center;
+  if (!fine)
+  {
+    m_patch.add(offset + 0.5 * h, static_cast<double>(cell.before.volume - cell.after.volume));
+    return;
+  }
+  CellValues before, after;
+  m_sums.left(cornersOf(m_now, cell.corner), cell.content->share, before);
+  m_sums.left(cornersOf(m_after, cell.corner), cell.content->share, after);
+  std::size_t point = 0;
+  for (int c = 0; c < kCellPoints; ++c)
+    for (int b = 0; b < kCellPoints; ++b)
+      for (int a = 0; a < kCellPoints; ++a, ++point)
+        if (const float gone = before[point] - after[point]; gone != 0.0F)
+          m_patch.add(offset +
+                          h.cwiseProduct(Eigen::Vector3d(a + 0.5, b + 0.5, c + 0.5)) / kCellPoints,
+                      static_cast<double>(gone));
+}
+
+BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius)
 {
   Taken taken;
   taken.work = work(place, radius);
-  const auto row = static_cast<std::uint32_t>(m_dims[0]);
-  const std::uint32_t slice = row * static_cast<std::uint32_t>(m_dims[1]);
-  double moment = 0.0;
-  for (const Cell& cell : m_cells)
+  m_bitten.clear();
+  for (std::size_t n = 0; n < m_cells.size(); ++n)
   {
+    const Cell& cell = m_cells[n];
     BiteSums::keep(cornersOf(m_after, cell.corner), cell.after, *cell.content);
     const auto volume = static_cast<double>(cell.before.volume - cell.after.volume);
-    if (volume == 0.0)
-      continue;
-    const Eigen::Vector3d middle(m_box.lower[0] + cell.corner % row + 0.5,
-                                 m_box.lower[1] + cell.corner / row % m_dims[1] + 0.5,
-                                 m_box.lower[2] + cell.corner / slice + 0.5);
-    const Eigen::Vector3d offset = m_grid.patientFromVoxel(middle) - place;
-    const double along = offset.dot(axis);
     taken.volume += volume;
-    // Of the place on the burr that takes it.
-    moment +=
-        volume * radius * std::sqrt(std::max(0.0, 1.0 - along * along / offset.squaredNorm()));
+    if (volume != 0.0)
+      m_bitten.push_back(static_cast<std::uint32_t>(n));
   }
-  taken.spread = taken.volume > 0.0 ? moment / taken.volume : 0.0;
   taken.volume *= m_sums.partVolume();
+  m_patch.clear();
+  const Eigen::Vector3d center = m_grid.spacing().cwiseProduct(m_grid.voxelFromPatient(place));
+  for (const std::uint32_t n : m_bitten)
+    addToPatch(m_cells[n], center, m_bitten.size() <= kFewCells);
+  taken.patch = m_patch.patch(radius);
+  taken.patch.middle = m_grid.direction() * taken.patch.middle;
   return taken;
 }
 

@@ -6,6 +6,7 @@
 #include "BiteSums.h"
 #include "BurrCoverage.h"
 #include "CellTissue.h"
+#include "PatchSums.h"
 
 namespace petrous::dissection
 {
@@ -28,12 +29,11 @@ public:
   {
     double work = 0.0;   ///< N mm
     double volume = 0.0; ///< mm^3
-    double spread = 0.0; ///< mm, mean distance of the burr's places that take it from the axis
+    ContactPatch patch;
   };
 
   /// The same and more, of the bite that is made: what was reckoned of it is kept.
-  /// axis: unit, patient axes, through the burr's centre
-  Taken taken(const Eigen::Vector3d& place, double radius, const Eigen::Vector3d& axis);
+  Taken taken(const Eigen::Vector3d& place, double radius);
 
 private:
   struct Cell
@@ -51,6 +51,7 @@ private:
   using Corners = std::array<std::uint16_t, 8>;
   Corners cornersOf(const std::vector<std::uint16_t>& values, std::uint32_t corner) const noexcept;
   void lower(const Eigen::Vector3d& place, double radius);
+  void addToPatch(const Cell& cell, const Eigen::Vector3d& place, bool fine);
 
   const core::GridGeometry m_grid;
   ProtectedTissue m_keep;
@@ -69,6 +70,8 @@ private:
   std::vector<std::uint16_t> m_least;  // that protection leaves; empty without any
   std::vector<std::uint16_t> m_left;
   std::vector<Cell> m_cells;
+  std::vector<std::uint32_t> m_bitten; // cells that the bite made takes from
+  PatchSums m_patch;
 
   // What m_after and the cells' sums are of.
   bool m_reckoned = false;

@@ -77,7 +77,7 @@ class RemovalLaws : public ::testing::TestWithParam<LawCase>
 };
 
 // What is gone, measured from the mask by another quadrature, is Eq. (8) or (9) summed over the
-// ticks: F_t from the record, r at least r_b cos(theta), with the constants of the catalogue.
+// ticks: F_t from the record, r as the feed has it, with the constants of the catalogue.
 TEST_P(RemovalLaws, AreWhatIsRemoved)
 {
   const LawCase& p = GetParam();
@@ -86,17 +86,25 @@ TEST_P(RemovalLaws, AreWhatIsRemoved)
   const double pascal = p.kind == Burr::Kind::Cutting ? 3e9 * (0.5 - slope) / (1.0 + 0.5 * slope)
                                                       : 3.0 * 42.5 * 9.807e6 / 0.1;
   double expected = 0.0; // mm^3
+  double arms = 0.0;     // mm s
   scene.drill(
       p.seconds,
       [&](const TickRecord& record)
       {
         const double force =
             Eigen::Vector3d(record.burrForce[0], record.burrForce[1], record.burrForce[2]).norm();
-        EXPECT_GE(scene.feed.arm(), 2.0 * std::cos(record.elevation) - 1e-9);
         EXPECT_LE(scene.feed.arm(), 2.0);
+        arms += scene.feed.arm() * p.tick;
         const double rate = force * 1e-3 * scene.feed.arm() * 2000.0 * kPi / pascal; // m3/s
         expected += 1e9 * rate * p.tick;
       });
+  // r_b cos(theta) of the flat surface, and more near the pole, where the patch has spread.
+  const double plain = 2.0 * std::cos(p.degrees * kDegree);
+  EXPECT_GT(arms / p.seconds, 0.97 * plain);
+  if (p.degrees < 60.0)
+  {
+    EXPECT_LT(arms / p.seconds, 1.03 * plain);
+  }
   const RemovalBalance balance = scene.feed.balance();
   EXPECT_NEAR(balance.predicted, expected, 0.02 * expected);
   EXPECT_NEAR(total(balance), balance.predicted, 0.02 * balance.predicted);
@@ -119,21 +127,40 @@ INSTANTIATE_TEST_SUITE_P(OverTheirRange, RemovalLaws,
 
 TEST(RemovalFeed, TakesTheSameAtAnyTickAndVoxel)
 {
-  const auto removed = [](double degrees, double voxel, double tick)
+  const auto removed = [](double thrust, double degrees, double voxel, double tick, double seconds)
   {
-    LawScene scene(settingOf(Burr::Kind::Cutting, 1.0, degrees, voxel, tick));
-    scene.drill(0.3);
+    LawScene scene(settingOf(Burr::Kind::Cutting, thrust, degrees, voxel, tick));
+    scene.drill(seconds);
     return total(scene.feed.balance());
   };
-  const double usual = removed(0.0, 0.2, 1e-3);
-  EXPECT_GT(usual, 1.0); // mm^3
-  EXPECT_NEAR(removed(0.0, 0.4, 1e-3), usual, 0.02 * usual);
-  EXPECT_NEAR(removed(0.0, 0.2, 5e-4), usual, 0.02 * usual);
-  EXPECT_NEAR(removed(0.0, 0.3, 2e-3), usual, 0.02 * usual);
-  // Where r follows the contact's place: the thrust goes with the normal, which wanders by a degree
-  // or two in a hollow of coarse voxels.
-  const double tilted = removed(40.0, 0.2, 1e-3);
-  EXPECT_NEAR(removed(40.0, 0.4, 2e-3), tilted, 0.04 * tilted);
+  for (const double degrees : {0.0, 40.0, 80.0})
+  {
+    SCOPED_TRACE(degrees);
+    const double usual = removed(1.0, degrees, 0.2, 1e-3, 0.3);
+    EXPECT_GT(usual, 0.3); // mm^3
+    EXPECT_NEAR(removed(1.0, degrees, 0.2, 5e-4, 0.3), usual, 0.02 * usual);
+    EXPECT_NEAR(removed(1.0, degrees, 0.15, 1e-3, 0.3), usual, 0.02 * usual);
+    EXPECT_NEAR(removed(1.0, degrees, 0.3, 2e-3, 0.3), usual, 0.02 * usual);
+    // A first patch that is less than a voxel wide lets the burr slide.
+    EXPECT_NEAR(removed(1.0, degrees, 0.4, 2e-3, 0.3), usual, 0.04 * usual);
+  }
+  const double weak = removed(0.2, 80.0, 0.2, 1e-3, 1.0);
+  EXPECT_NEAR(removed(0.2, 80.0, 0.3, 2e-3, 1.0), weak, 0.02 * weak);
+}
+
+// Its place lies far beyond the tool, so it pulls sideways by more than the thrust where that turns
+// by a little.
+TEST(RemovalFeed, AWeakThrustDoesNotSwing)
+{
+  LawScene scene(settingOf(Burr::Kind::Cutting, 0.2, 80.0, 0.2, 1e-3));
+  scene.drill(1.0,
+              [](const TickRecord& record)
+              {
+                EXPECT_NEAR(record.elevation, 80.0 * kDegree, 5.0 * kDegree);
+                const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1],
+                                            record.burrForce[2]);
+                EXPECT_NEAR(force.norm(), 0.2, 0.008);
+              });
 }
 
 // 0.05 mm3/s: a seventh of a micrometre a second on the whole hemisphere, less than a step of an

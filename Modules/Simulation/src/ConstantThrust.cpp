@@ -11,9 +11,13 @@ using Eigen::Vector3d;
 namespace
 {
 
-// s in which the force follows what the contacts say. A burr that rolls over an edge should not make
-// it jump about.
-constexpr double kFollowTime = 0.01;
+// s in which the advance follows what the surface gives way.
+constexpr double kAdvanceTime = 0.01;
+
+// mm of way along the surface in which the force follows what the contacts say. Not a time: in a
+// hollow of the burr's own size all directions within its opening are in balance, so that one that
+// follows in time wanders, and with it the law's r, though the burr stays where it is.
+constexpr double kFollowWay = 1.0;
 
 // A place that lies L beyond the tool pulls sideways by k L where the force turns by one, against
 // that turn: followed as fast as anything else, a weak force would swing about from tick to tick.
@@ -40,10 +44,7 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
       push += tick.contacts[n].thrust * tick.contacts[n].normal;
   const double length = push.norm();
   const bool contact = length > 0.0;
-  // A tick's work is bounded (ConstrainedProxy): what has given way far has not been fallen through.
-  const bool falling =
-      m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived && !m_falling;
-  const double follow = 1.0 - std::exp(-dt / kFollowTime);
+  const Vector3d moved = m_hasProxy ? Vector3d(tick.pose.position - m_proxy) : Vector3d::Zero();
   if (contact && !m_contact)
   {
     m_direction = -push / length;
@@ -51,18 +52,19 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
   }
   else if (contact)
   {
-    const double share = std::min(follow, kMostGain * m_turning);
+    const double way = m_direction.dot(moved);
+    const double aside = (moved - way * m_direction).norm();
+    const double share = std::min(1.0 - std::exp(-aside / kFollowWay), kMostGain * m_turning);
     const Vector3d turned = m_direction - share * (push / length + m_direction);
     const double norm = turned.norm();
     m_direction = norm > 0.1 ? Vector3d(turned / norm) : Vector3d(-push / length);
-    if (m_hasProxy)
-    {
-      const double way = m_direction.dot(tick.pose.position - m_proxy);
-      m_advance += follow * (std::clamp(way, 0.0, speed * dt) - m_advance);
-    }
+    m_advance +=
+        (1.0 - std::exp(-dt / kAdvanceTime)) * (std::clamp(way, 0.0, speed * dt) - m_advance);
   }
-  m_contact = contact || falling;
-  m_falling = falling;
+  // A tick's work is bounded (ConstrainedProxy): what gave way far may not have been fallen
+  // through.
+  m_falling = m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived;
+  m_contact = contact || m_falling;
   m_inside = tick.status == haptics::ProxyStatus::Inside;
   m_proxy = tick.pose.position;
   m_hasProxy = true;
@@ -83,7 +85,7 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   Vector3d sideways = offset - direction.dot(offset) * direction;
   const double press = thrust / m_stiffness;
   m_turning = press / std::max(press + std::abs(direction.dot(offset)), kArrived);
-  double along = press + m_advance;
+  double along = m_falling ? direction.dot(m_goal - proxy.position) : press + m_advance;
   if (m_inside)
     along = -speed * dt;
   else if (!m_contact)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "petrous/Core/Error.h"
 
@@ -29,6 +30,12 @@ RemovalFeed::RemovalFeed(dissection::BiteSearch& search, const dissection::Burr&
     throw core::InvalidParameter("drill: the spindle's speed must be at least 0 turns a minute");
 }
 
+double RemovalFeed::armOf(const Eigen::Vector3d& normal, double spread) const noexcept
+{
+  const double sine = std::clamp(normal.dot(m_spindle), -1.0, 1.0);
+  return armOf(m_search.radius(), std::asin(sine), spread);
+}
+
 double RemovalFeed::armOf(double radius, double elevation, double spread) noexcept
 {
   const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kLeastSink);
@@ -46,9 +53,11 @@ void RemovalFeed::press(const TickRecord& record, double seconds)
   if (!(thrust > 0.0) || !std::isfinite(thrust) || !tool.position.allFinite())
     return release();
   m_thrust = thrust;
-  m_arm = armOf(m_search.radius(), record.elevation, m_spread);
   m_wish.place = tool.position;
   m_wish.into = -force / thrust;
+  m_spindle = tool.rotation * Eigen::Vector3d::UnitZ();
+  m_pressedArm = m_patchArm = m_arm =
+      m_bitten ? armOf(m_patch.middle, m_patch.spread) : armOf(m_wish.into, 0.0);
   m_wish.deepest = m_ahead;
   m_rate = thrust * m_arm * m_speed;
   const double work = m_rate * seconds;
@@ -76,7 +85,14 @@ void RemovalFeed::account(const dissection::Bite& bite)
   m_owed -= bite.work;
   m_balance.removed += bite.volume;
   m_resistance = bite.work / bite.volume;
-  m_spread = bite.spread;
+  m_patch = bite.patch;
+  m_bitten = true;
+  // The patch grew with the bite, which was made with the mean of what it was and is.
+  const double arm = armOf(m_patch.middle, m_patch.spread);
+  m_arm = 0.5 * (std::exchange(m_patchArm, arm) + arm);
+  const double more = std::max((m_arm / m_pressedArm - 1.0) * bite.work, -std::max(m_owed, 0.0));
+  m_owed += more;
+  m_balance.predicted += more / m_resistance;
 }
 
 void RemovalFeed::forfeit(double work)
@@ -120,7 +136,8 @@ void RemovalFeed::release()
 {
   forfeit(m_owed);
   m_owed = m_unpriced = 0.0;
-  m_resistance = m_spread = 0.0;
+  m_resistance = 0.0;
+  m_bitten = false;
   m_pressed = false;
   m_search.forget();
 }

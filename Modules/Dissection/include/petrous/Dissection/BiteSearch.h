@@ -10,6 +10,15 @@
 namespace petrous::dissection
 {
 
+/// The part of a burr that takes tissue, in the mean over the volume taken.
+struct ContactPatch
+{
+  Eigen::Vector3d middle{0.0, 0.0, 0.0}; ///< unit, from the burr's centre, patient axes; zero where
+                                         ///< nothing is taken
+  double spread = 0.0; ///< mm, mean distance of the patch from the line through centre and middle:
+                       ///< 2/3 of the radius of a round patch
+};
+
 /// What a burr takes when it is set down a little further in the tissue.
 struct Bite
 {
@@ -17,8 +26,7 @@ struct Bite
   double depth = 0.0;  ///< mm from the place, along the way in; below 0 where it lies before it
   double volume = 0.0; ///< mm^3 lost from {f > 0}
   double work = 0.0;   ///< N mm that they take: sum of resistance times volume over all tissues
-  double spread = 0.0; ///< mm, mean distance of the contact patch from the way in, through the
-                       ///< burr's centre: 2/3 of the radius of a round patch
+  ContactPatch patch;
   bool capped = false; ///< it was not allowed deeper, though there is work left
 };
 

@@ -11,9 +11,10 @@ namespace petrous::simulation
 /// cannot press (mouse, SpaceMouse, a written path).
 ///
 /// In contact the goal lies F/k beyond the tool, against the burr's mean contact normal, so the
-/// coupling's force there is F; across that direction it is the given place. Before contact the
-/// tool comes along the approach at a set speed, at most `kReach` beyond the given place. Where the
-/// tool stands in tissue it backs out the same way.
+/// coupling's force there is F; across that direction it is the given place. The direction follows
+/// the contacts as the tool goes along the surface; a burr that stays in its hollow presses on as
+/// it did. Before contact the tool comes along the approach at a set speed, at most `kReach` beyond
+/// the given place. Where the tool stands in tissue it backs out the same way.
 ///
 /// Nothing here allocates or throws.
 class ConstantThrust
@@ -44,7 +45,7 @@ private:
   bool m_contact = false;
   bool m_inside = false;
   bool m_hasProxy = false;
-  bool m_falling = false; // for one tick: no contact yet, but the goal is not reached either
+  bool m_falling = false; // no contact, but the goal that was pressed to is not reached either
   Eigen::Vector3d m_direction{0.0, 0.0, 0.0}; // unit, into the tissue
   Eigen::Vector3d m_proxy{0.0, 0.0, 0.0};
   Eigen::Vector3d m_goal{0.0, 0.0, 0.0};

@@ -26,8 +26,9 @@ struct RemovalBalance
 ///
 /// F_t  N, what the burr's contacts push back together, so that walls between which the burr is
 ///      wedged do not count twice
-/// r    mm, the distance of that force's line of contact from the spindle's axis, r_b cos(theta);
-///      where the contact lies at the pole, the mean over the patch: `armOf`
+/// r    mm, the distance of the contact from the spindle's axis: r_b cos(theta) at the middle of the
+///      patch where the last bite took what it took; where that lies at the pole, the mean over the
+///      patch: `armOf`. A bite counts with the mean of the patch before and after it.
 class RemovalFeed : public Feed
 {
 public:
@@ -59,11 +60,12 @@ public:
   /// r, mm: (r_c^4 + s^4)^(1/4), at most r_b.
   ///
   /// radius     r_b, mm
-  /// elevation  theta, rad, of the spindle above the surface: r_c = r_b cos(theta)
+  /// elevation  theta, rad, of the spindle above the surface at the contact: r_c = r_b cos(theta)
   /// spread     s, mm, mean distance of the contact patch from its middle: what r is at the pole
   static double armOf(double radius, double elevation, double spread) noexcept;
 
 private:
+  double armOf(const Eigen::Vector3d& normal, double spread) const noexcept;
   double resistance(const volume::CutMask& mask);
   void account(const dissection::Bite& bite);
   void forfeit(double work);
@@ -76,7 +78,11 @@ private:
   bool m_pressed = false; // since the last bite that said there is nothing more
   double m_thrust = 0.0;
   double m_arm = 0.0;
-  double m_spread = 0.0;     // mm, of the last bite
+  bool m_bitten = false;            // in this contact
+  dissection::ContactPatch m_patch; // of the last bite
+  Eigen::Vector3d m_spindle{0.0, 0.0, 1.0};
+  double m_pressedArm = 0.0; // mm, with which the last press was reckoned
+  double m_patchArm = 0.0;   // mm, of the last bite's patch
   double m_rate = 0.0;       // N mm/s
   double m_resistance = 0.0; // N/mm^2, of the last bite; 0: not known in this contact
   double m_unpriced = 0.0;   // N mm done before the resistance was known

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "petrous/Dissection/BiteSearch.h"
+
+namespace petrous::dissection
+{
+
+/// Where a burr takes what it takes: directions from its centre, each with what is taken there.
+class PatchSums
+{
+public:
+  void clear()
+  {
+    m_places.clear();
+    m_sum.setZero();
+    m_all = 0.0;
+  }
+
+  /// offset  from the burr's centre, not zero
+  /// weight  may be below 0 by rounding
+  void add(const Eigen::Vector3d& offset, double weight)
+  {
+    const Eigen::Vector3d direction = offset.normalized();
+    m_places.push_back({direction, weight});
+    m_sum += weight * direction;
+    m_all += weight;
+  }
+
+  /// Axes as those of the offsets. Nothing taken: zero.
+  ContactPatch patch(double radius) const
+  {
+    ContactPatch patch;
+    const double length = m_sum.norm();
+    if (!(m_all > 0.0) || !(length > 0.0))
+      return patch;
+    patch.middle = m_sum / length;
+    double moment = 0.0;
+    for (const Place& place : m_places)
+    {
+      const double along = place.direction.dot(patch.middle);
+      moment += place.weight * std::sqrt(std::max(0.0, 1.0 - along * along));
+    }
+    patch.spread = radius * std::max(0.0, moment / m_all);
+    return patch;
+  }
+
+private:
+  struct Place
+  {
+    Eigen::Vector3d direction;
+    double weight;
+  };
+  std::vector<Place> m_places;
+  Eigen::Vector3d m_sum{0.0, 0.0, 0.0};
+  double m_all = 0.0;
+};
+
+} // namespace petrous::dissection

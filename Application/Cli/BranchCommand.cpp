@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -72,17 +73,27 @@ void sayRow(const Context& context, const std::string& what, const std::string& 
   context.say(row);
 }
 
-// mm^2 of each structure that the branch has laid open, by name.
-std::map<std::string, double> exposedBy(const Context& context, const scene::Case& value,
-                                        const Branch& branch)
+dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
 {
   dissection::History there = value.history;
   there.goTo(branch.name);
   dissection::Dissection work = *value.dissection;
   work.follow(there);
-  std::map<std::string, double> areas;
-  for (const auto& surface : scene::exposedSurfaces(value, work.mask(), context.progress()))
-    areas[surface.name] = surface.area;
+  return work;
+}
+
+// mm^2 of each structure that each branch has laid open, by name.
+std::array<std::map<std::string, double>, 2>
+exposedBy(const Context& context, const scene::Case& value, const Branch& a, const Branch& b)
+{
+  const auto workA = workOf(value, a);
+  const auto workB = workOf(value, b);
+  const auto surfaces =
+      scene::exposedSurfaces(value, {&workA.mask(), &workB.mask()}, context.progress());
+  std::array<std::map<std::string, double>, 2> areas;
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const auto& surface : surfaces[side])
+      areas[side][surface.name] = surface.area;
   return areas;
 }
 
@@ -121,8 +132,7 @@ void compare(const Context& context, const scene::Case& value, const Options& op
          std::to_string(ofB.strokes));
   sayRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
   sayRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
-  const auto openA = exposedBy(context, value, a);
-  const auto openB = exposedBy(context, value, b);
+  const auto [openA, openB] = exposedBy(context, value, a, b);
   sayRows(context, "exposed ", ", mm2", openA, openB, 1);
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   sides[0]["exposed_mm2"] = nlohmann::json(openA);

@@ -24,7 +24,7 @@ const core::GridGeometry kGrid({81, 81, 81}, Vector3d::Constant(kVoxel),
 struct Scene
 {
   template <class IsBone>
-  explicit Scene(const IsBone& isBone)
+  explicit Scene(const IsBone& isBone, std::int16_t elsewhere = -1000)
   {
     auto ct = std::make_shared<volume::Volume<std::int16_t>>(kGrid);
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(kGrid, std::uint16_t{0});
@@ -35,9 +35,7 @@ struct Scene
           const Vector3d p = kGrid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k});
           const bool inside = p.norm() < kBall;
           voxels->at(i, j, k) = inside ? 2 : 0;
-          ct->at(i, j, k) = inside      ? std::int16_t{50}
-                            : isBone(p) ? std::int16_t{1500}
-                                        : std::int16_t{-1000};
+          ct->at(i, j, k) = inside ? std::int16_t{50} : isBone(p) ? std::int16_t{1500} : elsewhere;
         }
     share = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
                                       [](std::uint16_t) { return true; });
@@ -130,4 +128,24 @@ TEST(ExposedArea, LeavesOutWhatLayOpenBefore)
   const double lower = -1.0 / (1.0 + kCover / kBall);
   EXPECT_NEAR(scene.exposed(flatCut(-1.0)) / (capAbove(lower) - capAbove(0.87)), 1.0, 0.03);
   EXPECT_LT(scene.exposed(flatCut(2.0)), 0.5) << "no bone was there";
+}
+
+// 1.2 mm of soft tissue without a label lie on the ball, then bone. A flat cut takes the bone over
+// the directions whose ray meets the bone's surface above it.
+TEST(ExposedArea, SeesThroughAThinLayerOfSoftTissue)
+{
+  constexpr double inner = 5.2; // mm, of the bone's voxels
+  // Between one of 40 HU and one of 1500 HU the CT crosses the threshold a third of a voxel early.
+  constexpr double surface = inner - (0.5 - 260.0 / 1460.0) * kVoxel;
+  const auto bone = [](double from)
+  { return [from](const Vector3d& p) { return p.norm() > from; }; };
+  const Scene scene(bone(inner), 40);
+  for (const double height : {1.3, 2.6, 4.0})
+  {
+    const double cap = 2.0 * kPi * kBall * kBall * (1.0 - height / surface);
+    EXPECT_NEAR(scene.exposed(flatCut(height)) / cap, 1.0, 0.05) << height;
+  }
+  EXPECT_EQ(scene.exposed(flatCut(inner + 0.3)), 0.0) << "bone is left over it";
+  EXPECT_EQ(Scene(bone(kBall + 3.0), 40).exposed(flatCut(1.0)), 0.0) << "not its cover";
+  EXPECT_EQ(Scene(bone(inner), -1000).exposed(flatCut(1.0)), 0.0) << "it lay in an air cell";
 }

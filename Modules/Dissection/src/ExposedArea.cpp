@@ -1,6 +1,6 @@
 #include "petrous/Dissection/ExposedArea.h"
 
-#include <array>
+#include <cmath>
 
 #include "petrous/Volume/SurfaceArea.h"
 
@@ -10,7 +10,8 @@ namespace petrous::dissection
 namespace
 {
 
-constexpr int kPlaces = 5; // before a point of the surface
+constexpr double kStep = 0.1;   // mm, between the places that are looked at
+constexpr double kAir = -300.0; // HU: below it there is no soft tissue
 
 class Cover
 {
@@ -23,34 +24,60 @@ public:
 
   bool laidOpen(const Eigen::Vector3d& point, const Eigen::Vector3d& outward) const
   {
+    const int last = static_cast<int>(std::lround((kLayer + kCover) / kStep));
+    if (!drilledNear(point, point + last * kStep * outward))
+      return false;
     const bool cutItself = isCut(point);
-    std::array<Eigen::Vector3d, kPlaces> places;
-    std::array<bool, kPlaces> cut{};
-    bool any = cutItself;
-    for (std::size_t n = 0; n < kPlaces; ++n)
+    bool air = false;
+    int first = 0; // place at which the cover begins, from 1
+    for (int n = 1; n <= last; ++n)
     {
-      places[n] = point + kCover * static_cast<double>(n + 1) / kPlaces * outward;
-      cut[n] = isCut(places[n]);
-      any = any || cut[n];
-    }
-    if (!any)
-      return false; // nothing was drilled here: no need to look at the tissue
-    bool covered = false;
-    for (std::size_t n = 0; n < kPlaces; ++n)
-      if (m_tissue.uncut(places[n]) > 0.0)
+      const Eigen::Vector3d place = point + n * kStep * outward;
+      if (!(m_tissue.uncut(place) > 0.0))
       {
-        covered = true;
-        if (!cut[n] && !cutItself)
+        air = air || isAir(place);
+        if (first == 0 && n * kStep > kLayer - 0.5 * kStep)
           return false;
+        continue;
       }
-    return covered;
+      if (first == 0)
+        first = n;
+      const double from = n * kStep;
+      if (first == n && air && from > kCover + 0.5 * kStep)
+        return false; // it lay open to an air cell
+      // What is seen from the cavity is free as far as kCover from the structure or its layer.
+      const double begin = first * kStep <= kCover + 0.5 * kStep ? 0.0 : (first - 1) * kStep;
+      if (from - begin > kCover + 0.5 * kStep)
+        break;
+      if (!cutItself && !isCut(place))
+        return false;
+    }
+    return first > 0;
   }
 
 private:
+  bool drilledNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
+  {
+    const core::IndexBox bricks =
+        m_mask.bricksCovering(m_mask.geometry().boxCovering(a.cwiseMin(b), a.cwiseMax(b)));
+    for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
+      for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+        for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+          if (m_mask.brick(m_mask.brickIndex({i, j, k})))
+            return true;
+    return false;
+  }
+
   bool isCut(const Eigen::Vector3d& patient) const
   {
     const Eigen::Vector3d voxel = m_mask.geometry().voxelFromPatient(patient);
     return m_mask.geometry().hullContains(voxel) && m_mask.sample(voxel) <= 0.5;
+  }
+
+  bool isAir(const Eigen::Vector3d& patient) const
+  {
+    const Eigen::Vector3d voxel = m_tissue.geometry().voxelFromPatient(patient);
+    return !m_tissue.geometry().hullContains(voxel) || m_tissue.ct()->sample(voxel) < kAir;
   }
 
   const volume::TissueField& m_tissue;

@@ -68,7 +68,12 @@ TEST(ExposedSurfaces, TellTheStructureThatWasReachedAndItsArea)
   const double height = (d * d + kRadius * kRadius - reach * reach) / (2.0 * d);
   EXPECT_NEAR(exposed[0].area / (2.0 * kPi * kRadius * (kRadius - height)), 1.0, 0.08);
   const volume::CutMask before(value.ct.geometry);
-  EXPECT_TRUE(scene::exposedSurfaces(value, before).empty()) << "another state";
+  const auto both =
+      scene::exposedSurfaces(value, {&before, &std::as_const(*value.dissection).mask()});
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_TRUE(both[0].empty()) << "another state";
+  ASSERT_EQ(both[1].size(), exposed.size());
+  EXPECT_EQ(both[1].front().area, exposed.front().area);
   scene::undo(value, 1);
   EXPECT_TRUE(scene::exposedSurfaces(value).empty());
   value.dissection.reset();

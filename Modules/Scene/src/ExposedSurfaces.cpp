@@ -1,5 +1,6 @@
 #include "petrous/Scene/ExposedSurfaces.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "petrous/Scene/CaseField.h"
@@ -8,22 +9,26 @@
 namespace petrous::scene
 {
 
-std::vector<ExposedSurface> exposedSurfaces(const Case& value, const volume::CutMask& mask,
-                                            const core::Progress& progress)
+std::vector<std::vector<ExposedSurface>>
+exposedSurfaces(const Case& value, const std::vector<const volume::CutMask*>& masks,
+                const core::Progress& progress)
 {
-  if (mask.untouched())
-    return {};
+  std::vector<std::vector<ExposedSurface>> exposed(masks.size());
+  if (std::all_of(masks.begin(), masks.end(),
+                  [](const volume::CutMask* mask) { return mask->untouched(); }))
+    return exposed;
   const volume::TissueField field = tissueField(value, progress.part(0.0, 0.3));
   const auto shares = structureShares(value); // after the field, which makes those of meshes
-  std::vector<ExposedSurface> exposed;
   for (std::size_t n = 0; n < shares.size(); ++n)
   {
     const double done = 0.3 + 0.7 * static_cast<double>(n) / static_cast<double>(shares.size());
     progress.report(done, "measuring what was laid open");
     const auto share = shares[n].make();
-    const double area = dissection::exposedArea(field, mask, *share, progress.part(done, done));
-    if (area > 0.0)
-      exposed.push_back({shares[n].name, area});
+    for (std::size_t m = 0; m < masks.size(); ++m)
+      if (const double area =
+              dissection::exposedArea(field, *masks[m], *share, progress.part(done, done));
+          area > 0.0)
+        exposed[m].push_back({shares[n].name, area});
   }
   return exposed;
 }
@@ -32,7 +37,7 @@ std::vector<ExposedSurface> exposedSurfaces(const Case& value, const core::Progr
 {
   if (!value.dissection)
     throw core::InvalidParameter("what was laid open: the case's dissection is not loaded");
-  return exposedSurfaces(value, std::as_const(*value.dissection).mask(), progress);
+  return exposedSurfaces(value, {&std::as_const(*value.dissection).mask()}, progress).front();
 }
 
 } // namespace petrous::scene

@@ -22,6 +22,8 @@
 #include "ServoBenchmark.h"
 #include "TouchBenchmark.h"
 #include "TouchBenchmarkScenes.h"
+#include "UndoBenchmark.h"
+#include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::cli
 {
@@ -54,7 +56,19 @@ constexpr Benchmark kBenchmarks[] = {
      { return volume::runDistanceBenchmark(options.quick, progress); }},
     {"history",
      [](const auto&, const BenchOptions& options, const core::Progress& progress)
-     { return dissection::runHistoryBenchmark(options.quick, progress); },
+     {
+       auto report = dissection::runHistoryBenchmark(options.quick, progress.part(0.0, 0.5));
+       try
+       {
+         const auto redrawn = undoWithRedraw(options.quick, progress.part(0.5, 1.0));
+         report.points.insert(report.points.end(), redrawn.begin(), redrawn.end());
+       }
+       catch (const rendering::RenderingError& error)
+       {
+         report.machine["redraw"] = error.what();
+       }
+       return report;
+     },
      [](const core::BenchmarkReport& report) {
        return std::map<std::string, std::string>{{"", growthSvg(report, "strokes", "memory_mb")}};
      }},

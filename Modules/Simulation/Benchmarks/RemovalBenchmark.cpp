@@ -31,7 +31,7 @@ struct Scope
   std::vector<double> voxels{0.1, 0.15, 0.2, 0.3, 0.4}; // mm
   std::vector<double> ticks{5e-4, 1e-3, 2e-3};          // s
   std::vector<double> thrusts{0.2, 1.0, 5.0};           // N
-  std::vector<double> degrees{0.0, 40.0, 80.0};
+  std::vector<double> degrees{0.0, 20.0, 40.0, 60.0, 80.0};
   std::vector<double> burrs{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}; // mm
   std::vector<double> peerBurrs{1.0, 2.0, 4.0, 6.0};            // mm
   double volume = 0.4;                                          // mm^3 that a run shall take

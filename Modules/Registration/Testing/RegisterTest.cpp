@@ -1,0 +1,177 @@
+#include "petrous/Registration/Register.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "ErrorModel.h"
+#include "Evidence.h"
+#include "TestBodies.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::registration
+{
+namespace
+{
+
+using namespace testing;
+
+const Vector3d kEar(24, 22, -13);
+const core::GridGeometry kGrid = gridAbout({0, 0, 0}, {130, 150, 116}, {1.5, 1.5, 2.0});
+
+std::shared_ptr<const volume::IntensityVolume> headCt()
+{
+  return imageOf<std::int16_t>(
+      kGrid, [head = Head()](const Vector3d& p) { return head.ct(p); }, 20.0, 1);
+}
+
+std::shared_ptr<const volume::IntensityVolume> headMr(const core::RigidTransform& truth)
+{
+  const core::RigidTransform back = truth.inverse();
+  return imageOf<std::int16_t>(
+      kGrid, [&, head = Head()](const Vector3d& p) { return head.t1(back * p); }, 20.0, 2);
+}
+
+TEST(Register, StatesAnErrorThatCoversTheTruth)
+{
+  const core::RigidTransform truth = motion({0, 0, 0}, 7.0, 6.0);
+  const Registration result = registerRigid(*headCt(), *headMr(truth), {}, kEar);
+  EXPECT_EQ(result.verdict, Verdict::Good) << result.text;
+  const double error = (result.fit.mrFromCt * kEar - truth * kEar).norm();
+  EXPECT_LE(error, result.error.max);
+  EXPECT_LT(result.error.median, result.error.p95);
+  EXPECT_LE(result.error.p95, result.error.max);
+  EXPECT_LT(result.error.p95, 1.0);
+  EXPECT_EQ(result.error.point, kEar);
+}
+
+TEST(Register, ErrorGrowsAwayFromWhatIsSeen)
+{
+  const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 2.0);
+  const auto ct = headCt();
+  const auto mr = headMr(truth);
+  const Registration here = registerRigid(*ct, *mr, {}, kEar);
+  const Registration far = registerRigid(*ct, *mr, {}, {24, 22, -313});
+  EXPECT_GT(far.error.p95, 1.5 * here.error.p95);
+  EXPECT_EQ(far.verdict, Verdict::Doubtful);
+  EXPECT_NE(far.text.find("outside"), std::string::npos) << far.text;
+}
+
+TEST(Register, DoubtsAMirroredPatient)
+{
+  const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 2.0);
+  const core::RigidTransform back = truth.inverse();
+  const Head head;
+  const auto mr = imageOf(kGrid,
+                          [&](const Vector3d& p)
+                          {
+                            const Vector3d q = back * p;
+                            return head.t1({-q[0], q[1], q[2]});
+                          });
+  const Registration result = registerRigid(*headCt(), *mr, {}, kEar);
+  EXPECT_NE(result.verdict, Verdict::Good);
+  EXPECT_NE(result.text.find("mirrored"), std::string::npos) << result.text;
+}
+
+TEST(Register, FailsOnNoiseAndOnNothing)
+{
+  std::mt19937 random(5);
+  const auto noise =
+      imageOf(kGrid, [&](const Vector3d&) { return static_cast<double>(random() % 1000); });
+  EXPECT_EQ(registerRigid(*headCt(), *noise, {}, kEar).verdict, Verdict::Failed);
+  const auto flat = imageOf(kGrid, [](const Vector3d&) { return 1.0; });
+  const Registration nothing = registerRigid(*headCt(), *flat, {}, kEar);
+  EXPECT_EQ(nothing.verdict, Verdict::Failed);
+  EXPECT_NE(nothing.text.find("same everywhere"), std::string::npos);
+  EXPECT_EQ(nothing.fit.mrFromCt.matrix(), Eigen::Matrix4d::Identity().eval());
+}
+
+TEST(Register, CanBeStoppedInItsEstimate)
+{
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress(
+      [&](double fraction, const std::string&)
+      {
+        if (fraction > 0.6)
+          token->cancel();
+      },
+      token);
+  EXPECT_THROW(registerRigid(*headCt(), *headMr({}), {}, kEar, progress), core::CancelledError);
+}
+
+std::vector<core::RigidTransform> shifts(const Vector3d& deviation, int count)
+{
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  std::vector<core::RigidTransform> list;
+  for (int n = 0; n < count; ++n)
+    list.emplace_back(
+        Eigen::Quaterniond::Identity(),
+        deviation.cwiseProduct(Vector3d(normal(random), normal(random), normal(random))));
+  return list;
+}
+
+// The percentiles of the chi distribution, of 1, 2 and 3 degrees: tables.
+TEST(ErrorModel, KnowsTheNormalDistribution)
+{
+  struct Case
+  {
+    Vector3d deviation;
+    double median, p95;
+  };
+  for (const Case& c : {Case{{1, 0, 0}, 0.6745, 1.9600}, Case{{1, 1, 0}, 1.1774, 2.4477},
+                        Case{{1, 1, 1}, 1.5382, 2.7955}})
+  {
+    const LocalError unit = localError({}, shifts(c.deviation, 20'000), {0, 0, 0}, 1e-3, 100.0);
+    EXPECT_NEAR(unit.p95 / unit.median, c.p95 / c.median, 0.03 * c.p95 / c.median);
+    // scaled by the calibrated inflation, which is that of twice the deviation over this one
+    const LocalError twice =
+        localError({}, shifts(2.0 * c.deviation, 20'000), {0, 0, 0}, 1e-3, 100.0);
+    EXPECT_NEAR(twice.p95, 2.0 * unit.p95, 1e-3);
+    EXPECT_GE(unit.p95, c.p95);
+    EXPECT_LE(unit.p95, 1.5 * c.p95);
+  }
+}
+
+TEST(ErrorModel, CountsAFitBesideItsRepeatsAsWrong)
+{
+  std::vector<core::RigidTransform> repeats(
+      12, core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(0.5, 0, 0)));
+  const LocalError error = localError({}, repeats, {0, 0, 0}, 1e-3, 100.0);
+  EXPECT_GT(error.p95, 0.9);
+  EXPECT_EQ(strayShare({}, repeats, {0, 0, 0}, 0.4), 1.0);
+  EXPECT_EQ(strayShare({}, repeats, {0, 0, 0}, 0.6), 0.0);
+}
+
+TEST(Judgement, NamesEachReason)
+{
+  Evidence fine;
+  fine.overlap = 0.9;
+  fine.information = 0.6;
+  fine.strays = 0.0;
+  fine.mirrored = 0.6;
+  fine.error.p95 = 0.4;
+  EXPECT_EQ(judge(fine).verdict, Verdict::Good);
+  EXPECT_NE(judge(fine).text.find("0.40 mm"), std::string::npos);
+
+  const auto expect = [&](const char* word, Verdict verdict, const auto& spoil)
+  {
+    Evidence evidence = fine;
+    spoil(evidence);
+    const Judgement judgement = judge(evidence);
+    EXPECT_EQ(judgement.verdict, verdict) << judgement.text;
+    EXPECT_NE(judgement.text.find(word), std::string::npos) << judgement.text;
+  };
+  expect("share too little", Verdict::Failed, [](Evidence& e) { e.overlap = 0.1; });
+  expect("next to nothing", Verdict::Failed, [](Evidence& e) { e.information = 0.001; });
+  expect("ended elsewhere", Verdict::Failed, [](Evidence& e) { e.strays = 0.8; });
+  expect("ended elsewhere", Verdict::Doubtful, [](Evidence& e) { e.strays = 0.3; });
+  expect("mirrored", Verdict::Doubtful, [](Evidence& e) { e.mirrored = 1.2; });
+  expect("another pose", Verdict::Doubtful, [](Evidence& e) { e.runnerUp = 0.99; });
+  expect("3.0 mm", Verdict::Doubtful, [](Evidence& e) { e.error.p95 = 3.0; });
+  expect("beside", Verdict::Doubtful, [](Evidence& e) { e.aside = 4.0; });
+  expect("outside", Verdict::Doubtful, [](Evidence& e) { e.pointCovered = false; });
+}
+
+} // namespace
+} // namespace petrous::registration

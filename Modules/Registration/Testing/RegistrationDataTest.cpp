@@ -1,0 +1,90 @@
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Registration/Register.h"
+
+namespace petrous::registration
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+struct PublishedPair
+{
+  std::shared_ptr<const volume::IntensityVolume> fixed, moving;
+  core::RigidTransform truth;
+  std::vector<Vector3d> targets;
+
+  double worst(const core::RigidTransform& found) const
+  {
+    double most = 0.0;
+    for (const Vector3d& p : targets)
+      most = std::max(most, (found * p - truth * p).norm());
+    return most;
+  }
+};
+
+std::optional<PublishedPair> published(const std::string& name)
+{
+  const char* data = std::getenv("PETROUS_DATA");
+  const fs::path folder = fs::path(data ? data : "") / "registration" / name;
+  if (!data || !fs::exists(folder / "truth.json"))
+    return std::nullopt;
+  PublishedPair pair;
+  pair.fixed = imaging::readImageFile(folder / "fixed.nii.gz").volume;
+  pair.moving = imaging::readImageFile(folder / "moving.nii.gz").volume;
+  std::ifstream file(folder / "truth.json");
+  const auto json = nlohmann::json::parse(file);
+  Eigen::Matrix4d matrix;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix(row, column) = json["T"][row][column];
+  pair.truth =
+      core::RigidTransform(Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())),
+                           matrix.topRightCorner<3, 1>());
+  for (const auto& p : json["targets"])
+    pair.targets.emplace_back(p[0], p[1], p[2]);
+  return pair;
+}
+
+// elastix 5.0.1 comes to 0.09 mm at the targets of the first, 0.92 of the second (whose truth is
+// good to about that), and ends 1.16 mm from the nominal truth of the third.
+TEST(RegistrationData, RealHeadAgainstAnMrSimulatedFromIt)
+{
+  const auto pair = published("ct_mr_sim");
+  if (!pair)
+    GTEST_SKIP() << "no registration/ct_mr_sim in PETROUS_DATA";
+  const Registration result = registerRigid(*pair->fixed, *pair->moving, {}, pair->targets[0]);
+  EXPECT_EQ(result.verdict, Verdict::Good) << result.text;
+  EXPECT_LT(pair->worst(result.fit.mrFromCt), 0.15);
+  EXPECT_GT(result.error.p95, 0.05);
+  EXPECT_LT(result.error.p95, 0.6);
+}
+
+TEST(RegistrationData, TiltedScanAgainstAStraightOne)
+{
+  const auto pair = published("ct_ct_tilt-18.5");
+  if (!pair)
+    GTEST_SKIP() << "no registration/ct_ct_tilt-18.5 in PETROUS_DATA";
+  EXPECT_LT(pair->worst(fitRigid(*pair->fixed, *pair->moving).mrFromCt), 1.1);
+}
+
+TEST(RegistrationData, AverageHeads)
+{
+  const auto pair = published("ct_mr_template");
+  if (!pair)
+    GTEST_SKIP() << "no registration/ct_mr_template in PETROUS_DATA";
+  const Registration result = registerRigid(*pair->fixed, *pair->moving, {}, pair->targets[0]);
+  EXPECT_LT(pair->worst(result.fit.mrFromCt), 1.5);
+  // Two different averages, symmetric both: a person must look.
+  EXPECT_EQ(result.verdict, Verdict::Doubtful) << result.text;
+}
+
+} // namespace
+} // namespace petrous::registration

@@ -167,6 +167,8 @@ MutualInformation::MutualInformation(const FixedSamples& fixed, const LevelImage
 {
 }
 
+// The loops here may run within one over many fits. Where that is cancelled they still do all their
+// work (`isolated`): a histogram that is half there is none.
 template <class Fall>
 JointHistogram MutualInformation::fill(const core::RigidTransform& movingFromFixed,
                                        const Fall& fall) const
@@ -175,6 +177,7 @@ JointHistogram MutualInformation::fill(const core::RigidTransform& movingFromFix
   const Scaling scaling(m_moving, m_bins);
   const int columns = m_bins + 2 * kPad;
   std::vector<std::vector<float>> parts(chunksOf(m_fixed.size()));
+  tbb::task_group_context whole(tbb::task_group_context::isolated);
   tbb::parallel_for(
       std::size_t{0}, parts.size(),
       [&](std::size_t chunk)
@@ -206,7 +209,8 @@ JointHistogram MutualInformation::fill(const core::RigidTransform& movingFromFix
                  u == raw ? Eigen::Vector3f(scaling.perUnit * sampler.slope(cell, w))
                           : Eigen::Vector3f::Zero().eval());
         }
-      });
+      },
+      whole);
   return {parts, m_bins, columns};
 }
 
@@ -240,6 +244,7 @@ MutualInformation::withGradient(const core::RigidTransform& movingFromFixed) con
       m_moving.grid().voxelFromPatientLinear().transpose().cast<float>();
   std::vector<std::array<Eigen::Vector3d, 2>> sums(
       chunksOf(m_fixed.size()), {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  tbb::task_group_context whole(tbb::task_group_context::isolated);
   tbb::parallel_for(
       std::size_t{0}, sums.size(),
       [&](std::size_t chunk)
@@ -270,7 +275,8 @@ MutualInformation::withGradient(const core::RigidTransform& movingFromFixed) con
         // (R p) x g summed, from sum g (R p)^T
         sums[chunk][1] = Eigen::Vector3d(turned(2, 1) - turned(1, 2), turned(0, 2) - turned(2, 0),
                                          turned(1, 0) - turned(0, 1));
-      });
+      },
+      whole);
   for (const auto& sum : sums)
   {
     result.translation += sum[0];

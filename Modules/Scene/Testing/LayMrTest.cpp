@@ -98,10 +98,10 @@ TEST(LayMr, WhatCameThroughAnotherMovesAlongAndSaysSo)
   scene::layMr(value, "T2", second, measured());
   const Vector3d point(10.0, -20.0, 30.0);
   EXPECT_LT((value.mr[0].mrFromCt * point - step * (second * point)).norm(), 1e-12);
-  EXPECT_EQ(value.mr[0].registration->verdict, Registration::Verdict::Doubtful);
+  EXPECT_EQ(value.mr[0].registration->verdict, Registration::Verdict::NotJudged);
   EXPECT_FALSE(value.mr[0].registration->error);
   EXPECT_FALSE(scene::validSignOff(value.mr[0]));
-  EXPECT_NE(scene::registrationInWords(value.mr[0]).find("through 'T2', doubtful"),
+  EXPECT_NE(scene::registrationInWords(value.mr[0]).find("through 'T2', not judged"),
             std::string::npos);
 
   scene::unlayMr(value, "T2");

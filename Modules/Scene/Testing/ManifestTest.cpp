@@ -147,7 +147,7 @@ TEST(Manifest, RefusesARecordOfRegistrationThatIsNone)
   };
   refused("/method", "magic");
   refused("/verdict", "failed");
-  refused("/error/p95_mm", 0.05);
+  refused("/error/p95_mm", -0.05);
   refused("/error/median_mm", -0.1);
   refused("/signed_off/mr_from_ct", nullptr);
 }

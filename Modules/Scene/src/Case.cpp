@@ -125,14 +125,12 @@ void readCtInsteadOf(Case& value, const std::string& image)
 // What was drawn on an MR comes to the CT through that alone.
 void checkNothingHangsOn(const Case& value, const std::string& mr)
 {
-  std::string names;
-  for (const std::string& name : drawnOnMr(value, mr))
-    if (name != mr)
-      names += (names.empty() ? "'" : ", '") + name + "'";
+  std::vector<std::string> names = drawnOnMr(value, mr);
+  names.erase(std::remove(names.begin(), names.end(), mr), names.end());
   if (!names.empty())
-    throw core::Error(core::Fault::Refused, "MR '" + mr + "' stays: " + names +
-                                                " was drawn on it and comes to the CT through it; "
-                                                "remove that first");
+    throw core::Error(core::Fault::Refused,
+                      "MR '" + mr + "' stays: on it was drawn " + listed(names) +
+                          ", which comes to the CT through it; remove that first");
 }
 
 } // namespace

@@ -29,20 +29,6 @@ bool came(const ImagePart& mr, const std::string& through)
          mr.name != through;
 }
 
-// What came through an image that came through this one would move for ever.
-void checkThrough(const Case& value, const std::string& name, const std::string& through)
-{
-  std::string next = through;
-  for (std::size_t n = 0; n <= value.mr.size() && !next.empty(); ++n)
-  {
-    if (next == name)
-      throw core::InvalidParameter("MR '" + name + "' cannot lie on the CT through '" + through +
-                                   "', which lies there through '" + name + "'");
-    const ImagePart* mr = findMr(value, next);
-    next = mr && mr->registration ? mr->registration->through : std::string();
-  }
-}
-
 bool same(const core::RigidTransform& a, const core::RigidTransform& b)
 {
   return a.rotation().coeffs() == b.rotation().coeffs() && a.translation() == b.translation();
@@ -57,6 +43,19 @@ void forgetVoxels(Case& value, const std::string& mr)
 }
 
 } // namespace
+
+void checkThrough(const Case& value, const std::string& name, const std::string& through)
+{
+  std::string next = through;
+  for (std::size_t n = 0; n <= value.mr.size() && !next.empty(); ++n)
+  {
+    if (next == name)
+      throw core::InvalidParameter("MR '" + name + "' cannot lie on the CT through '" + through +
+                                   "', which lies there through '" + name + "'");
+    const ImagePart* mr = findMr(value, next);
+    next = mr && mr->registration ? mr->registration->through : std::string();
+  }
+}
 
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
            Registration how)
@@ -77,7 +76,7 @@ void layMr(Case& value, const std::string& name, const core::RigidTransform& mrF
     if (!came(other, name))
       continue;
     Registration along = *other.registration;
-    along.verdict = Registration::Verdict::Doubtful;
+    along.verdict = Registration::Verdict::NotJudged;
     along.text = "moved along with '" + name +
                  "', which was registered again; register it again "
                  "to know its error";

@@ -74,10 +74,7 @@ Placement placementOf(const Case& value, const LabelPart& part)
     return on(value, names.empty() ? std::string() : names.front());
   Placement placement;
   placement.drawnOn = names.front();
-  std::string all;
-  for (const std::string& name : names)
-    all += (all.empty() ? "'" : ", '") + name + "'";
-  placement.missing = "it may have been drawn on any of the MR images " + all +
+  placement.missing = "it may have been drawn on any of the MR images " + listed(names) +
                       ", which have one grid; remove it and add it again as FILE@MR";
   return placement;
 }
@@ -115,6 +112,17 @@ std::shared_ptr<const core::TriangleMesh> meshOnCt(const Case& value, const Mesh
     return nullptr;
   const auto drawn = part.mesh.get();
   return placement.drawnOn.empty() ? drawn : part.moved.at(drawn, placement.mrFromCt, movedMesh);
+}
+
+std::string listed(const std::vector<std::string>& names)
+{
+  constexpr std::size_t kMost = 6;
+  std::string all;
+  for (std::size_t n = 0; n < std::min(kMost, names.size()); ++n)
+    all += (n == 0 ? "'" : ", '") + names[n] + "'";
+  if (names.size() > kMost)
+    all += " and " + std::to_string(names.size() - kMost) + " more";
+  return all;
 }
 
 std::vector<std::string> drawnOnMr(const Case& value, const std::string& mr)

@@ -20,8 +20,8 @@ constexpr std::array<std::pair<Method, const char*>, 4> kMethods{
      {Method::ByHand, "by hand"},
      {Method::FrameOfReference, "common frame of reference"}}};
 
-constexpr std::array<std::pair<Verdict, const char*>, 2> kVerdicts{
-    {{Verdict::Good, "good"}, {Verdict::Doubtful, "doubtful"}}};
+constexpr std::array<std::pair<Verdict, const char*>, 3> kVerdicts{
+    {{Verdict::NotJudged, "not judged"}, {Verdict::Good, "good"}, {Verdict::Doubtful, "doubtful"}}};
 
 template <class Names, class Value>
 const char* nameIn(const Names& names, Value value) noexcept

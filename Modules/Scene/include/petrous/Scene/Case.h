@@ -9,38 +9,16 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/Lazy.h"
-#include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
+#include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/MeshTouch.h"
 #include "petrous/Scene/MovedPart.h"
-#include "petrous/Scene/Registration.h"
 #include "petrous/Volume/IntensityScale.h"
-#include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelMap.h"
 
 namespace petrous::scene
 {
-
-/// A CT or MR image of the case. The voxels come when asked for; the rest is known without them.
-struct ImagePart
-{
-  std::string name;
-  std::string object; ///< name in the store; empty until saved
-  core::GridGeometry geometry;
-  volume::ValueRange range;
-  std::vector<std::string> notes; ///< what was accepted when the image was read, in words
-  core::Lazy<volume::IntensityVolume> volume;
-  /// X_MC: takes CT patient points to this image's patient points, LPS mm; identity until
-  /// registered.
-  core::RigidTransform mrFromCt;
-  bool registered = false;
-  /// How it came there; set by layMr (LayMr.h). Nothing until registered.
-  std::optional<Registration> registration;
-  /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images that have the same were
-  /// taken in one position of the patient, as the scanner holds it. Empty: not known.
-  std::string frameOfReference;
-};
 
 /// A structure drawn in a label map.
 struct StructurePart

@@ -16,6 +16,10 @@ namespace petrous::scene
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
            Registration how);
 
+/// Throws InvalidParameter where `through` itself came to the CT through the MR of that name, which
+/// layMr refuses: the two would move each other for ever.
+void checkThrough(const Case& value, const std::string& name, const std::string& through);
+
 /// Takes its place from an MR again; those that came through it lose theirs.
 void unlayMr(Case& value, const std::string& name);
 

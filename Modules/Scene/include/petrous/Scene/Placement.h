@@ -38,6 +38,9 @@ std::shared_ptr<const core::TriangleMesh> meshOnCt(const Case& value, const Mesh
 /// Structures and meshes that were drawn on an MR.
 std::vector<std::string> drawnOnMr(const Case& value, const std::string& mr);
 
+/// "'a', 'b'"; of many names the first few and how many more there are.
+std::string listed(const std::vector<std::string>& names);
+
 /// The MR images that have this grid, where it is not the CT's.
 std::vector<std::string> mrWithGrid(const Case& value, const core::GridGeometry& grid);
 

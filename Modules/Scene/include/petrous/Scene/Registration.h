@@ -41,13 +41,14 @@ struct Registration
   };
   enum class Verdict
   {
+    NotJudged,
     Good,
-    Doubtful ///< also where nothing is known of the error
+    Doubtful
   };
 
   Method method = Method::MutualInformation;
   bool refined = false; ///< by mutual information, from where the method put it
-  Verdict verdict = Verdict::Doubtful;
+  Verdict verdict = Verdict::NotJudged;
   std::string text;             ///< the verdict's reason, in words
   std::optional<double> metric; ///< mutual information, nats
   std::optional<RegistrationError> error;
@@ -56,7 +57,7 @@ struct Registration
 };
 
 const char* nameOf(Registration::Method method) noexcept;   ///< as in manifest and JSON
-const char* nameOf(Registration::Verdict verdict) noexcept; ///< "good", "doubtful"
+const char* nameOf(Registration::Verdict verdict) noexcept; ///< "good", "doubtful", "not judged"
 
 /// Throw InvalidParameter for a name that is none of these.
 Registration::Method methodFromName(const std::string& name);

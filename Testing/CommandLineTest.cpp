@@ -277,12 +277,12 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("zebra", 2, "zebra");
   expectRefused("new", 2, "CASE");
   expectRefused("render x --out a.png --size big", 2, "--size");
-  expectRefused("register x --mr t2", 2, "not built yet");
+  expectRefused("archive x x.petrous", 2, "not built yet");
   expectRefused("new x --ct y --repair", 2, "not built yet");
   expectRefused("library gc", 2, "not built yet");
   const auto help = run("--help");
   EXPECT_EQ(help.code, 0);
-  EXPECT_EQ(help.out.find("register"), std::string::npos);
+  EXPECT_EQ(help.out.find("archive"), std::string::npos);
   EXPECT_NE(help.out.find("render"), std::string::npos);
 }
 

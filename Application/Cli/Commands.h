@@ -17,6 +17,7 @@ void addDrillCommand(CLI::App& app, Context& context);
 void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history
 void addBranchCommand(CLI::App& app, Context& context);
 void addExportCommand(CLI::App& app, Context& context);
+void addRegisterCommand(CLI::App& app, Context& context);
 void addBenchCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
 

@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <cmath>
+
+#include "CaseJson.h"
+#include "Commands.h"
+#include "Numbers.h"
+#include "RegistrationFiles.h"
+#include "petrous/Presenters/CaseRegistration.h"
+#include "petrous/Presenters/DrillSession.h"
+#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+using From = presenters::RegistrationRequest::From;
+
+struct Options
+{
+  std::string caseName, mr, transform, at, region, onto, signOff;
+  std::vector<std::string> init;
+  bool asIs = false;
+  std::uint32_t seed = 1;
+  bool seedGiven = false;
+};
+
+void setStart(const Options& options, presenters::RegistrationRequest& request)
+{
+  if (!options.transform.empty())
+  {
+    if (!options.init.empty())
+      throw UsageError("register: --init and --transform both say where to begin; give one");
+    request.from = From::Given;
+    request.given = readTransform(options.transform);
+    return;
+  }
+  const std::string how = options.init.empty() ? "header" : options.init.front();
+  const std::size_t words = how == "landmarks" ? 2 : 1;
+  if (how != "header" && how != "centres" && how != "landmarks")
+    throw UsageError("--init: header, centres or landmarks F.csv, not '" + how + "'");
+  if (options.init.size() > words)
+    throw UsageError("--init " + how + ": takes no '" + options.init[1] + "'");
+  if (how == "centres")
+    request.from = From::Centres;
+  if (how != "landmarks")
+    return;
+  if (options.init.size() < 2)
+    throw UsageError("--init landmarks F.csv: the file is missing");
+  request.from = From::Landmarks;
+  request.landmarks = readLandmarks(options.init[1]);
+}
+
+std::string placeWords(const Eigen::Vector3d& point)
+{
+  return "(" + fixed(point[0], 1) + ", " + fixed(point[1], 1) + ", " + fixed(point[2], 1) + ")";
+}
+
+presenters::RegistrationPlace placeFrom(const scene::Case& value, const std::string& at)
+{
+  if (std::count(at.begin(), at.end(), ',') != 2 || scene::findStructure(value, at))
+    return presenters::placeOf(value, at);
+  const auto numbers = parseNumbers(at, 3, "--at x,y,z");
+  const Eigen::Vector3d point(numbers[0], numbers[1], numbers[2]);
+  const core::GridGeometry& grid = value.ct.geometry;
+  if (!grid.hullContains(grid.voxelFromPatient(point)))
+    throw core::InvalidParameter("--at " + at + ": is outside the CT, whose middle is " +
+                                 placeWords(grid.center()));
+  return {point, placeWords(point)};
+}
+
+presenters::RegistrationRequest requestFrom(const Options& options, const scene::Case& value)
+{
+  presenters::RegistrationRequest request;
+  request.mr = options.mr;
+  request.onto = options.onto;
+  request.asIs = options.asIs;
+  request.seed = options.seed;
+  setStart(options, request);
+  if (!options.region.empty())
+  {
+    const auto b = parseNumbers(options.region, 6, "--region x0,x1,y0,y1,z0,z1");
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(b[2 * axis] < b[2 * axis + 1]))
+        throw UsageError("--region x0,x1,y0,y1,z0,z1: each first number must be the smaller one");
+    request.region = {Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5])};
+  }
+  if (!options.at.empty())
+    request.at = placeFrom(value, options.at);
+  return request;
+}
+
+nlohmann::json orNull(const std::optional<double>& value)
+{
+  return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
+}
+
+// The contract's keys, and what stands beside them.
+nlohmann::json answerJson(const scene::Case& value, const std::string& mr,
+                          const core::RigidTransform& transform, const scene::Registration& how,
+                          const char* verdict)
+{
+  nlohmann::json error{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
+  if (how.error)
+    error = {{"median", how.error->median},
+             {"p95", how.error->p95},
+             {"max", how.error->max},
+             {"at_mm", vectorJson(how.error->point)},
+             {"place", how.error->place}};
+  const scene::ImagePart& image = *scene::findMr(value, mr);
+  nlohmann::json signedOff;
+  if (const scene::SignOff* signOff = scene::validSignOff(image))
+    signedOff = {{"who", signOff->who}, {"when", signOff->when}};
+  return {{"case", value.name},
+          {"mr", mr},
+          {"registered", image.registered},
+          {"transform", transformJson(transform)},
+          {"metric", orNull(how.metric)},
+          {"error_mm", std::move(error)},
+          {"verdict", verdict},
+          {"text", how.text},
+          {"method", nameOf(how.method)},
+          {"refined", how.refined},
+          {"through", how.through.empty() ? nlohmann::json() : nlohmann::json(how.through)},
+          {"signed_off", std::move(signedOff)},
+          {"resources", residentResources(value)}};
+}
+
+void sayError(const Context& context, const scene::Registration& how)
+{
+  if (how.error)
+    context.say("  error at " + how.error->place + ": median " + fixed(how.error->median, 2) +
+                ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) + " mm");
+}
+
+// A signature is for what somebody has looked at, so nothing else happens beside it.
+void sign(const Context& context, const Options& options)
+{
+  if (!options.init.empty() || !options.transform.empty() || options.asIs || !options.at.empty() ||
+      !options.region.empty() || !options.onto.empty() || options.seedGiven)
+    throw UsageError("register: --sign-off stands alone; register, look at the result, then sign "
+                     "what you saw");
+  library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  scene::signOff(value, options.mr, options.signOff, presenters::utcNow());
+  library.save(value);
+  const scene::ImagePart& mr = *scene::findMr(value, options.mr);
+  context.say("MR '" + mr.name + "': " + scene::registrationInWords(mr));
+  context.give(
+      answerJson(value, mr.name, mr.mrFromCt, *mr.registration, nameOf(mr.registration->verdict)));
+}
+
+void sayOutcome(const Context& context, const scene::Case& value, const Options& options,
+                const presenters::RegistrationOutcome& outcome, bool wasSigned)
+{
+  const scene::Registration& how = outcome.how;
+  if (outcome.failed)
+  {
+    context.say("MR '" + options.mr + "': failed. " + how.text);
+    context.say("  the case is as it was");
+    return;
+  }
+  context.say("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
+              nameOf(how.verdict) + ". " + how.text);
+  sayError(context, how);
+  if (!options.asIs)
+    context.say("  " + fixed(outcome.fit.seconds, 1) + " s for the fit, " +
+                fixed(outcome.estimateSeconds, 1) + " s for the error");
+  if (const auto names = scene::drawnOnMr(value, options.mr); !names.empty())
+    context.say("  now on the CT: " + scene::listed(names));
+  context.say(wasSigned ? "  the sign-off of the registration before is void"
+                        : "  not signed off: look at it, then register --sign-off NAME");
+}
+
+void registerMr(const Context& context, const Options& options)
+{
+  library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  const auto request = requestFrom(options, value);
+  const core::Progress progress = context.progress();
+  nlohmann::json curve = nlohmann::json::array();
+  const auto listener =
+      [&curve](const registration::MetricSample& sample, const core::RigidTransform&)
+  {
+    curve.push_back({{"evaluation", sample.evaluation},
+                     {"level", sample.level},
+                     {"metric", orNull(sample.metric)}});
+  };
+  const auto outcome = presenters::registerMr(value, request, progress.part(0.0, 0.98), listener);
+  const scene::ImagePart* mr = scene::findMr(value, options.mr);
+  const bool wasSigned = scene::validSignOff(*mr) != nullptr;
+  if (!outcome.failed)
+  {
+    presenters::accept(value, options.mr, outcome);
+    library.save(value, progress.part(0.98, 1.0));
+  }
+  sayOutcome(context, value, options, outcome, wasSigned);
+  nlohmann::json answer = answerJson(value, options.mr, outcome.mrFromCt, outcome.how,
+                                     outcome.failed ? "failed" : nameOf(outcome.how.verdict));
+  answer["seconds"] = outcome.fit.seconds;
+  answer["estimate_seconds"] = outcome.estimateSeconds;
+  answer["iterations"] = outcome.fit.iterations;
+  answer["overlap"] = orNull(outcome.fit.overlap);
+  answer["curve"] = std::move(curve);
+  context.give(answer);
+}
+
+} // namespace
+
+void addRegisterCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      context.addCommand(app, "register", "Lay an MR on the CT, and say how well it lies there",
+                         [options, &context]
+                         {
+                           if (options->signOff.empty())
+                             registerMr(context, *options);
+                           else
+                             sign(context, *options);
+                         });
+  command->add_option("CASE", options->caseName)->required();
+  command->add_option("--mr", options->mr, "Which MR")->type_name("NAME")->required();
+  command
+      ->add_option("--init", options->init,
+                   "Where to begin: header (default), centres, or landmarks F.csv "
+                   "(ct_x,ct_y,ct_z,mr_x,mr_y,mr_z, patient LPS mm)")
+      ->expected(1, 2)
+      ->type_name("HOW");
+  command
+      ->add_option("--transform", options->transform,
+                   "Begin where this puts it: 16 numbers, CT to MR patient points, LPS mm")
+      ->type_name("F");
+  command->add_flag("--as-is", options->asIs,
+                    "No fit: leave it where landmarks, transform or a common frame of reference "
+                    "put it");
+  command
+      ->add_option("--at", options->at,
+                   "Where the error is stated: a point (LPS mm) or a structure; default: the "
+                   "middle ear")
+      ->type_name("x,y,z|LABEL");
+  command->add_option("--region", options->region, "Only this box of the CT counts, LPS mm")
+      ->type_name("x0,x1,y0,y1,z0,z1");
+  command
+      ->add_option("--to", options->onto,
+                   "To this MR, which is registered already, and through it to the CT")
+      ->type_name("MR");
+  CLI::Option* seed = command->add_option("--seed", options->seed, "Same seed, same result");
+  seed->each([options](const std::string&) { options->seedGiven = true; });
+  command
+      ->add_option("--sign-off", options->signOff,
+                   "Nothing else: write down that NAME looked at the registration and accepts it")
+      ->type_name("NAME");
+}
+
+} // namespace petrous::cli

@@ -4,6 +4,7 @@
 
 #include "Context.h"
 #include "Numbers.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
 {
@@ -11,10 +12,9 @@ namespace petrous::cli
 namespace
 {
 
-std::optional<Eigen::Vector3d> centreOf(const scene::LabelPart& part, std::uint16_t index)
+std::optional<Eigen::Vector3d> centreOf(const volume::LabelMap& labels, std::uint16_t index)
 {
-  const auto labels = part.labels.get();
-  const auto& voxels = *labels->voxels;
+  const auto& voxels = *labels.voxels;
   const core::Index3& dims = voxels.geometry().dims();
   const std::uint16_t* value = voxels.data();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -49,15 +49,18 @@ std::optional<Eigen::Vector3d> centreOf(const core::TriangleMesh& mesh)
   return area > 0.0 ? std::optional<Eigen::Vector3d>(sum / area) : std::nullopt;
 }
 
+// Where it lies on the CT, also when it was drawn on an MR.
 std::optional<Eigen::Vector3d> structureCentre(const std::string& name, const scene::Case& value)
 {
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
       if (structure.name == name)
-        return centreOf(part, structure.index);
+        if (const auto labels = scene::labelsOnCt(value, part))
+          return centreOf(*labels, structure.index);
   for (const auto& part : value.meshes)
     if (part.name == name)
-      return centreOf(*part.mesh.get());
+      if (const auto mesh = scene::meshOnCt(value, part))
+        return centreOf(*mesh);
   return std::nullopt;
 }
 
@@ -67,6 +70,8 @@ Place parsePlace(const std::string& text, const scene::Case& value, const std::s
 {
   if (const auto centre = structureCentre(text, value))
     return {*centre, text};
+  if (const std::string missing = scene::missingPlace(value, text); !missing.empty())
+    throw UsageError(option + ": '" + text + "' " + missing);
   if (std::count(text.begin(), text.end(), ',') != 2)
     throw UsageError(option + ": x,y,z in mm or the name of a structure of the case, not '" + text +
                      "'");

@@ -84,7 +84,7 @@ TEST_F(RegistrationSessionTest, HandMovesAreOfTheCaseAtOnceAndEachCanBeUndone)
   EXPECT_EQ(moved, 2);
   ASSERT_TRUE(t2().registration);
   EXPECT_EQ(t2().registration->method, scene::Registration::Method::ByHand);
-  EXPECT_EQ(t2().registration->verdict, scene::Registration::Verdict::NotJudged);
+  EXPECT_NE(t2().registration->verdict, scene::Registration::Verdict::Good);
   EXPECT_LT((t2().mrFromCt * Vector3d(1, 0.1, 0)).norm(), 1e-12);
   EXPECT_NEAR(session.movedByHand().shift, std::hypot(1.0, 0.1), 1e-12);
   session.undo();

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
-
-#include "petrous/Volume/Sampling.h"
 
 namespace petrous::presenters
 {
@@ -40,18 +39,86 @@ struct VoxelPlane
   }
 };
 
+// The columns whose pixels lie inside on every axis: first to last, none where last < first.
+std::pair<int, int> insideColumns(const VoxelPlane& plane, const Eigen::Vector3d& start, int width)
+{
+  double first = 0.0;
+  double last = width - 1.0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    const double step = plane.across[axis];
+    const double low = plane.lower[axis] - start[axis];
+    const double high = plane.upper[axis] - start[axis];
+    if (step == 0.0)
+    {
+      if (low > 0.0 || high < 0.0)
+        return {0, -1};
+      continue;
+    }
+    first = std::max(first, std::min(low / step, high / step));
+    last = std::min(last, std::max(low / step, high / step));
+  }
+  return first > last
+             ? std::pair(0, -1)
+             : std::pair(static_cast<int>(std::ceil(first)), static_cast<int>(std::floor(last)));
+}
+
+// As volume::sampleTrilinear, for many positions of one volume: the same cell, found with less.
 template <class T>
-void sampleRow(const volume::Volume<T>& image, const VoxelPlane& plane, int row, int width,
+class CellSampler
+{
+public:
+  explicit CellSampler(const volume::Volume<T>& image)
+    : m_data(image.data())
+  {
+    std::ptrdiff_t stride = 1;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const int count = image.geometry().dims()[a];
+      m_stride[a] = stride;
+      m_lastCell[a] = std::max(count - 2, 0);
+      m_lastVoxel[a] = count - 1.0;
+      m_up[a] = count > 1 ? stride : 0;
+      stride *= count;
+    }
+  }
+
+  double operator()(const Eigen::Vector3d& voxel) const
+  {
+    const T* at = m_data;
+    double weight[3];
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const double x = std::clamp(voxel[static_cast<Eigen::Index>(a)], 0.0, m_lastVoxel[a]);
+      const int cell = std::min(static_cast<int>(x), m_lastCell[a]);
+      weight[a] = x - cell;
+      at += cell * m_stride[a];
+    }
+    const auto mix = [](double p, double q, double w) { return p + (q - p) * w; };
+    const auto row = [&](const T* from)
+    { return mix(static_cast<double>(*from), static_cast<double>(from[m_up[0]]), weight[0]); };
+    const auto plane = [&](const T* from)
+    { return mix(row(from), row(from + m_up[1]), weight[1]); };
+    return mix(plane(at), plane(at + m_up[2]), weight[2]);
+  }
+
+private:
+  const T* m_data;
+  std::ptrdiff_t m_stride[3];
+  std::ptrdiff_t m_up[3]; // to the next voxel, 0 where there is none
+  int m_lastCell[3];
+  double m_lastVoxel[3];
+};
+
+template <class T>
+void sampleRow(const CellSampler<T>& sample, const VoxelPlane& plane, int row, int width,
                float* out)
 {
   const Eigen::Vector3d start = plane.origin + row * plane.down;
-  for (int column = 0; column < width; ++column)
+  const auto [first, last] = insideColumns(plane, start, width);
+  for (int column = first; column <= last; ++column)
   {
-    const Eigen::Vector3d voxel = start + column * plane.across;
-    if (!((voxel.array() >= plane.lower.array()).all() &&
-          (voxel.array() <= plane.upper.array()).all()))
-      continue;
-    const auto value = static_cast<float>(volume::sampleTrilinear(image, voxel));
+    const auto value = static_cast<float>(sample(start + column * plane.across));
     out[column] = std::isnan(value) ? -std::numeric_limits<float>::infinity() : value;
   }
 }
@@ -70,8 +137,9 @@ public:
 
   bool crosses(float level) const
   {
-    const auto [low, high] = std::minmax_element(std::begin(m_values), std::end(m_values));
-    return *low < level && *high >= level; // false with a NaN at the ends, see finite()
+    const bool below = m_values[0] < level;
+    return (m_values[1] < level) != below || (m_values[2] < level) != below ||
+           (m_values[3] < level) != below;
   }
   bool finite() const
   {
@@ -139,10 +207,11 @@ PlaneSamples samplePlane(const volume::IntensityVolume& image, const SliceGeomet
   image.visit(
       [&](const auto& voxels)
       {
+        const CellSampler sampler(voxels);
         tbb::parallel_for(0, slice.height(),
                           [&](int row)
                           {
-                            sampleRow(voxels, plane, row, slice.width(),
+                            sampleRow(sampler, plane, row, slice.width(),
                                       &samples.values[static_cast<std::size_t>(row) * width]);
                           });
       });

@@ -75,10 +75,20 @@ void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Regist
 {
   if (!part() || m_model.drilling())
     return;
-  Lies before = lies();
-  m_model.changeMr([&](scene::Case& value) { scene::layMr(value, m_name, mrFromCt, how); });
-  m_undo.push_back(std::move(before));
-  m_redo.clear();
+  change([&](scene::Case& value) { scene::layMr(value, m_name, mrFromCt, how); });
+}
+
+// What hears of the change finds that it can be undone.
+void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
+{
+  const Lies before = lies();
+  m_model.changeMr(
+      [&](scene::Case& value)
+      {
+        what(value);
+        m_undo.push_back(before);
+        m_redo.clear();
+      });
   if (m_undo.size() > kMostSteps)
     m_undo.erase(m_undo.begin());
 }
@@ -136,8 +146,8 @@ void RegistrationSession::fitLandmarks()
   std::snprintf(text, sizeof text, "%zu pairs of points, %.2f mm apart (root mean square)",
                 pairs.size(), fit.rms);
   how.text = text;
+  m_fitted = fit.mrFromCt;
   lay(fit.mrFromCt, how);
-  m_fitted = part()->mrFromCt;
 }
 
 registration::FitOptions RegistrationSession::fitOptions(bool search) const
@@ -154,7 +164,7 @@ registration::FitOptions RegistrationSession::fitOptions(bool search) const
 
 bool RegistrationSession::take(const registration::Registration& result, const std::string& place)
 {
-  if (!part() || result.verdict == registration::Verdict::Failed)
+  if (!part() || m_model.drilling() || result.verdict == registration::Verdict::Failed)
     return false;
   Registration how;
   if (part()->registration && part()->registered)
@@ -168,8 +178,8 @@ bool RegistrationSession::take(const registration::Registration& result, const s
   how.metric = result.fit.metric;
   how.error = scene::RegistrationError{result.error.point, place, result.error.median,
                                        result.error.p95, result.error.max};
+  m_fitted = result.fit.mrFromCt;
   lay(result.fit.mrFromCt, how);
-  m_fitted = part()->mrFromCt;
   return true;
 }
 
@@ -177,19 +187,15 @@ void RegistrationSession::keep(const core::RigidTransform& best)
 {
   Registration how;
   how.text = "stopped before its end";
+  m_fitted = best;
   lay(best, how);
-  if (part())
-    m_fitted = part()->mrFromCt;
 }
 
 void RegistrationSession::unregister()
 {
   if (!part() || !part()->registered || m_model.drilling())
     return;
-  Lies before = lies();
-  m_model.changeMr([this](scene::Case& value) { scene::unlayMr(value, m_name); });
-  m_undo.push_back(std::move(before));
-  m_redo.clear();
+  change([this](scene::Case& value) { scene::unlayMr(value, m_name); });
 }
 
 void RegistrationSession::signOff(const std::string& who, const std::string& when)

@@ -71,6 +71,7 @@ private:
 
   Lies lies() const;
   void restore(const Lies& lies);
+  void change(const std::function<void(scene::Case&)>& what);
   void lay(const core::RigidTransform& mrFromCt, const scene::Registration& how);
   void moveByHand(const core::RigidTransform& mrFromCt);
 

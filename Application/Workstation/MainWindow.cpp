@@ -1,6 +1,5 @@
 #include "MainWindow.h"
 
-#include <cmath>
 #include <utility>
 
 #include <QAction>
@@ -8,6 +7,7 @@
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QLabel>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QSplitter>
@@ -24,6 +24,8 @@
 #include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
+#include "RegistrationController.h"
+#include "RegistrationPanel.h"
 #include "SliceColumn.h"
 #include "StartPage.h"
 #include "StructuresPanel.h"
@@ -32,6 +34,7 @@
 #include "ThreeDView.h"
 #include "WindowActions.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/CasePicture.h"
 
 namespace petrous::workstation
@@ -40,18 +43,6 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kMessage = 8000; // ms
-
-// "R 32.1  P 12.0  S 45.3 mm": the letters of the directions from the scanner's zero.
-QString positionText(const Eigen::Vector3d& patient)
-{
-  constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
-  QString text;
-  for (int a = 0; a < 3; ++a)
-    text += QString("%1 %2  ")
-                .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
-                .arg(std::abs(patient[a]), 0, 'f', 1);
-  return text.trimmed() + " mm";
-}
 
 QString dropped(const QMimeData& data)
 {
@@ -82,6 +73,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
   , m_thickness(new ThicknessController(m_model, *m_view, *m_panel, *m_actions->boneThickness))
+  , m_registration(new RegistrationController(m_model, *m_slices, *this))
 {
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
@@ -99,7 +91,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
 MainWindow::~MainWindow()
 {
   m_model.events = {};
-  m_drill->layDown(); // before the hands that hold it
+  m_drill->layDown();    // before the hands that hold it
+  delete m_registration; // its threads end
   delete m_drill;
   delete m_hands;
   delete m_nearby;  // asks the model when it is hidden
@@ -129,7 +122,11 @@ void MainWindow::layOut()
   auto* structures = addDock(tr("Structures"), "structuresDock", m_panel, Qt::Key_F9);
   auto* picture = addDock(tr("Picture"), "pictureDock", m_picture->panel(), Qt::Key_F8);
   addDock(tr("Near the burr"), "nearbyDock", m_nearby, Qt::Key_F7);
+  auto* registration =
+      addDock(tr("Registration"), "registrationDock", m_registration->panel(), Qt::Key_F5);
+  menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
   tabifyDockWidget(structures, picture);
+  tabifyDockWidget(picture, registration);
   structures->raise();
 
   m_place->setObjectName("place");
@@ -159,6 +156,13 @@ QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget
   addDockWidget(Qt::LeftDockWidgetArea, dock);
   dock->toggleViewAction()->setShortcut(key);
   m_actions->addPanelToggle(dock->toggleViewAction());
+  // Asked for, it comes before those on whose tabs it lies.
+  connect(dock->toggleViewAction(), &QAction::triggered, dock,
+          [dock](bool on)
+          {
+            if (on)
+              dock->raise();
+          });
   dock->hide();
   return dock;
 }
@@ -174,9 +178,12 @@ void MainWindow::connectModel()
   };
   m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
+  m_model.events.mrMoved = [this] { m_registration->mrMoved(); };
   m_model.events.stateChanged = [this] { stateChanged(); };
   m_model.events.stepped = [this](bool back) { stepped(back); };
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
+  connect(m_registration, &RegistrationController::sceneStale, this,
+          [this] { m_model.events.appearanceChanged(); });
   connect(m_slices, &SliceColumn::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
@@ -198,6 +205,8 @@ void MainWindow::connectModel()
   connect(m_keeper, &CaseKeeper::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_thickness, &ThicknessController::said, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_registration, &RegistrationController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_picture, &PictureController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
@@ -229,7 +238,7 @@ void MainWindow::connectActions()
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
   on(m_actions->smallerBurr, [this] { m_bar->stepDiameter(-1); });
   on(m_actions->largerBurr, [this] { m_bar->stepDiameter(1); });
-  on(m_actions->about, [this] { about(); });
+  on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
   connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
   connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
 }
@@ -267,6 +276,7 @@ void MainWindow::caseChanged()
   m_panel->caseChanged();
   m_nearby->caseChanged();
   m_thickness->caseChanged();
+  m_registration->caseChanged();
   m_view->setFocus();
   QString notes;
   for (const std::string& note : value.ct.notes)
@@ -296,12 +306,7 @@ void MainWindow::stateChanged()
   setWindowTitle(
       (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
       words(value.name) + QString::fromUtf8(" — Petrous"));
-  m_sum->setText(value.applied() == 0
-                     ? tr("nothing drilled")
-                     : tr("%1 %2, %3 mm³ removed")
-                           .arg(value.applied())
-                           .arg(value.applied() == 1 ? tr("stroke") : tr("strokes"))
-                           .arg(value.removedVolume(), 0, 'f', 1));
+  m_sum->setText(removedText(value));
 }
 
 // Beside the case, which is shown at once.
@@ -315,13 +320,7 @@ void MainWindow::notice(const QString& text)
 
 void MainWindow::showPlace(const Eigen::Vector3d& patient)
 {
-  QString text = positionText(patient);
-  if (const auto hounsfield = m_model.hounsfieldAt(patient))
-    text += tr("   %1 HU").arg(std::lround(*hounsfield));
-  const std::string structure = m_model.structureAt(patient);
-  if (!structure.empty())
-    text += "   " + words(structure).replace('_', ' ');
-  m_place->setText(text);
+  m_place->setText(placeText(m_model, patient));
 }
 
 void MainWindow::showView(rendering::StandardView view)
@@ -344,27 +343,11 @@ void MainWindow::stepped(bool back)
 
 void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)
 {
+  const QString text = strokeText(stroke.get());
   if (!stroke)
-    return statusBar()->showMessage(tr("Nothing was cut"), kMessage);
-  if (!m_keeper->save())
-    return;
-  QString text = tr("Removed %1 mm³").arg(stroke->info.removed, 0, 'f', 2);
-  for (const auto& touched : stroke->info.structures)
-    text += tr("  ·  %1 %2 mm³")
-                .arg(words(touched.name).replace('_', ' '))
-                .arg(touched.volume, 0, 'f', 2);
-  statusBar()->showMessage(text);
-}
-
-void MainWindow::about()
-{
-  QMessageBox::about(
-      this, tr("About Petrous"),
-      tr("<h3>Petrous %1</h3><p>Rehearsal of operations on the temporal bone and the "
-         "skull base on the patient's own images.</p><p>For rehearsal and teaching; "
-         "not a medical device, and no guide for an instrument in a patient.</p>"
-         "<p>Apache License 2.0. Made with VTK, ITK, GDCM and Qt.</p>")
-          .arg(PETROUS_VERSION));
+    statusBar()->showMessage(text, kMessage);
+  else if (m_keeper->save())
+    statusBar()->showMessage(text);
 }
 
 bool MainWindow::secure()

@@ -23,6 +23,7 @@ class HandFinder;
 class HandKeeper;
 class NearbyPanel;
 class PictureController;
+class RegistrationController;
 class SliceColumn;
 class StructuresPanel;
 class ThicknessController;
@@ -72,7 +73,6 @@ private:
   QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
   bool secure(); // what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
-  void about();
 
   presenters::WorkstationModel m_model;
   std::unique_ptr<WindowSettings> m_settings;
@@ -93,6 +93,7 @@ private:
   DrillController* m_drill;
   PictureController* m_picture;
   ThicknessController* m_thickness;
+  RegistrationController* m_registration;
 };
 
 } // namespace petrous::workstation

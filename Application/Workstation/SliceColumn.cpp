@@ -26,6 +26,8 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
             [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
     connect(view, &SliceView::greyWindowChanged, this, &SliceColumn::setGreyWindow);
     connect(view, &SliceView::pointed, this, &SliceColumn::pointed);
+    connect(view, &SliceView::moveAsked, this, &SliceColumn::moveAsked);
+    connect(view, &SliceView::turnAsked, this, &SliceColumn::turnAsked);
   }
 }
 
@@ -81,6 +83,24 @@ void SliceColumn::boneWindow()
 void SliceColumn::softWindow()
 {
   setGreyWindow({400.0, 40.0});
+}
+
+void SliceColumn::setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay)
+{
+  for (SliceView* view : m_views)
+    view->setOverlay(overlay);
+}
+
+void SliceColumn::setNotice(const QString& text)
+{
+  for (SliceView* view : m_views)
+    view->setNotice(text);
+}
+
+void SliceColumn::setMarks(const std::vector<SliceMark>& marks)
+{
+  for (SliceView* view : m_views)
+    view->setMarks(marks);
 }
 
 void SliceColumn::fit()

@@ -11,6 +11,7 @@ namespace petrous::workstation
 {
 
 class SliceView;
+struct SliceMark;
 
 /// The axial, coronal and sagittal view under one another, with one crosshair and grey window.
 class SliceColumn : public QSplitter
@@ -28,8 +29,14 @@ public:
   void softWindow(); ///< width 400, level 40 HU
   void fit();
 
+  void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or null
+  void setNotice(const QString& text);
+  void setMarks(const std::vector<SliceMark>& marks);
+
 signals:
   void pointed(const Eigen::Vector3d& patient);
+  void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
+  void turnAsked(const Eigen::Vector3d& axis, double degrees);
 
 private:
   void setGreyWindow(const presenters::GreyWindow& window);

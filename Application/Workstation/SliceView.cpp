@@ -8,6 +8,7 @@
 #include <QPainter>
 #include <QPainterPath>
 
+#include "SliceMarks.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -20,17 +21,6 @@ using presenters::SliceOrientation;
 constexpr double kHuPerPixel = 8.0;
 constexpr int kMargin = 8;
 constexpr double kGap = 9.0; // of the crosshair, pixels
-
-// Readable on bone and on air alike.
-void drawText(QPainter& painter, const QPointF& baseline, const QString& text, const QColor& color)
-{
-  QPainterPath path;
-  path.addText(baseline, painter.font(), text);
-  painter.setPen(QPen(QColor(0, 0, 0, 200), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.setBrush(Qt::NoBrush);
-  painter.drawPath(path);
-  painter.fillPath(path, color);
-}
 
 // The planes that a view's vertical and horizontal line stand for.
 std::pair<SliceOrientation, SliceOrientation> linesOf(SliceOrientation view)
@@ -91,6 +81,26 @@ void SliceView::setGreyWindow(const presenters::GreyWindow& window)
   stale();
 }
 
+void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay)
+{
+  if (!overlay && !m_overlay)
+    return;
+  m_overlay = std::move(overlay);
+  stale();
+}
+
+void SliceView::setNotice(const QString& text)
+{
+  m_notice = text;
+  update();
+}
+
+void SliceView::setMarks(std::vector<SliceMark> marks)
+{
+  m_marks = std::move(marks);
+  update();
+}
+
 void SliceView::setReadout(const QString& text)
 {
   m_readout = text;
@@ -133,7 +143,7 @@ void SliceView::paintEvent(QPaintEvent*)
   const auto picture = slice();
   if (m_stale)
   {
-    const auto pixels = m_presenter->draw(picture, m_window);
+    const auto pixels = m_presenter->draw(picture, m_window, m_overlay.get());
     m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
                      QImage::Format_RGB888)
                   .copy();
@@ -141,6 +151,7 @@ void SliceView::paintEvent(QPaintEvent*)
   }
   painter.drawImage(rect(), m_image);
   painter.setRenderHint(QPainter::Antialiasing);
+  paintMarks(painter, m_marks, slice(), m_crosshair);
   paintCrosshair(painter);
   paintLetters(painter);
   paintScaleBar(painter);
@@ -194,6 +205,7 @@ void SliceView::paintLetters(QPainter& painter) const
            planeColor(m_orientation));
   font.setBold(false);
   painter.setFont(font);
+  drawText(painter, {double(kMargin), kMargin + 27.0}, m_notice, QColor("#f0a04d"));
   drawText(painter, {double(kMargin), double(height() - kMargin)}, m_readout, color);
   if (underMouse())
   {
@@ -300,8 +312,42 @@ void SliceView::zoom(double factor)
   stale();
 }
 
+// A tenth, or with Shift a whole, of a millimetre or a degree.
+bool SliceView::moveMr(const QKeyEvent& event)
+{
+  if (!(event.modifiers() & Qt::AltModifier) || !m_overlay)
+    return false;
+  const auto axes = presenters::axesOf(m_orientation);
+  const double step = event.modifiers() & Qt::ShiftModifier ? 1.0 : 0.1;
+  switch (event.key())
+  {
+  case Qt::Key_Left:
+    emit moveAsked(-step * axes.right);
+    return true;
+  case Qt::Key_Right:
+    emit moveAsked(step * axes.right);
+    return true;
+  case Qt::Key_Up:
+    emit moveAsked(-step * axes.down);
+    return true;
+  case Qt::Key_Down:
+    emit moveAsked(step * axes.down);
+    return true;
+  case Qt::Key_PageUp: // against the clock, as it is seen
+    emit turnAsked(axes.right.cross(axes.down), -step);
+    return true;
+  case Qt::Key_PageDown:
+    emit turnAsked(axes.right.cross(axes.down), step);
+    return true;
+  default:
+    return false;
+  }
+}
+
 void SliceView::keyPressEvent(QKeyEvent* event)
 {
+  if (moveMr(*event))
+    return;
   const auto axes = presenters::axesOf(m_orientation);
   const double step = m_grid.minSpacing();
   switch (event->key())

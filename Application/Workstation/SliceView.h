@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <QImage>
 #include <QWidget>
 
+#include "SliceMarks.h"
 #include "petrous/Presenters/SlicePresenter.h"
 
 namespace petrous::workstation
@@ -13,7 +15,8 @@ namespace petrous::workstation
 /// One slice with its crosshair, letters, scale bar and read-out; painted, no OpenGL.
 ///
 /// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
-/// zooms, middle drag moves the picture.
+/// zooms, middle drag moves the picture. Alt+arrow and Alt+Page up or down move and turn an MR that
+/// is laid over it.
 class SliceView : public QWidget
 {
   Q_OBJECT
@@ -27,6 +30,9 @@ public:
   void setCrosshair(const Eigen::Vector3d& patient);
   void setGreyWindow(const presenters::GreyWindow& window);
   void setReadout(const QString& text); ///< what is under the crosshair
+  void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< null: CT alone
+  void setNotice(const QString& text); ///< what to know of what is shown
+  void setMarks(std::vector<SliceMark> marks);
   void maskChanged(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper); ///< patient box
 
   /// Of what is on the screen; only with a presenter.
@@ -36,6 +42,8 @@ signals:
   void crosshairMoved(const Eigen::Vector3d& patient);
   void greyWindowChanged(const petrous::presenters::GreyWindow& window);
   void pointed(const Eigen::Vector3d& patient);
+  void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
+  void turnAsked(const Eigen::Vector3d& axis, double degrees);
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -53,6 +61,7 @@ private:
   void paintCrosshair(QPainter& painter) const;
   void paintLetters(QPainter& painter) const;
   void paintScaleBar(QPainter& painter) const;
+  bool moveMr(const QKeyEvent& event);
 
   presenters::SliceOrientation m_orientation;
   std::shared_ptr<const presenters::SlicePresenter> m_presenter;
@@ -61,6 +70,9 @@ private:
   Eigen::Vector3d m_offset = Eigen::Vector3d::Zero(); // of the picture's middle, in the plane, mm
   double m_zoom = 1.0;
   presenters::GreyWindow m_window;
+  std::shared_ptr<const presenters::SliceOverlay> m_overlay;
+  QString m_notice;
+  std::vector<SliceMark> m_marks;
   QString m_readout;
   QImage m_image;
   bool m_stale = true;

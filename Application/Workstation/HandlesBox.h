@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+#include "petrous/Presenters/RegistrationSession.h"
+
+class QComboBox;
+class QGridLayout;
+class QLabel;
+class QPushButton;
+
+namespace petrous::workstation
+{
+
+/// Six handles: moves an MR over the CT along the patient's axes, and turns it about the crosshair.
+class HandlesBox : public QWidget
+{
+  Q_OBJECT
+public:
+  explicit HandlesBox(presenters::RegistrationSession& session, QWidget* parent = nullptr);
+
+  void refresh();
+
+private:
+  struct Handle
+  {
+    const char* less;
+    const char* more;
+    QString lessTip;
+    QString moreTip;
+    Eigen::Vector3d direction; ///< of `more`
+    bool turns;
+  };
+  void addHandle(QGridLayout& grid, int row, int column, const Handle& handle);
+  void apply(const Handle& handle, double sign);
+
+  presenters::RegistrationSession& m_session;
+  QComboBox* m_step;
+  QLabel* m_moved;
+  QPushButton* m_undo;
+  QPushButton* m_redo;
+  QPushButton* m_remove;
+};
+
+} // namespace petrous::workstation

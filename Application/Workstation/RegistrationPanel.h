@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+
+#include <QWidget>
+
+#include "petrous/Presenters/RegistrationSession.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+class QSlider;
+class QTableView;
+class QVBoxLayout;
+
+namespace petrous::workstation
+{
+
+class HandlesBox;
+class LandmarkModel;
+class MetricCurve;
+
+/// How an MR of the case lies on the CT: seen, computed, moved by hand, by pairs of points, signed.
+class RegistrationPanel : public QWidget
+{
+  Q_OBJECT
+public:
+  explicit RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent = nullptr);
+
+  void caseChanged(); ///< another case, or other MRs in it
+  void refresh();     ///< how the MR lies, its points, what can be undone
+  void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
+  void setRunning(bool running);
+  void setProgress(double fraction, const QString& text);
+  void setMetric(const QString& text); ///< of how the MR lies now
+  void say(const QString& line);       ///< what went wrong, or what to do next; empty: nothing
+  MetricCurve& curve() { return *m_curve; }
+
+signals:
+  void overlayChosen(const std::optional<petrous::presenters::OverlayMode>& mode);
+  void opacityChosen(double opacity);
+  void mrChosen();
+  void registerAsked();
+  void refineAsked(); ///< from where the MR lies now
+  void cancelAsked();
+  void pointAsked(); ///< of a pair, at the crosshair
+  void landmarksChanged();
+  void hidden(); ///< nobody looks at the metric
+
+protected:
+  void hideEvent(QHideEvent* event) override;
+
+private:
+  void addSeeing(QVBoxLayout& layout);
+  void addRunning(QVBoxLayout& layout);
+  void addPoints(QVBoxLayout& layout);
+  void addSignOff(QVBoxLayout& layout);
+  void attempt(const std::function<void()>& what); ///< tells what it throws
+  void sign();
+  void enable();
+
+  presenters::RegistrationSession& m_session;
+  QComboBox* m_mr;
+  QLabel* m_state;
+  QLabel* m_error;
+  QLabel* m_line;
+  QComboBox* m_overlay;
+  QSlider* m_opacity;
+  QPushButton* m_register;
+  QPushButton* m_refine;
+  QPushButton* m_cancel;
+  QProgressBar* m_progress;
+  MetricCurve* m_curve;
+  QLabel* m_metric;
+  HandlesBox* m_handles;
+  LandmarkModel* m_rows;
+  QTableView* m_points;
+  QPushButton* m_point;
+  QPushButton* m_removePoint;
+  QPushButton* m_fitPoints;
+  QLineEdit* m_name;
+  QPushButton* m_sign;
+  bool m_running = false;
+  bool m_showing = false; // what the case says, not what the user wants
+};
+
+} // namespace petrous::workstation

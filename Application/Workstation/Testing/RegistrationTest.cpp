@@ -1,0 +1,245 @@
+#include "GuiTest.h"
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableView>
+
+#include "BackgroundWork.h"
+#include "LandmarkModel.h"
+#include "MetricCurve.h"
+#include "SliceView.h"
+#include "petrous/Imaging/Phantom.h"
+#include "petrous/Scene/LayMr.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using Eigen::Vector3d;
+using imaging::Phantom;
+
+namespace
+{
+
+// The phantom's ear as CT and, moved by a known motion, as MR.
+class RegistrationWindow : public GuiTest
+{
+protected:
+  void SetUp() override
+  {
+    scene::Case value;
+    value.name = "ear";
+    value.ct = scan(Phantom::Modality::Ct, {}, 0.9);
+    value.ct.name = "ct";
+    value.mr = {scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.1)};
+    value.mr.front().name = "T2";
+    library().save(value);
+    openWindow("ear");
+    picture(); // until it has come to rest
+  }
+
+  scene::ImagePart scan(Phantom::Modality modality, const core::RigidTransform& motion,
+                        double spacing)
+  {
+    const Vector3d center = motion * Phantom::center();
+    const core::GridGeometry grid({64, 64, 56}, Vector3d::Constant(spacing),
+                                  center - 0.5 * spacing * Vector3d(63, 63, 55));
+    imaging::ScanSettings settings;
+    settings.modality = modality;
+    settings.patientFromScan = motion.inverse();
+    scene::ImagePart part;
+    part.geometry = grid;
+    part.volume = std::make_shared<const volume::IntensityVolume>(
+        std::make_shared<const volume::Volume<std::int16_t>>(
+            imaging::samplePhantom(phantom, grid, settings)));
+    part.range = part.volume.get()->range();
+    return part;
+  }
+
+  template <class Widget>
+  Widget& find(const char* name)
+  {
+    return *window().findChild<Widget*>(name);
+  }
+  void click(const char* name) { find<QPushButton>(name).click(); }
+  void showPanel() { QTest::keyClick(&window(), Qt::Key_F5); }
+  const scene::ImagePart& mr() { return window().model().value().mr.front(); }
+  QString state() { return find<QLabel>("registrationState").text(); }
+  QImage axial() { return find<SliceView>("axialView").grab().toImage(); }
+  void choose(int mode) { find<QComboBox>("overlayMode").setCurrentIndex(mode); }
+  double error() // at the ear, mm
+  {
+    return (mr().mrFromCt * Phantom::center() - phantom.mrFromCt() * Phantom::center()).norm();
+  }
+
+  Phantom phantom;
+};
+
+} // namespace
+
+TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
+{
+  EXPECT_FALSE(find<QDockWidget>("registrationDock").isVisible());
+  showPanel();
+  EXPECT_TRUE(find<QDockWidget>("registrationDock").isVisible());
+  EXPECT_EQ(state(), "not registered");
+  EXPECT_EQ(mr().volume.peek(), nullptr);
+  const QImage ct = axial();
+  choose(2); // edges
+  EXPECT_NE(mr().volume.peek(), nullptr);
+  EXPECT_NE(axial(), ct);
+  choose(0);
+  EXPECT_EQ(axial(), ct);
+}
+
+TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
+{
+  const QImage ct = axial();
+  QTest::keyClick(&view(), Qt::Key_V);
+  const QImage mrAlone = axial();
+  EXPECT_NE(mrAlone, ct);
+  QTest::keyClick(&view(), Qt::Key_V);
+  const QImage ctAlone = axial();
+  EXPECT_NE(ctAlone, mrAlone);
+  QTest::keyClick(&view(), Qt::Key_V);
+  EXPECT_EQ(axial(), mrAlone);
+  picture();
+  QTest::keyClick(&view(), Qt::Key_O); // back to where it was
+  EXPECT_EQ(axial(), ct);
+  std::vector<QImage> ways;
+  for (int n = 0; n < 3; ++n)
+  {
+    QTest::keyClick(&view(), Qt::Key_O);
+    ways.push_back(axial());
+    EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), n + 1);
+  }
+  EXPECT_NE(ways[0], ways[1]);
+  EXPECT_NE(ways[1], ways[2]);
+  QTest::keyClick(&view(), Qt::Key_O);
+  EXPECT_EQ(axial(), ct);
+}
+
+TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
+{
+  showPanel();
+  EXPECT_GT(error(), 5.0);
+  click("register");
+  EXPECT_FALSE(find<QPushButton>("register").isEnabled());
+  EXPECT_TRUE(find<QPushButton>("cancelRegistration").isEnabled());
+  ASSERT_TRUE(waitFor([this] { return mr().registered; }, 240000)) << state().toStdString();
+  EXPECT_LT(error(), 0.5);
+  EXPECT_GT(find<MetricCurve>("metricCurve").points(), 5U);
+  EXPECT_TRUE(state().contains("mutual information")) << state().toStdString();
+  EXPECT_TRUE(state().contains("p95")) << state().toStdString();
+  EXPECT_TRUE(find<QPushButton>("register").isEnabled());
+  EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 2) << "what came of it is seen";
+  picture();
+  QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  const scene::Case saved = library().open("ear");
+  ASSERT_TRUE(saved.mr.front().registered);
+  EXPECT_TRUE(saved.mr.front().registration.has_value());
+}
+
+TEST_F(RegistrationWindow, CancelOffersToKeepWhatWasReached)
+{
+  showPanel();
+  for (const bool keep : {false, true})
+  {
+    click("register");
+    ASSERT_TRUE(waitFor([this] { return find<MetricCurve>("metricCurve").points() > 3; }));
+    bool asked = false;
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          asked = true;
+          for (QAbstractButton* button : box.buttons())
+            if (box.buttonRole(button) ==
+                (keep ? QMessageBox::AcceptRole : QMessageBox::RejectRole))
+              return button->click();
+        });
+    click("cancelRegistration");
+    ASSERT_TRUE(waitFor([&] { return asked; }));
+    QTest::qWait(50);
+    EXPECT_EQ(mr().registered, keep);
+    EXPECT_TRUE(find<QPushButton>("register").isEnabled());
+  }
+  EXPECT_NE(mr().registration->verdict, scene::Registration::Verdict::Good);
+  click("undoMr");
+  EXPECT_FALSE(mr().registered);
+}
+
+TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
+{
+  showPanel();
+  choose(2);
+  auto& slice = find<SliceView>("axialView");
+  const QImage before = axial();
+  QTest::keyClick(&slice, Qt::Key_Right, Qt::AltModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(mr().registered);
+  EXPECT_TRUE(state().contains("by hand")) << state().toStdString();
+  // The picture goes to its right, the patient's left: what lay at p lies at p + 1 mm.
+  EXPECT_LT((mr().mrFromCt * Vector3d(1, 0, 0)).norm(), 1e-9);
+  EXPECT_NE(axial(), before);
+  QTest::keyClick(&slice, Qt::Key_Down, Qt::AltModifier);
+  EXPECT_LT((mr().mrFromCt * Vector3d(1, 0.1, 0)).norm(), 1e-9);
+  QTest::keyClick(&slice, Qt::Key_PageDown, Qt::AltModifier);
+  EXPECT_NEAR(Eigen::AngleAxisd(mr().mrFromCt.rotation()).angle(), 0.1 * 3.14159265 / 180.0, 1e-9);
+  find<QComboBox>("nudgeStep").setCurrentIndex(1);
+  click("handle30"); // to the feet
+  ASSERT_TRUE(waitFor([this] { return find<QLabel>("liveMetric").text().contains("by hand"); }))
+      << find<QLabel>("liveMetric").text().toStdString();
+  for (int n = 0; n < 4; ++n)
+    QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_FALSE(mr().registered);
+  EXPECT_FALSE(find<QPushButton>("undoMr").isEnabled());
+  picture();
+}
+
+TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
+{
+  showPanel();
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const core::RigidTransform truth = phantom.mrFromCt();
+  for (const Vector3d& off : {Vector3d(8, 0, 2), Vector3d(-6, 7, 0), Vector3d(0, -8, -7)})
+  {
+    const Vector3d ct = Phantom::center() + off;
+    model.setCrosshair(ct);
+    QTest::keyClick(&view(), Qt::Key_K);
+    model.setCrosshair(truth * ct); // not registered: the MR is seen where its file puts it
+    QTest::keyClick(&view(), Qt::Key_K);
+  }
+  auto& rows = *find<QTableView>("landmarks").model();
+  ASSERT_EQ(rows.rowCount(), 3);
+  EXPECT_GT(rows.index(0, LandmarkModel::Residual).data().toString().split(' ')[0].toDouble(), 3.0);
+  picture();
+  click("fitLandmarks");
+  EXPECT_LT(error(), 1e-6);
+  EXPECT_EQ(rows.index(2, LandmarkModel::Residual).data().toString(), "0.00 mm");
+  EXPECT_TRUE(state().contains("landmarks")) << state().toStdString();
+  find<QTableView>("landmarks").selectRow(1);
+  click("removeLandmark");
+  EXPECT_EQ(rows.rowCount(), 2);
+  EXPECT_FALSE(find<QPushButton>("fitLandmarks").isEnabled());
+}
+
+TEST_F(RegistrationWindow, IsSignedWithANameThatIsTypedAndOnlyForAsLongAsItLiesSo)
+{
+  showPanel();
+  auto& name = find<QLineEdit>("signName");
+  EXPECT_FALSE(name.isEnabled()) << "nothing to sign yet";
+  EXPECT_TRUE(name.text().isEmpty());
+  find<QComboBox>("nudgeStep").setCurrentIndex(1);
+  click("handle10");
+  EXPECT_FALSE(find<QPushButton>("sign").isEnabled()) << "no name, no signature";
+  QTest::keyClicks(&name, "A. Surgeon");
+  click("sign");
+  ASSERT_NE(scene::validSignOff(mr()), nullptr);
+  EXPECT_TRUE(state().contains("A. Surgeon")) << state().toStdString();
+  EXPECT_TRUE(name.text().isEmpty());
+  QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  ASSERT_NE(scene::validSignOff(library().open("ear").mr.front()), nullptr);
+  click("handle11");
+  EXPECT_EQ(scene::validSignOff(mr()), nullptr);
+  EXPECT_FALSE(state().contains("A. Surgeon")) << state().toStdString();
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <QString>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+/// What is at a patient point (LPS mm): position from the scanner's zero, density, structure.
+QString placeText(const presenters::WorkstationModel& model, const Eigen::Vector3d& patient);
+
+/// What was drilled so far.
+QString removedText(const scene::Case& value);
+
+/// What a stroke took; "Nothing was cut" for none.
+QString strokeText(const dissection::Stroke* stroke);
+
+/// What this program is, as rich text.
+QString aboutText();
+
+} // namespace petrous::workstation

@@ -192,21 +192,32 @@ float sampleCubic(const volume::Volume<float>& image, const Vector3d& voxel)
     base[a] = static_cast<int>(std::floor(x));
     w[a] = cubicWeights(static_cast<float>(x - base[a]));
   }
-  const auto index = [&n](int i, std::size_t a) { return std::clamp(i, 0, n[a] - 1); };
   float sum = 0.0F;
-  for (int z = 0; z < 4; ++z)
+  const bool inside = base[0] >= 1 && base[0] + 2 < n[0] && base[1] >= 1 && base[1] + 2 < n[1] &&
+                      base[2] >= 1 && base[2] + 2 < n[2];
+  if (inside)
   {
-    float slice = 0.0F;
-    for (int y = 0; y < 4; ++y)
-    {
-      const float* row = &image.at(0, index(base[1] + y - 1, 1), index(base[2] + z - 1, 2));
-      float line = 0.0F;
-      for (int x = 0; x < 4; ++x)
-        line += w[0][static_cast<std::size_t>(x)] * row[index(base[0] + x - 1, 0)];
-      slice += w[1][static_cast<std::size_t>(y)] * line;
-    }
-    sum += w[2][static_cast<std::size_t>(z)] * slice;
+    const float* first = &image.at(base[0] - 1, base[1] - 1, base[2] - 1);
+    const std::ptrdiff_t row = n[0], slice = row * n[1];
+    for (std::size_t z = 0; z < 4; ++z)
+      for (std::size_t y = 0; y < 4; ++y)
+      {
+        const float* x =
+            first + static_cast<std::ptrdiff_t>(z) * slice + static_cast<std::ptrdiff_t>(y) * row;
+        sum +=
+            w[2][z] * w[1][y] * (w[0][0] * x[0] + w[0][1] * x[1] + w[0][2] * x[2] + w[0][3] * x[3]);
+      }
+    return sum;
   }
+  // At the border the last sample is repeated.
+  const auto index = [&n](int i, std::size_t a) { return std::clamp(i, 0, n[a] - 1); };
+  for (int z = 0; z < 4; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x)
+        sum += w[2][static_cast<std::size_t>(z)] * w[1][static_cast<std::size_t>(y)] *
+               w[0][static_cast<std::size_t>(x)] *
+               image.at(index(base[0] + x - 1, 0), index(base[1] + y - 1, 1),
+                        index(base[2] + z - 1, 2));
   return sum;
 }
 
@@ -290,6 +301,14 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
     parts[axis] = std::clamp(static_cast<int>(std::ceil(a.spacing[static_cast<Eigen::Index>(axis)] /
                                                         (0.7 * from.minSpacing()))),
                              2, 12);
+  // From the middle of an MR voxel, in voxels of the contrast.
+  std::vector<Vector3d> steps;
+  const Eigen::Matrix3d turn = from.voxelFromPatientLinear() * scan.patientFromVoxelLinear();
+  for (int w = 0; w < parts[2]; ++w)
+    for (int v = 0; v < parts[1]; ++v)
+      for (int u = 0; u < parts[0]; ++u)
+        steps.emplace_back(turn * Vector3d((u + 0.5) / parts[0] - 0.5, (v + 0.5) / parts[1] - 0.5,
+                                           (w + 0.5) / parts[2] - 0.5));
   const SmoothNoise field(a.seed + 101, 45.0);
   const Vector3d encode = a.axes.col(1);
   // The place in the CT's frame whose signal lands at p.
@@ -312,19 +331,13 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
               const Vector3d p = scan.patientFromVoxel(index);
               shift = source(p) - p;
             }
+            const Vector3d middle = from.voxelFromPatient(scan.patientFromVoxel(index) + shift);
             double sum = 0.0;
-            for (int w = 0; w < parts[2]; ++w)
-              for (int v = 0; v < parts[1]; ++v)
-                for (int u = 0; u < parts[0]; ++u)
-                {
-                  const Vector3d within((u + 0.5) / parts[0] - 0.5, (v + 0.5) / parts[1] - 0.5,
-                                        (w + 0.5) / parts[2] - 0.5);
-                  sum += sampleCubic(contrast, from.voxelFromPatient(
-                                                   scan.patientFromVoxel(index + within) + shift));
-                }
+            for (const Vector3d& step : steps)
+              sum += sampleCubic(contrast, middle + step);
             const Vector3d place = index.cwiseQuotient(last.cwiseMax(1.0)) * 2.0 - Vector3d::Ones();
             const double signal =
-                sum / (parts[0] * parts[1] * parts[2]) * biasAt(coil, a.bias, place);
+                sum / static_cast<double>(steps.size()) * biasAt(coil, a.bias, place);
             const auto n = static_cast<std::uint64_t>(scan.linearIndex(i, j, k));
             voxels->at(i, j, k) =
                 static_cast<float>(kScale * std::hypot(signal + a.noise * noise.normal(2 * n),

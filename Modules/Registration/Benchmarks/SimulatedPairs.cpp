@@ -108,7 +108,7 @@ PairRecipe usualRecipe(const SimulationBody& body, std::size_t ear, std::uint64_
   MrAcquisition& a = recipe.acquisition;
   a.extent = (size + Vector3d::Constant(10.0)).cwiseMin(Vector3d(180.0, 220.0, 140.0));
   // A small body has small voxels.
-  const double fine = std::clamp(a.extent.minCoeff() / 100.0, 0.5, 1.0);
+  const double fine = std::clamp(a.extent.minCoeff() / 100.0, 0.6, 1.2);
   a.spacing = fine * Vector3d(1.0, 1.0, 2.5);
   a.center = 0.5 * (bounds[0] + bounds[1]);
   a.axes = Eigen::AngleAxisd(draw.uniform(1, -12.0, 12.0) * kDegree, Vector3d::UnitX()).matrix();

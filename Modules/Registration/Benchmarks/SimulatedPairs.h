@@ -37,7 +37,7 @@ struct PairRecipe
 RegistrationPair simulatePair(const SimulationBody& body, std::size_t ear,
                               const PairRecipe& recipe);
 
-/// An everyday examination of a body: most of the head with voxels of about 1 x 1 x 3 mm, or what
+/// An everyday examination of a body: most of the head with voxels of 1.2 x 1.2 x 3 mm, or what
 /// the body has, a motion of 8 mm and 6 degrees; contrast and all else from the seed.
 PairRecipe usualRecipe(const SimulationBody& body, std::size_t ear, std::uint64_t seed);
 

@@ -36,6 +36,22 @@ std::optional<Eigen::Vector3d> middleOf(const volume::LabelMap& labels, std::uin
   return voxels.geometry().patientFromVoxel(sum / static_cast<double>(count));
 }
 
+std::optional<Eigen::Vector3d> middleOf(const core::TriangleMesh& mesh)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area = 0.0;
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Eigen::Vector3d a = mesh.vertices[triangle[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices[triangle[1]].cast<double>();
+    const Eigen::Vector3d c = mesh.vertices[triangle[2]].cast<double>();
+    const double here = (b - a).cross(c - a).norm();
+    sum += here / 3.0 * (a + b + c);
+    area += here;
+  }
+  return area > 0.0 ? std::optional<Eigen::Vector3d>(sum / area) : std::nullopt;
+}
+
 // Of the parts that the name may mean, the first that has a place on the CT.
 std::optional<Eigen::Vector3d> middleOf(const scene::Case& value, const std::string& name)
 {
@@ -46,13 +62,8 @@ std::optional<Eigen::Vector3d> middleOf(const scene::Case& value, const std::str
           return middleOf(*labels, structure.index);
   for (const scene::MeshPart& part : value.meshes)
     if (part.name == name)
-      if (const auto mesh = scene::meshOnCt(value, part); mesh && !mesh->vertices.empty())
-      {
-        Box box;
-        for (const auto& vertex : mesh->vertices)
-          box.extend(vertex.cast<double>());
-        return box.center();
-      }
+      if (const auto mesh = scene::meshOnCt(value, part))
+        return middleOf(*mesh);
   return std::nullopt;
 }
 

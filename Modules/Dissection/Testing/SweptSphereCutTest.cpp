@@ -75,6 +75,15 @@ TEST(SweptSphereCut, CapsuleIsRightWithinHalfAPercent)
   EXPECT_NEAR(removed(cube(40, 0.3), {from, to, 2.0}) / truth, 1.0, 0.005);
 }
 
+// Voxels on the very line of the way, where the correction has no bound of its own.
+TEST(SweptSphereCut, LeavesNothingOnALineOfVoxelsThatTheBurrGoesAlong)
+{
+  volume::CutMask mask(core::GridGeometry({50, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero()));
+  dissection::cut(mask, {{4.5, 6.0, 6.0}, {9.0, 6.0, 6.0}, 2.0});
+  for (int i = 12; i <= 33; ++i)
+    EXPECT_EQ(mask.at(i, 20, 20), 0) << i;
+}
+
 TEST(SweptSphereCut, HoldsOnAnObliqueAnisotropicGrid)
 {
   const Eigen::Matrix3d direction =

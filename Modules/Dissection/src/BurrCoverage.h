@@ -121,7 +121,9 @@ private:
       const float beside = t == along ? tangent : 0.0F;
       const float curved = bias[0] * (yy + zz) + bias[1] * (xx + zz) + bias[2] * (xx + yy);
       const float wanted = (curved / square - beside) / rho;
-      const float moved = wanted < biasLimit ? wanted : biasLimit;
+      // On the way's own line, where rho is 0, it is anything.
+      const float least = wanted < -biasLimit ? -biasLimit : wanted;
+      const float moved = least < biasLimit ? least : biasLimit;
       const float share = 0.5F + (rho - radius - moved) * slope;
       const float positive = share < 0.0F ? 0.0F : share;
       return (positive > 1.0F ? 1.0F : positive) * float{volume::CutMask::kUntouched} + 0.5F;

@@ -14,6 +14,7 @@
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/ThicknessColor.h"
+#include "petrous/Rendering/ThicknessLegend.h"
 
 namespace petrous::cli
 {
@@ -200,6 +201,9 @@ void render(const Context& context, const RenderOptions& options)
   remarkMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));
+  if (!options.thickness.empty())
+    rendering::drawThicknessLegend(result.picture, options.thickness,
+                                   presenters::kFarthestThickness);
   rendering::writePng(options.out, result.picture);
   if (result.depth)
     rendering::writeNpy(options.depth, *result.depth);

@@ -30,46 +30,14 @@ DrillSession::DrillSession(scene::Case& value)
     throw core::InvalidParameter("drill: the case's dissection is not loaded");
 }
 
-void DrillSession::begin(const dissection::Burr& burr, const std::string& startedAt, double seconds,
-                         const std::optional<core::CameraPose>& camera)
-{
-  dissection::StrokeInfo info;
-  info.startedAt = startedAt;
-  info.burr = burr;
-  info.camera = camera;
-  m_case.dissection->beginStroke(info);
-  m_last.reset();
-  m_startedAt = seconds;
-}
-
-bool DrillSession::drilling() const noexcept
-{
-  return m_case.dissection->strokeOpen();
-}
-
-bool DrillSession::moveTo(const Eigen::Vector3d& patient, double seconds)
-{
-  if (!drilling())
-    return false;
-  auto& info = m_case.dissection->openInfo();
-  info.duration = seconds - m_startedAt;
-  const bool resting = m_last && *m_last == patient;
-  const Eigen::Vector3d from = m_last.value_or(patient);
-  m_last = patient;
-  if (resting)
-    return false;
-  return m_case.dissection->cut({from, patient, 0.5 * info.burr.diameter}, m_keep);
-}
-
 std::shared_ptr<const dissection::Stroke> DrillSession::end()
 {
-  if (!drilling())
-    return nullptr;
   auto& work = *m_case.dissection;
+  if (!work.strokeOpen())
+    return nullptr;
   auto removed = measure(work);
   work.openInfo().removed = removed.total;
   work.openInfo().structures = std::move(removed.structures);
-  m_last.reset();
   return scene::endStroke(m_case);
 }
 

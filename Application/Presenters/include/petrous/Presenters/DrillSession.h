@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "petrous/Dissection/RemovedVolume.h"
@@ -12,8 +11,7 @@
 namespace petrous::presenters
 {
 
-/// A case as the drill knows it: its field, what is left alone, and what a stroke removed. By burr
-/// positions alone, without force and laws, the burr takes all that it sweeps over (`moveTo`).
+/// A case as the drill knows it: its field, what is left alone, and what a stroke removed.
 ///
 /// The case must have its dissection loaded and outlive the session; a change of its structures or
 /// surface threshold asks for a new session. One thread.
@@ -28,18 +26,8 @@ public:
   /// What the drill must leave.
   const dissection::ProtectedTissue& protectedTissue() const noexcept { return m_keep; }
 
-  /// Drill on: opens a stroke at time `seconds`. `startedAt` is UTC, ISO 8601.
-  void begin(const dissection::Burr& burr, const std::string& startedAt, double seconds,
-             const std::optional<core::CameraPose>& camera);
-
-  bool drilling() const noexcept;
-
-  /// The burr's centre is at `patient` (LPS mm) at time `seconds`; with the drill on it cuts all it
-  /// swept since the last position of this stroke. True when a voxel changed.
-  bool moveTo(const Eigen::Vector3d& patient, double seconds);
-
-  /// Drill off: measures what the stroke removed and lists it in the case. Null when the stroke
-  /// changed nothing.
+  /// Drill off: measures what the open stroke removed and lists it in the case. Null when there is
+  /// none, or it changed nothing.
   std::shared_ptr<const dissection::Stroke> end();
 
   /// What the open stroke of a dissection of this case, or of a copy, has removed so far. Pure: of
@@ -54,8 +42,6 @@ private:
   volume::TissueField m_field;
   dissection::ProtectedTissue m_keep;
   std::vector<dissection::NamedStructure> m_structures;
-  std::optional<Eigen::Vector3d> m_last;
-  double m_startedAt = 0.0;
 };
 
 /// Now, UTC, ISO 8601 with seconds.

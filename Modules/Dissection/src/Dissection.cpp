@@ -126,9 +126,11 @@ void Dissection::cutAgain(const std::vector<std::uint8_t>& packed)
 std::vector<std::size_t> Dissection::openBricks() const
 {
   std::vector<std::size_t> bricks;
-  bricks.reserve(m_touched.size());
-  for (const auto& entry : m_touched)
-    bricks.push_back(entry.first);
+  if (!m_open)
+    return bricks;
+  for (std::size_t brick = 0; brick < m_mask.brickCount(); ++brick)
+    if (m_mask.brick(brick) != m_before.brick(brick))
+      bricks.push_back(brick);
   return bricks;
 }
 

@@ -62,7 +62,8 @@ public:
   /// The mask as it was when the open stroke began.
   const volume::CutMask& maskBeforeStroke() const noexcept { return m_before; }
 
-  /// Bricks that the open stroke has changed so far, sorted.
+  /// Bricks that the open stroke has changed so far, sorted; also in a copy whose mask follows the
+  /// stroke by whole bricks.
   std::vector<std::size_t> openBricks() const;
 
   /// Information of the open stroke, to be completed before it ends.

@@ -4,8 +4,11 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QSignalBlocker>
 #include <QSpinBox>
 #include <QToolButton>
+
+#include "DiameterBox.h"
 
 namespace petrous::workstation
 {
@@ -15,7 +18,7 @@ DrillBar::DrillBar(QWidget* parent)
   , m_drill(new QAction(tr("Drill"), this))
   , m_pointer(new QAction(tr("Pointer"), this))
   , m_wheel(new QAction(tr("By wheel"), this))
-  , m_diameter(new QDoubleSpinBox)
+  , m_diameter(new DiameterBox)
   , m_kind(new QComboBox)
   , m_speed(new QSpinBox)
   , m_thrust(new QDoubleSpinBox)
@@ -36,16 +39,15 @@ DrillBar::DrillBar(QWidget* parent)
   addAction(m_pointer);
   widgetForAction(m_pointer)->setObjectName("pointerButton");
 
-  m_diameter->setRange(1.0, 7.0);
-  m_diameter->setSingleStep(0.5);
-  m_diameter->setDecimals(1);
-  m_diameter->setValue(4.0);
   m_diameter->setSuffix(tr(" mm"));
   m_diameter->setObjectName("burrDiameter");
-  m_diameter->setToolTip(tr("Diameter of the burr, mm ([ smaller, ] larger)"));
+  m_diameter->setToolTip(
+      tr("Diameter of the burr, mm, of those that are sold ([ smaller, ] larger)"));
   m_kind->addItem(tr("Cutting"), static_cast<int>(dissection::Burr::Kind::Cutting));
   m_kind->addItem(tr("Diamond"), static_cast<int>(dissection::Burr::Kind::Diamond));
   m_kind->setObjectName("burrKind");
+  offerDiameters();
+  m_diameter->setValue(4.0);
   m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes bone some six times as fast as a "
                         "diamond one"));
   m_speed->setRange(10, 100);
@@ -88,11 +90,28 @@ DrillBar::DrillBar(QWidget* parent)
   widgetForAction(m_wheel)->setObjectName("wheelButton");
   connect(m_diameter, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &DrillBar::burrChanged);
+  connect(m_kind, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [this]
+          {
+            const QSignalBlocker once(m_diameter);
+            offerDiameters();
+          });
   connect(m_kind, qOverload<int>(&QComboBox::currentIndexChanged), this, &DrillBar::burrChanged);
   connect(m_speed, qOverload<int>(&QSpinBox::valueChanged), this, &DrillBar::burrChanged);
   connect(m_thrust, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &DrillBar::pressChanged);
   connect(m_wheel, &QAction::toggled, this, &DrillBar::pressChanged);
+}
+
+void DrillBar::setBurrs(const dissection::BurrCatalogue& burrs)
+{
+  m_burrs = burrs;
+  offerDiameters();
+}
+
+void DrillBar::offerDiameters()
+{
+  m_diameter->setDiameters(m_burrs.model(burr().kind).diameters);
 }
 
 void DrillBar::stepDiameter(int steps)

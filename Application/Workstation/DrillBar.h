@@ -2,6 +2,7 @@
 
 #include <QToolBar>
 
+#include "petrous/Dissection/BurrCatalogue.h"
 #include "petrous/Dissection/Stroke.h"
 
 class QAction;
@@ -11,6 +12,8 @@ class QSpinBox;
 
 namespace petrous::workstation
 {
+
+class DiameterBox;
 
 /// Which tool is in the hand, which burr, and how it is pressed.
 class DrillBar : public QToolBar
@@ -27,7 +30,9 @@ public:
   {
     return m_pointer;
   }
-  void stepDiameter(int steps); ///< of 0.5 mm
+  void stepDiameter(int steps); ///< among those that are sold
+  /// Which diameters there are, of each kind.
+  void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;
   QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
   {
@@ -44,10 +49,13 @@ signals:
   void pressChanged(); ///< thrust, or how depth is led
 
 private:
+  void offerDiameters();
+
+  dissection::BurrCatalogue m_burrs = dissection::BurrCatalogue::builtIn();
   QAction* m_drill;
   QAction* m_pointer;
   QAction* m_wheel;
-  QDoubleSpinBox* m_diameter;
+  DiameterBox* m_diameter;
   QComboBox* m_kind;
   QSpinBox* m_speed;
   QDoubleSpinBox* m_thrust;

@@ -15,6 +15,7 @@
 #include <QStatusBar>
 #include <QUrl>
 
+#include "BranchController.h"
 #include "CaseKeeper.h"
 #include "DrillBar.h"
 #include "DrillController.h"
@@ -24,6 +25,7 @@
 #include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
+#include "PlaceLabel.h"
 #include "RegistrationController.h"
 #include "RegistrationPanel.h"
 #include "SliceColumn.h"
@@ -35,6 +37,7 @@
 #include "WindowActions.h"
 #include "WindowSettings.h"
 #include "WindowTexts.h"
+#include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/CasePicture.h"
 
 namespace petrous::workstation
@@ -62,7 +65,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_panel(new StructuresPanel(m_model))
   , m_nearby(new NearbyPanel(m_model))
   , m_pages(new QStackedWidget)
-  , m_place(new QLabel)
+  , m_place(new PlaceLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_handBar, options.quadBuffer))
@@ -72,12 +75,14 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
+  , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
   , m_thickness(new ThicknessController(m_model, *m_view, *m_panel, *m_actions->boneThickness))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
 {
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
   m_picture->secure = [this] { return secure(); };
+  m_branches->settle = [this] { m_drill->layDown(); };
   m_keeper->setParent(this);
   m_keeper->camera = [this] { return m_view->picture().camera(); };
   setAcceptDrops(true);
@@ -129,12 +134,6 @@ void MainWindow::layOut()
   tabifyDockWidget(picture, registration);
   structures->raise();
 
-  m_place->setObjectName("place");
-  m_place->setToolTip(
-      tr("Under the pointer: patient position from the scanner's zero (mm; R right, "
-         "L left, A anterior, P posterior, I inferior, S superior), density, "
-         "structure"));
-  m_place->setContentsMargins(8, 0, 8, 0);
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
   m_sum->setContentsMargins(8, 0, 8, 0);
@@ -184,11 +183,12 @@ void MainWindow::connectModel()
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
-  connect(m_slices, &SliceColumn::pointed, this, &MainWindow::showPlace);
-  connect(m_drill, &DrillController::pointed, this, &MainWindow::showPlace);
+  connect(m_slices, &SliceColumn::pointed, m_place, &PlaceLabel::showPlace);
+  connect(m_drill, &DrillController::pointed, m_place, &PlaceLabel::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
   connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
+  connect(m_nearby, &NearbyPanel::warned, &m_view->display(), &SceneDisplay::setWarning);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)
@@ -207,6 +207,9 @@ void MainWindow::connectModel()
   connect(m_thickness, &ThicknessController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_registration, &RegistrationController::said, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_branches, &BranchController::changed, m_keeper, &CaseKeeper::save);
+  connect(m_branches, &BranchController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_picture, &PictureController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
@@ -270,6 +273,7 @@ void MainWindow::caseChanged()
     resizeDocks({dock}, {395}, Qt::Horizontal);
   }
   m_drill->layDown();
+  offerBurrs();
   m_picture->caseChanged();
   m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
@@ -285,6 +289,19 @@ void MainWindow::caseChanged()
     statusBar()->showMessage(notes, 2 * kMessage);
 }
 
+// Those of the library.
+void MainWindow::offerBurrs()
+{
+  try
+  {
+    m_bar->setBurrs(dissection::Catalogues::in(m_model.library().folder()).burrs);
+  }
+  catch (const core::Error& fault)
+  {
+    statusBar()->showMessage(words(fault.what())); // and again, in full, when the burr is taken up
+  }
+}
+
 void MainWindow::maskChanged(const core::IndexBox& box)
 {
   const auto& value = m_model.value();
@@ -297,6 +314,7 @@ void MainWindow::stateChanged()
 {
   const bool open = m_model.hasCase();
   m_actions->setCaseOpen(open);
+  m_branches->stateChanged();
   m_actions->undo->setEnabled(m_model.canUndo());
   m_actions->redo->setEnabled(m_model.canRedo());
   if (!open)
@@ -316,11 +334,6 @@ void MainWindow::notice(const QString& text)
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
   box->open();
-}
-
-void MainWindow::showPlace(const Eigen::Vector3d& patient)
-{
-  m_place->setText(placeText(m_model, patient));
 }
 
 void MainWindow::showView(rendering::StandardView view)

@@ -15,6 +15,7 @@ class QStackedWidget;
 namespace petrous::workstation
 {
 
+class BranchController;
 class CaseKeeper;
 class DrillBar;
 class DrillController;
@@ -23,6 +24,7 @@ class HandFinder;
 class HandKeeper;
 class NearbyPanel;
 class PictureController;
+class PlaceLabel;
 class RegistrationController;
 class SliceColumn;
 class StructuresPanel;
@@ -64,10 +66,10 @@ private:
   void connectModel();
   void connectActions();
   void caseChanged();
+  void offerBurrs();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
   void notice(const QString& text);
-  void showPlace(const Eigen::Vector3d& patient);
   void showView(rendering::StandardView view);
   void stepped(bool back); // an undo, or a redo
   QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
@@ -83,7 +85,7 @@ private:
   StructuresPanel* m_panel;
   NearbyPanel* m_nearby;
   QStackedWidget* m_pages;
-  QLabel* m_place;
+  PlaceLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;
   WindowActions* m_actions;
@@ -92,6 +94,7 @@ private:
   HandKeeper* m_hands;
   DrillController* m_drill;
   PictureController* m_picture;
+  BranchController* m_branches;
   ThicknessController* m_thickness;
   RegistrationController* m_registration;
 };

@@ -62,19 +62,33 @@ void NearbyPanel::caseChanged()
   stateChanged();
 }
 
+void NearbyPanel::warn(const QString& lines)
+{
+  if (lines != m_warned)
+    emit warned(m_warned = lines);
+}
+
 void NearbyPanel::stateChanged()
 {
   if (!m_model.hasCase() || !isVisible())
     return;
+  showRemoved();
+  m_sinceAsked.invalidate();
+}
+
+// With the open stroke, which is one more.
+void NearbyPanel::showRemoved()
+{
   const scene::Case& value = m_model.value();
+  const auto& open = m_model.strokeSoFar();
+  const std::size_t strokes = value.applied() + (open.total > 0.0 ? 1 : 0);
   QString text = tr("Removed: %1 mm³ in %2 %3")
-                     .arg(value.removedVolume(), 0, 'f', 1)
-                     .arg(value.applied())
-                     .arg(value.applied() == 1 ? tr("stroke") : tr("strokes"));
-  for (const auto& [name, volume] : presenters::injuredVolumes(value))
+                     .arg(value.removedVolume() + open.total, 0, 'f', 1)
+                     .arg(strokes)
+                     .arg(strokes == 1 ? tr("stroke") : tr("strokes"));
+  for (const auto& [name, volume] : presenters::injuredVolumes(value, open))
     text += tr("\nInjured: %1, %2 mm³").arg(words(name).replace('_', ' ')).arg(volume, 0, 'f', 2);
   m_removed->setText(text);
-  m_sinceAsked.invalidate();
 }
 
 void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
@@ -82,6 +96,7 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   if (!isVisible() || (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain))
     return;
   m_sinceAsked.start();
+  showRemoved();
   try
   {
     auto near = m_model.nearby(center, radius);
@@ -90,17 +105,20 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
     say(near->empty() ? tr("No structure that is shown lies within %1 mm of the burr")
                             .arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
                       : QString());
+    warn(words(presenters::warningsOf(*near)));
     m_structures->show(std::move(*near));
   }
   catch (const std::exception& error) // no memory, a file that is gone
   {
     m_structures->show({});
+    warn({});
     say(tr("The structures cannot be measured: %1").arg(words(error.what())));
   }
 }
 
 void NearbyPanel::burrGone()
 {
+  warn({});
   m_structures->show({});
   m_sinceAsked.invalidate();
   say(tr("Take up the burr (D) to see how far the structures are from it"));

@@ -29,18 +29,25 @@ public:
 
   const NearbyModel& structures() const { return *m_structures; }
 
+signals:
+  /// What the surgeon must see now (presenters::warningsOf); empty: nothing. When it changes.
+  void warned(const QString& lines);
+
 protected:
   void hideEvent(QHideEvent* event) override;
   void showEvent(QShowEvent* event) override;
 
 private:
   void say(const QString& line);
+  void warn(const QString& lines);
+  void showRemoved();
 
   presenters::WorkstationModel& m_model;
   NearbyModel* m_structures;
   QLabel* m_removed;
   QLabel* m_line;
   QElapsedTimer m_sinceAsked;
+  QString m_warned;
 };
 
 } // namespace petrous::workstation

@@ -122,7 +122,10 @@ void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRad
   if (m_follower)
     m_follower->setTouch(record, burrRadius, handpiece);
   if (!m_touch || m_touch->burrRadius() != burrRadius || m_touch->handpiece() != handpiece)
+  {
     m_touch.reset(new TouchOverlay(*m_renderer, burrRadius, handpiece));
+    m_touch->setWarning(bytes(m_warning));
+  }
   if (!m_touch->update(record))
     return;
   m_contents.tool = m_touch->tool();
@@ -139,9 +142,19 @@ void SceneDisplay::setReading(const QString& text)
     redraw(m_moving);
 }
 
+void SceneDisplay::setWarning(const QString& text)
+{
+  if (m_follower)
+    m_follower->setWarning(text);
+  m_warning = text;
+  if (m_touch && m_touch->setWarning(bytes(text)))
+    redraw(m_moving);
+}
+
 void SceneDisplay::endTouch()
 {
   m_reading.clear();
+  m_warning.clear();
   if (m_follower)
     m_follower->endTouch();
   if (!m_touch)
@@ -206,6 +219,7 @@ void SceneDisplay::setFollower(SceneDisplay* follower)
   follower->setRate();
   follower->m_light = m_light;
   follower->m_contents.tool = m_contents.tool;
+  follower->m_warning = m_warning;
   follower->setContents(m_contents);
   follower->setCamera(m_picture.camera());
 }

@@ -59,7 +59,10 @@ public:
   /// What a pointer in the hand reads, some lines; after setTouch.
   void setReading(const QString& text);
   const QString& reading() const noexcept { return m_reading; }
-  void endTouch(); ///< no tool, no force, no reading
+  /// What the surgeon must see while the tool is in the hand, some lines; empty: nothing.
+  void setWarning(const QString& text);
+  const QString& warning() const noexcept { return m_warning; }
+  void endTouch(); ///< no tool, no force, no reading, no warning
   void setCamera(const core::CameraPose& pose);
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
@@ -96,7 +99,7 @@ private:
   rendering::LightSettings m_light;
   std::unique_ptr<TouchOverlay>
       m_touch; // while there is a tool in the hand; ends before m_renderer
-  QString m_reading;
+  QString m_reading, m_warning;
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
   QElapsedTimer m_clock;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <vtkCoordinate.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
@@ -19,6 +20,30 @@ constexpr double kForce = 0.03;   // N
 constexpr double kReadingLeft = 76.0;
 constexpr double kReadingBottom = 48.0;
 constexpr int kReadingSize = 17;
+// Of the view: below the letter of the upper edge.
+constexpr double kWarningAcross = 0.5;
+constexpr double kWarningUp = 0.93;
+
+void setLook(vtkTextActor& actor)
+{
+  vtkTextProperty* look = actor.GetTextProperty();
+  look->SetFontFamilyToArial();
+  look->SetFontSize(kReadingSize);
+  look->SetColor(0.93, 0.95, 0.98);
+  look->SetBackgroundColor(0.06, 0.07, 0.09);
+  look->SetBackgroundOpacity(0.55);
+  look->SetLineSpacing(1.2);
+}
+
+bool say(vtkTextActor& actor, std::string& present, const std::string& text)
+{
+  if (text == present)
+    return false;
+  present = text;
+  actor.SetInput(text.c_str());
+  actor.SetVisibility(text.empty() ? 0 : 1);
+  return true;
+}
 } // namespace
 
 TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius, bool handpiece)
@@ -29,17 +54,23 @@ TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius, bool handpi
 {
   m_view.addTo(&renderer);
   m_force.addTo(&renderer);
-  vtkTextProperty* look = m_reading->GetTextProperty();
-  look->SetFontFamilyToArial();
-  look->SetFontSize(kReadingSize);
-  look->SetColor(0.93, 0.95, 0.98);
-  look->SetBackgroundColor(0.06, 0.07, 0.09);
-  look->SetBackgroundOpacity(0.55);
-  look->SetLineSpacing(1.2);
+  setLook(*m_reading);
   m_reading->SetPosition(kReadingLeft, kReadingBottom);
-  m_reading->PickableOff();
-  m_reading->SetVisibility(0);
-  renderer.AddViewProp(m_reading);
+  setLook(*m_warning);
+  vtkTextProperty* warning = m_warning->GetTextProperty();
+  warning->SetColor(1.0, 0.78, 0.35);
+  warning->SetBackgroundOpacity(0.75);
+  warning->BoldOn();
+  warning->SetJustificationToCentered();
+  warning->SetVerticalJustificationToTop();
+  m_warning->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  m_warning->SetPosition(kWarningAcross, kWarningUp);
+  for (vtkTextActor* actor : {m_reading.Get(), m_warning.Get()})
+  {
+    actor->PickableOff();
+    actor->SetVisibility(0);
+    renderer.AddViewProp(actor);
+  }
 }
 
 TouchOverlay::~TouchOverlay()
@@ -47,16 +78,17 @@ TouchOverlay::~TouchOverlay()
   m_view.removeFrom(m_renderer);
   m_force.removeFrom(m_renderer);
   m_renderer->RemoveViewProp(m_reading);
+  m_renderer->RemoveViewProp(m_warning);
 }
 
 bool TouchOverlay::setReading(const std::string& text)
 {
-  if (text == m_text)
-    return false;
-  m_text = text;
-  m_reading->SetInput(text.c_str());
-  m_reading->SetVisibility(text.empty() ? 0 : 1);
-  return true;
+  return say(*m_reading, m_text, text);
+}
+
+bool TouchOverlay::setWarning(const std::string& text)
+{
+  return say(*m_warning, m_warningText, text);
 }
 
 bool TouchOverlay::update(const simulation::TickRecord& record)

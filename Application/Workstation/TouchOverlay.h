@@ -34,6 +34,8 @@ public:
   bool update(const simulation::TickRecord& record);
   /// UTF-8, some lines; empty: nothing is read. Likewise.
   bool setReading(const std::string& text);
+  /// What the surgeon must see now, UTF-8, some lines, at the upper edge; likewise.
+  bool setWarning(const std::string& text);
 
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;
@@ -42,7 +44,8 @@ private:
   interaction::ToolView m_view;
   interaction::ForceDisplay m_force;
   vtkNew<vtkTextActor> m_reading;
-  std::string m_text;                        // as shown
+  vtkNew<vtkTextActor> m_warning;
+  std::string m_text, m_warningText;         // as shown
   std::optional<rendering::ToolPose> m_tool; // as drawn last
   double m_shownForce = 0.0;                 // N
   double m_shownLag = 0.0;                   // mm

@@ -71,6 +71,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& h
                       tr("Turn the patient as they lay when the stroke was drilled"));
   strokeCamera->setCheckable(true);
 
+  approaches = window.menuBar()->addMenu(tr("&Approach"));
+
   m_view = window.menuBar()->addMenu(tr("&View"));
   int number = 1;
   auto* viewMenu = new QMenu(&window);
@@ -104,8 +106,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& h
   drill->addAction(drillBar.pointerAction());
   drill->addAction(drillBar.wheelAction());
   drill->addAction(handBar.hereAction());
-  smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft, tr("0.5 mm less"));
-  largerBurr = make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("0.5 mm more"));
+  smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft,
+                     tr("The next smaller one that is sold"));
+  largerBurr =
+      make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("The next larger one that is sold"));
   drill->addSeparator();
   drillBar.wheelAction()->setText(tr("Depth &by wheel"));
   drillBar.wheelAction()->setIconText(tr("By wheel"));

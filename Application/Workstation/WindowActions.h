@@ -44,6 +44,7 @@ public:
   QAction* boneWindow;
   QAction* softWindow;
   QAction* fitSlices;
+  QMenu* approaches;
   QActionGroup* stereo;   ///< checkable; each one's data is its StereoMode
   QAction* surgeonWindow; ///< checkable
   QAction* slicesFollow;  ///< checkable

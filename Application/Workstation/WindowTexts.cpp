@@ -1,39 +1,11 @@
 #include "WindowTexts.h"
 
-#include <cmath>
-
 #include <QObject>
 
 #include "Theme.h"
 
 namespace petrous::workstation
 {
-
-namespace
-{
-// "R 32.1  P 12.0  S 45.3 mm": the letters of the directions from the scanner's zero.
-QString positionText(const Eigen::Vector3d& patient)
-{
-  constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
-  QString text;
-  for (int a = 0; a < 3; ++a)
-    text += QString("%1 %2  ")
-                .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
-                .arg(std::abs(patient[a]), 0, 'f', 1);
-  return text.trimmed() + " mm";
-}
-} // namespace
-
-QString placeText(const presenters::WorkstationModel& model, const Eigen::Vector3d& patient)
-{
-  QString text = positionText(patient);
-  if (const auto hounsfield = model.hounsfieldAt(patient))
-    text += QObject::tr("   %1 HU").arg(std::lround(*hounsfield));
-  const std::string structure = model.structureAt(patient);
-  if (!structure.empty())
-    text += "   " + words(structure).replace('_', ' ');
-  return text;
-}
 
 QString removedText(const scene::Case& value)
 {

@@ -7,9 +7,6 @@
 namespace petrous::workstation
 {
 
-/// What is at a patient point (LPS mm): position from the scanner's zero, density, structure.
-QString placeText(const presenters::WorkstationModel& model, const Eigen::Vector3d& patient);
-
 /// What was drilled so far.
 QString removedText(const scene::Case& value);
 

@@ -47,11 +47,38 @@ std::string inWords(const NearbyStructure& structure)
   return text;
 }
 
-std::map<std::string, double> injuredVolumes(const scene::Case& value)
+std::string warningsOf(const std::vector<NearbyStructure>& structures)
+{
+  using State = NearbyStructure::State;
+  std::vector<const NearbyStructure*> worst;
+  for (const NearbyStructure& structure : structures)
+    if (structure.state != State::Clear || structure.injured > 0.0)
+      worst.push_back(&structure);
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const NearbyStructure* a, const NearbyStructure* b)
+                   { return a->state > b->state; });
+  std::string text;
+  for (std::size_t n = 0; n < std::min(worst.size(), kMostWarnings); ++n)
+  {
+    text += (text.empty() ? "" : "\n") + inWords(*worst[n]);
+    char injured[40];
+    std::snprintf(injured, sizeof injured, "; injured, %.2f mm³", worst[n]->injured);
+    if (worst[n]->injured > 0.0)
+      text += injured;
+  }
+  if (worst.size() > kMostWarnings)
+    text += "\nand " + std::to_string(worst.size() - kMostWarnings) + " more";
+  return text;
+}
+
+std::map<std::string, double> injuredVolumes(const scene::Case& value,
+                                             const dissection::RemovedVolume& open)
 {
   std::map<std::string, double> volumes;
   for (const auto& touched : scene::summaryOf(value, value.history.position()).structures)
     volumes[touched.name] = touched.volume;
+  for (const auto& touched : open.structures)
+    volumes[touched.name] += touched.volume;
   return volumes;
 }
 
@@ -88,13 +115,14 @@ StructureSurfaces& NearbyStructures::surfaces() const
 
 std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
                                                       const Eigen::Vector3d& center, double radius,
-                                                      double reach)
+                                                      double reach,
+                                                      const dissection::RemovedVolume& open)
 {
   std::vector<NearbyStructure> near;
   if (!ready())
     return near;
   StructureSurfaces& surfaces = this->surfaces();
-  const auto injured = injuredVolumes(value);
+  const auto injured = injuredVolumes(value, open);
   for (std::size_t n = 0; n < surfaces.count(); ++n)
   {
     NearbyStructure structure;

@@ -67,6 +67,13 @@ void WorkstationModel::step(bool back)
     return back ? m_touch->undo() : m_touch->redo();
   if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
     return;
+  followHistory();
+  tell(events.stepped, back);
+}
+
+// After the case went to another state by itself.
+void WorkstationModel::followHistory()
+{
   const std::vector<std::size_t> bricks = m_case->dissection->mask().takeDirty();
   if (m_scene)
     m_scene->publish(bricks);
@@ -74,7 +81,6 @@ void WorkstationModel::step(bool back)
     m_journal->follow(*m_case->dissection);
   tellMask(bricks);
   setUnsaved(true);
-  tell(events.stepped, back);
 }
 
 void WorkstationModel::undo()

@@ -106,3 +106,26 @@ TEST_F(Nearby, ListsWhatIsInjuredAndWhatWasRemoved)
   EXPECT_TRUE(removed->text().endsWith(" in 1 stroke")) << removed->text().toStdString();
   EXPECT_FALSE(removed->text().startsWith("Removed: 0.0 "));
 }
+
+// While the drill is on: volumes change within the stroke, and the warning stands in the picture.
+TEST_F(Nearby, FollowsAStrokeThatIsStillDrilled)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  takeUpBurr();
+  ASSERT_TRUE(listed());
+  EXPECT_EQ(view().display().warning(), QString());
+  warnAt(12.0);
+  ASSERT_TRUE(waitFor([this] { return view().display().warning().startsWith("nerve "); }));
+  auto* removed = window().findChild<QLabel*>("removed");
+  QTest::keyPress(&view(), Qt::Key_Space);
+  EXPECT_TRUE(waitFor([removed] { return !removed->text().startsWith("Removed: 0.0 "); }))
+      << removed->text().toStdString();
+  EXPECT_TRUE(window().model().drilling());
+  EXPECT_EQ(window().model().value().applied(), 0u) << "the stroke is still open";
+  EXPECT_TRUE(removed->text().endsWith(" in 1 stroke")) << removed->text().toStdString();
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  QTest::keyClick(&window(), Qt::Key_F7); // hidden: nothing is measured, nothing is told
+  EXPECT_EQ(view().display().warning(), QString());
+}

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Dissection/RemovedVolume.h"
 #include "petrous/Presenters/StructureSurfaces.h"
 #include "petrous/Scene/Case.h"
 
@@ -28,15 +29,21 @@ struct NearbyStructure
   SurfaceUncertainty uncertainty;
   double warning = 0.0; ///< mm; 0: none
   State state = State::Clear;
-  double injured = 0.0; ///< mm^3 taken of it by the strokes that are done
+  double injured = 0.0; ///< mm^3 taken of it, by the open stroke too as far as that is known
 };
 
 /// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration's error unknown" where
 /// the number leaves something out.
 std::string inWords(const NearbyStructure& structure);
 
-/// What the strokes that are done have taken of each structure, mm^3.
-std::map<std::string, double> injuredVolumes(const scene::Case& value);
+/// What the surgeon must see now, a line for each structure that is touched, injured or within its
+/// warning distance, the worst first and at most kMostWarnings of them; empty: nothing.
+std::string warningsOf(const std::vector<NearbyStructure>& structures);
+constexpr std::size_t kMostWarnings = 3;
+
+/// What the strokes that are done, and `open`, have taken of each structure, mm^3.
+std::map<std::string, double> injuredVolumes(const scene::Case& value,
+                                             const dissection::RemovedVolume& open = {});
 
 /// How far a burr is from the structures of a case that are shown, as often as a picture is drawn.
 ///
@@ -57,8 +64,10 @@ public:
   /// value   the same case, as it is now: looks, strokes
   /// center  of the burr, patient LPS mm; `radius` mm
   /// reach   mm; what is farther is left out
+  /// open    what the open stroke has taken so far
   std::vector<NearbyStructure> around(const scene::Case& value, const Eigen::Vector3d& center,
-                                      double radius, double reach);
+                                      double radius, double reach,
+                                      const dissection::RemovedVolume& open = {});
 
   /// See StructureSurfaces.
   StructureSurfaces& surfaces() const; ///< waits for them

@@ -8,7 +8,7 @@
 namespace petrous::presenters
 {
 
-/// What the window hears of WorkstationModel; each may be empty. Called after the change.
+/// What the window hears of the open case; each may be empty. Called after the change.
 struct WorkstationEvents
 {
   std::function<void()> caseChanged;       ///< another case

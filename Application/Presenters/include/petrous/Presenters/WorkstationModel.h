@@ -12,6 +12,7 @@
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PlaceReader.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Presenters/StrokeMeter.h"
 #include "petrous/Presenters/TouchSession.h"
 #include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
@@ -64,6 +65,10 @@ public:
   void undo();
   void redo();
 
+  /// Puts the tool away first. Throw as scene::goToBranch and scene::startBranch do.
+  void goToBranch(const std::string& name);
+  void startBranch(const std::string& name); ///< where the case stands
+
   void setIso(double hounsfield);
   void setLook(const std::string& structure, const appearance::StructureLook& look);
   void setBoneLook(const appearance::StructureLook& look);
@@ -93,6 +98,8 @@ public:
   /// first. The first question of a case has them measured, in a thread of its own: nothing until
   /// that is done, and nothing without a case.
   std::optional<std::vector<NearbyStructure>> nearby(const Eigen::Vector3d& burr, double radius);
+  /// What the open stroke has taken so far, see StrokeMeter; nothing while none is open.
+  const dissection::RemovedVolume& strokeSoFar();
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }
   void forgetNearby(); ///< nobody looks at it any more: gives its memory back
 
@@ -122,6 +129,7 @@ private:
   void tellMask(const std::vector<std::size_t>& bricks);
   TouchSession::News hear(TouchSession::News news);
   void step(bool back);
+  void followHistory();
   void setUnsaved(bool unsaved);
   void keepJournal();
 
@@ -134,6 +142,7 @@ private:
   std::unique_ptr<TouchSession> m_touch;      ///< after m_scene, which it uses
   std::unique_ptr<PlaceReader> m_reader;      ///< when first asked for; likewise
   std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; a cut changes nothing of them
+  StrokeMeter m_meter;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;

@@ -1,0 +1,101 @@
+#include "HandTest.h"
+
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QTimer>
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class Branches : public HandTest
+{
+protected:
+  QMenu& menu()
+  {
+    for (QAction* action : window().menuBar()->actions())
+      if (action->text() == "&Approach")
+        return *action->menu();
+    throw std::runtime_error("no menu of approaches");
+  }
+  QStringList lines()
+  {
+    emit menu().aboutToShow();
+    QStringList lines;
+    bool listed = false;
+    for (QAction* action : menu().actions())
+      if (action->isSeparator())
+        listed = true;
+      else if (listed)
+        lines += (action->isChecked() ? "*" : "") + action->text();
+    return lines;
+  }
+  void startBranch(const QString& name)
+  {
+    QTimer::singleShot(300, &window(),
+                       [name]
+                       {
+                         auto* dialog =
+                             qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+                         ASSERT_TRUE(dialog);
+                         dialog->setTextValue(name);
+                         dialog->accept();
+                       });
+    QTest::keyClick(&window(), Qt::Key_B, Qt::ControlModifier);
+  }
+  const scene::Case& value() { return window().model().value(); }
+};
+
+} // namespace
+
+TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
+{
+  saveBall("ball");
+  openWindow();
+  EXPECT_EQ(lines(), QStringList(QString::fromUtf8("*&1  main: 0 strokes, 0.0 mm³")));
+  startBranch("other");
+  EXPECT_EQ(value().history.branch().name, "other");
+  drill(800, 30);
+  ASSERT_EQ(value().applied(), 1u);
+  const double removed = value().removedVolume();
+  ASSERT_GT(removed, 0.0);
+  // To main, by its key in the menu.
+  emit menu().aboutToShow();
+  menu().actions().at(4)->trigger();
+  EXPECT_EQ(value().history.branch().name, "main");
+  EXPECT_EQ(value().applied(), 0u);
+  EXPECT_TRUE(std::as_const(*value().dissection).mask().untouched());
+  EXPECT_EQ(lines().size(), 2);
+  EXPECT_TRUE(lines().at(1).startsWith("&2  other: 1 stroke, ")) << lines().at(1).toStdString();
+  // The next one, by key: round to the other.
+  QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
+  EXPECT_EQ(value().history.branch().name, "other");
+  EXPECT_EQ(value().removedVolume(), removed);
+  EXPECT_FALSE(std::as_const(*value().dissection).mask().untouched());
+  EXPECT_FALSE(window().model().unsaved());
+  const scene::Case saved = library().open("ball");
+  EXPECT_EQ(saved.history.branch().name, "other");
+  EXPECT_EQ(saved.history.branches().size(), 2u);
+}
+
+TEST_F(Branches, RefuseANameThatIsTakenInWords)
+{
+  saveBall("ball");
+  openWindow();
+  QString words;
+  QTimer::singleShot(900, &window(),
+                     [&words]
+                     {
+                       auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+                       ASSERT_TRUE(box);
+                       words = box->text();
+                       box->accept();
+                     });
+  startBranch("main");
+  EXPECT_TRUE(words.contains("main")) << words.toStdString();
+  EXPECT_EQ(value().history.branches().size(), 1u);
+}

@@ -76,7 +76,7 @@ Points onePair(const BenchmarkInput& input, const RegistrationPair& pair,
 {
   Points points;
   const int times = input.quick ? 1 : 3;
-  const bool peers = !input.quick || input.pairs.size() == 1;
+  const bool peers = !input.quick || input.rire.empty();
   std::optional<PeerFit> reference;
   if (elastix && peers)
     reference = repeated(times, [&] { return runElastix(pair, input.work, threads()); });

@@ -151,6 +151,7 @@ void addSides(List& list, bool both)
              [](const Draw& d) {
                return withoutTruth(centred(simulatePair(d.body(), 0, earRecipe(d, d.n, d.n + 1))));
              });
+    return; // the mirrored ones are in the list already
   }
   list.add("MR of the other side: mirrored anatomy about the ear", 10,
            [](const Draw& d)

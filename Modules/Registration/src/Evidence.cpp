@@ -1,6 +1,7 @@
 #include "Evidence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ErrorModel.h"
@@ -14,7 +15,8 @@ namespace
 {
 
 constexpr double kSurroundings = 30.0; // mm about the point, of the fit that is its own
-constexpr double kStray = 5.0;         // voxels of the finest level; a repeat further off is lost
+constexpr int kLocalFits = 6;
+constexpr double kStray = 5.0; // voxels of the finest level; a repeat further off is lost
 
 // A level with its left and right exchanged, about the middle of its content.
 Pyramid mirrored(const Pyramid& pyramid)
@@ -74,6 +76,26 @@ double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
   return reference > 0.0 ? turned.metric * turned.overlap / reference : 1.0;
 }
 
+double asideOf(const ImagePair& pair, const core::RigidTransform& mrFromCt,
+               const Eigen::Vector3d& at, RepeatOptions repeat)
+{
+  repeat.count = kLocalFits;
+  const std::vector<core::RigidTransform> fits =
+      fitAround(pair, mrFromCt, at, kSurroundings, repeat);
+  if (fits.empty())
+    return 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double square = 0.0;
+  for (const core::RigidTransform& fit : fits)
+  {
+    const Eigen::Vector3d off = fit * at - mrFromCt * at;
+    mean += off / kLocalFits;
+    square += off.squaredNorm() / kLocalFits;
+  }
+  const double error = std::sqrt(std::max(0.0, square - mean.squaredNorm()) / (kLocalFits - 1));
+  return std::max(0.0, mean.norm() - 2.0 * error);
+}
+
 } // namespace
 
 Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOptions& options,
@@ -97,7 +119,7 @@ Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOpt
   evidence.strays = strayShare(pose, repeats, at, stray);
   evidence.error = localError(pose, repeats, at, voxel, stray);
   progress.report(0.6, "registration's error");
-  evidence.aside = (fitAround(pair, pose, at, kSurroundings, repeat) * at - pose * at).norm();
+  evidence.aside = asideOf(pair, pose, at, repeat);
   progress.report(0.7, "registration's verdict");
   evidence.mirrored = mirrorShare(pair, pose, options, progress.part(0.7, 1.0));
 

@@ -14,7 +14,9 @@ struct Evidence
   double overlap = 0.0;     ///< share of the fixed image's points that fall on the other
   double information = 0.0; ///< nats, at the finest level, less the bias of its samples
   double strays = 1.0;      ///< share of the repeats that ended elsewhere
-  double aside = 0.0;       ///< mm, at the point: how far a fit of its surroundings alone lies off
+  /// mm, at the point: how far fits of its surroundings alone lie off in the mean, less twice the
+  /// standard error of that mean.
+  double aside = 0.0;
   double runnerUp = 0.0;    ///< best score of a clearly different pose, as a share of the fit's
   double mirrored = 0.0;    ///< best score of the MR mirrored, as a share of the fit's
   bool pointCovered = true; ///< the point lies in both images

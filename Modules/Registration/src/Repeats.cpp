@@ -96,21 +96,33 @@ std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
   return fits;
 }
 
-core::RigidTransform fitAround(const ImagePair& pair, const core::RigidTransform& mrFromCt,
-                               const Eigen::Vector3d& ctPoint, double radius,
-                               const RepeatOptions& options)
+std::vector<core::RigidTransform> fitAround(const ImagePair& pair,
+                                            const core::RigidTransform& mrFromCt,
+                                            const Eigen::Vector3d& ctPoint, double radius,
+                                            const RepeatOptions& options)
 {
   const core::RigidTransform forward = pair.movingFromFixed(mrFromCt);
   const Eigen::Vector3d centre = pair.fixedIsCt ? ctPoint : mrFromCt * ctPoint;
   const core::GridGeometry& grid = pair.fixed.finest().grid();
   const core::IndexBox box = grid.boxCovering(centre - Eigen::Vector3d::Constant(radius),
-                                              centre + Eigen::Vector3d::Constant(radius));
+                                              centre + Eigen::Vector3d::Constant(radius))
+                                 .intersected(pair.fixed.content.back());
   if (box.empty())
-    return mrFromCt;
-  const FixedSamples samples =
-      drawSamples(pair.fixed.finest(), box, options.samples, options.seed, options.bins);
-  const MutualInformation metric(samples, pair.moving.finest(), options.bins);
-  return pair.mrFromCt(ascend(metric, forward, climbOptions(pair.scales.back())).pose);
+    return {};
+  std::vector<core::RigidTransform> fits(static_cast<std::size_t>(options.count));
+  tbb::parallel_for(
+      std::size_t{0}, fits.size(),
+      [&](std::size_t n)
+      {
+        const auto seed = options.seed + 104729 * static_cast<std::uint32_t>(n + 1);
+        std::mt19937 random(seed);
+        const FixedSamples samples =
+            drawSamples(pair.fixed.finest(), box, options.samples, seed, options.bins);
+        const MutualInformation metric(samples, pair.moving.finest(), options.bins);
+        const core::RigidTransform start = perturbed(forward, samples.centre, options, random);
+        fits[n] = pair.mrFromCt(ascend(metric, start, climbOptions(pair.scales.back())).pose);
+      });
+  return fits;
 }
 
 } // namespace petrous::registration

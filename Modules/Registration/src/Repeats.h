@@ -27,9 +27,11 @@ std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
                                             const RepeatOptions& options,
                                             const core::Progress& progress);
 
-/// One fit of what lies within `radius` mm of a point of the CT alone: X_MC.
-core::RigidTransform fitAround(const ImagePair& pair, const core::RigidTransform& mrFromCt,
-                               const Eigen::Vector3d& ctPoint, double radius,
-                               const RepeatOptions& options);
+/// Fits of what lies within `radius` mm of a point of the CT alone, from perturbed starts: X_MC of
+/// each. Empty where the fixed image does not reach there.
+std::vector<core::RigidTransform> fitAround(const ImagePair& pair,
+                                            const core::RigidTransform& mrFromCt,
+                                            const Eigen::Vector3d& ctPoint, double radius,
+                                            const RepeatOptions& options);
 
 } // namespace petrous::registration

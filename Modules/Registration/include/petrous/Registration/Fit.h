@@ -67,7 +67,7 @@ struct Fit
   core::RigidTransform mrFromCt; ///< X_MC: CT patient points to MR patient points, LPS mm
   double metric = 0.0;           ///< mutual information at the finest level, nats
   double overlap = 0.0;          ///< share of the smaller image's points that fall on the other
-  int iterations = 0;            ///< evaluations of the metric with its gradient
+  int iterations = 0;            ///< evaluations with gradient, as MetricListener hears of them
   double seconds = 0.0;          ///< wall time
 };
 

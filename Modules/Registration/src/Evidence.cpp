@@ -14,7 +14,8 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kSurroundings = 30.0; // mm about the point, of the fit that is its own
+constexpr double kSurroundings = 30.0; // mm about the point, of the fits that are its own
+constexpr double kShareOfField = 0.35; // of the smaller field's narrowest side, at most
 constexpr int kLocalFits = 6;
 constexpr double kStray = 5.0; // voxels of the finest level; a repeat further off is lost
 
@@ -80,8 +81,13 @@ double asideOf(const ImagePair& pair, const core::RigidTransform& mrFromCt,
                const Eigen::Vector3d& at, RepeatOptions repeat)
 {
   repeat.count = kLocalFits;
+  const core::GridGeometry& grid = pair.fixed.finest().grid();
+  double side = 1e9;
+  const core::Index3 size = pair.fixed.content.back().size();
+  for (std::size_t a = 0; a < 3; ++a)
+    side = std::min(side, size[a] * grid.spacing()[static_cast<Eigen::Index>(a)]);
   const std::vector<core::RigidTransform> fits =
-      fitAround(pair, mrFromCt, at, kSurroundings, repeat);
+      fitAround(pair, mrFromCt, at, std::min(kSurroundings, kShareOfField * side), repeat);
   if (fits.empty())
     return 0.0;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();

@@ -46,6 +46,9 @@ protected:
                          dialog->accept();
                        });
     QTest::keyClick(&window(), Qt::Key_B, Qt::ControlModifier);
+    // Where no window manager gives the window its keys back.
+    window().activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(&window()));
   }
   const scene::Case& value() { return window().model().value(); }
 };

@@ -15,6 +15,11 @@ namespace
 
 constexpr std::size_t kFewest = 4000; // samples of any level
 
+double scoreOf(const Ascent& top)
+{
+  return top.information * top.overlap;
+}
+
 std::vector<core::RigidTransform> startsOf(const ImagePair& pair, const FitOptions& options)
 {
   const std::vector<core::RigidTransform> centred = centredStarts(pair);
@@ -76,81 +81,92 @@ std::size_t samplesAt(const ImagePair& pair, std::size_t level, const Schedule& 
                   schedule.samples >> std::min<std::size_t>(halvings, 31));
 }
 
+namespace
+{
+
+// One level's ascents, from each basin, best first.
+std::vector<Ascent> climbLevel(const ImagePair& pair, std::size_t level,
+                               const MutualInformation& metric, const std::vector<Basin>& basins,
+                               const FitOptions& options, int& iterations,
+                               const core::Progress& progress, const MetricListener& listener)
+{
+  AscentOptions climb;
+  climb.evaluations = options.schedule.evaluations;
+  climb.firstStep = 0.5 * pair.scales[level];
+  climb.longestStep = 4.0 * pair.scales[level];
+  core::RigidTransform best = basins.front().pose;
+  double bestInformation = -1.0;
+  const auto told = [&](const core::RigidTransform& pose, double information)
+  {
+    progress.check("registration");
+    ++iterations;
+    if (information > bestInformation)
+    {
+      bestInformation = information;
+      best = pose;
+    }
+    if (listener)
+      listener({iterations, static_cast<int>(level), information}, pair.mrFromCt(best));
+  };
+  std::vector<Ascent> tops;
+  for (const Basin& basin : basins)
+    tops.push_back(ascend(metric, basin.pose, climb, told));
+  std::stable_sort(tops.begin(), tops.end(),
+                   [](const Ascent& a, const Ascent& b) { return scoreOf(a) > scoreOf(b); });
+  return tops;
+}
+
+std::vector<Basin> basinsOf(const ImagePair& pair, const FitOptions& options,
+                            const core::Progress& progress)
+{
+  const std::vector<core::RigidTransform> starts = startsOf(pair, options);
+  if (!options.search)
+    return {{starts.front(), 0.0}};
+  SearchOptions search;
+  search.samples = options.schedule.searchSamples;
+  search.seed = options.seed;
+  return searchBasins(pair, starts, search, progress);
+}
+
+} // namespace
+
 PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Progress& progress,
                 const MetricListener& listener)
 {
   PairFit result;
-  std::vector<core::RigidTransform> starts = startsOf(pair, options);
-  std::vector<Basin> basins;
-  if (options.search)
-  {
-    SearchOptions search;
-    search.samples = options.schedule.searchSamples;
-    search.seed = options.seed;
-    basins = searchBasins(pair, starts, search, progress.part(0.0, 0.3));
-  }
-  else
-    basins.push_back({starts.front(), 0.0});
-
+  std::vector<Basin> basins = basinsOf(pair, options, progress.part(0.0, 0.3));
   for (std::size_t level = 0; level < pair.levels(); ++level)
   {
+    progress.report(0.3 + 0.6 * static_cast<double>(level) / static_cast<double>(pair.levels()),
+                    "fitting");
     const FixedSamples samples =
         drawSamples(pair.fixed.levels[level], pair.fixed.content[level],
                     samplesAt(pair, level, options.schedule),
                     options.seed + 17 * static_cast<std::uint32_t>(level), options.schedule.bins);
     const MutualInformation metric(samples, pair.moving.levels[level], options.schedule.bins);
-    AscentOptions climb;
-    climb.evaluations = options.schedule.evaluations;
-    climb.firstStep = 0.5 * pair.scales[level];
-    climb.longestStep = 4.0 * pair.scales[level];
-    const double at = 0.3 + 0.7 * static_cast<double>(level) / static_cast<double>(pair.levels());
-    progress.report(at, "fitting");
-
-    core::RigidTransform best = basins.front().pose;
-    double bestInformation = -1.0;
-    std::vector<Ascent> tops;
-    for (const Basin& basin : basins)
-    {
-      tops.push_back(ascend(metric, basin.pose, climb,
-                            [&](const core::RigidTransform& pose, double information)
-                            {
-                              progress.check("registration");
-                              ++result.fit.iterations;
-                              if (information > bestInformation)
-                              {
-                                bestInformation = information;
-                                best = pose;
-                              }
-                              if (listener)
-                                listener(
-                                    {result.fit.iterations, static_cast<int>(level), information},
-                                    pair.mrFromCt(best));
-                            }));
-    }
-    std::stable_sort(tops.begin(), tops.end(),
-                     [](const Ascent& a, const Ascent& b)
-                     { return a.information * a.overlap > b.information * b.overlap; });
+    const std::vector<Ascent> tops =
+        climbLevel(pair, level, metric, basins, options, result.fit.iterations, progress, listener);
     const Ascent& first = tops.front();
     result.fit.mrFromCt = pair.mrFromCt(first.pose);
     result.fit.metric = first.information;
     result.fit.overlap = first.overlap;
-    const auto distinct =
-        std::find_if(tops.begin() + 1, tops.end(),
-                     [&](const Ascent& other)
-                     {
-                       return poseDistance(first.pose, other.pose, samples.centre, samples.radius) >
-                              2.0 * pair.scales[level];
-                     });
+
+    const double apart = 2.0 * pair.scales[level];
+    const auto rival = std::find_if(
+        tops.begin() + 1, tops.end(),
+        [&](const Ascent& other)
+        { return poseDistance(first.pose, other.pose, samples.centre, samples.radius) > apart; });
     if (tops.size() > 1)
     {
-      result.score = first.information * first.overlap;
-      result.runnerUp = distinct == tops.end() ? 0.0 : distinct->information * distinct->overlap;
+      result.score = scoreOf(first);
+      result.runnerUp = rival == tops.end() ? 0.0 : scoreOf(*rival);
     }
-    basins = {{first.pose, first.information * first.overlap}};
-    if (level == 0 && distinct != tops.end() && pair.levels() > 2)
-      basins.push_back({distinct->pose, distinct->information * distinct->overlap});
+    basins = {{first.pose, scoreOf(first)}};
+    if (level == 0 && rival != tops.end() && pair.levels() > 2)
+      basins.push_back({rival->pose, scoreOf(*rival)});
   }
-  polish(pair, options, result, progress);
+  progress.report(0.9, "fitting");
+  polish(pair, options, result, progress.part(0.9, 1.0));
   progress.report(1.0, "fitting");
   return result;
 }

@@ -83,8 +83,8 @@ TEST(MutualInformation, GradientIsThatOfTheValue)
 {
   const Scene scene;
   const core::IndexBox inner{{15, 15, 12}, {50, 60, 46}};
-  const FixedSamples samples = drawSamples(scene.fixed, inner, 20'000, 3, kBins);
-  const MutualInformation metric(samples, scene.moving);
+  const FixedSamples samples = drawSamples(scene.fixed, inner, 20'000, 3, 32);
+  const MutualInformation metric(samples, scene.moving, 32);
   const core::RigidTransform base = motion({0, 0, 0}, 3.0, 2.0) * scene.truth;
   const PoseChart chart(base, samples.centre, samples.radius);
   PoseVector at;

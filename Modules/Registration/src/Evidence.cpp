@@ -118,7 +118,6 @@ Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOpt
   evidence.runnerUp = fit.score > 0.0 ? fit.runnerUp / fit.score : 0.0;
 
   RepeatOptions repeat;
-  repeat.bins = options.schedule.bins;
   repeat.seed = options.seed;
   const std::vector<core::RigidTransform> repeats =
       repeatFit(pair, pose, repeat, progress.part(0.0, 0.6));

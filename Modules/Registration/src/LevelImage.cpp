@@ -169,9 +169,9 @@ std::array<double, 3> missingVariance(const core::GridGeometry& fine, const core
     const double h = fine.spacing()[static_cast<Eigen::Index>(a)];
     const double wanted = 0.25 * scale * scale;
     const double had = h * h * (block[a] * block[a] - 1) / 12.0 + already * already;
-    variance[a] = h * block[a] > 1.5 * scale ? 0.0 : std::max(0.0, wanted - had);
-    if (block[a] == 1 && h > 0.9 * scale)
-      variance[a] = 0.0; // the file's own resolution is coarser than this level
+    // What the file's own resolution has not is not put there, and the finest level stays as sharp
+    // as it is: blur shifts the optimum of a curved surface (Documentation/adr).
+    variance[a] = block[a] == 1 ? 0.0 : std::max(0.0, wanted - had);
   }
   return variance;
 }

@@ -17,7 +17,7 @@ namespace petrous::registration
 namespace
 {
 
-constexpr std::size_t kChunk = 4096; // samples that share a histogram before the sums are joined
+constexpr std::size_t kChunk = 8192; // samples that share a histogram before the sums are joined
 constexpr int kPad = 2;              // empty bins on each side, for the window's tails
 
 float mix(float a, float b, float t)

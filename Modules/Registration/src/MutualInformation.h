@@ -11,7 +11,7 @@ namespace petrous::registration
 {
 
 /// Bins along each axis of the joint histogram: the measured default (Documentation/adr).
-constexpr int kBins = 32;
+constexpr int kBins = 64;
 
 struct JointHistogram;
 

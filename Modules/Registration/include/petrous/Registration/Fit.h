@@ -30,7 +30,7 @@ struct Schedule
 {
   std::size_t searchSamples = 4000; ///< points of the coarse search
   std::size_t samples = 40'000;     ///< points of the finest level; the others take fewer
-  int bins = 32;                    ///< of the histogram, along each axis
+  int bins = 64;                    ///< of the histogram, along each axis
   int evaluations = 40;             ///< of the metric with its gradient, at most, a level
   int polish = 8;                   ///< ascents from about the end; the fit is their mean
   int levels = 0;                   ///< of the pyramid, finest last; 0: as many as the images have

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/MrPlaces.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -118,4 +119,58 @@ TEST(LayMr, RefusesACircle)
   EXPECT_THROW(scene::layMr(value, "A", turned(0.1, 0.0, 0.0, 1.0), measured("C")),
                core::InvalidParameter);
   EXPECT_EQ(value.mr[0].registration->through, "");
+}
+
+TEST(LayMr, AChainIsLaidAsItLayWhateverTheOrderOfItsLinks)
+{
+  scene::Case value = caseWith({"ADC", "DWI", "T2"}); // the last link comes first
+  scene::layMr(value, "T2", turned(0.1, 0.0, 0.0, 5.0), measured());
+  scene::layMr(value, "DWI", turned(0.1, 0.2, 0.0, 3.0), measured("T2"));
+  scene::layMr(value, "ADC", turned(0.0, 0.2, 0.1, 1.0), measured("DWI"));
+  const auto before = scene::mrPlaces(value);
+  const auto expectAsBefore = [&]
+  {
+    for (std::size_t n = 0; n < before.size(); ++n)
+    {
+      EXPECT_EQ(value.mr[n].registered, before[n].registered) << before[n].name;
+      EXPECT_EQ(value.mr[n].mrFromCt.matrix(), before[n].mrFromCt.matrix()) << before[n].name;
+      ASSERT_TRUE(value.mr[n].registration) << before[n].name;
+      EXPECT_EQ(value.mr[n].registration->through, before[n].registration->through);
+      EXPECT_TRUE(value.mr[n].registration->error) << before[n].name;
+    }
+  };
+  scene::layMr(value, "T2", turned(0.0, 0.0, 0.3, -2.0), measured());
+  EXPECT_FALSE(value.mr[0].registration->error) << "moved along";
+  scene::layAs(value, before);
+  expectAsBefore();
+  scene::unlayMr(value, "T2");
+  EXPECT_FALSE(value.mr[0].registered);
+  scene::layAs(value, before);
+  expectAsBefore();
+}
+
+TEST(LayMr, WhatWasNotSaidOfAnOlderCaseIsNotMadeUpByUndo)
+{
+  scene::Case value = caseWith({"T2"});
+  value.mr[0].registered = true;
+  value.mr[0].mrFromCt = turned(0.1, 0.0, 0.0, 5.0);
+  const auto before = scene::mrPlaces(value);
+  scene::layMr(value, "T2", {}, measured());
+  scene::layAs(value, before);
+  EXPECT_TRUE(value.mr[0].registered);
+  EXPECT_EQ(scene::registrationInWords(value.mr[0]), "registered, not said how");
+}
+
+TEST(LayMr, OnlyWhatMovesLosesItsSignatureWhenMrsAreLaidAsTheyLay)
+{
+  scene::Case value = caseWith({"T2", "DWI"});
+  scene::layMr(value, "T2", turned(0.1, 0.0, 0.0, 5.0), measured());
+  scene::layMr(value, "DWI", turned(0.1, 0.2, 0.0, 3.0), measured());
+  const auto before = scene::mrPlaces(value);
+  scene::layMr(value, "T2", {}, measured());
+  for (const char* name : {"T2", "DWI"})
+    scene::signOff(value, name, "A. Surgeon", "2026-01-31T10:00:00Z");
+  scene::layAs(value, before);
+  EXPECT_EQ(scene::validSignOff(value.mr[0]), nullptr);
+  EXPECT_NE(scene::validSignOff(value.mr[1]), nullptr);
 }

@@ -44,17 +44,24 @@ void forgetVoxels(Case& value, const std::string& mr)
 
 } // namespace
 
-void checkThrough(const Case& value, const std::string& name, const std::string& through)
+bool liesThrough(const Case& value, const std::string& name, const std::string& through)
 {
-  std::string next = through;
+  std::string next = name;
   for (std::size_t n = 0; n <= value.mr.size() && !next.empty(); ++n)
   {
-    if (next == name)
-      throw core::InvalidParameter("MR '" + name + "' cannot lie on the CT through '" + through +
-                                   "', which lies there through '" + name + "'");
+    if (next == through)
+      return true;
     const ImagePart* mr = findMr(value, next);
     next = mr && mr->registration ? mr->registration->through : std::string();
   }
+  return false;
+}
+
+void checkThrough(const Case& value, const std::string& name, const std::string& through)
+{
+  if (liesThrough(value, through, name))
+    throw core::InvalidParameter("MR '" + name + "' cannot lie on the CT through '" + through +
+                                 "', which lies there through '" + name + "'");
 }
 
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,

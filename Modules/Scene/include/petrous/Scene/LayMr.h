@@ -16,6 +16,9 @@ namespace petrous::scene
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
            Registration how);
 
+/// Whether the MR of that name is `through`, or came to the CT through it, be it by way of others.
+bool liesThrough(const Case& value, const std::string& name, const std::string& through);
+
 /// Throws InvalidParameter where `through` itself came to the CT through the MR of that name, which
 /// layMr refuses: the two would move each other for ever.
 void checkThrough(const Case& value, const std::string& name, const std::string& through);

@@ -178,6 +178,11 @@ void MainWindow::connectModel()
   m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.mrMoved = [this] { m_registration->mrMoved(); };
+  m_model.events.toolPutAway = [this]
+  {
+    statusBar()->showMessage(
+        tr("The tool was put away: what was drawn on the MR has moved with it"), kMessage);
+  };
   m_model.events.stateChanged = [this] { stateChanged(); };
   m_model.events.stepped = [this](bool back) { stepped(back); };
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };

@@ -8,6 +8,7 @@
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/LayMr.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -147,6 +148,64 @@ TEST_F(WorkstationModelTest, AnotherThresholdPutsTheToolAway)
   model.startTouch(hand.device, hand.setup);
   model.adopt(block("block"));
   EXPECT_FALSE(model.touching());
+}
+
+TEST_F(WorkstationModelTest, AnMrThatMovesPutsTheToolAwayOnlyWhereSomethingWasDrawnOnIt)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case value = block("block");
+  for (const char* name : {"T2", "DWI"})
+  {
+    scene::ImagePart mr = value.ct;
+    mr.name = name;
+    value.mr.push_back(mr);
+  }
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry);
+  voxels->at(20, 20, 22) = 1;
+  volume::LabelMap map;
+  map.voxels = voxels;
+  scene::LabelPart part;
+  scene::StructurePart structure;
+  structure.name = "tumour";
+  structure.index = 1;
+  structure.look.solid = structure.look.touchable = true;
+  part.structures = {structure};
+  part.drawnOn = "T2";
+  part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+  value.labels = {part};
+  scene::layMr(value, "T2", {}, {});
+  model.adopt(std::move(value));
+  int told = 0;
+  model.events.toolPutAway = [&told] { ++told; };
+  const auto lay = [&model](const std::string& mr, double shift)
+  {
+    model.changeMr(
+        [&](scene::Case& c) {
+          scene::layMr(c, mr, {Eigen::Quaterniond::Identity(), {shift, 0.0, 0.0}}, {});
+        });
+  };
+  HeldTool hand({6, 6, 8.5});
+  model.startTouch(hand.device, hand.setup);
+  lay("DWI", 1.0);
+  EXPECT_TRUE(model.touching()) << "nothing was drawn on that";
+  model.changeMr([](scene::Case& c) { scene::signOff(c, "T2", "A. Surgeon", "2026-01-31"); });
+  EXPECT_TRUE(model.touching()) << "a signature moves nothing";
+  EXPECT_EQ(told, 0);
+  lay("T2", 1.0);
+  EXPECT_FALSE(model.touching());
+  EXPECT_EQ(told, 1);
+  lay("T2", 2.0);
+  EXPECT_EQ(told, 1) << "nothing was in the hand";
+  EXPECT_EQ(model.readPlace({6.0 - 2.0, 6.0, 6.6}).structure, "tumour") << "read where it lies now";
+
+  model.startTouch(hand.device, hand.setup);
+  hand.drill(true);
+  ASSERT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
+  lay("T2", 3.0);
+  EXPECT_EQ(model.value().mr[0].mrFromCt.translation()[0], 2.0) << "it stays while the drill runs";
+  EXPECT_TRUE(model.touching());
+  hand.drill(false);
+  EXPECT_TRUE(until([&model] { return model.advanceTouch().strokes.size() == 1; }));
 }
 
 TEST_F(WorkstationModelTest, WorkGoesOnWhileSomebodyElseStoresTheCase)

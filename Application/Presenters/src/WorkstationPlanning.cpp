@@ -1,11 +1,13 @@
 // What a planner does with the open case: how near structures are, how thick bone is, how MRs lie,
 // approaches.
 
+#include <algorithm>
 #include <utility>
 
 #include "Tell.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
 {
@@ -53,6 +55,39 @@ void WorkstationModel::startBranch(const std::string& name)
   followHistory();
 }
 
+namespace
+{
+
+// Where that lies which was drawn on MRs; touch, drill and pointer work on it.
+std::vector<scene::Placement> drawnOnMrs(const scene::Case& value)
+{
+  std::vector<scene::Placement> placements;
+  const auto add = [&placements](scene::Placement placement)
+  {
+    if (!placement.drawnOn.empty())
+      placements.push_back(std::move(placement));
+  };
+  for (const scene::LabelPart& part : value.labels)
+    add(scene::placementOf(value, part));
+  for (const scene::MeshPart& part : value.meshes)
+    add(scene::placementOf(value, part));
+  return placements;
+}
+
+bool same(const std::vector<scene::Placement>& a, const std::vector<scene::Placement>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const scene::Placement& one, const scene::Placement& other)
+                    {
+                      return one.drawnOn == other.drawnOn && one.missing == other.missing &&
+                             one.mrFromCt.rotation().coeffs() ==
+                                 other.mrFromCt.rotation().coeffs() &&
+                             one.mrFromCt.translation() == other.mrFromCt.translation();
+                    });
+}
+
+} // namespace
+
 void WorkstationModel::showThickness(const std::string& structure)
 {
   if (!m_case || structure == thicknessOver())
@@ -69,9 +104,28 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
 {
   if (!m_case || drilling())
     return;
-  forgetTissue();
-  m_nearby.reset();
-  change(*m_case);
+  const auto before = drawnOnMrs(*m_case);
+  const auto follow = [&]
+  {
+    if (!before.empty())
+      m_nearby.reset(); // its uncertainties are of how the MRs lie
+    if (same(before, drawnOnMrs(*m_case)))
+      return;
+    const bool held = touching();
+    forgetTissue();
+    if (held)
+      tell(events.toolPutAway);
+  };
+  try
+  {
+    change(*m_case);
+  }
+  catch (...)
+  {
+    follow();
+    throw;
+  }
+  follow();
   tell(events.mrMoved);
   setUnsaved(true);
 }

@@ -15,7 +15,8 @@ struct WorkstationEvents
   std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
   std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
   std::function<void()> crosshairMoved;
-  std::function<void()> mrMoved; ///< how an MR lies on the CT, or who signed that
+  std::function<void()> mrMoved;     ///< how an MR lies on the CT, or who signed that
+  std::function<void()> toolPutAway; ///< since what was drawn on an MR moved; before mrMoved
   /// One stroke back (true) or forth, on request; the case's list is there already.
   std::function<void(bool back)> stepped;
   /// What the user should know of what was drilled and is not saved, or came back from a journal

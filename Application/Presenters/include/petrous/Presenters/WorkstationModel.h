@@ -73,8 +73,8 @@ public:
   void setLook(const std::string& structure, const appearance::StructureLook& look);
   void setBoneLook(const appearance::StructureLook& look);
 
-  /// Changes how MRs lie on the CT (Scene/LayMr.h), which may move structures: a tool that is held
-  /// is put away. Nothing happens while it drills; what `change` throws goes on.
+  /// Changes how MRs lie on the CT (Scene/LayMr.h). Where that moves what was drawn on one, a tool
+  /// that is held is put away. Nothing happens while it drills; what `change` throws goes on.
   void changeMr(const std::function<void(scene::Case&)>& change);
 
   /// What a picture of the case shows, only with a case; see SceneAssembly.

@@ -53,22 +53,12 @@ void setStart(const Options& options, presenters::RegistrationRequest& request)
   request.landmarks = readLandmarks(options.init[1]);
 }
 
-std::string placeWords(const Eigen::Vector3d& point)
-{
-  return "(" + fixed(point[0], 1) + ", " + fixed(point[1], 1) + ", " + fixed(point[2], 1) + ")";
-}
-
 presenters::RegistrationPlace placeFrom(const scene::Case& value, const std::string& at)
 {
   if (std::count(at.begin(), at.end(), ',') != 2 || scene::findStructure(value, at))
     return presenters::placeOf(value, at);
   const auto numbers = parseNumbers(at, 3, "--at x,y,z");
-  const Eigen::Vector3d point(numbers[0], numbers[1], numbers[2]);
-  const core::GridGeometry& grid = value.ct.geometry;
-  if (!grid.hullContains(grid.voxelFromPatient(point)))
-    throw core::InvalidParameter("--at " + at + ": is outside the CT, whose middle is " +
-                                 placeWords(grid.center()));
-  return {point, placeWords(point)};
+  return presenters::placeAt(value, {numbers[0], numbers[1], numbers[2]});
 }
 
 presenters::RegistrationRequest requestFrom(const Options& options, const scene::Case& value)

@@ -320,3 +320,60 @@ TEST_F(CaseRegistration, StopsWhileItEstimatesTheErrorToo)
   }
   EXPECT_GT(stopped, 0);
 }
+
+TEST_F(CaseRegistration, GoesOnFromWhereTheMrLiesAndSaysHowItCameThere)
+{
+  scene::Case value = makeCase({});
+  RegistrationRequest request;
+  request.mr = "T2";
+  request.from = From::Given;
+  request.given = {Eigen::Quaterniond::Identity(), Vector3d(1.0, 0.5, -0.5)};
+  request.given = request.given * motion();
+  scene::Registration points = known();
+  points.method = scene::Registration::Method::Landmarks;
+  points.refined = false;
+  request.givenBy = points;
+  RegistrationOutcome outcome = registerMr(value, request);
+  ASSERT_FALSE(outcome.failed) << outcome.how.text;
+  EXPECT_LT(off(outcome.mrFromCt, motion()), 0.3);
+  EXPECT_EQ(outcome.how.method, scene::Registration::Method::Landmarks);
+  EXPECT_TRUE(outcome.how.refined);
+  EXPECT_NE(outcome.how.text.find("from where the landmarks put it"), std::string::npos)
+      << outcome.how.text;
+
+  // The end of that is no place that landmarks put it.
+  request.given = outcome.mrFromCt;
+  request.givenBy = outcome.how;
+  request.asIs = true;
+  EXPECT_NO_THROW(registerMr(value, request));
+  request.asIs = false;
+  outcome = registerMr(value, request);
+  EXPECT_TRUE(outcome.how.refined);
+  EXPECT_EQ(outcome.how.text.find("from where the landmarks put it"), std::string::npos)
+      << outcome.how.text;
+}
+
+TEST_F(CaseRegistration, LooksAroundAPlaceThatAHandGave)
+{
+  scene::Case value = makeCase({});
+  RegistrationRequest request;
+  request.mr = "T2";
+  request.from = From::Given;
+  request.given = turned(30.0, {15.0, -10.0, 5.0}) * motion();
+  request.lookAround = true;
+  const RegistrationOutcome outcome = registerMr(value, request);
+  ASSERT_FALSE(outcome.failed) << outcome.how.text;
+  EXPECT_LT(off(outcome.mrFromCt, motion()), 0.3);
+  EXPECT_EQ(outcome.how.method, scene::Registration::Method::MutualInformation);
+  EXPECT_FALSE(outcome.how.refined);
+}
+
+TEST_F(CaseRegistration, APlaceIsAPointOfTheCtInItsCoordinates)
+{
+  const scene::Case value = makeCase({});
+  const RegistrationPlace place =
+      placeAt(value, imaging::Phantom::center() + Vector3d(0.0, 0.0, -0.04));
+  EXPECT_EQ(place.words.front(), '(');
+  EXPECT_EQ(place.words.find("-0.0"), std::string::npos) << place.words;
+  EXPECT_THROW(placeAt(value, {0.0, 0.0, 900.0}), core::InvalidParameter);
+}

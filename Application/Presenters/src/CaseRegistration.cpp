@@ -47,6 +47,7 @@ struct Task
   core::RigidTransform fixedFromCt;
   bool commonFrame = false;
   Method method = Method::MutualInformation;
+  bool fitted = false; ///< the start is the end of a fit already
   registration::FitOptions options;
   std::string said; ///< of the start, for the surgeon
 
@@ -120,7 +121,13 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
     break;
   }
   case From::Given:
-    begin(task, request.given, Method::ByHand);
+    begin(task, request.given, request.givenBy ? request.givenBy->method : Method::ByHand);
+    task.fitted = request.givenBy && request.givenBy->refined;
+    if (request.lookAround)
+    {
+      task.options.search = true;
+      task.method = Method::MutualInformation; // which finds the place then
+    }
     break;
   case From::Centres:
     task.options.start = registration::Start::Centres;
@@ -135,16 +142,17 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
 
 const char* startWords(Method method)
 {
-  return method == Method::Landmarks          ? "where the landmarks put it"
-         : method == Method::FrameOfReference ? "where the common frame of reference puts it"
-                                              : "where it was put by hand";
+  return method == Method::Landmarks           ? "where the landmarks put it"
+         : method == Method::FrameOfReference  ? "where the common frame of reference puts it"
+         : method == Method::MutualInformation ? "where it lay"
+                                               : "where it was put by hand";
 }
 
 // What the start says and what the fit says, at the place.
 void compare(const Task& task, const registration::Registration& fit, const RegistrationPlace& at,
              scene::Registration& how)
 {
-  if (task.method == Method::MutualInformation)
+  if (task.method == Method::MutualInformation || task.fitted)
     return;
   const Eigen::Vector3d point = task.fixedFromCt * at.point;
   const double apart = (task.options.given * point - fit.fit.mrFromCt * point).norm();
@@ -201,7 +209,7 @@ void chain(const Task& task, scene::Registration& how)
 
 void layAsIs(const Task& task, const RegistrationRequest& request, RegistrationOutcome& outcome)
 {
-  if (task.method == Method::MutualInformation)
+  if (task.options.start != registration::Start::Given)
     throw core::InvalidParameter(
         "MR '" + request.mr +
         "' cannot be laid as it is: it has no frame of reference in common "
@@ -227,6 +235,15 @@ void layAsIs(const Task& task, const RegistrationRequest& request, RegistrationO
 
 } // namespace
 
+std::vector<std::string> ontoNames(const scene::Case& value, const std::string& mr)
+{
+  std::vector<std::string> names;
+  for (const scene::ImagePart& other : value.mr)
+    if (other.name != mr && other.registered && !scene::liesThrough(value, other.name, mr))
+      names.push_back(other.name);
+  return names;
+}
+
 RegistrationOutcome registerMr(const scene::Case& value, const RegistrationRequest& request,
                                const core::Progress& progress,
                                const registration::MetricListener& listener)
@@ -245,7 +262,9 @@ RegistrationOutcome registerMr(const scene::Case& value, const RegistrationReque
   progress.report(0.0, "reading the images");
   const auto fixed = task.fixed->volume.get();
   const auto moving = task.mr->volume.get();
-  const RegistrationPlace at = request.at ? *request.at : defaultPlace(value, request);
+  const RegistrationPlace at = request.at                    ? *request.at
+                               : request.atStructure.empty() ? defaultPlace(value, request)
+                                                             : placeOf(value, request.atStructure);
   registration::MetricListener composed;
   if (listener)
     composed = [&](const registration::MetricSample& sample, const core::RigidTransform& best)

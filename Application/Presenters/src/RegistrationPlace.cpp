@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -101,6 +103,19 @@ Box boxOf(const core::GridGeometry& grid, const core::RigidTransform& ctFromGrid
   return box;
 }
 
+std::string coordinates(const Eigen::Vector3d& point)
+{
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    char number[32];
+    const double tenths = std::round(10.0 * point[axis]);
+    std::snprintf(number, sizeof number, "%.1f", tenths == 0.0 ? 0.0 : 0.1 * tenths); // no -0.0
+    text += (axis == 0 ? "(" : ", ") + std::string(number);
+  }
+  return text + ")";
+}
+
 // Where the MR lies on the CT before the fit, as far as that is known.
 core::RigidTransform before(const scene::Case& value, const scene::ImagePart& mr,
                             const RegistrationRequest& request)
@@ -122,6 +137,24 @@ core::RigidTransform before(const scene::Case& value, const scene::ImagePart& mr
 }
 
 } // namespace
+
+std::vector<std::string> placeNames(const scene::Case& value)
+{
+  std::vector<std::string> names;
+  for (const std::string& name : scene::partNames(value))
+    if (name != "ct" && !scene::findMr(value, name) && scene::missingPlace(value, name).empty())
+      names.push_back(name);
+  return names;
+}
+
+RegistrationPlace placeAt(const scene::Case& value, const Eigen::Vector3d& point)
+{
+  const core::GridGeometry& grid = value.ct.geometry;
+  if (!grid.hullContains(grid.voxelFromPatient(point)))
+    throw core::InvalidParameter(coordinates(point) + " is outside the CT, whose middle is " +
+                                 coordinates(grid.center()));
+  return {point, coordinates(point)};
+}
 
 RegistrationPlace placeOf(const scene::Case& value, const std::string& structure)
 {

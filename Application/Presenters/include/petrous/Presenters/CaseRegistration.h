@@ -34,8 +34,12 @@ struct RegistrationRequest
   From from = From::Header;
   std::vector<registration::LandmarkPair> landmarks; ///< CT and MR patient points, LPS mm
   core::RigidTransform given;                        ///< X_MC, CT to MR patient points
-  bool asIs = false; ///< without a fit: where the landmarks, the hand or the frame put it
+  /// How the MR came to lie at `given`; none: a hand put it there, or another program.
+  std::optional<scene::Registration> givenBy;
+  bool lookAround = false; ///< about `given`, too, as far as from the header
+  bool asIs = false;       ///< without a fit: where the landmarks, the hand or the frame put it
   std::optional<RegistrationPlace> at;            ///< none: see defaultPlace
+  std::string atStructure;                        ///< or there, without `at`; see placeOf
   std::optional<registration::PatientBox> region; ///< CT patient box that counts; none: all
   std::string onto; ///< another MR, already registered: the fit is to that; empty: to the CT
   std::uint32_t seed = 1;
@@ -55,9 +59,19 @@ struct RegistrationOutcome
 /// before the fit. Loads label maps.
 RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationRequest& request);
 
+/// A CT patient point, LPS mm; its words are its coordinates. Throws InvalidParameter outside the
+/// CT.
+RegistrationPlace placeAt(const scene::Case& value, const Eigen::Vector3d& point);
+
 /// The middle of a structure or mesh. Throws InvalidParameter where there is none of that name, or
 /// it has no place on the CT.
 RegistrationPlace placeOf(const scene::Case& value, const std::string& structure);
+
+/// Structures and meshes that have a place on the CT: what placeOf takes.
+std::vector<std::string> placeNames(const scene::Case& value);
+
+/// The MRs onto which that one can be registered: they lie on the CT, and not through it.
+std::vector<std::string> ontoNames(const scene::Case& value, const std::string& mr);
 
 /// Does the work; the case stays as it is. Loads the two images.
 ///

@@ -13,9 +13,6 @@ HandlesBox::HandlesBox(presenters::RegistrationSession& session, QWidget* parent
   , m_session(session)
   , m_step(new QComboBox)
   , m_moved(new QLabel)
-  , m_undo(new QPushButton(tr("Undo")))
-  , m_redo(new QPushButton(tr("Redo")))
-  , m_remove(new QPushButton(tr("Unregister")))
 {
   m_step->setObjectName("nudgeStep");
   m_step->addItem(tr("0.1 mm, 0.1°"), 0.1);
@@ -61,19 +58,7 @@ HandlesBox::HandlesBox(presenters::RegistrationSession& session, QWidget* parent
   here->setToolTip(tr("The MR's middle goes to the crosshair: for images that lie far apart"));
   connect(here, &QPushButton::clicked, this, [this] { m_session.bringMiddleHere(); });
   grid->addWidget(here, 4, 0, 1, 2);
-  m_undo->setObjectName("undoMr");
-  m_undo->setToolTip(tr("Back to how the MR lay before (Ctrl+Alt+Z)"));
-  m_redo->setObjectName("redoMr");
-  m_redo->setToolTip(tr("Forth again (Ctrl+Alt+Y)"));
-  m_remove->setObjectName("unregister");
-  m_remove->setToolTip(tr("The MR has no place on the CT any more"));
-  connect(m_undo, &QPushButton::clicked, this, [this] { m_session.undo(); });
-  connect(m_redo, &QPushButton::clicked, this, [this] { m_session.redo(); });
-  connect(m_remove, &QPushButton::clicked, this, [this] { m_session.unregister(); });
-  grid->addWidget(m_undo, 4, 2);
-  grid->addWidget(m_redo, 4, 3);
-  grid->addWidget(m_moved, 5, 0, 1, 2);
-  grid->addWidget(m_remove, 5, 2, 1, 2);
+  grid->addWidget(m_moved, 4, 2, 1, 2);
 }
 
 void HandlesBox::addHandle(QGridLayout& grid, int row, int column, const Handle& handle)
@@ -109,9 +94,6 @@ void HandlesBox::refresh()
                              .arg(moved.shift, 0, 'f', 1)
                              .arg(moved.turn, 0, 'f', 1)
                        : tr("Not moved by hand"));
-  m_undo->setEnabled(m_session.canUndo());
-  m_redo->setEnabled(m_session.canRedo());
-  m_remove->setEnabled(m_session.part() && m_session.part()->registered);
 }
 
 } // namespace petrous::workstation

@@ -8,7 +8,6 @@
 class QComboBox;
 class QGridLayout;
 class QLabel;
-class QPushButton;
 
 namespace petrous::workstation
 {
@@ -38,9 +37,6 @@ private:
   presenters::RegistrationSession& m_session;
   QComboBox* m_step;
   QLabel* m_moved;
-  QPushButton* m_undo;
-  QPushButton* m_redo;
-  QPushButton* m_remove;
 };
 
 } // namespace petrous::workstation

@@ -49,7 +49,7 @@ QVariant LandmarkModel::data(const QModelIndex& index, int role) const
     return {};
   if (role == Qt::TextAlignmentRole && index.column() == Residual)
     return QVariant(Qt::AlignRight | Qt::AlignVCenter);
-  if (role != Qt::DisplayRole)
+  if (role != Qt::DisplayRole && role != Qt::ToolTipRole) // a tip shows what its cell cuts off
     return {};
   const auto row = static_cast<std::size_t>(index.row());
   const auto& landmark = m_session.landmarks().rows()[row];

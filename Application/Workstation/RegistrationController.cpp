@@ -11,6 +11,7 @@
 #include "BackgroundWork.h"
 #include "ImportJob.h"
 #include "MetricCurve.h"
+#include "MrOverlay.h"
 #include "RegistrationPanel.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
@@ -21,9 +22,10 @@ namespace petrous::workstation
 
 namespace
 {
-using presenters::OverlayMode;
+using Way = presenters::RegistrationSession::Way;
 
 constexpr int kSceneAfter = 200; // ms
+constexpr int kTryAgain = 200;   // ms
 const QColor kCtPoint("#ffd040");
 const QColor kMrPoint("#ff7ac0");
 } // namespace
@@ -36,6 +38,7 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
   , m_window(window)
   , m_session(model)
   , m_panel(new RegistrationPanel(m_session))
+  , m_overlay(new MrOverlay(m_session, slices, this))
   , m_menu(new QMenu(tr("&Registration"), &window))
   , m_run(std::make_unique<BackgroundWork>())
   , m_metricWork(std::make_unique<BackgroundWork>())
@@ -43,18 +46,18 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
   const auto on = [this](QAction* action, auto what)
   { connect(action, &QAction::triggered, this, what); };
   on(addAction(tr("&Register the MR"), Qt::CTRL + Qt::Key_R,
-               tr("Lays the MR on the CT by mutual information")),
-     [this] { begin(true); });
+               tr("Lays the MR on the CT by mutual information, as the panel says")),
+     [this] { begin(Way::Register); });
   on(addAction(tr("Re&fine"), {}, tr("The same from where the MR lies now")),
-     [this] { begin(false); });
+     [this] { begin(Way::Refine); });
   on(addAction(tr("&Cancel"), {}, tr("Stops the registration; what it reached can be kept")),
-     [this] { m_run->cancel(); });
+     [this] { cancel(); });
   m_menu->addSeparator();
   on(addAction(tr("CT or MR alone, by &turns"), Qt::Key_V, tr("To see whether they agree")),
-     [this] { flick(); });
+     [this] { m_overlay->flick(); });
   on(addAction(tr("Ne&xt way to show the MR"), Qt::Key_O,
                tr("CT alone, blend, the CT's edges over the MR, checkerboard")),
-     [this] { nextOverlay(); });
+     [this] { m_overlay->next(); });
   m_menu->addSeparator();
   on(addAction(tr("&Point here"), Qt::Key_K,
                tr("The crosshair marks a point of the CT, then the same point of the MR")),
@@ -62,9 +65,9 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
   m_menu->addSeparator();
   on(addAction(tr("&Undo the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Z,
                tr("Back to how the MR lay before")),
-     [this] { m_session.undo(); });
+     [this] { byHand([this] { m_session.undo(); }); });
   on(addAction(tr("Red&o the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Y, tr("Forth again")),
-     [this] { m_session.redo(); });
+     [this] { byHand([this] { m_session.redo(); }); });
   connectPanel();
   m_sceneLater.setSingleShot(true);
   m_sceneLater.setInterval(kSceneAfter);
@@ -85,21 +88,25 @@ QAction* RegistrationController::addAction(const QString& text, const QKeySequen
 void RegistrationController::connectPanel()
 {
   connect(m_panel, &RegistrationPanel::overlayChosen, this,
-          [this](const auto& mode) { setOverlay(mode, m_opacity); });
+          [this](const auto& mode) { m_overlay->set(mode, m_overlay->opacity()); });
   connect(m_panel, &RegistrationPanel::opacityChosen, this,
-          [this](double opacity) { setOverlay(m_mode, opacity); });
+          [this](double opacity) { m_overlay->set(m_overlay->mode(), opacity); });
+  connect(m_overlay, &MrOverlay::changed, this,
+          [this] { m_panel->setOverlay(m_overlay->mode(), m_overlay->opacity()); });
+  connect(m_overlay, &MrOverlay::said, m_panel, &RegistrationPanel::say);
   connect(m_panel, &RegistrationPanel::mrChosen, this,
           [this]
           {
             m_firstMetric.reset();
             m_panel->setMetric({});
-            showOverlay();
+            m_overlay->refresh();
             showMarks();
           });
-  connect(m_panel, &RegistrationPanel::registerAsked, this, [this] { begin(true); });
-  connect(m_panel, &RegistrationPanel::refineAsked, this, [this] { begin(false); });
-  connect(m_panel, &RegistrationPanel::cancelAsked, this, [this] { m_run->cancel(); });
+  connect(m_panel, &RegistrationPanel::registerAsked, this, [this] { begin(Way::Register); });
+  connect(m_panel, &RegistrationPanel::refineAsked, this, [this] { begin(Way::Refine); });
+  connect(m_panel, &RegistrationPanel::cancelAsked, this, &RegistrationController::cancel);
   connect(m_panel, &RegistrationPanel::pointAsked, this, &RegistrationController::addPoint);
+  connect(m_panel, &RegistrationPanel::landmarksAsked, this, [this] { begin(Way::Landmarks); });
   connect(m_panel, &RegistrationPanel::landmarksChanged, this, &RegistrationController::showMarks);
   connect(m_panel, &RegistrationPanel::hidden, this,
           [this]
@@ -108,11 +115,6 @@ void RegistrationController::connectPanel()
             m_metric.reset();
             m_panel->setMetric({});
           });
-  const auto byHand = [this](const auto& move)
-  {
-    if (!running())
-      move();
-  };
   connect(&m_slices, &SliceColumn::moveAsked, this,
           [=](const Eigen::Vector3d& mm) { byHand([&] { m_session.shift(mm); }); });
   connect(&m_slices, &SliceColumn::turnAsked, this,
@@ -123,66 +125,73 @@ void RegistrationController::connectPanel()
   connect(m_run.get(), &BackgroundWork::cancelled, this, &RegistrationController::stopped);
 }
 
+void RegistrationController::byHand(const std::function<void()>& move)
+{
+  if (running())
+    return;
+  m_panel->openHand();
+  move();
+}
+
 bool RegistrationController::running() const
 {
-  return m_run->busy();
+  return m_run->busy() || m_waiting;
 }
 
 void RegistrationController::caseChanged()
 {
   m_run->drop();
+  m_waiting.reset();
+  delete m_question; // of the case before
   m_metricWork->drop();
   m_metric.reset();
   m_firstMetric.reset();
-  m_overlay.reset();
-  m_best.reset();
-  m_mode.reset();
-  m_flick.reset();
   m_session.caseChanged();
   m_panel->setRunning(false);
   m_panel->caseChanged();
-  m_panel->setOverlay(m_mode, m_opacity);
-  showOverlay();
+  m_overlay->reset();
   showMarks();
 }
 
 void RegistrationController::mrMoved()
 {
   m_panel->refresh();
-  showOverlay();
+  m_overlay->refresh();
   showMarks();
   askMetric();
   m_sceneLater.start();
 }
 
-QString RegistrationController::place() const
-{
-  const std::string structure = m_model.structureAt(m_model.crosshair());
-  return structure.empty() ? tr("the crosshair") : words(structure);
-}
-
-void RegistrationController::begin(bool search)
+void RegistrationController::begin(Way way)
 {
   if (!m_session.part() || running() || m_model.drilling())
     return;
-  m_panel->curve().clear();
+  if (way == Way::Refine && !m_session.part()->registered)
+    return;
   m_panel->say({});
+  presenters::RegistrationRequest request;
+  try
+  {
+    request = m_session.request(way);
+  }
+  catch (const std::exception& error)
+  {
+    return m_panel->say(inWords(error));
+  }
+  if (!request.asIs)
+    m_panel->curve().clear();
   m_panel->setRunning(true);
-  m_best.reset();
-  const auto ct = m_model.value().ct.volume;
-  const auto mr = m_session.part()->volume;
-  const auto options = m_session.fitOptions(search);
-  const Eigen::Vector3d at = m_model.crosshair();
+  scene::Case value = m_model.value(); // shares voxels
+  value.dissection.reset();            // another thread writes there
   const auto listener =
       [this](const registration::MetricSample& sample, const core::RigidTransform& best)
   { m_run->post([=] { heard(sample, best); }); };
   m_run->start(
-      [this, ct, mr, options, at, listener,
-       place = place()](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, value = std::move(value), request,
+       listener](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        const auto result =
-            registration::registerRigid(*ct.get(), *mr.get(), options, at, progress, listener);
-        return [this, result, place] { finished(result, place); };
+        const auto outcome = presenters::registerMr(value, request, progress, listener);
+        return [this, outcome] { finished(outcome); };
       });
 }
 
@@ -191,8 +200,7 @@ void RegistrationController::heard(const registration::MetricSample& sample,
 {
   m_panel->curve().add(sample.level, sample.metric);
   m_best = best;
-  if (m_mode || m_flick)
-    showOverlay();
+  m_overlay->setUnderWay(m_best);
 }
 
 void RegistrationController::endRun(const QString& line)
@@ -201,21 +209,49 @@ void RegistrationController::endRun(const QString& line)
   m_panel->setRunning(false);
   m_panel->say(line);
   m_panel->refresh();
-  showOverlay();
+  m_overlay->setUnderWay({});
 }
 
-void RegistrationController::finished(const registration::Registration& result,
-                                      const QString& place)
+void RegistrationController::finished(const presenters::RegistrationOutcome& outcome)
 {
-  m_best.reset();
-  m_panel->setRunning(false);
-  const QString text = words(result.text);
-  const bool taken = m_session.take(result, bytes(place));
-  if (!m_mode && taken)
-    setOverlay(OverlayMode::Edges, m_opacity); // what came of it is to be looked at
-  endRun(taken ? QString() : tr("Failed, and nothing was changed: %1").arg(text));
-  emit said(taken ? tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords()))
-                  : tr("The registration failed"));
+  if (m_model.drilling())
+    return waitForTheDrill(outcome);
+  endRun({});
+  if (outcome.failed)
+  {
+    m_panel->say(tr("Failed, and nothing was changed: %1").arg(words(outcome.how.text)));
+    emit said(tr("The registration failed"));
+    return;
+  }
+  if (!m_session.take(outcome))
+    return;
+  if (!m_overlay->mode())
+    m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // it is to be looked at
+  emit said(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords())));
+}
+
+void RegistrationController::waitForTheDrill(const presenters::RegistrationOutcome& outcome)
+{
+  m_panel->say(tr("Done; the MR is laid as soon as the drill stands still."));
+  m_waiting = std::make_unique<QTimer>();
+  connect(m_waiting.get(), &QTimer::timeout, this,
+          [this, outcome]
+          {
+            if (m_model.drilling())
+              return;
+            m_waiting.release()->deleteLater(); // it is the sender
+            finished(presenters::RegistrationOutcome(outcome));
+          });
+  m_waiting->start(kTryAgain);
+}
+
+void RegistrationController::cancel()
+{
+  m_run->cancel();
+  if (!m_waiting)
+    return;
+  m_waiting.reset();
+  endRun(tr("Stopped; the MR lies as before."));
 }
 
 void RegistrationController::stopped()
@@ -232,97 +268,20 @@ void RegistrationController::offerBest(const core::RigidTransform& best)
                               tr("The registration was stopped. Keep the best place that it had "
                                  "found by then? Nobody has judged it; it can be undone."),
                               QMessageBox::NoButton, &m_window);
+  m_question = box;
   box->setAttribute(Qt::WA_DeleteOnClose);
   QPushButton* keep = box->addButton(tr("Keep it"), QMessageBox::AcceptRole);
   box->setEscapeButton(box->addButton(tr("As before"), QMessageBox::RejectRole));
-  const std::string mr = m_session.mr();
-  const std::string open = m_model.value().name;
   connect(box, &QMessageBox::buttonClicked, this,
-          [=](QAbstractButton* pressed)
+          [this, best, keep, mr = m_session.mr()](QAbstractButton* pressed)
           {
-            const bool same = m_model.hasCase() && m_model.value().name == open;
-            if (pressed != keep || !same || m_session.mr() != mr || running())
+            if (pressed != keep || m_session.mr() != mr || running())
               return;
             m_session.keep(best);
-            m_panel->say(tr("Kept as it was when it was stopped."));
+            m_panel->say(m_session.lies(best) ? tr("Kept as it was when it was stopped.")
+                                              : tr("The drill runs; the MR lies as before."));
           });
   box->open();
-}
-
-void RegistrationController::setOverlay(const std::optional<OverlayMode>& mode, double opacity)
-{
-  m_mode = mode;
-  m_opacity = opacity;
-  m_flick.reset();
-  m_panel->setOverlay(m_mode, m_opacity);
-  showOverlay();
-}
-
-void RegistrationController::flick()
-{
-  if (!m_session.part())
-    return;
-  m_flick = m_flick && *m_flick == 1.0 ? 0.0 : 1.0;
-  showOverlay();
-}
-
-void RegistrationController::nextOverlay()
-{
-  if (!m_session.part())
-    return;
-  if (m_flick)
-    setOverlay(m_mode, m_opacity); // back from one alone
-  else if (!m_mode)
-    setOverlay(OverlayMode::Blend, m_opacity);
-  else if (*m_mode == OverlayMode::Checker)
-    setOverlay(std::nullopt, m_opacity);
-  else
-    setOverlay(static_cast<OverlayMode>(static_cast<int>(*m_mode) + 1), m_opacity);
-}
-
-void RegistrationController::showOverlay()
-{
-  const scene::ImagePart* part = m_session.part();
-  const double alone = m_flick.value_or(-1.0);
-  if (!part || alone == 0.0 || (!m_mode && !m_flick))
-  {
-    if (!m_mode && !m_flick)
-      m_overlay.reset(); // off: nothing of the MR is kept for it
-    m_slices.setOverlay(nullptr);
-    m_slices.setNotice(alone == 0.0 ? tr("CT alone (V)") : QString());
-    return;
-  }
-  if (!m_overlay || m_overlayOf != part->name)
-  {
-    QApplication::setOverrideCursor(Qt::WaitCursor);
-    try
-    {
-      m_overlay = presenters::overlayOf(*part);
-      m_overlayOf = part->name;
-    }
-    catch (const std::exception& error)
-    {
-      m_overlay.reset();
-      m_panel->say(inWords(error));
-    }
-    QApplication::restoreOverrideCursor();
-    if (!m_overlay)
-      return m_slices.setOverlay(nullptr);
-  }
-  presenters::SliceOverlay overlay = *m_overlay;
-  overlay.mrFromCt = m_best.value_or(part->mrFromCt);
-  overlay.registered = part->registered;
-  overlay.mode = m_flick ? OverlayMode::Blend : *m_mode;
-  overlay.opacity = m_flick.value_or(m_opacity);
-  m_slices.setOverlay(std::make_shared<const presenters::SliceOverlay>(std::move(overlay)));
-  QString notice = words(part->name);
-  if (m_flick)
-    notice = tr("%1 alone (V)").arg(notice);
-  if (m_best)
-    notice += tr(": being registered");
-  else if (!part->registered)
-    notice += tr(": not registered");
-  m_slices.setNotice(notice);
 }
 
 void RegistrationController::showMarks()
@@ -345,8 +304,8 @@ void RegistrationController::addPoint()
   if (!m_session.part() || running())
     return;
   m_session.addLandmark();
-  m_flick = m_session.landmarks().waitsForMr() ? 1.0 : 0.0; // where the next point is to be found
-  showOverlay();
+  m_panel->openPoints();
+  m_overlay->showAlone(m_session.landmarks().waitsForMr()); // where the next point is to be found
   showMarks();
   m_panel->say(m_session.landmarks().waitsForMr()
                    ? tr("Now the same point in the MR: crosshair there, then K.")
@@ -387,10 +346,12 @@ void RegistrationController::showMetric()
   const auto moved = m_session.movedByHand();
   if (!m_firstMetric || (moved.shift == 0.0 && moved.turn == 0.0))
     m_firstMetric = now;
-  m_panel->setMetric(tr("Metric %1 (%2%3 by hand)")
-                         .arg(now, 0, 'f', 4)
-                         .arg(now < *m_firstMetric ? "" : "+")
-                         .arg(now - *m_firstMetric, 0, 'f', 4));
+  QString text = tr("Metric %1").arg(now, 0, 'f', 4);
+  if (moved.shift > 0.0 || moved.turn > 0.0)
+    text += tr(" (%1%2 by hand)")
+                .arg(now < *m_firstMetric ? "" : "+")
+                .arg(now - *m_firstMetric, 0, 'f', 4);
+  m_panel->setMetric(text);
 }
 
 } // namespace petrous::workstation

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include <QObject>
+#include <QPointer>
 #include <QTimer>
 
 #include "petrous/Presenters/RegistrationSession.h"
@@ -11,11 +13,13 @@
 
 class QAction;
 class QMenu;
+class QMessageBox;
 
 namespace petrous::workstation
 {
 
 class BackgroundWork;
+class MrOverlay;
 class RegistrationPanel;
 class SliceColumn;
 
@@ -45,39 +49,35 @@ private:
 
   QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
   void connectPanel();
-  void begin(bool search);
+  void byHand(const std::function<void()>& move);
+  void begin(presenters::RegistrationSession::Way way);
   void heard(const registration::MetricSample& sample, const core::RigidTransform& best);
-  void finished(const registration::Registration& result, const QString& place);
+  void finished(const presenters::RegistrationOutcome& outcome);
+  void waitForTheDrill(const presenters::RegistrationOutcome& outcome);
+  void cancel();
   void stopped(); // on request
   void offerBest(const core::RigidTransform& best);
   void endRun(const QString& line);
-  void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
-  void flick();
-  void nextOverlay();
-  void showOverlay();
   void showMarks();
   void addPoint();
   void askMetric();
   void showMetric();
-  QString place() const; // what is at the crosshair
 
   presenters::WorkstationModel& m_model;
   SliceColumn& m_slices;
   QWidget& m_window;
   presenters::RegistrationSession m_session;
   RegistrationPanel* m_panel;
+  MrOverlay* m_overlay;
   QMenu* m_menu;
   std::unique_ptr<BackgroundWork> m_run;
   std::unique_ptr<BackgroundWork> m_metricWork;
   std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, when first asked for
   std::string m_metricOf;
   std::optional<double> m_firstMetric;
-  std::optional<presenters::OverlayMode> m_mode; // none: CT alone
-  double m_opacity = 0.5;
-  std::optional<double> m_flick;                     // 0 the CT, 1 the MR, alone
-  std::optional<presenters::SliceOverlay> m_overlay; // of m_overlayOf, when first shown
-  std::string m_overlayOf;
-  Best m_best; // of the run
+  Best m_best;                       // of the run
+  QPointer<QMessageBox> m_question;  // whether that is kept
+  std::unique_ptr<QTimer> m_waiting; // with a result, for the drill
   QTimer m_sceneLater;
 };
 

@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QDateTime>
 #include <QFormLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
@@ -11,12 +10,13 @@
 #include <QScopedValueRollback>
 #include <QScrollArea>
 #include <QSlider>
-#include <QTableView>
 #include <QVBoxLayout>
 
+#include "AimBox.h"
+#include "FoldBox.h"
 #include "HandlesBox.h"
 #include "ImportJob.h"
-#include "LandmarkModel.h"
+#include "LandmarksBox.h"
 #include "MetricCurve.h"
 #include "Theme.h"
 
@@ -36,24 +36,26 @@ QLabel* heading(const QString& text)
   return label;
 }
 
-// How far off the MR may be, where that was asked.
+// What the line of its state leaves out.
 QString errorText(const scene::ImagePart& mr)
 {
   if (!mr.registered || !mr.registration)
     return {};
   QString text;
   if (const auto& error = mr.registration->error)
-    text =
-        RegistrationPanel::tr("Error at %1 (%2, %3, %4): median %5, 95 % below %6, at most %7 mm")
-            .arg(words(error->place).replace('_', ' '))
-            .arg(error->point[0], 0, 'f', 1)
-            .arg(error->point[1], 0, 'f', 1)
-            .arg(error->point[2], 0, 'f', 1)
-            .arg(error->median, 0, 'f', 2)
-            .arg(error->p95, 0, 'f', 2)
-            .arg(error->max, 0, 'f', 2);
+    text = RegistrationPanel::tr("Median error %1 mm, largest %2 mm")
+               .arg(error->median, 0, 'f', 2)
+               .arg(error->max, 0, 'f', 2);
   const QString why = words(mr.registration->text);
   return text.isEmpty() || why.isEmpty() ? text + why : text + "\n" + why;
+}
+
+// What speaks against it is seen before it is read.
+QString stateStyle(const scene::ImagePart* mr)
+{
+  const bool good = mr && mr->registered && mr->registration &&
+                    mr->registration->verdict == scene::Registration::Verdict::Good;
+  return mr && mr->registered && !good ? "color: #ffb454;" : QString();
 }
 
 QPushButton* button(const QString& text, const char* name, const QString& tip)
@@ -81,8 +83,9 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   , m_state(new QLabel)
   , m_error(new QLabel)
   , m_line(new QLabel)
+  , m_aim(new AimBox(session))
   , m_handles(new HandlesBox(session))
-  , m_rows(new LandmarkModel(session, this))
+  , m_points(new LandmarksBox(session))
 {
   m_mr->setObjectName("registrationMr");
   m_state->setObjectName("registrationState");
@@ -111,13 +114,17 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   layout->addWidget(m_mr);
   layout->addWidget(m_state);
   layout->addWidget(m_error);
+  addSteps(*layout);
   addSeeing(*layout);
   addRunning(*layout);
-  layout->addWidget(heading(tr("By hand")));
-  layout->addWidget(m_handles);
-  addPoints(*layout);
-  addSignOff(*layout);
+  layout->addWidget(m_pointsFold = new FoldBox(tr("By pairs of points"), "pointsFold", m_points));
+  layout->addWidget(m_handFold = new FoldBox(tr("By hand"), "handFold", m_handles));
   layout->addStretch(1);
+  m_pointsFold->setOther(m_handFold);
+  m_handFold->setOther(m_pointsFold);
+  connect(m_points, &LandmarksBox::pointAsked, this, &RegistrationPanel::pointAsked);
+  connect(m_points, &LandmarksBox::fitAsked, this, &RegistrationPanel::landmarksAsked);
+  connect(m_points, &LandmarksBox::changed, this, &RegistrationPanel::landmarksChanged);
   auto* area = new QScrollArea;
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
@@ -125,11 +132,24 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   area->setWidget(inside);
   auto* outer = new QVBoxLayout(this);
   outer->setContentsMargins(0, 0, 0, 0);
-  outer->addWidget(area);
+  outer->setSpacing(0);
+  outer->addWidget(area, 1);
+  outer->addWidget(signOff()); // always in reach
   setMinimumWidth(340);
   setOverlay(std::nullopt, 0.5);
   setRunning(false);
   say({});
+}
+
+void RegistrationPanel::addSteps(QVBoxLayout& layout)
+{
+  m_undo = button(tr("Undo"), "undoMr", tr("Back to how the MR lay before (Ctrl+Alt+Z)"));
+  m_redo = button(tr("Redo"), "redoMr", tr("Forth again (Ctrl+Alt+Y)"));
+  m_remove = button(tr("Unregister"), "unregister", tr("The MR has no place on the CT any more"));
+  connect(m_undo, &QPushButton::clicked, this, [this] { m_session.undo(); });
+  connect(m_redo, &QPushButton::clicked, this, [this] { m_session.redo(); });
+  connect(m_remove, &QPushButton::clicked, this, [this] { m_session.unregister(); });
+  layout.addLayout(rowOf({m_undo, m_redo, m_remove}));
 }
 
 void RegistrationPanel::addSeeing(QVBoxLayout& layout)
@@ -164,6 +184,7 @@ void RegistrationPanel::addSeeing(QVBoxLayout& layout)
   auto* form = new QFormLayout;
   form->addRow(tr("&Slices show"), m_overlay);
   form->addRow(tr("MR &opacity"), m_opacity);
+  m_opacityLabel = form->labelForField(m_opacity);
   layout.addLayout(form);
 }
 
@@ -171,8 +192,8 @@ void RegistrationPanel::addRunning(QVBoxLayout& layout)
 {
   layout.addWidget(heading(tr("By mutual information")));
   m_register = button(tr("&Register"), "register",
-                      tr("Lays the MR on the CT, from wherever it is, and states the error at the "
-                         "crosshair (Ctrl+R)"));
+                      tr("Looks for where the MR fits the CT, lays it there, and says how well it "
+                         "lies (Ctrl+R)"));
   m_refine = button(tr("Re&fine"), "refine",
                     tr("The same from where the MR lies now, without a search: after points or the "
                        "hand"));
@@ -181,6 +202,7 @@ void RegistrationPanel::addRunning(QVBoxLayout& layout)
   connect(m_register, &QPushButton::clicked, this, &RegistrationPanel::registerAsked);
   connect(m_refine, &QPushButton::clicked, this, &RegistrationPanel::refineAsked);
   connect(m_cancel, &QPushButton::clicked, this, &RegistrationPanel::cancelAsked);
+  layout.addWidget(m_aim);
   layout.addLayout(rowOf({m_register, m_refine, m_cancel}));
   m_progress = new QProgressBar;
   m_progress->setObjectName("registrationProgress");
@@ -195,42 +217,13 @@ void RegistrationPanel::addRunning(QVBoxLayout& layout)
   layout.addWidget(m_line);
 }
 
-void RegistrationPanel::addPoints(QVBoxLayout& layout)
+QWidget* RegistrationPanel::signOff()
 {
-  layout.addWidget(heading(tr("By pairs of points")));
-  m_points = new QTableView;
-  m_points->setObjectName("landmarks");
-  m_points->setModel(m_rows);
-  m_points->setSelectionBehavior(QAbstractItemView::SelectRows);
-  m_points->setSelectionMode(QAbstractItemView::SingleSelection);
-  m_points->verticalHeader()->hide();
-  m_points->verticalHeader()->setDefaultSectionSize(22);
-  m_points->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  m_points->horizontalHeader()->setSectionResizeMode(LandmarkModel::Number,
-                                                     QHeaderView::ResizeToContents);
-  m_points->setFixedHeight(112);
-  layout.addWidget(m_points);
-  m_point = button(tr("Point here"), "landmarkHere",
-                   tr("The crosshair marks a point of the CT, then the same point of the MR (K)"));
-  m_removePoint = button(tr("Remove"), "removeLandmark", tr("The pair that is chosen"));
-  m_fitPoints = button(tr("Fit"), "fitLandmarks",
-                       tr("Lays the MR so that the pairs fall on each other; three at least"));
-  connect(m_point, &QPushButton::clicked, this, &RegistrationPanel::pointAsked);
-  connect(m_removePoint, &QPushButton::clicked, this,
-          [this]
-          {
-            if (const auto chosen = m_points->currentIndex(); chosen.isValid())
-              m_session.landmarks().remove(static_cast<std::size_t>(chosen.row()));
-            emit landmarksChanged();
-          });
-  connect(m_fitPoints, &QPushButton::clicked, this,
-          [this] { attempt([this] { m_session.fitLandmarks(); }); });
-  layout.addLayout(rowOf({m_point, m_removePoint, m_fitPoints}));
-}
-
-void RegistrationPanel::addSignOff(QVBoxLayout& layout)
-{
-  layout.addWidget(heading(tr("Sign-off")));
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(10, 4, 10, 8);
+  layout->setSpacing(5);
+  layout->addWidget(heading(tr("Sign-off")));
   m_name = new QLineEdit;
   m_name->setObjectName("signName");
   m_name->setPlaceholderText(tr("The surgeon's name"));
@@ -240,7 +233,18 @@ void RegistrationPanel::addSignOff(QVBoxLayout& layout)
   connect(m_name, &QLineEdit::textChanged, this, &RegistrationPanel::enable);
   connect(m_name, &QLineEdit::returnPressed, this, &RegistrationPanel::sign);
   connect(m_sign, &QPushButton::clicked, this, &RegistrationPanel::sign);
-  layout.addLayout(rowOf({m_name, m_sign}));
+  layout->addLayout(rowOf({m_name, m_sign}));
+  return box;
+}
+
+void RegistrationPanel::openPoints()
+{
+  m_pointsFold->setOpen(true);
+}
+
+void RegistrationPanel::openHand()
+{
+  m_handFold->setOpen(true);
 }
 
 void RegistrationPanel::hideEvent(QHideEvent* event)
@@ -302,10 +306,12 @@ void RegistrationPanel::refresh()
   m_mr->setCurrentText(words(m_session.mr()));
   m_state->setText(m_session.part() ? words(m_session.stateInWords())
                                     : tr("The case has no MR (petrous add CASE --mr …)"));
+  m_state->setStyleSheet(stateStyle(m_session.part()));
   m_error->setText(m_session.part() ? errorText(*m_session.part()) : QString());
   m_error->setVisible(!m_error->text().isEmpty());
+  m_aim->refresh();
   m_handles->refresh();
-  m_rows->refresh();
+  m_points->refresh();
   enable();
 }
 
@@ -315,17 +321,19 @@ void RegistrationPanel::enable()
   const bool free = there && !m_running;
   m_mr->setEnabled(free);
   m_overlay->setEnabled(there);
-  m_opacity->setEnabled(there &&
-                        m_overlay->currentData().toInt() == static_cast<int>(OverlayMode::Blend));
+  const bool blends = m_overlay->currentData().toInt() == static_cast<int>(OverlayMode::Blend);
+  m_opacity->setEnabled(there);
+  m_opacity->setVisible(blends);
+  m_opacityLabel->setVisible(blends);
   m_register->setEnabled(free);
   m_refine->setEnabled(free && m_session.part()->registered);
   m_cancel->setEnabled(m_running);
+  m_aim->setEnabled(free);
   m_handles->setEnabled(free);
-  m_point->setEnabled(free);
-  m_point->setText(m_session.landmarks().waitsForMr() ? tr("Point in MR (K)")
-                                                      : tr("Point in CT (K)"));
-  m_removePoint->setEnabled(free && !m_session.landmarks().rows().empty());
-  m_fitPoints->setEnabled(free && m_session.landmarks().pairs() >= 3);
+  m_points->setEnabled(free);
+  m_undo->setEnabled(free && m_session.canUndo());
+  m_redo->setEnabled(free && m_session.canRedo());
+  m_remove->setEnabled(free && m_session.part()->registered);
   m_sign->setEnabled(free && m_session.part()->registered && !m_name->text().trimmed().isEmpty());
   m_name->setEnabled(free && m_session.part()->registered);
 }

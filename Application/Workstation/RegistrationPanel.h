@@ -12,14 +12,15 @@ class QLineEdit;
 class QProgressBar;
 class QPushButton;
 class QSlider;
-class QTableView;
 class QVBoxLayout;
 
 namespace petrous::workstation
 {
 
+class AimBox;
+class FoldBox;
 class HandlesBox;
-class LandmarkModel;
+class LandmarksBox;
 class MetricCurve;
 
 /// How an MR of the case lies on the CT: seen, computed, moved by hand, by pairs of points, signed.
@@ -36,6 +37,8 @@ public:
   void setProgress(double fraction, const QString& text);
   void setMetric(const QString& text); ///< of how the MR lies now
   void say(const QString& line);       ///< what went wrong, or what to do next; empty: nothing
+  void openPoints();
+  void openHand();
   MetricCurve& curve() { return *m_curve; }
 
 signals:
@@ -45,7 +48,8 @@ signals:
   void registerAsked();
   void refineAsked(); ///< from where the MR lies now
   void cancelAsked();
-  void pointAsked(); ///< of a pair, at the crosshair
+  void pointAsked();     ///< of a pair, at the crosshair
+  void landmarksAsked(); ///< the MR laid where they put it
   void landmarksChanged();
   void hidden(); ///< nobody looks at the metric
 
@@ -53,10 +57,10 @@ protected:
   void hideEvent(QHideEvent* event) override;
 
 private:
+  void addSteps(QVBoxLayout& layout);
   void addSeeing(QVBoxLayout& layout);
   void addRunning(QVBoxLayout& layout);
-  void addPoints(QVBoxLayout& layout);
-  void addSignOff(QVBoxLayout& layout);
+  QWidget* signOff();
   void attempt(const std::function<void()>& what); ///< tells what it throws
   void sign();
   void enable();
@@ -68,18 +72,21 @@ private:
   QLabel* m_line;
   QComboBox* m_overlay;
   QSlider* m_opacity;
+  QWidget* m_opacityLabel;
+  QPushButton* m_undo;
+  QPushButton* m_redo;
+  QPushButton* m_remove;
   QPushButton* m_register;
   QPushButton* m_refine;
   QPushButton* m_cancel;
   QProgressBar* m_progress;
   MetricCurve* m_curve;
   QLabel* m_metric;
+  AimBox* m_aim;
   HandlesBox* m_handles;
-  LandmarkModel* m_rows;
-  QTableView* m_points;
-  QPushButton* m_point;
-  QPushButton* m_removePoint;
-  QPushButton* m_fitPoints;
+  LandmarksBox* m_points;
+  FoldBox* m_pointsFold;
+  FoldBox* m_handFold;
   QLineEdit* m_name;
   QPushButton* m_sign;
   bool m_running = false;

@@ -6,11 +6,13 @@
 #include <Eigen/Geometry>
 
 #include "petrous/Presenters/RegistrationSession.h"
+#include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/LayMr.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
 using Eigen::Vector3d;
+using Way = RegistrationSession::Way;
 
 namespace
 {
@@ -47,17 +49,39 @@ protected:
 
   const scene::ImagePart& t2() const { return model.value().mr[0]; }
 
-  static registration::Registration result(registration::Verdict verdict)
+  static RegistrationOutcome result(scene::Registration::Verdict verdict)
   {
-    registration::Registration done;
-    done.fit.mrFromCt = {Eigen::Quaterniond::Identity(), {1, 2, 3}};
-    done.fit.metric = 0.7;
-    done.error.median = 0.1;
-    done.error.p95 = 0.3;
-    done.error.max = 0.4;
-    done.verdict = verdict;
-    done.text = "because";
+    RegistrationOutcome done;
+    done.mrFromCt = {Eigen::Quaterniond::Identity(), {1, 2, 3}};
+    done.how.verdict = verdict;
+    done.how.metric = 0.7;
+    done.how.error = scene::RegistrationError{{0, 0, 0}, "incus", 0.1, 0.3, 0.4};
+    done.how.text = "because";
     return done;
+  }
+
+  // A structure in the middle of its grid, drawn on that MR.
+  static scene::LabelPart drawnOn(const scene::ImagePart& mr, const std::string& name)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(mr.geometry);
+    voxels->at(3, 3, 3) = 1;
+    volume::LabelMap map;
+    map.voxels = voxels;
+    scene::LabelPart part;
+    scene::StructurePart structure;
+    structure.name = name;
+    structure.index = 1;
+    structure.look.solid = structure.look.touchable = true;
+    part.structures = {structure};
+    part.drawnOn = mr.name;
+    part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+    return part;
+  }
+
+  // Takes it as the window does.
+  bool lay(RegistrationSession::Way way)
+  {
+    return session.take(registerMr(model.value(), session.request(way)));
   }
 
   std::filesystem::path folder;
@@ -138,14 +162,18 @@ TEST_F(RegistrationSessionTest, FitsTheLandmarksThatWerePickedAndTellsWhatIsLeft
     session.addLandmark();
   }
   EXPECT_EQ(session.landmarks().pairs(), 3U);
-  session.fitLandmarks();
+  EXPECT_TRUE(lay(Way::Landmarks));
   EXPECT_LT((t2().mrFromCt.matrix() - truth.matrix()).norm(), 1e-9);
   EXPECT_EQ(t2().registration->method, scene::Registration::Method::Landmarks);
   EXPECT_LT(*session.landmarks().residual(1, t2().mrFromCt), 1e-9);
-  EXPECT_TRUE(session.fitOptions(false).start == registration::Start::Given);
-  EXPECT_TRUE(session.take(result(registration::Verdict::Good), "incus"));
-  EXPECT_EQ(t2().registration->method, scene::Registration::Method::Landmarks);
-  EXPECT_TRUE(t2().registration->refined);
+  EXPECT_NE(t2().registration->text.find("3 landmarks agree"), std::string::npos);
+  EXPECT_EQ(session.movedByHand().shift, 0.0);
+  const RegistrationRequest refine = session.request(Way::Refine);
+  EXPECT_EQ(refine.from, RegistrationRequest::From::Given);
+  EXPECT_TRUE(refine.given.matrix() == t2().mrFromCt.matrix());
+  EXPECT_FALSE(refine.lookAround);
+  ASSERT_TRUE(refine.givenBy);
+  EXPECT_EQ(refine.givenBy->method, scene::Registration::Method::Landmarks);
 }
 
 TEST_F(RegistrationSessionTest, TwoLandmarksTellNoPlaceAndChangeNothing)
@@ -153,22 +181,22 @@ TEST_F(RegistrationSessionTest, TwoLandmarksTellNoPlaceAndChangeNothing)
   model.setCrosshair({1, 0, 0});
   session.addLandmark();
   session.addLandmark();
-  EXPECT_ANY_THROW(session.fitLandmarks());
+  EXPECT_THROW(lay(Way::Landmarks), core::InvalidParameter);
   EXPECT_FALSE(t2().registered);
   EXPECT_FALSE(session.canUndo());
 }
 
 TEST_F(RegistrationSessionTest, TakesAResultWithItsErrorButNotAFailedOne)
 {
-  EXPECT_FALSE(session.take(result(registration::Verdict::Failed), "incus"));
+  RegistrationOutcome failed = result(scene::Registration::Verdict::Doubtful);
+  failed.failed = true;
+  EXPECT_FALSE(session.take(failed));
   EXPECT_FALSE(t2().registered);
-  EXPECT_TRUE(session.take(result(registration::Verdict::Doubtful), "incus"));
+  EXPECT_TRUE(session.take(result(scene::Registration::Verdict::Doubtful)));
   ASSERT_TRUE(t2().registration && t2().registration->error);
-  EXPECT_EQ(t2().registration->method, scene::Registration::Method::MutualInformation);
-  EXPECT_FALSE(t2().registration->refined);
   EXPECT_EQ(t2().registration->verdict, scene::Registration::Verdict::Doubtful);
   EXPECT_EQ(t2().registration->error->p95, 0.3);
-  EXPECT_EQ(t2().registration->error->place, "incus");
+  EXPECT_TRUE(session.lies(result({}).mrFromCt));
   EXPECT_EQ(session.movedByHand().shift, 0.0);
   session.unregister();
   EXPECT_FALSE(t2().registered);
@@ -186,4 +214,152 @@ TEST_F(RegistrationSessionTest, AnotherMrKeepsItsOwnPlace)
   session.undo();
   EXPECT_FALSE(model.value().mr[1].registered);
   EXPECT_TRUE(t2().registered);
+}
+
+TEST_F(RegistrationSessionTest, AsksForWhatTheAimSays)
+{
+  using From = RegistrationRequest::From;
+  RegistrationRequest request = session.request(Way::Register);
+  EXPECT_EQ(request.mr, "T2");
+  EXPECT_EQ(request.from, From::Header);
+  EXPECT_FALSE(request.at) << "the middle ear, which registerMr looks for";
+  EXPECT_TRUE(request.atStructure.empty());
+  EXPECT_FALSE(request.region);
+  EXPECT_TRUE(request.onto.empty());
+
+  model.setCrosshair({1, 2, -1});
+  RegistrationAim aim;
+  aim.start = RegistrationAim::Start::Centres;
+  aim.place = RegistrationAim::Place::Crosshair;
+  aim.box = 3.0;
+  session.setAim(aim);
+  request = session.request(Way::Register);
+  EXPECT_EQ(request.from, From::Centres);
+  ASSERT_TRUE(request.at);
+  EXPECT_EQ(request.at->point, Vector3d(1, 2, -1));
+  EXPECT_EQ(request.at->words, "(1.0, 2.0, -1.0)");
+  ASSERT_TRUE(request.region);
+  EXPECT_EQ((*request.region)[0], Vector3d(-0.5, 0.5, -2.5));
+  EXPECT_EQ((*request.region)[1], Vector3d(2.5, 3.5, 0.5));
+
+  session.shift({1, 0, 0});
+  aim.start = RegistrationAim::Start::Present;
+  session.setAim(aim);
+  request = session.request(Way::Register);
+  EXPECT_EQ(request.from, From::Given);
+  EXPECT_TRUE(request.lookAround);
+  EXPECT_TRUE(request.given.matrix() == t2().mrFromCt.matrix());
+  EXPECT_FALSE(session.request(Way::Refine).lookAround);
+}
+
+TEST_F(RegistrationSessionTest, OffersForTheAimOnlyWhatCanBe)
+{
+  model.changeMr([](scene::Case& value) { value.labels = {drawnOn(value.mr[0], "tumour")}; });
+  RegistrationAim aim;
+  aim.onto = "DWI";
+  aim.place = RegistrationAim::Place::Structure;
+  aim.structure = "tumour";
+  session.setAim(aim);
+  EXPECT_TRUE(session.ontoNames().empty()) << "DWI is not registered";
+  EXPECT_TRUE(session.aim().onto.empty());
+  EXPECT_TRUE(session.placeNames().empty()) << "drawn on an MR that is not registered";
+  EXPECT_EQ(session.aim().place, RegistrationAim::Place::MiddleEar);
+
+  session.take(result(scene::Registration::Verdict::Good));
+  EXPECT_EQ(session.placeNames(), std::vector<std::string>{"tumour"});
+  session.setAim(aim);
+  EXPECT_EQ(session.request(Way::Register).atStructure, "tumour");
+  session.choose("DWI");
+  EXPECT_EQ(session.ontoNames(), std::vector<std::string>{"T2"});
+  aim.onto = "T2";
+  session.setAim(aim);
+  EXPECT_EQ(session.request(Way::Refine).onto, "T2");
+  RegistrationOutcome chained = result(scene::Registration::Verdict::Good);
+  chained.how.through = "T2";
+  session.take(chained);
+  session.choose("T2");
+  EXPECT_TRUE(session.ontoNames().empty()) << "DWI came through T2";
+}
+
+TEST_F(RegistrationSessionTest, UndoTakesAlongWhatCameThroughTheMrAndLeavesOtherSignaturesAlone)
+{
+  session.take(result(scene::Registration::Verdict::Good));
+  session.choose("DWI");
+  RegistrationOutcome chained = result(scene::Registration::Verdict::Good);
+  chained.how.through = "T2";
+  session.take(chained);
+  const core::RigidTransform first = model.value().mr[1].mrFromCt;
+  session.choose("T2");
+  session.shift({2, 0, 0});
+  const core::RigidTransform along = model.value().mr[1].mrFromCt;
+  EXPECT_NEAR((along.translation() - first.translation()).norm(), 2.0, 1e-9);
+  EXPECT_FALSE(model.value().mr[1].registration->error);
+  session.undo();
+  EXPECT_TRUE(model.value().mr[1].mrFromCt.matrix() == first.matrix());
+  ASSERT_TRUE(model.value().mr[1].registration->error) << "it lies as it was judged";
+  EXPECT_EQ(model.value().mr[1].registration->through, "T2");
+  session.redo();
+  EXPECT_TRUE(model.value().mr[1].mrFromCt.matrix() == along.matrix());
+  EXPECT_FALSE(model.value().mr[1].registration->error);
+
+  session.undo();
+  session.choose("DWI");
+  session.signOff("A. Surgeon", "2026-01-31T10:00:00Z");
+  session.choose("T2");
+  session.unregister();
+  EXPECT_FALSE(model.value().mr[1].registered);
+  session.undo();
+  EXPECT_TRUE(model.value().mr[1].registered);
+  EXPECT_EQ(scene::validSignOff(model.value().mr[1]), nullptr) << "it moved meanwhile";
+}
+
+TEST_F(RegistrationSessionTest, ASignatureOfAnMrThatUndoDoesNotMoveStays)
+{
+  session.choose("DWI");
+  session.shift({0, 1, 0});
+  session.choose("T2");
+  session.shift({1, 0, 0});
+  session.choose("DWI");
+  session.signOff("A. Surgeon", "2026-01-31T10:00:00Z");
+  session.undo(); // T2's move
+  EXPECT_FALSE(t2().registered);
+  ASSERT_NE(scene::validSignOff(model.value().mr[1]), nullptr);
+}
+
+TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMadeAnew)
+{
+  model.changeMr(
+      [](scene::Case& value)
+      {
+        value.labels = {drawnOn(value.mr[0], "tumour")};
+        scene::MeshPart mesh;
+        mesh.name = "ball";
+        mesh.drawnOn = "T2";
+        core::TriangleMesh body; // a tetrahedron of 3 mm
+        body.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+        body.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+        mesh.mesh = std::make_shared<const core::TriangleMesh>(std::move(body));
+        mesh.look.solid = mesh.look.touchable = true;
+        value.meshes = {mesh};
+      });
+  const auto middle = [this](const std::string& name)
+  { return placeOf(model.value(), name).point; };
+  const auto solid = [this]
+  {
+    const auto all = scene::meshSolids(model.value(), [](const auto&) { return true; });
+    return all.empty() ? Vector3d(1e9, 0, 0) : all.front().share->geometry().center();
+  };
+  session.shift({1, 0, 0});
+  const Vector3d tumour = middle("tumour");
+  const Vector3d ball = solid();
+  session.shift({0, -2, 0});
+  EXPECT_LT((middle("tumour") - tumour - Vector3d(0, -2, 0)).norm(), 1e-6);
+  EXPECT_LT((solid() - ball - Vector3d(0, -2, 0)).norm(), 1.0);
+  EXPECT_GT((solid() - ball).norm(), 1.0);
+  session.undo();
+  EXPECT_LT((middle("tumour") - tumour).norm(), 1e-6);
+  EXPECT_LT((solid() - ball).norm(), 1e-6);
+  session.undo();
+  EXPECT_ANY_THROW(middle("tumour"));
+  EXPECT_GT(solid()[0], 1e8) << "nowhere on the CT";
 }

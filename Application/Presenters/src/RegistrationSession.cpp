@@ -1,9 +1,8 @@
 #include "petrous/Presenters/RegistrationSession.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <utility>
 
-#include "petrous/Registration/Landmarks.h"
 #include "petrous/Scene/LayMr.h"
 
 namespace petrous::presenters
@@ -33,6 +32,7 @@ void RegistrationSession::caseChanged()
   m_undo.clear();
   m_redo.clear();
   m_name.clear();
+  m_aim = {};
   choose(m_model.hasCase() && !m_model.value().mr.empty() ? m_model.value().mr.front().name
                                                           : std::string());
 }
@@ -41,6 +41,7 @@ void RegistrationSession::choose(const std::string& mr)
 {
   m_name = mr;
   m_landmarks.clear();
+  checkAim();
   m_fitted = part() ? part()->mrFromCt : core::RigidTransform();
 }
 
@@ -63,14 +64,6 @@ std::string RegistrationSession::stateInWords() const
   return part() ? scene::registrationInWords(*part()) : std::string();
 }
 
-RegistrationSession::Lies RegistrationSession::lies() const
-{
-  Lies all;
-  for (const scene::ImagePart& mr : m_model.value().mr)
-    all.push_back({mr.name, mr.mrFromCt, mr.registered, mr.registration});
-  return all;
-}
-
 void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Registration& how)
 {
   if (!part() || m_model.drilling())
@@ -81,7 +74,7 @@ void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Regist
 // What hears of the change finds that it can be undone.
 void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
 {
-  const Lies before = lies();
+  const Places before = scene::mrPlaces(m_model.value());
   m_model.changeMr(
       [&](scene::Case& value)
       {
@@ -131,55 +124,74 @@ void RegistrationSession::addLandmark()
     m_landmarks.addCt(m_model.crosshair());
 }
 
-void RegistrationSession::fitLandmarks()
+void RegistrationSession::setAim(const RegistrationAim& aim)
 {
-  if (!part())
-    return;
-  std::vector<registration::LandmarkPair> pairs;
-  for (const LandmarkList::Row& row : m_landmarks.rows())
-    if (row.mr)
-      pairs.push_back({row.ct, *row.mr});
-  const registration::LandmarkFit fit = registration::fitLandmarks(pairs);
-  Registration how;
-  how.method = Registration::Method::Landmarks;
-  char text[96];
-  std::snprintf(text, sizeof text, "%zu pairs of points, %.2f mm apart (root mean square)",
-                pairs.size(), fit.rms);
-  how.text = text;
-  m_fitted = fit.mrFromCt;
-  lay(fit.mrFromCt, how);
+  m_aim = aim;
+  checkAim();
 }
 
-registration::FitOptions RegistrationSession::fitOptions(bool search) const
+void RegistrationSession::checkAim()
 {
-  registration::FitOptions options;
-  options.search = search;
-  if (part() && part()->registered)
+  const auto has = [](const std::vector<std::string>& names, const std::string& name)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (!has(ontoNames(), m_aim.onto))
+    m_aim.onto.clear();
+  if (m_aim.place == RegistrationAim::Place::Structure && !has(placeNames(), m_aim.structure))
+    m_aim.place = RegistrationAim::Place::MiddleEar;
+}
+
+std::vector<std::string> RegistrationSession::ontoNames() const
+{
+  return part() ? presenters::ontoNames(m_model.value(), m_name) : std::vector<std::string>();
+}
+
+std::vector<std::string> RegistrationSession::placeNames() const
+{
+  return m_model.hasCase() ? presenters::placeNames(m_model.value()) : std::vector<std::string>();
+}
+
+RegistrationRequest RegistrationSession::request(Way way) const
+{
+  using From = RegistrationRequest::From;
+  RegistrationRequest request;
+  request.mr = m_name;
+  if (way == Way::Landmarks)
   {
-    options.start = registration::Start::Given;
-    options.given = part()->mrFromCt;
+    request.from = From::Landmarks;
+    request.asIs = true;
+    for (const LandmarkList::Row& row : m_landmarks.rows())
+      if (row.mr)
+        request.landmarks.push_back({row.ct, *row.mr});
+    return request;
   }
-  return options;
+  request.onto = m_aim.onto;
+  if (m_aim.place == RegistrationAim::Place::Crosshair)
+    request.at = placeAt(m_model.value(), m_model.crosshair());
+  else if (m_aim.place == RegistrationAim::Place::Structure)
+    request.atStructure = m_aim.structure;
+  if (m_aim.box > 0.0)
+  {
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * m_aim.box);
+    request.region = {m_model.crosshair() - half, m_model.crosshair() + half};
+  }
+  if (way == Way::Refine || m_aim.start == RegistrationAim::Start::Present)
+  {
+    request.from = From::Given;
+    request.given = part()->mrFromCt;
+    request.givenBy = part()->registration;
+    request.lookAround = way == Way::Register;
+  }
+  else if (m_aim.start == RegistrationAim::Start::Centres)
+    request.from = From::Centres;
+  return request;
 }
 
-bool RegistrationSession::take(const registration::Registration& result, const std::string& place)
+bool RegistrationSession::take(const RegistrationOutcome& outcome)
 {
-  if (!part() || m_model.drilling() || result.verdict == registration::Verdict::Failed)
+  if (!part() || m_model.drilling() || outcome.failed)
     return false;
-  Registration how;
-  if (part()->registration && part()->registered)
-  {
-    how.method = part()->registration->method;
-    how.refined = how.method != Registration::Method::MutualInformation;
-  }
-  how.verdict = result.verdict == registration::Verdict::Good ? Registration::Verdict::Good
-                                                              : Registration::Verdict::Doubtful;
-  how.text = result.text;
-  how.metric = result.fit.metric;
-  how.error = scene::RegistrationError{result.error.point, place, result.error.median,
-                                       result.error.p95, result.error.max};
-  m_fitted = result.fit.mrFromCt;
-  lay(result.fit.mrFromCt, how);
+  m_fitted = outcome.mrFromCt;
+  change([&](scene::Case& value) { accept(value, m_name, outcome); });
   return true;
 }
 
@@ -189,6 +201,11 @@ void RegistrationSession::keep(const core::RigidTransform& best)
   how.text = "stopped before its end";
   m_fitted = best;
   lay(best, how);
+}
+
+bool RegistrationSession::lies(const core::RigidTransform& mrFromCt) const
+{
+  return part() && part()->registered && part()->mrFromCt.matrix() == mrFromCt.matrix();
 }
 
 void RegistrationSession::unregister()
@@ -203,31 +220,17 @@ void RegistrationSession::signOff(const std::string& who, const std::string& whe
   m_model.changeMr([&](scene::Case& value) { scene::signOff(value, m_name, who, when); });
 }
 
-void RegistrationSession::restore(const Lies& lies)
+void RegistrationSession::restore(const Places& places)
 {
-  m_model.changeMr(
-      [&lies](scene::Case& value)
-      {
-        for (scene::ImagePart& mr : value.mr)
-          for (const Lie& lie : lies)
-            if (lie.name == mr.name)
-            {
-              const bool moved = (mr.mrFromCt.matrix() - lie.mrFromCt.matrix()).norm() > 0.0;
-              mr.mrFromCt = lie.mrFromCt;
-              mr.registered = lie.registered;
-              mr.registration = lie.registration;
-              if (moved && mr.registration)
-                mr.registration->signOff.reset(); // whoever signed looks again
-            }
-      });
+  m_model.changeMr([&places](scene::Case& value) { scene::layAs(value, places); });
 }
 
 void RegistrationSession::undo()
 {
   if (m_undo.empty() || m_model.drilling())
     return;
-  m_redo.push_back(lies());
-  const Lies back = std::move(m_undo.back());
+  m_redo.push_back(scene::mrPlaces(m_model.value()));
+  const Places back = std::move(m_undo.back());
   m_undo.pop_back();
   restore(back);
 }
@@ -236,8 +239,8 @@ void RegistrationSession::redo()
 {
   if (m_redo.empty() || m_model.drilling())
     return;
-  m_undo.push_back(lies());
-  const Lies forth = std::move(m_redo.back());
+  m_undo.push_back(scene::mrPlaces(m_model.value()));
+  const Places forth = std::move(m_redo.back());
   m_redo.pop_back();
   restore(forth);
 }

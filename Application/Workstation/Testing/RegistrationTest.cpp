@@ -4,7 +4,9 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPointer>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTableView>
 
 #include "BackgroundWork.h"
@@ -62,7 +64,7 @@ protected:
   {
     return *window().findChild<Widget*>(name);
   }
-  void click(const char* name) { find<QPushButton>(name).click(); }
+  void click(const char* name) { find<QAbstractButton>(name).click(); }
   void showPanel() { QTest::keyClick(&window(), Qt::Key_F5); }
   const scene::ImagePart& mr() { return window().model().value().mr.front(); }
   QString state() { return find<QLabel>("registrationState").text(); }
@@ -169,6 +171,73 @@ TEST_F(RegistrationWindow, CancelOffersToKeepWhatWasReached)
   EXPECT_FALSE(mr().registered);
 }
 
+TEST_F(RegistrationWindow, WhatWasReachedCanBeKeptAlsoUnderAnotherNameButNotInAnotherCase)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  showPanel();
+  const auto stop = [this](const std::function<void(QMessageBox&)>& answer)
+  {
+    click("register");
+    ASSERT_TRUE(waitFor([this] { return find<MetricCurve>("metricCurve").points() > 3; }));
+    bool asked = false;
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          asked = true;
+          answer(box);
+        });
+    click("cancelRegistration");
+    ASSERT_TRUE(waitFor([&] { return asked; }));
+    QTest::qWait(50);
+  };
+  stop(
+      [&](QMessageBox& box)
+      {
+        model.saveAs("left ear");
+        for (QAbstractButton* button : box.buttons())
+          if (box.buttonRole(button) == QMessageBox::AcceptRole)
+            return button->click();
+      });
+  EXPECT_EQ(model.value().name, "left ear");
+  EXPECT_TRUE(mr().registered) << "kept";
+  click("undoMr");
+  EXPECT_FALSE(mr().registered);
+  QPointer<QMessageBox> question;
+  stop(
+      [&](QMessageBox& box)
+      {
+        question = &box;
+        model.open("ear");
+      });
+  EXPECT_TRUE(question.isNull()) << "the question was about the case before";
+  EXPECT_FALSE(mr().registered);
+}
+
+TEST_F(RegistrationWindow, AsksForNoMoreThanFitsAndStatesTheErrorWhereItIsWanted)
+{
+  window().resize(1440, 900);
+  showPanel();
+  EXPECT_FALSE(find<QPushButton>("sign").visibleRegion().isEmpty()) << "in reach at once";
+  EXPECT_FALSE(find<QPushButton>("register").visibleRegion().isEmpty());
+  EXPECT_FALSE(find<QComboBox>("registrationOnto").isVisible()) << "there is one MR";
+  EXPECT_FALSE(find<QTableView>("landmarks").isVisible());
+  QTest::keyClick(&view(), Qt::Key_K);
+  EXPECT_TRUE(find<QTableView>("landmarks").isVisible());
+  click("handFold");
+  EXPECT_FALSE(find<QPushButton>("sign").visibleRegion().isEmpty());
+
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const Vector3d there = Phantom::center() + Vector3d(5, 4, 3);
+  model.setCrosshair(there);
+  find<QComboBox>("registrationPlace").setCurrentIndex(1);
+  find<QSpinBox>("registrationBox").setValue(40);
+  click("register");
+  ASSERT_TRUE(waitFor([this] { return mr().registered; }, 240000)) << state().toStdString();
+  ASSERT_TRUE(mr().registration->error);
+  EXPECT_LT((mr().registration->error->point - there).norm(), 1e-9);
+  EXPECT_LT(error(), 1.0);
+}
+
 TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
 {
   showPanel();
@@ -214,7 +283,9 @@ TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
   EXPECT_GT(rows.index(0, LandmarkModel::Residual).data().toString().split(' ')[0].toDouble(), 3.0);
   picture();
   click("fitLandmarks");
+  ASSERT_TRUE(waitFor([this] { return mr().registered; }));
   EXPECT_LT(error(), 1e-6);
+  EXPECT_EQ(mr().registration->verdict, scene::Registration::Verdict::Doubtful);
   EXPECT_EQ(rows.index(2, LandmarkModel::Residual).data().toString(), "0.00 mm");
   EXPECT_TRUE(state().contains("landmarks")) << state().toStdString();
   find<QTableView>("landmarks").selectRow(1);

@@ -4,14 +4,37 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/LandmarkList.h"
 #include "petrous/Presenters/MrMotion.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Registration/Register.h"
+#include "petrous/Scene/MrPlaces.h"
 
 namespace petrous::presenters
 {
+
+/// What the surgeon wants of a registration, before it begins.
+struct RegistrationAim
+{
+  enum class Start
+  {
+    Header,  ///< as the files say
+    Centres, ///< the images' middles on each other
+    Present  ///< where the MR lies now
+  };
+  enum class Place
+  {
+    MiddleEar, ///< see defaultPlace
+    Crosshair,
+    Structure ///< `structure`
+  };
+  Start start = Start::Header;
+  Place place = Place::MiddleEar; ///< where the error is stated
+  std::string structure;
+  double box = 0.0; ///< mm, edge of the box about the crosshair that counts; 0: the whole CT
+  std::string onto; ///< another MR; empty: the CT
+};
 
 /// Lays one MR of the open case on its CT by every way there is, and back again. The case has each
 /// change at once; it is saved with the case. Without Qt, one thread.
@@ -39,16 +62,28 @@ public:
 
   LandmarkList& landmarks() noexcept { return m_landmarks; }
   void addLandmark(); ///< at the crosshair: in the CT, and then in the MR
-  /// Throws InvalidParameter where the pairs do not tell a place.
-  void fitLandmarks();
 
-  /// What a registration from here begins with; `search`: over 40 mm and 40 degrees.
-  registration::FitOptions fitOptions(bool search) const;
-  /// Takes over a result, with the place where its error is stated in words. A failed one changes
-  /// nothing. Returns whether it was taken.
-  bool take(const registration::Registration& result, const std::string& place);
+  /// What cannot be chosen (any longer) is as if it had not been.
+  const RegistrationAim& aim() const noexcept { return m_aim; }
+  void setAim(const RegistrationAim& aim);
+  std::vector<std::string> ontoNames() const;  ///< MRs that may be RegistrationAim::onto
+  std::vector<std::string> placeNames() const; ///< what may be RegistrationAim::structure
+
+  enum class Way
+  {
+    Register, ///< as the aim says, looking around
+    Refine,   ///< from where the MR lies
+    Landmarks ///< where the pairs of points put it, without a fit
+  };
+  /// For registerMr; only where the case has an MR.
+  RegistrationRequest request(Way way) const;
+  /// Takes over what came of that. A failed one changes nothing, and nothing is taken while the
+  /// drill runs. Returns whether it was taken.
+  bool take(const RegistrationOutcome& outcome);
   /// Where a registration had come when it was stopped: not judged.
   void keep(const core::RigidTransform& best);
+
+  bool lies(const core::RigidTransform& mrFromCt) const; ///< whether it is registered so now
 
   void unregister();
   /// Throws InvalidParameter for no name, or an MR that is not registered.
@@ -60,17 +95,10 @@ public:
   void redo();
 
 private:
-  struct Lie // of one MR
-  {
-    std::string name;
-    core::RigidTransform mrFromCt;
-    bool registered = false;
-    std::optional<scene::Registration> registration;
-  };
-  using Lies = std::vector<Lie>;
+  using Places = std::vector<scene::MrPlace>;
 
-  Lies lies() const;
-  void restore(const Lies& lies);
+  void checkAim();
+  void restore(const Places& places);
   void change(const std::function<void(scene::Case&)>& what);
   void lay(const core::RigidTransform& mrFromCt, const scene::Registration& how);
   void moveByHand(const core::RigidTransform& mrFromCt);
@@ -79,8 +107,9 @@ private:
   std::string m_name;
   LandmarkList m_landmarks;
   core::RigidTransform m_fitted; // the last that was not by hand
-  std::vector<Lies> m_undo;
-  std::vector<Lies> m_redo;
+  RegistrationAim m_aim;
+  std::vector<Places> m_undo;
+  std::vector<Places> m_redo;
 };
 
 } // namespace petrous::presenters

@@ -52,6 +52,11 @@ TEST(LayMr, SaysHowAndHowWell)
             "registered by landmarks, refined by mutual information, good, error 0.24 mm (p95) at "
             "incus, not signed off");
   EXPECT_THROW(scene::layMr(value, "T1", {}, how), core::InvalidParameter);
+  Registration hand;
+  hand.method = Registration::Method::ByHand;
+  scene::layMr(value, "T2", {}, hand);
+  EXPECT_EQ(scene::registrationInWords(value.mr[0]),
+            "registered by hand, not judged, its error unknown, not signed off");
   scene::unlayMr(value, "T2");
   EXPECT_FALSE(value.mr[0].registered);
   EXPECT_EQ(value.mr[0].mrFromCt.matrix(), Eigen::Matrix4d::Identity());

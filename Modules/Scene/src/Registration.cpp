@@ -66,7 +66,8 @@ Verdict verdictFromName(const std::string& name)
 
 std::string methodInWords(const Registration& registration)
 {
-  std::string words = nameOf(registration.method);
+  const bool hand = registration.method == Registration::Method::ByHand;
+  std::string words = hand ? "hand" : nameOf(registration.method);
   if (registration.refined)
     words += ", refined by mutual information";
   if (!registration.through.empty())

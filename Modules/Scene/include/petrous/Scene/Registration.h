@@ -63,7 +63,8 @@ const char* nameOf(Registration::Verdict verdict) noexcept; ///< "good", "doubtf
 Registration::Method methodFromName(const std::string& name);
 Registration::Verdict verdictFromName(const std::string& name);
 
-/// "mutual information", "landmarks, refined by mutual information, through 'T2'".
+/// What follows "by": "hand", "mutual information", "landmarks, refined by mutual information,
+/// through 'T2'".
 std::string methodInWords(const Registration& registration);
 
 } // namespace petrous::scene

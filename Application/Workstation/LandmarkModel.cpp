@@ -7,10 +7,11 @@ namespace
 {
 QString pointText(const Eigen::Vector3d& point)
 {
+  const Eigen::Vector3d tenths = (10.0 * point).array().round() + 0.0; // no -0.0
   return QString("%1, %2, %3")
-      .arg(point[0], 0, 'f', 1)
-      .arg(point[1], 0, 'f', 1)
-      .arg(point[2], 0, 'f', 1);
+      .arg(0.1 * tenths[0], 0, 'f', 1)
+      .arg(0.1 * tenths[1], 0, 'f', 1)
+      .arg(0.1 * tenths[2], 0, 'f', 1);
 }
 } // namespace
 

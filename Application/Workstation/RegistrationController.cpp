@@ -346,7 +346,7 @@ void RegistrationController::showMetric()
   const auto moved = m_session.movedByHand();
   if (!m_firstMetric || (moved.shift == 0.0 && moved.turn == 0.0))
     m_firstMetric = now;
-  QString text = tr("Metric %1").arg(now, 0, 'f', 4);
+  QString text = tr("Metric with the CT %1").arg(now, 0, 'f', 4);
   if (moved.shift > 0.0 || moved.turn > 0.0)
     text += tr(" (%1%2 by hand)")
                 .arg(now < *m_firstMetric ? "" : "+")

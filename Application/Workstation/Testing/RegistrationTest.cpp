@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTableView>
+#include <QTimer>
 
 #include "BackgroundWork.h"
 #include "LandmarkModel.h"
@@ -313,4 +314,63 @@ TEST_F(RegistrationWindow, IsSignedWithANameThatIsTypedAndOnlyForAsLongAsItLiesS
   click("handle11");
   EXPECT_EQ(scene::validSignOff(mr()), nullptr);
   EXPECT_FALSE(state().contains("A. Surgeon")) << state().toStdString();
+}
+
+TEST_F(RegistrationWindow, AResultWaitsForTheDrill)
+{
+  showPanel();
+  bool drilled = false;
+  bool waited = false;
+  bool moved = false;
+  QTimer watch;
+  QObject::connect(&watch, &QTimer::timeout, &watch,
+                   [&]
+                   {
+                     drilled |= window().model().drilling();
+                     moved |= window().model().drilling() && mr().registered;
+                     waited |= find<QLabel>("registrationLine").text().contains("drill");
+                     if (waited)
+                       view().setDrillMode(false); // ends the stroke
+                   });
+  watch.start(5);
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::mouseMove(&view(), view().rect().center());
+  ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
+  click("register");
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  ASSERT_TRUE(waitFor([&] { return drilled; }));
+  EXPECT_TRUE(waitFor([&] { return waited || mr().registered; }, 240000));
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  ASSERT_TRUE(waitFor([&] { return mr().registered; })) << state().toStdString();
+  EXPECT_TRUE(waited);
+  EXPECT_FALSE(moved);
+  EXPECT_LT(error(), 0.5);
+  EXPECT_TRUE(find<QPushButton>("register").isEnabled());
+}
+
+TEST_F(RegistrationWindow, AnMrGoesToTheCtThroughOneThatIsThere)
+{
+  scene::Case value = library().open("ear");
+  scene::ImagePart second = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
+  second.name = "DWI";
+  value.mr.push_back(second);
+  for (scene::ImagePart& each : value.mr)
+    each.frameOfReference = std::string(64, 'f');
+  scene::layMr(value, "T2", phantom.mrFromCt(), {});
+  library().save(value);
+  const_cast<presenters::WorkstationModel&>(window().model()).open("ear");
+  showPanel();
+  auto& onto = find<QComboBox>("registrationOnto");
+  EXPECT_FALSE(onto.isVisible()) << "there is no MR but itself that is registered";
+  find<QComboBox>("registrationMr").setCurrentText("DWI");
+  ASSERT_TRUE(onto.isVisible());
+  ASSERT_EQ(onto.count(), 2);
+  onto.setCurrentIndex(1);
+  click("register");
+  const auto& dwi = window().model().value().mr.back();
+  ASSERT_TRUE(waitFor([&] { return dwi.registered; }, 240000)) << state().toStdString();
+  EXPECT_EQ(dwi.registration->through, "T2");
+  EXPECT_LT((dwi.mrFromCt * Phantom::center() - phantom.mrFromCt() * Phantom::center()).norm(),
+            0.5);
+  EXPECT_TRUE(state().contains("through 'T2'")) << state().toStdString();
 }

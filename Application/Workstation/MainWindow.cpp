@@ -179,10 +179,7 @@ void MainWindow::connectModel()
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.mrMoved = [this] { m_registration->mrMoved(); };
   m_model.events.toolPutAway = [this]
-  {
-    statusBar()->showMessage(
-        tr("The tool was put away: what was drawn on the MR has moved with it"), kMessage);
-  };
+  { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };
   m_model.events.stateChanged = [this] { stateChanged(); };
   m_model.events.stepped = [this](bool back) { stepped(back); };
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
@@ -207,15 +204,12 @@ void MainWindow::connectModel()
   connect(m_handBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
-  connect(m_keeper, &CaseKeeper::said, this,
-          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
-  connect(m_thickness, &ThicknessController::said, this,
-          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
-  connect(m_registration, &RegistrationController::said, this,
-          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  const auto tell = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };
+  connect(m_keeper, &CaseKeeper::said, this, tell);
+  connect(m_thickness, &ThicknessController::said, this, tell);
+  connect(m_registration, &RegistrationController::said, this, tell);
   connect(m_branches, &BranchController::changed, m_keeper, &CaseKeeper::save);
-  connect(m_branches, &BranchController::said, this,
-          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_branches, &BranchController::said, this, tell);
   connect(m_picture, &PictureController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
 }

@@ -26,7 +26,8 @@ struct RemovalBalance
 ///
 /// F_t  N, what the burr's contacts push back together, so that walls between which the burr is
 ///      wedged do not count twice
-/// r    mm, the distance of the contact from the spindle's axis: r_b cos(theta) at the middle of the
+/// r    mm, the distance of the contact from the spindle's axis: r_b cos(theta) at the middle of
+/// the
 ///      patch where the last bite took what it took; where that lies at the pole, the mean over the
 ///      patch: `armOf`. A bite counts with the mean of the patch before and after it.
 class RemovalFeed : public Feed

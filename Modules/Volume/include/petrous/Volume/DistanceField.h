@@ -20,8 +20,8 @@ constexpr std::size_t kMostFieldVoxels = 3'000'000; ///< 12 MB
 /// the share's least spacing in edge, larger where there would be more than `mostVoxels`.
 ///
 /// Null where no voxel lies inside. Throws CancelledError, InvalidParameter unless reach > 0.
-std::shared_ptr<const Volume<float>>
-makeDistanceField(const Volume<float>& share, double reach, const core::Progress& progress = {},
-                  std::size_t mostVoxels = kMostFieldVoxels);
+std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,
+                                                       const core::Progress& progress = {},
+                                                       std::size_t mostVoxels = kMostFieldVoxels);
 
 } // namespace petrous::volume

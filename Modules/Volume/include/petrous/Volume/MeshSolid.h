@@ -78,9 +78,9 @@ bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexce
 
 /// What a structure that must not be drilled needs: a share on the voxels of `grid` (cut to a box
 /// round the solid) which, interpolated between them, does not fall below 0.5 anywhere in the
-/// solid, though parts of it be thinner than a voxel. Neighbours differ by 1/2 at most, as they do in a
-/// smoothed union, so that the mask it is written to has no steeper walls than a cut. Null where the solid reaches no voxel of the
-/// grid.
+/// solid, though parts of it be thinner than a voxel. Neighbours differ by 1/2 at most, as they do
+/// in a smoothed union, so that the mask it is written to has no steeper walls than a cut. Null
+/// where the solid reaches no voxel of the grid.
 std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,
                                              const core::GridGeometry& grid);
 

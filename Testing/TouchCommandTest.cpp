@@ -175,7 +175,7 @@ TEST_F(TouchCommand, DrillsASoftStructure)
   writePad();
   json("add plane --labels " + quoted(m_folder / "pad.nrrd"));
   json("appearance plane --stiffness pad=0.5");
-  const auto first = json(drill(press(5.0, true, 3.0), ""));
+  const auto first = json(drill(press(5.0, true, 4.0), ""));
   EXPECT_EQ(first["strokes"], 1);
   EXPECT_GT(first["removed_mm3"], 0.5);
   EXPECT_EQ(first["structures_touched"][0]["label"], "pad");

@@ -9,7 +9,7 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kInflation = 1.2;   // calibrated
+constexpr double kInflation = 1.1;   // calibrated
 constexpr double kFloor = 0.06;      // of a voxel of the finest level, along each axis; calibrated
 constexpr double kNormal95 = 1.6449; // standard normal quantile
 

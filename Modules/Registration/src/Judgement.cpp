@@ -15,7 +15,7 @@ constexpr double kLostStrays = 0.5;
 constexpr double kSomeStrays = 0.15;
 constexpr double kRival = 0.95;
 constexpr double kMirror = 0.97;
-constexpr double kWide = 1.0;  // mm, of the p95
+constexpr double kWide = 0.9;  // mm, of the p95
 constexpr double kAside = 0.6; // mm
 
 std::string text(const char* format, double a)

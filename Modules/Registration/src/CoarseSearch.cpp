@@ -35,18 +35,12 @@ std::vector<Eigen::Quaterniond> turns()
   return list;
 }
 
-// About half the squared number of filled cells a sample (Miller 1955): what independent images
-// of so few samples would share.
-double bias(int bins, double samples)
-{
-  return samples > 0.0 ? 0.5 * (bins - 1.0) * (bins - 1.0) / samples : 0.0;
-}
-
 double scored(double information, double overlap, std::size_t samples)
 {
   if (overlap < kLeastOverlap)
     return 0.0;
-  return overlap * (information - bias(kSearchBins, overlap * static_cast<double>(samples)));
+  return overlap *
+         (information - informationBias(kSearchBins, overlap * static_cast<double>(samples)));
 }
 
 Eigen::Vector3d contentCentre(const LevelImage& level, const core::IndexBox& box)

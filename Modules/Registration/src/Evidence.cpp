@@ -112,9 +112,9 @@ Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOpt
   const double stray = std::max(3.0, kStray * voxel);
   Evidence evidence;
   evidence.overlap = fit.fit.overlap;
-  const double bins = options.schedule.bins - 1.0;
   evidence.information =
-      fit.fit.metric - 0.5 * bins * bins / static_cast<double>(options.schedule.samples);
+      fit.fit.metric -
+      informationBias(options.schedule.bins, static_cast<double>(options.schedule.samples));
   evidence.runnerUp = fit.score > 0.0 ? fit.runnerUp / fit.score : 0.0;
 
   RepeatOptions repeat;

@@ -157,6 +157,11 @@ struct Touch
 
 } // namespace
 
+double informationBias(int bins, double samples)
+{
+  return samples > 0.0 ? 0.5 * (bins - 1.0) * (bins - 1.0) / samples : 0.0;
+}
+
 MutualInformation::MutualInformation(const FixedSamples& fixed, const LevelImage& moving, int bins)
   : m_fixed(fixed)
   , m_moving(moving)

@@ -15,6 +15,10 @@ constexpr int kBins = 64;
 
 struct JointHistogram;
 
+/// What independent images share for want of samples, nats: half the filled cells a sample (Miller
+/// 1955), with all cells of `bins` by `bins` taken for filled. 0 without samples.
+double informationBias(int bins, double samples);
+
 /// Mutual information of the fixed samples and the moving image, in nats, as Mattes et al. (IEEE
 /// TMI 22:120, 2003) define it: I = sum_fm p(f,m) log(p(f,m) / (p(f) p(m))), with a Parzen window
 /// of a box over fixed and a cubic B-spline over moving values, so that it has a gradient.

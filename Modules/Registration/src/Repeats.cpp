@@ -51,14 +51,24 @@ core::RigidTransform perturbed(const core::RigidTransform& pose, const Eigen::Ve
   return {rotation, pose * centre + by - rotation * centre};
 }
 
-AscentOptions climbOptions(double scale)
+// The n-th repeat: samples of its own in a box of the fixed image, a perturbed start. Takes fixed
+// to moving points.
+core::RigidTransform fitAgain(const LevelImage& fixed, const core::IndexBox& box,
+                              const LevelImage& moving, const core::RigidTransform& pose,
+                              double scale, std::uint32_t seed, int blocks,
+                              const RepeatOptions& options)
 {
-  AscentOptions options;
-  options.evaluations = 30;
-  options.change = 1e-5;
-  options.firstStep = 0.5 * scale;
-  options.longestStep = 4.0 * scale;
-  return options;
+  std::mt19937 random(seed);
+  FixedSamples samples = drawSamples(fixed, box, options.samples, seed, options.bins);
+  if (blocks > 0)
+    samples = bootstrap(samples, blocks, seed + 1);
+  const MutualInformation metric(samples, moving, options.bins);
+  AscentOptions climb;
+  climb.evaluations = 30;
+  climb.change = 1e-5;
+  climb.firstStep = 0.5 * scale;
+  climb.longestStep = 4.0 * scale;
+  return ascend(metric, perturbed(pose, samples.centre, options, random), climb).pose;
 }
 
 } // namespace
@@ -80,17 +90,10 @@ std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
                       const Pyramid& fixed = swapped ? pair.moving : pair.fixed;
                       const Pyramid& moving = swapped ? pair.fixed : pair.moving;
                       const auto seed = options.seed + 7919 * static_cast<std::uint32_t>(n + 1);
-                      std::mt19937 random(seed);
-                      FixedSamples samples =
-                          drawSamples(fixed.finest(), swapped ? swappedBox : fixed.content.back(),
-                                      options.samples, seed, options.bins);
-                      if (options.blocks > 0)
-                        samples = bootstrap(samples, options.blocks, seed + 1);
-                      const MutualInformation metric(samples, moving.finest(), options.bins);
-                      const core::RigidTransform start =
-                          perturbed(swapped ? backward : forward, samples.centre, options, random);
                       const core::RigidTransform top =
-                          ascend(metric, start, climbOptions(pair.scales.back())).pose;
+                          fitAgain(fixed.finest(), swapped ? swappedBox : fixed.content.back(),
+                                   moving.finest(), swapped ? backward : forward,
+                                   pair.scales.back(), seed, options.blocks, options);
                       fits[n] = pair.mrFromCt(swapped ? top.inverse() : top);
                     });
   return fits;
@@ -110,18 +113,14 @@ std::vector<core::RigidTransform> fitAround(const ImagePair& pair,
   if (box.empty())
     return {};
   std::vector<core::RigidTransform> fits(static_cast<std::size_t>(options.count));
-  tbb::parallel_for(
-      std::size_t{0}, fits.size(),
-      [&](std::size_t n)
-      {
-        const auto seed = options.seed + 104729 * static_cast<std::uint32_t>(n + 1);
-        std::mt19937 random(seed);
-        const FixedSamples samples =
-            drawSamples(pair.fixed.finest(), box, options.samples, seed, options.bins);
-        const MutualInformation metric(samples, pair.moving.finest(), options.bins);
-        const core::RigidTransform start = perturbed(forward, samples.centre, options, random);
-        fits[n] = pair.mrFromCt(ascend(metric, start, climbOptions(pair.scales.back())).pose);
-      });
+  tbb::parallel_for(std::size_t{0}, fits.size(),
+                    [&](std::size_t n)
+                    {
+                      const auto seed = options.seed + 104729 * static_cast<std::uint32_t>(n + 1);
+                      fits[n] =
+                          pair.mrFromCt(fitAgain(pair.fixed.finest(), box, pair.moving.finest(),
+                                                 forward, pair.scales.back(), seed, 0, options));
+                    });
   return fits;
 }
 

@@ -66,6 +66,28 @@ protected:
     return *window().findChild<Widget*>(name);
   }
   void click(const char* name) { find<QAbstractButton>(name).click(); }
+  /// Begins a registration and cancels it; `react` meets the question that comes.
+  void stop(const std::function<void(QMessageBox&)>& react)
+  {
+    click("register");
+    ASSERT_TRUE(waitFor([this] { return find<MetricCurve>("metricCurve").points() > 3; }));
+    bool asked = false;
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          asked = true;
+          react(box);
+        });
+    click("cancelRegistration");
+    ASSERT_TRUE(waitFor([&] { return asked; }));
+    QTest::qWait(50);
+  }
+  static void answer(QMessageBox& box, QMessageBox::ButtonRole role)
+  {
+    for (QAbstractButton* button : box.buttons())
+      if (box.buttonRole(button) == role)
+        return button->click();
+  }
   void showPanel() { QTest::keyClick(&window(), Qt::Key_F5); }
   const scene::ImagePart& mr() { return window().model().value().mr.front(); }
   QString state() { return find<QLabel>("registrationState").text(); }
@@ -149,21 +171,8 @@ TEST_F(RegistrationWindow, CancelOffersToKeepWhatWasReached)
   showPanel();
   for (const bool keep : {false, true})
   {
-    click("register");
-    ASSERT_TRUE(waitFor([this] { return find<MetricCurve>("metricCurve").points() > 3; }));
-    bool asked = false;
-    onMessage(
-        [&](QMessageBox& box)
-        {
-          asked = true;
-          for (QAbstractButton* button : box.buttons())
-            if (box.buttonRole(button) ==
-                (keep ? QMessageBox::AcceptRole : QMessageBox::RejectRole))
-              return button->click();
-        });
-    click("cancelRegistration");
-    ASSERT_TRUE(waitFor([&] { return asked; }));
-    QTest::qWait(50);
+    stop([keep](QMessageBox& box)
+         { answer(box, keep ? QMessageBox::AcceptRole : QMessageBox::RejectRole); });
     EXPECT_EQ(mr().registered, keep);
     EXPECT_TRUE(find<QPushButton>("register").isEnabled());
   }
@@ -176,28 +185,11 @@ TEST_F(RegistrationWindow, WhatWasReachedCanBeKeptAlsoUnderAnotherNameButNotInAn
 {
   auto& model = const_cast<presenters::WorkstationModel&>(window().model());
   showPanel();
-  const auto stop = [this](const std::function<void(QMessageBox&)>& answer)
-  {
-    click("register");
-    ASSERT_TRUE(waitFor([this] { return find<MetricCurve>("metricCurve").points() > 3; }));
-    bool asked = false;
-    onMessage(
-        [&](QMessageBox& box)
-        {
-          asked = true;
-          answer(box);
-        });
-    click("cancelRegistration");
-    ASSERT_TRUE(waitFor([&] { return asked; }));
-    QTest::qWait(50);
-  };
   stop(
       [&](QMessageBox& box)
       {
         model.saveAs("left ear");
-        for (QAbstractButton* button : box.buttons())
-          if (box.buttonRole(button) == QMessageBox::AcceptRole)
-            return button->click();
+        answer(box, QMessageBox::AcceptRole);
       });
   EXPECT_EQ(model.value().name, "left ear");
   EXPECT_TRUE(mr().registered) << "kept";

@@ -39,7 +39,7 @@ std::optional<Eigen::Vector3d> cortexAt(const volume::TissueField& field,
                                         const Eigen::Vector3d& target, const Eigen::Vector3d& out)
 {
   const auto bounds = field.geometry().patientBounds();
-  const double border = out.x() > 0.0 ? bounds[1].x() : bounds[0].x();
+  const double border = out.x() > 0.0 ? bounds.max().x() : bounds.min().x();
   Eigen::Vector3d start = target;
   start.x() = border;
   Eigen::Vector3d end = target;

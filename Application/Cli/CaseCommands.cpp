@@ -113,14 +113,7 @@ void addNew(CLI::App& app, Context& context)
         sources.ct = options->ct;
         sources.seriesUid = options->series;
         if (!options->roi.empty())
-        {
-          const auto b = parseNumbers(options->roi, 6, "--roi x0,x1,y0,y1,z0,z1");
-          for (int axis = 0; axis < 3; ++axis)
-            if (!(b[2 * axis] < b[2 * axis + 1]))
-              throw UsageError(
-                  "--roi x0,x1,y0,y1,z0,z1: each first number must be the smaller one");
-          sources.roi = {Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5])};
-        }
+          sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
         library::Library library = context.openLibrary();
         scene::checkCaseName(options->name);

@@ -31,6 +31,16 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
   return numbers;
 }
 
+core::PatientBox parseBox(const std::string& text, const std::string& option)
+{
+  const std::string name = option + " x0,x1,y0,y1,z0,z1";
+  const std::vector<double> n = parseNumbers(text, 6, name);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (n[2 * axis] >= n[2 * axis + 1])
+      throw UsageError(name + ": each first number must be the smaller one");
+  return {Eigen::Vector3d(n[0], n[2], n[4]), Eigen::Vector3d(n[1], n[3], n[5])};
+}
+
 int toInt(double value, const std::string& option)
 {
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())

@@ -70,13 +70,7 @@ presenters::RegistrationRequest requestFrom(const Options& options, const scene:
   request.seed = options.seed;
   setStart(options, request);
   if (!options.region.empty())
-  {
-    const auto b = parseNumbers(options.region, 6, "--region x0,x1,y0,y1,z0,z1");
-    for (int axis = 0; axis < 3; ++axis)
-      if (!(b[2 * axis] < b[2 * axis + 1]))
-        throw UsageError("--region x0,x1,y0,y1,z0,z1: each first number must be the smaller one");
-    request.region = {Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5])};
-  }
+    request.region = parseBox(options.region, "--region");
   if (!options.at.empty())
     request.at = placeFrom(value, options.at);
   return request;

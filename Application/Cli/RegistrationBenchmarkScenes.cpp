@@ -43,7 +43,7 @@ std::optional<SimulationBody> realBody(const fs::path& data, bool quick,
     return std::nullopt;
   const auto extent = volume::tissueExtent(*whole, kBenchmarkIso);
   const auto bounds = whole->geometry().patientBounds();
-  Vector3d box = bounds[1] - bounds[0];
+  Vector3d box = bounds.sizes();
   box.head<2>() = box.head<2>().cwiseMin(kHead);
   SimulationBody body;
   body.name = "real head";

@@ -45,12 +45,8 @@ std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
   }
   else if (!options.roi.empty())
   {
-    const char* name = "--roi x0,x1,y0,y1,z0,z1";
-    const auto n = parseNumbers(options.roi, 6, name);
-    for (std::size_t a = 0; a < 3; ++a)
-      if (n[2 * a] >= n[2 * a + 1])
-        throw UsageError(std::string(name) + ": each first number must be the smaller one");
-    box = grid.boxCovering({n[0], n[2], n[4]}, {n[1], n[3], n[5]});
+    const core::PatientBox roi = parseBox(options.roi, "--roi");
+    box = grid.boxCovering(roi.min(), roi.max());
   }
   else
     return std::nullopt;

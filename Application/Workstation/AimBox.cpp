@@ -141,6 +141,7 @@ void AimBox::choose()
   else
     aim.place = static_cast<Aim::Place>(m_place->currentIndex());
   m_session.setAim(aim);
+  emit chosen();
 }
 
 } // namespace petrous::workstation

@@ -21,6 +21,9 @@ public:
 
   void refresh(); ///< what there is to choose from
 
+signals:
+  void chosen();
+
 private:
   void addStart();
   void addOnto();

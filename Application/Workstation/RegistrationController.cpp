@@ -114,7 +114,10 @@ void RegistrationController::connectPanel()
             m_metricWork->drop();
             m_metric.reset();
             m_panel->setMetric({});
+            showRegion();
           });
+  connect(m_panel, &RegistrationPanel::shown, this, &RegistrationController::showRegion);
+  connect(m_panel, &RegistrationPanel::aimChosen, this, &RegistrationController::showRegion);
   connect(&m_slices, &SliceColumn::moveAsked, this,
           [=](const Eigen::Vector3d& mm) { byHand([&] { m_session.shift(mm); }); });
   connect(&m_slices, &SliceColumn::turnAsked, this,
@@ -296,7 +299,13 @@ void RegistrationController::showMarks()
       marks.push_back({m_session.part()->mrFromCt.inverse() * *rows[n].mr, number, kMrPoint});
   }
   m_slices.setMarks(marks);
+  showRegion();
   m_panel->refresh();
+}
+
+void RegistrationController::showRegion()
+{
+  m_slices.setRegion(m_session.part() && m_panel->isVisible() ? m_session.aim().box : 0.0);
 }
 
 void RegistrationController::addPoint()

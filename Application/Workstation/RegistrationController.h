@@ -59,6 +59,7 @@ private:
   void offerBest(const core::RigidTransform& best);
   void endRun(const QString& line);
   void showMarks();
+  void showRegion();
   void addPoint();
   void askMetric();
   void showMetric();

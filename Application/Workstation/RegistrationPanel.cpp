@@ -124,6 +124,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   m_handFold->setOther(m_pointsFold);
   connect(m_points, &LandmarksBox::pointAsked, this, &RegistrationPanel::pointAsked);
   connect(m_points, &LandmarksBox::fitAsked, this, &RegistrationPanel::landmarksAsked);
+  connect(m_aim, &AimBox::chosen, this, &RegistrationPanel::aimChosen);
   connect(m_points, &LandmarksBox::changed, this, &RegistrationPanel::landmarksChanged);
   auto* area = new QScrollArea;
   area->setWidgetResizable(true);
@@ -245,6 +246,12 @@ void RegistrationPanel::openPoints()
 void RegistrationPanel::openHand()
 {
   m_handFold->setOpen(true);
+}
+
+void RegistrationPanel::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  emit shown();
 }
 
 void RegistrationPanel::hideEvent(QHideEvent* event)

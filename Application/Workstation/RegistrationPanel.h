@@ -51,9 +51,12 @@ signals:
   void pointAsked();     ///< of a pair, at the crosshair
   void landmarksAsked(); ///< the MR laid where they put it
   void landmarksChanged();
+  void aimChosen();
+  void shown();
   void hidden(); ///< nobody looks at the metric
 
 protected:
+  void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
 
 private:

@@ -64,9 +64,9 @@ void SliceColumn::maskChanged(const core::IndexBox& box)
 {
   if (box.empty())
     return;
-  const auto [lower, upper] = m_model.value().ct.geometry.cropped(box).patientBounds();
+  const core::PatientBox changed = m_model.value().ct.geometry.cropped(box).patientBounds();
   for (SliceView* view : m_views)
-    view->maskChanged(lower, upper);
+    view->maskChanged(changed);
 }
 
 void SliceColumn::setGreyWindow(const presenters::GreyWindow& window)
@@ -95,6 +95,12 @@ void SliceColumn::setNotice(const QString& text)
 {
   for (SliceView* view : m_views)
     view->setNotice(text);
+}
+
+void SliceColumn::setRegion(double edge)
+{
+  for (SliceView* view : m_views)
+    view->setRegion(edge);
 }
 
 void SliceColumn::setMarks(const std::vector<SliceMark>& marks)

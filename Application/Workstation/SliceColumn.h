@@ -31,6 +31,7 @@ public:
 
   void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or null
   void setNotice(const QString& text);
+  void setRegion(double edge); ///< as SliceView
   void setMarks(const std::vector<SliceMark>& marks);
 
 signals:

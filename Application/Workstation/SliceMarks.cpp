@@ -43,4 +43,18 @@ void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
   }
 }
 
+void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
+               const Eigen::Vector3d& at)
+{
+  const Eigen::Vector2d pixel = slice.pixelFromPatient(at) + Eigen::Vector2d(0.5, 0.5);
+  const double half = 0.5 * edge / slice.mmPerPixel();
+  painter.setBrush(Qt::NoBrush);
+  for (const auto& pen :
+       {QPen(QColor(0, 0, 0, 200), 3.0), QPen(QColor("#f0a04d"), 1.5, Qt::DashLine)})
+  {
+    painter.setPen(pen);
+    painter.drawRect(QRectF(pixel[0] - half, pixel[1] - half, 2.0 * half, 2.0 * half));
+  }
+}
+
 } // namespace petrous::workstation

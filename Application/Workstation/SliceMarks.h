@@ -25,6 +25,10 @@ struct SliceMark
 void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
 
+/// Where a cube of this edge (mm) about `at` meets the slice through it.
+void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
+               const Eigen::Vector3d& at);
+
 /// In the painter's font, readable on bone and on air alike.
 void drawText(QPainter& painter, const QPointF& baseline, const QString& text, const QColor& color);
 

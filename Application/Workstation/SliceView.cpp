@@ -101,17 +101,22 @@ void SliceView::setMarks(std::vector<SliceMark> marks)
   update();
 }
 
+void SliceView::setRegion(double edge)
+{
+  m_region = edge;
+  update();
+}
+
 void SliceView::setReadout(const QString& text)
 {
   m_readout = text;
   update();
 }
 
-void SliceView::maskChanged(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
+void SliceView::maskChanged(const core::PatientBox& box)
 {
   const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
-  const double here = next.dot(m_crosshair);
-  if (here >= next.dot(lower) && here <= next.dot(upper))
+  if (std::abs(next.dot(m_crosshair - box.center())) <= 0.5 * next.cwiseAbs().dot(box.sizes()))
     stale();
 }
 
@@ -151,7 +156,9 @@ void SliceView::paintEvent(QPaintEvent*)
   }
   painter.drawImage(rect(), m_image);
   painter.setRenderHint(QPainter::Antialiasing);
-  paintMarks(painter, m_marks, slice(), m_crosshair);
+  if (m_region > 0.0)
+    paintCube(painter, m_region, picture, m_crosshair);
+  paintMarks(painter, m_marks, picture, m_crosshair);
   paintCrosshair(painter);
   paintLetters(painter);
   paintScaleBar(painter);

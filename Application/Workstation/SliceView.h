@@ -33,7 +33,8 @@ public:
   void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< null: CT alone
   void setNotice(const QString& text); ///< what to know of what is shown
   void setMarks(std::vector<SliceMark> marks);
-  void maskChanged(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper); ///< patient box
+  void setRegion(double edge); ///< of the cube about the crosshair that counts, mm; 0: everything
+  void maskChanged(const core::PatientBox& box);
 
   /// Of what is on the screen; only with a presenter.
   presenters::SliceGeometry slice() const;
@@ -73,6 +74,7 @@ private:
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
   QString m_notice;
   std::vector<SliceMark> m_marks;
+  double m_region = 0.0;
   QString m_readout;
   QImage m_image;
   bool m_stale = true;

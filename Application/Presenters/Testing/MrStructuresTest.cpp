@@ -117,8 +117,7 @@ TEST_F(MrStructures, LandOnTheCtWithinAVoxel)
         surfaces.name(n) != "facial_nerve")
       continue;
     ++compared;
-    const auto mesh =
-        s_phantom->surface(s_phantom->indexOf(surfaces.name(n)), {bounds[0], bounds[1]}, 1.0);
+    const auto mesh = s_phantom->surface(s_phantom->indexOf(surfaces.name(n)), bounds, 1.0);
     for (const auto& vertex : mesh.vertices)
     {
       const Vector3d at = vertex.cast<double>();

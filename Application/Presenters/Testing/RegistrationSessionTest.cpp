@@ -239,8 +239,8 @@ TEST_F(RegistrationSessionTest, AsksForWhatTheAimSays)
   EXPECT_EQ(request.at->point, Vector3d(1, 2, -1));
   EXPECT_EQ(request.at->words, "(1.0, 2.0, -1.0)");
   ASSERT_TRUE(request.region);
-  EXPECT_EQ((*request.region)[0], Vector3d(-0.5, 0.5, -2.5));
-  EXPECT_EQ((*request.region)[1], Vector3d(2.5, 3.5, 0.5));
+  EXPECT_EQ(request.region->min(), Vector3d(-0.5, 0.5, -2.5));
+  EXPECT_EQ(request.region->max(), Vector3d(2.5, 3.5, 0.5));
 
   session.shift({1, 0, 0});
   aim.start = RegistrationAim::Start::Present;

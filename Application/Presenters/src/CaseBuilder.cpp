@@ -63,7 +63,7 @@ std::string withoutIdentity(const std::string& uid)
 }
 
 scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
-                           const std::optional<imaging::PatientBox>& roi,
+                           const std::optional<core::PatientBox>& roi,
                            const core::Progress& progress)
 {
   scene::ImagePart part;

@@ -68,14 +68,12 @@ const scene::ImagePart& mrNamed(const scene::Case& value, const std::string& nam
                                (there.empty() ? "it has none" : "it has " + there));
 }
 
-registration::PatientBox moved(const registration::PatientBox& box,
-                               const core::RigidTransform& transform)
+core::PatientBox moved(const core::PatientBox& box, const core::RigidTransform& transform)
 {
-  Eigen::AlignedBox3d result;
+  core::PatientBox result;
   for (int corner = 0; corner < 8; ++corner)
-    result.extend(transform * Eigen::Vector3d(box[corner & 1][0], box[corner >> 1 & 1][1],
-                                              box[corner >> 2][2]));
-  return {result.min(), result.max()};
+    result.extend(transform * box.corner(static_cast<core::PatientBox::CornerType>(corner)));
+  return result;
 }
 
 void begin(Task& task, const core::RigidTransform& mrFromCt, Method method)

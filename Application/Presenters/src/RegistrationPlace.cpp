@@ -17,7 +17,7 @@ namespace petrous::presenters
 namespace
 {
 
-using Box = Eigen::AlignedBox3d;
+using core::PatientBox;
 
 std::optional<Eigen::Vector3d> middleOf(const volume::LabelMap& labels, std::uint16_t index)
 {
@@ -92,10 +92,10 @@ std::optional<int> earRank(const appearance::StructurePresets& presets, const st
   return std::nullopt;
 }
 
-Box boxOf(const core::GridGeometry& grid, const core::RigidTransform& ctFromGrid)
+PatientBox boxOf(const core::GridGeometry& grid, const core::RigidTransform& ctFromGrid)
 {
   const core::Index3& n = grid.dims();
-  Box box;
+  PatientBox box;
   for (int corner = 0; corner < 8; ++corner)
     box.extend(ctFromGrid * grid.patientFromVoxel(Eigen::Vector3d((corner & 1) * (n[0] - 1),
                                                                   (corner >> 1 & 1) * (n[1] - 1),
@@ -173,8 +173,7 @@ RegistrationPlace placeOf(const scene::Case& value, const std::string& structure
 RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationRequest& request)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  const auto bounds = value.ct.geometry.patientBounds();
-  const Box ct(bounds[0], bounds[1]);
+  const PatientBox ct = value.ct.geometry.patientBounds();
   std::vector<std::pair<int, std::string>> ears;
   for (const std::string& name : scene::partNames(value))
     if (const auto rank = earRank(presets, name); rank && !scene::findMr(value, name))
@@ -186,9 +185,9 @@ RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationReque
       return {*middle, "the middle of '" + name + "'"};
 
   const scene::ImagePart* mr = scene::findMr(value, request.mr);
-  Box both = ct;
+  PatientBox both = ct;
   if (request.region)
-    both = both.intersection(Box((*request.region)[0], (*request.region)[1]));
+    both = both.intersection(*request.region);
   if (mr)
     both = both.intersection(boxOf(mr->geometry, before(value, *mr, request).inverse()));
   if (both.isEmpty())

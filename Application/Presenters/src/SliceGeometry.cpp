@@ -63,13 +63,13 @@ SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const core::G
                                      const Eigen::Vector3d& through, int width, int height)
 {
   const SliceAxes axes = axesOf(orientation);
-  const auto [lower, upper] = grid.patientBounds();
-  const Eigen::Vector3d extent = upper - lower;
+  const core::PatientBox bounds = grid.patientBounds();
+  const Eigen::Vector3d extent = bounds.sizes();
   const double across = extent.dot(axes.right.cwiseAbs());
   const double down = extent.dot(axes.down.cwiseAbs());
   const double mmPerPixel =
       std::max({kMargin * across / width, kMargin * down / height, 1e-3 * grid.minSpacing()});
-  const Eigen::Vector3d middle = 0.5 * (lower + upper);
+  const Eigen::Vector3d middle = bounds.center();
   const Eigen::Vector3d center = middle + axes.next * axes.next.dot(through - middle);
   return {orientation, center, mmPerPixel, width, height};
 }

@@ -15,8 +15,7 @@ struct StructureSurfaces::Structure
     : share(std::move(known))
     , uncertainty(surface)
   {
-    const auto bounds = share.around.patientBounds();
-    box = Eigen::AlignedBox3d(bounds[0], bounds[1]);
+    box = share.around.patientBounds();
   }
 
   const volume::SurfaceDistance& surface(const core::Progress& progress = {})
@@ -31,7 +30,7 @@ struct StructureSurfaces::Structure
 
   scene::StructureShare share;
   SurfaceUncertainty uncertainty;
-  Eigen::AlignedBox3d box; // patient mm
+  core::PatientBox box;
   std::unique_ptr<const volume::SurfaceDistance> measured;
 };
 

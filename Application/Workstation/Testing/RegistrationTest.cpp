@@ -231,6 +231,28 @@ TEST_F(RegistrationWindow, AsksForNoMoreThanFitsAndStatesTheErrorWhereItIsWanted
   EXPECT_LT(error(), 1.0);
 }
 
+TEST_F(RegistrationWindow, TheSlicesShowTheRegionThatCountsWhileThePanelIsOpen)
+{
+  showPanel();
+  const QImage whole = axial();
+  find<QSpinBox>("registrationBox").setValue(30);
+  const QImage box = axial();
+  const presenters::SliceGeometry slice = find<SliceView>("axialView").slice();
+  const Eigen::Vector2d middle = slice.pixelFromPatient(window().model().crosshair());
+  QRect changed;
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x)
+      if (box.pixel(x, y) != whole.pixel(x, y))
+        changed |= QRect(x, y, 1, 1);
+  const double edge = 30.0 / slice.mmPerPixel();
+  EXPECT_NEAR(changed.width(), edge, 5.0);
+  EXPECT_NEAR(changed.height(), edge, 5.0);
+  EXPECT_NEAR(changed.center().x(), middle.x(), 3.0);
+  EXPECT_NEAR(changed.center().y(), middle.y(), 3.0);
+  showPanel(); // away
+  EXPECT_EQ(axial(), whole);
+}
+
 TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
 {
   showPanel();

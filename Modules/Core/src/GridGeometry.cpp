@@ -142,19 +142,14 @@ Eigen::Vector3d GridGeometry::center() const noexcept
   return patientFromVoxel(0.5 * Eigen::Vector3d(m_dims[0] - 1.0, m_dims[1] - 1.0, m_dims[2] - 1.0));
 }
 
-std::array<Eigen::Vector3d, 2> GridGeometry::patientBounds() const noexcept
+PatientBox GridGeometry::patientBounds() const noexcept
 {
-  Eigen::Vector3d lower = m_origin;
-  Eigen::Vector3d upper = m_origin;
+  PatientBox bounds(m_origin);
   for (int corner = 1; corner < 8; ++corner)
-  {
-    const Eigen::Vector3d p = patientFromVoxel({(corner & 1) ? m_dims[0] - 1.0 : 0.0,
-                                                (corner & 2) ? m_dims[1] - 1.0 : 0.0,
-                                                (corner & 4) ? m_dims[2] - 1.0 : 0.0});
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
-  return {lower, upper};
+    bounds.extend(patientFromVoxel({(corner & 1) ? m_dims[0] - 1.0 : 0.0,
+                                    (corner & 2) ? m_dims[1] - 1.0 : 0.0,
+                                    (corner & 4) ? m_dims[2] - 1.0 : 0.0}));
+  return bounds;
 }
 
 IndexBox GridGeometry::fullBox() const noexcept

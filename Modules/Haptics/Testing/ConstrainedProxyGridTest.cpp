@@ -107,7 +107,7 @@ TEST(ConstrainedProxy, RestsOnTheFacesOfAScanThatCutsThroughBone)
   const double h = 0.4;
   const double radius = 1.5;
   const Scene scene = sceneOf(scanOf([](const Vector3d&) { return 2.0; }, h, 4.0));
-  const Vector3d half = scene.field->geometry().patientBounds()[1];
+  const Vector3d half = scene.field->geometry().patientBounds().max();
   const PointShell shell = ballShell(radius, 600);
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0})
@@ -140,7 +140,7 @@ TEST(ConstrainedProxy, IsNotStuckAtTheEdgesOfAScanThatCutsThroughBone)
   const double h = 0.4;
   const double radius = 1.5;
   const Scene scene = sceneOf(scanOf([](const Vector3d&) { return 2.0; }, h, 3.0));
-  const Vector3d half = scene.field->geometry().patientBounds()[1];
+  const Vector3d half = scene.field->geometry().patientBounds().max();
   const PointShell shell = ballShell(radius, 600);
   ConstrainedProxy proxy(scene.field, shell);
   // The goal passes 0.3 mm below the face, over the edge and down the other side.

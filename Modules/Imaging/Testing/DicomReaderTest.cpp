@@ -238,7 +238,8 @@ TEST(DicomReader, CropsToTheRegionAndReadsOnlyItsSlices)
   const ScanResult result = scanDicom(folder.path(), {});
   fs::remove(folder.path() / "s9.dcm"); // not needed for the region
   ReadOptions options;
-  options.roi = {{Eigen::Vector3d(-9.3, 21.2, 1.1), Eigen::Vector3d(-8.5, 22.3, 2.4)}};
+  options.roi =
+      core::PatientBox(Eigen::Vector3d(-9.3, 21.2, 1.1), Eigen::Vector3d(-8.5, 22.3, 2.4));
   const IntensityVolume part = readSeries(result.series.front(), options, {});
   EXPECT_EQ(part.geometry().dims(), (core::Index3{4, 4, 4}));
   for (int k = 0; k < 4; ++k)
@@ -249,7 +250,7 @@ TEST(DicomReader, CropsToTheRegionAndReadsOnlyItsSlices)
             part.geometry().patientFromVoxel(Eigen::Vector3d(i, j, k)));
         ASSERT_NEAR(part.at(i, j, k), whole.sample(at), 1e-6);
       }
-  options.roi = {{Eigen::Vector3d(50, 50, 50), Eigen::Vector3d(60, 60, 60)}};
+  options.roi = core::PatientBox(Eigen::Vector3d(50, 50, 50), Eigen::Vector3d(60, 60, 60));
   EXPECT_EQ(reasonOf([&] { readSeries(result.series.front(), options, {}); }),
             DicomError::Reason::OutsideRoi);
 }

@@ -330,7 +330,7 @@ TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
   const core::GridGeometry grid({40, 30, 20}, {0.5, 0.5, 1.0}, {-10.0, 5.0, 100.0});
   volume::Volume<std::int16_t> voxels(grid);
   std::iota(voxels.data(), voxels.data() + voxels.size(), std::int16_t{0});
-  const PatientBox box{Eigen::Vector3d(-7.0, 6.0, 103.0), Eigen::Vector3d(-3.0, 9.0, 109.0)};
+  const core::PatientBox box{Eigen::Vector3d(-7.0, 6.0, 103.0), Eigen::Vector3d(-3.0, 9.0, 109.0)};
   for (const char* name : {"a.nrrd", "a.nii.gz", "a.mha"})
   {
     writeVolume(folder / name, voxels);
@@ -343,7 +343,8 @@ TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
       EXPECT_EQ(image.volume->at(v[0], v[1], v[2]), voxels.at(v[0] + 6, v[1] + 2, v[2] + 3))
           << name;
   }
-  const PatientBox outside{Eigen::Vector3d(50.0, 6.0, 103.0), Eigen::Vector3d(60.0, 9.0, 109.0)};
+  const core::PatientBox outside{Eigen::Vector3d(50.0, 6.0, 103.0),
+                                 Eigen::Vector3d(60.0, 9.0, 109.0)};
   expectRefused(refusalOf([&] { readImageFile(folder / "a.nrrd", outside); }), Reason::Unsupported,
                 "region of interest");
 }

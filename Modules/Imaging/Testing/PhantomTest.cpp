@@ -26,7 +26,7 @@ const Phantom& phantom()
   return one;
 }
 
-PatientBox earBox()
+core::PatientBox earBox()
 {
   return {Phantom::center() - 0.5 * Phantom::extent(), Phantom::center() + 0.5 * Phantom::extent()};
 }

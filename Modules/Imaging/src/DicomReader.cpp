@@ -330,15 +330,15 @@ IndexBox boxToRead(const GridGeometry& grid, const ReadOptions& options)
 {
   if (!options.roi)
     return grid.fullBox();
-  const Eigen::Vector3d lower = (*options.roi)[0].cwiseMin((*options.roi)[1]);
-  const Eigen::Vector3d upper = (*options.roi)[0].cwiseMax((*options.roi)[1]);
+  const Eigen::Vector3d& lower = options.roi->min();
+  const Eigen::Vector3d& upper = options.roi->max();
   const IndexBox box = grid.boxCovering(lower, upper);
   if (!box.empty())
     return box;
   const auto bounds = grid.patientBounds();
   throw DicomError(DicomError::Reason::OutsideRoi, "the box asked for (" + boxText(lower, upper) +
                                                        " mm) does not meet the image (" +
-                                                       boxText(bounds[0], bounds[1]) +
+                                                       boxText(bounds.min(), bounds.max()) +
                                                        " mm, patient LPS)");
 }
 

@@ -104,18 +104,18 @@ void noteNotFinite(const Voxels& voxels, std::vector<std::string>& notes)
 }
 
 core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry& geometry,
-                     const std::optional<PatientBox>& roi)
+                     const std::optional<core::PatientBox>& roi)
 {
   if (!roi)
     return geometry.fullBox();
-  const core::IndexBox box = geometry.boxCovering((*roi)[0], (*roi)[1]);
+  const core::IndexBox box = geometry.boxCovering(roi->min(), roi->max());
   const core::Index3 size = box.size();
   if (*std::min_element(size.begin(), size.end()) >= 2)
     return box;
   const auto bounds = geometry.patientBounds();
   std::string range;
   for (int a = 0; a < 3; ++a)
-    range += (a ? ", " : "") + roughText(bounds[0][a]) + " to " + roughText(bounds[1][a]);
+    range += (a ? ", " : "") + roughText(bounds.min()[a]) + " to " + roughText(bounds.max()[a]);
   fail(FileError::Reason::Unsupported, path,
        "lies outside the region of interest, or that is thinner than a voxel; the image spans (x, "
        "y, z in LPS mm) " +
@@ -132,7 +132,8 @@ bool isImageFileName(const std::filesystem::path& path)
                      [&name](const char* end) { return endsWith(name, end); });
 }
 
-LoadedImage readImageFile(const std::filesystem::path& path, const std::optional<PatientBox>& roi,
+LoadedImage readImageFile(const std::filesystem::path& path,
+                          const std::optional<core::PatientBox>& roi,
                           const core::Progress& progress)
 {
   progress.report(0.0, "reading image");

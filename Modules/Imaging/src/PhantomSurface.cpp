@@ -220,10 +220,10 @@ private:
 
 } // namespace
 
-double Phantom::volume(std::size_t structure, const PatientBox& within) const
+double Phantom::volume(std::size_t structure, const core::PatientBox& within) const
 {
   const shapes::Box box = m_scene->layers[m_scene->layerOf[structure]].shape.box.intersection(
-      shapes::Box(within.lower, within.upper));
+      shapes::Box(within.min(), within.max()));
   if (box.isEmpty())
     return 0.0;
   const double mesh = m_scene->layers[m_scene->layerOf[structure]].mesh;
@@ -256,11 +256,11 @@ double Phantom::volume(std::size_t structure, const PatientBox& within) const
   return (4.0 * measure(resolution) - measure(2.0 * resolution)) / 3.0;
 }
 
-core::TriangleMesh Phantom::surface(std::size_t structure, const PatientBox& within,
+core::TriangleMesh Phantom::surface(std::size_t structure, const core::PatientBox& within,
                                     double resolution) const
 {
   const anatomy::Layer& layer = m_scene->layers[m_scene->layerOf[structure]];
-  const shapes::Box clip(within.lower, within.upper);
+  const shapes::Box clip(within.min(), within.max());
   const shapes::Box box = layer.shape.box.intersection(clip);
   if (box.isEmpty())
     return {};

@@ -79,10 +79,10 @@ ScanGrid tilted(const core::GridGeometry& upright, double tilt)
   return grid;
 }
 
-PatientBox boxOf(const core::GridGeometry& grid)
+core::PatientBox boxOf(const core::GridGeometry& grid)
 {
-  const auto bounds = grid.patientBounds();
-  return {bounds[0] - 0.5 * grid.spacing(), bounds[1] + 0.5 * grid.spacing()};
+  const core::PatientBox bounds = grid.patientBounds();
+  return {bounds.min() - 0.5 * grid.spacing(), bounds.max() + 0.5 * grid.spacing()};
 }
 
 Json list(const Eigen::Vector3d& v)
@@ -204,7 +204,7 @@ private:
   void writeMeshes(const core::Progress& progress)
   {
     makeFolder(m_folder / "meshes");
-    const PatientBox box = boxOf(m_grid);
+    const core::PatientBox box = boxOf(m_grid);
     const auto& structures = m_phantom.structures();
     m_meshes.resize(structures.size());
     m_volumes.resize(structures.size());
@@ -231,9 +231,8 @@ private:
 
   bool inside(const PhantomStructure& structure) const
   {
-    const PatientBox box = boxOf(m_grid);
-    return (structure.lower - box.lower).minCoeff() >= 0.0 &&
-           (box.upper - structure.upper).minCoeff() >= 0.0;
+    const core::PatientBox box = boxOf(m_grid);
+    return box.contains(core::PatientBox(structure.lower, structure.upper));
   }
 
   void writeTruth() const

@@ -20,7 +20,7 @@ RegistrationPair drawn(const SimulationBody& body, std::uint64_t seed)
   PairRecipe recipe = usualRecipe(body, ear, seed);
   MrAcquisition& a = recipe.acquisition;
   const auto bounds = body.ct->geometry().patientBounds();
-  const Vector3d size = bounds[1] - bounds[0];
+  const Vector3d size = bounds.sizes();
   const double fine = a.spacing[0];
   a.spacing.head<2>().setConstant(fine * draw.uniform(1, 0.7, 1.3));
   a.spacing[2] = draw.uniform(2, 1.0, std::min(6.0, 5.0 * fine));

@@ -102,7 +102,7 @@ PairRecipe usualRecipe(const SimulationBody& body, std::size_t ear, std::uint64_
 {
   const CounterNoise draw(seed * 7 + 1);
   const auto bounds = body.ct->geometry().patientBounds();
-  const Vector3d size = bounds[1] - bounds[0];
+  const Vector3d size = bounds.sizes();
   PairRecipe recipe;
   recipe.contrast = static_cast<std::size_t>(draw.bits(0) % body.contrasts.size());
   MrAcquisition& a = recipe.acquisition;
@@ -110,7 +110,7 @@ PairRecipe usualRecipe(const SimulationBody& body, std::size_t ear, std::uint64_
   // A small body has small voxels.
   const double fine = std::clamp(a.extent.minCoeff() / 100.0, 0.6, 1.2);
   a.spacing = fine * Vector3d(1.0, 1.0, 2.5);
-  a.center = 0.5 * (bounds[0] + bounds[1]);
+  a.center = bounds.center();
   a.axes = Eigen::AngleAxisd(draw.uniform(1, -12.0, 12.0) * kDegree, Vector3d::UnitX()).matrix();
   a.mrFromCt = randomMotion(body.ears[ear % body.ears.size()], 8.0, 6.0, seed * 7 + 2);
   a.noise = draw.uniform(2, 0.02, 0.06);

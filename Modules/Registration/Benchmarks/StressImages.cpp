@@ -41,11 +41,11 @@ Image ballsLike(const volume::IntensityVolume& image, std::uint64_t seed)
   std::vector<Ball> balls;
   for (std::uint64_t b = 0; b < 40; ++b)
   {
-    Ball ball{bounds[0], noise.uniform(10 * b, 0.03, 0.16) * (bounds[1] - bounds[0]).norm(),
+    Ball ball{bounds.min(), noise.uniform(10 * b, 0.03, 0.16) * bounds.diagonal().norm(),
               static_cast<float>(noise.uniform(10 * b + 1, 0.0, 1000.0))};
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       ball.center[axis] = noise.uniform(10 * b + 2 + static_cast<std::uint64_t>(axis),
-                                        bounds[0][axis], bounds[1][axis]);
+                                        bounds.min()[axis], bounds.max()[axis]);
     balls.push_back(ball);
   }
   return changed(image,

@@ -26,7 +26,7 @@ struct Draw
   Vector3d size() const
   {
     const auto bounds = body().ct->geometry().patientBounds();
-    return bounds[1] - bounds[0];
+    return bounds.sizes();
   }
 };
 

@@ -21,17 +21,17 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 RegistrationPair slabs(const Draw& draw, double ctLow, double ctHigh, double mrLow, double mrHigh)
 {
   const auto bounds = draw.body().ct->geometry().patientBounds();
-  const Vector3d size = bounds[1] - bounds[0];
+  const Vector3d size = bounds.sizes();
   PairRecipe recipe = draw.recipe();
   recipe.ctExtent = size;
   (*recipe.ctExtent)[2] = (ctHigh - ctLow) * size[2];
-  recipe.ctCenter = 0.5 * (bounds[0] + bounds[1]);
-  recipe.ctCenter[2] = bounds[0][2] + 0.5 * (ctLow + ctHigh) * size[2];
+  recipe.ctCenter = bounds.center();
+  recipe.ctCenter[2] = bounds.min()[2] + 0.5 * (ctLow + ctHigh) * size[2];
   MrAcquisition& a = recipe.acquisition;
   a.axes.setIdentity();
   a.spacing[2] = std::min(a.spacing[2], 0.1 * size[2]);
   a.extent[2] = (mrHigh - mrLow) * size[2];
-  a.center[2] = bounds[0][2] + 0.5 * (mrLow + mrHigh) * size[2];
+  a.center[2] = bounds.min()[2] + 0.5 * (mrLow + mrHigh) * size[2];
   RegistrationPair pair = simulatePair(draw.body(), draw.ear(), recipe);
   // A target that both or at least the CT shows.
   pair.targets = {recipe.ctCenter};

@@ -136,14 +136,14 @@ const std::vector<Condition>& conditions()
        {
          // MR and CT share this part of their heights: the CT's upper end, the MR's lower one.
          const auto bounds = body.ct->geometry().patientBounds();
-         const Vector3d size = bounds[1] - bounds[0];
+         const Vector3d size = bounds.sizes();
          const double height = size[2] / (2.0 - v);
          r.ctExtent = Vector3d(size[0], size[1], height);
-         r.ctCenter = 0.5 * (bounds[0] + bounds[1]);
-         r.ctCenter[2] = bounds[0][2] + 0.5 * height;
+         r.ctCenter = bounds.center();
+         r.ctCenter[2] = bounds.min()[2] + 0.5 * height;
          r.acquisition.axes.setIdentity();
          r.acquisition.extent[2] = height;
-         r.acquisition.center[2] = bounds[1][2] - 0.5 * height;
+         r.acquisition.center[2] = bounds.max()[2] - 0.5 * height;
        }}};
   return all;
 }

@@ -115,7 +115,7 @@ TEST(Fit, LooksAtARegionAlone)
       imageOf<float>(gridAbout({0, 0, 0}, {140, 160, 130}, {1.5, 1.5, 2.0}), [&](const Vector3d& p)
                      { return head.t1((p[2] > 5.0 ? upper : lower).inverse() * p); });
   FitOptions options;
-  options.region = PatientBox{Vector3d(-65, -75, 14), Vector3d(65, 75, 56)};
+  options.region = core::PatientBox{Vector3d(-65, -75, 14), Vector3d(65, 75, 56)};
   const Fit fit = fitRigid(*pair.ct, *pair.mr, options);
   EXPECT_LT((fit.mrFromCt * Vector3d(0, 0, 30) - upper * Vector3d(0, 0, 30)).norm(), 0.6);
 }
@@ -189,7 +189,7 @@ TEST(Fit, SaysWhyItCannot)
   EXPECT_NE(refusal(pair.ct, nothing).find("no voxels with a value"), std::string::npos);
   EXPECT_NE(refusal(pair.ct, slice).find("one slice"), std::string::npos);
   FitOptions outside;
-  outside.region = PatientBox{Vector3d(900, 900, 900), Vector3d(950, 950, 950)};
+  outside.region = core::PatientBox{Vector3d(900, 900, 900), Vector3d(950, 950, 950)};
   EXPECT_NE(refusal(pair.ct, pair.mr, outside).find("outside the CT"), std::string::npos);
 }
 

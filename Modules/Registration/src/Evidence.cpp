@@ -33,10 +33,9 @@ Pyramid mirrored(const Pyramid& pyramid)
     origin[0] = 2.0 * middle[0] - origin[0];
     const core::GridGeometry turned(grid.dims(), grid.spacing(), origin,
                                     flip.asDiagonal() * grid.direction());
-    // the same memory: nothing writes to a level
-    std::shared_ptr<float> memory(const_cast<float*>(level.voxels.data()), [](float*) {});
-    result.levels.push_back(
-        {volume::Volume<float>(turned, std::move(memory)), level.low, level.high, level.valid});
+    volume::Volume<float> voxels(turned);
+    std::copy_n(level.voxels.data(), level.voxels.size(), voxels.data());
+    result.levels.push_back({std::move(voxels), level.low, level.high, level.valid});
   }
   return result;
 }
@@ -68,6 +67,7 @@ double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
   again.start = Start::Given;
   again.given = mrFromCt;
   again.search = false;
+  again.schedule.polish = 0; // the scores are compared, not the poses
   const Fit straight = fitPair(part, again, progress.part(0.0, 0.3), {}).fit;
   part.moving = mirrored(part.moving);
   again.search = true;

@@ -81,14 +81,14 @@ ImagePair ImagePair::swapped() &&
 }
 
 ImagePair makePair(const volume::IntensityVolume& ct, const volume::IntensityVolume& mr,
-                   const std::optional<PatientBox>& region, int levels,
+                   const std::optional<core::PatientBox>& region, int levels,
                    const core::Progress& progress)
 {
   checkGrid(ct.geometry(), "CT");
   checkGrid(mr.geometry(), "MR");
   double side = std::min(narrowest(ct.geometry()), narrowest(mr.geometry()));
   if (region)
-    side = std::min(side, ((*region)[1] - (*region)[0]).minCoeff());
+    side = std::min(side, region->sizes().minCoeff());
   const double finest = std::max({kFinest, ct.geometry().minSpacing(), mr.geometry().minSpacing()});
 
   ImagePair pair;
@@ -106,7 +106,7 @@ ImagePair makePair(const volume::IntensityVolume& ct, const volume::IntensityVol
   {
     for (std::size_t n = 0; n < pair.levels(); ++n)
     {
-      pair.fixed.content[n] = pair.fixed.levels[n].grid().boxCovering((*region)[0], (*region)[1]);
+      pair.fixed.content[n] = pair.fixed.levels[n].grid().boxCovering(region->min(), region->max());
       if (pair.fixed.content[n].empty())
         throw core::InvalidParameter("registration: the region lies outside the CT");
     }

@@ -40,7 +40,7 @@ struct ImagePair
 
 /// Throws InvalidParameter as fitRigid does.
 ImagePair makePair(const volume::IntensityVolume& ct, const volume::IntensityVolume& mr,
-                   const std::optional<PatientBox>& region, int levels,
+                   const std::optional<core::PatientBox>& region, int levels,
                    const core::Progress& progress);
 
 } // namespace petrous::registration

@@ -23,7 +23,7 @@ struct LiveMetric::Parts
 };
 
 LiveMetric::LiveMetric(const volume::IntensityVolume& ct, const volume::IntensityVolume& mr,
-                       const std::optional<PatientBox>& region)
+                       const std::optional<core::PatientBox>& region)
 {
   ImagePair pair = makePair(ct, mr, region, 1, {});
   const bool fixedIsCt = pair.fixedIsCt;

@@ -179,8 +179,8 @@ MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimit
   Eigen::Vector3d upper = bounds[1].cast<double>();
   if (limits.region)
   {
-    lower = lower.cwiseMax((*limits.region)[0]);
-    upper = upper.cwiseMin((*limits.region)[1]);
+    lower = lower.cwiseMax(limits.region->min());
+    upper = upper.cwiseMin(limits.region->max());
   }
   if ((lower.array() > upper.array()).any())
   {
@@ -293,7 +293,7 @@ std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,
 {
   const core::GridGeometry& from = solid.geometry();
   const auto bounds = from.patientBounds();
-  core::IndexBox box = grid.boxCovering(bounds[0], bounds[1]);
+  core::IndexBox box = grid.boxCovering(bounds.min(), bounds.max());
   if (box.empty())
     return nullptr;
   for (std::size_t a = 0; a < 3; ++a) // room for what is raised to come down again

@@ -36,9 +36,9 @@ struct PartSources
 
 struct CaseSources
 {
-  std::filesystem::path ct; ///< DICOM folder or file, NIfTI, NRRD or MetaImage
-  std::string seriesUid;    ///< which series of a folder; empty: the one that is meant
-  std::optional<imaging::PatientBox> roi; ///< crops the CT on load
+  std::filesystem::path ct;            ///< DICOM folder or file, NIfTI, NRRD or MetaImage
+  std::string seriesUid;               ///< which series of a folder; empty: the one that is meant
+  std::optional<core::PatientBox> roi; ///< crops the CT on load
   PartSources parts;
 };
 

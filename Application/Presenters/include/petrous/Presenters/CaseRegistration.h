@@ -38,9 +38,9 @@ struct RegistrationRequest
   std::optional<scene::Registration> givenBy;
   bool lookAround = false; ///< about `given`, too, as far as from the header
   bool asIs = false;       ///< without a fit: where the landmarks, the hand or the frame put it
-  std::optional<RegistrationPlace> at;            ///< none: see defaultPlace
-  std::string atStructure;                        ///< or there, without `at`; see placeOf
-  std::optional<registration::PatientBox> region; ///< CT patient box that counts; none: all
+  std::optional<RegistrationPlace> at;    ///< none: see defaultPlace
+  std::string atStructure;                ///< or there, without `at`; see placeOf
+  std::optional<core::PatientBox> region; ///< CT patient box that counts; none: all
   std::string onto; ///< another MR, already registered: the fit is to that; empty: to the CT
   std::uint32_t seed = 1;
 };

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "petrous/Core/PatientBox.h"
+
 namespace petrous::core
 {
 
@@ -72,8 +74,8 @@ public:
 
   Eigen::Vector3d center() const noexcept; ///< centre of the hull, patient LPS mm
 
-  /// Corners of the axis-aligned patient box around the hull, LPS mm.
-  std::array<Eigen::Vector3d, 2> patientBounds() const noexcept;
+  /// The smallest patient box around the hull.
+  PatientBox patientBounds() const noexcept;
 
   IndexBox fullBox() const noexcept;
 

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Volume/IntensityVolume.h"
@@ -16,9 +14,9 @@ namespace petrous::imaging
 
 struct ReadOptions
 {
-  /// Lower and upper corner, patient LPS mm: only slices that meet the box are read and only the
+  /// Only slices that meet the box are read and only the
   /// box is stored. The grid is the smallest whose hull covers it.
-  std::optional<std::array<Eigen::Vector3d, 2>> roi;
+  std::optional<core::PatientBox> roi;
 
   /// Read although the verdict is not ok: slice k of the volume is geometry.slices[k], laid on
   /// geometry.grid. For a repair, which knows where the slices really are; never for showing.

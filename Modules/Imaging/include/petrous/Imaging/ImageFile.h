@@ -1,14 +1,12 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Volume/IntensityVolume.h"
@@ -21,9 +19,6 @@ struct LoadedImage
   std::shared_ptr<const volume::IntensityVolume> volume;
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
 };
-
-/// A box in the patient: its lower and its upper corner, LPS mm.
-using PatientBox = std::array<Eigen::Vector3d, 2>;
 
 /// Whether the name ends in .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd (upper or lower case).
 bool isImageFileName(const std::filesystem::path& path);
@@ -38,7 +33,7 @@ bool isImageFileName(const std::filesystem::path& path);
 /// Throws FileError: NoGeometry for axes that are not perpendicular, Unsupported for images that
 /// are 2-D, 4-D or hold vectors or colours, and for a roi that misses the image; CancelledError.
 LoadedImage readImageFile(const std::filesystem::path& path,
-                          const std::optional<PatientBox>& roi = std::nullopt,
+                          const std::optional<core::PatientBox>& roi = std::nullopt,
                           const core::Progress& progress = {});
 
 } // namespace petrous::imaging

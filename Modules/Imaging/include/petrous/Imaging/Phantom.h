@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
@@ -35,13 +36,6 @@ struct PhantomStructure
   bool meshed = false;          ///< whether the sample patient has a surface of it
   double hounsfield = 0.0;
   Eigen::Vector3d lower; ///< patient LPS mm; box around {signed distance <= 0}
-  Eigen::Vector3d upper;
-};
-
-/// Opposite corners, patient LPS mm.
-struct PatientBox
-{
-  Eigen::Vector3d lower;
   Eigen::Vector3d upper;
 };
 
@@ -95,12 +89,12 @@ public:
 
   /// mm^3 of the structure within a patient box, by adaptive quadrature of the signed distance
   /// (error about 0.1 %).
-  double volume(std::size_t structure, const PatientBox& within) const;
+  double volume(std::size_t structure, const core::PatientBox& within) const;
 
   /// A closed surface that faces outwards, cut flat at the patient box, vertices on the zero of
   /// the signed distance. Made from samples `resolution` mm apart; 0: as fine as the structure's
   /// shape needs.
-  core::TriangleMesh surface(std::size_t structure, const PatientBox& within,
+  core::TriangleMesh surface(std::size_t structure, const core::PatientBox& within,
                              double resolution = 0.0) const;
 
   /// X_MR_CT: takes CT patient points to MR patient points, mm. A function of the seed.

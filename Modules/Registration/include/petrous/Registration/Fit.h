@@ -1,20 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::registration
 {
-
-/// A box in the CT's patient space: its lower and its upper corner, LPS mm.
-using PatientBox = std::array<Eigen::Vector3d, 2>;
 
 /// From where a fit begins. The coarse search looks about this pose, and also about those that lay
 /// the two images' centres on each other.
@@ -40,8 +37,8 @@ struct FitOptions
 {
   Start start = Start::Header;
   core::RigidTransform given; ///< X_MC for Start::Given
-  /// Only CT within counts. None: all that shows something.
-  std::optional<PatientBox> region;
+  /// Only CT within counts (CT patient space). None: all that shows something.
+  std::optional<core::PatientBox> region;
   /// Looks for the right basin up to 40 mm and 40 degrees (and further, less surely) from the
   /// start.
   bool search = true;

@@ -16,7 +16,7 @@ class LiveMetric
 public:
   /// Throws InvalidParameter as fitRigid does.
   LiveMetric(const volume::IntensityVolume& ct, const volume::IntensityVolume& mr,
-             const std::optional<PatientBox>& region = std::nullopt);
+             const std::optional<core::PatientBox>& region = std::nullopt);
   ~LiveMetric();
   LiveMetric(LiveMetric&&) noexcept;
   LiveMetric& operator=(LiveMetric&&) noexcept;

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Volume/Volume.h"
@@ -19,8 +19,8 @@ constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20;
 struct MeshSolidLimits
 {
   double spacing = 0.0; ///< mm, > 0; voxels are never larger where memory permits: the CT's finest
-  /// Corners of the patient box (LPS mm) in which the solid is needed; everywhere when absent.
-  std::optional<std::array<Eigen::Vector3d, 2>> region;
+  /// Where the solid is needed; everywhere when absent.
+  std::optional<core::PatientBox> region;
   std::size_t mostBytes = kMostMeshBytes;
 };
 

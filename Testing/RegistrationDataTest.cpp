@@ -30,11 +30,16 @@ struct PublishedPair
   }
 };
 
-std::optional<PublishedPair> published(const std::string& name)
+fs::path folderOf(const std::string& name)
 {
   const char* data = std::getenv("PETROUS_DATA");
-  const fs::path folder = fs::path(data ? data : "") / "registration" / name;
-  if (!data || !fs::exists(folder / "truth.json"))
+  return fs::path(data ? data : "/nowhere") / "registration" / name;
+}
+
+std::optional<PublishedPair> published(const std::string& name)
+{
+  const fs::path folder = folderOf(name);
+  if (!fs::exists(folder / "truth.json"))
     return std::nullopt;
   PublishedPair pair;
   pair.fixed = imaging::readImageFile(folder / "fixed.nii.gz").volume;
@@ -65,6 +70,26 @@ TEST(RegistrationData, RealHeadAgainstAnMrSimulatedFromIt)
   EXPECT_LT(pair->worst(result.fit.mrFromCt), 0.15);
   EXPECT_GT(result.error.p95, 0.05);
   EXPECT_LT(result.error.p95, 0.6);
+}
+
+// The lower part of the CT and the upper one of the MR.
+TEST(RegistrationData, DoesNotPushTogetherWhatSharesAPartOfItsHeight)
+{
+  const auto pair = published("ct_mr_sim");
+  if (!pair)
+    GTEST_SKIP() << "no registration/ct_mr_sim in PETROUS_DATA";
+  const auto part = [](const volume::IntensityVolume& image, const char* name, bool upper)
+  {
+    core::PatientBox box = image.geometry().patientBounds();
+    const double away = 0.48 * box.sizes().z();
+    (upper ? box.min() : box.max()).z() += upper ? away : -away;
+    return imaging::readImageFile(folderOf("ct_mr_sim") / name, box).volume;
+  };
+  const auto ct = part(*pair->fixed, "fixed.nii.gz", false);
+  const auto mr = part(*pair->moving, "moving.nii.gz", true);
+  const Fit fit = fitRigid(*ct, *mr);
+  EXPECT_LT(pair->worst(fit.mrFromCt), 0.5);
+  EXPECT_LT(fit.overlap, 0.35);
 }
 
 TEST(RegistrationData, TiltedScanAgainstAStraightOne)

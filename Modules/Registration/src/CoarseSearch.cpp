@@ -39,8 +39,8 @@ double scored(double information, double overlap, std::size_t samples)
 {
   if (overlap < kLeastOverlap)
     return 0.0;
-  return overlap *
-         (information - informationBias(kSearchBins, overlap * static_cast<double>(samples)));
+  const double bias = informationBias(kSearchBins, overlap * static_cast<double>(samples));
+  return poseScore(information - bias, overlap);
 }
 
 Eigen::Vector3d contentCentre(const LevelImage& level, const core::IndexBox& box)

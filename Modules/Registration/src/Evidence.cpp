@@ -73,8 +73,8 @@ double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
   again.search = true;
   again.start = Start::Centres;
   const Fit turned = fitPair(part, again, progress.part(0.3, 1.0), {}).fit;
-  const double reference = straight.metric * straight.overlap;
-  return reference > 0.0 ? turned.metric * turned.overlap / reference : 1.0;
+  const double reference = poseScore(straight.metric, straight.overlap);
+  return reference > 0.0 ? poseScore(turned.metric, turned.overlap) / reference : 1.0;
 }
 
 double asideOf(const ImagePair& pair, const core::RigidTransform& mrFromCt,

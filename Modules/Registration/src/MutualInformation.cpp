@@ -162,6 +162,11 @@ double informationBias(int bins, double samples)
   return samples > 0.0 ? 0.5 * (bins - 1.0) * (bins - 1.0) / samples : 0.0;
 }
 
+double poseScore(double information, double overlap)
+{
+  return information * std::sqrt(overlap);
+}
+
 MutualInformation::MutualInformation(const FixedSamples& fixed, const LevelImage& moving, int bins)
   : m_fixed(fixed)
   , m_moving(moving)

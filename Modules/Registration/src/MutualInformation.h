@@ -19,6 +19,11 @@ struct JointHistogram;
 /// 1955), with all cells of `bins` by `bins` taken for filled. 0 without samples.
 double informationBias(int bins, double samples);
 
+/// What ranks poses that overlap differently: information * sqrt(overlap). Information alone likes
+/// to push an image out of the other until little is left; times the whole overlap it likes to push
+/// images together that share little (measured: Documentation/adr).
+double poseScore(double information, double overlap);
+
 /// Mutual information of the fixed samples and the moving image, in nats, as Mattes et al. (IEEE
 /// TMI 22:120, 2003) define it: I = sum_fm p(f,m) log(p(f,m) / (p(f) p(m))), with a Parzen window
 /// of a box over fixed and a cubic B-spline over moving values, so that it has a gradient.

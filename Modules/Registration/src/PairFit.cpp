@@ -17,7 +17,7 @@ constexpr std::size_t kFewest = 4000; // samples of any level
 
 double scoreOf(const Ascent& top)
 {
-  return top.information * top.overlap;
+  return poseScore(top.information, top.overlap);
 }
 
 std::vector<core::RigidTransform> startsOf(const ImagePair& pair, const FitOptions& options)

@@ -1,6 +1,7 @@
 #include "petrous/Dissection/BiteSearch.h"
 
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -233,6 +234,32 @@ TEST(BiteSearch, TissuesShareTheWork)
     spent += bite->work;
   }
   EXPECT_NEAR(work, spent, 0.01 * spent);
+}
+
+// A burr that only grazes the hollow that it has made takes next to nothing; what it takes costs
+// what the tissue does, and is not a rounding of one sum without the other.
+TEST(BiteSearch, ABiteOfNextToNothingHasItsWork)
+{
+  BoneBelow bone(0.5);
+  const double r = kRadius + BiteSearch::kClearance * bone.grid.minSpacing();
+  dissection::cut(bone.mask, {{0.0, 0.0, kRadius - 1.0}, {0.0, 0.0, kRadius - 1.0}, r});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int taken = 0;
+  for (int n = 0; n < 1000; ++n)
+  {
+    const Vector3d into = Vector3d(unit(random), unit(random), unit(random)).normalized();
+    const double depth = 0.01 * std::pow(10.0, -2.0 * std::abs(unit(random)));
+    const Vector3d place = Vector3d(0.0, 0.0, kRadius - 1.0) + 1e-3 * unit(random) * into;
+    BiteSearch fresh(bone.tissue, bone.resistance, {}, kRadius);
+    const auto bite = fresh.find(bone.mask, {place, into, 1e6, depth});
+    if (!bite || !(bite->volume > 0.0))
+      continue;
+    ++taken;
+    EXPECT_NEAR(bite->work, kResistance * bite->volume, 0.01 * kResistance * bite->volume)
+        << n << " " << bite->volume;
+  }
+  EXPECT_GT(taken, 100);
 }
 
 TEST(BiteSearch, FindsTheSameWithoutItsMemory)

@@ -17,8 +17,9 @@ constexpr double kSkin = 0.02;   // voxels: a search begins so far before where 
 constexpr double kBeside = 0.25; // voxels: to the side of the last bite, within which it tells
 constexpr double kAim = 0.96;    // share of the work
 constexpr double kFinest = 1e-4; // voxels; a step of the mask is half of it
-constexpr int kMostTrials = 40;  // bisection alone needs 14
-constexpr double kAheadOf = 2.0; // voxels, for the first tissue
+constexpr double kLeastBite = 1e-3; // points' parts: the sums are floats, less is their rounding
+constexpr int kMostTrials = 40;     // bisection alone needs 14
+constexpr double kAheadOf = 2.0;    // voxels, for the first tissue
 constexpr double kAheadStep = 0.25;
 
 double checkedRadius(double radius)
@@ -153,10 +154,14 @@ std::optional<Bite> BiteSearch::find(const volume::CutMask& mask, const Wish& wi
   }
   if (!found)
     depth = bracket.low;
-  const BiteWindow::Taken taken = p.window.taken(at(depth), p.radius);
+  BiteWindow::Taken taken = p.window.taken(at(depth), p.radius);
   const bool capped = depth >= top;
-  if (!(taken.volume > 0.0) && !capped)
-    return std::nullopt;
+  if (!(taken.volume > kLeastBite * p.window.partVolume() && taken.work > 0.0))
+  {
+    if (!capped)
+      return std::nullopt;
+    taken = {};
+  }
   if (bracket.workHigh > bracket.workLow && bracket.triedLow)
     p.yielding = (bracket.high - bracket.low) / (bracket.workHigh - bracket.workLow);
   else if (taken.work > 0.0 && depth > begin)

@@ -16,7 +16,8 @@ GuiTest::~GuiTest() = default;
 
 std::filesystem::path GuiTest::folder() const
 {
-  return m_folder.path().toStdString();
+  // Of a process that a test has started: the test's.
+  return qEnvironmentVariable("PETROUS_GUI_FOLDER", m_folder.path()).toStdString();
 }
 
 library::Library GuiTest::library() const

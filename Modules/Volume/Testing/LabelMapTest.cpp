@@ -110,7 +110,8 @@ TEST(SmoothedUnion, IsClosedWhereTheGridCutsTheStructureOff)
   auto voxels = emptyLabels(6);
   std::fill_n(voxels->data(), voxels->size(), std::uint16_t{1});
   const auto field = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}), kAll);
-  EXPECT_FLOAT_EQ(field->at(0, 4, 4), 0.0F);
+  EXPECT_LT(field->at(1, 4, 4), 0.5F);
+  EXPECT_GT(field->at(2, 4, 4), 0.5F);
   EXPECT_FLOAT_EQ(field->at(4, 4, 4), 1.0F);
 }
 

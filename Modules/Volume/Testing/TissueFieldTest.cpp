@@ -108,9 +108,9 @@ TEST(TissueField, SolidStructureInAirIsTissue)
   const auto air = std::make_shared<const volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{-1000}));
   auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
-  for (int k = 10; k < 20; ++k)
-    for (int j = 10; j < 20; ++j)
-      for (int i = 10; i < 20; ++i)
+  for (int k = 5; k < 25; ++k)
+    for (int j = 5; j < 25; ++j)
+      for (int i = 5; i < 25; ++i)
         labels->at(i, j, k) = 1;
   const auto solid = volume::makeSmoothedUnion(volume::makeLabelMap(labels, {}),
                                                [](std::uint16_t) { return true; });
@@ -119,8 +119,8 @@ TEST(TissueField, SolidStructureInAirIsTissue)
   EXPECT_LT(field.value({2, 7, 7}), 0.0);
   const auto hit = field.firstHit({0, 7.25, 7.25}, {7.25, 7.25, 7.25});
   ASSERT_TRUE(hit);
-  EXPECT_NEAR(*hit, 4.75, 0.05) << "half way between the voxel centres at 4.5 and 5.0";
-  EXPECT_GT(field.normal({4.75, 7.25, 7.25}).dot(-Vector3d::UnitX()), 0.999);
+  EXPECT_NEAR(*hit, 2.25, 0.05) << "half way between the voxel centres at 2.0 and 2.5";
+  EXPECT_GT(field.normal({2.25, 7.25, 7.25}).dot(-Vector3d::UnitX()), 0.999);
 }
 
 TEST(NearestSurface, LiesARadiusFromTheCentreOfASphere)

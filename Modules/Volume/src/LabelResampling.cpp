@@ -19,9 +19,8 @@ using Eigen::Vector3d;
 
 constexpr double kThreshold = 0.5 - 1e-3; // what a picture takes for inside (OpticalModel.h)
 constexpr double kHalf = 0.5 - 1e-6;      // a tie is inside
-constexpr double kLargestDeparture = 0.25;
-constexpr double kAligned = 5e-3; // voxels
-constexpr int kMostSamples = 8;   // per axis, in a common voxel
+constexpr double kAligned = 5e-3;         // voxels
+constexpr int kMostSamples = 8;           // per axis, in a common voxel
 
 // ---- the common grid
 
@@ -238,8 +237,7 @@ private:
   {
     const double inside = scale * tally.solid;
     Sample sample;
-    sample.share = std::clamp(scale * tally.share, std::max(inside - kLargestDeparture, 0.0),
-                              std::min(inside + kLargestDeparture, 1.0));
+    sample.share = scale * tally.share;
     const bool solid = inside >= kHalf || sample.share > kThreshold;
     if (!solid && inside + scale * tally.lumen < kHalf)
       return sample;

@@ -1,22 +1,17 @@
 #include "petrous/Volume/SmoothedUnion.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
-#include "BinomialShare.h"
+#include "LabelShare.h"
+#include "SurfaceNet.h"
 
 namespace petrous::volume
 {
 
 namespace
 {
-
-// Two voxels beyond the structure the filtered union is 0 for certain.
-constexpr int kMargin = 2;
 
 std::vector<bool> wantedTable(const LabelMap& labels,
                               const std::function<bool(std::uint16_t)>& wanted)
@@ -49,9 +44,6 @@ core::IndexBox boxOf(const Volume<std::uint16_t>& voxels, const std::vector<bool
   return box;
 }
 
-// Slices that one task filters.
-constexpr int kSlab = 16;
-
 } // namespace
 
 std::shared_ptr<const Volume<float>>
@@ -74,46 +66,25 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
   const core::Index3 size = box.size();
   // May reach beyond the label grid, so that a structure cut off by its border is closed there.
   const core::GridGeometry geometry(
-      {size[0] + 2 * kMargin, size[1] + 2 * kMargin, size[2] + 2 * kMargin}, grid.spacing(),
-      grid.patientFromVoxel(
-          Eigen::Vector3d(box.lower[0] - kMargin, box.lower[1] - kMargin, box.lower[2] - kMargin)),
+      {size[0] + 2 * kLabelMargin, size[1] + 2 * kLabelMargin, size[2] + 2 * kLabelMargin},
+      grid.spacing(),
+      grid.patientFromVoxel(Eigen::Vector3d(
+          box.lower[0] - kLabelMargin, box.lower[1] - kLabelMargin, box.lower[2] - kLabelMargin)),
       grid.direction());
-  auto field = std::make_shared<Volume<float>>(geometry);
-  const core::Index3 dims = geometry.dims();
-  std::array<std::array<float, BinomialBlock::kWeight + 1>, 2> tables;
-  for (int sum = 0; sum <= BinomialBlock::kWeight; ++sum)
-    for (const bool inside : {false, true})
-      tables[inside ? 1 : 0][static_cast<std::size_t>(sum)] = smoothedShare(sum, inside);
-  const auto filterSlab = [&](int first, int last)
-  {
-    BinomialBlock block;
-    block.resize({dims[0], dims[1], last - first});
-    constexpr int apron = BinomialBlock::kApron;
-    const int from = std::max(first - apron, kMargin);
-    const int to = std::min(last + apron, dims[2] - kMargin);
-    for (int k = from; k < to; ++k)
-      for (int j = 0; j < size[1]; ++j)
-      {
-        const std::uint16_t* labelRow =
-            &labels.voxels->at(box.lower[0], box.lower[1] + j, box.lower[2] + k - kMargin);
-        std::uint8_t* inside = block.row(j + kMargin, k - first) + apron + kMargin;
-        for (int i = 0; i < size[0]; ++i)
-          inside[i] = table[labelRow[i]] ? 1 : 0;
-      }
-    block.filter();
-    for (int k = first; k < last; ++k)
-      for (int j = 0; j < dims[1]; ++j)
-      {
-        const std::uint8_t* sums = block.sums(j, k - first);
-        const std::uint8_t* inside = block.row(j, k - first) + apron;
-        float* shares = &field->at(0, j, k);
-        for (int i = 0; i < dims[0]; ++i)
-          shares[i] = tables[inside[i]][sums[i]];
-      }
-  };
-  tbb::parallel_for(0, (dims[2] + kSlab - 1) / kSlab,
-                    [&](int slab)
-                    { filterSlab(slab * kSlab, std::min((slab + 1) * kSlab, dims[2])); });
+  const auto inside = makeZeroVolume<std::uint8_t>(geometry);
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+    {
+      const std::uint16_t* labelRow =
+          &labels.voxels->at(box.lower[0], box.lower[1] + j, box.lower[2] + k);
+      std::uint8_t* row = &inside->at(kLabelMargin, j + kLabelMargin, k + kLabelMargin);
+      for (int i = 0; i < size[0]; ++i)
+        row[i] = table[labelRow[i]] ? 1 : 0;
+    }
+  auto field = makeZeroVolume<float>(geometry);
+  SurfaceNet net(*inside, {});
+  net.relax({});
+  net.writeShare(*field, {});
   return field;
 }
 

@@ -142,7 +142,7 @@ private:
   {
     const LabelRank own = m_ranks.voxels->at(v[0], v[1], v[2]);
     return own != 0 && own <= rank &&
-           (!m_order.isSolid(rank) || m_share.at(v[0], v[1], v[2]) > kInsideFloor - 1e-3F);
+           (!m_order.isSolid(rank) || m_share.at(v[0], v[1], v[2]) > 0.5F);
   }
 
   bool showsAt(const Vector3d& position, LabelRank rank) const

@@ -8,12 +8,13 @@
 namespace petrous::volume
 {
 
-/// Share of "inside a wanted structure" round each voxel of a label map, 0 to 1: the binary union
-/// low-pass filtered by the 3x3x3 binomial kernel [1 2 1]/4, so that its 0.5 level is a surface
-/// without voxel steps [Chan2013, 2.1].
+/// Share of "inside a wanted structure" round each voxel of a label map, 0 to 1, whose 0.5 level is
+/// a surface without voxel steps [Chan2013, 2.1]: 1/2 + d / 3 at a voxel centre, d the signed
+/// distance in voxels from the union's border, relaxed as src/SurfaceNet.h says, in steps of
+/// 1/65535.
 ///
-/// A voxel of the structure itself never falls below kInsideFloor and one outside never rises
-/// above 1 - kInsideFloor, so a structure one voxel thin stays whole (Documentation/adr/0001).
+/// A voxel of the structure stays above 1/2 and one outside below, and nothing shrinks: a structure
+/// one voxel thin stays whole, and about one voxel thick (Documentation/adr/0001).
 /// `wanted(index)` chooses the segments. Only the box around them is held, two voxels wider;
 /// null when no voxel is wanted.
 std::shared_ptr<const Volume<float>>
@@ -25,6 +26,7 @@ std::shared_ptr<const Volume<float>>
 makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t)>& wanted,
                   const core::IndexBox& within);
 
+/// What a voxel has that is given to a structure too thin for its grid (LabelField.h).
 constexpr float kInsideFloor = 0.55F;
 
 } // namespace petrous::volume

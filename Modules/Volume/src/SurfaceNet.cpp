@@ -1,0 +1,303 @@
+#include "SurfaceNet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "LabelShare.h"
+
+namespace petrous::volume
+{
+
+namespace
+{
+
+constexpr int kCurvatureRounds = 8; // of averaging: how wide a neighbourhood is
+constexpr int kRelaxations = 8;     // each with a curvature to go to
+constexpr int kStepsEach = 6;
+constexpr float kStep = 0.7F;
+constexpr float kClearance = 0.05F; // from the faces of its cell, so that no voxel changes sides
+constexpr int kNormalRounds = 1;
+constexpr float kCrease = 0.9F;  // cosine between the normals of two points with a crease between
+constexpr float kSmooth = 0.98F; // of two with none
+
+constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                               {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+template <class Body>
+void forEachPoint(std::size_t count, const Body& body)
+{
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range)
+                    {
+                      for (std::size_t n = range.begin(); n < range.end(); ++n)
+                        body(n);
+                    });
+}
+
+} // namespace
+
+namespace
+{
+float plus(float a, float b)
+{
+  return a + b;
+}
+float times(float scale, float a)
+{
+  return scale * a;
+}
+template <class V>
+V plus(const V& a, const V& b)
+{
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class V>
+V times(float scale, const V& a)
+{
+  return {scale * a.x, scale * a.y, scale * a.z};
+}
+} // namespace
+
+SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress)
+  : m_inside(inside)
+  , m_pointOf(makeZeroVolume<std::int32_t>(inside.geometry()))
+{
+  findPoints(progress);
+  join();
+  findNormals();
+}
+
+void SurfaceNet::findPoints(const core::Progress& progress)
+{
+  const core::Index3& dims = m_inside.geometry().dims();
+  std::vector<std::vector<Point>> slices(static_cast<std::size_t>(dims[2]));
+  tbb::parallel_for(
+      0, dims[2] - 1,
+      [&](int k)
+      {
+        progress.check("smoothing structures");
+        std::vector<Point>& points = slices[static_cast<std::size_t>(k)];
+        for (int j = 0; j + 1 < dims[1]; ++j)
+        {
+          const std::uint8_t* rows[4] = {&m_inside.at(0, j, k), &m_inside.at(0, j + 1, k),
+                                         &m_inside.at(0, j, k + 1), &m_inside.at(0, j + 1, k + 1)};
+          const auto end = [&rows](int i)
+          { return rows[0][i] | rows[1][i] << 2 | rows[2][i] << 4 | rows[3][i] << 6; };
+          int before = end(0);
+          for (int i = 0; i + 1 < dims[0]; ++i)
+          {
+            const int after = end(i + 1);
+            const int corners = before | after << 1;
+            if (corners != 0 && corners != 255)
+              points.push_back({{i, j, k}, static_cast<std::uint8_t>(corners)});
+            before = after;
+          }
+        }
+      });
+  std::vector<std::size_t> first(slices.size() + 1, 0);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    first[k + 1] = first[k] + slices[k].size();
+  m_points.resize(first.back());
+  m_positions.resize(first.back());
+  tbb::parallel_for(std::size_t{0}, slices.size(),
+                    [&](std::size_t k)
+                    {
+                      std::copy(slices[k].begin(), slices[k].end(),
+                                m_points.begin() + static_cast<std::ptrdiff_t>(first[k]));
+                      for (std::size_t n = first[k]; n < first[k + 1]; ++n)
+                      {
+                        const core::Index3& cell = m_points[n].cell;
+                        m_pointOf->at(cell[0], cell[1], cell[2]) = static_cast<std::int32_t>(n + 1);
+                      }
+                    });
+  // In the middle of where the border passes the cell's edges.
+  forEachPoint(m_points.size(),
+               [this](std::size_t n)
+               {
+                 const Point& point = m_points[n];
+                 Vector sum;
+                 int passed = 0;
+                 for (const auto& edge : kEdges)
+                   if ((point.corners >> edge[0] & 1) != (point.corners >> edge[1] & 1))
+                   {
+                     const core::Index3 a = cornerOf(edge[0]);
+                     const core::Index3 b = cornerOf(edge[1]);
+                     sum.x += 0.5F * static_cast<float>(a[0] + b[0]);
+                     sum.y += 0.5F * static_cast<float>(a[1] + b[1]);
+                     sum.z += 0.5F * static_cast<float>(a[2] + b[2]);
+                     ++passed;
+                   }
+                 const float scale = 1.0F / static_cast<float>(passed);
+                 m_positions[n] = {static_cast<float>(point.cell[0]) + scale * sum.x,
+                                   static_cast<float>(point.cell[1]) + scale * sum.y,
+                                   static_cast<float>(point.cell[2]) + scale * sum.z};
+               });
+}
+
+void SurfaceNet::join()
+{
+  m_joined.resize(m_points.size());
+  forEachPoint(m_points.size(),
+               [this](std::size_t n)
+               {
+                 const Point& point = m_points[n];
+                 for (int face = 0; face < 6; ++face)
+                 {
+                   const int axis = face / 2;
+                   const bool high = (face & 1) != 0;
+                   int inside = 0;
+                   for (int corner = 0; corner < 8; ++corner)
+                     if ((corner >> axis & 1) == (high ? 1 : 0))
+                       inside += point.corners >> corner & 1;
+                   core::Index3 next = point.cell;
+                   next[static_cast<std::size_t>(axis)] += high ? 1 : -1;
+                   const bool passed = inside != 0 && inside != 4;
+                   m_joined[n][static_cast<std::size_t>(face)] =
+                       passed ? pointAt(next[0], next[1], next[2]) : -1;
+                 }
+               });
+}
+
+// The mean of the quadrangles round a point. Each spans the four cells round an edge whose ends lie
+// on two sides.
+void SurfaceNet::findNormals()
+{
+  m_normals.resize(m_points.size());
+  forEachPoint(
+      m_points.size(),
+      [this](std::size_t n)
+      {
+        const Point& point = m_points[n];
+        Vector sum;
+        for (int e = 0; e < 12; ++e)
+        {
+          const int low = kEdges[e][0];
+          const bool lowInside = (point.corners >> low & 1) != 0;
+          if (lowInside == ((point.corners >> kEdges[e][1] & 1) != 0))
+            continue;
+          const auto axis = static_cast<std::size_t>(e / 4);
+          const std::size_t u = (axis + 1) % 3;
+          const std::size_t v = (axis + 2) % 3;
+          core::Index3 base = point.cell; // of the four cells the one with the lowest indices
+          const core::Index3 corner = cornerOf(low);
+          base[u] += corner[u] - 1;
+          base[v] += corner[v] - 1;
+          const auto at = [&](int du, int dv) -> const Vector&
+          {
+            core::Index3 cell = base;
+            cell[u] += du;
+            cell[v] += dv;
+            return m_positions[static_cast<std::size_t>(pointAt(cell[0], cell[1], cell[2]))];
+          };
+          const Vector& a = at(0, 0);
+          const Vector& b = at(1, 0);
+          const Vector& c = at(1, 1);
+          const Vector& d = at(0, 1);
+          const Vector p{c.x - a.x, c.y - a.y, c.z - a.z};
+          const Vector q{d.x - b.x, d.y - b.y, d.z - b.z};
+          const float sign = lowInside ? 1.0F : -1.0F;
+          sum.x += sign * (p.y * q.z - p.z * q.y);
+          sum.y += sign * (p.z * q.x - p.x * q.z);
+          sum.z += sign * (p.x * q.y - p.y * q.x);
+        }
+        m_normals[n] = sum;
+      });
+  std::vector<Vector> scratch;
+  average(m_normals, scratch, kNormalRounds, [](std::size_t, std::size_t) { return 1.0F; });
+  forEachPoint(m_points.size(),
+               [this](std::size_t n)
+               {
+                 Vector& normal = m_normals[n];
+                 const float length =
+                     std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+                 const float scale = length > 1e-6F ? 1.0F / length : 0.0F;
+                 normal = {scale * normal.x, scale * normal.y, scale * normal.z};
+               });
+}
+
+// Each round half of the way to the mean of those joined; `weightOf(point, other)`.
+template <class T, class WeightOf>
+void SurfaceNet::average(std::vector<T>& values, std::vector<T>& scratch, int rounds,
+                         const WeightOf& weightOf) const
+{
+  scratch.resize(values.size());
+  for (int round = 0; round < rounds; ++round)
+  {
+    forEachPoint(values.size(),
+                 [&](std::size_t n)
+                 {
+                   T sum{};
+                   float weights = 0.0F;
+                   for (const std::int32_t other : m_joined[n])
+                     if (other >= 0)
+                     {
+                       const float weight = weightOf(n, static_cast<std::size_t>(other));
+                       sum = plus(sum, times(weight, values[static_cast<std::size_t>(other)]));
+                       weights += weight;
+                     }
+                   scratch[n] = weights < 1e-3F
+                                    ? values[n]
+                                    : plus(times(0.5F, values[n]), times(0.5F / weights, sum));
+                 });
+    values.swap(scratch);
+  }
+}
+
+void SurfaceNet::relax(const core::Progress& progress)
+{
+  std::vector<float> curvature(m_points.size());
+  std::vector<float> scratch;
+  std::vector<Vector> next(m_points.size());
+  // From a point to the middle of those joined with it.
+  const auto towardsMean = [this](std::size_t n)
+  {
+    Vector sum;
+    int count = 0;
+    for (const std::int32_t other : m_joined[n])
+      if (other >= 0)
+      {
+        sum = plus(sum, m_positions[static_cast<std::size_t>(other)]);
+        ++count;
+      }
+    if (count == 0)
+      return Vector();
+    return plus(times(1.0F / static_cast<float>(count), sum), times(-1.0F, m_positions[n]));
+  };
+  const auto along = [this](std::size_t n, const Vector& v)
+  { return v.x * m_normals[n].x + v.y * m_normals[n].y + v.z * m_normals[n].z; };
+  // A crease has its own curvature, which is none of the faces' beside it.
+  const auto alike = [&](std::size_t n, std::size_t other)
+  { return std::clamp((along(n, m_normals[other]) - kCrease) / (kSmooth - kCrease), 0.0F, 1.0F); };
+  for (int relaxation = 0; relaxation < kRelaxations; ++relaxation)
+  {
+    forEachPoint(m_points.size(), [&](std::size_t n) { curvature[n] = along(n, towardsMean(n)); });
+    average(curvature, scratch, kCurvatureRounds, alike);
+    for (int step = 0; step < kStepsEach; ++step)
+    {
+      progress.check("smoothing structures");
+      forEachPoint(m_points.size(),
+                   [&](std::size_t n)
+                   {
+                     Vector move = towardsMean(n);
+                     move = times(kStep, plus(move, times(-curvature[n], m_normals[n])));
+                     const Vector& p = m_positions[n];
+                     const core::Index3& cell = m_points[n].cell;
+                     const auto within = [](float value, int low)
+                     {
+                       return std::clamp(value, static_cast<float>(low) + kClearance,
+                                         static_cast<float>(low) + 1.0F - kClearance);
+                     };
+                     next[n] = {within(p.x + move.x, cell[0]), within(p.y + move.y, cell[1]),
+                                within(p.z + move.z, cell[2])};
+                   });
+      m_positions.swap(next);
+    }
+    findNormals();
+  }
+}
+
+} // namespace petrous::volume

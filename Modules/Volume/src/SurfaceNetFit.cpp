@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+
+#include "LabelShare.h"
+#include "SurfaceNet.h"
+
+namespace petrous::volume
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr int kReach = 4;      // voxels, of the neighbourhood that a sheet or a rod is fitted to
+constexpr double kSigma = 1.4; // voxels, of its Gaussian weights
+constexpr double kPi = 3.14159265358979323846;
+
+// Half a thickness that has no holes whatever way the voxels lie to it, and the same of a rod.
+constexpr double kThinnestSheet = 0.53;
+constexpr double kThinnestRod = 0.65;
+constexpr double kThickest = 0.85;
+
+double ramp(double from, double to, double value)
+{
+  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+struct Fit
+{
+  double weight = 0.0; // 0: it is neither
+  double depth = 0.0;  // voxels
+};
+
+// The plane or the line that the inside round a voxel is, and how far in it the voxel lies. How
+// thick it is, follows from how much of it there is: a sheet of thickness t has 2 pi sigma^2 t, a
+// rod of cross-section a has sqrt(2 pi) sigma a.
+Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
+{
+  static const auto kWeights = []
+  {
+    std::array<double, 2 * kReach + 1> weights{};
+    for (int d = -kReach; d <= kReach; ++d)
+      weights[static_cast<std::size_t>(d + kReach)] = std::exp(-0.5 * d * d / (kSigma * kSigma));
+    return weights;
+  }();
+  const auto weightOf = [](int d) { return kWeights[static_cast<std::size_t>(d + kReach)]; };
+  const core::IndexBox box = core::IndexBox{
+      {at[0] - kReach, at[1] - kReach, at[2] - kReach},
+      {at[0] + kReach + 1, at[1] + kReach + 1,
+       at[2] + kReach + 1}}.intersected(inside.geometry().fullBox());
+  double sum = 0.0;
+  Vector3d first = Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+      {
+        if (inside.at(i, j, k) == 0)
+          continue;
+        const Vector3d p(i - at[0], j - at[1], k - at[2]);
+        const double weight = weightOf(i - at[0]) * weightOf(j - at[1]) * weightOf(k - at[2]);
+        sum += weight;
+        first += weight * p;
+        second += weight * p * p.transpose();
+      }
+  if (sum < 0.5)
+    return {};
+  const Vector3d center = first / sum;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(second / sum - center * center.transpose());
+  const Vector3d spread = solver.eigenvalues() / (kSigma * kSigma); // the smallest first
+  const Vector3d across = solver.eigenvectors().col(0);
+  const Vector3d along = solver.eigenvectors().col(2);
+  const double off = std::abs(across.dot(center));
+  const double aside = (center - across.dot(center) * across).norm();
+  const double sheet =
+      ramp(0.35, 0.2, spread[0]) * ramp(0.4, 0.6, spread[1]) * ramp(0.7, 0.4, aside);
+  if (sheet > 0.0)
+  {
+    const double half =
+        0.5 * sum / (2.0 * kPi * kSigma * kSigma) * std::exp(0.5 * off * off / (kSigma * kSigma));
+    return {sheet * ramp(1.1 * kThickest, kThickest, half), std::max(half, kThinnestSheet) - off};
+  }
+  const double beyond = std::abs(along.dot(center));
+  const double away = (center - along.dot(center) * along).norm();
+  const double rod =
+      ramp(0.35, 0.25, spread[1]) * ramp(0.4, 0.6, spread[2]) * ramp(0.7, 0.4, beyond);
+  const double radius = std::sqrt(sum / (std::sqrt(2.0 * kPi) * kSigma) / kPi *
+                                  std::exp(0.5 * away * away / (kSigma * kSigma)));
+  return {rod * ramp(1.1 * kThickest, kThickest, radius), std::max(radius, kThinnestRod) - away};
+}
+
+} // namespace
+
+void SurfaceNet::fitThin(Volume<float>& share) const
+{
+  std::vector<core::Index3> voxels;
+  for (const Point& point : m_points)
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const core::Index3 up = cornerOf(corner);
+      const core::Index3 voxel{point.cell[0] + up[0], point.cell[1] + up[1], point.cell[2] + up[2]};
+      bool thin = false;
+      for (int other = 0; other < 8 && !thin; ++other)
+        if ((point.corners >> other & 1) != 0)
+        {
+          const core::Index3 to = cornerOf(other);
+          thin = isThin({point.cell[0] + to[0], point.cell[1] + to[1], point.cell[2] + to[2]});
+        }
+      if (thin)
+        voxels.push_back(voxel);
+    }
+  std::sort(voxels.begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  for (const core::Index3& voxel : voxels)
+  {
+    const Fit fit = fitAround(m_inside, voxel);
+    if (!(fit.weight > 0.0))
+      continue;
+    float& value = share.at(voxel[0], voxel[1], voxel[2]);
+    const double own = (double{value} - 0.5) * double{kShareReach};
+    const double depth = own + fit.weight * (fit.depth - own);
+    value = quantisedShare(std::clamp(0.5 + depth / double{kShareReach}, 0.0, 1.0));
+  }
+}
+
+} // namespace petrous::volume

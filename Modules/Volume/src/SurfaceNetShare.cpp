@@ -1,0 +1,239 @@
+#include "SurfaceNet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "LabelShare.h"
+
+namespace petrous::volume
+{
+
+namespace
+{
+
+constexpr float kReach = 1.9F;     // voxels from which a point counts
+constexpr float kLeast = 0.05F;    // |distance| of any voxel, voxels
+constexpr float kThinDepth = 0.3F; // of voxels that touch others by an edge or a corner
+
+// How far outside a voxel lies beside such, of the sum of their depths (of the numerator of the
+// trilinear value in the middle of a triangle). Half of what would part them, or less.
+constexpr float kAcrossFace = 0.25F;
+constexpr float kAcrossCell = 0.1F;
+constexpr float kAcrossTriangle = 0.6F / 14.0F;
+
+float shareAt(float depth)
+{
+  return quantisedShare(std::clamp(0.5 + double{depth / SurfaceNet::kShareReach}, 0.0, 1.0));
+}
+
+float depthAt(float share)
+{
+  return (share - 0.5F) * SurfaceNet::kShareReach;
+}
+
+} // namespace
+
+void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress) const
+{
+  writeDistances(share, progress);
+  joinThin(share);
+  fitThin(share);
+}
+
+void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& progress) const
+{
+  const core::Index3& dims = share.geometry().dims();
+  const auto writeTile = [&](const core::Index3&, const core::IndexBox& tile)
+  {
+    const core::Index3 size = tile.size();
+    std::vector<std::array<float, 2>> sums; // weighted, weights; empty where no point is near
+    constexpr int kSpan = 2;
+    const core::IndexBox cells = grown(tile, kSpan).intersected(share.geometry().fullBox());
+    for (int k = cells.lower[2]; k < cells.upper[2]; ++k)
+      for (int j = cells.lower[1]; j < cells.upper[1]; ++j)
+      {
+        const std::int32_t* row = &m_pointOf->at(0, j, k);
+        for (int i = cells.lower[0]; i < cells.upper[0]; ++i)
+        {
+          if (row[i] == 0)
+            continue;
+          if (sums.empty())
+            sums.assign(tile.count(), {0.0F, 0.0F});
+          const auto n = static_cast<std::size_t>(row[i] - 1);
+          const Vector& p = m_positions[n];
+          const Vector& normal = m_normals[n];
+          const core::IndexBox near =
+              core::IndexBox{{i - 1, j - 1, k - 1}, {i + 3, j + 3, k + 3}}.intersected(tile);
+          for (int z = near.lower[2]; z < near.upper[2]; ++z)
+            for (int y = near.lower[1]; y < near.upper[1]; ++y)
+            {
+              const std::uint8_t* inside = &m_inside.at(0, y, z);
+              auto* out = &sums[static_cast<std::size_t>(
+                  (y - tile.lower[1] + size[1] * (z - tile.lower[2])) * size[0])];
+              const float dy = static_cast<float>(y) - p.y;
+              const float dz = static_cast<float>(z) - p.z;
+              for (int x = near.lower[0]; x < near.upper[0]; ++x)
+              {
+                const float dx = static_cast<float>(x) - p.x;
+                const float closeness =
+                    1.0F - (dx * dx + dy * dy + dz * dz) * (1.0F / (kReach * kReach));
+                const float height = dx * normal.x + dy * normal.y + dz * normal.z;
+                // The other side of a thin sheet has nothing to say of this voxel.
+                if (closeness <= 0.0F || (height < 0.0F) != (inside[x] != 0))
+                  continue;
+                const float squared = closeness * closeness;
+                const float weight = squared * squared * squared;
+                auto& sum = out[x - tile.lower[0]];
+                sum[0] += weight * height;
+                sum[1] += weight;
+              }
+            }
+        }
+      }
+    for (int z = 0; z < size[2]; ++z)
+      for (int y = 0; y < size[1]; ++y)
+      {
+        const std::uint8_t* inside =
+            &m_inside.at(tile.lower[0], tile.lower[1] + y, tile.lower[2] + z);
+        float* row = &share.at(tile.lower[0], tile.lower[1] + y, tile.lower[2] + z);
+        for (int x = 0; x < size[0]; ++x)
+        {
+          const auto n = static_cast<std::size_t>(x + size[0] * (y + size[1] * z));
+          const bool in = inside[x] != 0;
+          float depth = in ? kShareReach : -kShareReach;
+          if (!sums.empty() && sums[n][1] > 1e-9F)
+            depth = -sums[n][0] / sums[n][1];
+          const float value = shareAt(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
+          if (value > 0.0F) // memory is taken where something is written
+            row[x] = value;
+        }
+      }
+  };
+  forEachTile(dims, progress, "smoothing structures", writeTile);
+}
+
+// Whether no eight voxels round it are all inside.
+bool SurfaceNet::isThin(const core::Index3& voxel) const noexcept
+{
+  for (int cell = 0; cell < 8; ++cell)
+  {
+    const core::Index3 low = cornerOf(cell);
+    int inside = 0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const core::Index3 up = cornerOf(corner);
+      inside += m_inside.at(voxel[0] - low[0] + up[0], voxel[1] - low[1] + up[1],
+                            voxel[2] - low[2] + up[2]);
+    }
+    if (inside == 8)
+      return false;
+  }
+  return true;
+}
+
+// Lifts voxels beside two or three that touch by an edge or a corner: so far that there is inside
+// between them, and that their own voxel stays outside.
+void SurfaceNet::joinThin(Volume<float>& share) const
+{
+  const auto insideOf = [](int corners, int corner) { return (corners >> corner & 1) != 0; };
+  const auto forEachFace = [](const auto& visit)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 2; ++side)
+      {
+        const int u = 1 << (axis + 1) % 3;
+        const int v = 1 << (axis + 2) % 3;
+        const int base = side << axis;
+        visit(base, base + u, base + u + v, base + v);
+        visit(base + u, base + u + v, base + v, base);
+      }
+  };
+  std::array<bool, 256> meetsAskew{};
+  for (int corners = 1; corners < 255; ++corners)
+  {
+    bool& askew = meetsAskew[static_cast<std::size_t>(corners)];
+    forEachFace(
+        [&](int a, int b, int c, int d)
+        {
+          askew = askew || (insideOf(corners, a) && insideOf(corners, c) && !insideOf(corners, b) &&
+                            !insideOf(corners, d));
+        });
+    for (int a = 0; a < 4; ++a)
+      askew = askew || corners == (1 << a | 1 << (7 - a));
+  }
+  struct Corners
+  {
+    core::Index3 cell;
+    int corners;
+    int thin; // which of them
+  };
+  std::vector<Corners> cells;
+  const auto voxelOf = [](const core::Index3& cell, int corner)
+  {
+    const core::Index3 up = cornerOf(corner);
+    return core::Index3{cell[0] + up[0], cell[1] + up[1], cell[2] + up[2]};
+  };
+  const auto valueAt = [&share](const core::Index3& v) -> float&
+  { return share.at(v[0], v[1], v[2]); };
+  for (const Point& point : m_points)
+  {
+    if (!meetsAskew[point.corners])
+      continue;
+    Corners cell{point.cell, point.corners, 0};
+    for (int corner = 0; corner < 8; ++corner)
+      if (insideOf(point.corners, corner) && isThin(voxelOf(point.cell, corner)))
+        cell.thin |= 1 << corner;
+    if (cell.thin != 0)
+      cells.push_back(cell);
+  }
+  for (const Corners& cell : cells)
+    for (int corner = 0; corner < 8; ++corner)
+      if (insideOf(cell.thin, corner))
+      {
+        float& value = valueAt(voxelOf(cell.cell, corner));
+        value = std::max(value, shareAt(kThinDepth));
+      }
+  std::vector<std::pair<core::Index3, float>> lifts;
+  for (const Corners& cell : cells)
+  {
+    std::array<float, 8> depth{};
+    for (int corner = 0; corner < 8; ++corner)
+      depth[static_cast<std::size_t>(corner)] = depthAt(valueAt(voxelOf(cell.cell, corner)));
+    const auto at = [&depth](int corner) { return depth[static_cast<std::size_t>(corner)]; };
+    const auto lift = [&](int corner, float to)
+    {
+      if (!insideOf(cell.corners, corner) && to > at(corner))
+        lifts.emplace_back(voxelOf(cell.cell, corner), shareAt(std::min(to, -kLeast)));
+    };
+    forEachFace(
+        [&](int a, int b, int c, int d)
+        {
+          if (!insideOf(cell.corners, a) || !insideOf(cell.corners, c) ||
+              insideOf(cell.corners, b) || insideOf(cell.corners, d) ||
+              (cell.thin & (1 << a | 1 << c)) == 0)
+            return;
+          lift(b, -kAcrossFace * (at(a) + at(c)));
+          lift(d, -kAcrossFace * (at(a) + at(c)));
+        });
+    for (int a = 0; a < 4; ++a)
+      if (cell.corners == (1 << a | 1 << (7 - a)))
+        for (int corner = 0; corner < 8; ++corner)
+          lift(corner, -kAcrossCell * (at(a) + at(7 - a)));
+    // Three that touch by edges, the corners of a triangle: `far` lies beyond it.
+    for (int far = 0; far < 8; ++far)
+    {
+      const int three = 1 << (far ^ 3) | 1 << (far ^ 5) | 1 << (far ^ 6);
+      if (cell.corners != three)
+        continue;
+      const float inside = 4.0F * (at(far ^ 3) + at(far ^ 5) + at(far ^ 6)) + at(far);
+      for (const int corner : {far ^ 7, far ^ 1, far ^ 2, far ^ 4})
+        lift(corner, -kAcrossTriangle * std::max(inside, 0.0F));
+    }
+  }
+  for (const auto& [voxel, value] : lifts)
+    valueAt(voxel) = std::max(valueAt(voxel), value);
+}
+
+} // namespace petrous::volume

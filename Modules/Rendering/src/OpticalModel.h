@@ -24,7 +24,8 @@ namespace petrous::rendering
 /// A ray ends at opaque polygons; what is left of T shows what is behind.
 ///
 /// Surface at x, unit normal n (out of the tissue; -grad of the operand that decides: c_CT, share
-/// or mask, central differences over +-1 voxel of its grid; for bone -> structure that of share):
+/// or mask, central differences over +-1 voxel of its grid; for bone -> structure that of share;
+/// c_CT by edgeGradientInPatient where the material's surface opacity is kSmoothOpacity or more):
 ///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
 ///           of the image that is read
 ///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
@@ -53,6 +54,10 @@ constexpr double kInteriorFacing = 2.0 / 3.0;
 constexpr double kWetShininess = 120.0;
 
 constexpr double kShareThreshold = 0.5 - 1e-3;
+
+/// Surface opacity from which the CT's surface is lit without the steps of its slices. What is seen
+/// through shows them less, and a ray meets many such surfaces.
+constexpr double kSmoothOpacity = 0.5;
 
 /// Light that arrives at a distance (mm) from the lamp at the eye: intensity / (1 + (d /
 /// falloff)^2), or intensity where falloff is 0.

@@ -39,7 +39,8 @@ std::string constants()
   std::string text = "const int kMostPlanes = " + std::to_string(kMostPlanes) + ";\n";
   const std::pair<const char*, double> reals[] = {{"kInteriorFacing", optics::kInteriorFacing},
                                                   {"kWetShininess", optics::kWetShininess},
-                                                  {"kShareThreshold", optics::kShareThreshold}};
+                                                  {"kShareThreshold", optics::kShareThreshold},
+                                                  {"kSmoothOpacity", optics::kSmoothOpacity}};
   for (const auto& [name, value] : reals)
   {
     char digits[32];

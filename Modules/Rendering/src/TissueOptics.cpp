@@ -162,17 +162,20 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
                                               const std::optional<Eigen::Vector3d>& face) const
 {
   const Eigen::Vector3d point = ray.origin + t * ray.direction;
+  const appearance::Material& material = surfaceMaterial(point);
   Eigen::Vector3d normal;
   Eigen::Vector3d below = point;
   if (face)
     normal = *face;
   else
   {
-    normal = from == kBone && to > kBone ? shareNormal(point) : m_field.normal(point);
+    const bool smooth = double{material.surfaceOpacity} >= optics::kSmoothOpacity;
+    normal = from == kBone && to > kBone ? shareNormal(point)
+             : smooth                    ? m_field.smoothNormal(point)
+                                         : m_field.normal(point);
     below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;
   }
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
-  const appearance::Material& material = surfaceMaterial(point);
   auto look = material.transfer.at(intensity(material, below));
   if (!face && (&material == &m_materials.front() || material.lumen))
     look.color = overlayAt(point).value_or(look.color);

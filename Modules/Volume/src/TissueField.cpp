@@ -94,7 +94,18 @@ double TissueField::uncut(const Eigen::Vector3d& patient) const
 
 Eigen::Vector3d TissueField::normal(const Eigen::Vector3d& patient, double step) const
 {
-  const Decision decision = decide(patient);
+  return normalOf(decide(patient), patient, step, false);
+}
+
+Eigen::Vector3d TissueField::smoothNormal(const Eigen::Vector3d& patient) const
+{
+  return normalOf(decide(patient), patient, 1.0, true);
+}
+
+Eigen::Vector3d TissueField::normalOf(const Decision& decision, const Eigen::Vector3d& patient,
+                                      double step, bool smooth) const
+{
+  const auto ctAt = [this](const Eigen::Vector3d& v) { return ctOperand(v); };
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   const Eigen::Vector3d voxel = geometry().voxelFromPatient(patient);
   switch (decision.operand)
@@ -102,8 +113,8 @@ Eigen::Vector3d TissueField::normal(const Eigen::Vector3d& patient, double step)
   case Operand::None:
     return gradient;
   case Operand::Ct:
-    gradient = gradientInPatient(geometry(), voxel, step,
-                                 [this](const Eigen::Vector3d& v) { return ctOperand(v); });
+    gradient = smooth ? edgeGradientInPatient(geometry(), voxel, ctAt)
+                      : gradientInPatient(geometry(), voxel, step, ctAt);
     break;
   case Operand::Mask:
     gradient = gradientInPatient(geometry(), voxel, step,

@@ -319,7 +319,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   }
 #endif
   bool ofCt = !byMask && !byLabel;
-  vec3 ctSlope = ctGradient(v, ofCt);
+  vec3 ctSlope = ctGradient(v, ofCt, ray.row.z >= kSmoothOpacity);
   if (ofCt)
   {
     slopeMm = normalFromVoxel * ctSlope;

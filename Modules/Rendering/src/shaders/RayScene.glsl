@@ -9,7 +9,7 @@
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
 // Before it stand the numbers that the C++ states (RayShader.cpp): kMostPlanes, kInteriorFacing,
-// kWetShininess, kShareThreshold (OpticalModel.h), kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h).
+// kWetShininess, kShareThreshold, kSmoothOpacity (OpticalModel.h), kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h).
 //
 // Textures (linear unless named otherwise):
 //   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
@@ -226,7 +226,26 @@ int stateOf(Operands at, vec3 v, const bool plain)
     return mix(vec3(0.0), rise / max(run, vec3(1e-6)), greaterThan(run, vec3(0.0)));               \
   }
 
-GRADIENT(ctGradient, ctAt, hullUpper)
+// The CT's; `smoothly`: by twelve samples, +-1 on two axes at once (edgeGradientInPatient).
+vec3 ctGradient(vec3 v, bool wanted, bool smoothly)
+{
+  vec3 low = max(v - 1.0, vec3(0.0));
+  vec3 high = min(v + 1.0, hullUpper);
+  vec3 run = (high - low) * (smoothly ? 4.0 : 1.0);
+  vec3 rise = vec3(0.0);
+  int turns = wanted ? (smoothly ? 12 : 6) : 0;
+  for (int i = 0; i < turns; ++i)
+  {
+    int axis = i >> (smoothly ? 2 : 1);
+    bvec3 along = equal(ivec3(axis), ivec3(0, 1, 2));
+    vec3 to = mix(vec3(0.0), vec3((i & 1) != 0 ? 1.0 : -1.0), along);
+    if (smoothly)
+      to += mix(vec3(0.0), vec3((i & 2) != 0 ? 1.0 : -1.0), along.zxy);
+    vec3 at = mix(mix(v, high, greaterThan(to, vec3(0.5))), low, lessThan(to, vec3(-0.5)));
+    rise += to * ctAt(at);
+  }
+  return mix(vec3(0.0), rise / max(run, vec3(1e-6)), greaterThan(run, vec3(0.0)));
+}
 #ifdef PETROUS_MASK
 GRADIENT(maskGradient, maskAt, hullUpper)
 #endif

@@ -72,6 +72,40 @@ Eigen::Vector3d gradientInPatient(const core::GridGeometry& geometry, const Eige
   return geometry.voxelFromPatientLinear().transpose() * slope;
 }
 
+/// The same by differences between the twelve points that lie +-1 voxel away on two axes at once.
+/// Each difference is averaged over the other axes, so that all three see a surface equally
+/// blurred: on CT it follows the tissue's border where +-1 voxel on each axis alone follows its
+/// steps.
+template <class Sample>
+Eigen::Vector3d edgeGradientInPatient(const core::GridGeometry& geometry,
+                                      const Eigen::Vector3d& voxel, const Sample& sample)
+{
+  const core::Index3& dims = geometry.dims();
+  const Eigen::Vector3d last(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0);
+  const Eigen::Vector3d ends[2] = {(voxel - Eigen::Vector3d::Ones()).cwiseMax(0.0).cwiseMin(last),
+                                   (voxel + Eigen::Vector3d::Ones()).cwiseMax(0.0).cwiseMin(last)};
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // per voxel
+  for (int pair = 0; pair < 12; ++pair)
+  {
+    const int a = pair / 4;
+    const int b = (a + 1) % 3;
+    const int endA = pair & 1;
+    const int endB = pair >> 1 & 1;
+    Eigen::Vector3d at = voxel;
+    at[a] = ends[endA][a];
+    at[b] = ends[endB][b];
+    const double value = sample(at);
+    slope[a] += endA != 0 ? value : -value;
+    slope[b] += endB != 0 ? value : -value;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double run = 4.0 * (ends[1][axis] - ends[0][axis]);
+    slope[axis] = run > 0.0 ? slope[axis] / run : 0.0;
+  }
+  return geometry.voxelFromPatientLinear().transpose() * slope;
+}
+
 /// Gradient of a volume at a continuous voxel position, per mm in patient axes.
 template <class T>
 Eigen::Vector3d sampleGradient(const Volume<T>& volume, const Eigen::Vector3d& voxel,

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -63,6 +64,66 @@ TEST(Sampling, GradientOfALinearFieldIsItsSlopeInPatientAxes)
   const auto v = linearVolume(grid, slope);
   EXPECT_LT((volume::sampleGradient(v, {4.2, 3.3, 5.1}) - slope).norm(), 1e-3);
   EXPECT_LT((volume::sampleGradient(v, {0.0, 8.0, 0.0}) - slope).norm(), 1e-3) << "at the border";
+}
+
+TEST(Sampling, EdgeGradientOfALinearFieldIsItsSlopeInPatientAxes)
+{
+  const Eigen::Matrix3d direction =
+      Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
+  const core::GridGeometry grid({9, 9, 9}, {0.4, 0.5, 1.2}, {10, -20, 30}, direction);
+  const Vector3d slope(3.0, -1.0, 2.0);
+  const auto v = linearVolume(grid, slope);
+  const auto at = [&](const Vector3d& p) { return volume::sampleTrilinear(v, p); };
+  for (const Vector3d& p : {Vector3d(4.2, 3.3, 5.1), Vector3d(0.0, 8.0, 0.3)})
+    EXPECT_LT((volume::edgeGradientInPatient(grid, p, at) - slope).norm(), 1e-3) << p.transpose();
+  const core::GridGeometry slice({9, 9, 1}, Vector3d::Ones(), Vector3d::Zero());
+  const auto flat = linearVolume(slice, slope);
+  EXPECT_LT((volume::edgeGradientInPatient(slice, {4, 4, 0},
+                                           [&](const Vector3d& p)
+                                           { return volume::sampleTrilinear(flat, p); }) -
+             Vector3d(3.0, -1.0, 0.0))
+                .norm(),
+            1e-5);
+}
+
+// A plane border of bone and air, as sharp as a scan has it (a Gaussian of 0.4 voxel): on its
+// isosurface the normal swings as the border goes from voxel to voxel.
+TEST(Sampling, EdgeGradientSwingsHalfAsMuchOnASharpBorder)
+{
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());
+  for (const double tilt : {0.05, 0.15, 0.3})
+  {
+    const Vector3d normal = Vector3d(tilt, 0.6 * tilt, 1.0).normalized();
+    volume::Volume<float> v(grid);
+    for (int k = 0; k < 40; ++k)
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i)
+        {
+          const double d = normal.dot(Vector3d(i, j, k) - Vector3d::Constant(19.7));
+          v.at(i, j, k) =
+              static_cast<float>(-1000.0 + 2800.0 * 0.5 * std::erfc(d / (0.4 * std::sqrt(2.0))));
+        }
+    const auto at = [&](const Vector3d& p) { return volume::sampleTrilinear(v, p); };
+    double central = 0.0;
+    double edges = 0.0;
+    for (double i = 8.0; i < 32.0; i += 0.37)
+      for (double j = 8.0; j < 32.0; j += 0.73)
+      {
+        Vector3d p(i, j, 0.0);
+        double low = 2.0;
+        double high = 37.0;
+        while (high - low > 1e-4)
+        {
+          p.z() = 0.5 * (low + high);
+          (at(p) > 300.0 ? low : high) = p.z();
+        }
+        const auto squaredSine = [&](const Vector3d& gradient)
+        { return gradient.normalized().cross(normal).squaredNorm(); };
+        central += squaredSine(volume::gradientInPatient(grid, p, 1.0, at));
+        edges += squaredSine(volume::edgeGradientInPatient(grid, p, at));
+      }
+    EXPECT_LT(std::sqrt(edges), 0.6 * std::sqrt(central)) << tilt;
+  }
 }
 
 TEST(Volume, SharesTheMemoryItAdopts)

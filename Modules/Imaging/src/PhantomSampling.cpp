@@ -61,11 +61,13 @@ private:
 };
 
 /// Weights of a Gaussian sampled at whole voxels, from -n to n; {1} when it is narrower than a
-/// third of a voxel (partial volume has blurred more than that already).
-std::vector<float> gaussianKernel(double sigma)
+/// third of a voxel (partial volume has blurred more than that already). Partial volume is a
+/// twelfth of a voxel squared more than a voxel's box, which comes off here.
+std::vector<float> gaussianKernel(double width)
 {
-  if (sigma < 1.0 / 3.0)
+  if (width < 1.0 / 3.0)
     return {1.0F};
+  const double sigma = std::sqrt(width * width - 1.0 / 12.0);
   const int n = static_cast<int>(std::ceil(3.0 * sigma));
   std::vector<float> kernel;
   double sum = 0.0;
@@ -233,7 +235,7 @@ volume::Volume<std::int16_t> samplePhantom(const Phantom& phantom, const ScanGri
                                                                settings.modality, stack));
             }
         };
-        BlockVisitor(scene, frame, 0.5 * width, fill).visit(dims, first, last);
+        BlockVisitor(scene, frame, width, fill).visit(dims, first, last);
         std::vector<float> scratch;
         for (int k = first; k < last; ++k)
         {

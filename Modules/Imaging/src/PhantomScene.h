@@ -54,8 +54,17 @@ struct Phantom::Scene
     return stack.base < 0 || layers[static_cast<std::size_t>(stack.base)].mottle <= 0.0;
   }
 
-  /// Each layer covers the share of a span of `width` mm that its signed distance gives, exact
-  /// for one plane border.
+  /// What a plane border's signed distance leaves of a voxel of `width` mm whose sensitivity falls
+  /// linearly to 0 at its neighbours' centres. A box of one voxel instead would leave edges in what
+  /// is sampled, and with them steps on every surface.
+  static double coverage(double distance, double width)
+  {
+    const double t = std::clamp(distance / width, -1.0, 1.0);
+    const double tail = 0.5 * (1.0 - std::abs(t)) * (1.0 - std::abs(t));
+    return t < 0.0 ? 1.0 - tail : tail;
+  }
+
+  /// Each layer covers the share of a voxel of `width` mm that its signed distance gives.
   double look(const shapes::Point& p, double width, Modality modality, const Stack& stack) const
   {
     double value = 0.0;
@@ -63,8 +72,7 @@ struct Phantom::Scene
     for (const std::size_t l : stack.layers)
     {
       const double d = layers[l].shape(p);
-      const double share =
-          width > 0.0 ? std::clamp(0.5 - d / width, 0.0, 1.0) : (d <= 0.0 ? 1.0 : 0.0);
+      const double share = width > 0.0 ? coverage(d, width) : (d <= 0.0 ? 1.0 : 0.0);
       if (share > 0.0)
         value += left * share * intensityAt(layers[l], modality, p);
       left *= 1.0 - share;

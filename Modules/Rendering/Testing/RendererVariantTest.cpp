@@ -138,12 +138,12 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
     double samples;
   };
   const std::vector<Limit> limits{
-      {"opaque", hollowBall(oblique()), slanting(), 24.1, 8.6},
-      {"opaque, near", hollowBall(oblique()), near, 63.3, 24.3},
-      {"translucent", translucentBall(), slanting(), 58.4, 20.9},
-      {"cut", cutBall(), near, 85.0, 25.6},
-      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 64.2, 20.3},
-      {"everything", fullScene(), near, 259.8, 63.9},
+      {"opaque", hollowBall(oblique()), slanting(), 15.0, 6.8},
+      {"opaque, near", hollowBall(oblique()), near, 40.0, 21.3},
+      {"translucent", translucentBall(), slanting(), 36.3, 19.1},
+      {"cut", cutBall(), near, 58.4, 22.8},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 41.8, 18.5},
+      {"everything", fullScene(), near, 187.4, 61.5},
   };
   for (const Limit& limit : limits)
   {

@@ -6,6 +6,7 @@
 #include "OccupancyGrid.h"
 #include "OpticalModel.h"
 #include "RayCastShader.h"
+#include "RayMarchShader.h"
 #include "RayOpticsShader.h"
 #include "RaySceneShader.h"
 #include "petrous/Rendering/ThicknessColor.h"
@@ -92,7 +93,10 @@ std::string rayFragmentShader(const RayFeatures& features)
     if (features.*part.wanted)
       text += std::string("#define ") + part.define + "\n";
   text += constants();
-  return text.append(kRaySceneShader).append(kRayOpticsShader).append(kRayCastShader);
+  return text.append(kRaySceneShader)
+      .append(kRayOpticsShader)
+      .append(kRayMarchShader)
+      .append(kRayCastShader);
 }
 
 } // namespace petrous::rendering

@@ -61,45 +61,67 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
 }
 
 #ifdef PETROUS_INTERIOR
-// Where a ray stands in its tissue's table: the coordinate of the intensity, and the integrals of
-// extinction * colour and of extinction (1/mm) up to there.
+// Where a ray stands in its tissue's table: the entry, and the integrals of extinction * colour and
+// of extinction (1/mm, over entries) up to there.
 struct Reading
 {
-  float u;
+  float entry;
   vec4 integral;
 };
 
-// At the nearest of the table's intensities: a difference of two readings is then exact between them.
-Reading readingOf(int material, float u)
+// What the integral along a ray needs, worked out once.
+struct Gathering
+{
+  float lastEntry; // of the tables
+  float exponent;  // log2 of what is left behind a step of extinction 1/mm
+  float lamp;      // that lights the inside of tissue, near the eye
+  float dimming;   // 1 / steps, with the lamp's falloff
+  float enough;    // transmittance at which a ray ends
+};
+
+Gathering makeGathering()
+{
+  Gathering g;
+  g.lastEntry = float(textureSize(depthTexture, 0).x - 1);
+  g.exponent = -1.44269504 * stepLength * g.lastEntry;
+  g.lamp = light.x * (light.y + (1.0 - light.y) * kInteriorFacing);
+  g.dimming = falloff > 0.0 ? stepLength / falloff : 0.0;
+  g.enough = max(termination, 0.0);
+  return g;
+}
+
+// Integrals up to an entry.
+vec4 integralAt(int material, float entry)
 {
   COUNT(1);
-  float intervals = float(textureSize(depthTexture, 0).x - 1);
-  float x = floor(u * intervals + 0.5);
-  return Reading(x / intervals, texelFetch(depthTexture, ivec2(int(x), material), 0));
+  return texelFetch(depthTexture, ivec2(int(entry), material), 0);
 }
 
-Reading readingAt(int material, vec4 row, float value)
+// The nearest of the table's intensities: a difference of two readings is then exact between them.
+float entryOf(vec4 row, Gathering g, float value)
 {
-  return readingOf(material, clamp((value - row.x) * row.y, 0.0, 1.0));
+  return floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry) + 0.5);
 }
 
-// Adds a stretch of one tissue, over which the intensity goes from the reading's to `value`, to what
-// the ray has gathered. The mean over the intensities in between is a difference of integrals, never
-// over less than a texel.
-void integrate(int material, vec4 row, float from, float to, float value, inout Reading reading,
-               inout vec3 color, inout float transmittance)
+// Adds `steps` of one tissue, round `middle` steps from the lamp, over which the intensity goes from
+// the reading's to `value`, to what the ray has gathered. The mean over the intensities in between is
+// a difference of integrals, never over less than an entry.
+Reading gather(int material, vec4 row, Gathering g, float steps, float middle, float value,
+               Reading reading, inout vec3 color, inout float transmittance)
 {
-  float texel = 1.0 / float(textureSize(depthTexture, 0).x - 1);
-  float u = clamp((value - row.x) * row.y, 0.0, 1.0);
-  if (abs(u - reading.u) < texel)
-    u = reading.u + (reading.u > 0.5 ? -texel : texel);
-  Reading there = readingOf(material, u);
-  vec4 optics = (there.integral - reading.integral) / (there.u - reading.u);
-  reading = there;
-  float opacity = 1.0 - exp(-optics.a * max(to - from, 0.0));
-  float lamp = lightAt(0.5 * (from + to)) * (light.y + (1.0 - light.y) * kInteriorFacing);
-  vec3 shade = clamp(lamp * optics.rgb / max(optics.a, 1e-12), 0.0, 1.0);
+  Reading there;
+  there.entry = entryOf(row, g, value);
+  if (there.entry == reading.entry)
+    there.entry += there.entry > 0.5 * g.lastEntry ? -1.0 : 1.0;
+  there.integral = integralAt(material, there.entry);
+  vec4 rise = there.integral - reading.integral;
+  float run = there.entry - reading.entry;
+  float inverse = 1.0 / max(rise.a * run, 1e-24);
+  float opacity = 1.0 - exp2(rise.a * rise.a * inverse * g.exponent * steps);
+  float dim = middle * g.dimming;
+  vec3 shade = clamp(rise.rgb * (run * inverse * g.lamp / (1.0 + dim * dim)), 0.0, 1.0);
   color += transmittance * opacity * shade;
-  transmittance *= 1.0 - opacity;
+  transmittance -= transmittance * opacity;
+  return there;
 }
 #endif

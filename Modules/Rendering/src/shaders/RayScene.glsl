@@ -109,16 +109,20 @@ const int kMostEvents = 512; // far more than a ray meets before nothing comes t
 const float kOnSurface = 1e-5; // of f: that near to 0 a surface is found
 const int kFalsePositions = 5;
 const float kSummitDoubt = 1.0;
+// Steps from where a wall may hide to where it is looked for.
+const float kFirstAside = 0.08;
+const float kNextAside = 0.16;
+const float kLastAside = 0.35;
 const float kLongSteps = 4.0; // where nothing but the density changes
 
 #ifdef PETROUS_COUNT
 float fetches = 0.0;
 float samples = 0.0;
 #define COUNT(n) fetches += float(n)
-#define SAMPLE samples += 1.0
+#define SAMPLES(n) samples += float(n)
 #else
 #define COUNT(n)
-#define SAMPLE
+#define SAMPLES(n)
 #endif
 
 float ctAt(vec3 v)
@@ -147,15 +151,60 @@ float shareAtLabel(vec3 l)
   return texture(shareTexture, l * labelScale + labelOffset).r;
 }
 
-int indexAt(vec3 v)
+int indexAtLabel(vec3 l)
 {
   COUNT(1);
-  vec3 l = floor(labelPosition(v) + 0.5);
-  if (any(lessThan(l, vec3(0.0))) || any(greaterThan(l, labelUpper)))
+  vec3 voxel = floor(l + 0.5);
+  if (any(lessThan(voxel, vec3(0.0))) || any(greaterThan(voxel, labelUpper)))
     return 0;
-  return int(texelFetch(indexTexture, ivec3(l / labelBlock), 0).r);
+  return int(texelFetch(indexTexture, ivec3(voxel / labelBlock), 0).r);
+}
+
+int indexAt(vec3 v)
+{
+  return indexAtLabel(labelPosition(v));
 }
 #endif
+
+// A ray through a texture: at s steps from where it enters, `from` + s * `by`. Worked out once a ray:
+// a processor that draws reads uniforms anew in every turn of a loop.
+struct Way
+{
+  vec3 from;
+  vec3 by;
+};
+
+vec3 along(Way way, float s)
+{
+  return way.from + s * way.by;
+}
+
+struct Ways
+{
+  Way ct; // texture coordinates
+#ifdef PETROUS_MASK
+  Way mask; // texture coordinates
+#endif
+#ifdef PETROUS_LABELS
+  Way share; // texture coordinates
+  Way label; // voxels of the labels
+#endif
+};
+
+// Of a ray in voxels of the CT.
+Ways waysOf(Way voxel)
+{
+  Ways ways;
+  ways.ct = Way(voxel.from * ctScale + ctOffset, voxel.by * ctScale);
+#ifdef PETROUS_MASK
+  ways.mask = Way(voxel.from * maskScale + maskOffset, voxel.by * maskScale);
+#endif
+#ifdef PETROUS_LABELS
+  ways.label = Way(labelPosition(voxel.from), labelFromVoxel * voxel.by);
+  ways.share = Way(ways.label.from * labelScale + labelOffset, ways.label.by * labelScale);
+#endif
+  return ways;
+}
 
 // What the field is made of at a position.
 struct Operands
@@ -167,11 +216,12 @@ struct Operands
 };
 
 // `plain`: known to be where neither labels nor mask count.
-Operands operandsAt(vec3 v, const bool plain)
+Operands operandsAt(Ways ways, float s, const bool plain)
 {
   Operands at;
 #if defined(PETROUS_BONE) || defined(PETROUS_INTERIOR)
-  at.value = ctAt(v);
+  COUNT(1);
+  at.value = texture(ctTexture, along(ways.ct, s)).r * ctUnit;
 #else
   at.value = 0.0;
 #endif
@@ -184,16 +234,22 @@ Operands operandsAt(vec3 v, const bool plain)
   at.left = 1.0;
 #ifdef PETROUS_LABELS
   if (!plain)
-    at.share = shareAtLabel(labelPosition(v));
+  {
+    COUNT(1);
+    at.share = texture(shareTexture, along(ways.share, s)).r;
+  }
 #endif
 #ifdef PETROUS_MASK
   if (!plain)
-    at.left = maskAt(v);
+  {
+    COUNT(1);
+    at.left = texture(maskTexture, along(ways.mask, s)).r;
+  }
 #endif
   return at;
 }
 
-int stateOf(Operands at, vec3 v, const bool plain)
+int stateOf(Operands at, Ways ways, float s, const bool plain)
 {
   float f = min(max(at.ct, at.share - 0.5), at.left - 0.5);
   // Written so that a value that is no number is air.
@@ -201,7 +257,7 @@ int stateOf(Operands at, vec3 v, const bool plain)
     return kAir;
 #if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
   if (!plain && at.share > 0.5)
-    return kStructure + indexAt(v);
+    return kStructure + indexAtLabel(along(ways.label, s));
 #endif
   return kBone;
 }

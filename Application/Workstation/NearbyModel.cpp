@@ -79,8 +79,11 @@ QString noteOf(const NearbyStructure& structure)
     notes += NearbyModel::tr("touched");
   else if (structure.state == State::Warned)
     notes += NearbyModel::tr("within %1 mm").arg(structure.warning, 0, 'f', 1);
+  else if (!(structure.distance > 0.0)) // a lumen
+    notes += NearbyModel::tr("open");
   if (structure.injured > 0.0)
-    notes += NearbyModel::tr("injured, %1 mm³ taken").arg(structure.injured, 0, 'f', 2);
+    notes += NearbyModel::tr("injured, %1 taken")
+                 .arg(words(presenters::cubicMillimetres(structure.injured)));
   if (structure.uncertainty.incomplete())
     notes += NearbyModel::tr("registration's error unknown");
   return notes.isEmpty() ? NearbyModel::tr("clear") : notes.join(", ");

@@ -87,7 +87,9 @@ void NearbyPanel::showRemoved()
                      .arg(strokes)
                      .arg(strokes == 1 ? tr("stroke") : tr("strokes"));
   for (const auto& [name, volume] : presenters::injuredVolumes(value, open))
-    text += tr("\nInjured: %1, %2 mm³").arg(words(name).replace('_', ' ')).arg(volume, 0, 'f', 2);
+    text += tr("\nInjured: %1, %2")
+                .arg(words(name).replace('_', ' '))
+                .arg(words(presenters::cubicMillimetres(volume)));
   m_removed->setText(text);
 }
 

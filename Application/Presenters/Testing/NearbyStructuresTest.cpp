@@ -124,6 +124,28 @@ TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
   EXPECT_EQ(injuredVolumes(value).size(), 1U) << "the third stroke is undone";
 }
 
+TEST(NearbyStructures, ALumenIsOpenedAndNotInjured)
+{
+  scene::Case value = balls();
+  appearance::StructureLook& look = value.labels[0].structures[1].look;
+  look.solid = false;
+  value.strokes = {stroke("carotid", 0.5), stroke("facial_nerve", 0.001)};
+  value.history = dissection::History::line(2, 2);
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const auto within = [&] { return nearby.around(value, kVessel, 1.0, 50.0); };
+  ASSERT_EQ(within().front().name, "carotid");
+  EXPECT_EQ(within().front().state, State::Clear);
+  EXPECT_EQ(within().front().injured, 0.0);
+  EXPECT_EQ(injuredVolumes(value), (std::map<std::string, double>{{"facial_nerve", 0.001}}));
+  const std::string warnings = warningsOf(within());
+  EXPECT_EQ(warnings.find("carotid"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("injured, under 0.01 mm³"), std::string::npos) << warnings;
+  look.warning = 1.0; // somebody wants to know
+  EXPECT_EQ(within().front().state, State::Touched);
+  EXPECT_NE(warningsOf(within()).find("carotid touched"), std::string::npos);
+}
+
 TEST(NearbyStructures, AreThereAfterAWhile)
 {
   const scene::Case value = balls();

@@ -28,7 +28,22 @@ bool shown(const scene::Case& value, const std::string& name)
   return look && look->shown;
 }
 
+// A lumen is opened, not injured, and nearness to it is told only where a distance was asked for.
+bool lumen(const appearance::StructureLook* look)
+{
+  return look && !look->solid;
+}
+
 } // namespace
+
+std::string cubicMillimetres(double volume)
+{
+  if (volume > 0.0 && volume < 0.005)
+    return "under 0.01 mm³";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f mm³", volume);
+  return text;
+}
 
 std::string inWords(const NearbyStructure& structure)
 {
@@ -61,10 +76,8 @@ std::string warningsOf(const std::vector<NearbyStructure>& structures)
   for (std::size_t n = 0; n < std::min(worst.size(), kMostWarnings); ++n)
   {
     text += (text.empty() ? "" : "\n") + inWords(*worst[n]);
-    char injured[40];
-    std::snprintf(injured, sizeof injured, "; injured, %.2f mm³", worst[n]->injured);
     if (worst[n]->injured > 0.0)
-      text += injured;
+      text += "; injured, " + cubicMillimetres(worst[n]->injured);
   }
   if (worst.size() > kMostWarnings)
     text += "\nand " + std::to_string(worst.size() - kMostWarnings) + " more";
@@ -79,6 +92,8 @@ std::map<std::string, double> injuredVolumes(const scene::Case& value,
     volumes[touched.name] = touched.volume;
   for (const auto& touched : open.structures)
     volumes[touched.name] += touched.volume;
+  for (auto at = volumes.begin(); at != volumes.end();)
+    at = lumen(lookOf(value, at->first)) ? volumes.erase(at) : std::next(at);
   return volumes;
 }
 
@@ -140,9 +155,10 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
     structure.color = look->color;
     structure.uncertainty = surfaces.uncertainty(n);
     structure.warning = look->warning;
-    structure.state = away <= radius                       ? NearbyStructure::State::Touched
-                      : structure.distance < look->warning ? NearbyStructure::State::Warned
-                                                           : NearbyStructure::State::Clear;
+    structure.state = lumen(look) && !(look->warning > 0.0) ? NearbyStructure::State::Clear
+                      : away <= radius                      ? NearbyStructure::State::Touched
+                      : structure.distance < look->warning  ? NearbyStructure::State::Warned
+                                                            : NearbyStructure::State::Clear;
     near.push_back(std::move(structure));
   }
   std::sort(near.begin(), near.end(),

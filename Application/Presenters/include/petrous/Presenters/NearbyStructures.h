@@ -20,7 +20,7 @@ struct NearbyStructure
   {
     Clear,
     Warned, ///< the burr is nearer than the structure's warning distance
-    Touched ///< the burr reaches it
+    Touched ///< the burr reaches it; never of a lumen without a warning distance
   };
 
   std::string name;
@@ -41,7 +41,11 @@ std::string inWords(const NearbyStructure& structure);
 std::string warningsOf(const std::vector<NearbyStructure>& structures);
 constexpr std::size_t kMostWarnings = 3;
 
-/// What the strokes that are done, and `open`, have taken of each structure, mm^3.
+/// "0.72 mm³", "under 0.01 mm³".
+std::string cubicMillimetres(double volume);
+
+/// What the strokes that are done, and `open`, have taken of each structure, mm^3. Lumens are left
+/// out: an air cell is opened, not injured.
 std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open = {});
 

@@ -38,7 +38,7 @@ std::vector<Setting> settings()
 {
   return {
       {"step_voxels",
-       {2.0, 1.0, 0.7, 0.5, 0.38, 0.25, 0.125},
+       {2.0, 1.0, 0.7, 0.5, 0.4, 0.33, 0.25, 0.125},
        [](RenderQuality& q) -> double& { return q.step; },
        {}},
       {"bisections",

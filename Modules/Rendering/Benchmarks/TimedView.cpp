@@ -81,16 +81,16 @@ double TimedView::frame(bool readBack)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-TimedView::Timing TimedView::time(int frames, bool readBack)
+TimedView::Timing TimedView::time(int frames, double enough)
 {
   Timing timing;
-  timing.first = frame(readBack);
+  timing.first = frame();
   std::vector<double> seconds;
   double sum = 0.0;
-  while (static_cast<int>(seconds.size()) < frames ||
+  while ((static_cast<int>(seconds.size()) < frames && sum < enough) ||
          (frames > 0 && sum < kFill && seconds.size() < kMostFrames))
   {
-    seconds.push_back(frame(readBack));
+    seconds.push_back(frame());
     sum += seconds.back();
   }
   timing.frames = static_cast<int>(seconds.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -39,9 +40,9 @@ public:
   /// otherwise only the end of the drawing is waited for. Seconds.
   double frame(bool readBack = true);
 
-  /// The first frame of what is shown and the median of at least `frames` more: fast ones go on
-  /// until half a second is full. 0: the first alone.
-  Timing time(int frames, bool readBack = true);
+  /// The first frame of what is shown and the median of `frames` more: fast ones go on until half
+  /// a second is full, slow ones end once `enough` seconds are. 0: the first alone.
+  Timing time(int frames, double enough = std::numeric_limits<double>::infinity());
 
   Picture picture() const; ///< the last frame that was read back
 

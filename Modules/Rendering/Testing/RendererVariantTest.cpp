@@ -138,12 +138,12 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
     double samples;
   };
   const std::vector<Limit> limits{
-      {"opaque", hollowBall(oblique()), slanting(), 15.0, 6.8},
-      {"opaque, near", hollowBall(oblique()), near, 40.0, 21.3},
-      {"translucent", translucentBall(), slanting(), 36.3, 19.1},
-      {"cut", cutBall(), near, 58.4, 22.8},
-      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 41.8, 18.5},
-      {"everything", fullScene(), near, 187.4, 61.5},
+      {"opaque", hollowBall(oblique()), slanting(), 15.9, 7.7},
+      {"opaque, near", hollowBall(oblique()), near, 42.8, 24.2},
+      {"translucent", translucentBall(), slanting(), 39.3, 21.5},
+      {"cut", cutBall(), near, 63.3, 25.9},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 45.3, 20.9},
+      {"everything", fullScene(), near, 206.1, 69.6},
   };
   for (const Limit& limit : limits)
   {

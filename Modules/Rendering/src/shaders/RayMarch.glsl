@@ -162,7 +162,7 @@ int seek(inout Ray ray, out Run run, const bool plain)
 
 // The samples of a run, until the state changes. Two a turn, which do not wait for each other; where
 // both stay in the state, tissue is gathered over both at once. A place where a wall may hide is looked
-// at on both sides, three times, before the next two. `from`: where bricks of this kind begin.
+// at on both sides, five times, before the next two. `from`: where bricks of this kind begin.
 int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 {
   bool inAir = ray.state == kAir;

@@ -110,9 +110,9 @@ const float kOnSurface = 1e-5; // of f: that near to 0 a surface is found
 const int kFalsePositions = 5;
 const float kSummitDoubt = 1.0;
 // Steps from where a wall may hide to where it is looked for.
-const float kFirstAside = 0.08;
-const float kNextAside = 0.16;
-const float kLastAside = 0.35;
+const float kFirstAside = 0.05;
+const float kNextAside = 0.1;
+const float kLastAside = 0.44;
 const float kLongSteps = 4.0; // where nothing but the density changes
 
 #ifdef PETROUS_COUNT

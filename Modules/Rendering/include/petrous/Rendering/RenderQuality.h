@@ -12,7 +12,7 @@ namespace petrous::rendering
 /// Documentation/benchmarks argues for.
 struct RenderQuality
 {
-  double step = 0.38;         ///< between samples, in smallest spacings of the CT, 0.05 to 100
+  double step = 0.33;         ///< between samples, in smallest spacings of the CT, 0.05 to 100
   int bisections = 8;         ///< of a step, where false position fails; 0 to 24
   int brick = 4;              ///< edge of a brick that can be skipped, voxels: 4, 8 or 16
   double termination = 0.002; ///< a ray ends when less of what is behind comes through; 0 to 1

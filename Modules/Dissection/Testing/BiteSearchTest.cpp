@@ -251,8 +251,8 @@ TEST(BiteSearch, ABiteOfNextToNothingHasItsWork)
     const Vector3d into = Vector3d(unit(random), unit(random), unit(random)).normalized();
     const double depth = 0.01 * std::pow(10.0, -2.0 * std::abs(unit(random)));
     const Vector3d place = Vector3d(0.0, 0.0, kRadius - 1.0) + 1e-3 * unit(random) * into;
-    BiteSearch fresh(bone.tissue, bone.resistance, {}, kRadius);
-    const auto bite = fresh.find(bone.mask, {place, into, 1e6, depth});
+    bone.search.forget();
+    const auto bite = bone.search.find(bone.mask, {place, into, 1e6, depth});
     if (!bite || !(bite->volume > 0.0))
       continue;
     ++taken;

@@ -129,6 +129,54 @@ TEST(StructurePicture, BlendsATranslucentStructureWithWhatLiesBehindIt)
   EXPECT_NEAR(half, 0.5 * opaque + 0.5 * 255.0 * optics::kBackground[2], 1.0);
 }
 
+// A vessel that runs through a tumour: it takes the tumour's voxels, and the two touch.
+TEST(StructurePicture, LightsAStructureInsideATranslucentOne)
+{
+  const core::GridGeometry grid = cube(48, 0.5);
+  SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+  contents.labels = labelField(
+      grid, [](const Vector& p) { return 9.0 - p.norm(); },
+      [](const Vector& p) { return p.norm() < 4.0 ? 2 : 1; });
+  contents.materials.push_back(red(0.2F));
+  contents.materials[1].transfer =
+      appearance::TransferFunction::constant({0.8F, 0.1F, 0.1F}, 0.02F);
+  contents.materials.push_back(blue());
+  const core::CameraPose pose = slanting();
+  const Shot shot = shoot(contents, pose);
+  const ReferencePicture truth = truthOf(contents, pose);
+  // First hits are the tumour's everywhere. What a ray meets behind it tells by colour: the corner
+  // of a voxel that it clips for less than a step may be passed over.
+  const Agreement first = compare(shot, truth, grid.minSpacing());
+  EXPECT_LE(first.others, 0.2);
+  EXPECT_LE(first.median, 0.05);
+  int others = 0;
+  double squares = 0.0;
+  for (std::size_t n = 0; n < truth.rgb.size(); n += 3)
+  {
+    double farthest = 0.0;
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      const double off = shot.picture.rgb[n + c] - 255.0 * double{truth.rgb[n + c]};
+      farthest = std::max(farthest, std::abs(off));
+      sum += off * off;
+    }
+    const bool agrees = farthest < 10.0;
+    others += agrees ? 0 : 1;
+    squares += agrees ? sum : 0.0;
+  }
+  EXPECT_LE(100.0 * others / (kWidth * kHeight), 0.2);
+  EXPECT_LE(std::sqrt(squares / (3.0 * std::max(first.hits, 1))), 1.0);
+  // Lit as a ball is: less at its rim than in its middle, and opaque from its surface on.
+  const auto blueAt = [&](const Picture& picture, int aside)
+  { return picture.pixel(kWidth / 2 + aside, kHeight / 2)[2]; };
+  for (const Picture& picture : {shot.picture, truth.picture})
+  {
+    EXPECT_GT(blueAt(picture, 0), 120);
+    EXPECT_LT(blueAt(picture, 15), blueAt(picture, 0) - 20);
+  }
+}
+
 TEST(StructurePicture, DrawsOneOfTwoHundredAndFiftyFiveStructures)
 {
   const core::GridGeometry grid = cube(48, 0.5);

@@ -87,9 +87,12 @@ double TissueOptics::shareAt(const Eigen::Vector3d& patient) const
 
 std::size_t TissueOptics::indexAt(const Eigen::Vector3d& patient) const
 {
-  if (!m_index)
-    return 0;
-  const Eigen::Vector3d voxel = m_index->geometry().voxelFromPatient(patient);
+  return m_index ? indexOfVoxel(m_index->geometry().voxelFromPatient(patient)) : 0;
+}
+
+// Of the voxel nearest to a position; 0 beyond the grid.
+std::size_t TissueOptics::indexOfVoxel(const Eigen::Vector3d& voxel) const
+{
   core::Index3 nearest{};
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -114,7 +117,7 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
 
 bool TissueOptics::isSurface(State from, State to)
 {
-  return from != to && (from == kAir || (from == kBone && to != kAir));
+  return from != to && to != kAir && (from == kAir || to > kBone);
 }
 
 const appearance::Material& TissueOptics::materialOf(State state) const
@@ -145,6 +148,30 @@ Eigen::Vector3d TissueOptics::shareNormal(const Eigen::Vector3d& patient) const
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }
 
+// Out of a structure: against the gradient of how much round a place belongs to it, voxels weighted
+// by quadratic B-splines.
+Eigen::Vector3d TissueOptics::borderNormal(const Eigen::Vector3d& patient, std::size_t index) const
+{
+  const core::GridGeometry& grid = m_index->geometry();
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  const Eigen::Vector3d nearest = (voxel.array() + 0.5).floor();
+  const Eigen::Vector3d d = voxel - nearest;
+  const auto weight = [&d](int axis, int step)
+  { return step == 0 ? 0.75 - d[axis] * d[axis] : 0.5 * std::pow(0.5 + step * d[axis], 2.0); };
+  const auto change = [&d](int axis, int step)
+  { return step == 0 ? -2.0 * d[axis] : step * (0.5 + step * d[axis]); };
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // per voxel
+  for (int k = -1; k <= 1; ++k)
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if (indexOfVoxel(nearest + Eigen::Vector3d(i, j, k)) == index)
+          slope += Eigen::Vector3d(change(0, i) * weight(1, j) * weight(2, k),
+                                   weight(0, i) * change(1, j) * weight(2, k),
+                                   weight(0, i) * weight(1, j) * change(2, k));
+  slope = grid.voxelFromPatientLinear().transpose() * slope;
+  return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
+}
+
 // The colour in place of bone's own.
 std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector3d& patient) const
 {
@@ -162,7 +189,8 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
                                               const std::optional<Eigen::Vector3d>& face) const
 {
   const Eigen::Vector3d point = ray.origin + t * ray.direction;
-  const appearance::Material& material = surfaceMaterial(point);
+  const bool between = from > kBone && to > kBone;
+  const appearance::Material& material = between ? materialOf(to) : surfaceMaterial(point);
   Eigen::Vector3d normal;
   Eigen::Vector3d below = point;
   if (face)
@@ -170,9 +198,10 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   else
   {
     const bool smooth = double{material.surfaceOpacity} >= optics::kSmoothOpacity;
-    normal = from == kBone && to > kBone ? shareNormal(point)
-             : smooth                    ? m_field.smoothNormal(point)
-                                         : m_field.normal(point);
+    normal = between ? borderNormal(point, static_cast<std::size_t>(to - kBone - 1))
+             : from == kBone && to > kBone ? shareNormal(point)
+             : smooth                      ? m_field.smoothNormal(point)
+                                           : m_field.normal(point);
     below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;
   }
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;

@@ -61,9 +61,11 @@ public:
 private:
   double shareAt(const Eigen::Vector3d& patient) const;
   std::size_t indexAt(const Eigen::Vector3d& patient) const;
+  std::size_t indexOfVoxel(const Eigen::Vector3d& voxel) const;
   const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient) const;
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d shareNormal(const Eigen::Vector3d& patient) const;
+  Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;
 
   std::shared_ptr<const volume::IntensityVolume> m_ct;
   std::shared_ptr<const volume::Volume<float>> m_share;

@@ -110,10 +110,12 @@ float changePoint(inout Ray ray)
   return bracket.hit;
 }
 
-// The material of a surface at a position.
-int materialAt(vec3 v, Operands at, int next)
+// The material of a surface at a position, on the way from one state to the next.
+int materialAt(vec3 v, Operands at, int state, int next)
 {
 #ifdef PETROUS_LABELS
+  if (state >= kStructure)
+    return next - kStructure;
   int index = indexAt(v);
   COUNT(1);
   bool lumen = texelFetch(materialTexture, ivec2(1, index), 0).x > 0.5;
@@ -137,13 +139,24 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   Operands at = ray.at;
   vec3 slopeMm = vec3(0.0);
   float along = 0.0;
+#if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
+  bool between = ray.state >= kStructure; // two structures
+  vec3 borderSlope = indexGradient(labelPosition(v), ray.material, between);
+  if (between)
+  {
+    slopeMm = normalFromLabel * borderSlope;
+    along = dot(borderSlope, labelFromVoxel * ray.direction);
+  }
+#else
+  const bool between = false;
+#endif
 #ifdef PETROUS_LABELS
-  bool byLabel = ray.state == kBone || at.share - 0.5 > at.ct;
+  bool byLabel = !between && (ray.state == kBone || at.share - 0.5 > at.ct);
 #else
   const bool byLabel = false;
 #endif
 #ifdef PETROUS_MASK
-  bool byMask = ray.state != kBone && at.left - 0.5 < max(at.ct, at.share - 0.5);
+  bool byMask = !between && ray.state != kBone && at.left - 0.5 < max(at.ct, at.share - 0.5);
 #else
   const bool byMask = false;
 #endif
@@ -164,7 +177,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
     along = dot(maskSlope, ray.direction);
   }
 #endif
-  bool ofCt = !byMask && !byLabel;
+  bool ofCt = !between && !byMask && !byLabel;
   vec3 ctSlope = ctGradient(v, ofCt, ray.row.z >= kSmoothOpacity);
   if (ofCt)
   {
@@ -206,9 +219,9 @@ bool goOn(inout Ray ray, bool face, float facing, inout float depth)
   if (ray.state != kAir)
     passTissue(ray, hit, ray.at.value);
 #endif
-  if (ray.next != kAir && (ray.state == kAir || (ray.state == kBone && ray.next >= kStructure)))
+  if (ray.next != kAir && (ray.state == kAir || ray.next >= kStructure))
   {
-    setMaterial(ray, materialAt(v, ray.at, ray.next));
+    setMaterial(ray, materialAt(v, ray.at, ray.state, ray.next));
     shade(ray, v, mmOf(ray, hit), face ? facing : -1.0);
     if (depth < 0.0)
       depth = mmOf(ray, hit);

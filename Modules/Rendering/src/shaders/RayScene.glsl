@@ -307,6 +307,28 @@ GRADIENT(maskGradient, maskAt, hullUpper)
 #endif
 #ifdef PETROUS_LABELS
 GRADIENT(shareGradient, shareAtLabel, labelUpper)
+#ifdef PETROUS_INTERIOR
+// Of how much belongs to a structure round a position, voxels weighted by quadratic B-splines.
+vec3 indexGradient(vec3 l, int index, bool wanted)
+{
+  vec3 nearest = floor(l + 0.5);
+  vec3 d = l - nearest;
+  vec3 slope = vec3(0.0);
+  int turns = wanted ? 27 : 0;
+  for (int i = 0; i < turns; ++i)
+  {
+    vec3 step = vec3(ivec3(i, i / 3, i / 9) % 3 - 1);
+    if (indexAtLabel(nearest + step) != index)
+      continue;
+    vec3 outer = 0.5 + step * d;
+    bvec3 middle = equal(step, vec3(0.0));
+    vec3 weight = mix(0.5 * outer * outer, 0.75 - d * d, middle);
+    vec3 change = mix(step * outer, -2.0 * d, middle);
+    slope += change * weight.yzx * weight.zxy;
+  }
+  return slope;
+}
+#endif
 #endif
 
 // Where the ray enters the part of the volume that is drawn, where it leaves, and how the face that

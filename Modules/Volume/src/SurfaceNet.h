@@ -38,8 +38,9 @@ public:
   /// or line fitted to it, a voxel in a gap of which may come to lie inside.
   void writeShare(Volume<float>& share, const core::Progress& progress) const;
 
-  /// Distance that makes a share of one.
-  static constexpr float kShareReach = 3.0F;
+  /// Voxels from a share of nothing to one: 2 sqrt(3), so that on equal voxels the share falls as a
+  /// cut's mask does, and a mask that keeps a structure leaves all of it (SweptSphereCut.h).
+  static constexpr float kShareReach = 3.4641016F;
 
 private:
   struct Vector

@@ -63,7 +63,7 @@ void CaseKeeper::open(const QString& what)
   std::error_code error;
   try
   {
-    if (fs::exists(path, error))
+    if (!presenters::namesCase(m_model.library(), bytes(what)) && fs::exists(path, error))
       openPath(path);
     else
       openCase(bytes(what));

@@ -92,4 +92,11 @@ std::string freeCaseName(const library::Library& library, const std::string& nam
   return free;
 }
 
+bool namesCase(const library::Library& library, const std::string& text)
+{
+  const auto cases = library.list();
+  return std::any_of(cases.begin(), cases.end(),
+                     [&text](const library::CaseSummary& one) { return one.name == text; });
+}
+
 } // namespace petrous::presenters

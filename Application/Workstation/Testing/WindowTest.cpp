@@ -3,6 +3,7 @@
 #include <QAbstractItemModelTester>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QTemporaryDir>
 #include <QTreeView>
 
 #include "SliceView.h"
@@ -52,6 +53,19 @@ TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)
   window().begin("nobody");
   EXPECT_TRUE(text.contains("no case 'nobody'")) << text.toStdString();
   EXPECT_FALSE(text.contains('\n'));
+}
+
+TEST_F(Window, ACaseIsOpenedThoughAFolderHereHasItsName)
+{
+  saveBall("ball");
+  const std::filesystem::path before = std::filesystem::current_path();
+  const QTemporaryDir here;
+  std::filesystem::current_path(here.path().toStdString());
+  std::filesystem::create_directory("ball");
+  openWindow("ball");
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(window().model().hasCase());
+  EXPECT_FALSE(window().importing());
 }
 
 TEST_F(Window, ADragTurnsThePatientAndAWheelZooms)

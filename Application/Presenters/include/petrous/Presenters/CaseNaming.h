@@ -15,4 +15,7 @@ std::string caseNameFrom(const std::filesystem::path& source);
 /// `name`, or "name 2", "name 3", ... when the library has one of that name.
 std::string freeCaseName(const library::Library& library, const std::string& name);
 
+/// Whether the library has a case of that name; false too for what is no name, as a path.
+bool namesCase(const library::Library& library, const std::string& text);
+
 } // namespace petrous::presenters

@@ -18,8 +18,8 @@ struct ResampledLabels
 
 /// Brings labels of several grids onto the finest, over all of them.
 ///
-/// Each grid has its smoothed share S, by the voxels of that grid as if it were alone. At a voxel of
-/// the common grid
+/// Each grid has its smoothed share S, by the voxels of that grid as if it were alone. At a voxel
+/// of the common grid
 ///
 ///   share = max over the grids of S
 ///

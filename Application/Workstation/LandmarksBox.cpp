@@ -7,20 +7,10 @@
 #include <QVBoxLayout>
 
 #include "LandmarkModel.h"
+#include "PanelButton.h"
 
 namespace petrous::workstation
 {
-
-namespace
-{
-QPushButton* button(const QString& text, const char* name, const QString& tip)
-{
-  auto* result = new QPushButton(text);
-  result->setObjectName(name);
-  result->setToolTip(tip);
-  return result;
-}
-} // namespace
 
 LandmarksBox::LandmarksBox(presenters::RegistrationSession& session, QWidget* parent)
   : QWidget(parent)

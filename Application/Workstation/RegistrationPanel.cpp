@@ -18,6 +18,7 @@
 #include "ImportJob.h"
 #include "LandmarksBox.h"
 #include "MetricCurve.h"
+#include "PanelButton.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -56,14 +57,6 @@ QString stateStyle(const scene::ImagePart* mr)
   const bool good = mr && mr->registered && mr->registration &&
                     mr->registration->verdict == scene::Registration::Verdict::Good;
   return mr && mr->registered && !good ? "color: #ffb454;" : QString();
-}
-
-QPushButton* button(const QString& text, const char* name, const QString& tip)
-{
-  auto* result = new QPushButton(text);
-  result->setObjectName(name);
-  result->setToolTip(tip);
-  return result;
 }
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)

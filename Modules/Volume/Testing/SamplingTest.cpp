@@ -23,6 +23,13 @@ volume::Volume<float> linearVolume(const core::GridGeometry& grid, const Vector3
   return v;
 }
 
+core::GridGeometry oblique()
+{
+  const Eigen::Matrix3d direction =
+      Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
+  return {{9, 9, 9}, {0.4, 0.5, 1.2}, {10, -20, 30}, direction};
+}
+
 } // namespace
 
 TEST(Sampling, IsExactOnATrilinearFunction)
@@ -57,9 +64,7 @@ TEST(Sampling, ReachesTheLastVoxelAndClampsBeyond)
 
 TEST(Sampling, GradientOfALinearFieldIsItsSlopeInPatientAxes)
 {
-  const Eigen::Matrix3d direction =
-      Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
-  const core::GridGeometry grid({9, 9, 9}, {0.4, 0.5, 1.2}, {10, -20, 30}, direction);
+  const core::GridGeometry grid = oblique();
   const Vector3d slope(3.0, -1.0, 2.0);
   const auto v = linearVolume(grid, slope);
   EXPECT_LT((volume::sampleGradient(v, {4.2, 3.3, 5.1}) - slope).norm(), 1e-3);
@@ -68,9 +73,7 @@ TEST(Sampling, GradientOfALinearFieldIsItsSlopeInPatientAxes)
 
 TEST(Sampling, EdgeGradientOfALinearFieldIsItsSlopeInPatientAxes)
 {
-  const Eigen::Matrix3d direction =
-      Eigen::AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).toRotationMatrix();
-  const core::GridGeometry grid({9, 9, 9}, {0.4, 0.5, 1.2}, {10, -20, 30}, direction);
+  const core::GridGeometry grid = oblique();
   const Vector3d slope(3.0, -1.0, 2.0);
   const auto v = linearVolume(grid, slope);
   const auto at = [&](const Vector3d& p) { return volume::sampleTrilinear(v, p); };

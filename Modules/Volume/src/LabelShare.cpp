@@ -68,9 +68,8 @@ std::shared_ptr<Volume<float>> smoothRanks(const LabelRanks& ranks, const LabelO
 {
   const core::IndexBox box = grown(ranks.box, kLabelMargin);
   const core::GridGeometry geometry = gridOf(ranks.geometry(), box);
-  auto field = makeZeroVolume<float>(geometry);
   if (!ranks.hasSolid)
-    return field;
+    return makeZeroVolume<float>(geometry);
   const auto inside = makeZeroVolume<std::uint8_t>(geometry);
   const core::IndexBox full = ranks.geometry().fullBox();
   const auto fillTile = [&](const core::Index3&, const core::IndexBox& tile)
@@ -89,10 +88,7 @@ std::shared_ptr<Volume<float>> smoothRanks(const LabelRanks& ranks, const LabelO
       }
   };
   forEachTile(geometry.dims(), progress.part(0.0, 0.1), "smoothing structures", fillTile);
-  SurfaceNet net(*inside, progress);
-  net.relax(progress.part(0.1, 0.7));
-  net.writeShare(*field, progress.part(0.7, 1.0));
-  return field;
+  return smoothedShare(*inside, progress.part(0.1, 1.0));
 }
 
 } // namespace petrous::volume

@@ -62,15 +62,9 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
   if (box.empty())
     return nullptr;
 
-  const core::GridGeometry& grid = labels.voxels->geometry();
   const core::Index3 size = box.size();
   // May reach beyond the label grid, so that a structure cut off by its border is closed there.
-  const core::GridGeometry geometry(
-      {size[0] + 2 * kLabelMargin, size[1] + 2 * kLabelMargin, size[2] + 2 * kLabelMargin},
-      grid.spacing(),
-      grid.patientFromVoxel(Eigen::Vector3d(
-          box.lower[0] - kLabelMargin, box.lower[1] - kLabelMargin, box.lower[2] - kLabelMargin)),
-      grid.direction());
+  const core::GridGeometry geometry = gridOf(labels.voxels->geometry(), grown(box, kLabelMargin));
   const auto inside = makeZeroVolume<std::uint8_t>(geometry);
   for (int k = 0; k < size[2]; ++k)
     for (int j = 0; j < size[1]; ++j)
@@ -81,11 +75,7 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
       for (int i = 0; i < size[0]; ++i)
         row[i] = table[labelRow[i]] ? 1 : 0;
     }
-  auto field = makeZeroVolume<float>(geometry);
-  SurfaceNet net(*inside, {});
-  net.relax({});
-  net.writeShare(*field, {});
-  return field;
+  return smoothedShare(*inside, {});
 }
 
 } // namespace petrous::volume

@@ -27,6 +27,11 @@ constexpr float kSmooth = 0.98F; // of two with none
 constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 
+Eigen::Vector3f toFloat(const core::Index3& index)
+{
+  return toVector(index).cast<float>();
+}
+
 template <class Body>
 void forEachPoint(std::size_t count, const Body& body)
 {
@@ -40,27 +45,15 @@ void forEachPoint(std::size_t count, const Body& body)
 
 } // namespace
 
-namespace
+float SurfaceNet::shareOf(double depth) noexcept
 {
-float plus(float a, float b)
-{
-  return a + b;
+  return quantisedShare(std::clamp(0.5 + depth / double{kShareReach}, 0.0, 1.0));
 }
-float times(float scale, float a)
+
+double SurfaceNet::depthOf(float share) noexcept
 {
-  return scale * a;
+  return (double{share} - 0.5) * double{kShareReach};
 }
-template <class V>
-V plus(const V& a, const V& b)
-{
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class V>
-V times(float scale, const V& a)
-{
-  return {scale * a.x, scale * a.y, scale * a.z};
-}
-} // namespace
 
 SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress)
   : m_inside(inside)
@@ -119,22 +112,15 @@ void SurfaceNet::findPoints(const core::Progress& progress)
                [this](std::size_t n)
                {
                  const Point& point = m_points[n];
-                 Vector sum;
+                 Eigen::Vector3f sum = Eigen::Vector3f::Zero();
                  int passed = 0;
                  for (const auto& edge : kEdges)
                    if ((point.corners >> edge[0] & 1) != (point.corners >> edge[1] & 1))
                    {
-                     const core::Index3 a = cornerOf(edge[0]);
-                     const core::Index3 b = cornerOf(edge[1]);
-                     sum.x += 0.5F * static_cast<float>(a[0] + b[0]);
-                     sum.y += 0.5F * static_cast<float>(a[1] + b[1]);
-                     sum.z += 0.5F * static_cast<float>(a[2] + b[2]);
+                     sum += 0.5F * (toFloat(cornerOf(edge[0])) + toFloat(cornerOf(edge[1])));
                      ++passed;
                    }
-                 const float scale = 1.0F / static_cast<float>(passed);
-                 m_positions[n] = {static_cast<float>(point.cell[0]) + scale * sum.x,
-                                   static_cast<float>(point.cell[1]) + scale * sum.y,
-                                   static_cast<float>(point.cell[2]) + scale * sum.z};
+                 m_positions[n] = toFloat(point.cell) + sum / static_cast<float>(passed);
                });
 }
 
@@ -172,7 +158,7 @@ void SurfaceNet::findNormals()
       [this](std::size_t n)
       {
         const Point& point = m_points[n];
-        Vector sum;
+        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
         for (int e = 0; e < 12; ++e)
         {
           const int low = kEdges[e][0];
@@ -186,36 +172,27 @@ void SurfaceNet::findNormals()
           const core::Index3 corner = cornerOf(low);
           base[u] += corner[u] - 1;
           base[v] += corner[v] - 1;
-          const auto at = [&](int du, int dv) -> const Vector&
+          const auto at = [&](int du, int dv) -> const Eigen::Vector3f&
           {
             core::Index3 cell = base;
             cell[u] += du;
             cell[v] += dv;
             return m_positions[static_cast<std::size_t>(pointAt(cell[0], cell[1], cell[2]))];
           };
-          const Vector& a = at(0, 0);
-          const Vector& b = at(1, 0);
-          const Vector& c = at(1, 1);
-          const Vector& d = at(0, 1);
-          const Vector p{c.x - a.x, c.y - a.y, c.z - a.z};
-          const Vector q{d.x - b.x, d.y - b.y, d.z - b.z};
-          const float sign = lowInside ? 1.0F : -1.0F;
-          sum.x += sign * (p.y * q.z - p.z * q.y);
-          sum.y += sign * (p.z * q.x - p.x * q.z);
-          sum.z += sign * (p.x * q.y - p.y * q.x);
+          const Eigen::Vector3f quadrangle =
+              (at(1, 1) - at(0, 0)).cross(at(0, 1) - at(1, 0)); // of its diagonals
+          sum += lowInside ? quadrangle : Eigen::Vector3f(-quadrangle);
         }
         m_normals[n] = sum;
       });
-  std::vector<Vector> scratch;
+  std::vector<Eigen::Vector3f> scratch;
   average(m_normals, scratch, kNormalRounds, [](std::size_t, std::size_t) { return 1.0F; });
   forEachPoint(m_points.size(),
                [this](std::size_t n)
                {
-                 Vector& normal = m_normals[n];
-                 const float length =
-                     std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
-                 const float scale = length > 1e-6F ? 1.0F / length : 0.0F;
-                 normal = {scale * normal.x, scale * normal.y, scale * normal.z};
+                 Eigen::Vector3f& normal = m_normals[n];
+                 const float length = normal.norm();
+                 normal *= length > 1e-6F ? 1.0F / length : 0.0F;
                });
 }
 
@@ -230,18 +207,18 @@ void SurfaceNet::average(std::vector<T>& values, std::vector<T>& scratch, int ro
     forEachPoint(values.size(),
                  [&](std::size_t n)
                  {
-                   T sum{};
+                   T sum = 0.0F * values[n];
                    float weights = 0.0F;
                    for (const std::int32_t other : m_joined[n])
                      if (other >= 0)
                      {
                        const float weight = weightOf(n, static_cast<std::size_t>(other));
-                       sum = plus(sum, times(weight, values[static_cast<std::size_t>(other)]));
+                       sum += weight * values[static_cast<std::size_t>(other)];
                        weights += weight;
                      }
-                   scratch[n] = weights < 1e-3F
-                                    ? values[n]
-                                    : plus(times(0.5F, values[n]), times(0.5F / weights, sum));
+                   scratch[n] = values[n];
+                   if (weights >= 1e-3F)
+                     scratch[n] = 0.5F * values[n] + 0.5F / weights * sum;
                  });
     values.swap(scratch);
   }
@@ -251,24 +228,24 @@ void SurfaceNet::relax(const core::Progress& progress)
 {
   std::vector<float> curvature(m_points.size());
   std::vector<float> scratch;
-  std::vector<Vector> next(m_points.size());
+  std::vector<Eigen::Vector3f> next(m_points.size());
   // From a point to the middle of those joined with it.
-  const auto towardsMean = [this](std::size_t n)
+  const auto towardsMean = [this](std::size_t n) -> Eigen::Vector3f
   {
-    Vector sum;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int count = 0;
     for (const std::int32_t other : m_joined[n])
       if (other >= 0)
       {
-        sum = plus(sum, m_positions[static_cast<std::size_t>(other)]);
+        sum += m_positions[static_cast<std::size_t>(other)];
         ++count;
       }
     if (count == 0)
-      return Vector();
-    return plus(times(1.0F / static_cast<float>(count), sum), times(-1.0F, m_positions[n]));
+      return sum;
+    return sum / static_cast<float>(count) - m_positions[n];
   };
-  const auto along = [this](std::size_t n, const Vector& v)
-  { return v.x * m_normals[n].x + v.y * m_normals[n].y + v.z * m_normals[n].z; };
+  const auto along = [this](std::size_t n, const Eigen::Vector3f& v)
+  { return v.dot(m_normals[n]); };
   // A crease has its own curvature, which is none of the faces' beside it.
   const auto alike = [&](std::size_t n, std::size_t other)
   { return std::clamp((along(n, m_normals[other]) - kCrease) / (kSmooth - kCrease), 0.0F, 1.0F); };
@@ -282,22 +259,25 @@ void SurfaceNet::relax(const core::Progress& progress)
       forEachPoint(m_points.size(),
                    [&](std::size_t n)
                    {
-                     Vector move = towardsMean(n);
-                     move = times(kStep, plus(move, times(-curvature[n], m_normals[n])));
-                     const Vector& p = m_positions[n];
-                     const core::Index3& cell = m_points[n].cell;
-                     const auto within = [](float value, int low)
-                     {
-                       return std::clamp(value, static_cast<float>(low) + kClearance,
-                                         static_cast<float>(low) + 1.0F - kClearance);
-                     };
-                     next[n] = {within(p.x + move.x, cell[0]), within(p.y + move.y, cell[1]),
-                                within(p.z + move.z, cell[2])};
+                     const Eigen::Vector3f low = toFloat(m_points[n].cell).array() + kClearance;
+                     const Eigen::Vector3f high = low.array() + (1.0F - 2.0F * kClearance);
+                     const Eigen::Vector3f move = towardsMean(n) - curvature[n] * m_normals[n];
+                     next[n] = (m_positions[n] + kStep * move).cwiseMax(low).cwiseMin(high);
                    });
       m_positions.swap(next);
     }
     findNormals();
   }
+}
+
+std::shared_ptr<Volume<float>> smoothedShare(const Volume<std::uint8_t>& inside,
+                                             const core::Progress& progress)
+{
+  auto share = makeZeroVolume<float>(inside.geometry());
+  SurfaceNet net(inside, progress);
+  net.relax(progress.part(0.0, 2.0 / 3.0));
+  net.writeShare(*share, progress.part(2.0 / 3.0, 1.0));
+  return share;
 }
 
 } // namespace petrous::volume

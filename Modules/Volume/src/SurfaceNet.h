@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "petrous/Core/Progress.h"
 #include "petrous/Volume/Volume.h"
 
@@ -41,14 +43,10 @@ public:
   /// Voxels from a share of nothing to one: 2 sqrt(3), so that on equal voxels the share falls as a
   /// cut's mask does, and a mask that keeps a structure leaves all of it (SweptSphereCut.h).
   static constexpr float kShareReach = 3.4641016F;
+  static float shareOf(double depth) noexcept; ///< in voxels, > 0 inside; to the nearest step
+  static double depthOf(float share) noexcept;
 
 private:
-  struct Vector
-  {
-    float x = 0.0F;
-    float y = 0.0F;
-    float z = 0.0F;
-  };
   static core::Index3 cornerOf(int corner) noexcept
   {
     return {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
@@ -74,9 +72,13 @@ private:
   const Volume<std::uint8_t>& m_inside;
   std::shared_ptr<Volume<std::int32_t>> m_pointOf; ///< by cell, 0 none, else 1 + the point
   std::vector<Point> m_points;
-  std::vector<Vector> m_positions;
-  std::vector<Vector> m_normals;                     ///< out of the inside
+  std::vector<Eigen::Vector3f> m_positions;
+  std::vector<Eigen::Vector3f> m_normals;            ///< out of the inside
   std::vector<std::array<std::int32_t, 6>> m_joined; ///< -1 none
 };
+
+/// The share that the relaxed net of `inside` writes, on its grid.
+std::shared_ptr<Volume<float>> smoothedShare(const Volume<std::uint8_t>& inside,
+                                             const core::Progress& progress);
 
 } // namespace petrous::volume

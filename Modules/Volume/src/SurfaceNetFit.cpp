@@ -103,20 +103,18 @@ void SurfaceNet::fitThin(Volume<float>& share) const
 {
   std::vector<core::Index3> voxels;
   for (const Point& point : m_points)
-    for (int corner = 0; corner < 8; ++corner)
+  {
+    const auto voxelOf = [&point](int corner)
     {
       const core::Index3 up = cornerOf(corner);
-      const core::Index3 voxel{point.cell[0] + up[0], point.cell[1] + up[1], point.cell[2] + up[2]};
-      bool thin = false;
-      for (int other = 0; other < 8 && !thin; ++other)
-        if ((point.corners >> other & 1) != 0)
-        {
-          const core::Index3 to = cornerOf(other);
-          thin = isThin({point.cell[0] + to[0], point.cell[1] + to[1], point.cell[2] + to[2]});
-        }
-      if (thin)
-        voxels.push_back(voxel);
-    }
+      return core::Index3{point.cell[0] + up[0], point.cell[1] + up[1], point.cell[2] + up[2]};
+    };
+    bool thin = false;
+    for (int corner = 0; corner < 8 && !thin; ++corner)
+      thin = (point.corners >> corner & 1) != 0 && isThin(voxelOf(corner));
+    for (int corner = 0; corner < 8 && thin; ++corner)
+      voxels.push_back(voxelOf(corner));
+  }
   std::sort(voxels.begin(), voxels.end());
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   for (const core::Index3& voxel : voxels)
@@ -125,9 +123,8 @@ void SurfaceNet::fitThin(Volume<float>& share) const
     if (!(fit.weight > 0.0))
       continue;
     float& value = share.at(voxel[0], voxel[1], voxel[2]);
-    const double own = (double{value} - 0.5) * double{kShareReach};
-    const double depth = own + fit.weight * (fit.depth - own);
-    value = quantisedShare(std::clamp(0.5 + depth / double{kShareReach}, 0.0, 1.0));
+    const double own = depthOf(value);
+    value = shareOf(own + fit.weight * (fit.depth - own));
   }
 }
 

@@ -23,16 +23,6 @@ constexpr float kAcrossFace = 0.25F;
 constexpr float kAcrossCell = 0.1F;
 constexpr float kAcrossTriangle = 0.6F / 14.0F;
 
-float shareAt(float depth)
-{
-  return quantisedShare(std::clamp(0.5 + double{depth / SurfaceNet::kShareReach}, 0.0, 1.0));
-}
-
-float depthAt(float share)
-{
-  return (share - 0.5F) * SurfaceNet::kShareReach;
-}
-
 } // namespace
 
 void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress) const
@@ -62,8 +52,8 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
           if (sums.empty())
             sums.assign(tile.count(), {0.0F, 0.0F});
           const auto n = static_cast<std::size_t>(row[i] - 1);
-          const Vector& p = m_positions[n];
-          const Vector& normal = m_normals[n];
+          const Eigen::Vector3f& p = m_positions[n];
+          const Eigen::Vector3f& normal = m_normals[n];
           const core::IndexBox near =
               core::IndexBox{{i - 1, j - 1, k - 1}, {i + 3, j + 3, k + 3}}.intersected(tile);
           for (int z = near.lower[2]; z < near.upper[2]; ++z)
@@ -72,14 +62,14 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
               const std::uint8_t* inside = &m_inside.at(0, y, z);
               auto* out = &sums[static_cast<std::size_t>(
                   (y - tile.lower[1] + size[1] * (z - tile.lower[2])) * size[0])];
-              const float dy = static_cast<float>(y) - p.y;
-              const float dz = static_cast<float>(z) - p.z;
+              const float dy = static_cast<float>(y) - p.y();
+              const float dz = static_cast<float>(z) - p.z();
               for (int x = near.lower[0]; x < near.upper[0]; ++x)
               {
-                const float dx = static_cast<float>(x) - p.x;
+                const float dx = static_cast<float>(x) - p.x();
                 const float closeness =
                     1.0F - (dx * dx + dy * dy + dz * dz) * (1.0F / (kReach * kReach));
-                const float height = dx * normal.x + dy * normal.y + dz * normal.z;
+                const float height = dx * normal.x() + dy * normal.y() + dz * normal.z();
                 // The other side of a thin sheet has nothing to say of this voxel.
                 if (closeness <= 0.0F || (height < 0.0F) != (inside[x] != 0))
                   continue;
@@ -105,7 +95,7 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
           float depth = in ? kShareReach : -kShareReach;
           if (!sums.empty() && sums[n][1] > 1e-9F)
             depth = -sums[n][0] / sums[n][1];
-          const float value = shareAt(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
+          const float value = shareOf(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
           if (value > 0.0F) // memory is taken where something is written
             row[x] = value;
         }
@@ -193,19 +183,20 @@ void SurfaceNet::joinThin(Volume<float>& share) const
       if (insideOf(cell.thin, corner))
       {
         float& value = valueAt(voxelOf(cell.cell, corner));
-        value = std::max(value, shareAt(kThinDepth));
+        value = std::max(value, shareOf(kThinDepth));
       }
   std::vector<std::pair<core::Index3, float>> lifts;
   for (const Corners& cell : cells)
   {
     std::array<float, 8> depth{};
     for (int corner = 0; corner < 8; ++corner)
-      depth[static_cast<std::size_t>(corner)] = depthAt(valueAt(voxelOf(cell.cell, corner)));
+      depth[static_cast<std::size_t>(corner)] =
+          static_cast<float>(depthOf(valueAt(voxelOf(cell.cell, corner))));
     const auto at = [&depth](int corner) { return depth[static_cast<std::size_t>(corner)]; };
     const auto lift = [&](int corner, float to)
     {
       if (!insideOf(cell.corners, corner) && to > at(corner))
-        lifts.emplace_back(voxelOf(cell.cell, corner), shareAt(std::min(to, -kLeast)));
+        lifts.emplace_back(voxelOf(cell.cell, corner), shareOf(std::min(to, -kLeast)));
     };
     forEachFace(
         [&](int a, int b, int c, int d)

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include "SyntheticScenes.h"
+#include "petrous/Volume/LabelBorders.h"
 
 /// Label fields whose surfaces are known in closed form.
 namespace petrous::rendering::synthetic
@@ -17,6 +20,10 @@ std::shared_ptr<const volume::LabelField> labelField(const core::GridGeometry& g
       sampled<float>(grid, [&](const Eigen::Vector3d& p)
                      { return std::clamp(0.5 + 0.25 * inside(p) / grid.minSpacing(), 0.0, 1.0); });
   labels->index = sampled<std::uint8_t>(grid, index);
+  std::array<bool, 256> solid{};
+  solid.fill(true);
+  solid[0] = false;
+  labels->borders = volume::makeLabelBorders(*labels->share, *labels->index, solid);
   labels->hasSolid = labels->hasLumen = true;
   return labels;
 }

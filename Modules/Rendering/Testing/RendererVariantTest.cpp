@@ -57,18 +57,25 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
   EXPECT_EQ(variantOf(cutBall()), (Names{"ct", "bone", "mask"}));
   EXPECT_EQ(variantOf(translucentBall()), (Names{"ct", "bone", "interior"}));
   EXPECT_EQ(variantOf(labelledBall(cube(48, 0.5), 1.0F)),
-            (Names{"ct", "bone", "labels", "interior"}));
+            (Names{"ct", "bone", "labels", "borders", "nested", "interior"}));
   contents.materials = {waveMaterial(1.0F)};
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "second"}));
   contents.materials = {boneMaterial()};
   contents.clipping.push_back({});
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "clipping"}));
-  EXPECT_EQ(variantOf(fullScene()), (Names{"ct", "bone", "labels", "mask", "second", "interior"}));
+  EXPECT_EQ(variantOf(fullScene()),
+            (Names{"ct", "bone", "labels", "borders", "nested", "mask", "second", "interior"}));
   contents = labelledBall(cube(48, 0.5), 1.0F);
   contents.boneShown = false;
   for (appearance::Material& material : contents.materials)
     material.surfaceOpacity = 1.0F;
-  EXPECT_EQ(variantOf(contents), (Names{"ct", "labels"}));
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "labels", "borders"}));
+  // Structures that a ray ends on, seen through bone; one that touches none.
+  contents.boneShown = true;
+  contents.materials[0].surfaceOpacity = 0.3F;
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "labels", "borders", "interior"}));
+  contents.labels = oneStructure(contents.labels->share);
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "labels", "interior"}));
 }
 
 TEST(RendererVariant, LetsGoOfWhatTheSceneNoLongerUses)

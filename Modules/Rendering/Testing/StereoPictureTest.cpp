@@ -192,11 +192,11 @@ TEST(GraphicsReport, EveryVariantCompilesHere)
   const GraphicsReport report = reportGraphics();
   EXPECT_FALSE(report.renderer.empty());
   EXPECT_GE(report.largestTexture3d, 256); // what OpenGL 3.2 asks of every driver
-  ASSERT_EQ(report.variants.size(), 8u);
+  ASSERT_EQ(report.variants.size(), 10u);
   for (const auto& variant : report.variants)
     EXPECT_TRUE(variant.compiles) << variant.error;
   EXPECT_EQ(report.variants.front().features, (std::vector<std::string>{"ct", "bone"}));
   EXPECT_EQ(report.variants.back().features,
-            (std::vector<std::string>{"ct", "bone", "labels", "mask", "second", "interior",
-                                      "clipping", "thickness"}));
+            (std::vector<std::string>{"ct", "bone", "labels", "borders", "nested", "mask", "second",
+                                      "interior", "clipping", "thickness"}));
 }

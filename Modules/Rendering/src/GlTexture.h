@@ -26,6 +26,7 @@ constexpr TexelFormat kShort{GL_R16_SNORM, GL_RED, GL_SHORT, 2};
 constexpr TexelFormat kUnsignedShort{GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
 constexpr TexelFormat kFloat{GL_R32F, GL_RED, GL_FLOAT, 4};
 constexpr TexelFormat kIndex{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
+constexpr TexelFormat kIndexPair{GL_RG8UI, GL_RG_INTEGER, GL_UNSIGNED_BYTE, 2};
 constexpr TexelFormat kBrick{GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, 4};
 constexpr TexelFormat kColor{GL_RGBA16F, GL_RGBA, GL_FLOAT, 16};
 constexpr TexelFormat kFloat4{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};

@@ -36,6 +36,14 @@ volume::CutMask::Brick cutBrick()
   return brick;
 }
 
+std::shared_ptr<volume::LabelField> labelField()
+{
+  auto labels = std::make_shared<volume::LabelField>();
+  labels->share = filled(0.0F);
+  labels->index = filled<std::uint8_t>(0);
+  return labels;
+}
+
 using Change = std::function<void(SceneContents&)>;
 
 // What makes the mapper compile each of its features.
@@ -46,12 +54,19 @@ std::vector<Change> features()
     if (contents.materials.empty())
       contents.materials.emplace_back();
   };
-  return {[](SceneContents& contents)
+  return {[](SceneContents& contents) { contents.labels = labelField(); },
+          [](SceneContents& contents)
           {
-            auto labels = std::make_shared<volume::LabelField>();
-            labels->share = filled(0.0F);
-            labels->index = filled<std::uint8_t>(0);
+            auto labels = labelField();
+            labels->borders = filled<std::uint8_t>(0);
             contents.labels = labels;
+          },
+          [materials](SceneContents& contents)
+          {
+            materials(contents);
+            contents.materials.emplace_back().surfaceOpacity = 0.5F;
+            if (!contents.labels)
+              contents.labels = labelField();
           },
           [](SceneContents& contents)
           {

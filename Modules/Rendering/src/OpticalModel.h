@@ -15,7 +15,9 @@ namespace petrous::rendering
 ///   air              f <= 0, outside the hull of the CT's voxel centres, that of the crop box's or
 ///                    a clipping plane; a hull without thickness is air
 ///   bone             f > 0 and share <= 0.5
-///   structure i      f > 0 and share > 0.5, i = label index of the voxel nearest to x
+///   structure i      f > 0 and share > 0.5, i = volume::structureAt(x): the label index of the
+///                    voxel nearest to x, and where two structures meet, the one that has most of
+///                    the eight voxels round x (Volume/LabelBorders.h)
 /// Where the state changes from air to anything, or to a structure from whatever else, there is a
 /// surface; all other changes only change the material. A surface adds its lit colour with the
 /// material's surface opacity; along the way through a tissue colour and extinction of the
@@ -25,16 +27,16 @@ namespace petrous::rendering
 ///
 /// Surface at x, unit normal n (out of the tissue; -grad of the operand that decides: c_CT, share
 /// or mask, central differences over +-1 voxel of its grid; for bone -> structure that of share;
-/// from structure to structure i that of how much belongs to i, the 27 voxels round x weighted by
-/// quadratic B-splines;
+/// from structure to structure i that of how deep in i a place lies (without borders: of how much
+/// belongs to i), the 27 voxels round x weighted by quadratic B-splines;
 /// c_CT by edgeGradientInPatient where the material's surface opacity is kSmoothOpacity or more):
 ///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
 ///           of the image that is read
 ///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
 ///   opacity material.surfaceOpacity
-/// The material is i's from structure to structure i; else the structure's where share > 0.5 - 1e-3
-/// at x, else a lumen's where the index at x is one of a lumen, else bone. Where tissue is cut off
-/// by the hull, the crop box or a clipping plane, n is that face's normal and v is taken at x
+/// The material is i's from structure to structure i; else structureAt(x)'s where share > 0.5 -
+/// 1e-3 at x, else a lumen's where the index at x is one of a lumen, else bone. Where tissue is cut
+/// off by the hull, the crop box or a clipping plane, n is that face's normal and v is taken at x
 /// itself. A flat field (n = 0) faces the eye, and so does tissue that the eye stands in. The first
 /// surface gives the depth, whatever its opacity.
 ///

@@ -37,6 +37,15 @@ bool translucent(const std::vector<appearance::Material>& materials)
                      [](const appearance::Material& m) { return m.surfaceOpacity < 1.0F; });
 }
 
+// Whether a ray goes on inside structures, so that it must know of each sample which one it is in.
+bool structuresTranslucent(const SceneContents& contents)
+{
+  return contents.labels && contents.materials.size() > 1 &&
+         std::any_of(contents.materials.begin() + 1, contents.materials.end(),
+                     [](const appearance::Material& m)
+                     { return !m.lumen && m.surfaceOpacity < 1.0F; });
+}
+
 bool readsSecond(const SceneContents& contents)
 {
   return contents.second.volume &&
@@ -179,6 +188,8 @@ RayFeatures RayCaster::features() const
   RayFeatures features;
   features.bone = m_contents.boneShown;
   features.labels = static_cast<bool>(m_contents.labels);
+  features.borders = features.labels && m_labels.borders;
+  features.nested = structuresTranslucent(m_contents);
   features.mask = m_mask.inUse();
   features.second = readsSecond(m_contents);
   features.interior = translucent(m_contents.materials);

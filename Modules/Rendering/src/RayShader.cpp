@@ -6,10 +6,12 @@
 #include "OccupancyGrid.h"
 #include "OpticalModel.h"
 #include "RayCastShader.h"
+#include "RayClipShader.h"
 #include "RayMarchShader.h"
 #include "RayOpticsShader.h"
 #include "RaySceneShader.h"
 #include "petrous/Rendering/ThicknessColor.h"
+#include "petrous/Volume/LabelBorders.h"
 
 namespace petrous::rendering
 {
@@ -27,6 +29,8 @@ struct Part
 constexpr Part kParts[] = {
     {&RayFeatures::bone, "PETROUS_BONE", "bone"},
     {&RayFeatures::labels, "PETROUS_LABELS", "labels"},
+    {&RayFeatures::borders, "PETROUS_BORDERS", "borders"},
+    {&RayFeatures::nested, "PETROUS_NESTED", "nested"},
     {&RayFeatures::mask, "PETROUS_MASK", "mask"},
     {&RayFeatures::second, "PETROUS_SECOND", "second"},
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
@@ -41,7 +45,8 @@ std::string constants()
   const std::pair<const char*, double> reals[] = {{"kInteriorFacing", optics::kInteriorFacing},
                                                   {"kWetShininess", optics::kWetShininess},
                                                   {"kShareThreshold", optics::kShareThreshold},
-                                                  {"kSmoothOpacity", optics::kSmoothOpacity}};
+                                                  {"kSmoothOpacity", optics::kSmoothOpacity},
+                                                  {"kMarginPerDepth", volume::kMarginPerDepth}};
   for (const auto& [name, value] : reals)
   {
     char digits[32];
@@ -61,7 +66,9 @@ std::string constants()
   text += ");\n";
   const std::pair<const char*, unsigned> flags[] = {{"kMixed", OccupancyGrid::Mixed},
                                                     {"kLabels", OccupancyGrid::Labels},
-                                                    {"kBorder", OccupancyGrid::Border}};
+                                                    {"kBorder", OccupancyGrid::Border},
+                                                    {"kMeeting", volume::kMeeting},
+                                                    {"kDeepest", volume::kDeepest}};
   for (const auto& [name, value] : flags)
     text += std::string("const uint ") + name + " = " + std::to_string(value) + "u;\n";
   return text;
@@ -94,6 +101,7 @@ std::string rayFragmentShader(const RayFeatures& features)
       text += std::string("#define ") + part.define + "\n";
   text += constants();
   return text.append(kRaySceneShader)
+      .append(kRayClipShader)
       .append(kRayOpticsShader)
       .append(kRayMarchShader)
       .append(kRayCastShader);

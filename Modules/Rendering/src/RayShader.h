@@ -14,6 +14,8 @@ struct RayFeatures
 {
   bool bone = false;      ///< the CT's own surface
   bool labels = false;    ///< structures
+  bool borders = false;   ///< structures that touch
+  bool nested = false;    ///< structures can be looked into
   bool mask = false;      ///< the cut
   bool second = false;    ///< a second image that some materials read
   bool interior = false;  ///< tissue can be looked into

@@ -272,7 +272,9 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   reduction = reductionFor(texel::kUnsignedShort, dims, largest);
   map = textureMap(dims, reduction);
   const core::Index3 texels = reducedDims(dims, reduction);
-  if (reduction == core::Index3{1, 1, 1})
+  const bool whole = reduction == core::Index3{1, 1, 1};
+  borders = whole && labels.borders;
+  if (whole)
   {
     std::vector<std::uint16_t> values(shares.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
@@ -282,7 +284,17 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
                           values[i] = inSixteenBits(shares.data()[i]);
                       });
     share.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
-    index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
+    if (!borders)
+    {
+      index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
+      return;
+    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      const std::uint8_t pair[2] = {labels.index->data()[i], labels.borders->data()[i]};
+      std::memcpy(&values[i], pair, sizeof pair);
+    }
+    index.create(texel::kIndexPair, dims, values.data(), GL_NEAREST);
     return;
   }
   const auto means = reduceBox<std::uint16_t>(dims, reduction, wholeBox(texels),

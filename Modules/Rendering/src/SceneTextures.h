@@ -72,8 +72,9 @@ struct LabelTextures
   GlTexture index;
   TextureMap map; ///< of the share; a texel of the index is voxel / reduction
   core::Index3 reduction{1, 1, 1};
+  bool borders = false; ///< the index has a second channel, LabelField::borders
 
-  /// largest: see RenderQuality::largestTexture.
+  /// Reduced labels have no borders. largest: see RenderQuality::largestTexture.
   void upload(const volume::LabelField& labels, int largest);
   void release();
 };

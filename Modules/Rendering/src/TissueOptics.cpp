@@ -36,6 +36,10 @@ const SceneContents& checked(const SceneContents& contents)
         contents.labels->share && contents.labels->index &&
             core::sameGrid(contents.labels->share->geometry(), contents.labels->index->geometry()),
         "the labels need a share and an index on one grid");
+  require(
+      !contents.labels || !contents.labels->borders ||
+          core::sameGrid(contents.labels->borders->geometry(), contents.labels->index->geometry()),
+      "the labels' borders do not lie on their grid");
   return contents;
 }
 
@@ -56,6 +60,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
   : m_ct(checked(contents).ct)
   , m_share(contents.labels ? contents.labels->share : nullptr)
   , m_index(contents.labels ? contents.labels->index : nullptr)
+  , m_borders(contents.labels ? contents.labels->borders : nullptr)
   , m_second(contents.second)
   , m_materials(contents.materials)
   , m_light(contents.light)
@@ -104,6 +109,28 @@ std::size_t TissueOptics::indexOfVoxel(const Eigen::Vector3d& voxel) const
   return m_index->at(nearest[0], nearest[1], nearest[2]);
 }
 
+// How deep a voxel lies in a structure, below 0 in another; without borders 1 or 0.
+double TissueOptics::depthIn(std::size_t index, const Eigen::Vector3d& voxel) const
+{
+  const bool inside = indexOfVoxel(voxel) == index;
+  if (!m_borders)
+    return inside ? 1.0 : 0.0;
+  const core::Index3 at{static_cast<int>(voxel[0]), static_cast<int>(voxel[1]),
+                        static_cast<int>(voxel[2])};
+  if (!m_borders->geometry().fullBox().contains(at))
+    return 0.0;
+  const double depth = m_borders->at(at[0], at[1], at[2]) & volume::kDeepest;
+  return inside ? depth : -depth;
+}
+
+// In the tissue of structures.
+volume::StructureChoice TissueOptics::structureAt(const Eigen::Vector3d& patient) const
+{
+  return m_index ? volume::structureAt(*m_index, m_borders.get(),
+                                       m_index->geometry().voxelFromPatient(patient))
+                 : volume::StructureChoice();
+}
+
 TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
 {
   const double f = m_field.value(patient);
@@ -111,7 +138,11 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
     return {kAir, -f};
   const double inside = shareAt(patient) - 0.5;
   if (inside > 0.0)
-    return {kBone + 1 + static_cast<State>(indexAt(patient)), std::min(f, inside)};
+  {
+    const volume::StructureChoice structure = structureAt(patient);
+    return {kBone + 1 + static_cast<State>(structure.index),
+            std::min({f, inside, structure.margin})};
+  }
   return {kBone, std::min(f, -inside)};
 }
 
@@ -127,9 +158,10 @@ const appearance::Material& TissueOptics::materialOf(State state) const
 
 const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d& patient) const
 {
+  if (shareAt(patient) > optics::kShareThreshold)
+    return m_materials[structureAt(patient).index];
   const appearance::Material& material = m_materials[indexAt(patient)];
-  const bool structure = shareAt(patient) > optics::kShareThreshold;
-  return structure || material.lumen ? material : m_materials.front();
+  return material.lumen ? material : m_materials.front();
 }
 
 double TissueOptics::intensity(const appearance::Material& material,
@@ -148,8 +180,8 @@ Eigen::Vector3d TissueOptics::shareNormal(const Eigen::Vector3d& patient) const
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }
 
-// Out of a structure: against the gradient of how much round a place belongs to it, voxels weighted
-// by quadratic B-splines.
+// Out of a structure: against the gradient of how deep in it a place lies (without borders, of how
+// much round the place belongs to it), voxels weighted by quadratic B-splines.
 Eigen::Vector3d TissueOptics::borderNormal(const Eigen::Vector3d& patient, std::size_t index) const
 {
   const core::GridGeometry& grid = m_index->geometry();
@@ -164,10 +196,10 @@ Eigen::Vector3d TissueOptics::borderNormal(const Eigen::Vector3d& patient, std::
   for (int k = -1; k <= 1; ++k)
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
-        if (indexOfVoxel(nearest + Eigen::Vector3d(i, j, k)) == index)
-          slope += Eigen::Vector3d(change(0, i) * weight(1, j) * weight(2, k),
-                                   weight(0, i) * change(1, j) * weight(2, k),
-                                   weight(0, i) * weight(1, j) * change(2, k));
+        slope += depthIn(index, nearest + Eigen::Vector3d(i, j, k)) *
+                 Eigen::Vector3d(change(0, i) * weight(1, j) * weight(2, k),
+                                 weight(0, i) * change(1, j) * weight(2, k),
+                                 weight(0, i) * weight(1, j) * change(2, k));
   slope = grid.voxelFromPatientLinear().transpose() * slope;
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }

@@ -7,6 +7,7 @@
 #include "OpticalModel.h"
 #include "petrous/Rendering/PixelRays.h"
 #include "petrous/Rendering/SceneContents.h"
+#include "petrous/Volume/LabelBorders.h"
 #include "petrous/Volume/TissueField.h"
 
 namespace petrous::rendering
@@ -61,6 +62,8 @@ public:
 private:
   double shareAt(const Eigen::Vector3d& patient) const;
   std::size_t indexAt(const Eigen::Vector3d& patient) const;
+  double depthIn(std::size_t index, const Eigen::Vector3d& voxel) const;
+  volume::StructureChoice structureAt(const Eigen::Vector3d& patient) const;
   std::size_t indexOfVoxel(const Eigen::Vector3d& voxel) const;
   const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient) const;
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
@@ -70,6 +73,7 @@ private:
   std::shared_ptr<const volume::IntensityVolume> m_ct;
   std::shared_ptr<const volume::Volume<float>> m_share;
   std::shared_ptr<const volume::Volume<std::uint8_t>> m_index;
+  std::shared_ptr<const volume::Volume<std::uint8_t>> m_borders;
   SecondImage m_second;
   std::vector<appearance::Material> m_materials;
   LightSettings m_light;

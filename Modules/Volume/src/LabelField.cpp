@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "LabelResampling.h"
+#include "petrous/Volume/LabelBorders.h"
 
 namespace petrous::volume
 {
@@ -278,7 +279,11 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
     field->share = std::move(common.share);
     field->notes = std::move(common.notes);
   }
-  field->index = makeIndex(ranks, offset, *field->share, order, progress.part(0.7, 1.0));
+  field->index = makeIndex(ranks, offset, *field->share, order, progress.part(0.7, 0.8));
+  std::array<bool, 256> solid{};
+  for (LabelRank rank = 1; rank <= order.lastSolid; ++rank)
+    solid[order.materialOfRank[rank]] = true;
+  field->borders = makeLabelBorders(*field->share, *field->index, solid, progress.part(0.8, 1.0));
   field->hasSolid = ranks.hasSolid;
   field->hasLumen = ranks.hasLumen;
   progress.report(1.0, "structures");

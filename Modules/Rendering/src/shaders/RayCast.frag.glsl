@@ -7,8 +7,8 @@
 // step pays for what a branch passes over, but not for a loop that nobody enters again. Positions are
 // in voxels of the CT (0 at the first centre), distances from the eye in mm.
 //
-// Last part of the fragment shader, after RayScene.glsl (textures, uniforms, features), RayOptics.glsl
-// and RayMarch.glsl.
+// Last part of the fragment shader, after RayScene.glsl (textures, uniforms, features), RayClip.glsl,
+// RayOptics.glsl and RayMarch.glsl.
 
 // Where a state gives way to another.
 struct Bracket
@@ -104,7 +104,12 @@ float changePoint(inout Ray ray)
   if (bracket.state == ray.state && ray.next != kAir && ray.state <= kBone)
   {
     bool structure = ray.state == kBone || ray.at.share > kShareThreshold;
-    ray.next = structure ? kStructure + indexAtLabel(along(ray.ways.label, bracket.hit)) : kBone;
+#ifdef PETROUS_NESTED
+    ray.next =
+        structure ? kStructure + structureAtLabel(along(ray.ways.label, bracket.hit)).index : kBone;
+#else
+    ray.next = structure ? kStructure : kBone;
+#endif
   }
 #endif
   return bracket.hit;
@@ -114,12 +119,16 @@ float changePoint(inout Ray ray)
 int materialAt(vec3 v, Operands at, int state, int next)
 {
 #ifdef PETROUS_LABELS
+#ifdef PETROUS_NESTED
   if (state >= kStructure)
     return next - kStructure;
+#endif
+  if (next >= kStructure || at.share > kShareThreshold)
+    return structureAtLabel(labelPosition(v)).index;
   int index = indexAt(v);
   COUNT(1);
   bool lumen = texelFetch(materialTexture, ivec2(1, index), 0).x > 0.5;
-  if (lumen || next >= kStructure || at.share > kShareThreshold)
+  if (lumen)
     return index;
 #endif
   return 0;
@@ -139,7 +148,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   Operands at = ray.at;
   vec3 slopeMm = vec3(0.0);
   float along = 0.0;
-#if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
+#ifdef PETROUS_NESTED
   bool between = ray.state >= kStructure; // two structures
   vec3 borderSlope = indexGradient(labelPosition(v), ray.material, between);
   if (between)

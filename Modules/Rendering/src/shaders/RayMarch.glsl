@@ -1,4 +1,4 @@
-// The way of a ray from one change of its state to the next. Third part of the ray caster's fragment
+// The way of a ray from one change of its state to the next. Fourth part of the ray caster's fragment
 // shader; see RayCast.frag.glsl.
 //
 // Places on a ray (s) are in steps from where it enters; samples lie on whole steps, whatever is leapt
@@ -63,13 +63,13 @@ vec3 operandsOf(Operands at)
   return vec3(at.ct, at.share - 0.5, at.left - 0.5);
 }
 
-// Of a place in a state: rises above 0 where another one begins. Not so from structure to structure.
-float nearness(int state, vec3 at, const bool plain)
+// Of a place in a state: rises above 0 where another one begins.
+float nearness(int state, vec3 at, float margin, const bool plain)
 {
   float field = plain ? at.x : fieldOf(at);
   if (state == kAir)
     return field;
-  return plain ? -field : max(-field, state == kBone ? at.y : -at.y);
+  return plain ? -field : max(-field, state == kBone ? at.y : -min(at.y, margin));
 }
 
 // A thin wall can lie between two samples in air, a gap between two in tissue. Three heights with the
@@ -188,8 +188,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 
     vec3 operands1 = operandsOf(at1);
     vec3 operands2 = operandsOf(at2);
-    float h1 = nearness(ray.state, operands1, plain);
-    float h2 = nearness(ray.state, operands2, plain);
+    float h1 = nearness(ray.state, operands1, at1.margin, plain);
+    float h2 = nearness(ray.state, operands2, at2.margin, plain);
     bool falls = ray.height.y >= h1;
     float summit = summitOf(falls ? n1 - 1.0 : n1,
                             falls ? vec3(ray.height, h1) : vec3(ray.height.y, h1, h2));

@@ -1,5 +1,5 @@
 // What tissue looks like, as OpticalModel.h has it: light, surfaces, and the integral along a stretch
-// of one tissue. Second part of the ray caster's fragment shader; see RayCast.frag.glsl.
+// of one tissue. Third part of the ray caster's fragment shader; see RayCast.frag.glsl.
 
 float lightAt(float t)
 {

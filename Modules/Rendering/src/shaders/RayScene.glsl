@@ -1,21 +1,24 @@
 // The scene that rays are cast through: its textures and uniforms, the tissue field at a position and
-// its gradients, the part that is drawn. First part of the ray caster's fragment shader; see
-// RayCast.frag.glsl.
+// its gradients. First part of the ray caster's fragment shader; see RayCast.frag.glsl.
 //
 // Compiled with the features that the scene uses (PETROUS_*): what is not defined is not fetched.
 //   BONE       the CT's own surface            MASK     the cut
 //   LABELS     structures                      SECOND   a second image for some materials
+//   BORDERS    structures that touch            NESTED   structures can be looked into
 //   INTERIOR   tissue can be looked into       CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
 // Before it stand the numbers that the C++ states (RayShader.cpp): kMostPlanes, kInteriorFacing,
-// kWetShininess, kShareThreshold, kSmoothOpacity (OpticalModel.h), kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h).
+// kWetShininess, kShareThreshold, kSmoothOpacity (OpticalModel.h), kThicknessColors
+// (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting, kDeepest,
+// kMarginPerDepth (LabelBorders.h).
 //
 // Textures (linear unless named otherwise):
 //   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
 //   maskTexture    R8 or R16, 1 untouched, 0 gone, the CT's grid
 //   shareTexture   R16, smoothed union of solid structures, own grid
-//   indexTexture   R8UI, nearest, the same grid: row of the material
+//   indexTexture   R8UI, nearest, the same grid: row of the material; with BORDERS RG8UI, the second
+//                  as LabelField::borders
 //   secondTexture  as ctTexture, own grid
 //   brickTexture   RGBA8UI, nearest, a texel a brick: distances to tissue, inside; flags
 //   lookTexture    RGBA16F, row = material, over its intensities: colour, specular
@@ -151,13 +154,59 @@ float shareAtLabel(vec3 l)
   return texture(shareTexture, l * labelScale + labelOffset).r;
 }
 
-int indexAtLabel(vec3 l)
+// Index and border of a voxel; 0 beyond the grid.
+uvec2 labelOfVoxel(vec3 voxel)
 {
   COUNT(1);
-  vec3 voxel = floor(l + 0.5);
   if (any(lessThan(voxel, vec3(0.0))) || any(greaterThan(voxel, labelUpper)))
-    return 0;
-  return int(texelFetch(indexTexture, ivec3(voxel / labelBlock), 0).r);
+    return uvec2(0u);
+  return texelFetch(indexTexture, ivec3(voxel / labelBlock), 0).rg;
+}
+
+int indexAtLabel(vec3 l)
+{
+  return int(labelOfVoxel(floor(l + 0.5)).r);
+}
+
+// Which structure, and how far from another one, in shares.
+struct Choice
+{
+  int index;
+  float margin;
+};
+
+// In the tissue of structures: volume::structureAt.
+Choice structureAtLabel(vec3 l)
+{
+  uvec2 nearest = labelOfVoxel(floor(l + 0.5));
+  Choice choice = Choice(int(nearest.r), 0.5);
+#ifdef PETROUS_BORDERS
+  ivec3 who = ivec3(choice.index, -1, -1);
+  vec3 most = vec3(0.0);
+  int turns = nearest.g >= kMeeting ? 8 : 0;
+  for (int corner = 0; corner < turns; ++corner)
+  {
+    vec3 lower = floor(l);
+    vec3 up = l - lower;
+    vec3 high = vec3(ivec3(corner, corner >> 1, corner >> 2) & 1);
+    uvec2 own = labelOfVoxel(lower + high);
+    vec3 near = mix(1.0 - up, up, high);
+    float weight = near.x * near.y * near.z * float(own.g & kDeepest);
+    int index = int(own.r);
+    bool other = index != who.x && weight > 0.0;
+    who.y = other && who.y < 0 ? index : who.y;
+    who.z = other && who.z < 0 && index != who.y ? index : who.z;
+    most += mix(vec3(0.0), vec3(weight), equal(ivec3(index), who));
+  }
+  if (turns > 0)
+  {
+    float next = max(most.y, most.z);
+    choice.index = most.x >= next ? who.x : (most.y >= most.z ? who.y : who.z);
+    choice.margin = kMarginPerDepth * (most.x >= next ? most.x - next
+                                                      : next - max(most.x, min(most.y, most.z)));
+  }
+#endif
+  return choice;
 }
 
 int indexAt(vec3 v)
@@ -213,6 +262,7 @@ struct Operands
   float ct;    // c_CT
   float share;
   float left; // of the mask
+  float margin; // inside a structure: from another one, in shares
 };
 
 // `plain`: known to be where neither labels nor mask count.
@@ -232,6 +282,7 @@ Operands operandsAt(Ways ways, float s, const bool plain)
 #endif
   at.share = 0.0;
   at.left = 1.0;
+  at.margin = 0.5;
 #ifdef PETROUS_LABELS
   if (!plain)
   {
@@ -249,15 +300,23 @@ Operands operandsAt(Ways ways, float s, const bool plain)
   return at;
 }
 
-int stateOf(Operands at, Ways ways, float s, const bool plain)
+// Also finds the margin.
+int stateOf(inout Operands at, Ways ways, float s, const bool plain)
 {
   float f = min(max(at.ct, at.share - 0.5), at.left - 0.5);
   // Written so that a value that is no number is air.
   if (!(f > 0.0))
     return kAir;
-#if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
+#ifdef PETROUS_NESTED
   if (!plain && at.share > 0.5)
-    return kStructure + indexAtLabel(along(ways.label, s));
+  {
+    Choice structure = structureAtLabel(along(ways.label, s));
+    at.margin = structure.margin;
+    return kStructure + structure.index;
+  }
+#elif defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
+  if (!plain && at.share > 0.5)
+    return kStructure; // the ray ends on it, whichever it is
 #endif
   return kBone;
 }
@@ -307,8 +366,9 @@ GRADIENT(maskGradient, maskAt, hullUpper)
 #endif
 #ifdef PETROUS_LABELS
 GRADIENT(shareGradient, shareAtLabel, labelUpper)
-#ifdef PETROUS_INTERIOR
-// Of how much belongs to a structure round a position, voxels weighted by quadratic B-splines.
+#ifdef PETROUS_NESTED
+// Of how deep in a structure a position lies (without borders, of how much round it belongs to it),
+// voxels weighted by quadratic B-splines.
 vec3 indexGradient(vec3 l, int index, bool wanted)
 {
   vec3 nearest = floor(l + 0.5);
@@ -318,82 +378,20 @@ vec3 indexGradient(vec3 l, int index, bool wanted)
   for (int i = 0; i < turns; ++i)
   {
     vec3 step = vec3(ivec3(i, i / 3, i / 9) % 3 - 1);
-    if (indexAtLabel(nearest + step) != index)
-      continue;
+    uvec2 own = labelOfVoxel(nearest + step);
+    bool inside = int(own.r) == index;
+#ifdef PETROUS_BORDERS
+    float depth = float(own.g & kDeepest) * (inside ? 1.0 : -1.0);
+#else
+    float depth = inside ? 1.0 : 0.0;
+#endif
     vec3 outer = 0.5 + step * d;
     bvec3 middle = equal(step, vec3(0.0));
     vec3 weight = mix(0.5 * outer * outer, 0.75 - d * d, middle);
     vec3 change = mix(step * outer, -2.0 * d, middle);
-    slope += change * weight.yzx * weight.zxy;
+    slope += depth * change * weight.yzx * weight.zxy;
   }
   return slope;
 }
 #endif
 #endif
-
-// Where the ray enters the part of the volume that is drawn, where it leaves, and how the face that
-// it enters through looks at it.
-struct Span
-{
-  float first;
-  float last;
-  float facing;
-};
-
-Span clipRay(vec3 o, vec3 d)
-{
-  vec3 safe = mix(vec3(1e-20), d, greaterThan(abs(d), vec3(1e-20)));
-  vec3 a = (boxLower - o) / safe;
-  vec3 b = (boxUpper - o) / safe;
-  vec3 enter = min(a, b);
-  vec3 leave = max(a, b);
-  // Along an axis that the ray does not move on, it is inside always or never.
-  bvec3 still = lessThanEqual(abs(d), vec3(1e-20));
-  bvec3 inside = lessThanEqual(abs(2.0 * o - boxLower - boxUpper), boxUpper - boxLower);
-  enter = mix(enter, mix(vec3(1e30), vec3(-1e30), inside), still);
-  leave = mix(leave, mix(vec3(-1e30), vec3(1e30), inside), still);
-  Span span;
-  span.first = max(max(enter.x, enter.y), max(enter.z, 0.0));
-  span.last = min(min(leave.x, leave.y), leave.z);
-  span.facing = 1.0; // the eye is inside
-  vec3 along = abs(d) / vec3(length(normalFromVoxel[0]), length(normalFromVoxel[1]),
-                             length(normalFromVoxel[2]));
-  if (span.first > 0.0)
-    span.facing = enter.x >= max(enter.y, enter.z) ? along.x
-                  : (enter.y >= enter.z ? along.y : along.z);
-#ifdef PETROUS_CLIP
-  for (int i = 0; i < planeCount; ++i)
-  {
-    float slope = dot(planes[i].xyz, d);
-    float height = dot(planes[i].xyz, o) + planes[i].w;
-    if (abs(slope) < 1e-20)
-    {
-      if (height < 0.0)
-        span.last = -1.0;
-      continue;
-    }
-    float t = -height / slope;
-    if (slope < 0.0)
-      span.last = min(span.last, t);
-    else if (t > span.first)
-    {
-      span.first = t;
-      span.facing = abs(slope);
-    }
-  }
-#endif
-  return span;
-}
-
-float opaqueEnd(float toMm)
-{
-  if (!hasOpaque)
-    return 1e30;
-  ivec2 size = textureSize(opaqueTexture, 0);
-  ivec2 pixel = clamp(ivec2((0.5 * ndc + 0.5) * vec2(size)), ivec2(0), size - 1);
-  float z = texelFetch(opaqueTexture, pixel, 0).r;
-  if (z >= 1.0)
-    return 1e30;
-  z = 2.0 * z - 1.0;
-  return parallel ? opaqueDepth.z + opaqueDepth.w * z : toMm * opaqueDepth.y / (z + opaqueDepth.x);
-}

@@ -44,6 +44,9 @@ struct LabelField
   ///   nothing, within two voxels of a solid                       the solid
   std::shared_ptr<const Volume<std::uint8_t>> index;
 
+  /// Where one solid ends and the next begins; null where no two meet. See LabelBorders.h.
+  std::shared_ptr<const Volume<std::uint8_t>> borders;
+
   bool hasSolid = false;
   bool hasLumen = false;
   std::vector<std::string> notes; ///< what was given up to fit into memory, in words

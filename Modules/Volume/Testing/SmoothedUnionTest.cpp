@@ -1,11 +1,14 @@
 // The surface of a label against the shape that it was drawn from.
 
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <random>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include "petrous/Volume/Sampling.h"
 #include "petrous/Volume/SmoothedUnion.h"
@@ -270,4 +273,39 @@ TEST(SmoothedUnion, KeepsRodsWholeAndAtTheirThickness)
       EXPECT_NEAR(std::sqrt(area), std::sqrt(4.0 / 3.14159 * voxels / 24.0), 0.45)
           << thickness << " along " << direction.transpose();
     }
+}
+
+// Rods, sheets and single voxels one voxel thin, which touch by faces, edges and corners.
+TEST(SmoothedUnion, IsTheSameForAnyNumberOfThreads)
+{
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> among(0, 23);
+  const core::GridGeometry grid({96, 96, 96}, Vector3d::Constant(0.3), Vector3d::Zero());
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  for (int k = 2; k < 94; ++k)
+    for (int j = 2; j < 94; ++j)
+      for (int i = 2; i < 94; ++i)
+      {
+        const bool rod = (i + 2 * j) % 31 == 0 && (k + j) % 17 == 0;
+        const bool sheet = (i + j + 3 * k) % 47 == 0;
+        voxels->at(i, j, k) = rod || sheet || among(random) == 0 ? 1 : 0;
+      }
+  const volume::LabelMap labels = volume::makeLabelMap(voxels, {});
+  const auto smoothed = [&labels](int threads)
+  {
+    const tbb::global_control most(tbb::global_control::max_allowed_parallelism,
+                                   static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    std::shared_ptr<const volume::Volume<float>> share;
+    arena.execute(
+        [&] { share = volume::makeSmoothedUnion(labels, [](std::uint16_t) { return true; }); });
+    return share;
+  };
+  const auto alone = smoothed(1);
+  for (const int threads : {2, 5})
+  {
+    const auto share = smoothed(threads);
+    ASSERT_EQ(share->size(), alone->size());
+    EXPECT_EQ(std::memcmp(share->data(), alone->data(), share->size() * sizeof(float)), 0);
+  }
 }

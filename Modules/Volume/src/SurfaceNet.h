@@ -51,6 +51,11 @@ private:
   {
     return {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
   }
+  static core::Index3 voxelOf(const core::Index3& cell, int corner) noexcept
+  {
+    const core::Index3 up = cornerOf(corner);
+    return {cell[0] + up[0], cell[1] + up[1], cell[2] + up[2]};
+  }
   struct Point
   {
     core::Index3 cell;
@@ -58,8 +63,9 @@ private:
   };
 
   void writeDistances(Volume<float>& share, const core::Progress& progress) const;
-  void joinThin(Volume<float>& share) const;
-  void fitThin(Volume<float>& share) const;
+  void joinThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;
+  void fitThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;
+  std::vector<std::uint8_t> thinCorners() const;
   bool isThin(const core::Index3& voxel) const noexcept;
   void findPoints(const core::Progress& progress);
   void join();

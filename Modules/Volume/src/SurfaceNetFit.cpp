@@ -6,6 +6,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include "LabelShare.h"
 #include "SurfaceNet.h"
 
@@ -99,33 +103,29 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
 
 } // namespace
 
-void SurfaceNet::fitThin(Volume<float>& share) const
+// A voxel's fit asks for the inside alone, and changes its own share alone.
+void SurfaceNet::fitThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const
 {
   std::vector<core::Index3> voxels;
-  for (const Point& point : m_points)
-  {
-    const auto voxelOf = [&point](int corner)
-    {
-      const core::Index3 up = cornerOf(corner);
-      return core::Index3{point.cell[0] + up[0], point.cell[1] + up[1], point.cell[2] + up[2]};
-    };
-    bool thin = false;
-    for (int corner = 0; corner < 8 && !thin; ++corner)
-      thin = (point.corners >> corner & 1) != 0 && isThin(voxelOf(corner));
-    for (int corner = 0; corner < 8 && thin; ++corner)
-      voxels.push_back(voxelOf(corner));
-  }
-  std::sort(voxels.begin(), voxels.end());
+  for (std::size_t n = 0; n < m_points.size(); ++n)
+    for (int corner = 0; corner < 8 && thin[n] != 0; ++corner)
+      voxels.push_back(voxelOf(m_points[n].cell, corner));
+  tbb::parallel_sort(voxels.begin(), voxels.end());
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
-  for (const core::Index3& voxel : voxels)
-  {
-    const Fit fit = fitAround(m_inside, voxel);
-    if (!(fit.weight > 0.0))
-      continue;
-    float& value = share.at(voxel[0], voxel[1], voxel[2]);
-    const double own = depthOf(value);
-    value = shareOf(own + fit.weight * (fit.depth - own));
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.size(), 256),
+                    [&](const tbb::blocked_range<std::size_t>& range)
+                    {
+                      for (std::size_t n = range.begin(); n < range.end(); ++n)
+                      {
+                        const core::Index3& voxel = voxels[n];
+                        const Fit fit = fitAround(m_inside, voxel);
+                        if (!(fit.weight > 0.0))
+                          continue;
+                        float& value = share.at(voxel[0], voxel[1], voxel[2]);
+                        const double own = depthOf(value);
+                        value = shareOf(own + fit.weight * (fit.depth - own));
+                      }
+                    });
 }
 
 } // namespace petrous::volume

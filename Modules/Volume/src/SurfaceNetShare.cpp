@@ -5,6 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include "LabelShare.h"
 
 namespace petrous::volume
@@ -28,8 +32,9 @@ constexpr float kAcrossTriangle = 0.6F / 14.0F;
 void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress) const
 {
   writeDistances(share, progress);
-  joinThin(share);
-  fitThin(share);
+  const std::vector<std::uint8_t> thin = thinCorners();
+  joinThin(share, thin);
+  fitThin(share, thin);
 }
 
 void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& progress) const
@@ -92,10 +97,12 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
         {
           const auto n = static_cast<std::size_t>(x + size[0] * (y + size[1] * z));
           const bool in = inside[x] != 0;
-          float depth = in ? kShareReach : -kShareReach;
+          float value = in ? 1.0F : 0.0F; // far from the net
           if (!sums.empty() && sums[n][1] > 1e-9F)
-            depth = -sums[n][0] / sums[n][1];
-          const float value = shareOf(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
+          {
+            const float depth = -sums[n][0] / sums[n][1];
+            value = shareOf(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
+          }
           if (value > 0.0F) // memory is taken where something is written
             row[x] = value;
         }
@@ -123,9 +130,25 @@ bool SurfaceNet::isThin(const core::Index3& voxel) const noexcept
   return true;
 }
 
+// By point, which of its voxels are inside and thin.
+std::vector<std::uint8_t> SurfaceNet::thinCorners() const
+{
+  std::vector<std::uint8_t> thin(m_points.size(), 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, m_points.size(), 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range)
+                    {
+                      for (std::size_t n = range.begin(); n < range.end(); ++n)
+                        for (int corner = 0; corner < 8; ++corner)
+                          if ((m_points[n].corners >> corner & 1) != 0 &&
+                              isThin(voxelOf(m_points[n].cell, corner)))
+                            thin[n] = static_cast<std::uint8_t>(thin[n] | 1 << corner);
+                    });
+  return thin;
+}
+
 // Lifts voxels beside two or three that touch by an edge or a corner: so far that there is inside
 // between them, and that their own voxel stays outside.
-void SurfaceNet::joinThin(Volume<float>& share) const
+void SurfaceNet::joinThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const
 {
   const auto insideOf = [](int corners, int corner) { return (corners >> corner & 1) != 0; };
   const auto forEachFace = [](const auto& visit)
@@ -160,24 +183,11 @@ void SurfaceNet::joinThin(Volume<float>& share) const
     int thin; // which of them
   };
   std::vector<Corners> cells;
-  const auto voxelOf = [](const core::Index3& cell, int corner)
-  {
-    const core::Index3 up = cornerOf(corner);
-    return core::Index3{cell[0] + up[0], cell[1] + up[1], cell[2] + up[2]};
-  };
+  for (std::size_t n = 0; n < m_points.size(); ++n)
+    if (thin[n] != 0 && meetsAskew[m_points[n].corners])
+      cells.push_back({m_points[n].cell, m_points[n].corners, thin[n]});
   const auto valueAt = [&share](const core::Index3& v) -> float&
   { return share.at(v[0], v[1], v[2]); };
-  for (const Point& point : m_points)
-  {
-    if (!meetsAskew[point.corners])
-      continue;
-    Corners cell{point.cell, point.corners, 0};
-    for (int corner = 0; corner < 8; ++corner)
-      if (insideOf(point.corners, corner) && isThin(voxelOf(point.cell, corner)))
-        cell.thin |= 1 << corner;
-    if (cell.thin != 0)
-      cells.push_back(cell);
-  }
   for (const Corners& cell : cells)
     for (int corner = 0; corner < 8; ++corner)
       if (insideOf(cell.thin, corner))
@@ -185,8 +195,9 @@ void SurfaceNet::joinThin(Volume<float>& share) const
         float& value = valueAt(voxelOf(cell.cell, corner));
         value = std::max(value, shareOf(kThinDepth));
       }
-  std::vector<std::pair<core::Index3, float>> lifts;
-  for (const Corners& cell : cells)
+  // The highest lift of a voxel counts, in whatever order they come.
+  using Lifts = std::vector<std::pair<core::Index3, float>>;
+  const auto findLifts = [&](const Corners& cell, Lifts& lifts)
   {
     std::array<float, 8> depth{};
     for (int corner = 0; corner < 8; ++corner)
@@ -222,9 +233,18 @@ void SurfaceNet::joinThin(Volume<float>& share) const
       for (const int corner : {far ^ 7, far ^ 1, far ^ 2, far ^ 4})
         lift(corner, -kAcrossTriangle * std::max(inside, 0.0F));
     }
-  }
-  for (const auto& [voxel, value] : lifts)
-    valueAt(voxel) = std::max(valueAt(voxel), value);
+  };
+  tbb::enumerable_thread_specific<Lifts> found;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 256),
+                    [&](const tbb::blocked_range<std::size_t>& range)
+                    {
+                      Lifts& lifts = found.local();
+                      for (std::size_t n = range.begin(); n < range.end(); ++n)
+                        findLifts(cells[n], lifts);
+                    });
+  for (const Lifts& lifts : found)
+    for (const auto& [voxel, value] : lifts)
+      valueAt(voxel) = std::max(valueAt(voxel), value);
 }
 
 } // namespace petrous::volume

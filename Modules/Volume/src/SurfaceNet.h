@@ -62,6 +62,7 @@ private:
     std::uint8_t corners; ///< which of its voxels are inside, the first axis fastest
   };
 
+  std::vector<std::array<float, 2>> heightsIn(const core::IndexBox& tile) const;
   void writeDistances(Volume<float>& share, const core::Progress& progress) const;
   void joinThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;
   void fitThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;

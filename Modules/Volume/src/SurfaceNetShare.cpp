@@ -18,6 +18,7 @@ namespace
 {
 
 constexpr float kReach = 1.9F;     // voxels from which a point counts
+constexpr int kSpan = 2;           // cells that far may hold one
 constexpr float kLeast = 0.05F;    // |distance| of any voxel, voxels
 constexpr float kThinDepth = 0.3F; // of voxels that touch others by an edge or a corner
 
@@ -37,56 +38,68 @@ void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress
   fitThin(share, thin);
 }
 
+// Heights over the points near the voxels of a tile: their weighted sum, and the weights.
+std::vector<std::array<float, 2>> SurfaceNet::heightsIn(const core::IndexBox& tile) const
+{
+  const core::Index3 size = tile.size();
+  std::vector<std::array<float, 2>> sums(tile.count(), {0.0F, 0.0F});
+  const core::IndexBox cells = grown(tile, kSpan).intersected(m_inside.geometry().fullBox());
+  for (int k = cells.lower[2]; k < cells.upper[2]; ++k)
+    for (int j = cells.lower[1]; j < cells.upper[1]; ++j)
+    {
+      const std::int32_t* row = &m_pointOf->at(0, j, k);
+      for (int i = cells.lower[0]; i < cells.upper[0]; ++i)
+      {
+        if (row[i] == 0)
+          continue;
+        const auto n = static_cast<std::size_t>(row[i] - 1);
+        const Eigen::Vector3f& p = m_positions[n];
+        const Eigen::Vector3f& normal = m_normals[n];
+        const core::IndexBox near =
+            core::IndexBox{{i - 1, j - 1, k - 1}, {i + 3, j + 3, k + 3}}.intersected(tile);
+        for (int z = near.lower[2]; z < near.upper[2]; ++z)
+          for (int y = near.lower[1]; y < near.upper[1]; ++y)
+          {
+            const std::uint8_t* inside = &m_inside.at(0, y, z);
+            auto* out = &sums[static_cast<std::size_t>(
+                (y - tile.lower[1] + size[1] * (z - tile.lower[2])) * size[0])];
+            const float dy = static_cast<float>(y) - p.y();
+            const float dz = static_cast<float>(z) - p.z();
+            for (int x = near.lower[0]; x < near.upper[0]; ++x)
+            {
+              const float dx = static_cast<float>(x) - p.x();
+              const float closeness =
+                  1.0F - (dx * dx + dy * dy + dz * dz) * (1.0F / (kReach * kReach));
+              const float height = dx * normal.x() + dy * normal.y() + dz * normal.z();
+              // The other side of a thin sheet has nothing to say of this voxel.
+              if (closeness <= 0.0F || (height < 0.0F) != (inside[x] != 0))
+                continue;
+              const float squared = closeness * closeness;
+              const float weight = squared * squared * squared;
+              auto& sum = out[x - tile.lower[0]];
+              sum[0] += weight * height;
+              sum[1] += weight;
+            }
+          }
+      }
+    }
+  return sums;
+}
+
 void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& progress) const
 {
   const core::Index3& dims = share.geometry().dims();
+  LabelTiles tiles(dims); // with points
+  for (const Point& point : m_points)
+    tiles.row(point.cell[1] / LabelTiles::kEdge,
+              point.cell[2] / LabelTiles::kEdge)[point.cell[0] / LabelTiles::kEdge] = 1;
   const auto writeTile = [&](const core::Index3&, const core::IndexBox& tile)
   {
     const core::Index3 size = tile.size();
-    std::vector<std::array<float, 2>> sums; // weighted, weights; empty where no point is near
-    constexpr int kSpan = 2;
-    const core::IndexBox cells = grown(tile, kSpan).intersected(share.geometry().fullBox());
-    for (int k = cells.lower[2]; k < cells.upper[2]; ++k)
-      for (int j = cells.lower[1]; j < cells.upper[1]; ++j)
-      {
-        const std::int32_t* row = &m_pointOf->at(0, j, k);
-        for (int i = cells.lower[0]; i < cells.upper[0]; ++i)
-        {
-          if (row[i] == 0)
-            continue;
-          if (sums.empty())
-            sums.assign(tile.count(), {0.0F, 0.0F});
-          const auto n = static_cast<std::size_t>(row[i] - 1);
-          const Eigen::Vector3f& p = m_positions[n];
-          const Eigen::Vector3f& normal = m_normals[n];
-          const core::IndexBox near =
-              core::IndexBox{{i - 1, j - 1, k - 1}, {i + 3, j + 3, k + 3}}.intersected(tile);
-          for (int z = near.lower[2]; z < near.upper[2]; ++z)
-            for (int y = near.lower[1]; y < near.upper[1]; ++y)
-            {
-              const std::uint8_t* inside = &m_inside.at(0, y, z);
-              auto* out = &sums[static_cast<std::size_t>(
-                  (y - tile.lower[1] + size[1] * (z - tile.lower[2])) * size[0])];
-              const float dy = static_cast<float>(y) - p.y();
-              const float dz = static_cast<float>(z) - p.z();
-              for (int x = near.lower[0]; x < near.upper[0]; ++x)
-              {
-                const float dx = static_cast<float>(x) - p.x();
-                const float closeness =
-                    1.0F - (dx * dx + dy * dy + dz * dz) * (1.0F / (kReach * kReach));
-                const float height = dx * normal.x() + dy * normal.y() + dz * normal.z();
-                // The other side of a thin sheet has nothing to say of this voxel.
-                if (closeness <= 0.0F || (height < 0.0F) != (inside[x] != 0))
-                  continue;
-                const float squared = closeness * closeness;
-                const float weight = squared * squared * squared;
-                auto& sum = out[x - tile.lower[0]];
-                sum[0] += weight * height;
-                sum[1] += weight;
-              }
-            }
-        }
-      }
+    const bool near = tiles.any(grown(tile, kSpan));
+    if (!near && m_inside.at(tile.lower[0], tile.lower[1], tile.lower[2]) == 0)
+      return; // all of it is outside
+    const auto sums = near ? heightsIn(tile) : std::vector<std::array<float, 2>>();
     for (int z = 0; z < size[2]; ++z)
       for (int y = 0; y < size[1]; ++y)
       {

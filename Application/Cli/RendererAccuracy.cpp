@@ -47,7 +47,7 @@ std::vector<Setting> settings()
        [](RenderQuality& q) -> int& { return q.bisections; }},
       {"brick_voxels", {4, 8, 16}, {}, [](RenderQuality& q) -> int& { return q.brick; }},
       {"termination",
-       {0.05, 0.01, 0.005, 0.002, 0.0005},
+       {0.1, 0.05, 0.02, 0.01, 0.005, 0.002},
        [](RenderQuality& q) -> double& { return q.termination; },
        {}},
       {"table_entries",

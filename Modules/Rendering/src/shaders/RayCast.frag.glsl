@@ -209,6 +209,9 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec3 lit = surfaceColor(ray.material, ray.row, intensityAt(below, ray.more), facing, hit,
                           overlay);
   ray.color += ray.transmittance * ray.row.z * lit;
+#ifdef PETROUS_INTERIOR
+  ray.lit += ray.transmittance * ray.row.z * reaches(ray.gathering, hit / stepLength);
+#endif
   ray.transmittance *= 1.0 - ray.row.z;
 }
 
@@ -226,7 +229,7 @@ bool goOn(inout Ray ray, bool face, float facing, inout float depth)
   vec3 v = positionOf(ray, hit);
 #ifdef PETROUS_INTERIOR
   if (ray.state != kAir)
-    passTissue(ray, hit, ray.at.value);
+    passTissue(ray, hit, ray.at.value, 0.5 * (ray.value + ray.at.value));
 #endif
   if (ray.next != kAir && (ray.state == kAir || ray.next >= kStructure))
   {
@@ -243,8 +246,7 @@ bool goOn(inout Ray ray, bool face, float facing, inout float depth)
   int inside = max(ray.next - kStructure, 0);
   if (ray.next != kAir && ray.material != inside)
     setMaterial(ray, inside);
-  ray.reading.entry = entryOf(ray.row, ray.gathering, valueAt(ray, hit, ray.at.value));
-  ray.reading.integral = integralAt(ray.material, ray.reading.entry);
+  ray.value = valueAt(ray, hit, ray.at.value);
   ray.state = ray.next;
   ray.before = hit;
   ray.passed = kUnknown;
@@ -282,6 +284,7 @@ void main()
   ray.before = 0.0;
   ray.s = 0.0;
   ray.aside = kFirstAside;
+  ray.top = -kNever;
   ray.plain = false;
   ray.height = vec2(kNever);
   ray.passed = kUnknown;
@@ -293,7 +296,8 @@ void main()
 #ifdef PETROUS_INTERIOR
   ray.gathering = makeGathering();
   ray.nearest = ray.first / stepLength;
-  ray.reading = Reading(0.0, vec4(0.0));
+  ray.value = 0.0;
+  ray.lit = 0.0;
 #endif
   ray.color = vec3(0.0);
   ray.transmittance = 1.0;
@@ -312,6 +316,15 @@ void main()
     goOn(ray, face, span.facing, outDepth);
 #endif
 
+#ifdef PETROUS_INTERIOR
+  // What it did not go on to see is taken to look like what it saw, in the light that is there.
+  if (ray.transmittance < ray.gathering.enough)
+  {
+    float reached = reaches(ray.gathering, ray.nearest + ray.before);
+    ray.color *= 1.0 + ray.transmittance * reached / max(ray.lit, 1e-6);
+    ray.transmittance = 0.0;
+  }
+#endif
   outColor = vec4(ray.color, 1.0 - ray.transmittance);
 #ifdef PETROUS_COUNT
   outCount = vec2(fetches, samples);

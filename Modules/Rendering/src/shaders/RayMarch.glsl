@@ -23,6 +23,7 @@ struct Ray
   vec3 passed;  // operands a step before s; kUnknown: not known
   float summit; // where a wall may hide between samples; 0: nowhere
   float aside;  // how far from there the next samples are
+  float top;    // the greatest nearness seen there
   int state;
   int next; // state at the last sample
   bool plain; // there, and a step before it, only the CT counts
@@ -33,7 +34,8 @@ struct Ray
 #ifdef PETROUS_INTERIOR
   Gathering gathering;
   float nearest; // where it enters, steps from the eye
-  Reading reading;
+  float value;   // that its material reads where it is done
+  float lit;     // of the lamp's light, how much that got which the colour is of
 #endif
   vec3 color;
   float transmittance;
@@ -94,12 +96,17 @@ float valueAt(Ray ray, float s, float value)
 }
 
 #ifdef PETROUS_INTERIOR
-// The stretch of tissue from where it is done up to a place where the CT has a value.
-void passTissue(inout Ray ray, float to, float value)
+// The stretch of tissue from where it is done up to a place where the CT has a value. `middle`: half
+// way there. The intensity is taken to run on a parabola; two thirds of how far that bulges lift both
+// ends of a straight line to the same mean (Simpson's rule).
+void passTissue(inout Ray ray, float to, float value, float middle)
 {
-  ray.reading = gather(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
-                       ray.nearest + to, valueAt(ray, to, value), ray.reading, ray.color,
-                       ray.transmittance);
+  float reads = valueAt(ray, to, value);
+  float bulge = ray.more.y > 0.5 ? 0.0 : middle - 0.5 * (ray.value + reads);
+  gather(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
+         ray.nearest + 0.5 * (ray.before + to), vec2(ray.value, reads) + 0.66666667 * bulge,
+         ray.color, ray.lit, ray.transmittance);
+  ray.value = reads;
 }
 #endif
 
@@ -161,8 +168,9 @@ int seek(inout Ray ray, out Run run, const bool plain)
 }
 
 // The samples of a run, until the state changes. Two a turn, which do not wait for each other; where
-// both stay in the state, tissue is gathered over both at once. A place where a wall may hide is looked
-// at on both sides, five times, before the next two. `from`: where bricks of this kind begin.
+// both stay in the state, tissue is gathered over both at once. Where a wall may hide, both are taken
+// beside the likeliest place, seven times, each time nearer to the best so far, before the next two.
+// `from`: where bricks of this kind begin.
 int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 {
   bool inAir = ray.state == kAir;
@@ -194,9 +202,11 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
     float summit = summitOf(falls ? n1 - 1.0 : n1,
                             falls ? vec3(ray.height, h1) : vec3(ray.height.y, h1, h2));
     bool hides = summit > 0.0 && !quiet && (falls ? passes : both);
-    bool again = aside && !changes && ray.aside < kLastAside;
-    ray.aside = again ? ray.aside + kNextAside : kFirstAside;
-    ray.summit = again ? ray.summit : (hides ? max(summit, from) : 0.0);
+    bool again = aside && !changes && ray.aside > kLastAside;
+    float best = max(h1, h2) > ray.top ? (h1 > h2 ? s1 : s2) : ray.summit;
+    ray.top = aside ? max(ray.top, max(h1, h2)) : -kNever;
+    ray.aside = again ? kNextAside * ray.aside : kFirstAside;
+    ray.summit = again ? best : (hides ? max(summit, from) : 0.0);
     ray.height = both ? vec2(h1, h2) : (one ? vec2(ray.height.y, h1) : ray.height);
     ray.height.x = quiet ? kNever : ray.height.x;
     if (!plain)
@@ -206,7 +216,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 #ifdef PETROUS_INTERIOR
     if (passes && !inAir)
     {
-      passTissue(ray, s2, at2.value);
+      float straight = 0.5 * (ray.value + at2.value);
+      passTissue(ray, s2, at2.value, both ? at1.value : straight);
       outcome = ray.transmittance < ray.gathering.enough ? kEnd : outcome;
     }
 #endif

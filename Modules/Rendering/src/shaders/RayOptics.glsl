@@ -61,14 +61,6 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
 }
 
 #ifdef PETROUS_INTERIOR
-// Where a ray stands in its tissue's table: the entry, and the integrals of extinction * colour and
-// of extinction (1/mm, over entries) up to there.
-struct Reading
-{
-  float entry;
-  vec4 integral;
-};
-
 // What the integral along a ray needs, worked out once.
 struct Gathering
 {
@@ -90,6 +82,13 @@ Gathering makeGathering()
   return g;
 }
 
+// Share of the lamp's light so many steps away from it.
+float reaches(Gathering g, float steps)
+{
+  float dim = steps * g.dimming;
+  return 1.0 / (1.0 + dim * dim);
+}
+
 // Integrals up to an entry.
 vec4 integralAt(int material, float entry)
 {
@@ -97,31 +96,30 @@ vec4 integralAt(int material, float entry)
   return texelFetch(depthTexture, ivec2(int(entry), material), 0);
 }
 
-// The nearest of the table's intensities: a difference of two readings is then exact between them.
+// The nearest of the table's intensities: a difference of two entries is then exact between them.
 float entryOf(vec4 row, Gathering g, float value)
 {
   return floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry) + 0.5);
 }
 
 // Adds `steps` of one tissue, round `middle` steps from the lamp, over which the intensity goes from
-// the reading's to `value`, to what the ray has gathered. The mean over the intensities in between is
-// a difference of integrals, never over less than an entry.
-Reading gather(int material, vec4 row, Gathering g, float steps, float middle, float value,
-               Reading reading, inout vec3 color, inout float transmittance)
+// one value to another, to what the ray has gathered; `lit`: how much of the lamp's light that got. The mean over the intensities in between is a
+// difference of integrals, never over less than an entry.
+void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2 values,
+            inout vec3 color, inout float lit, inout float transmittance)
 {
-  Reading there;
-  there.entry = entryOf(row, g, value);
-  if (there.entry == reading.entry)
-    there.entry += there.entry > 0.5 * g.lastEntry ? -1.0 : 1.0;
-  there.integral = integralAt(material, there.entry);
-  vec4 rise = there.integral - reading.integral;
-  float run = there.entry - reading.entry;
+  float first = entryOf(row, g, values.x);
+  float last = entryOf(row, g, values.y);
+  if (last == first)
+    last += last > 0.5 * g.lastEntry ? -1.0 : 1.0;
+  vec4 rise = integralAt(material, last) - integralAt(material, first);
+  float run = last - first;
   float inverse = 1.0 / max(rise.a * run, 1e-24);
   float opacity = 1.0 - exp2(rise.a * rise.a * inverse * g.exponent * steps);
-  float dim = middle * g.dimming;
-  vec3 shade = clamp(rise.rgb * (run * inverse * g.lamp / (1.0 + dim * dim)), 0.0, 1.0);
+  float reached = reaches(g, middle);
+  vec3 shade = clamp(rise.rgb * (run * inverse * g.lamp * reached), 0.0, 1.0);
   color += transmittance * opacity * shade;
+  lit += transmittance * opacity * reached;
   transmittance -= transmittance * opacity;
-  return there;
 }
 #endif

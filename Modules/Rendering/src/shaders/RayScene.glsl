@@ -112,10 +112,11 @@ const int kMostEvents = 512; // far more than a ray meets before nothing comes t
 const float kOnSurface = 1e-5; // of f: that near to 0 a surface is found
 const int kFalsePositions = 5;
 const float kSummitDoubt = 1.0;
-// Steps from where a wall may hide to where it is looked for.
-const float kFirstAside = 0.05;
-const float kNextAside = 0.1;
-const float kLastAside = 0.44;
+// Steps from where a wall may hide to where it is looked for: of the first look, by what share the
+// next ones are shorter, and the shortest after which there is one more.
+const float kFirstAside = 0.3;
+const float kNextAside = 0.6;
+const float kLastAside = 0.02;
 const float kLongSteps = 4.0; // where nothing but the density changes
 
 #ifdef PETROUS_COUNT

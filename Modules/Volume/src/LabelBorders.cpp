@@ -16,7 +16,8 @@ namespace
 {
 
 constexpr float kThreshold = 0.5F - 1e-3F; // what a picture takes for inside (OpticalModel.h)
-constexpr int kRound = 8; // voxels round a border that have a say in how it is relaxed
+constexpr int kBlock = 4; // voxels: the blocks round a border's have a say in how it is relaxed
+constexpr int kRound = 2 * kBlock;
 
 using Boxes = std::array<core::IndexBox, 256>;
 
@@ -89,6 +90,63 @@ Boxes markMeetings(const Volume<float>& share, const Volume<std::uint8_t>& index
   return boxes;
 }
 
+// Blocks of voxels that are, or are next to, one in which structures meet.
+class Blocks
+{
+public:
+  Blocks(const Volume<std::uint8_t>& borders, const core::IndexBox& voxels)
+    : m_lower{voxels.lower[0] / kBlock - 1, voxels.lower[1] / kBlock - 1,
+              voxels.lower[2] / kBlock - 1}
+    , m_dims{(voxels.upper[0] - 1) / kBlock + 2 - m_lower[0],
+             (voxels.upper[1] - 1) / kBlock + 2 - m_lower[1],
+             (voxels.upper[2] - 1) / kBlock + 2 - m_lower[2]}
+    , m_near(core::IndexBox{{0, 0, 0}, m_dims}.count(), 0)
+  {
+    for (int k = voxels.lower[2]; k < voxels.upper[2]; ++k)
+      for (int j = voxels.lower[1]; j < voxels.upper[1]; ++j)
+        for (int i = voxels.lower[0]; i < voxels.upper[0]; ++i)
+          if ((borders.at(i, j, k) & kMeeting) != 0 && m_near[at({i, j, k})] != kHere)
+            mark({i, j, k});
+  }
+
+  // False beside the voxels that were given.
+  bool hold(const core::Index3& voxel) const
+  {
+    return voxel[0] >= 0 && voxel[1] >= 0 && voxel[2] >= 0 && m_near[at(voxel)] != 0;
+  }
+
+private:
+  static constexpr std::uint8_t kHere = 2;
+
+  std::size_t at(const core::Index3& voxel) const
+  {
+    return static_cast<std::size_t>(voxel[0] / kBlock - m_lower[0]) +
+           static_cast<std::size_t>(m_dims[0]) *
+               (static_cast<std::size_t>(voxel[1] / kBlock - m_lower[1]) +
+                static_cast<std::size_t>(m_dims[1]) *
+                    static_cast<std::size_t>(voxel[2] / kBlock - m_lower[2]));
+  }
+
+  void mark(const core::Index3& voxel)
+  {
+    const std::size_t here = at(voxel);
+    const auto row = static_cast<std::size_t>(m_dims[0]);
+    const std::size_t slice = row * static_cast<std::size_t>(m_dims[1]);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+          std::uint8_t& near = m_near[here + i + j * row + k * slice - 1 - row - slice];
+          near = std::max<std::uint8_t>(near, 1);
+        }
+    m_near[here] = kHere;
+  }
+
+  core::Index3 m_lower; // blocks
+  core::Index3 m_dims;
+  std::vector<std::uint8_t> m_near;
+};
+
 // How deep the voxels of one index lie in it, inside `box`.
 void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core::IndexBox& box,
                  Volume<std::uint8_t>& borders, const core::Progress& progress)
@@ -103,7 +161,13 @@ void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core
       for (int i = 0; i < source.size()[0]; ++i)
         out[i] = row[i] == own ? 1 : 0;
     }
-  const auto share = smoothedShare(*inside, progress);
+  const Blocks near(borders, source);
+  const core::Index3 offset{source.lower[0] - 1, source.lower[1] - 1, source.lower[2] - 1};
+  const auto share = smoothedShare(
+      *inside, progress,
+      [&](const core::Index3& cell) {
+        return near.hold({cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]});
+      });
   const core::IndexBox target = grown(box, 1).intersected(index.geometry().fullBox());
   for (int k = target.lower[2]; k < target.upper[2]; ++k)
     for (int j = target.lower[1]; j < target.upper[1]; ++j)

@@ -55,16 +55,17 @@ double SurfaceNet::depthOf(float share) noexcept
   return (double{share} - 0.5) * double{kShareReach};
 }
 
-SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress)
+SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress,
+                       const Wanted& wanted)
   : m_inside(inside)
   , m_pointOf(makeZeroVolume<std::int32_t>(inside.geometry()))
 {
-  findPoints(progress);
+  findPoints(progress, wanted);
   join();
   findNormals();
 }
 
-void SurfaceNet::findPoints(const core::Progress& progress)
+void SurfaceNet::findPoints(const core::Progress& progress, const Wanted& wanted)
 {
   const core::Index3& dims = m_inside.geometry().dims();
   std::vector<std::vector<Point>> slices(static_cast<std::size_t>(dims[2]));
@@ -85,7 +86,7 @@ void SurfaceNet::findPoints(const core::Progress& progress)
           {
             const int after = end(i + 1);
             const int corners = before | after << 1;
-            if (corners != 0 && corners != 255)
+            if (corners != 0 && corners != 255 && (!wanted || wanted({i, j, k})))
               points.push_back({{i, j, k}, static_cast<std::uint8_t>(corners)});
             before = after;
           }
@@ -153,38 +154,43 @@ void SurfaceNet::join()
 void SurfaceNet::findNormals()
 {
   m_normals.resize(m_points.size());
-  forEachPoint(
-      m_points.size(),
-      [this](std::size_t n)
-      {
-        const Point& point = m_points[n];
-        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-        for (int e = 0; e < 12; ++e)
-        {
-          const int low = kEdges[e][0];
-          const bool lowInside = (point.corners >> low & 1) != 0;
-          if (lowInside == ((point.corners >> kEdges[e][1] & 1) != 0))
-            continue;
-          const auto axis = static_cast<std::size_t>(e / 4);
-          const std::size_t u = (axis + 1) % 3;
-          const std::size_t v = (axis + 2) % 3;
-          core::Index3 base = point.cell; // of the four cells the one with the lowest indices
-          const core::Index3 corner = cornerOf(low);
-          base[u] += corner[u] - 1;
-          base[v] += corner[v] - 1;
-          const auto at = [&](int du, int dv) -> const Eigen::Vector3f&
-          {
-            core::Index3 cell = base;
-            cell[u] += du;
-            cell[v] += dv;
-            return m_positions[static_cast<std::size_t>(pointAt(cell[0], cell[1], cell[2]))];
-          };
-          const Eigen::Vector3f quadrangle =
-              (at(1, 1) - at(0, 0)).cross(at(0, 1) - at(1, 0)); // of its diagonals
-          sum += lowInside ? quadrangle : Eigen::Vector3f(-quadrangle);
-        }
-        m_normals[n] = sum;
-      });
+  forEachPoint(m_points.size(),
+               [this](std::size_t n)
+               {
+                 const Point& point = m_points[n];
+                 Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+                 for (int e = 0; e < 12; ++e)
+                 {
+                   const int low = kEdges[e][0];
+                   const bool lowInside = (point.corners >> low & 1) != 0;
+                   if (lowInside == ((point.corners >> kEdges[e][1] & 1) != 0))
+                     continue;
+                   const auto axis = static_cast<std::size_t>(e / 4);
+                   const std::size_t u = (axis + 1) % 3;
+                   const std::size_t v = (axis + 2) % 3;
+                   core::Index3 base =
+                       point.cell; // of the four cells the one with the lowest indices
+                   const core::Index3 corner = cornerOf(low);
+                   base[u] += corner[u] - 1;
+                   base[v] += corner[v] - 1;
+                   std::array<int, 4> points{};
+                   for (std::size_t p = 0; p < points.size(); ++p)
+                   {
+                     core::Index3 cell = base;
+                     cell[u] += static_cast<int>(p & 1U);
+                     cell[v] += static_cast<int>(p >> 1U);
+                     points[p] = pointAt(cell[0], cell[1], cell[2]);
+                   }
+                   if (*std::min_element(points.begin(), points.end()) < 0)
+                     continue; // at an edge of the net
+                   const auto at = [&](std::size_t p) -> const Eigen::Vector3f&
+                   { return m_positions[static_cast<std::size_t>(points[p])]; };
+                   const Eigen::Vector3f quadrangle =
+                       (at(3) - at(0)).cross(at(2) - at(1)); // its diagonals
+                   sum += lowInside ? quadrangle : Eigen::Vector3f(-quadrangle);
+                 }
+                 m_normals[n] = sum;
+               });
   std::vector<Eigen::Vector3f> scratch;
   average(m_normals, scratch, kNormalRounds, [](std::size_t, std::size_t) { return 1.0F; });
   forEachPoint(m_points.size(),
@@ -271,10 +277,11 @@ void SurfaceNet::relax(const core::Progress& progress)
 }
 
 std::shared_ptr<Volume<float>> smoothedShare(const Volume<std::uint8_t>& inside,
-                                             const core::Progress& progress)
+                                             const core::Progress& progress,
+                                             const SurfaceNet::Wanted& wanted)
 {
   auto share = makeZeroVolume<float>(inside.geometry());
-  SurfaceNet net(inside, progress);
+  SurfaceNet net(inside, progress, wanted);
   net.relax(progress.part(0.0, 2.0 / 3.0));
   net.writeShare(*share, progress.part(2.0 / 3.0, 1.0));
   return share;

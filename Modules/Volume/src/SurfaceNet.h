@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,8 +25,13 @@ namespace petrous::volume
 class SurfaceNet
 {
 public:
-  /// `inside` must be 0 on its outermost voxels, and must live as long as this.
-  SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress);
+  /// Whether a cell, named by its lowest voxel, may have a point.
+  using Wanted = std::function<bool(const core::Index3& cell)>;
+
+  /// `inside` must be 0 on its outermost voxels, and must live as long as this. Where cells are not
+  /// wanted the net has an edge, and voxels count as far from it.
+  SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress,
+             const Wanted& wanted = {});
 
   void relax(const core::Progress& progress);
 
@@ -68,7 +74,7 @@ private:
   void fitThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;
   std::vector<std::uint8_t> thinCorners() const;
   bool isThin(const core::Index3& voxel) const noexcept;
-  void findPoints(const core::Progress& progress);
+  void findPoints(const core::Progress& progress, const Wanted& wanted);
   void join();
   void findNormals();
   template <class T, class WeightOf>
@@ -86,6 +92,7 @@ private:
 
 /// The share that the relaxed net of `inside` writes, on its grid.
 std::shared_ptr<Volume<float>> smoothedShare(const Volume<std::uint8_t>& inside,
-                                             const core::Progress& progress);
+                                             const core::Progress& progress,
+                                             const SurfaceNet::Wanted& wanted = {});
 
 } // namespace petrous::volume

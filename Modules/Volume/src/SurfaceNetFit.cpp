@@ -64,9 +64,11 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (int k = box.lower[2]; k < box.upper[2]; ++k)
     for (int j = box.lower[1]; j < box.upper[1]; ++j)
+    {
+      const std::uint8_t* row = &inside.at(0, j, k);
       for (int i = box.lower[0]; i < box.upper[0]; ++i)
       {
-        if (inside.at(i, j, k) == 0)
+        if (row[i] == 0)
           continue;
         const Vector3d p(i - at[0], j - at[1], k - at[2]);
         const double weight = weightOf(i - at[0]) * weightOf(j - at[1]) * weightOf(k - at[2]);
@@ -74,6 +76,7 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
         first += weight * p;
         second += weight * p * p.transpose();
       }
+    }
   if (sum < 0.5)
     return {};
   const Vector3d center = first / sum;

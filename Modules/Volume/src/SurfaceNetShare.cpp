@@ -127,19 +127,17 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
 // Whether no eight voxels round it are all inside.
 bool SurfaceNet::isThin(const core::Index3& voxel) const noexcept
 {
-  for (int cell = 0; cell < 8; ++cell)
+  // Which of the voxels of each row round it, the lowest bit first, are followed by another one.
+  std::array<int, 9> pairs{};
+  for (int row = 0; row < 9; ++row)
   {
-    const core::Index3 low = cornerOf(cell);
-    int inside = 0;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const core::Index3 up = cornerOf(corner);
-      inside += m_inside.at(voxel[0] - low[0] + up[0], voxel[1] - low[1] + up[1],
-                            voxel[2] - low[2] + up[2]);
-    }
-    if (inside == 8)
-      return false;
+    const std::uint8_t* at =
+        &m_inside.at(voxel[0] - 1, voxel[1] + row % 3 - 1, voxel[2] + row / 3 - 1);
+    pairs[static_cast<std::size_t>(row)] = (at[0] & at[1]) | (at[1] & at[2]) << 1;
   }
+  for (const std::size_t row : {0U, 1U, 3U, 4U})
+    if ((pairs[row] & pairs[row + 1] & pairs[row + 3] & pairs[row + 4]) != 0)
+      return false;
   return true;
 }
 

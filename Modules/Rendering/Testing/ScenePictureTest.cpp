@@ -136,6 +136,23 @@ TEST(ScenePicture, RefusesContentsThatContradictEachOther)
   contents.materials.resize(2); // index 2 has none
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 
+  // What is given for another grid would be read beyond its end.
+  const core::GridGeometry other = cube(10, 1.0);
+  for (const bool index : {true, false})
+  {
+    contents = labelledBall(cube(48, 0.5));
+    volume::LabelField labels = *contents.labels;
+    const auto voxels = std::make_shared<volume::Volume<std::uint8_t>>(other, std::uint8_t{1});
+    (index ? labels.index : labels.borders) = voxels;
+    contents.labels = std::make_shared<volume::LabelField>(labels);
+    EXPECT_THROW(scene.setContents(contents), RenderingError) << index;
+    EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError) << index;
+  }
+
+  contents = hollowBall();
+  contents.iso = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(scene.setContents(contents), RenderingError);
+
   contents = hollowBall();
   contents.materials = {waveMaterial(1.0F)}; // reads a second image
   EXPECT_THROW(scene.setContents(contents), RenderingError);

@@ -10,7 +10,7 @@
 
 #include "PresentShader.h"
 #include "RayCastVertexShader.h"
-#include "petrous/Rendering/RenderingError.h"
+#include "SceneCheck.h"
 
 namespace petrous::rendering
 {
@@ -104,11 +104,8 @@ std::vector<volume::ValueRange> opaqueRanges(const appearance::TransferFunction&
 
 void RayCaster::setContents(const SceneContents& contents)
 {
-  if (contents.clipping.size() > kMostPlanes)
-    throw RenderingError(RenderingError::Reason::BadContents,
-                         "picture: at most " + std::to_string(kMostPlanes) +
-                             " clipping planes can be drawn, not " +
-                             std::to_string(contents.clipping.size()));
+  checkContents(contents);
+  checkPlaneCount(contents);
   const bool sameCt = contents.ct == m_contents.ct;
   m_givenMask = contents.mask;
   std::shared_ptr<const volume::CutMask> mask = maskInUse();

@@ -12,6 +12,7 @@
 
 #include "OpaqueShapes.h"
 #include "OpticalModel.h"
+#include "SceneCheck.h"
 #include "TissueRay.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -49,11 +50,9 @@ public:
     : m_shapes(contents)
   {
     const double step = checkedStep(quality);
+    checkContents(contents);
     if (contents.ct)
       m_tissue.emplace(contents, step);
-    else if (contents.mask)
-      throw RenderingError(RenderingError::Reason::BadContents,
-                           "picture: there is a mask but no CT");
   }
 
   Pixel see(const PixelRay& ray) const;

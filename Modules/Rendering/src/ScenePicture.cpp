@@ -20,7 +20,7 @@
 
 #include "AimCamera.h"
 #include "OpticalModel.h"
-#include "RayShader.h"
+#include "SceneCheck.h"
 #include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "ToolProps.h"
@@ -35,47 +35,17 @@ namespace petrous::rendering
 namespace
 {
 
-void refuse(const std::string& what)
-{
-  throw RenderingError(RenderingError::Reason::BadContents, "picture: " + what);
-}
-
 void check(const SceneContents& contents)
 {
-  if (contents.mask && !contents.ct)
-    refuse("there is a mask but no CT");
-  if (contents.mask && !core::sameGrid(contents.mask->geometry(), contents.ct->geometry()))
-    refuse("the mask does not lie on the CT's grid");
-  if (contents.labels && !contents.ct)
-    refuse("there are structures but no CT");
-  const bool asksForSecond =
-      std::any_of(contents.materials.begin(), contents.materials.end(),
-                  [](const appearance::Material& material)
-                  { return material.source == appearance::IntensitySource::Second; });
-  if (asksForSecond && !contents.second.volume)
-    refuse("a material reads a second image, and there is none");
-  if (contents.clipping.size() > kMostPlanes)
-    refuse("at most " + std::to_string(kMostPlanes) + " clipping planes can be drawn, not " +
-           std::to_string(contents.clipping.size()));
-  if (contents.thickness.distance && !(contents.thickness.farthest > 0.0))
-    refuse("the farthest thickness must be above 0 mm");
+  checkContents(contents);
+  checkPlaneCount(contents);
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)
-      refuse("mesh " + mesh.name + " has no triangles");
+      throw RenderingError(RenderingError::Reason::BadContents,
+                           "picture: mesh " + mesh.name + " has no triangles");
     mesh.mesh->validate();
   }
-}
-
-// The texture's rows are looked up by index: each one that occurs needs its material.
-void checkMaterials(const SceneContents& contents)
-{
-  const std::size_t rows = std::max<std::size_t>(contents.materials.size(), 1);
-  const volume::Volume<std::uint8_t>& index = *contents.labels->index;
-  const std::uint8_t largest = *std::max_element(index.data(), index.data() + index.size());
-  if (largest >= rows)
-    refuse("structure " + std::to_string(int{largest}) + " has no material; there are " +
-           std::to_string(rows - 1) + " beside bone's");
 }
 
 struct MeshActor

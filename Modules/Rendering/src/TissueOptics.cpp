@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "SceneCheck.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Volume/Sampling.h"
@@ -17,29 +17,12 @@ namespace
 constexpr double kScale = 1000.0; // HU; only the unit of f
 constexpr double kNoBone = 1e300; // HU; an iso that no bone reaches
 
-void require(bool holds, const std::string& what)
-{
-  if (!holds)
-    throw RenderingError(RenderingError::Reason::BadContents, "picture: " + what);
-}
-
 const SceneContents& checked(const SceneContents& contents)
 {
-  require(contents.ct != nullptr, "there is no CT");
-  require(std::isfinite(contents.iso), "the surface's intensity is not a number");
-  require(!contents.mask || core::sameGrid(contents.mask->geometry(), contents.ct->geometry()),
-          "the mask does not lie on the CT's grid");
-  require(!contents.thickness.distance || contents.thickness.farthest > 0.0,
-          "the farthest thickness must be above 0 mm");
-  if (contents.labels)
-    require(
-        contents.labels->share && contents.labels->index &&
-            core::sameGrid(contents.labels->share->geometry(), contents.labels->index->geometry()),
-        "the labels need a share and an index on one grid");
-  require(
-      !contents.labels || !contents.labels->borders ||
-          core::sameGrid(contents.labels->borders->geometry(), contents.labels->index->geometry()),
-      "the labels' borders do not lie on their grid");
+  if (!contents.ct)
+    throw RenderingError(RenderingError::Reason::BadContents, "picture: there is no CT");
+  checkContents(contents);
+  checkMaterials(contents);
   return contents;
 }
 
@@ -69,17 +52,6 @@ TissueOptics::TissueOptics(const SceneContents& contents)
 {
   if (m_materials.empty())
     m_materials.emplace_back();
-  if (m_index)
-  {
-    const std::size_t largest =
-        *std::max_element(m_index->data(), m_index->data() + m_index->size());
-    require(largest < m_materials.size(), "the labels name material " + std::to_string(largest) +
-                                              "; there are " + std::to_string(m_materials.size()) +
-                                              ", counted from 0");
-  }
-  for (std::size_t row = 0; row < m_materials.size(); ++row)
-    require(m_materials[row].source == appearance::IntensitySource::Ct || m_second.volume,
-            "material " + std::to_string(row) + " reads a second image, and there is none");
 }
 
 double TissueOptics::shareAt(const Eigen::Vector3d& patient) const

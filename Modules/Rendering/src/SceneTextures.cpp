@@ -277,23 +277,30 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   if (whole)
   {
     std::vector<std::uint16_t> values(shares.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
-                      [&](const tbb::blocked_range<std::size_t>& range)
-                      {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          values[i] = inSixteenBits(shares.data()[i]);
-                      });
+    const auto fill = [&values](const auto& valueAt)
+    {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
+                        [&](const tbb::blocked_range<std::size_t>& range)
+                        {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i)
+                            values[i] = valueAt(i);
+                        });
+    };
+    fill([&](std::size_t i) { return inSixteenBits(shares.data()[i]); });
     share.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
     if (!borders)
     {
       index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
       return;
     }
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      const std::uint8_t pair[2] = {labels.index->data()[i], labels.borders->data()[i]};
-      std::memcpy(&values[i], pair, sizeof pair);
-    }
+    fill(
+        [&](std::size_t i)
+        {
+          const std::uint8_t pair[2] = {labels.index->data()[i], labels.borders->data()[i]};
+          std::uint16_t both = 0;
+          std::memcpy(&both, pair, sizeof both);
+          return both;
+        });
     index.create(texel::kIndexPair, dims, values.data(), GL_NEAREST);
     return;
   }

@@ -28,6 +28,74 @@ constexpr float kAcrossFace = 0.25F;
 constexpr float kAcrossCell = 0.1F;
 constexpr float kAcrossTriangle = 0.6F / 14.0F;
 
+bool has(int corners, int corner)
+{
+  return (corners >> corner & 1) != 0;
+}
+
+// Calls visit(a, b, c, d), corners of a cell round one of its faces, twice a face.
+template <class Visit>
+void forEachFace(const Visit& visit)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+    {
+      const int u = 1 << (axis + 1) % 3;
+      const int v = 1 << (axis + 2) % 3;
+      const int base = side << axis;
+      visit(base, base + u, base + u + v, base + v);
+      visit(base + u, base + u + v, base + v, base);
+    }
+}
+
+bool touchAcross(int corners, int a, int b, int c, int d)
+{
+  return has(corners, a) && has(corners, c) && !has(corners, b) && !has(corners, d);
+}
+
+// By the corners of a cell that are inside, whether some touch by an edge or a corner only.
+std::array<bool, 256> cellsAskew()
+{
+  std::array<bool, 256> result{};
+  for (int corners = 1; corners < 255; ++corners)
+  {
+    bool& askew = result[static_cast<std::size_t>(corners)];
+    forEachFace([&](int a, int b, int c, int d)
+                { askew = askew || touchAcross(corners, a, b, c, d); });
+    for (int a = 0; a < 4; ++a)
+      askew = askew || corners == (1 << a | 1 << (7 - a));
+  }
+  return result;
+}
+
+// Calls lift(corner, depth) for what joins the corners of a cell that are inside; `thin`: which of
+// them are, `at(corner)` the depth in voxels.
+template <class At, class Lift>
+void joinCorners(int corners, int thin, const At& at, const Lift& lift)
+{
+  forEachFace(
+      [&](int a, int b, int c, int d)
+      {
+        if (!touchAcross(corners, a, b, c, d) || (thin & (1 << a | 1 << c)) == 0)
+          return;
+        lift(b, -kAcrossFace * (at(a) + at(c)));
+        lift(d, -kAcrossFace * (at(a) + at(c)));
+      });
+  for (int a = 0; a < 4; ++a)
+    if (corners == (1 << a | 1 << (7 - a)))
+      for (int corner = 0; corner < 8; ++corner)
+        lift(corner, -kAcrossCell * (at(a) + at(7 - a)));
+  // Three that touch by edges, the corners of a triangle: `far` lies beyond it.
+  for (int far = 0; far < 8; ++far)
+  {
+    if (corners != (1 << (far ^ 3) | 1 << (far ^ 5) | 1 << (far ^ 6)))
+      continue;
+    const float inside = 4.0F * (at(far ^ 3) + at(far ^ 5) + at(far ^ 6)) + at(far);
+    for (const int corner : {far ^ 7, far ^ 1, far ^ 2, far ^ 4})
+      lift(corner, -kAcrossTriangle * std::max(inside, 0.0F));
+  }
+}
+
 } // namespace
 
 void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress) const
@@ -161,53 +229,29 @@ std::vector<std::uint8_t> SurfaceNet::thinCorners() const
 // between them, and that their own voxel stays outside.
 void SurfaceNet::joinThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const
 {
-  const auto insideOf = [](int corners, int corner) { return (corners >> corner & 1) != 0; };
-  const auto forEachFace = [](const auto& visit)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-      for (int side = 0; side < 2; ++side)
-      {
-        const int u = 1 << (axis + 1) % 3;
-        const int v = 1 << (axis + 2) % 3;
-        const int base = side << axis;
-        visit(base, base + u, base + u + v, base + v);
-        visit(base + u, base + u + v, base + v, base);
-      }
-  };
-  std::array<bool, 256> meetsAskew{};
-  for (int corners = 1; corners < 255; ++corners)
-  {
-    bool& askew = meetsAskew[static_cast<std::size_t>(corners)];
-    forEachFace(
-        [&](int a, int b, int c, int d)
-        {
-          askew = askew || (insideOf(corners, a) && insideOf(corners, c) && !insideOf(corners, b) &&
-                            !insideOf(corners, d));
-        });
-    for (int a = 0; a < 4; ++a)
-      askew = askew || corners == (1 << a | 1 << (7 - a));
-  }
   struct Corners
   {
     core::Index3 cell;
     int corners;
     int thin; // which of them
   };
+  const std::array<bool, 256> askew = cellsAskew();
   std::vector<Corners> cells;
   for (std::size_t n = 0; n < m_points.size(); ++n)
-    if (thin[n] != 0 && meetsAskew[m_points[n].corners])
+    if (thin[n] != 0 && askew[m_points[n].corners])
       cells.push_back({m_points[n].cell, m_points[n].corners, thin[n]});
   const auto valueAt = [&share](const core::Index3& v) -> float&
   { return share.at(v[0], v[1], v[2]); };
   for (const Corners& cell : cells)
     for (int corner = 0; corner < 8; ++corner)
-      if (insideOf(cell.thin, corner))
+      if (has(cell.thin, corner))
       {
         float& value = valueAt(voxelOf(cell.cell, corner));
         value = std::max(value, shareOf(kThinDepth));
       }
   // The highest lift of a voxel counts, in whatever order they come.
   using Lifts = std::vector<std::pair<core::Index3, float>>;
+  tbb::enumerable_thread_specific<Lifts> found;
   const auto findLifts = [&](const Corners& cell, Lifts& lifts)
   {
     std::array<float, 8> depth{};
@@ -215,37 +259,13 @@ void SurfaceNet::joinThin(Volume<float>& share, const std::vector<std::uint8_t>&
       depth[static_cast<std::size_t>(corner)] =
           static_cast<float>(depthOf(valueAt(voxelOf(cell.cell, corner))));
     const auto at = [&depth](int corner) { return depth[static_cast<std::size_t>(corner)]; };
-    const auto lift = [&](int corner, float to)
-    {
-      if (!insideOf(cell.corners, corner) && to > at(corner))
-        lifts.emplace_back(voxelOf(cell.cell, corner), shareOf(std::min(to, -kLeast)));
-    };
-    forEachFace(
-        [&](int a, int b, int c, int d)
-        {
-          if (!insideOf(cell.corners, a) || !insideOf(cell.corners, c) ||
-              insideOf(cell.corners, b) || insideOf(cell.corners, d) ||
-              (cell.thin & (1 << a | 1 << c)) == 0)
-            return;
-          lift(b, -kAcrossFace * (at(a) + at(c)));
-          lift(d, -kAcrossFace * (at(a) + at(c)));
-        });
-    for (int a = 0; a < 4; ++a)
-      if (cell.corners == (1 << a | 1 << (7 - a)))
-        for (int corner = 0; corner < 8; ++corner)
-          lift(corner, -kAcrossCell * (at(a) + at(7 - a)));
-    // Three that touch by edges, the corners of a triangle: `far` lies beyond it.
-    for (int far = 0; far < 8; ++far)
-    {
-      const int three = 1 << (far ^ 3) | 1 << (far ^ 5) | 1 << (far ^ 6);
-      if (cell.corners != three)
-        continue;
-      const float inside = 4.0F * (at(far ^ 3) + at(far ^ 5) + at(far ^ 6)) + at(far);
-      for (const int corner : {far ^ 7, far ^ 1, far ^ 2, far ^ 4})
-        lift(corner, -kAcrossTriangle * std::max(inside, 0.0F));
-    }
+    joinCorners(cell.corners, cell.thin, at,
+                [&](int corner, float to)
+                {
+                  if (!has(cell.corners, corner) && to > at(corner))
+                    lifts.emplace_back(voxelOf(cell.cell, corner), shareOf(std::min(to, -kLeast)));
+                });
   };
-  tbb::enumerable_thread_specific<Lifts> found;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 256),
                     [&](const tbb::blocked_range<std::size_t>& range)
                     {

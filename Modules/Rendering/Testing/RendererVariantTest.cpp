@@ -145,12 +145,12 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
     double samples;
   };
   const std::vector<Limit> limits{
-      {"opaque", hollowBall(oblique()), slanting(), 15.9, 7.7},
-      {"opaque, near", hollowBall(oblique()), near, 42.8, 24.2},
-      {"translucent", translucentBall(), slanting(), 39.3, 21.5},
-      {"cut", cutBall(), near, 63.3, 25.9},
-      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 45.3, 20.9},
-      {"everything", fullScene(), near, 206.1, 69.6},
+      {"opaque", hollowBall(oblique()), slanting(), 14.8, 5.4},
+      {"opaque, near", hollowBall(oblique()), near, 39.6, 16.8},
+      {"translucent", translucentBall(), slanting(), 35.0, 15.2},
+      {"cut", cutBall(), near, 53.9, 18.1},
+      {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 39.2, 14.4},
+      {"everything", fullScene(), near, 165.2, 46.6},
   };
   for (const Limit& limit : limits)
   {

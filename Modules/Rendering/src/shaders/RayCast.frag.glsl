@@ -68,8 +68,8 @@ void narrow(inout Bracket bracket, inout Ray ray, const bool plain)
 }
 
 // Goes back from the last sample to where the state changes; the ray's operands and next state become
-// those of that place.
-float changePoint(inout Ray ray)
+// those of that place. `plain`: only the CT counts there.
+float changePoint(inout Ray ray, const bool plain)
 {
   bool aside = ray.s < ray.before; // found where a wall was thought to be
   Bracket bracket;
@@ -80,14 +80,8 @@ float changePoint(inout Ray ray)
   bracket.weight = vec2(1.0);
   bracket.hit = ray.s;
   bracket.state = ray.next;
-#if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
-  bracket.open = ray.plain;
-  narrow(bracket, ray, true);
-  bracket.open = !ray.plain;
-#else
   bracket.open = true;
-#endif
-  narrow(bracket, ray, false);
+  narrow(bracket, ray, plain);
   float a = deciding(ray, bracket.atLow);
   float b = deciding(ray, bracket.atHigh);
   if (a * b < 0.0)
@@ -101,7 +95,7 @@ float changePoint(inout Ray ray)
   }
 #if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
   // Just before the surface the operands tell what begins there; it need not go on to `high`.
-  if (bracket.state == ray.state && ray.next != kAir && ray.state <= kBone)
+  if (!plain && bracket.state == ray.state && ray.next != kAir && ray.state <= kBone)
   {
     bool structure = ray.state == kBone || ray.at.share > kShareThreshold;
 #ifdef PETROUS_NESTED
@@ -215,17 +209,10 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   ray.transmittance *= 1.0 - ray.row.z;
 }
 
-// To the next change of state, and through it. False: it is the ray's end.
-bool goOn(inout Ray ray, bool face, float facing, inout float depth)
+// Through a change of state. `facing`: see shade.
+int pass(inout Ray ray, float hit, float facing, inout float depth)
 {
-  float hit = 0.0;
-  if (!face)
-  {
-    if (!march(ray))
-      return false; // it left the volume, or nothing comes through any more
-    hit = changePoint(ray);
-    ray.number = floor(hit); // the sample behind it is taken again in the new state
-  }
+  ray.number = floor(hit); // the sample behind it is taken again in the new state
   vec3 v = positionOf(ray, hit);
 #ifdef PETROUS_INTERIOR
   if (ray.state != kAir)
@@ -234,13 +221,13 @@ bool goOn(inout Ray ray, bool face, float facing, inout float depth)
   if (ray.next != kAir && (ray.state == kAir || ray.next >= kStructure))
   {
     setMaterial(ray, materialAt(v, ray.at, ray.state, ray.next));
-    shade(ray, v, mmOf(ray, hit), face ? facing : -1.0);
+    shade(ray, v, mmOf(ray, hit), facing);
     if (depth < 0.0)
       depth = mmOf(ray, hit);
   }
 #ifdef PETROUS_INTERIOR
   if (ray.transmittance < ray.gathering.enough)
-    return false;
+    return kEnd;
   // The state says what fills it, not the surface: a lumen's look belongs to the wall only, and
   // between two structures the other's voxels may begin just behind the hit.
   int inside = max(ray.next - kStructure, 0);
@@ -252,9 +239,69 @@ bool goOn(inout Ray ray, bool face, float facing, inout float depth)
   ray.passed = kUnknown;
   ray.height = vec2(kNever);
   ray.summit = 0.0;
+  return ray.before < ray.last ? kOn : kEnd;
+#else
+  return kEnd;
 #endif
-  return ray.before < ray.last;
 }
+
+#ifdef PETROUS_INTERIOR
+// From change to change, to the ray's end. Changes where only the CT counts are met in the inner loop:
+// what the other bricks cost, pixels in lock step pay each time that one of them comes to such bricks,
+// and not at every change.
+void follow(inout Ray ray, int outcome, float facing, inout float depth)
+{
+  float hit = 0.0;
+  int events = 0;
+  while (outcome != kEnd && events < kMostEvents)
+  {
+    do
+    {
+      if (outcome == kOn)
+      {
+        outcome = marchIn(ray, true);
+        if (outcome == kChange)
+          hit = changePoint(ray, true);
+      }
+      if (outcome == kChange)
+      {
+        outcome = pass(ray, hit, facing, depth);
+        facing = -1.0;
+      }
+      ++events;
+    } while (outcome == kOn && events < kMostEvents);
+#if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
+    if (outcome == kOtherBricks)
+      outcome = marchIn(ray, false);
+    bool met = outcome == kChange || outcome == kWideChange;
+    if (met)
+      hit = changePoint(ray, false);
+    outcome = met ? kChange : (outcome == kOtherBricks ? kOn : outcome);
+#endif
+  }
+}
+#else
+// To the first surface, which ends the ray.
+void follow(inout Ray ray, int outcome, float facing, inout float depth)
+{
+  float hit = 0.0;
+  bool marches = outcome == kOn;
+  while (outcome < kWideChange)
+  {
+    outcome = marchIn(ray, true);
+#if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
+    if (outcome == kOtherBricks)
+      outcome = marchIn(ray, false);
+#endif
+  }
+  if (outcome != kEnd)
+  {
+    if (marches)
+      hit = changePoint(ray, false);
+    pass(ray, hit, facing, depth);
+  }
+}
+#endif
 
 void main()
 {
@@ -285,7 +332,6 @@ void main()
   ray.s = 0.0;
   ray.aside = kFirstAside;
   ray.top = -kNever;
-  ray.plain = false;
   ray.height = vec2(kNever);
   ray.passed = kUnknown;
   ray.summit = 0.0;
@@ -303,18 +349,9 @@ void main()
   ray.transmittance = 1.0;
   ray.at = operandsAt(ray.ways, 0.0, false);
   ray.next = alive ? stateOf(ray.at, ray.ways, 0.0, false) : kAir;
-  bool face = ray.next != kAir; // the ray enters tissue through the border of what is drawn
-
-#ifdef PETROUS_INTERIOR
-  for (int events = 0; alive && events < kMostEvents; ++events)
-  {
-    alive = goOn(ray, face, span.facing, outDepth);
-    face = false;
-  }
-#else
+  bool face = ray.next != kAir; // it enters tissue through the border of what is drawn
   if (alive)
-    goOn(ray, face, span.facing, outDepth);
-#endif
+    follow(ray, face ? kChange : kOn, face ? span.facing : -1.0, outDepth);
 
 #ifdef PETROUS_INTERIOR
   // What it did not go on to see is taken to look like what it saw, in the light that is there.

@@ -26,7 +26,6 @@ struct Ray
   float top;    // the greatest nearness seen there
   int state;
   int next; // state at the last sample
-  bool plain; // there, and a step before it, only the CT counts
   Operands at;
   int material;
   vec4 row;
@@ -110,10 +109,12 @@ void passTissue(inout Ray ray, float to, float value, float middle)
 }
 #endif
 
+// How a ray goes on.
 const int kOn = 0;
 const int kOtherBricks = 1; // the next sample is for the other inner loop
-const int kChange = 2;
-const int kEnd = 3;
+const int kWideChange = 2;  // a change that lies between bricks of both kinds
+const int kChange = 3;
+const int kEnd = 4;
 
 // Samples inside one brick.
 struct Run
@@ -233,6 +234,7 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
   return outcome;
 }
 
+// Samples bricks of one kind until the state changes; ends with a bracket of where (see changePoint).
 int marchIn(inout Ray ray, const bool plain)
 {
   float from = plain ? ray.number + 1.0 : 0.0;
@@ -244,25 +246,13 @@ int marchIn(inout Ray ray, const bool plain)
     if (outcome == kOn)
       outcome = takeSamples(ray, run, from, plain);
   } while (outcome == kOn);
-  ray.plain = plain && ray.s - 1.0 >= from;
+#if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
+  if (plain && outcome == kChange && ray.s - 1.0 < from)
+    outcome = kWideChange;
+#endif
   if (plain) // height is all that it kept
     ray.passed = ray.height.y < kNever
                      ? vec3(ray.state == kAir ? ray.height.y : -ray.height.y, -0.5, 0.5)
                      : kUnknown;
   return outcome;
-}
-
-// Samples until the state changes; whether it does.
-bool march(inout Ray ray)
-{
-  int outcome = kOn;
-  while (outcome < kChange)
-  {
-    outcome = marchIn(ray, true);
-#if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
-    if (outcome == kOtherBricks)
-      outcome = marchIn(ray, false);
-#endif
-  }
-  return outcome == kChange;
 }

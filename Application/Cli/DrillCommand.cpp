@@ -61,6 +61,7 @@ presenters::PathDrill::Options toolFrom(const Options& options)
   if (options.thrust && !(*options.thrust > 0.0 && *options.thrust <= 20.0))
     throw UsageError("--thrust: must lie above 0 and within 20 N");
   result.thrust = options.thrust;
+  result.tool.coupling = presenters::couplingFor(result.tool.mode, result.thrust);
   return result;
 }
 

@@ -148,6 +148,8 @@ void DrillController::applyBar()
     settings.lift = 0.0;
   m_view.setWheelLeads(wheel);
   m_lead.set(settings, m_tool == Tool::Burr);
+  if (m_model.touching() && m_lead.outgrown())
+    putAway(); // the pointer's next move takes it up
 }
 
 void DrillController::layDown()

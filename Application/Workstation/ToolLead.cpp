@@ -68,6 +68,19 @@ presenters::DeviceLead ToolLead::lead() const
   return lead;
 }
 
+// The wheel presses by its way.
+std::optional<double> ToolLead::setThrust() const
+{
+  const interaction::AimSettings& aim = m_aim.settings();
+  return aim.mode == interaction::AimSettings::Mode::Surface ? std::optional<double>(aim.thrust)
+                                                             : std::nullopt;
+}
+
+bool ToolLead::outgrown() const
+{
+  return m_pointer && presenters::couplingFor(m_mode, setThrust()).stiffness != m_stiffness;
+}
+
 haptics::Device& ToolLead::prepare(presenters::TouchSession::Setup& setup)
 {
   m_pointer = nullptr;
@@ -83,6 +96,9 @@ haptics::Device& ToolLead::prepare(presenters::TouchSession::Setup& setup)
     return *device;
   }
   setup.center = m_model.value().ct.geometry.center();
+  m_mode = setup.tool.mode;
+  setup.tool.coupling = presenters::couplingFor(m_mode, setThrust());
+  m_stiffness = setup.tool.coupling.stiffness;
   m_aim.apply(setup.parameters);
   interaction::PointerDevice::Limits limits;
   limits.silence = kSilence;

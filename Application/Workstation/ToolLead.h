@@ -29,6 +29,9 @@ public:
   haptics::Device& prepare(presenters::TouchSession::Setup& setup);
   bool byMouse() const noexcept { return m_pointer != nullptr; } ///< since `prepare`
 
+  /// The mouse's tool is tied to it otherwise than it would be now.
+  bool outgrown() const;
+
   /// Where a device's tool begins: a hand that comes, at its origin, before what the middle of the
   /// view shows; anew there, wherever the hand is; otherwise it goes on from where it was.
   void beginThere() noexcept;
@@ -47,6 +50,7 @@ public:
 private:
   Eigen::Vector3d placeLookedAt();
   presenters::DeviceLead lead() const;
+  std::optional<double> setThrust() const; // N
   void press();
   void seeByMouse(const simulation::TickRecord& record);
 
@@ -56,10 +60,12 @@ private:
   interaction::PointerAim m_aim;
   std::unique_ptr<haptics::Device> m_mouse;        // of the touch that runs
   interaction::PointerDevice* m_pointer = nullptr; // in it
-  std::optional<Eigen::Vector3d> m_place;          // of a device's tool, patient mm
-  Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0};      // frame D, at the same time
-  presenters::DeviceSwitches m_held;               // by button and keys
-  bool m_foot = false;                             // the pedal is down
+  presenters::TouchTool::Mode m_mode = presenters::TouchTool::Mode::SixDof; // of the mouse's tool
+  double m_stiffness = 0.0;                                                 // N/mm, of the same
+  std::optional<Eigen::Vector3d> m_place;     // of a device's tool, patient mm
+  Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0}; // frame D, at the same time
+  presenters::DeviceSwitches m_held;          // by button and keys
+  bool m_foot = false;                        // the pedal is down
   bool m_cuts = true;
 };
 

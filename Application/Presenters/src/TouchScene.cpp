@@ -6,9 +6,18 @@
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Simulation/ConstantThrust.h"
 
 namespace petrous::presenters
 {
+
+haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double> thrust) noexcept
+{
+  // In three degrees of freedom the centre sinks by the thrust over the stiffness: a measure of it.
+  if (!thrust || mode == TouchTool::Mode::ThreeDof)
+    return {};
+  return simulation::ConstantThrust::coupling(*thrust);
+}
 
 TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState)
   : m_case(value)

@@ -124,6 +124,29 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   EXPECT_NE(view().picture().camera().position, before.position);
 }
 
+// It is tied to the hand otherwise where a set thrust presses it and where the wheel does.
+TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
+  QTest::keyClick(&view(), Qt::Key_M);
+  EXPECT_FALSE(window().model().touching());
+  QTest::mouseMove(&view(), middle + QPoint(2, 0));
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
+  window().findChild<QDoubleSpinBox*>("thrust")->setValue(0.2);
+  EXPECT_TRUE(window().model().touching());
+  QTest::keyClick(&view(), Qt::Key_M);
+  EXPECT_FALSE(window().model().touching());
+  QTest::mouseMove(&view(), middle);
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
+  window().findChild<QDoubleSpinBox*>("thrust")->setValue(2.0);
+  EXPECT_FALSE(window().model().touching());
+}
+
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
 {
   saveBall("ball");

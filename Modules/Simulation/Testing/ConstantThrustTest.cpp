@@ -1,7 +1,10 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "Session.h"
 
+using namespace petrous;
 using namespace petrous::simulation;
 using namespace petrous::simulation::testing;
 using Eigen::Quaterniond;
@@ -122,5 +125,148 @@ TEST(ConstantThrust, PullsSidewaysNoHarderThanItPresses)
   session.go({0.0, 0.0, 2.5}, {0.0, 0.0, 2.5}, 100);
   const Vector3d before = session.records.back().proxy.pose().position;
   session.tick({{4.0, 0.0, 2.5}, Quaterniond::Identity()});
-  EXPECT_NEAR((session.records.back().proxy.pose().position - before).norm(), 1.0, 1e-6);
+  const double pulled = (session.records.back().proxy.pose().position - before).norm();
+  EXPECT_GT(pulled, 0.5);
+  EXPECT_LT(pulled, 1.0); // F / k
+}
+
+TEST(ConstantThrust, LeadsOnWhatFollows)
+{
+  Session session(setupWith(10.0));
+  session.proxy.stiffness = 10.0;
+  session.parameters.constantThrust = 1;
+  session.parameters.thrust = 0.2;
+  session.go({0.0, 0.0, 2.5}, {0.0, 0.0, 2.5}, 100);
+  session.go({0.0, 0.0, 2.5}, {10.0, 0.0, 2.5}, 100); // 0.1 m/s
+  EXPECT_NEAR(session.records.back().proxy.pose().position.x(), 10.0, 0.5);
+  EXPECT_NEAR(session.records.back().thrust, 0.2, 0.002);
+}
+
+namespace
+{
+
+// What a tool does that stands still and pushes back with the coupling's whole force, but for the
+// part of its way that it plans and does not make.
+haptics::ProxyTick held(const Vector3d& at, const Vector3d& goal, double stiffness,
+                        double planned = 0.0)
+{
+  haptics::ProxyTick tick;
+  tick.status = haptics::ProxyStatus::Contact;
+  tick.pose.position = at;
+  Vector3d lead = goal - at;
+  lead *= 1.0 - planned / lead.norm();
+  tick.wrench.linear = -stiffness * lead;
+  tick.contactCount = 1;
+  tick.contacts[0].thrust = tick.wrench.linear.norm();
+  tick.contacts[0].normal = tick.wrench.linear / tick.contacts[0].thrust;
+  tick.thrust = tick.contacts[0].thrust;
+  return tick;
+}
+
+constexpr double kTick = 0.001, kSpeed = 50.0;
+
+Vector3d goalOf(ConstantThrust& thrust, const Vector3d& place, const Vector3d& at, double force)
+{
+  return thrust
+      .goal({place, Quaterniond::Identity()}, {at, Quaterniond::Identity()}, -Vector3d::UnitZ(),
+            force, kSpeed, kTick)
+      .position;
+}
+
+// In contact with a plane under it.
+ConstantThrust onAPlane(const Vector3d& at, double stiffness)
+{
+  ConstantThrust thrust(stiffness, 1);
+  goalOf(thrust, at, at, 1.0);
+  thrust.see(held(at, at - Vector3d(0.0, 0.0, 0.1), stiffness), kSpeed, kTick);
+  return thrust;
+}
+
+} // namespace
+
+// A wall holds it off its place: with what pulls there the force is what was asked for, not more.
+TEST(ConstantThrust, WhatPullsSidewaysIsPartOfTheForce)
+{
+  const Vector3d at(0.0, 0.0, 2.0), place(0.05, 0.0, 2.0);
+  ConstantThrust thrust = onAPlane(at, 10.0);
+  Vector3d goal;
+  for (int n = 0; n < 200; ++n)
+  {
+    goal = goalOf(thrust, place, at, 1.0);
+    thrust.see(held(at, goal, 10.0), kSpeed, kTick);
+  }
+  EXPECT_NEAR(10.0 * (goal - at).norm(), 1.0, 0.01);
+  EXPECT_NEAR(10.0 * (goal - at).x(), 0.5, 0.01);
+}
+
+// Ripples of its hollow let it slide to and fro, and push it to a side that is theirs.
+TEST(ConstantThrust, SlidingInAHollowDoesNotTurnIt)
+{
+  const Vector3d at(0.0, 0.0, 2.0), place(0.0, 0.0, -3.0);
+  ConstantThrust thrust = onAPlane(at, 10.0);
+  Vector3d goal;
+  for (int n = 0; n < 2000; ++n)
+  {
+    const Vector3d slid = at + Vector3d(0.05 * std::sin(0.3 * n), 0.0, 0.0);
+    goal = goalOf(thrust, place, slid, 1.0);
+    const Vector3d ripple(0.05, 0.0, 0.0);
+    thrust.see(held(slid, goal + ripple, 10.0), kSpeed, kTick);
+  }
+  const Vector3d last = at + Vector3d(0.05 * std::sin(0.3 * 1999), 0.0, 0.0);
+  // Sideways it pulls to the place, straight above which it was pressed on.
+  EXPECT_NEAR((goal - last).x(), -last.x(), 1e-6);
+}
+
+// A tick's work is bounded: a tool may plan a way that it does not make, and push the less.
+TEST(ConstantThrust, MakesUpForAToolThatPushesLessThanItWasTold)
+{
+  const Vector3d at(0.0, 0.0, 2.0);
+  ConstantThrust thrust = onAPlane(at, 10.0);
+  haptics::ProxyTick tick;
+  for (int n = 0; n < 50; ++n)
+  {
+    tick = held(at, goalOf(thrust, at, at, 1.0), 10.0, 0.02);
+    thrust.see(tick, kSpeed, kTick);
+  }
+  EXPECT_NEAR(tick.thrust, 1.0, 0.01);
+}
+
+TEST(ConstantThrust, ComesBackGentlyToASurfaceThatItLost)
+{
+  const Vector3d at(0.0, 0.0, 2.0);
+  ConstantThrust thrust = onAPlane(at, 10.0);
+  haptics::ProxyTick free;
+  free.pose.position = goalOf(thrust, at, at, 0.2); // arrived, and nothing there
+  thrust.see(free, kSpeed, kTick);
+  const Vector3d next = goalOf(thrust, at, free.pose.position, 0.2);
+  // Were the surface there, it would be met with some newtons' tenths, not with 50 mm/s and 0.5 N.
+  EXPECT_LE(10.0 * (free.pose.position - next).norm(), 3.0 * 0.2 + 1e-9);
+  EXPECT_NEAR((at - free.pose.position).norm(), 0.02, 1e-9);
+}
+
+// The mode is left and entered again in contact: nothing of the time between counts.
+TEST(ConstantThrust, BeginsAnewWhereItWasNotAskedFor)
+{
+  const Vector3d at(0.0, 0.0, 2.0);
+  ConstantThrust thrust = onAPlane(at, 10.0);
+  goalOf(thrust, at, at, 1.0);
+  thrust.see(held(at, at - Vector3d(0.0, 0.0, 0.1), 10.0), kSpeed, kTick);
+  for (int n = 0; n < 100; ++n) // by hand, lightly
+    thrust.see(held(at, at - Vector3d(0.0, 0.0, 0.001), 10.0), kSpeed, kTick);
+  EXPECT_NEAR(10.0 * (goalOf(thrust, at, at, 1.0) - at).norm(), 1.0, 1e-6);
+}
+
+TEST(ConstantThrust, IsCoupledTheStifferTheHarderItPresses)
+{
+  const haptics::ProxyParameters usual;
+  for (const double thrust : {0.0, 0.01, 0.04})
+    EXPECT_EQ(ConstantThrust::coupling(thrust).stiffness, usual.stiffness);
+  double before = usual.stiffness;
+  for (const double thrust : {0.1, 0.2, 0.4, 5.0, 20.0})
+  {
+    const auto coupling = ConstantThrust::coupling(thrust);
+    EXPECT_GE(coupling.stiffness, before);
+    EXPECT_GE(thrust / coupling.stiffness, 0.04 - 1e-12); // mm
+    before = coupling.stiffness;
+  }
 }

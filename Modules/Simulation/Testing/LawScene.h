@@ -8,6 +8,7 @@
 #include "Session.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/HapticField.h"
+#include "petrous/Simulation/ConstantThrust.h"
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/RemovalFeed.h"
 
@@ -32,8 +33,9 @@ public:
     , feed(search, setting.burr, setting.voxel)
     , loop(work, *mask, feed, {}, hooks())
     , m_shell(setting.shell ? setting.shell : shellOf(setting))
-    , m_tool(std::make_shared<haptics::HapticField>(tissue, mask), *m_shell)
-    , session(setupOf(*m_shell), m_tool)
+    , m_tool(std::make_shared<haptics::HapticField>(tissue, mask), *m_shell,
+             ConstantThrust::coupling(setting.thrust))
+    , session(setupOf(*m_shell, setting.thrust), m_tool)
   {
     session.parameters.constantThrust = 1;
     session.parameters.thrust = setting.thrust;
@@ -102,12 +104,13 @@ private:
     return hooks;
   }
 
-  static ServoSetup setupOf(const haptics::PointShell& shell)
+  static ServoSetup setupOf(const haptics::PointShell& shell, double thrust)
   {
     ServoSetup setup = Session::plainSetup();
     setup.guard.goodTicks = 1;
     setup.guard.speed = setup.guard.angularSpeed = setup.guard.reach = 1e9;
     setup.stallAfter = 1e9;
+    setup.stiffness = ConstantThrust::coupling(thrust).stiffness;
     setup.burrPoints = shell.burrCount;
     return setup;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace petrous::simulation
 {
@@ -11,13 +12,18 @@ using Eigen::Vector3d;
 namespace
 {
 
-// s in which the advance follows what the surface gives way.
-constexpr double kAdvanceTime = 0.01;
+// s in which what the force lacks is made up for: a surface that gives way takes from it.
+constexpr double kAdvanceTime = 0.005;
 
 // mm of way along the surface in which the force follows what the contacts say. Not a time: in a
 // hollow of the burr's own size all directions within its opening are in balance, so that one that
 // follows in time wanders, and with it the law's r, though the burr stays where it is.
 constexpr double kFollowWay = 1.0;
+
+// mm that the tool may go to and fro without that being a way: it slides on the ripples of its
+// hollow. Where the force turns, the place it is pulled to turns too, on a lever as long as the
+// place lies deep, so that each of those slides would lead to a farther one.
+constexpr double kPlay = 0.15;
 
 // A place that lies L beyond the tool pulls sideways by k L where the force turns by one, against
 // that turn: followed as fast as anything else, a weak force would swing about from tick to tick.
@@ -25,8 +31,19 @@ constexpr double kMostGain = 0.5;
 
 constexpr double kArrived = 0.001; // mm
 
-// A tool that is held back sideways pulls at most with F, but follows the hand at 0.2 m/s at least.
-constexpr double kLeastSideways = 0.2; // mm a tick
+// Ripples and the skin between tool and tissue are some hundredths of a millimetre: a tool that
+// presses by less is now on the surface and now off it.
+constexpr double kLeastPress = 0.04; // mm
+constexpr double kStiffest = 10.0;   // N/mm
+constexpr double kAngular = 10.0;    // mm^2/rad, of the stiffness
+
+// Of the force, that may pull sideways on a tool that is held back; one that goes may be led on as
+// fast as this, and what is led too far pulls for one tick.
+constexpr double kMostSideways = 0.7;
+constexpr double kFollowSpeed = 200.0; // mm/s
+
+// How much faster a tool in the air may come from tick to tick.
+constexpr double kHaste = 2.0;
 
 } // namespace
 
@@ -36,8 +53,21 @@ ConstantThrust::ConstantThrust(double stiffness, std::size_t burrPoints) noexcep
 {
 }
 
+haptics::ProxyParameters ConstantThrust::coupling(double thrust) noexcept
+{
+  haptics::ProxyParameters parameters;
+  const double stiffness = std::min(thrust / kLeastPress, kStiffest);
+  if (stiffness > parameters.stiffness)
+  {
+    parameters.stiffness = stiffness;
+    parameters.angularStiffness = std::max(kAngular * stiffness, parameters.angularStiffness);
+  }
+  return parameters;
+}
+
 void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt) noexcept
 {
+  const bool pressed = std::exchange(m_pressed, false);
   Vector3d push = Vector3d::Zero();
   for (std::size_t n = 0; n < tick.contactCount; ++n)
     if (tick.contacts[n].point < m_burrPoints)
@@ -45,29 +75,44 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
   const double length = push.norm();
   const bool contact = length > 0.0;
   const Vector3d moved = m_hasProxy ? Vector3d(tick.pose.position - m_proxy) : Vector3d::Zero();
+  const double way = m_heading.dot(moved);
+  m_glide = (moved - way * m_heading).norm();
+  m_sank = std::max(way, 0.0);
   if (contact && !m_contact)
   {
     m_direction = -push / length;
-    m_advance = 0.0;
+    m_advance = m_pull = 0.0;
+    m_from = tick.pose.position;
   }
   else if (contact)
   {
-    const double way = m_direction.dot(moved);
-    const double aside = (moved - way * m_direction).norm();
-    const double share = std::min(1.0 - std::exp(-aside / kFollowWay), kMostGain * m_turning);
-    const Vector3d turned = m_direction - share * (push / length + m_direction);
-    const double norm = turned.norm();
-    m_direction = norm > 0.1 ? Vector3d(turned / norm) : Vector3d(-push / length);
-    m_advance +=
-        (1.0 - std::exp(-dt / kAdvanceTime)) * (std::clamp(way, 0.0, speed * dt) - m_advance);
+    m_pull = (push - m_direction.dot(push) * m_direction).norm() / m_stiffness;
+    turn(-push / length, tick.pose.position);
+    const double lacks = m_press + m_direction.dot(tick.wrench.linear) / m_stiffness;
+    const double share = 1.0 - std::exp(-dt / kAdvanceTime);
+    m_advance = pressed ? std::clamp(m_advance + share * lacks, 0.0, speed * dt) : 0.0;
   }
   // A tick's work is bounded (ConstrainedProxy): what gave way far may not have been fallen
   // through.
-  m_falling = m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived;
+  m_falling = pressed && m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived;
   m_contact = contact || m_falling;
   m_inside = tick.status == haptics::ProxyStatus::Inside;
   m_proxy = tick.pose.position;
   m_hasProxy = true;
+}
+
+void ConstantThrust::turn(const Vector3d& wanted, const Vector3d& position) noexcept
+{
+  Vector3d aside = position - m_from;
+  aside -= m_direction.dot(aside) * m_direction;
+  const double way = aside.norm() - kPlay;
+  if (!(way > 0.0))
+    return;
+  m_from += way / aside.norm() * aside;
+  const double share = std::min(1.0 - std::exp(-way / kFollowWay), kMostGain * m_turning);
+  const Vector3d turned = m_direction + share * (wanted - m_direction);
+  const double norm = turned.norm();
+  m_direction = norm > 0.1 ? Vector3d(turned / norm) : wanted;
 }
 
 haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Pose& proxy,
@@ -83,18 +128,24 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   }
   const Vector3d offset = place.position - proxy.position;
   Vector3d sideways = offset - direction.dot(offset) * direction;
-  const double press = thrust / m_stiffness;
-  m_turning = press / std::max(press + std::abs(direction.dot(offset)), kArrived);
-  double along = m_falling ? direction.dot(m_goal - proxy.position) : press + m_advance;
+  const double whole = thrust / m_stiffness;
+  m_turning = whole / std::max(whole + std::abs(direction.dot(offset)), kArrived);
+  // What pulls sideways is part of the force.
+  const double pull = std::min(m_pull, kMostSideways * whole);
+  m_press = std::sqrt(whole * whole - pull * pull);
+  double along = m_falling ? direction.dot(m_goal - proxy.position) : m_press + m_advance;
   if (m_inside)
     along = -speed * dt;
   else if (!m_contact)
-    along = std::min(speed * dt, std::max(kReach + direction.dot(offset), -kReach));
-  const double most = std::max(press, kLeastSideways);
+    along = std::min(
+        {speed * dt, whole + kHaste * m_sank, std::max(kReach + direction.dot(offset), -kReach)});
+  const double most = kMostSideways * whole + std::min(m_glide, kFollowSpeed * dt);
   const double length = sideways.norm();
   if (m_contact && length > most)
     sideways *= most / length;
   m_goal = proxy.position + sideways + along * direction;
+  m_heading = direction;
+  m_pressed = true;
   return {m_goal, place.rotation};
 }
 

@@ -30,6 +30,10 @@ struct TouchTool
   haptics::ProxyParameters coupling; ///< 1 N/mm and 20 N mm/rad by default
 };
 
+/// How such a tool is best tied to a hand that a set thrust presses, in newtons, and without one to
+/// a hand that presses by its way.
+haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double> thrust) noexcept;
+
 /// A case made ready for touch: its tissue field as a servo samples it, and the mask as the servo
 /// sees it. Made once for a case and its touchable structures; tools come and go.
 ///

@@ -11,16 +11,24 @@ namespace petrous::simulation
 /// cannot press (mouse, SpaceMouse, a written path).
 ///
 /// In contact the goal lies F/k beyond the tool, against the burr's mean contact normal, so the
-/// coupling's force there is F; across that direction it is the given place. The direction follows
-/// the contacts as the tool goes along the surface; a burr that stays in its hollow presses on as
-/// it did. Before contact the tool comes along the approach at a set speed, at most `kReach` beyond
-/// the given place. Where the tool stands in tissue it backs out the same way.
+/// coupling's force there is F, what it pulls sideways included; across that direction it is the
+/// given place. The direction follows the contacts as the tool goes along the surface; a burr that
+/// stays in its hollow presses on as it did. Before contact the tool comes along the approach at a
+/// set speed, at most `kReach` beyond the given place. Where the tool stands in tissue it backs out
+/// the same way.
 ///
 /// Nothing here allocates or throws.
 class ConstantThrust
 {
 public:
   static constexpr double kReach = 30.0; ///< mm
+
+  /// The coupling for a thrust of so many newtons, from the usual one at 0.04 N to 10 N/mm and
+  /// 100 N mm/rad at 0.4 N and above. The ripples of a hollow, some 10 degrees steep at 0.4 mm
+  /// voxels, push the burr aside by a part of the thrust, and as far as the coupling lets it: half
+  /// a millimetre at 5 N and 1 N/mm. Not for hands that press by their way, nor for devices, which
+  /// have a limit of their own.
+  static haptics::ProxyParameters coupling(double thrust) noexcept;
 
   /// stiffness   k of the proxy's coupling, N/mm, > 0
   /// burrPoints  shell points that lie on the burr (PointShell::burrCount)
@@ -40,17 +48,26 @@ public:
                      double dt) noexcept;
 
 private:
+  void turn(const Eigen::Vector3d& wanted, const Eigen::Vector3d& position) noexcept;
+
   double m_stiffness;
   std::size_t m_burrPoints;
+  bool m_pressed = false; // to the goal of this tick
   bool m_contact = false;
   bool m_inside = false;
   bool m_hasProxy = false;
   bool m_falling = false; // no contact, but the goal that was pressed to is not reached either
   Eigen::Vector3d m_direction{0.0, 0.0, 0.0}; // unit, into the tissue
+  Eigen::Vector3d m_from{0.0, 0.0, 0.0};      // whence the way along the surface counts
+  Eigen::Vector3d m_heading{0.0, 0.0, 0.0};   // of the last goal: that direction, or the approach
   Eigen::Vector3d m_proxy{0.0, 0.0, 0.0};
   Eigen::Vector3d m_goal{0.0, 0.0, 0.0};
   double m_turning = 1.0; // of the force, by what comes from its pull to the side
-  double m_advance = 0.0; // mm a tick, as the surface gives way
+  double m_press = 0.0;   // mm beyond the tool, along the direction, but for the advance
+  double m_advance = 0.0; // mm, what the force would lack else
+  double m_pull = 0.0;    // mm, of the burr's contacts across the direction, over k
+  double m_glide = 0.0;   // mm across the heading in the last tick
+  double m_sank = 0.0;    // mm along it
 };
 
 } // namespace petrous::simulation

@@ -323,7 +323,7 @@ void MainWindow::stateChanged()
   setWindowTitle(
       (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
       words(value.name) + QString::fromUtf8(" — Petrous"));
-  m_sum->setText(removedText(value));
+  m_sum->setText(removedText(value, m_model.drilling()));
 }
 
 // Beside the case, which is shown at once.

@@ -7,14 +7,16 @@
 namespace petrous::workstation
 {
 
-QString removedText(const scene::Case& value)
+QString removedText(const scene::Case& value, bool drilling)
 {
-  return value.applied() == 0
-             ? QObject::tr("nothing drilled")
-             : QObject::tr("%1 %2, %3 mm³ removed")
-                   .arg(value.applied())
-                   .arg(value.applied() == 1 ? QObject::tr("stroke") : QObject::tr("strokes"))
-                   .arg(value.removedVolume(), 0, 'f', 1);
+  if (value.applied() == 0)
+    return drilling ? QObject::tr("drilling the first stroke") : QObject::tr("nothing drilled");
+  const QString text =
+      QObject::tr("%1 %2, %3 mm³ removed")
+          .arg(value.applied())
+          .arg(value.applied() == 1 ? QObject::tr("stroke") : QObject::tr("strokes"))
+          .arg(value.removedVolume(), 0, 'f', 1);
+  return drilling ? QObject::tr("%1, drilling").arg(text) : text;
 }
 
 QString strokeText(const dissection::Stroke* stroke)

@@ -7,8 +7,8 @@
 namespace petrous::workstation
 {
 
-/// What was drilled so far.
-QString removedText(const scene::Case& value);
+/// What was drilled so far. `drilling`: a stroke is open, whose volume is known when it is closed.
+QString removedText(const scene::Case& value, bool drilling);
 
 /// What a stroke took; "Nothing was cut" for none.
 QString strokeText(const dissection::Stroke* stroke);

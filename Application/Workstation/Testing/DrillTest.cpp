@@ -1,7 +1,9 @@
 #include "GuiTest.h"
 
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QWheelEvent>
 
 using namespace petrous;
@@ -79,6 +81,31 @@ TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
   EXPECT_TRUE(strokeEnds());
   ASSERT_EQ(window().model().value().strokes.size(), 1u);
   EXPECT_GT(window().model().value().removedVolume(), 0.0);
+}
+
+TEST_F(Drill, TheStatusBarKnowsOfAStrokeThatIsOpen)
+{
+  saveBall("ball");
+  openWindow();
+  const auto sum = [this]
+  {
+    for (const QLabel* label : window().statusBar()->findChildren<QLabel*>())
+      if (label->toolTip() == "What was drilled so far")
+        return label->text();
+    return QString();
+  };
+  EXPECT_EQ(sum(), "nothing drilled");
+  QTest::keyClick(&view(), Qt::Key_D);
+  for (const QString open : {"drilling the first stroke", "removed, drilling"})
+  {
+    QTest::keyPress(&view(), Qt::Key_Space);
+    EXPECT_TRUE(waitFor([this] { return window().model().drilling(); }));
+    EXPECT_TRUE(sum().endsWith(open)) << sum().toStdString();
+    QTest::qWait(300);
+    QTest::keyRelease(&view(), Qt::Key_Space);
+    EXPECT_TRUE(strokeEnds());
+    EXPECT_TRUE(sum().endsWith("removed")) << sum().toStdString();
+  }
 }
 
 TEST_F(Drill, AnotherBurrIsTakenUpAndDrillsAWiderHole)

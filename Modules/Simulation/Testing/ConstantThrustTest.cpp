@@ -236,12 +236,12 @@ TEST(ConstantThrust, ComesBackGentlyToASurfaceThatItLost)
   const Vector3d at(0.0, 0.0, 2.0);
   ConstantThrust thrust = onAPlane(at, 10.0);
   haptics::ProxyTick free;
-  free.pose.position = goalOf(thrust, at, at, 0.2); // arrived, and nothing there
+  free.pose.position = goalOf(thrust, at, at, 0.1); // arrived, and nothing there
   thrust.see(free, kSpeed, kTick);
-  const Vector3d next = goalOf(thrust, at, free.pose.position, 0.2);
+  const Vector3d next = goalOf(thrust, at, free.pose.position, 0.1);
   // Were the surface there, it would be met with some newtons' tenths, not with 50 mm/s and 0.5 N.
-  EXPECT_LE(10.0 * (free.pose.position - next).norm(), 3.0 * 0.2 + 1e-9);
-  EXPECT_NEAR((at - free.pose.position).norm(), 0.02, 1e-9);
+  EXPECT_LE(10.0 * (free.pose.position - next).norm(), 3.0 * 0.1 + 1e-9);
+  EXPECT_NEAR((at - free.pose.position).norm(), 0.01, 1e-9);
 }
 
 // The mode is left and entered again in contact: nothing of the time between counts.

@@ -340,8 +340,9 @@ def main(ct, out):
     write_path(out / "deepen.csv", plan, mastoid, SHAFT, 3.0, 1.5, (*range(6, 24, 2), 30), 1.5,
                10.0)
     write_path(out / "thin.csv", plan, mastoid, SHAFT, 2.0, 1.0, (30, 30), 1.0, 8.0)
-    write_path(out / "behind.csv", plan, behind, SHAFT_BEHIND, 3.0, 1.0, (2, 4, 6, 8, 10, 12, 30),
-               1.5, 15.0)
+    # The nearer the burr is to the hand the less it is pressed, so it comes to the floor slowly.
+    write_path(out / "behind.csv", plan, behind, SHAFT_BEHIND, 3.0, 1.0,
+               (2, 4, 6, 8, 10, 12, 30, 30, 30), 1.5, 8.0)
     write_path(out / "plate.csv", plan, behind, SHAFT_BEHIND, 2.0, 1.0, (30, 30), 1.0, 8.0)
 
 

@@ -276,3 +276,15 @@ TEST(TouchSession, RefusesBadParameters)
   hand.setup.parameters.thrust = 50.0;
   EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
 }
+
+TEST(TouchTool, IsHeldTheStifferWhereASetThrustPressesIt)
+{
+  using Mode = TouchTool::Mode;
+  const haptics::ProxyParameters usual;
+  EXPECT_EQ(couplingFor(Mode::SixDof, std::nullopt).stiffness, usual.stiffness);
+  EXPECT_EQ(couplingFor(Mode::ThreeDof, 1.0).stiffness, usual.stiffness);
+  const haptics::ProxyParameters pressed = couplingFor(Mode::SixDof, 1.0);
+  EXPECT_EQ(pressed.stiffness, simulation::ConstantThrust::coupling(1.0).stiffness);
+  EXPECT_GT(pressed.stiffness, 5.0 * usual.stiffness);
+  EXPECT_GT(pressed.angularStiffness, usual.angularStiffness);
+}

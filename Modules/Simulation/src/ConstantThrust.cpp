@@ -137,8 +137,8 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   if (m_inside)
     along = -speed * dt;
   else if (!m_contact)
-    along = std::min(
-        {speed * dt, whole + kHaste * m_sank, std::max(kReach + direction.dot(offset), -kReach)});
+    along = std::min({speed * dt, std::max(whole, kArrived) + kHaste * m_sank,
+                      std::max(kReach + direction.dot(offset), -kReach)});
   const double most = kMostSideways * whole + std::min(m_glide, kFollowSpeed * dt);
   const double length = sideways.norm();
   if (m_contact && length > most)

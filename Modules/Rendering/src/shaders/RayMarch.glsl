@@ -183,7 +183,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
     float n1 = min(ray.number + run.stride, run.last);
     float n2 = min(n1 + run.stride, run.last);
     float s1 = aside ? max(ray.summit - ray.aside, from) : min(n1, ray.last);
-    float s2 = aside ? ray.summit + ray.aside : min(n2, ray.last);
+    float most = plain ? max(min(run.last, ray.last), ray.summit) : ray.last; // the next brick's kind?
+    float s2 = aside ? min(ray.summit + ray.aside, most) : min(n2, ray.last);
     Operands at1 = operandsAt(ray.ways, s1, plain);
     Operands at2 = operandsAt(ray.ways, s2, plain);
     SAMPLES(2);

@@ -286,9 +286,11 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
 {
   float hit = 0.0;
   bool marches = outcome == kOn;
+  bool plain = false;
   while (outcome < kWideChange)
   {
     outcome = marchIn(ray, true);
+    plain = outcome == kChange;
 #if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
     if (outcome == kOtherBricks)
       outcome = marchIn(ray, false);
@@ -296,7 +298,9 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
   }
   if (outcome != kEnd)
   {
-    if (marches)
+    if (plain)
+      hit = changePoint(ray, true);
+    else if (marches)
       hit = changePoint(ray, false);
     pass(ray, hit, facing, depth);
   }

@@ -212,11 +212,10 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
 // Through a change of state. `facing`: see shade.
 int pass(inout Ray ray, float hit, float facing, inout float depth)
 {
-  ray.number = floor(hit); // the sample behind it is taken again in the new state
   vec3 v = positionOf(ray, hit);
 #ifdef PETROUS_INTERIOR
   if (ray.state != kAir)
-    passTissue(ray, hit, ray.at.value, 0.5 * (ray.value + ray.at.value));
+    passTissue(ray, hit, ray.at.value, 0.0);
 #endif
   if (ray.next != kAir && (ray.state == kAir || ray.next >= kStructure))
   {
@@ -236,6 +235,7 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
   ray.value = valueAt(ray, hit, ray.at.value);
   ray.state = ray.next;
   ray.before = hit;
+  ray.number = floor(hit); // the sample behind it is taken again in the new state
   ray.passed = kUnknown;
   ray.height = vec2(kNever);
   ray.summit = 0.0;
@@ -285,7 +285,6 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
 void follow(inout Ray ray, int outcome, float facing, inout float depth)
 {
   float hit = 0.0;
-  bool marches = outcome == kOn;
   bool plain = false;
   while (outcome < kWideChange)
   {
@@ -300,7 +299,7 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
   {
     if (plain)
       hit = changePoint(ray, true);
-    else if (marches)
+    else if (facing < 0.0) // not on the border of what is drawn
       hit = changePoint(ray, false);
     pass(ray, hit, facing, depth);
   }

@@ -95,13 +95,13 @@ float valueAt(Ray ray, float s, float value)
 }
 
 #ifdef PETROUS_INTERIOR
-// The stretch of tissue from where it is done up to a place where the CT has a value. `middle`: half
-// way there. The intensity is taken to run on a parabola; two thirds of how far that bulges lift both
-// ends of a straight line to the same mean (Simpson's rule).
-void passTissue(inout Ray ray, float to, float value, float middle)
+// The stretch of tissue from where it is done up to a place where the CT has a value. `bulge`: how
+// far the CT lies, half way there, above the mean of both ends. The intensity is taken to run on a
+// parabola; two thirds of that lift both ends of a straight line to the same mean (Simpson's rule).
+void passTissue(inout Ray ray, float to, float value, float bulge)
 {
   float reads = valueAt(ray, to, value);
-  float bulge = ray.more.y > 0.5 ? 0.0 : middle - 0.5 * (ray.value + reads);
+  bulge = ray.more.y > 0.5 ? 0.0 : bulge; // of the second image nothing is read half way
   gather(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
          ray.nearest + 0.5 * (ray.before + to), vec2(ray.value, reads) + 0.66666667 * bulge,
          ray.color, ray.lit, ray.transmittance);
@@ -218,8 +218,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 #ifdef PETROUS_INTERIOR
     if (passes && !inAir)
     {
-      float straight = 0.5 * (ray.value + at2.value);
-      passTissue(ray, s2, at2.value, both ? at1.value : straight);
+      float bulge = at1.value - 0.5 * (ray.value + at2.value);
+      passTissue(ray, s2, at2.value, both ? bulge : 0.0);
       outcome = ray.transmittance < ray.gathering.enough ? kEnd : outcome;
     }
 #endif

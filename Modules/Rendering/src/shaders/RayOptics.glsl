@@ -103,8 +103,9 @@ float entryOf(vec4 row, Gathering g, float value)
 }
 
 // Adds `steps` of one tissue, round `middle` steps from the lamp, over which the intensity goes from
-// one value to another, to what the ray has gathered; `lit`: how much of the lamp's light that got. The mean over the intensities in between is a
-// difference of integrals, never over less than an entry.
+// one value to another, to what the ray has gathered; `lit`: how much of the lamp's light that got.
+// The mean over the intensities in between is a difference of integrals, never over less than an
+// entry.
 void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2 values,
             inout vec3 color, inout float lit, inout float transmittance)
 {

@@ -4,7 +4,7 @@
 // Compiled with the features that the scene uses (PETROUS_*): what is not defined is not fetched.
 //   BONE       the CT's own surface            MASK     the cut
 //   LABELS     structures                      SECOND   a second image for some materials
-//   BORDERS    structures that touch            NESTED   structures can be looked into
+//   BORDERS    structures that touch           NESTED   structures can be looked into
 //   INTERIOR   tissue can be looked into       CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted

@@ -15,7 +15,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr float kThreshold = 0.5F - 1e-3F; // what a picture takes for inside (OpticalModel.h)
+constexpr auto kThreshold = static_cast<float>(kInsideShare);
 constexpr int kBlock = 4; // voxels: the blocks round a border's have a say in how it is relaxed
 constexpr int kRound = 2 * kBlock;
 

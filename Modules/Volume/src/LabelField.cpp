@@ -13,7 +13,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr float kThreshold = 0.5F - 1e-3F; // what a picture takes for inside (OpticalModel.h)
+constexpr auto kThreshold = static_cast<float>(kInsideShare);
 
 // A step to another voxel, and how far that is.
 struct Step

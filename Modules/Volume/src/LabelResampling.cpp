@@ -17,10 +17,9 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kThreshold = 0.5 - 1e-3; // what a picture takes for inside (OpticalModel.h)
-constexpr double kHalf = 0.5 - 1e-6;      // a tie is inside
-constexpr double kAligned = 5e-3;         // voxels
-constexpr int kMostSamples = 8;           // per axis, in a common voxel
+constexpr double kHalf = 0.5 - 1e-6; // a tie is inside
+constexpr double kAligned = 5e-3;    // voxels
+constexpr int kMostSamples = 8;      // per axis, in a common voxel
 
 // ---- the common grid
 
@@ -238,7 +237,7 @@ private:
     const double inside = scale * tally.solid;
     Sample sample;
     sample.share = scale * tally.share;
-    const bool solid = inside >= kHalf || sample.share > kThreshold;
+    const bool solid = inside >= kHalf || sample.share > kInsideShare;
     if (!solid && inside + scale * tally.lumen < kHalf)
       return sample;
     double largest = 0.0;

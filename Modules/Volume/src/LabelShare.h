@@ -14,6 +14,9 @@ namespace petrous::volume
 /// Two voxels beyond a structure its share is 0 for certain, and its index has ended.
 constexpr int kLabelMargin = 2;
 
+/// A share above this is what a picture takes for inside (OpticalModel.h, kShareThreshold).
+constexpr double kInsideShare = 0.5 - 1e-3;
+
 core::IndexBox grown(const core::IndexBox& box, int voxels) noexcept;
 core::IndexBox moved(const core::IndexBox& box, const core::Index3& by) noexcept;
 

@@ -1,5 +1,8 @@
 #include <cmath>
 #include <cstring>
+#include <regex>
+#include <sstream>
+#include <vector>
 
 #include "CommandRunner.h"
 
@@ -341,4 +344,36 @@ TEST_F(CommandLine, ReferenceEngineWritesDepthAlongEachRay)
   float corner = 0;
   std::memcpy(&corner, npy.data() + data, 4);
   EXPECT_TRUE(std::isnan(corner));
+}
+
+// What --help shows: each subcommand, and each of its options that takes a value.
+TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
+{
+  const auto matches = [](const std::string& text, const char* pattern)
+  {
+    std::vector<std::string> found;
+    const std::regex expression(pattern);
+    std::istringstream lines(text);
+    std::smatch match;
+    for (std::string line; std::getline(lines, line);)
+      if (std::regex_search(line, match, expression))
+        found.push_back(match[1]);
+    return found;
+  };
+  const std::string help = run("--help").out;
+  int tried = 0;
+  for (const std::string& command :
+       matches(help.substr(help.find("Subcommands:")), "^  ([a-z][a-z-]*) "))
+    for (const std::string& option : matches(run(command + " --help").out, "^  (--[a-z-]+) [^ ]"))
+    {
+      expectRefused(command + " " + option + " ''", 2, option + ": the value is empty");
+      expectRefused(command + " " + option + "= x", 2, option + ": the value is empty");
+      ++tried;
+    }
+  EXPECT_GT(tried, 70);
+  expectRefused("info ''", 2, "CASE: the value is empty");
+  expectRefused("register ear --mr T2 --init landmarks ''", 2, "--init: the value is empty");
+  expectRefused("register ear --mr T2 --sign-off --json", 2, "missing before '--json'");
+  expectRefused("appearance ear --set ct=", 2, "'ct=' is empty on one side");
+  expectRefused("new ear --ct x --mr =y", 2, "'=y' is empty on one side");
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <iostream>
 #include <new>
 
@@ -46,6 +47,51 @@ int complain(const std::string& text, int code)
   return code;
 }
 
+// Nobody leaves an option out by giving it nothing, as a script does whose variable is not set, nor
+// means the next option by its value. Also of both sides of NAME=VALUE.
+std::string emptyValue(const std::string& value, bool pair)
+{
+  if (value.empty())
+    return "the value is empty; give one, or leave it out";
+  if (value.size() > 2 && value.compare(0, 2, "--") == 0 &&
+      std::isalpha(static_cast<unsigned char>(value[2])) != 0)
+    return "a value is missing before '" + value + "'";
+  const bool oneSided = pair && (value.front() == '=' || value.back() == '=');
+  return oneSided ? "'" + value + "' is empty on one side of '='" : "";
+}
+
+// Of every option and argument of every subcommand.
+void refuseEmptyValues(CLI::App& app)
+{
+  const auto all = [](const auto*) { return true; };
+  for (CLI::App* command : app.get_subcommands(all))
+  {
+    for (CLI::Option* option : command->get_options(all))
+      if (option->get_items_expected_max() > 0)
+      {
+        const bool pair = option->get_type_name().find('=') != std::string::npos;
+        // first, before other checks speak of a range
+        option->transform(
+            CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
+      }
+    refuseEmptyValues(*command);
+  }
+}
+
+// "--option=" with nothing behind it would take the next word for its value.
+std::string optionWithoutValue(int argc, char** argv)
+{
+  for (int n = 1; n < argc; ++n)
+  {
+    const std::string word = argv[n];
+    if (word == "--")
+      break;
+    if (word.size() > 3 && word.compare(0, 2, "--") == 0 && word.find('=') == word.size() - 1)
+      return word.substr(0, word.size() - 1);
+  }
+  return {};
+}
+
 // The window is a program of its own: the command starts without Qt.
 int openWorkstation(char** arguments)
 {
@@ -90,6 +136,9 @@ int runCommand(int argc, char** argv)
   const auto isFirst = [&first](const CLI::App* command) { return command->get_name() == first; };
   if (first[0] != '-' && app.get_subcommands(isFirst).empty())
     return complain("'" + first + "' is no subcommand; see 'petrous --help'", kUsage);
+  if (const std::string option = optionWithoutValue(argc, argv); !option.empty())
+    return complain(option + ": the value is empty; give one, or leave it out", kUsage);
+  refuseEmptyValues(app);
   try
   {
     app.parse(argc, argv);

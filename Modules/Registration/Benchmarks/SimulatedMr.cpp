@@ -233,6 +233,14 @@ double biasAt(const CounterNoise& noise, double strength, const Vector3d& u)
   return std::exp(strength * sum);
 }
 
+// The share of its shift that a part has at p.
+double shareOf(const LocalShift& part, const Vector3d& p)
+{
+  const double inside =
+      std::clamp((part.radius - (p - part.center).norm()) / part.edge + 0.5, 0.0, 1.0);
+  return inside * inside * (3.0 - 2.0 * inside);
+}
+
 } // namespace
 
 volume::Volume<float> mrContrastOf(const volume::IntensityVolume& ct, MrContrast contrast,
@@ -312,8 +320,12 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
   const SmoothNoise field(a.seed + 101, 45.0);
   const Vector3d encode = a.axes.col(1);
   // The place in the CT's frame whose signal lands at p.
-  const auto source = [field, encode, amount = a.distortion](const Vector3d& p) -> Vector3d
-  { return p + amount * field.at(p) * encode; };
+  const auto source = [field, encode, amount = a.distortion,
+                       local = a.local](const Vector3d& p) -> Vector3d
+  {
+    return local ? Vector3d(p - shareOf(*local, p) * local->shift)
+                 : Vector3d(p + amount * field.at(p) * encode);
+  };
 
   const CounterNoise noise(a.seed * 3 + 5), coil(a.seed * 3 + 6);
   auto voxels = std::make_shared<volume::Volume<float>>(grid);
@@ -326,7 +338,7 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
           {
             const Vector3d index(i, j, k);
             Vector3d shift = Vector3d::Zero();
-            if (a.distortion != 0.0)
+            if (a.distortion != 0.0 || a.local)
             {
               const Vector3d p = scan.patientFromVoxel(index);
               shift = source(p) - p;
@@ -347,7 +359,8 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
   SimulatedMr result;
   result.volume = std::make_shared<volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<float>>(std::move(voxels)));
-  // Where the signal of a CT point lands: the inverse of `source`, by iteration (it is near 1).
+  // Where the signal of a CT point lands: the inverse of `source`, by iteration (it is near 1, but
+  // for the edge of a displaced part, which has none).
   result.truth = [source, x = a.mrFromCt](const Vector3d& p) -> Vector3d
   {
     Vector3d q = p;

@@ -26,6 +26,17 @@ enum class MrContrast
 volume::Volume<float> mrContrastOf(const volume::IntensityVolume& ct, MrContrast contrast,
                                    std::uint64_t seed);
 
+/// A part of the patient that lies elsewhere in the MR than the rest: what lands within `radius` mm
+/// of `center` (CT patient point) comes from `shift` mm away, falling off to nothing over `edge`
+/// mm.
+struct LocalShift
+{
+  Vector3d center{0.0, 0.0, 0.0};
+  double radius = 18.0; ///< mm, to the middle of the edge
+  Vector3d shift{0.0, 0.0, 0.0};
+  double edge = 2.0; ///< mm
+};
+
 /// How the scanner samples it.
 struct MrAcquisition
 {
@@ -39,13 +50,14 @@ struct MrAcquisition
   double noise = 0.03;           ///< Rician: standard deviation of both channels, of about 1
   double bias = 0.2;             ///< share by which the coil's sensitivity varies over the extent
   double distortion = 0.0;       ///< mm at most, along the second axis (phase encoding, as in DWI)
+  std::optional<LocalShift> local; ///< instead of the distortion: such a part
   std::uint64_t seed = 1;
 };
 
 /// The acquisition's image, 1000 times the contrast, with the truth: mrFromCt, and the distortion
-/// where there is one. Each voxel is the mean of cubic (Keys) samples over its box, so no
-/// interpolation that a registration uses is favoured. Air beyond the contrast's grid. The same
-/// for the same seed whatever the number of threads.
+/// or the displaced part where there is one. Each voxel is the mean of cubic (Keys) samples over
+/// its box, so no interpolation that a registration uses is favoured. Air beyond the contrast's
+/// grid. The same for the same seed whatever the number of threads.
 struct SimulatedMr
 {
   std::shared_ptr<const volume::IntensityVolume> volume;

@@ -102,6 +102,20 @@ void addGeometry(List& list)
              recipe.acquisition.distortion = 5.0 + 0.4 * static_cast<double>(d.n);
              return simulatePair(d.body(), d.ear(), recipe);
            });
+  list.add("ear displaced by 2 to 6 mm within 15 to 22 mm", 24,
+           [](const Draw& d)
+           {
+             PairRecipe recipe = d.recipe();
+             const CounterNoise noise = d.noise();
+             LocalShift part;
+             part.center = randomMotion({0, 0, 0}, noise.uniform(20, 0.0, 5.0), 0.0, d.seed() + 1) *
+                           d.earAt();
+             part.radius = noise.uniform(21, 15.0, 22.0);
+             part.shift = randomMotion({0, 0, 0}, noise.uniform(22, 2.0, 6.0), 0.0, d.seed() + 2) *
+                          Vector3d::Zero();
+             recipe.acquisition.local = part;
+             return simulatePair(d.body(), d.ear(), recipe);
+           });
   list.add("MR whose header states voxels 10 to 30 % too large", 8,
            [](const Draw& d)
            {

@@ -1,6 +1,8 @@
 #include "petrous/Registration/Register.h"
 
+#include <algorithm>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,43 @@ TEST(Register, ErrorGrowsAwayFromWhatIsSeen)
   EXPECT_GT(far.error.p95, 1.5 * here.error.p95);
   EXPECT_EQ(far.verdict, Verdict::Doubtful);
   EXPECT_NE(far.text.find("outside"), std::string::npos) << far.text;
+}
+
+// What lies within 16 mm of the ear is displaced, over an edge of 2 mm, in noise.
+TEST(Register, ReachesAnEarThatLiesElsewhereThanTheHead)
+{
+  const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 2.0);
+  const core::RigidTransform back = truth.inverse();
+  for (const Vector3d& shift : {Vector3d(-2.4, 0.9, 1.0), Vector3d(2.0, 3.5, -3.5)})
+  {
+    const auto mr = imageOf<std::int16_t>(
+        kGrid,
+        [&, head = Head()](const Vector3d& p)
+        {
+          const Vector3d q = back * p;
+          const double inside = std::clamp((16.0 - (q - kEar).norm()) / 2.0 + 0.5, 0.0, 1.0);
+          return head.t1(q - inside * shift);
+        },
+        20.0, 2);
+    const Registration result = registerRigid(*headCt(), *mr, {}, kEar);
+    const double error = (result.fit.mrFromCt * kEar - truth * (kEar + shift)).norm();
+    EXPECT_EQ(result.verdict, Verdict::Doubtful) << result.text;
+    EXPECT_GT(error, 0.7 * shift.norm());
+    EXPECT_LE(error, result.error.p95);
+    EXPECT_LT(result.error.p95, error + 1.5);
+    EXPECT_NE(result.text.find("beside the rest"), std::string::npos) << result.text;
+  }
+}
+
+// Turned by half a turn it is beyond the search, and what is found instead is far off.
+TEST(Register, WhatEndsFarOffByChanceHasFailed)
+{
+  const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 175.0, {1, 0, 0});
+  const Registration result = registerRigid(*headCt(), *headMr(truth), {}, kEar);
+  const double moved = (result.fit.mrFromCt * kEar - kEar).norm();
+  const double error = (result.fit.mrFromCt * kEar - truth * kEar).norm();
+  EXPECT_TRUE(error < 1.0 || moved < 51.0 || result.verdict == Verdict::Failed)
+      << error << " mm off, " << moved << " mm from its start: " << result.text;
 }
 
 TEST(Register, DoubtsAMirroredPatient)
@@ -133,6 +172,34 @@ TEST(ErrorModel, KnowsTheNormalDistribution)
   }
 }
 
+// The largest is the 99.9th percentile (of three degrees 4.0331 deviations, of one 3.2905), or what
+// a repeat went further.
+TEST(ErrorModel, LargestIsRarerThanTheP95)
+{
+  for (const auto& [deviation, largest] :
+       {std::pair{Vector3d(1, 1, 1), 4.0331 / 2.7955}, std::pair{Vector3d(1, 0, 0), 3.2905 / 1.96}})
+  {
+    const LocalError error = localError({}, shifts(deviation, 100), {0, 0, 0}, 1e-3, 100.0);
+    EXPECT_NEAR(error.max / error.p95, largest, 0.05 * largest);
+  }
+  std::vector<core::RigidTransform> repeats = shifts({0.1, 0.1, 0.1}, 100);
+  repeats.emplace_back(Eigen::Quaterniond::Identity(), Vector3d(2.0, 0, 0));
+  EXPECT_GE(localError({}, repeats, {0, 0, 0}, 1e-3, 100.0).max, 2.0);
+}
+
+TEST(ErrorModel, CountsFromWhereThePointsSurroundingsLie)
+{
+  LocalError rest;
+  rest.median = 0.2;
+  rest.p95 = 0.4;
+  rest.max = 0.6;
+  const LocalError error = withDisplaced(rest, 3.0, 0.0);
+  EXPECT_DOUBLE_EQ(error.median, 3.0);
+  EXPECT_DOUBLE_EQ(error.p95, 3.4);
+  EXPECT_DOUBLE_EQ(error.max, 3.6);
+  EXPECT_GT(withDisplaced(rest, 3.0, 0.5).p95, 4.0);
+}
+
 TEST(ErrorModel, CountsAFitBesideItsRepeatsAsWrong)
 {
   std::vector<core::RigidTransform> repeats(
@@ -171,6 +238,18 @@ TEST(Judgement, NamesEachReason)
   expect("3.0 mm", Verdict::Doubtful, [](Evidence& e) { e.error.p95 = 3.0; });
   expect("beside", Verdict::Doubtful, [](Evidence& e) { e.aside = 4.0; });
   expect("outside", Verdict::Doubtful, [](Evidence& e) { e.pointCovered = false; });
+  expect("3.1 mm beside the rest", Verdict::Doubtful,
+         [](Evidence& e) {
+           e.displaced = LocalFit{10.0, Vector3d(3.1, 0.0, 0.0), 0.1, 0.2, 0.5};
+         });
+  // far from where it was looked for: only what nothing speaks against
+  expect("agree", Verdict::Good, [](Evidence& e) { e.moved = 118.0; });
+  expect("ended 118 mm", Verdict::Failed,
+         [](Evidence& e)
+         {
+           e.moved = 118.0;
+           e.runnerUp = 0.99;
+         });
 }
 
 } // namespace

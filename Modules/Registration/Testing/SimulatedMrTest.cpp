@@ -208,3 +208,16 @@ TEST(SimulatedMr, DoesNotInheritTheNoiseOfTheCt)
   apart = 20.0 * (0.60 - 0.55) / 18.0;
   EXPECT_LT(most, 0.6 * apart);
 }
+
+// A small blob in a ball that is displaced as a whole lands beside by that much.
+TEST(SimulatedMr, DisplacesAPartOfThePatient)
+{
+  MrAcquisition a = quiet();
+  const Vector3d still = centroid(*acquireMr(blob(2.0), a).volume);
+  a.local = LocalShift{kMiddle, 18.0, Vector3d(2.0, -1.5, 3.0), 2.0};
+  const SimulatedMr moved = acquireMr(blob(2.0), a);
+  EXPECT_LT((centroid(*moved.volume) - still - a.local->shift).norm(), 0.02);
+  EXPECT_LT((moved.truth(kMiddle) - kMiddle - a.local->shift).norm(), 1e-9);
+  const Vector3d outside = kMiddle + Vector3d(25.0, 0.0, 0.0);
+  EXPECT_LT((moved.truth(outside) - outside).norm(), 1e-9);
+}

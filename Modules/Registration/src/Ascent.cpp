@@ -87,7 +87,10 @@ private:
     }
     if (m_listener)
       m_listener(pose, value.information);
-    return {x, value.information, m_chart.gradient(x, value.translation, value.rotation)};
+    PoseVector slope = m_chart.gradient(x, value.translation, value.rotation);
+    if (!m_options.turns)
+      slope.head<3>().setZero();
+    return {x, value.information, slope};
   }
 
   // Along the direction, shortened by the parabola through what is known until it gains enough.

@@ -14,6 +14,7 @@ struct AscentOptions
   double change = 1e-8;      ///< share of the metric that two steps on end must win
   double firstStep = 1.0;    ///< mm, root mean square of the samples
   double longestStep = 10.0; ///< mm
+  bool turns = true;         ///< false: translations alone
 };
 
 struct Ascent

@@ -14,7 +14,7 @@ namespace petrous::registration
 struct Basin
 {
   core::RigidTransform pose; ///< movingFromFixed
-  double score = 0.0;        ///< overlap times information without its bias, nats
+  double score = 0.0;        ///< root of the overlap times information without its bias, nats
 };
 
 /// What the search starts from and how far it looks.
@@ -29,7 +29,7 @@ struct SearchOptions
 /// The distinct maxima near any of the starts, best first: a grid of poses about each, of which the
 /// best are climbed from, at the coarsest level.
 ///
-/// Scored by overlap times (information less its bias from few samples), so that a pose that pushes
+/// Scored by the root of the overlap times (information less its bias from few samples), so that a pose that pushes
 /// most of the fixed image out of the other does not win by what little is left.
 std::vector<Basin> searchBasins(const ImagePair& pair,
                                 const std::vector<core::RigidTransform>& starts,

@@ -9,9 +9,11 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kInflation = 1.1;   // calibrated
-constexpr double kFloor = 0.06;      // of a voxel of the finest level, along each axis; calibrated
-constexpr double kNormal95 = 1.6449; // standard normal quantile
+constexpr double kInflation = 1.1; // calibrated
+constexpr double kFloor = 0.06;    // of a voxel of the finest level, along each axis; calibrated
+// Quantiles of the standard normal distribution.
+constexpr double kNormal95 = 1.6449;
+constexpr double kNormal999 = 3.0902;
 
 // Percentile of chi-square by Wilson and Hilferty (1931), which is within 1 % for 1 degree and up.
 double chiSquare(double degrees, double normal)
@@ -51,7 +53,16 @@ LocalError localError(const core::RigidTransform& mrFromCt,
   const double degrees = trace * trace / square;
   error.median = std::sqrt(scale * chiSquare(degrees, 0.0));
   error.p95 = std::sqrt(scale * chiSquare(degrees, kNormal95));
-  error.max = std::max(error.p95, std::hypot(kInflation * furthest, floor));
+  error.max = std::max(std::sqrt(scale * chiSquare(degrees, kNormal999)),
+                       std::hypot(kInflation * furthest, floor));
+  return error;
+}
+
+LocalError withDisplaced(LocalError error, double offset, double spread)
+{
+  error.median = std::max(error.median, offset);
+  error.p95 = offset + std::hypot(error.p95, 2.0 * spread);
+  error.max = offset + std::hypot(error.max, 3.0 * spread);
   return error;
 }
 

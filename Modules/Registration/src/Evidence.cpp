@@ -17,7 +17,8 @@ namespace
 constexpr double kSurroundings = 30.0; // mm about the point, of the fits that are its own
 constexpr double kShareOfField = 0.35; // of the smaller field's narrowest side, at most
 constexpr int kLocalFits = 6;
-constexpr double kStray = 5.0; // voxels of the finest level; a repeat further off is lost
+constexpr double kStray = 5.0;     // voxels of the finest level; a repeat further off is lost
+constexpr double kDisplaced = 0.6; // mm; see displacedPart
 
 // A level with its left and right exchanged, about the middle of its content.
 Pyramid mirrored(const Pyramid& pyramid)
@@ -116,6 +117,9 @@ Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOpt
       fit.fit.metric -
       informationBias(options.schedule.bins, static_cast<double>(options.schedule.samples));
   evidence.runnerUp = fit.score > 0.0 ? fit.runnerUp / fit.score : 0.0;
+  evidence.moved = (pose * at - fit.starts.front() * at).norm();
+  for (const core::RigidTransform& start : fit.starts)
+    evidence.moved = std::min(evidence.moved, (pose * at - start * at).norm());
 
   RepeatOptions repeat;
   repeat.seed = options.seed;
@@ -124,6 +128,11 @@ Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOpt
   evidence.strays = strayShare(pose, repeats, at, stray);
   evidence.error = localError(pose, repeats, at, voxel, stray);
   progress.report(0.6, "registration's error");
+  evidence.displaced = displacedPart(
+      fitSurroundings(pair, pose, at, options.seed, progress.part(0.6, 0.65)), kDisplaced);
+  if (evidence.displaced)
+    evidence.error = withDisplaced(evidence.error, evidence.displaced->offset.norm(),
+                                   evidence.displaced->spread);
   evidence.aside = asideOf(pair, pose, at, repeat);
   progress.report(0.7, "registration's verdict");
   evidence.mirrored = mirrorShare(pair, pose, options, progress.part(0.7, 1.0));

@@ -4,6 +4,7 @@
 
 #include "ImagePair.h"
 #include "PairFit.h"
+#include "Surroundings.h"
 
 namespace petrous::registration
 {
@@ -19,7 +20,9 @@ struct Evidence
   double aside = 0.0;
   double runnerUp = 0.0;    ///< best score of a clearly different pose, as a share of the fit's
   double mirrored = 0.0;    ///< best score of the MR mirrored, as a share of the fit's
+  double moved = 0.0;       ///< mm, at the point, from the nearest of the starts
   bool pointCovered = true; ///< the point lies in both images
+  std::optional<LocalFit> displaced; ///< a ball about the point that lies elsewhere than the rest
   LocalError error;
 };
 
@@ -32,7 +35,8 @@ struct Judgement
 /// Weighs the evidence; the thresholds and the trials they were set on are in Documentation/adr.
 Judgement judge(const Evidence& evidence);
 
-/// Collects it: repeated fits, a fit about the point, a search with the MR mirrored.
+/// Collects it: repeated fits, fits about the point, a search with the MR mirrored. The error is
+/// that of the repeats, and where a ball about the point is displaced that of the ball besides.
 Evidence collectEvidence(const ImagePair& pair, const PairFit& fit, const FitOptions& options,
                          const Eigen::Vector3d& at, const core::Progress& progress);
 

@@ -86,6 +86,24 @@ FixedSamples drawSamples(const LevelImage& image, const core::IndexBox& box, std
   return samples;
 }
 
+FixedSamples within(const FixedSamples& samples, const Eigen::Vector3d& point, double radius)
+{
+  FixedSamples near;
+  near.centre = samples.centre;
+  const Eigen::Vector3f middle = (point - samples.centre).cast<float>();
+  const auto reach = static_cast<float>(radius * radius);
+  for (std::size_t n = 0; n < samples.size(); ++n)
+    if ((samples.points[n] - middle).squaredNorm() <= reach)
+    {
+      near.points.push_back(samples.points[n]);
+      near.bins.push_back(samples.bins[n]);
+      if (!samples.weights.empty())
+        near.weights.push_back(samples.weights[n]);
+    }
+  settle(near);
+  return near;
+}
+
 FixedSamples bootstrap(const FixedSamples& samples, int blocks, std::uint32_t seed)
 {
   FixedSamples drawn;

@@ -30,6 +30,9 @@ struct FixedSamples
 FixedSamples drawSamples(const LevelImage& image, const core::IndexBox& box, std::size_t count,
                          std::uint32_t seed, int bins);
 
+/// Those within `radius` mm of a point (fixed patient, LPS mm).
+FixedSamples within(const FixedSamples& samples, const Eigen::Vector3d& point, double radius);
+
 /// A block bootstrap (Kuensch 1989): the samples' box is cut into blocks^3 blocks, as many blocks
 /// drawn with replacement, and each sample weighted with how often its block was. Keeps those that
 /// were.

@@ -17,11 +17,15 @@ constexpr double kRival = 0.95;
 constexpr double kMirror = 0.97;
 constexpr double kWide = 0.9;  // mm, of the p95
 constexpr double kAside = 0.6; // mm
+// mm from every start. The search looks 26 mm along each axis and 42 degrees about them: what ends
+// further off and is not beyond doubt came to lie there by chance.
+constexpr double kFar = 50.0;
 
-std::string text(const char* format, double a)
+template <class... Numbers>
+std::string text(const char* format, Numbers... numbers)
 {
   char line[256];
-  std::snprintf(line, sizeof line, format, a);
+  std::snprintf(line, sizeof line, format, numbers...);
   return line;
 }
 
@@ -66,12 +70,19 @@ Judgement judge(const Evidence& e)
     doubt(text("another pose fits nearly as well (%.2f times the score)", e.runnerUp));
   if (e.strays > kSomeStrays)
     doubt(text("%.0f %% of the repeated fits ended elsewhere", 100.0 * e.strays));
-  if (e.error.p95 > kWide)
+  if (e.error.p95 > kWide && !e.displaced)
     doubt(text("the error may reach %.1f mm", e.error.p95));
-  if (e.aside > kAside)
+  if (e.displaced)
+    doubt(
+        text("what lies within %.0f mm of the point fits %.1f mm beside the rest: it is displaced "
+             "or the images are distorted there, and the error counts from where it lies",
+             e.displaced->radius, e.displaced->offset.norm()));
+  else if (e.aside > kAside)
     doubt(text("what lies about the point alone fits %.1f mm beside: the images differ by more "
                "than a rigid motion",
                e.aside));
+  if (!doubts.empty() && e.moved > kFar)
+    return {Verdict::Failed, text("the fit ended %.0f mm from where it began: ", e.moved) + doubts};
   if (!doubts.empty())
     return {Verdict::Doubtful, doubts};
   return {Verdict::Good,

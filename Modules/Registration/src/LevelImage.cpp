@@ -215,6 +215,21 @@ LevelImage makeLevel(const LevelImage& finer, double scale)
   return level;
 }
 
+LevelImage croppedLevel(const LevelImage& level, const core::IndexBox& box)
+{
+  const core::GridGeometry& grid = level.grid();
+  const Eigen::Vector3d first(box.lower[0], box.lower[1], box.lower[2]);
+  LevelImage part{volume::Volume<float>(core::GridGeometry(
+      box.size(), grid.spacing(), grid.patientFromVoxel(first), grid.direction()))};
+  const std::size_t row = static_cast<std::size_t>(box.size()[0]);
+  float* out = part.voxels.data();
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j, out += row)
+      std::copy_n(level.voxels.data() + grid.linearIndex(box.lower[0], j, k), row, out);
+  measure(part);
+  return part;
+}
+
 core::IndexBox contentBox(const LevelImage& level, double margin)
 {
   const core::Index3& dims = level.grid().dims();

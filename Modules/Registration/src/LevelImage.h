@@ -32,6 +32,9 @@ LevelImage makeLevel(const volume::IntensityVolume& image, double scale,
 /// The same from a finer level.
 LevelImage makeLevel(const LevelImage& finer, double scale);
 
+/// The part of a level in a box, with a range of its own. The box must hold a voxel.
+LevelImage croppedLevel(const LevelImage& level, const core::IndexBox& box);
+
 /// Smallest voxel box around what is not background (Otsu's threshold, 1 % of voxels left out at
 /// each end), widened by `margin` mm; the whole grid where that finds nothing.
 core::IndexBox contentBox(const LevelImage& level, double margin);

@@ -117,9 +117,9 @@ std::vector<Ascent> climbLevel(const ImagePair& pair, std::size_t level,
 }
 
 std::vector<Basin> basinsOf(const ImagePair& pair, const FitOptions& options,
+                            const std::vector<core::RigidTransform>& starts,
                             const core::Progress& progress)
 {
-  const std::vector<core::RigidTransform> starts = startsOf(pair, options);
   if (!options.search)
     return {{starts.front(), 0.0}};
   SearchOptions search;
@@ -134,7 +134,10 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
                 const MetricListener& listener)
 {
   PairFit result;
-  std::vector<Basin> basins = basinsOf(pair, options, progress.part(0.0, 0.3));
+  const std::vector<core::RigidTransform> starts = startsOf(pair, options);
+  for (const core::RigidTransform& start : starts)
+    result.starts.push_back(pair.mrFromCt(start));
+  std::vector<Basin> basins = basinsOf(pair, options, starts, progress.part(0.0, 0.3));
   for (std::size_t level = 0; level < pair.levels(); ++level)
   {
     progress.report(0.3 + 0.6 * static_cast<double>(level) / static_cast<double>(pair.levels()),

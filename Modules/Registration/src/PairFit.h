@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "petrous/Registration/Fit.h"
 
 #include "CoarseSearch.h"
@@ -14,6 +16,7 @@ struct PairFit
   Fit fit;               ///< without its seconds
   double score = 0.0;    ///< of the best basin at the last level that several were climbed at
   double runnerUp = 0.0; ///< of the second best, distinct one; 0 where there was none
+  std::vector<core::RigidTransform> starts; ///< X_MC, what was looked about; one at least
 };
 
 /// fitRigid on prepared images.

@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "BenchmarkPatients.h"
+#include "ChildProcess.h"
 #include "Context.h"
+#include "Numbers.h"
 #include "PhantomPairs.h"
 #include "RireFolder.h"
 #include "petrous/Imaging/DicomReader.h"
@@ -159,6 +161,60 @@ std::vector<registration::StressTrial> fourDimensions(const fs::path& work,
   return trials;
 }
 
+// What settings are judged on: none of these pairs is compared with other programs.
+std::vector<RegistrationPair> tuningPairs(const std::vector<SimulationBody>& bodies, bool quick,
+                                          const core::Progress& progress)
+{
+  std::vector<RegistrationPair> pairs;
+  for (std::uint64_t seed = 101; seed <= (quick ? 101U : 103U); ++seed)
+    pairs.push_back(phantomPair(seed, quick, progress));
+  for (const SimulationBody& body : bodies)
+    for (std::uint64_t n = 0; n < 3 && body.contrasts.size() > 2; ++n) // the real head
+    {
+      auto recipe = registration::usualRecipe(body, n, 200 + n);
+      recipe.contrast = 1 + n % 2; // T2 and diffusion: the T1 is like that of ct_mr_sim
+      pairs.push_back(registration::simulatePair(body, n, recipe));
+    }
+  return pairs;
+}
+
+// `petrous register` on a case of the pair, which another process has made from the same files that
+// elastix reads.
+std::optional<registration::PeerFit> registerInProcess(const RegistrationPair& pair,
+                                                       const fs::path& work)
+{
+  const std::string self = fs::read_symlink("/proc/self/exe").string();
+  const fs::path library = work / "library";
+  fs::remove_all(library);
+  registration::writeMetaImage(work / "fixed.mhd", *pair.ct);
+  registration::writeMetaImage(work / "moving.mhd", *pair.mr);
+  const std::vector<std::string> common{"--library", library.string(), "--quiet"};
+  const auto run = [&common](std::vector<std::string> words, const fs::path& output)
+  {
+    words.insert(words.end(), common.begin(), common.end());
+    return registration::runProcess(words, output);
+  };
+  if (run({self, "new", "pair", "--ct", (work / "fixed.mhd").string(), "--mr",
+           "MR=" + (work / "moving.mhd").string()},
+          {})
+          .status != 0)
+    return std::nullopt;
+  const Vector3d& at = pair.targets.front();
+  const fs::path answer = work / "answer.json";
+  const auto times = run({self, "register", "pair", "--mr", "MR", "--json", "--at",
+                          fixed(at[0], 3) + "," + fixed(at[1], 3) + "," + fixed(at[2], 3)},
+                         answer);
+  if (times.status != 0)
+    return std::nullopt;
+  std::ifstream file(answer);
+  const auto numbers = nlohmann::json::parse(file).at("transform").get<std::vector<double>>();
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(numbers.data());
+  return registration::PeerFit{{Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())),
+                                Vector3d(matrix.topRightCorner<3, 1>())},
+                               times.seconds,
+                               times.processorSeconds};
+}
+
 } // namespace
 
 BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
@@ -169,6 +225,8 @@ BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
   input.quick = scenes.quick;
   input.work = scenes.work;
   input.parts = scenes.parts;
+  input.process = [work = scenes.work](const RegistrationPair& pair)
+  { return registerInProcess(pair, work); };
   const auto& known = registration::benchmarkParts();
   for (const std::string& part : scenes.parts)
     if (std::find(known.begin(), known.end(), part) == known.end())
@@ -185,6 +243,7 @@ BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
   else
     notes["real CT"] =
         scenes.quick ? "left out by --quick" : "none: --data names no folder with one";
+  input.tuning = tuningPairs(input.bodies, scenes.quick, progress.part(0.7, 0.8));
   input.fileTrials = fourDimensions(scenes.work, input.bodies.front());
   for (int seed = 1; seed <= (scenes.quick ? 1 : 5); ++seed)
     input.pairs.push_back(phantomPair(static_cast<std::uint64_t>(seed), scenes.quick, progress));

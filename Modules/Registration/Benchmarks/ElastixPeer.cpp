@@ -1,13 +1,13 @@
 #include "PeerRegistration.h"
 
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
+#include "ChildProcess.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::registration
@@ -36,10 +36,7 @@ constexpr const char* kParameters = R"(
 (AutomaticScalesEstimation "true")
 (AutomaticTransformInitialization "false")
 (HowToCombineTransforms "Compose")
-(NumberOfHistogramBins 32)
 (ErodeMask "false")
-(NumberOfResolutions 4)
-(MaximumNumberOfIterations 500)
 (NumberOfSpatialSamples 4096)
 (NewSamplesEveryIteration "true")
 (ImageSampler "RandomCoordinate")
@@ -68,7 +65,8 @@ void must(bool done, const fs::path& path)
     throw core::Error(core::Fault::Internal, path.string() + ": cannot be written");
 }
 
-// Uncompressed MetaImage: what elastix reads fastest.
+} // namespace
+
 void writeMetaImage(const fs::path& path, const volume::IntensityVolume& image)
 {
   const core::GridGeometry& grid = image.geometry();
@@ -97,13 +95,8 @@ void writeMetaImage(const fs::path& path, const volume::IntensityVolume& image)
       });
 }
 
-std::string quoted(const fs::path& path)
+namespace
 {
-  std::string result = "'";
-  for (const char c : path.string())
-    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
 
 // The values of "(Name v v ...)"; empty where there is none.
 std::vector<std::string> entry(const std::string& text, const std::string& name)
@@ -153,32 +146,44 @@ core::RigidTransform elastixTransform(const std::string& parameters)
   return {turn, center + Vector3d(v[3], v[4], v[5]) - turn * center};
 }
 
-std::optional<PeerFit> runElastix(const RegistrationPair& pair, const fs::path& work, int threads)
+std::string ElastixSchedule::name() const
+{
+  return std::to_string(resolutions) + " x " + std::to_string(iterations) + ", " +
+         std::to_string(bins) + " bins";
+}
+
+const std::vector<ElastixSchedule>& elastixSchedules()
+{
+  static const std::vector<ElastixSchedule> all{{3, 50, 32},  {3, 100, 32}, {3, 100, 64},
+                                                {3, 250, 64}, {4, 500, 32}, {4, 500, 64},
+                                                {4, 2000, 64}};
+  return all;
+}
+
+std::optional<PeerFit> runElastix(const RegistrationPair& pair, const fs::path& work, int threads,
+                                  const ElastixSchedule& schedule)
 {
   const fs::path out = work / "elastix";
   fs::create_directories(out);
   writeMetaImage(work / "fixed.mhd", *pair.ct);
   writeMetaImage(work / "moving.mhd", *pair.mr);
   std::ofstream file(work / "rigid.txt");
-  file << kParameters;
+  file << kParameters << "(NumberOfResolutions " << schedule.resolutions
+       << ")\n(MaximumNumberOfIterations " << schedule.iterations << ")\n(NumberOfHistogramBins "
+       << schedule.bins << ")\n";
   must(static_cast<bool>(file.flush()), work / "rigid.txt");
   file.close();
   const fs::path result = out / "TransformParameters.0.txt";
   std::error_code ignored;
   fs::remove(result, ignored);
-  const std::string command = "elastix -f " + quoted(work / "fixed.mhd") + " -m " +
-                              quoted(work / "moving.mhd") + " -p " + quoted(work / "rigid.txt") +
-                              " -out " + quoted(out) + " -threads " + std::to_string(threads) +
-                              " >/dev/null 2>&1 </dev/null";
-  const auto start = std::chrono::steady_clock::now();
-  const int status = std::system(command.c_str());
-  PeerFit fit;
-  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const ProcessTimes times = runProcess(
+      {"elastix", "-f", (work / "fixed.mhd").string(), "-m", (work / "moving.mhd").string(), "-p",
+       (work / "rigid.txt").string(), "-out", out.string(), "-threads", std::to_string(threads)});
   std::ifstream written(result);
-  if (status != 0 || !written)
+  if (times.status != 0 || !written)
     return std::nullopt;
-  fit.mrFromCt = elastixTransform({std::istreambuf_iterator<char>(written), {}});
-  return fit;
+  return PeerFit{elastixTransform({std::istreambuf_iterator<char>(written), {}}), times.seconds,
+                 times.processorSeconds};
 }
 
 } // namespace petrous::registration

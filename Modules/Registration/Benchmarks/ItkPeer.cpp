@@ -1,6 +1,7 @@
 #include <chrono>
 #include <vector>
 
+#include "ChildProcess.h"
 #include "ItkMattes.h"
 #include "PeerRegistration.h"
 
@@ -48,6 +49,7 @@ std::optional<PeerFit> runItk(const RegistrationPair& pair)
   std::vector<float> fixed = floatsOf(*pair.ct), moving = floatsOf(*pair.mr);
   const Vector3d center = pair.ct->geometry().center();
   std::array<double, 12> m{};
+  const double spent = processorSeconds();
   const auto start = std::chrono::steady_clock::now();
   if (!itkpeer::register3d(peerImage(pair.ct->geometry(), fixed),
                            peerImage(pair.mr->geometry(), moving),
@@ -55,6 +57,7 @@ std::optional<PeerFit> runItk(const RegistrationPair& pair)
     return std::nullopt;
   PeerFit fit;
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  fit.processorSeconds = processorSeconds() - spent;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(m.data());
   fit.mrFromCt = {Eigen::Quaterniond(Eigen::Matrix3d(matrix.leftCols<3>())), matrix.col(3)};
   return fit;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <thread>
 
+#include "ChildProcess.h"
 #include "CounterNoise.h"
 #include "PeerRegistration.h"
 #include "RegistrationBenchmark.h"
@@ -54,11 +55,11 @@ double cornerDistance(const RegistrationPair& pair, const core::RigidTransform& 
   return sum;
 }
 
-// The program's best of some runs in time; its result is that of the last.
+// The median of some runs in time; the result is that of the last.
 template <class Run>
 std::optional<PeerFit> repeated(int times, const Run& run)
 {
-  std::vector<double> seconds;
+  std::vector<double> seconds, processor;
   std::optional<PeerFit> fit;
   for (int n = 0; n < times; ++n)
   {
@@ -66,9 +67,19 @@ std::optional<PeerFit> repeated(int times, const Run& run)
     if (!fit)
       return std::nullopt;
     seconds.push_back(fit->seconds);
+    processor.push_back(fit->processorSeconds);
   }
   fit->seconds = quantile(seconds, 0.5);
+  fit->processorSeconds = quantile(processor, 0.5);
   return fit;
+}
+
+core::BenchmarkPoint peerPoint(const RegistrationPair& pair, const PeerFit& fit,
+                               const std::string& what, const std::string& peer)
+{
+  core::BenchmarkPoint point = pointOf(pair, fit.mrFromCt, fit.seconds, what, peer);
+  point.extra["processor_s"] = fit.processorSeconds;
+  return point;
 }
 
 Points onePair(const BenchmarkInput& input, const RegistrationPair& pair,
@@ -93,13 +104,15 @@ Points onePair(const BenchmarkInput& input, const RegistrationPair& pair,
     points.push_back(std::move(point));
   };
 
-  std::vector<double> fitSeconds, allSeconds;
+  std::vector<double> fitSeconds, allSeconds, processor;
   Registration ours;
   for (int n = 0; n < times; ++n)
   {
+    const double spent = processorSeconds();
     ours = registerRigid(*pair.ct, *pair.mr, {}, pair.targets.front(), progress);
     fitSeconds.push_back(ours.fit.seconds);
     allSeconds.push_back(ours.fit.seconds + ours.estimateSeconds);
+    processor.push_back(processorSeconds() - spent);
   }
   auto fit = pointOf(pair, ours.fit.mrFromCt, quantile(fitSeconds, 0.5), "fit", "");
   fit.isDefault = true;
@@ -114,13 +127,25 @@ Points onePair(const BenchmarkInput& input, const RegistrationPair& pair,
   all.extra["stated_median_mm"] = ours.error.median;
   all.extra["stated_p95_mm"] = ours.error.p95;
   all.extra["stated_max_mm"] = ours.error.max;
+  all.extra["processor_s"] = quantile(processor, 0.5);
   add(all, ours.fit.mrFromCt);
+  if (input.process && !input.quick)
+    if (const auto process = repeated(times, [&] { return input.process(pair); }))
+      add(peerPoint(pair, *process, "process", ""), process->mrFromCt);
   if (reference)
-    add(pointOf(pair, reference->mrFromCt, reference->seconds, "fit", *elastix),
-        reference->mrFromCt);
+    add(peerPoint(pair, *reference, "fit", *elastix), reference->mrFromCt);
+  if (reference && !input.quick)
+    for (const ElastixSchedule& schedule : elastixSchedules())
+      if (const auto peer = runElastix(pair, input.work, threads(), schedule))
+      {
+        auto point = peerPoint(pair, *peer, "fit", *elastix);
+        point.series = "elastix, " + pair.name;
+        point.setting["schedule"] = schedule.name();
+        add(point, peer->mrFromCt);
+      }
   if (peers)
     if (const auto itk = runItk(pair))
-      add(pointOf(pair, itk->mrFromCt, itk->seconds, "fit", itkVersion()), itk->mrFromCt);
+      add(peerPoint(pair, *itk, "fit", itkVersion()), itk->mrFromCt);
   return points;
 }
 
@@ -212,7 +237,7 @@ Points capturePoints(const BenchmarkInput& input, const core::Progress& progress
     {
       progress.check("displaced starts");
       const Fit fit = fitRigid(*moved.ct, *moved.mr);
-      return PeerFit{fit.mrFromCt, fit.seconds};
+      return PeerFit{fit.mrFromCt, fit.seconds, 0.0};
     };
     for (const Range& range : kRanges)
       points.push_back(captureOf(pair, range, starts, optimum, "", ours));

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <functional>
 
-#include "CounterNoise.h"
 #include "RegistrationBenchmark.h"
 #include "petrous/Registration/Register.h"
 
@@ -40,7 +39,7 @@ const std::vector<Knob>& knobs()
        [](Schedule& s, double v) { s.samples = static_cast<std::size_t>(v); },
        false},
       {"bins",
-       {8, 16, 24, 32, 48, 64},
+       {8, 16, 24, 32, 48, 64, 96},
        [](const Schedule& s) { return static_cast<double>(s.bins); },
        [](Schedule& s, double v) { s.bins = static_cast<int>(v); },
        false},
@@ -60,19 +59,6 @@ const std::vector<Knob>& knobs()
        [](Schedule& s, double v) { s.searchSamples = static_cast<std::size_t>(v); },
        true}};
   return all;
-}
-
-// Everyday pairs from the bodies, on which the settings are judged.
-std::vector<RegistrationPair> judges(const BenchmarkInput& input)
-{
-  std::vector<RegistrationPair> pairs;
-  const std::size_t count = input.quick ? 1 : 6;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    const SimulationBody& body = input.bodies[n % input.bodies.size()];
-    pairs.push_back(simulatePair(body, n, usualRecipe(body, n, 200 + n)));
-  }
-  return pairs;
 }
 
 core::BenchmarkPoint judged(const std::vector<RegistrationPair>& pairs, const Knob& knob,
@@ -152,16 +138,15 @@ const std::vector<Condition>& conditions()
 
 Points schedulePoints(const BenchmarkInput& input, const core::Progress& progress)
 {
-  const auto pairs = judges(input);
   Points points;
   for (const Knob& knob : knobs())
     for (const double value : knob.values)
     {
       if (input.quick && value != knob.get(Schedule{}) && value != knob.values[1])
         continue;
-      progress.report(static_cast<double>(points.size()) / 31.0,
+      progress.report(static_cast<double>(points.size()) / 32.0,
                       std::string("schedule: ") + knob.name);
-      points.push_back(judged(pairs, knob, value));
+      points.push_back(judged(input.tuning, knob, value));
     }
   return points;
 }

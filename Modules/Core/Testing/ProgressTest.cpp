@@ -1,3 +1,7 @@
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -67,4 +71,50 @@ TEST(Lazy, TriesAgainAfterAFailure)
       });
   EXPECT_THROW(lazy.get(), InvalidParameter);
   EXPECT_EQ(*lazy.get(), 1);
+}
+
+TEST(Lazy, IsPeekedAtWhileItIsMade)
+{
+  std::future<std::shared_ptr<const int>> peeked; // outlives the maker, for which it would wait
+  std::future_status status = std::future_status::timeout;
+  Lazy<int> lazy;
+  lazy = Lazy<int>(Lazy<int>::Maker(
+      [&]
+      {
+        peeked = std::async(std::launch::async, [&lazy] { return lazy.peek(); });
+        status = peeked.wait_for(std::chrono::seconds(20));
+        return std::make_shared<const int>(7);
+      }));
+  EXPECT_EQ(*lazy.get(), 7);
+  EXPECT_EQ(status, std::future_status::ready) << "who peeked waited for the maker";
+  EXPECT_EQ(peeked.get(), nullptr);
+  EXPECT_EQ(*lazy.peek(), 7);
+}
+
+TEST(Lazy, IsMadeOnceForManyThreadsAndPeekedAtByOthers)
+{
+  std::atomic<int> made{0};
+  const Lazy<int> lazy(Lazy<int>::Maker(
+      [&made]
+      {
+        ++made;
+        return std::make_shared<const int>(7);
+      }));
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> threads;
+  for (int n = 0; n < 4; ++n)
+    threads.emplace_back(
+        [&lazy, &wrong, n]
+        {
+          for (int turn = 0; turn < 1000; ++turn)
+          {
+            const auto value = n % 2 == 0 ? lazy.get() : lazy.peek();
+            if ((value && *value != 7) || (n % 2 == 0 && !value))
+              ++wrong;
+          }
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(made, 1);
 }

@@ -11,7 +11,8 @@ namespace petrous::core
 /// A shared, immutable value that is made when first asked for.
 ///
 /// Copies share the value and its maker. Thread-safe; when the maker throws, the exception
-/// goes to the caller and the next call tries again.
+/// goes to the caller and the next call tries again. Whoever asks for the value while it is being
+/// made waits for it; whoever peeks never does.
 template <class T>
 class Lazy
 {
@@ -37,26 +38,35 @@ public:
   {
     if (!m_state)
       return nullptr;
-    const std::lock_guard<std::mutex> lock(m_state->mutex);
-    if (!m_state->value)
-      m_state->value = m_state->maker();
-    return m_state->value;
+    if (auto resident = m_state->resident())
+      return resident;
+    const std::lock_guard<std::mutex> lock(m_state->making);
+    auto value = m_state->resident();
+    if (!value)
+    {
+      value = m_state->maker();
+      const std::lock_guard<std::mutex> publishing(m_state->publishing);
+      m_state->value = value;
+    }
+    return value;
   }
 
-  /// The value where it is resident already, else null.
-  std::shared_ptr<const T> peek() const
-  {
-    if (!m_state)
-      return nullptr;
-    const std::lock_guard<std::mutex> lock(m_state->mutex);
-    return m_state->value;
-  }
+  /// The value where it is resident already, else null. Never waits for a maker: the lock that it
+  /// takes is held for the copy of a pointer only.
+  std::shared_ptr<const T> peek() const { return m_state ? m_state->resident() : nullptr; }
 
 private:
   struct State
   {
-    std::mutex mutex;
+    std::shared_ptr<const T> resident() const
+    {
+      const std::lock_guard<std::mutex> lock(publishing);
+      return value;
+    }
+
+    std::mutex making; // held as long as the maker works
     Maker maker;
+    mutable std::mutex publishing; // of `value`
     std::shared_ptr<const T> value;
   };
   std::shared_ptr<State> m_state;

@@ -1,0 +1,99 @@
+#include "petrous/Core/LockedMemory.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+using petrous::core::LockedMemory;
+using petrous::core::majorPageFaults;
+
+namespace
+{
+
+constexpr std::size_t kBytes = 4 << 20;
+constexpr std::size_t kPage = 4096;
+
+// A file on the disk that holds the tests, mapped as the library maps a CT.
+class MappedFile
+{
+public:
+  MappedFile()
+  {
+    std::string name = "locked-memory-XXXXXX";
+    const int file = mkstemp(name.data());
+    EXPECT_GE(file, 0);
+    unlink(name.c_str());
+    const std::vector<char> content(kBytes, 1);
+    EXPECT_EQ(write(file, content.data(), kBytes), static_cast<ssize_t>(kBytes));
+    fsync(file);
+    m_start = mmap(nullptr, kBytes, PROT_READ, MAP_SHARED, file, 0);
+    close(file);
+  }
+  ~MappedFile() { munmap(m_start, kBytes); }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  LockedMemory::Range range() const { return {m_start, kBytes}; }
+
+  // What the system does to a page that is short of memory.
+  void pageOut() const { static_cast<void>(madvise(m_start, kBytes, MADV_PAGEOUT)); }
+
+  // Major faults of reading it all, no page beside another.
+  long faultsOfReading() const
+  {
+    const long before = majorPageFaults();
+    const auto* bytes = static_cast<const volatile char*>(m_start);
+    for (std::size_t n = 0; n < kBytes / kPage; ++n)
+      static_cast<void>(bytes[kPage * (n * 389 % (kBytes / kPage))]);
+    return majorPageFaults() - before;
+  }
+
+private:
+  void* m_start = nullptr;
+};
+
+} // namespace
+
+TEST(LockedMemory, AReaderHasNoMajorFaultWhateverIsPagedOut)
+{
+  const MappedFile file;
+  file.pageOut();
+  if (file.faultsOfReading() == 0)
+    GTEST_SKIP() << "this file system pages nothing out";
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur < kBytes + kPage && geteuid() != 0)
+    GTEST_SKIP() << "the limit of locked memory is below 4 MB";
+  {
+    file.pageOut();
+    const LockedMemory locked({file.range(), {nullptr, 0}});
+    EXPECT_TRUE(locked.locked());
+    EXPECT_EQ(locked.bytes(), kBytes);
+    file.pageOut();
+    EXPECT_EQ(file.faultsOfReading(), 0);
+  }
+  file.pageOut();
+  EXPECT_GT(file.faultsOfReading(), 0) << "it is given back";
+}
+
+TEST(LockedMemory, BringsInWhatItMayNotLock)
+{
+  const MappedFile file;
+  rlimit before{};
+  getrlimit(RLIMIT_MEMLOCK, &before);
+  const rlimit none{0, before.rlim_max};
+  if (geteuid() == 0 || setrlimit(RLIMIT_MEMLOCK, &none) != 0)
+    GTEST_SKIP() << "nothing limits what this user may lock";
+  file.pageOut();
+  const LockedMemory locked({file.range()});
+  EXPECT_FALSE(locked.locked());
+  EXPECT_EQ(file.faultsOfReading(), 0);
+  setrlimit(RLIMIT_MEMLOCK, &before);
+}

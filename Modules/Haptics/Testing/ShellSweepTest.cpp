@@ -172,7 +172,16 @@ TEST(ShellSweep, AgreesWithAFineLookAtItsWay)
     for (int look = 1; look <= most && !entered; ++look)
     {
       const Pose further = moved(start, motion, hit.free + look * 0.01 * kVoxel / way);
-      entered = scene.tissue->value(further * shell.points[hit.point]) > 0.0;
+      if (hit.point ==
+          ShellSweep::kNoPoint) // a place of the tissue's surface that went into the tool
+      {
+        const Vector3d p = further.rotation.conjugate() * (hit.place - further.position);
+        const bool inShaft = p.z() > 0.0 && p.z() < shell.solid.shaftEnd &&
+                             std::hypot(p.x(), p.y()) < shell.solid.shaftRadius;
+        entered = inShaft || p.norm() < shell.burrRadius;
+      }
+      else
+        entered = scene.tissue->value(further * shell.points[hit.point]) > 0.0;
     }
     EXPECT_TRUE(entered) << n;
   }

@@ -225,6 +225,8 @@ PointShell makeBurrShell(const BurrShape& wanted, double voxel, std::size_t budg
   for (const Eigen::Vector3d& point : shell.points)
     shell.reach = std::max(shell.reach, point.norm());
   shell.spacing = std::max(shell.burrSpacing, measureSpacing(shell, shape, neck));
+  shell.solid = {shape.radius, shape.shaftRadius, shape.shaftLength, shape.handpieceRadius,
+                 hasHandpiece ? shape.shaftLength + shape.handpieceLength : 0.0};
   return shell;
 }
 

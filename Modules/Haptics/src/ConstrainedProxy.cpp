@@ -87,6 +87,8 @@ Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
   m_qp.clear();
   for (const auto& [contact, slope, stopped] : *m_finder)
   {
+    if (m_rowCount == kMostRows)
+      break;
     Row& row = m_rows[m_rowCount];
     row.contact = contact;
     row.jacobian = vector6(contact.normal, contact.arm.cross(contact.normal));
@@ -208,8 +210,9 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     if (hit.any)
     {
       ++m_tick.rounds;
-      m_hits[m_hitCount % kMostHits] = hit;
-      ++m_hitCount;
+      for (const ShellSweep::Hit& stop : {hit, m_sweep.blocker()})
+        if (stop.any)
+          m_hits[m_hitCount++ % kMostHits] = stop;
     }
     if ((!hit.any && hit.free >= 1.0 && part >= 1.0) || spent())
       break;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "SurfaceSamples.h"
+
 namespace petrous::haptics
 {
 
@@ -22,14 +24,34 @@ constexpr double kMisaligned = 0.05;    // rad, residual of one that was not fou
 constexpr int kTurns = 4;
 constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the surface as it is, ripples too
 constexpr double kDeepest = 0.05; // voxels: of a gap that is given back in one motion
+constexpr std::size_t kMostCandidates = 8192;
+constexpr std::size_t kMostOnSolid = 192;
+constexpr std::size_t kMostSmooth = 24; // that have their tissue's normal looked at
+constexpr double kStretch = 1.0;        // voxels between two contacts of a line of contact
+constexpr double kOnBall = 0.1;  // voxels: a sample as deep as the ball's contacts say, about
+constexpr double kSmooth = 0.9;  // cosine, of the tissue's normal and the tool's
+constexpr double kSameGap = 0.1; // voxels: a surface is smooth where its normal leads to it
 } // namespace
 
 ContactFinder::ContactFinder(const ShellSweep& sweep, double nearGap)
   : m_sweep(sweep)
   , m_nearGap(nearGap * sweep.field().voxel())
   , m_order(sweep.shell().points.size())
-  , m_found(sweep.shell().points.size())
+  , m_found(sweep.shell().points.size() + kMostOnSolid)
+  , m_next(m_found.size())
+  , m_candidates(sweep.surface().any() ? kMostCandidates : 0)
 {
+  const PointShell& shell = sweep.shell();
+  const auto first = std::find_if(
+      shell.points.begin() + static_cast<std::ptrdiff_t>(shell.burrCount), shell.points.end(),
+      [&](const Eigen::Vector3d& p) { return p.z() >= shell.solid.shaftEnd - 1e-9; });
+  m_firstOnHandpiece = static_cast<std::uint32_t>(first - shell.points.begin());
+  for (std::uint32_t part = 1; part < SolidParts::kParts; ++part)
+  {
+    const SolidParts::Cylinder& c = sweep.surface().parts().cylinder(part);
+    m_stretches[part - 1] =
+        std::clamp((c.to - c.from) / (kStretch * sweep.field().voxel()), 1.0, kBins - 1.0);
+  }
 }
 
 ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
@@ -166,6 +188,184 @@ void ContactFinder::add(const ShellSweep::Near& near, bool refine,
   m_found[m_count++] = {contact, slope, hit != nullptr};
 }
 
+// The tool's part against a place of the tissue's surface, as if that were a point.
+FoundContact ContactFinder::contactAt(std::uint32_t part,
+                                      const Eigen::Vector3d& place) const noexcept
+{
+  const PointShell& shell = m_sweep.shell();
+  const Pose& pose = m_sweep.pose();
+  const Eigen::Vector3d at = pose.rotation.conjugate() * (place - pose.position);
+  const SolidParts::Nearest nearest = m_sweep.surface().parts().nearest(part, at);
+  FoundContact found;
+  found.contact.normal = -(pose.rotation * nearest.outward);
+  found.contact.gap = nearest.distance;
+  found.contact.arm = pose.rotation * (at - nearest.distance * nearest.outward);
+  found.contact.point =
+      part == SolidParts::kBall
+          ? 0
+          : (part == 1 ? static_cast<std::uint32_t>(shell.burrCount) : m_firstOnHandpiece);
+  return found;
+}
+
+// Of the ball one, of each cylinder stretches along its axis no shorter than kStretch.
+std::size_t ContactFinder::binOf(std::uint32_t part, double z) const noexcept
+{
+  if (part == SolidParts::kBall)
+    return 0;
+  const SolidParts::Cylinder& c = m_sweep.surface().parts().cylinder(part);
+  const double bin = std::clamp((z - c.from) / (c.to - c.from), 0.0, 1.0) * m_stretches[part - 1];
+  return 1 + (part - 1) * kBins + static_cast<std::size_t>(bin);
+}
+
+// A known contact's plane, of a place near by on the same part, lets the tool no farther.
+bool ContactFinder::explained(std::uint32_t part, double z,
+                              const FoundContact& candidate) const noexcept
+{
+  const double h = m_sweep.field().voxel();
+  const double slack = h * (part == SolidParts::kBall ? kOnBall : kExplained);
+  const std::size_t bin = binOf(part, z);
+  const std::size_t first = part == SolidParts::kBall ? 0 : bin - 1;
+  const std::size_t last = part == SolidParts::kBall ? 0 : std::min(bin + 1, m_bins.size() - 1);
+  for (std::size_t b = first; b <= last; ++b)
+    for (std::uint32_t n = m_bins[b]; n > 0; n = m_next[n - 1])
+    {
+      const ProxyContact& known = m_found[n - 1].contact;
+      const Eigen::Vector3d way = candidate.contact.arm - known.arm;
+      if (part != SolidParts::kBall && way.squaredNorm() > kStretch * kStretch * h * h)
+        continue;
+      if (known.gap + known.normal.dot(way) <= candidate.contact.gap + slack)
+        return true;
+    }
+  return false;
+}
+
+// Where the tissue's surface goes on smoothly its own normal is better than the tool's at a sample,
+// which is up to half a line's distance off the place of contact.
+void ContactFinder::smooth(std::uint32_t part, const Eigen::Vector3d& place,
+                           FoundContact& found) const noexcept
+{
+  const HapticField& field = m_sweep.field();
+  const Pose& pose = m_sweep.pose();
+  const SolidParts& parts = m_sweep.surface().parts();
+  const Eigen::Vector3d at = pose.rotation.conjugate() * (place - pose.position);
+  const SolidParts::Nearest nearest = parts.nearest(part, at);
+  const double same = kSameGap * field.voxel();
+  if (part == SolidParts::kBall)
+  {
+    const Eigen::Vector3d toPoint = -found.contact.normal;
+    Surface there;
+    if (!surfaceOfBall(toPoint, there) || there.normal.dot(found.contact.normal) < kSmooth)
+      return;
+    ProxyContact refined = found.contact;
+    refined.normal = there.normal;
+    refined.gap = there.gap;
+    double slope = there.slope;
+    refineOnBall(refined, slope);
+    if (!(std::abs(refined.gap - found.contact.gap) < same))
+      return;
+    refined.gap = std::min(refined.gap, found.contact.gap);
+    found.contact = refined;
+    found.slope = slope;
+    return;
+  }
+  if (!nearest.onSide)
+    return;
+  const Eigen::Vector3d voxel = field.geometry().voxelFromPatient(place);
+  const FieldSample sample = field.sample(voxel, m_sweep.state());
+  const Eigen::Vector3d gradient = field.gradient(voxel, sample, m_sweep.state());
+  m_samples += kGradient + 2;
+  const double slope = gradient.norm();
+  if (!(slope * field.voxel() > kFlat))
+    return;
+  const Eigen::Vector3d axis = pose.rotation * Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d normal = -gradient / slope;
+  normal -= axis.dot(normal) * axis;
+  const double across = normal.norm();
+  if (!(across > kSmooth))
+    return;
+  normal /= across;
+  if (!(normal.dot(found.contact.normal) > kSmooth))
+    return;
+  const Eigen::Vector3d arm = at.z() * axis - parts.radius(part) * normal;
+  const double byPlane = normal.dot(pose.position + arm - place);
+  const double value =
+      field.sample(field.geometry().voxelFromPatient(pose.position + arm), m_sweep.state()).value;
+  const double gap = -value / slope;
+  if (!(std::abs(gap - byPlane) < same))
+    return;
+  found.contact.normal = normal;
+  found.contact.arm = arm;
+  found.contact.gap = std::clamp(gap, found.contact.gap - same, found.contact.gap);
+  found.slope = slope;
+}
+
+void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount) noexcept
+{
+  const SurfaceSamples& surface = m_sweep.surface();
+  const Pose& pose = m_sweep.pose();
+  const double deepest = -kDeepest * m_sweep.field().voxel();
+  const Eigen::Matrix3d toTool = pose.rotation.toRotationMatrix().transpose();
+  const Eigen::Vector3d axis = toTool.row(2);
+  const auto alongTool = [&axis](const FoundContact& found) { return axis.dot(found.contact.arm); };
+  m_bins.fill(0);
+  const auto enter = [&](std::uint32_t part, std::size_t n)
+  {
+    std::uint32_t& bin = m_bins[binOf(part, alongTool(m_found[n]))];
+    m_next[n] = bin;
+    bin = static_cast<std::uint32_t>(n + 1);
+  };
+  for (std::size_t n = 0; n < m_count; ++n)
+    enter(SolidParts::kBall, n);
+  const auto take = [&](std::uint32_t part, FoundContact found)
+  {
+    found.contact.gap = std::max(found.contact.gap, deepest);
+    m_found[m_count] = found;
+    enter(part, m_count++);
+  };
+  for (std::size_t n = 0; n < hitCount; ++n)
+  {
+    if (hits[n].point != ShellSweep::kNoPoint)
+      continue;
+    FoundContact found = contactAt(hits[n].part, hits[n].place);
+    if (found.contact.gap > m_nearGap)
+      continue;
+    found.contact.gap = std::min(found.contact.gap, 0.0);
+    found.stopped = true;
+    take(hits[n].part, found);
+  }
+  std::size_t count = 0;
+  for (std::uint32_t part = 0; part < SolidParts::kParts; ++part)
+    for (std::size_t n = 0; n < surface.count(part) && count < kMostCandidates; ++n)
+    {
+      const double gap =
+          surface.parts().distance(part, toTool * (surface.place(part, n) - pose.position));
+      if (gap <= m_nearGap)
+        m_candidates[count++] = {gap, part, static_cast<std::uint32_t>(n)};
+    }
+  std::sort(m_candidates.begin(), m_candidates.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Candidate& a, const Candidate& b)
+            {
+              return a.gap != b.gap     ? a.gap < b.gap
+                     : a.part != b.part ? a.part < b.part
+                                        : a.number < b.number;
+            });
+  std::size_t added = 0;
+  for (std::size_t n = 0; n < count && added < kMostOnSolid - ShellSweep::kMostSteps; ++n)
+  {
+    const std::uint32_t part = m_candidates[n].part;
+    const Eigen::Vector3d& place = surface.place(part, m_candidates[n].number);
+    FoundContact found = contactAt(part, place);
+    if (explained(part, alongTool(found), found))
+      continue;
+    if (added < kMostSmooth)
+      smooth(part, place, found);
+    if (part == SolidParts::kBall && explained(part, 0.0, found))
+      continue;
+    take(part, found);
+    ++added;
+  }
+}
+
 bool ContactFinder::explained(const ShellSweep::Near& near) const noexcept
 {
   const double h = m_sweep.field().voxel();
@@ -203,9 +403,14 @@ void ContactFinder::find(const ShellSweep::Hit* hits, std::size_t hitCount) noex
   for (std::size_t n = 0; n < ball && m_count < kMostOnBall; ++n)
     if (!explained(near[m_order[n]]))
       add(near[m_order[n]], m_count < kMostRefined, nullptr);
+  const bool solid = m_sweep.surface().any();
+  if (solid)
+    addSurface(hits, hitCount);
   for (std::size_t n = 0; n < m_sweep.nearCount(); ++n)
   {
     const ShellSweep::Hit* hit = hitOf(near[n].point);
+    if (!hit && solid)
+      continue;
     if (hit || near[n].point >= shell.burrCount || !(shell.burrRadius > 0.0))
       add(near[n], false, hit);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +25,10 @@ struct FoundContact
 /// height at which it rests nor the force's direction shows the spacing of its points, and a ball
 /// without friction is given no torque. A shell point that lies on the free side of a contact's
 /// plane as deep as it lies in f adds nothing and gives no contact of its own.
-/// Points of other tools, of shaft and handpiece are contacts themselves.
+/// Points of other tools are contacts themselves. Shaft and handpiece of a solid tool touch where a
+/// sample of the tissue's surface is nearest to them, one contact for each stretch of about a
+/// voxel: along the tissue's normal where its surface is smooth, along the tool's own at a ridge or
+/// spike. Points of their shell give a contact only where one ended a motion.
 ///
 /// `find` neither allocates, locks nor throws. One thread.
 class ContactFinder
@@ -56,11 +60,28 @@ private:
   void refineOnBall(ProxyContact& contact, double& slope) const noexcept;
   void add(const ShellSweep::Near& near, bool refine, const ShellSweep::Hit* hit) noexcept;
   bool explained(const ShellSweep::Near& near) const noexcept;
+  struct Candidate // a sample of the surface within reach
+  {
+    double gap;
+    std::uint32_t part;
+    std::uint32_t number;
+  };
+  void addSurface(const ShellSweep::Hit* hits, std::size_t hitCount) noexcept;
+  FoundContact contactAt(std::uint32_t part, const Eigen::Vector3d& place) const noexcept;
+  std::size_t binOf(std::uint32_t part, double z) const noexcept;
+  bool explained(std::uint32_t part, double z, const FoundContact& candidate) const noexcept;
+  void smooth(std::uint32_t part, const Eigen::Vector3d& place, FoundContact& found) const noexcept;
 
   const ShellSweep& m_sweep;
   double m_nearGap; // mm
   std::vector<std::uint32_t> m_order;
   std::vector<FoundContact> m_found;
+  static constexpr std::size_t kBins = 256;
+  std::array<std::uint32_t, 2 * kBins + 1> m_bins; // last contact of a stretch of the solid, + 1
+  std::vector<std::uint32_t> m_next;               // the one before it in that stretch, + 1
+  std::vector<Candidate> m_candidates;
+  std::uint32_t m_firstOnHandpiece = 0;
+  std::array<double, 2> m_stretches{}; // of shaft and handpiece, below kBins
   std::size_t m_count = 0;
   mutable std::size_t m_samples = 0;
 };

@@ -313,6 +313,89 @@ double HapticField::steepness(const Eigen::Vector3d& voxel) const noexcept
   return double{TissueBricks::steepnessOf()[m_steepness[brickAt(inside)]]} + 1e-6;
 }
 
+void HapticField::brickValues(const core::Index3& brick, const volume::MaskState& mask,
+                              BrickValues& values) const noexcept
+{
+  const core::Index3& dims = m_geometry.dims();
+  const core::Index3 first{kTissueBrick * brick[0], kTissueBrick * brick[1],
+                           kTissueBrick * brick[2]};
+  const auto air = static_cast<float>(TissueField::kAir);
+  const auto forEach = [&](const auto& take)
+  {
+    std::size_t n = 0;
+    for (int k = first[2]; k <= first[2] + kTissueBrick; ++k)
+      for (int j = first[1]; j <= first[1] + kTissueBrick; ++j)
+        for (int i = first[0]; i <= first[0] + kTissueBrick; ++i, ++n)
+          if (i < dims[0] && j < dims[1] && k < dims[2])
+            take(n, i, j, k);
+  };
+  values.uncut.fill(air);
+  values.left.fill(air);
+  const auto row = static_cast<std::size_t>(dims[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
+  m_ct->visit(
+      [&](const auto& volume)
+      {
+        const auto* voxels = volume.data();
+        const auto iso = static_cast<float>(m_parameters.iso);
+        const auto perUnit = static_cast<float>(1.0 / m_parameters.scale);
+        forEach(
+            [&](std::size_t n, int i, int j, int k)
+            {
+              const float value =
+                  (static_cast<float>(
+                       voxels[static_cast<std::size_t>(i) + row * static_cast<std::size_t>(j) +
+                              slice * static_cast<std::size_t>(k)]) -
+                   iso) *
+                  perUnit;
+              values.uncut[n] = std::isnan(value) ? air : value;
+            });
+      });
+  const Eigen::Vector3d corner(first[0], first[1], first[2]);
+  if (m_distance[brickAt(corner)] & TissueBricks::kUnionHere)
+    forEach(
+        [&](std::size_t n, int i, int j, int k)
+        {
+          for (std::size_t s = 0; s < m_solids.size(); ++s)
+            values.uncut[n] =
+                std::max(values.uncut[n], static_cast<float>(solid(s, Eigen::Vector3d(i, j, k))));
+        });
+  constexpr int edge = CutMask::kBrickEdge;
+  const core::Index3& bricks = m_mask->brickDims();
+  std::size_t known = static_cast<std::size_t>(-1);
+  const CutMask::Brick* cut = nullptr;
+  forEach(
+      [&](std::size_t n, int i, int j, int k)
+      {
+        const std::size_t at =
+            static_cast<std::size_t>(i / edge) +
+            static_cast<std::size_t>(bricks[0]) *
+                (static_cast<std::size_t>(j / edge) +
+                 static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k / edge));
+        if (at != known)
+        {
+          known = at;
+          cut = mask.brick(at);
+        }
+        const float left = cut ? static_cast<float>((*cut)[offsetInBrick(i, j, k)]) /
+                                         static_cast<float>(CutMask::kUntouched) -
+                                     0.5F
+                               : 0.5F;
+        values.left[n] = std::min(left, static_cast<float>(hull(Eigen::Vector3d(i, j, k))));
+      });
+}
+
+std::vector<core::LockedMemory::Range> HapticField::memory() const
+{
+  std::vector<core::LockedMemory::Range> ranges;
+  m_ct->visit([&](const auto& volume) { ranges.push_back({volume.data(), volume.bytes()}); });
+  for (const Solid& solid : m_solids)
+    ranges.push_back({solid.share->data(), solid.share->bytes()});
+  ranges.push_back({m_distance.data(), m_distance.size() * sizeof(m_distance.front())});
+  ranges.push_back({m_steepness.data(), m_steepness.size() * sizeof(m_steepness.front())});
+  return ranges;
+}
+
 std::size_t HapticField::residentBytes() const noexcept
 {
   std::size_t bytes = m_distance.size() * sizeof(m_distance.front()) +

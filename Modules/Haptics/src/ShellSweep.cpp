@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "SurfaceSamples.h"
+
 namespace petrous::haptics
 {
 
@@ -10,6 +12,7 @@ namespace
 {
 // Stretches of a path shorter than this much of a voxel are not halved further.
 constexpr double kFinest = 1.0 / 16.0;
+constexpr std::size_t kMostMeetings = 65536;
 } // namespace
 
 ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shell, double step,
@@ -31,6 +34,23 @@ ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shel
   m_wake.resize(m_shell.points.size());
   m_known.resize(m_shell.points.size());
   m_maps[0] = mapOf(m_pose);
+  m_surface = std::make_unique<SurfaceSamples>(*m_field, m_shell.solid);
+  if (m_surface->any())
+    m_meetings.resize(kMostMeetings);
+}
+
+ShellSweep::~ShellSweep() = default;
+
+void ShellSweep::look(const volume::MaskState& state) noexcept
+{
+  m_state = &state;
+  m_samples = 0;
+  m_surface->look(state);
+}
+
+std::size_t ShellSweep::samples() const noexcept
+{
+  return m_samples + m_surface->samples();
 }
 
 ShellSweep::VoxelMap ShellSweep::mapOf(const Pose& pose) const noexcept
@@ -51,6 +71,7 @@ void ShellSweep::moveTo(const Pose& pose) noexcept
 void ShellSweep::forgetClearances() noexcept
 {
   std::fill(m_clearance.begin(), m_clearance.end(), 0.0);
+  m_surface->forget();
 }
 
 // Of a point whose known clearance is not enough.
@@ -75,6 +96,8 @@ void ShellSweep::findNear(double distance) noexcept
   for (std::size_t i = 0; i < m_clearance.size(); ++i)
     if (!(m_clearance[i] > distance))
       judge(i, distance);
+  if (m_surface->any())
+    m_surface->find(m_pose, 0.0, 0.0, distance);
 }
 
 void ShellSweep::addNear(double linear, double angular) noexcept
@@ -85,14 +108,22 @@ void ShellSweep::addNear(double linear, double angular) noexcept
     if (!(m_clearance[i] > way) && !m_isNear[i])
       judge(i, way);
   }
+  if (m_surface->any())
+    m_surface->find(m_pose, linear, angular, 0.0);
 }
 
-bool ShellSweep::freeAt(const Pose& pose) const noexcept
+bool ShellSweep::freeAt(const Pose& pose) noexcept
 {
   const VoxelMap map = mapOf(pose);
-  return std::all_of(m_shell.points.begin(), m_shell.points.end(),
-                     [&](const Eigen::Vector3d& p)
-                     { return sampleAt(map.linear * p + map.offset).value <= 0.0; });
+  if (!std::all_of(m_shell.points.begin(), m_shell.points.end(),
+                   [&](const Eigen::Vector3d& p)
+                   { return sampleAt(map.linear * p + map.offset).value <= 0.0; }))
+    return false;
+  if (!m_surface->any())
+    return true;
+  const bool free = m_surface->freeAt(pose);
+  m_surface->forget(); // the samples of another place
+  return free;
 }
 
 bool ShellSweep::nearFreeAt(const Pose& pose) noexcept
@@ -113,16 +144,19 @@ void ShellSweep::measure() noexcept
   m_deepest = volume::TissueField::kAir;
   for (std::uint32_t i = 0; i < m_shell.points.size(); ++i)
     deepen(sampleAt(voxelOf(i)).value, i);
+  if (m_surface->any())
+    m_surface->findInside(m_pose);
 }
 
 double ShellSweep::penetration() const noexcept
 {
+  const double ofSolid = m_surface->any() ? m_surface->depth(m_pose) : 0.0;
   if (!(m_deepest > 0.0))
-    return 0.0;
+    return ofSolid;
   const Eigen::Vector3d voxel = voxelOf(m_deepestPoint);
   const double slope = m_field->gradient(voxel, m_field->sample(voxel, *m_state), *m_state).norm();
-  return std::min(m_deepest / std::max(slope, 1e-9),
-                  std::max(m_shell.burrRadius, m_field->voxel()));
+  return std::max(ofSolid, std::min(m_deepest / std::max(slope, 1e-9),
+                                    std::max(m_shell.burrRadius, m_field->voxel())));
 }
 
 // Where on the chord f rises above 0: the share of it that is free, 1 when all of it is.
@@ -172,6 +206,106 @@ double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& a
   return 1.0;
 }
 
+double ShellSweep::distanceAt(const Meeting& meeting, const Pose& pose) const noexcept
+{
+  return m_surface->parts().distance(meeting.part,
+                                     pose.rotation.conjugate() * (meeting.place - pose.position));
+}
+
+// Of the samples, those that the motion can bring into the tool. One that lies in it already, by
+// less than matters or since the mask changed, may not go deeper.
+void ShellSweep::findMeetings(const Motion& motion) noexcept
+{
+  m_meetingCount = 0;
+  if (!m_surface->any())
+    return;
+  const double linear = motion.linear.norm();
+  const double angular = motion.angular.norm();
+  const SolidParts& parts = m_surface->parts();
+  const Eigen::Matrix3d toTool = m_pose.rotation.toRotationMatrix().transpose();
+  for (std::size_t part = 0; part < SolidParts::kParts; ++part)
+  {
+    const std::size_t count = m_surface->count(part);
+    for (std::size_t n = 0; n < count && m_meetingCount < kMostMeetings; ++n)
+    {
+      const Eigen::Vector3d& place = m_surface->place(part, n);
+      const Eigen::Vector3d at = toTool * (place - m_pose.position);
+      const double distance = parts.distance(part, at);
+      if (distance > linear + angular * (at.norm() + linear))
+        continue;
+      m_meetings[m_meetingCount++] = {place, std::min(distance, 0.0) - SurfaceSamples::kTolerance,
+                                      static_cast<std::uint32_t>(part), 1};
+    }
+  }
+}
+
+std::uint32_t ShellSweep::chordsTo(const Meeting& meeting, double distance, double linear,
+                                   double angular) const noexcept
+{
+  // The place may be beyond the part's reach by as much as it is away from it.
+  const double arm = m_surface->parts().reach(meeting.part) + std::max(distance, 0.0);
+  const double chords = (distance - meeting.least) / std::max(linear + angular * arm, 1e-12);
+  return static_cast<std::uint32_t>(std::clamp(chords, 1.0, double{kMostSteps}));
+}
+
+ShellSweep::Hit ShellSweep::hitOf(const Meeting& meeting, const Pose& pose,
+                                  const Motion& motion) const noexcept
+{
+  Hit hit;
+  hit.any = true;
+  hit.point = kNoPoint;
+  hit.part = meeting.part;
+  hit.place = meeting.place;
+  hit.direction =
+      (motion.linear + motion.angular.cross(meeting.place - pose.position)).normalized();
+  return hit;
+}
+
+// The samples at the end of chord s.
+void ShellSweep::meet(std::uint32_t s, const Motion& motion, double perStep, double& best,
+                      Hit& hit) noexcept
+{
+  const double linear = perStep * motion.linear.norm();
+  const double angular = perStep * motion.angular.norm();
+  for (std::size_t n = 0; n < m_meetingCount; ++n)
+  {
+    Meeting& meeting = m_meetings[n];
+    if (meeting.next > s)
+      continue;
+    const double distance = distanceAt(meeting, m_poses[s]);
+    if (distance >= meeting.least)
+    {
+      meeting.next = s + chordsTo(meeting, distance, linear, angular);
+      continue;
+    }
+    auto inside = static_cast<double>(s);
+    if (best < inside)
+    {
+      if (distanceAt(meeting, moved(m_pose, motion, perStep * best)) >= meeting.least)
+        continue;
+      inside = best;
+    }
+    double free = static_cast<double>(s - 1);
+    while (inside - free > m_tolerance)
+    {
+      const double middle = 0.5 * (free + inside);
+      const bool met = distanceAt(meeting, moved(m_pose, motion, perStep * middle)) < meeting.least;
+      (met ? inside : free) = middle;
+    }
+    best = free;
+    hit = hitOf(meeting, m_poses[s], motion);
+  }
+}
+
+bool ShellSweep::meetingsFreeAt(const Pose& pose) const noexcept
+{
+  m_deepestMeeting = nullptr;
+  for (std::size_t n = 0; n < m_meetingCount && !m_deepestMeeting; ++n)
+    if (distanceAt(m_meetings[n], pose) < m_meetings[n].least)
+      m_deepestMeeting = &m_meetings[n];
+  return !m_deepestMeeting;
+}
+
 ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSamples) noexcept
 {
   const double way = longestWay(motion, m_shell.reach);
@@ -180,7 +314,13 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
       std::clamp(std::ceil(share * way / m_step), 1.0, static_cast<double>(kMostSteps)));
   const double perStep = share / static_cast<double>(steps);
   for (std::size_t s = 1; s <= steps; ++s)
-    m_maps[s] = mapOf(moved(m_pose, motion, perStep * static_cast<double>(s)));
+  {
+    m_poses[s] = moved(m_pose, motion, perStep * static_cast<double>(s));
+    m_maps[s] = mapOf(m_poses[s]);
+  }
+  m_poses[0] = m_pose;
+  m_blocker = {};
+  findMeetings({share * motion.linear, share * motion.angular});
 
   // Chord by chord, so that what is paid is the way that is made. A point sleeps while it cannot
   // have come to tissue.
@@ -230,6 +370,7 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
       m_wake[n] = s + rest;
       m_known[n] = rest == 0;
     }
+    meet(s, motion, perStep, best, hit);
   }
   hit.free = perStep * best;
   if (!hit.any)
@@ -244,8 +385,25 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
   if (hit.any)
   {
     const double before = m_deepest;
-    for (int tries = 0; hit.free > 0.0 && !nearFreeAt(moved(m_pose, motion, hit.free)); ++tries)
+    const auto freeThere = [this](const Pose& pose)
+    { return nearFreeAt(pose) && meetingsFreeAt(pose); };
+    for (int tries = 0; hit.free > 0.0; ++tries)
+    {
+      const Pose pose = moved(m_pose, motion, hit.free);
+      if (freeThere(pose))
+        break;
+      // It is another place that the tool may not go on at, and needs a contact of its own.
+      if (m_deepest > 0.0)
+      {
+        const Eigen::Vector3d arm = pose.rotation * m_shell.points[m_deepestPoint];
+        m_blocker.any = true;
+        m_blocker.point = m_deepestPoint;
+        m_blocker.direction = (motion.linear + motion.angular.cross(arm)).normalized();
+      }
+      else
+        m_blocker = hitOf(*m_deepestMeeting, pose, motion);
       hit.free = tries < 4 ? 0.9 * hit.free : 0.0;
+    }
     if (!(hit.free > 0.0))
       m_deepest = before;
   }
@@ -261,6 +419,7 @@ void ShellSweep::commit(const Motion& motion, double share) noexcept
   const double angular = share * motion.angular.norm();
   for (std::size_t i = 0; i < m_clearance.size(); ++i)
     m_clearance[i] -= linear + angular * m_arm[i];
+  m_surface->moved(linear, angular);
   m_pose = moved(m_pose, motion, share);
   m_maps[0] = mapOf(m_pose);
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "petrous/Core/LockedMemory.h"
 #include "petrous/Volume/DistanceMap.h"
 #include "petrous/Volume/PublishedMask.h"
 #include "petrous/Volume/TissueField.h"
@@ -87,6 +89,21 @@ public:
   /// round the point can cross; `left` by no more than `leftSteepness` anywhere.
   double steepness(const Eigen::Vector3d& voxel) const noexcept;
   double leftSteepness() const noexcept { return m_leftSteepness; }
+
+  /// Operands at the 3^3 voxels of a brick of 2^3 cells, first axis fastest: `uncut` and `left` as
+  /// in FieldSample. Beyond the grid's last voxel both are air.
+  struct BrickValues
+  {
+    std::array<float, 27> uncut;
+    std::array<float, 27> left;
+  };
+  const core::Index3& brickDims() const noexcept { return m_bricks; }
+  void brickValues(const core::Index3& brick, const volume::MaskState& mask,
+                   BrickValues& values) const noexcept;
+
+  /// What `sample` reads, for a thread that may not wait for the disk: CT, unions and what was made
+  /// here. The mask's states come and go, and are in no file. Valid as long as the field.
+  std::vector<core::LockedMemory::Range> memory() const;
 
   std::size_t residentBytes() const noexcept; ///< of what was made here, and soft maps
 

@@ -11,6 +11,17 @@
 namespace petrous::haptics
 {
 
+/// Ball, shaft and handpiece as solids of revolution about +z of frame T; mm. The ball lies round
+/// the origin, the shaft reaches from there to `shaftEnd`, the handpiece from there on.
+struct ToolSolid
+{
+  double burrRadius = 0.0; ///< 0: the tool is its points alone
+  double shaftRadius = 0.0;
+  double shaftEnd = 0.0;
+  double handpieceRadius = 0.0; ///< 0: none
+  double handpieceEnd = 0.0;
+};
+
 /// A rigid tool as points on its surface, in frame T: origin at the burr's centre, +z along the
 /// shaft to the hand; mm. The first `burrCount` points lie on the burr (they can cut).
 struct PointShell
@@ -24,6 +35,7 @@ struct PointShell
   double spacing = 0.0;     ///< mm, largest distance of a surface point to its nearest shell point,
                             ///< at most 1 % too large
   double reach = 0.0;       ///< mm, largest distance of a shell point from the origin
+  ToolSolid solid;          ///< what the points lie on, where that is known
 };
 
 /// Spherical burr with its shaft and handpiece.

@@ -18,12 +18,17 @@ inline double longestWay(const Motion& motion, double arm) noexcept
   return motion.linear.norm() + arm * motion.angular.norm();
 }
 
-/// Tests a point shell's motion through the tissue field for contact.
+class SurfaceSamples;
+
+/// Tests a tool's motion through the tissue field for contact.
 ///
 /// Every point goes along chords of at most `step` voxels. On a chord f is bounded by its steepest
 /// slope: a stretch is free when f at both ends is so low that f cannot reach 0 between them, and
 /// is halved otherwise, down to h/16. So a wall thinner than the step is met as well as a thick
 /// one.
+///
+/// A tool that is a solid (PointShell::solid) is also tested against samples of the tissue's
+/// surface, so that nothing passes between the points of its shell: see src/SurfaceSamples.h.
 ///
 /// A point that is far from tissue is not looked at again before the tool has moved that far.
 /// Nothing here allocates, locks or throws but the constructor. One thread.
@@ -37,27 +42,27 @@ public:
     std::uint32_t point = 0;
     FieldSample sample; ///< where the point is now
   };
+  static constexpr std::uint32_t kNoPoint = UINT32_MAX;
   struct Hit
   {
     bool any = false;
     double free = 1.0;                        ///< share of the motion before it
-    std::uint32_t point = 0;                  ///< the first to enter
-    Eigen::Vector3d direction{0.0, 0.0, 0.0}; ///< unit, of that point's way, patient axes
+    std::uint32_t point = 0;                  ///< the first to enter, or kNoPoint:
+    std::uint32_t part = 0;                   ///< of the solid, which is what met
+    Eigen::Vector3d place{0.0, 0.0, 0.0};     ///< the tissue's surface there, patient, mm
+    Eigen::Vector3d direction{0.0, 0.0, 0.0}; ///< unit, of the tool's way there, patient axes
   };
 
   ShellSweep(std::shared_ptr<const HapticField> field, PointShell shell, double step,
              int bisections);
+  ~ShellSweep();
 
   const PointShell& shell() const noexcept { return m_shell; }
   const HapticField& field() const noexcept { return *m_field; }
 
   /// The mask's state for the calls that follow. Where tissue came back since the last one,
   /// `forgetClearances` goes with it.
-  void look(const volume::MaskState& state) noexcept
-  {
-    m_state = &state;
-    m_samples = 0;
-  }
+  void look(const volume::MaskState& state) noexcept;
   void forgetClearances() noexcept;
   const volume::MaskState& state() const noexcept { return *m_state; }
 
@@ -79,10 +84,14 @@ public:
     return m_maps[0].linear * m_shell.points[point] + m_maps[0].offset;
   }
 
-  /// f <= 0 at every point of the shell.
-  bool freeAt(const Pose& pose) const noexcept;
+  /// Samples of the tissue's surface that were found with the near points.
+  const SurfaceSamples& surface() const noexcept { return *m_surface; }
 
-  /// Depth of the deepest point where the tool stands, mm; 0 where f <= 0 at all. It is that of the
+  /// f <= 0 at every point of the shell, and no tissue in the solid.
+  bool freeAt(const Pose& pose) noexcept;
+
+  /// Depth of the deepest point where the tool stands, or of the tissue that lies deepest in its
+  /// solid, mm; 0 where f <= 0 at all. It is that of the
   /// points that were looked at when it came there (the others cannot be in tissue), or of all of
   /// them after `measure`. In the flat inside of tissue, where nothing tells more, the burr's
   /// radius.
@@ -94,8 +103,12 @@ public:
   /// found for it. f <= 0 at every near point where it comes to stand.
   Hit advance(const Motion& motion, std::size_t mostSamples = SIZE_MAX) noexcept;
 
+  /// What else kept the last motion from going on to where its hit was; `any` is false where
+  /// nothing did.
+  const Hit& blocker() const noexcept { return m_blocker; }
+
   /// Samples of the field since the last `look`: what a tick costs, whatever the machine.
-  std::size_t samples() const noexcept { return m_samples; }
+  std::size_t samples() const noexcept;
 
 private:
   struct VoxelMap // of a point in frame T: linear * p + offset
@@ -113,6 +126,20 @@ private:
   double firstInside(const Eigen::Vector3d& from, const FieldSample& atFrom,
                      const Eigen::Vector3d& to, const FieldSample& atTo,
                      double limit) const noexcept;
+  struct Meeting // a sample of the surface that a motion may bring into the solid
+  {
+    Eigen::Vector3d place;
+    double least;       // mm: no contact while the distance is above
+    std::uint32_t part; // of the solid
+    std::uint32_t next; // chord at whose end it is looked at again
+  };
+  void findMeetings(const Motion& motion) noexcept;
+  double distanceAt(const Meeting& meeting, const Pose& pose) const noexcept;
+  std::uint32_t chordsTo(const Meeting& meeting, double distance, double linear,
+                         double angular) const noexcept;
+  void meet(std::uint32_t s, const Motion& motion, double perStep, double& best, Hit& hit) noexcept;
+  Hit hitOf(const Meeting& meeting, const Pose& pose, const Motion& motion) const noexcept;
+  bool meetingsFreeAt(const Pose& pose) const noexcept;
   bool nearFreeAt(const Pose& pose) noexcept;
   void deepen(double value, std::uint32_t point) noexcept
   {
@@ -137,6 +164,12 @@ private:
   std::size_t m_nearCount = 0;
   mutable std::size_t m_samples = 0;
   std::array<VoxelMap, kMostSteps + 1> m_maps;
+  std::array<Pose, kMostSteps + 1> m_poses;
+  std::unique_ptr<SurfaceSamples> m_surface;
+  std::vector<Meeting> m_meetings;
+  std::size_t m_meetingCount = 0;
+  mutable const Meeting* m_deepestMeeting = nullptr; // that was not free
+  Hit m_blocker;
   const volume::MaskState* m_state = nullptr;
   Pose m_pose;
   double m_deepest = volume::TissueField::kAir; // f, where the tool stands

@@ -32,6 +32,17 @@ TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::
   m_field = std::make_shared<const haptics::HapticField>(tissue.rigid, m_mask, std::move(soft));
 }
 
+std::shared_ptr<const core::LockedMemory> TouchScene::lockedMemory() const
+{
+  std::shared_ptr<const core::LockedMemory> locked = m_locked.lock();
+  if (!locked)
+  {
+    locked = std::make_shared<const core::LockedMemory>(m_field->memory());
+    m_locked = locked;
+  }
+  return locked;
+}
+
 void TouchScene::publish(const std::vector<std::size_t>& bricks)
 {
   m_mask->publish(m_case.dissection->mask(), bricks, true);

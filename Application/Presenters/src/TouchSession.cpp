@@ -61,6 +61,7 @@ void list(const Event& event, scene::Case& value, TouchSession::News& news)
 TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Device& device,
                            const Setup& setup)
   : m_case(value)
+  , m_locked(scene.lockedMemory())
   , m_proxy(scene.proxyOf(setup.tool))
   , m_servo(*m_proxy, setupOf(scene, setup))
   , m_ring(kRing)

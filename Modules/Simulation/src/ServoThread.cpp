@@ -8,6 +8,7 @@
 #include <sched.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/LockedMemory.h"
 
 namespace petrous::simulation
 {
@@ -106,6 +107,7 @@ ServoThread::State ServoThread::state() const noexcept
   state.worstWall = m_worstWall.load();
   state.worstProcessor = m_worstProcessor.load();
   state.dropped = m_records.dropped();
+  state.majorFaults = m_majorFaults.load();
   return state;
 }
 
@@ -153,6 +155,7 @@ void ServoThread::run() noexcept
       --toStop;
     }
     tickOnce(parameters);
+    m_majorFaults.store(core::majorPageFaults(), std::memory_order_relaxed);
     TickRecord last;
     resting = m_latest.read(last) && atRest(last);
   }

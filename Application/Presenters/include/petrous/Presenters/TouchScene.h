@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "petrous/Core/LockedMemory.h"
 #include "petrous/Haptics/HapticField.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
@@ -52,6 +53,9 @@ public:
   const std::shared_ptr<volume::PublishedMask>& mask() const noexcept { return m_mask; }
   const std::shared_ptr<const haptics::HapticField>& field() const noexcept { return m_field; }
 
+  /// What a servo reads of the field, kept in memory while somebody holds this; the same for all.
+  std::shared_ptr<const core::LockedMemory> lockedMemory() const;
+
   /// Tells the servo of bricks that were changed by other means than drilling: undo, redo.
   void publish(const std::vector<std::size_t>& bricks);
 
@@ -90,6 +94,7 @@ private:
   DrillSession m_drill;
   std::shared_ptr<volume::PublishedMask> m_mask;
   std::shared_ptr<const haptics::HapticField> m_field;
+  mutable std::weak_ptr<const core::LockedMemory> m_locked;
   mutable std::map<double, haptics::PointShell> m_shells; // by diameter, mm
 };
 

@@ -93,6 +93,7 @@ public:
 
 private:
   scene::Case& m_case;
+  std::shared_ptr<const core::LockedMemory> m_locked; // what the servo reads
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
   simulation::SpscRing<simulation::TickRecord> m_ring;

@@ -31,6 +31,7 @@ public:
     double worstWall = 0.0;      ///< s, longest tick, device included
     double worstProcessor = 0.0; ///< s of the thread's processor time, longest tick
     std::uint64_t dropped = 0;   ///< records that found the ring full
+    long majorFaults = 0;        ///< page faults that waited for the disk
   };
 
   /// servo, device, records  must outlive this; used by the thread alone until stop()
@@ -68,6 +69,7 @@ private:
   std::atomic<bool> m_realTime{false};
   std::atomic<std::uint64_t> m_ticks{0};
   std::atomic<std::uint64_t> m_late{0};
+  std::atomic<long> m_majorFaults{0};
   std::atomic<double> m_worstWall{0.0};
   std::atomic<double> m_worstProcessor{0.0};
   std::thread m_thread; // last: it uses all the others

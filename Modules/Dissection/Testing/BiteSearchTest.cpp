@@ -148,6 +148,40 @@ TEST(BiteSearch, SaysWhereTheBurrTakesIt)
     }
 }
 
+// The same cap, by places drawn at random in what the ball takes.
+TEST(BiteSearch, SaysHowFarFromTheSpindleTheBurrTakesIt)
+{
+  const double h = 0.15;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const double degrees : {0.0, 45.0, 73.0, 80.0, 85.0, 90.0})
+    for (const double volume : {0.005, 0.05, 0.3})
+    {
+      SCOPED_TRACE(::testing::Message() << degrees << " degrees, " << volume << " mm^3");
+      BoneBelow bone(h);
+      BiteSearch::Wish wish = BoneBelow::down(kRadius, volume);
+      const double theta = degrees * kPi / 180.0;
+      wish.spindle = Vector3d(0.6 * std::cos(theta), 0.8 * std::cos(theta), std::sin(theta));
+      const auto bite = bone.search.find(bone.mask, wish);
+      ASSERT_TRUE(bite);
+      const double r = kRadius + BiteSearch::kClearance * h;
+      const double depth = bite->depth + BiteSearch::kClearance * h;
+      const double widest = std::sqrt(2.0 * r * depth);
+      double sum = 0.0;
+      int places = 0;
+      for (int n = 0; n < 400000; ++n)
+      {
+        const Vector3d p(widest * uniform(random), widest * uniform(random),
+                         -r + 0.5 * depth * (1.0 + uniform(random)));
+        if (p.norm() > r)
+          continue;
+        sum += kRadius * p.normalized().cross(wish.spindle).norm();
+        ++places;
+      }
+      EXPECT_NEAR(bite->patch.arm, sum / places, 0.02 * sum / places + 0.01 * h);
+    }
+}
+
 TEST(BiteSearch, TakesNothingFromAirNorBeyondItsReach)
 {
   BoneBelow bone(0.3);

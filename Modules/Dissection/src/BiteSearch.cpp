@@ -154,7 +154,7 @@ std::optional<Bite> BiteSearch::find(const volume::CutMask& mask, const Wish& wi
   }
   if (!found)
     depth = bracket.low;
-  BiteWindow::Taken taken = p.window.taken(at(depth), p.radius);
+  BiteWindow::Taken taken = p.window.taken(at(depth), p.radius, wish.spindle);
   const bool capped = depth >= top;
   if (!(taken.volume > kLeastBite * p.window.partVolume() && taken.work > 0.0))
   {

@@ -246,7 +246,8 @@ void BiteWindow::addToPatch(const Cell& cell, const Eigen::Vector3d& center, boo
                       static_cast<double>(gone));
 }
 
-BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius)
+BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius,
+                                    const Eigen::Vector3d& spindle)
 {
   Taken taken;
   taken.work = work(place, radius);
@@ -265,7 +266,7 @@ BiteWindow::Taken BiteWindow::taken(const Eigen::Vector3d& place, double radius)
   const Eigen::Vector3d center = m_grid.spacing().cwiseProduct(m_grid.voxelFromPatient(place));
   for (const std::uint32_t n : m_bitten)
     addToPatch(m_cells[n], center, m_bitten.size() <= kFewCells);
-  taken.patch = m_patch.patch(radius);
+  taken.patch = m_patch.patch(radius, m_grid.direction().transpose() * spindle);
   taken.patch.middle = m_grid.direction() * taken.patch.middle;
   return taken;
 }

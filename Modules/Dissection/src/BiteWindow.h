@@ -33,7 +33,8 @@ public:
   };
 
   /// The same and more, of the bite that is made: what was reckoned of it is kept.
-  Taken taken(const Eigen::Vector3d& place, double radius);
+  /// spindle  patient axes, unit, or zero: see ContactPatch::arm
+  Taken taken(const Eigen::Vector3d& place, double radius, const Eigen::Vector3d& spindle);
 
   double partVolume() const noexcept { return m_sums.partVolume(); } ///< mm^3 of a counted point
 

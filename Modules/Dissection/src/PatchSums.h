@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -29,25 +30,33 @@ public:
     m_all += weight;
   }
 
-  /// Axes as those of the offsets. Nothing taken: zero.
-  ContactPatch patch(double radius) const
+  /// Axes as those of the offsets; spindle: unit, or zero. Nothing taken: zero.
+  ContactPatch patch(double radius, const Eigen::Vector3d& spindle) const
   {
     ContactPatch patch;
     const double length = m_sum.norm();
     if (!(m_all > 0.0) || !(length > 0.0))
       return patch;
     patch.middle = m_sum / length;
-    double moment = 0.0;
-    for (const Place& place : m_places)
-    {
-      const double along = place.direction.dot(patch.middle);
-      moment += place.weight * std::sqrt(std::max(0.0, 1.0 - along * along));
-    }
-    patch.spread = radius * std::max(0.0, moment / m_all);
+    patch.spread = meanDistance(radius, patch.middle);
+    if (!spindle.isZero(0.0))
+      patch.arm = meanDistance(radius, spindle);
     return patch;
   }
 
 private:
+  // Of the places, on the ball, from the line through its centre along `axis`.
+  double meanDistance(double radius, const Eigen::Vector3d& axis) const
+  {
+    double moment = 0.0;
+    for (const Place& place : m_places)
+    {
+      const double along = place.direction.dot(axis);
+      moment += place.weight * std::sqrt(std::max(0.0, 1.0 - along * along));
+    }
+    return radius * std::clamp(moment / m_all, 0.0, 1.0);
+  }
+
   struct Place
   {
     Eigen::Vector3d direction;

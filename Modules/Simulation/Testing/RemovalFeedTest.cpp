@@ -290,14 +290,42 @@ TEST(RemovalFeed, RefusesASpindleThatTurnsBack)
   EXPECT_THROW(RemovalFeed(scene.search, burr, 0.3), core::InvalidParameter);
 }
 
-// Away from the pole r_b cos(theta); at the pole the mean over the patch.
+// Places drawn at random on a cap: those within `rim` of the middle, whose own mean distance from
+// the line through the middle is the spread.
+TEST(RemovalFeed, ArmIsTheMeanOverThePatch)
+{
+  const double radius = 2.0;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform;
+  for (const double rim : {0.05, 0.2, 0.5, 1.0})
+    for (const double degrees : {0.0, 45.0, 60.0, 73.0, 80.0, 85.0, 88.0, 90.0})
+    {
+      SCOPED_TRACE(::testing::Message() << "rim " << rim << ", " << degrees << " degrees");
+      const Eigen::Vector3d spindle(std::cos(degrees * kDegree), 0.0, std::sin(degrees * kDegree));
+      const int draws = 40000;
+      double arm = 0.0;
+      double spread = 0.0;
+      for (int n = 0; n < draws; ++n)
+      {
+        const double z = 1.0 - (1.0 - std::cos(rim)) * uniform(random);
+        const double rho = std::sqrt(1.0 - z * z);
+        const double turn = 360.0 * kDegree * uniform(random);
+        const Eigen::Vector3d place =
+            radius * Eigen::Vector3d(rho * std::cos(turn), rho * std::sin(turn), z);
+        arm += place.cross(spindle).norm() / draws;
+        spread += radius * rho / draws;
+      }
+      EXPECT_NEAR(RemovalFeed::armOf(radius, degrees * kDegree, spread), arm, 0.01 * arm);
+    }
+}
+
+// Of a point r_b cos(theta), and at the pole the spread.
 TEST(RemovalFeed, ArmIsThatOfTheContact)
 {
-  EXPECT_NEAR(RemovalFeed::armOf(2.0, 0.0, 0.0), 2.0, 1e-6);
-  EXPECT_EQ(RemovalFeed::armOf(2.0, 0.0, 1.0), 2.0);
+  EXPECT_NEAR(RemovalFeed::armOf(2.0, 0.0, 0.0), 2.0, 0.001);
   const double contact = 2.0 * std::cos(60.0 * kDegree);
-  EXPECT_NEAR(RemovalFeed::armOf(2.0, 60.0 * kDegree, 0.3), contact, 0.003 * contact);
-  EXPECT_NEAR(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.7), 0.7, 1e-6);
+  EXPECT_NEAR(RemovalFeed::armOf(2.0, 60.0 * kDegree, 0.03), contact, 0.003 * contact);
+  EXPECT_NEAR(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.7), 0.7, 0.003 * 0.7);
   EXPECT_GT(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.0), 0.01);
   EXPECT_LT(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.0), 0.1);
 }

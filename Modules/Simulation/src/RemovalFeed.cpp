@@ -18,6 +18,27 @@ constexpr double kPi = 3.14159265358979323846;
 // cutting burr with ten teeth take at a tenth of a micrometre each. It makes the least patch.
 constexpr double kLeastSink = 0.002;
 
+// Quadrature over a patch: within 0.3 % of its mean at the pole, and nearer elsewhere.
+constexpr int kRings = 12;
+constexpr int kPlaces = 24;
+
+// Half the opening (rad) of the cap of a unit ball whose mean distance from its own axis is that:
+// (a - sin a cos a) / (2 (1 - cos a)), which is 2/3 a for small a and rises up to a ball's.
+double rimOf(double spread) noexcept
+{
+  double low = 0.0;
+  double high = kPi;
+  for (int n = 0; n < 30; ++n)
+  {
+    const double a = 0.5 * (low + high);
+    const double half = std::sin(0.5 * a);
+    const double mean =
+        a > 1e-3 ? (a - std::sin(a) * std::cos(a)) / (4.0 * half * half) : 2.0 / 3.0 * a;
+    (mean < spread ? low : high) = a;
+  }
+  return 0.5 * (low + high);
+}
+
 } // namespace
 
 RemovalFeed::RemovalFeed(dissection::BiteSearch& search, const dissection::Burr& burr, double voxel)
@@ -39,10 +60,30 @@ double RemovalFeed::armOf(const Eigen::Vector3d& normal, double spread) const no
 double RemovalFeed::armOf(double radius, double elevation, double spread) noexcept
 {
   const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kLeastSink);
-  const double contact = radius * std::abs(std::cos(elevation));
-  // Both squared twice: within 0.2 % of the contact's own distance once that is thrice the spread.
-  const double mean = std::max(spread, least);
-  return std::min(radius, std::sqrt(std::hypot(contact * contact, mean * mean)));
+  const double rim = rimOf(std::max(spread, least) / radius);
+  // Rings of equal area, the places of a half of each evenly spaced.
+  const double sine = std::sin(elevation);
+  const double cosine = std::cos(elevation);
+  double sum = 0.0;
+  for (int ring = 0; ring < kRings; ++ring)
+  {
+    const double along = 1.0 - (1.0 - std::cos(rim)) * (ring + 0.5) / kRings;
+    const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
+    for (int place = 0; place < kPlaces; ++place)
+    {
+      const double turn = kPi * (place + 0.5) / kPlaces;
+      const double axial = along * sine + across * std::cos(turn) * cosine;
+      sum += std::sqrt(std::max(0.0, 1.0 - axial * axial));
+    }
+  }
+  return radius * sum / (kRings * kPlaces);
+}
+
+double RemovalFeed::armOfPatch() const noexcept
+{
+  const double now = armOf(m_patch.middle, m_patch.spread);
+  // The spindle may have turned since the bite.
+  return m_biteArm > 0.0 ? std::min(m_search.radius(), m_patch.arm * now / m_biteArm) : now;
 }
 
 void RemovalFeed::press(const TickRecord& record, double seconds)
@@ -55,9 +96,8 @@ void RemovalFeed::press(const TickRecord& record, double seconds)
   m_thrust = thrust;
   m_wish.place = tool.position;
   m_wish.into = -force / thrust;
-  m_spindle = tool.rotation * Eigen::Vector3d::UnitZ();
-  m_pressedArm = m_patchArm = m_arm =
-      m_bitten ? armOf(m_patch.middle, m_patch.spread) : armOf(m_wish.into, 0.0);
+  m_spindle = m_wish.spindle = tool.rotation * Eigen::Vector3d::UnitZ();
+  m_pressedArm = m_patchArm = m_arm = m_bitten ? armOfPatch() : armOf(m_wish.into, 0.0);
   m_wish.deepest = m_ahead;
   m_rate = thrust * m_arm * m_speed;
   const double work = m_rate * seconds;
@@ -88,7 +128,8 @@ void RemovalFeed::account(const dissection::Bite& bite)
   m_patch = bite.patch;
   m_bitten = true;
   // The patch grew with the bite, which was made with the mean of what it was and is.
-  const double arm = armOf(m_patch.middle, m_patch.spread);
+  m_biteArm = armOf(m_patch.middle, m_patch.spread);
+  const double arm = m_patch.arm;
   m_arm = 0.5 * (std::exchange(m_patchArm, arm) + arm);
   const double more = std::max((m_arm / m_pressedArm - 1.0) * bite.work, -std::max(m_owed, 0.0));
   m_owed += more;

@@ -17,6 +17,8 @@ struct ContactPatch
                                          ///< nothing is taken
   double spread = 0.0; ///< mm, mean distance of the patch from the line through centre and middle:
                        ///< 2/3 of the radius of a round patch
+  double arm = 0.0;    ///< mm, mean distance of the patch from the spindle's axis; 0 where none was
+                       ///< given
 };
 
 /// What a burr takes when it is set down a little further in the tissue.
@@ -48,10 +50,11 @@ class BiteSearch
 public:
   struct Wish
   {
-    Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the burr's centre, patient mm
-    Eigen::Vector3d into{0.0, 0.0, 1.0};  ///< unit, against the force on the tool
-    double work = 0.0;                    ///< N mm, > 0
-    double deepest = 0.0;                 ///< mm from the place; no bite goes beyond
+    Eigen::Vector3d place{0.0, 0.0, 0.0};   ///< of the burr's centre, patient mm
+    Eigen::Vector3d into{0.0, 0.0, 1.0};    ///< unit, against the force on the tool
+    double work = 0.0;                      ///< N mm, > 0
+    double deepest = 0.0;                   ///< mm from the place; no bite goes beyond
+    Eigen::Vector3d spindle{0.0, 0.0, 0.0}; ///< unit, the spindle's axis; zero: not asked for
   };
 
   static constexpr double kStep = 0.25;      ///< voxels (smallest spacing) that one bite may go on

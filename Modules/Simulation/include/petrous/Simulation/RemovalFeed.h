@@ -26,10 +26,9 @@ struct RemovalBalance
 ///
 /// F_t  N, what the burr's contacts push back together, so that walls between which the burr is
 ///      wedged do not count twice
-/// r    mm, the distance of the contact from the spindle's axis: r_b cos(theta) at the middle of
-/// the
-///      patch where the last bite took what it took; where that lies at the pole, the mean over the
-///      patch: `armOf`. A bite counts with the mean of the patch before and after it.
+/// r    mm, the distance of the contact from the spindle's axis: the mean over the patch where the
+///      last bite took what it took, weighed by volume. Of a small patch away from the pole that is
+///      r_b cos(theta) of its middle. A bite counts with the mean of the patch before and after it.
 class RemovalFeed : public Feed
 {
 public:
@@ -58,15 +57,19 @@ public:
   double thrust() const noexcept { return m_thrust; } ///< F_t, N
   double arm() const noexcept { return m_arm; }       ///< r, mm
 
-  /// r, mm: (r_c^4 + s^4)^(1/4), at most r_b.
+  /// r, mm, of a round patch: the mean distance from the spindle's axis over a cap of the ball, by
+  /// quadrature.
   ///
   /// radius     r_b, mm
-  /// elevation  theta, rad, of the spindle above the surface at the contact: r_c = r_b cos(theta)
-  /// spread     s, mm, mean distance of the contact patch from its middle: what r is at the pole
+  /// elevation  theta, rad, of the spindle above the surface at the patch's middle
+  /// spread     s, mm, mean distance of the patch from the line through centre and middle: what r
+  /// is
+  ///            at the pole; that of a burr sunk in by 2 um at least
   static double armOf(double radius, double elevation, double spread) noexcept;
 
 private:
   double armOf(const Eigen::Vector3d& normal, double spread) const noexcept;
+  double armOfPatch() const noexcept;
   double resistance(const volume::CutMask& mask);
   void account(const dissection::Bite& bite);
   void forfeit(double work);
@@ -84,6 +87,7 @@ private:
   Eigen::Vector3d m_spindle{0.0, 0.0, 1.0};
   double m_pressedArm = 0.0; // mm, with which the last press was reckoned
   double m_patchArm = 0.0;   // mm, of the last bite's patch
+  double m_biteArm = 0.0;    // mm, of a round patch like it, as the spindle was then
   double m_rate = 0.0;       // N mm/s
   double m_resistance = 0.0; // N/mm^2, of the last bite; 0: not known in this contact
   double m_unpriced = 0.0;   // N mm done before the resistance was known

@@ -27,6 +27,13 @@ void DrillReport::add(const simulation::TickRecord& record,
   m_force = std::max(m_force, wrench.linear.norm());
   m_torque = std::max(m_torque, wrench.angular.norm());
   m_penetration = std::max(m_penetration, record.penetration);
+  m_shaft += (record.held & simulation::TickRecord::kShaft) != 0;
+  m_handpiece += (record.held & simulation::TickRecord::kHandpiece) != 0;
+  if (simulation::isHeldOff(record))
+  {
+    ++m_heldOff;
+    m_holder |= record.held;
+  }
   m_inside += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
   if (m_log)
     m_log->add(record, removal);
@@ -72,6 +79,10 @@ void DrillReport::say(const Context& context) const
   if (m_inside > 0)
     context.remark("the tool stood in tissue for " + std::to_string(m_inside) +
                    " ticks: there nothing is felt, and the drill takes what the burr sweeps");
+  if (m_heldOff > 0)
+    context.remark(simulation::holderInWords(m_holder) +
+                   " lay on tissue and held the burr off for " + std::to_string(m_heldOff) +
+                   " ticks of drilling: give the tool another angle or more room");
   context.say(std::to_string(result.strokes) + (result.strokes == 1 ? " stroke, " : " strokes, ") +
               fixed(result.removed, 2) + " mm3 removed in " + std::to_string(m_times.count()) +
               " ticks");
@@ -107,6 +118,9 @@ nlohmann::json DrillReport::json()
           {"max_force_n", m_force},
           {"max_torque_nmm", m_torque},
           {"ticks_inside", m_inside},
+          {"held_by_shaft_ticks", m_shaft},
+          {"held_by_handpiece_ticks", m_handpiece},
+          {"held_off_ticks", m_heldOff},
           {"structures_touched", std::move(structures)},
           {"min_distance_mm", std::move(distances)},
           {"undo_bytes", result.bytes},

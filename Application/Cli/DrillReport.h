@@ -64,6 +64,10 @@ private:
   double m_torque = 0.0;      // N mm
   double m_penetration = 0.0; // mm
   std::size_t m_inside = 0;   // ticks of which the tool spent the whole in tissue
+  std::size_t m_shaft = 0;    // ticks in which it pressed on tissue
+  std::size_t m_handpiece = 0;
+  std::size_t m_heldOff = 0; // ticks of drilling in which they carried most of the force
+  std::uint8_t m_holder = 0; // then
 };
 
 } // namespace petrous::cli

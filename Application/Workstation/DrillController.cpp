@@ -388,6 +388,13 @@ void DrillController::showFault(const presenters::TouchSession::News& news)
     fault = words(news.fault);
     m_sinceFault.start();
   }
+  else if (news.record && simulation::isHeldOff(*news.record))
+  {
+    fault = words(simulation::holderInWords(news.record->held));
+    fault[0] = fault[0].toUpper();
+    fault = tr("%1 lies on tissue and holds the burr off").arg(fault);
+    m_sinceFault.start();
+  }
   else if (!m_fault.isEmpty() && m_sinceFault.elapsed() > kFaultShown)
     fault.clear();
   if (fault != m_fault)

@@ -25,7 +25,7 @@ public:
     setup.center = place;
     setup.parameters.constantThrust = 1;
     setup.parameters.drillButtons = interaction::PointerDevice::kDrill;
-    setup.parameters.approach[2] = -1.0;
+    setup.parameters.approach[2] = -5.0;
     setup.tool.burr.rpm = 600000.0; // ten times as fast: the tests need not wait
   }
 

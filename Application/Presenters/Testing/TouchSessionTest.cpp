@@ -201,7 +201,7 @@ Drilled drilledAt(double picturesPerSecond)
   TouchSession::Setup setup;
   setup.parameters.constantThrust = 1;
   setup.parameters.drillButtons = 1;
-  setup.parameters.approach[2] = -1.0;
+  setup.parameters.approach[2] = -5.0;
   TouchSession session(value, scene, device, setup);
   Drilled drilled;
   for (bool over = false; !over;)

@@ -1,5 +1,7 @@
 #include "petrous/Presenters/PathDrill.h"
 
+#include <utility>
+
 namespace petrous::presenters
 {
 
@@ -35,8 +37,9 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
   , m_removal(scene.removalOf(options.tool.burr, options.catalogues))
   , m_loop(*value.dissection, *scene.mask(), m_removal->feed, scene.drill().protectedTissue(),
            hooks(scene, options))
+  , m_approach(m_tissue)
 {
-  m_parameters.constantThrust = options.thrust ? 1 : 0;
+  m_parameters.constantThrust = options.thrust ? simulation::ServoParameters::kPressed : 0;
   m_parameters.thrust = options.thrust.value_or(1.0);
   simulation::check(m_parameters);
 }
@@ -62,6 +65,16 @@ const simulation::TickRecord& PathDrill::feel(const dissection::ToolSample& samp
   return m_record;
 }
 
+// For the next tick; a burr that is in contact needs none.
+void PathDrill::approach(const Eigen::Vector3d& place)
+{
+  if (!m_parameters.constantThrust || m_record.thrust > 0.0)
+    return;
+  if (std::exchange(m_approached, m_loop.state()) != m_loop.state())
+    m_approach.forget();
+  m_approach.apply(place, m_parameters);
+}
+
 void PathDrill::cut(const dissection::ToolSample& sample)
 {
   if (m_recording)
@@ -72,9 +85,11 @@ void PathDrill::cut(const dissection::ToolSample& sample)
     m_swept.reset();
     m_changed.clear();
     m_loop.step(m_record);
+    approach(sample.pose.translation());
     return;
   }
   sweep(sample.pose.translation());
+  approach(sample.pose.translation());
 }
 
 void PathDrill::sweep(const Eigen::Vector3d& at)

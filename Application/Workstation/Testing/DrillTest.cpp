@@ -6,6 +6,8 @@
 #include <QStatusBar>
 #include <QWheelEvent>
 
+#include "DrillController.h"
+
 using namespace petrous;
 using namespace petrous::workstation;
 
@@ -172,6 +174,36 @@ TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
   EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
   window().findChild<QDoubleSpinBox*>("thrust")->setValue(2.0);
   EXPECT_FALSE(window().model().touching());
+}
+
+// The burr lies in a hole of its own size, and the pointer goes on over untouched bone and away.
+TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
+{
+  saveBall("ball");
+  openWindow();
+  drill(3000);
+  auto* controller = window().findChild<DrillController*>();
+  ASSERT_NE(controller, nullptr);
+  Eigen::Vector3d burr(0.0, 0.0, 0.0);
+  QStringList faults;
+  QObject::connect(controller, &DrillController::burrMoved, &window(),
+                   [&](const Eigen::Vector3d& center, double) { burr = center; });
+  QObject::connect(controller, &DrillController::faulted, &window(),
+                   [&](const QString& fault) { faults += fault; });
+  const QPoint middle = view().rect().center();
+  const auto beside = [&](const QPoint& at)
+  {
+    const auto line = view().sightLine(at);
+    return (burr - line.origin).cross(line.direction).norm();
+  };
+  for (const QPoint aside : {QPoint(60, 0), QPoint(0, 0), QPoint(-50, 30), QPoint(10, -60)})
+  {
+    const QPoint at = middle + aside;
+    QTest::mouseMove(&view(), at);
+    EXPECT_TRUE(waitFor([&] { return beside(at) < 0.5; }, 5000))
+        << aside.x() << ' ' << aside.y() << ": " << beside(at) << " mm";
+  }
+  EXPECT_TRUE(faults.filter("inside tissue").isEmpty()) << faults.join('/').toStdString();
 }
 
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)

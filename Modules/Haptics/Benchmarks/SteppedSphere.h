@@ -20,6 +20,14 @@ public:
 
   const Pose& pose() const noexcept override { return m_pose; }
   void place(const Pose& pose) noexcept override { m_pose = pose; }
+  bool placeFree(const Pose& pose) noexcept override
+  {
+    Eigen::Vector3d normal;
+    if (!freeAt(pose.position, normal))
+      return false;
+    place(pose);
+    return true;
+  }
   const ProxyTick& step(const Pose& goal) noexcept override;
 
 private:

@@ -109,6 +109,14 @@ void CentreProxy::place(const Pose& pose) noexcept
   m_tick.pose = m_sweep.pose();
 }
 
+bool CentreProxy::placeFree(const Pose& pose) noexcept
+{
+  if (!pose.finite() || !m_refuge->freeAt(pose))
+    return false;
+  place(pose);
+  return true;
+}
+
 // The tissue's surface as the centre sees it close by. The normal is smooth, over a voxel; how far
 // it is follows from the slope right here, as edges of an image are no straight ramps.
 bool CentreProxy::nearPlane(Plane& plane) const noexcept

@@ -74,6 +74,14 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
     m_soft->begin(pose);
 }
 
+bool ConstrainedProxy::placeFree(const Pose& pose) noexcept
+{
+  if (!pose.finite() || !m_refuge->freeAt(pose))
+    return false;
+  place(pose);
+  return true;
+}
+
 // Two problems. In the first, standing still is allowed, and its forces are what the hand feels. In
 // the second the tool also keeps the skin above rigid tissue; tissue on all sides may leave no room
 // for that, and then the first one's motion stands.

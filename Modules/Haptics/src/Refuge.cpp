@@ -35,6 +35,15 @@ void Refuge::place(const Pose& pose) noexcept
   mask.release();
 }
 
+bool Refuge::freeAt(const Pose& pose) noexcept
+{
+  const volume::PublishedMask& mask = m_sweep.field().mask();
+  m_sweep.look(*mask.acquire());
+  const bool free = m_sweep.freeAt(pose);
+  mask.release();
+  return free;
+}
+
 void Refuge::follow(const Pose& goal) noexcept
 {
   m_sweep.moveTo(goal);

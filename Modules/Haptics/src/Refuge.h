@@ -22,6 +22,9 @@ public:
   /// Puts the tool where it is told; the way that it came is forgotten.
   void place(const Pose& pose) noexcept;
 
+  /// Whether no tissue is there, by the mask as it is now.
+  bool freeAt(const Pose& pose) noexcept;
+
   /// Looks at the sweep's present state of the mask. True when tissue came back round the tool and
   /// it went back on its path.
   bool notice() noexcept;

@@ -16,6 +16,7 @@ using namespace petrous::interaction::testing;
 using Eigen::Vector3d;
 using Mode = AimSettings::Mode;
 using Press = PointerAim::Press;
+using Parameters = simulation::ServoParameters;
 
 namespace
 {
@@ -109,22 +110,22 @@ TEST(PointerAim, PressesAlongTheLineOfSightByConstantThrust)
   PointerAim aim = aimAt(through(target), Mode::Surface);
   simulation::ServoParameters parameters;
   aim.apply(parameters);
-  EXPECT_EQ(parameters.constantThrust, 0);
+  EXPECT_EQ(parameters.constantThrust, Parameters::kPointer);
   EXPECT_EQ(aim.buttons(), 0U);
 
   aim.press(Press::Drill);
   EXPECT_NEAR((target - place(aim)).norm(), 2.0, 1e-9);
   aim.apply(parameters);
-  EXPECT_EQ(parameters.constantThrust, 1);
+  EXPECT_EQ(parameters.constantThrust, Parameters::kPointer | Parameters::kPressed);
   EXPECT_EQ(parameters.thrust, 1.0);
-  // From the eye to the target.
-  expectNear(Vector3d(parameters.approach), Vector3d(30.0, -20.0, -200.0).normalized());
+  // From the burr's place to the target, away from the eye.
+  expectNear(Vector3d(parameters.approach), target - place(aim));
   EXPECT_EQ(aim.buttons() & parameters.drillButtons, PointerDevice::kDrill);
   EXPECT_TRUE(parameters.valid());
 
   aim.press(Press::Touch);
   aim.apply(parameters);
-  EXPECT_EQ(parameters.constantThrust, 1);
+  EXPECT_EQ(parameters.constantThrust, Parameters::kPointer | Parameters::kPressed);
   EXPECT_EQ(aim.buttons(), 0U);
 }
 
@@ -141,6 +142,7 @@ TEST(PointerAim, GivesTheServoThePatientsAxes)
   EXPECT_EQ(parameters.camera[2], 0.0);
   EXPECT_EQ(parameters.forceGain, 3.0);
   EXPECT_EQ(parameters.constantThrust, 0);
+  EXPECT_EQ(parameters.mostLead, 5.0F); // the pointer's way aside presses no harder than the wheel
 }
 
 TEST(PointerAim, KeepsItsDepthPastTheEdgeOfTheTissue)
@@ -161,10 +163,10 @@ TEST(PointerAim, KeepsItsDepthPastTheEdgeOfTheTissue)
   EXPECT_LT(distanceToLine(place(aim), beyond), 1e-9);
   simulation::ServoParameters parameters;
   aim.apply(parameters);
-  EXPECT_EQ(parameters.constantThrust, 0); // it would fall
+  EXPECT_EQ(parameters.constantThrust, Parameters::kPointer); // it would fall
   aim.point(through({5.0, 0.0, 0.0}));
   aim.apply(parameters);
-  EXPECT_EQ(parameters.constantThrust, 1);
+  EXPECT_EQ(parameters.constantThrust, Parameters::kPointer | Parameters::kPressed);
 }
 
 TEST(PointerAim, StartsInTheFocalPlaneWhereThereIsNoTissue)

@@ -1,3 +1,5 @@
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "Tissue.h"
@@ -31,8 +33,9 @@ SightLine through(const Vector3d& point)
 class Session
 {
 public:
-  explicit Session(Mode mode)
-    : proxy(haptic(*tissue), haptics::makeBurrShell(shape(), kVoxel, 700))
+  explicit Session(Mode mode, std::shared_ptr<const volume::TissueField> bone = block())
+    : tissue(std::move(bone))
+    , proxy(haptic(*tissue), haptics::makeBurrShell(shape(), kVoxel, 700))
     , servo(proxy, setup(proxy))
     , device(kCenter)
     , aim([this](const SightLine& line) { return firstTissue(*tissue, line); }, settings(mode))
@@ -60,7 +63,7 @@ public:
   Vector3d force() const { return record.wrench.wrench().linear; }
   ServoFault fault() const { return static_cast<ServoFault>(record.fault); }
 
-  std::shared_ptr<const volume::TissueField> tissue = block();
+  std::shared_ptr<const volume::TissueField> tissue;
   haptics::ConstrainedProxy proxy;
   simulation::Servo servo;
   PointerDevice device;
@@ -108,6 +111,17 @@ private:
 
   TickRecord record;
 };
+
+// Into a hole at `mouth`; then the button is let go.
+void drillInto(Session& session, const Vector3d& mouth)
+{
+  session.aim.point(through(mouth));
+  session.run(100);
+  session.aim.press(PointerAim::Press::Drill);
+  session.run(600);
+  ASSERT_LT(session.tool().z(), -2.5);
+  session.aim.press(PointerAim::Press::None);
+}
 
 double besideLine(const Vector3d& point, const SightLine& line)
 {
@@ -207,4 +221,119 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   session.aim.wheel(4.0, false);
   session.run(300);
   EXPECT_NEAR(session.force().z(), 1.0, 0.05);
+}
+
+// The burr lies in a hole of its own size; without the button the pointer goes where it likes.
+TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
+{
+  for (const double way : {4.0, 7.0, 9.5})
+  {
+    SCOPED_TRACE(way);
+    const Vector3d mouth(-4.0, 0.0, 0.0);
+    Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
+    drillInto(session, mouth);
+    const SightLine line = through({way - 4.0, 1.0, 0.0});
+    session.aim.point(line);
+    double highest = -10.0;
+    for (int n = 0; n < 800; ++n)
+    {
+      session.run(1);
+      EXPECT_LE(session.force().norm(), session.aim.settings().thrust);
+      EXPECT_EQ(session.fault(), ServoFault::None) << n;
+      highest = std::max(highest, session.tool().z());
+    }
+    EXPECT_LT(besideLine(session.tool(), line), 0.2);
+    EXPECT_NEAR(session.tool().z(), kRadius + 1.0, 0.1);
+    EXPECT_LT(highest, kRadius + 3.0); // it lifts, and does not fly about
+    EXPECT_EQ(session.force().norm(), 0.0);
+  }
+}
+
+TEST(PointerDrilling, ThePointerAtTheMenuPullsNoHarderThanTheThrust)
+{
+  Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
+  drillInto(session, {-4.0, 0.0, 0.0});
+  session.aim.point(through({60.0, 80.0, 0.0})); // there is nothing
+  for (int n = 0; n < 1500; ++n)
+  {
+    session.run(1);
+    ASSERT_LE(session.force().norm(), session.aim.settings().thrust) << n;
+    ASSERT_EQ(session.fault(), ServoFault::None) << n;
+  }
+  EXPECT_LT(besideLine(session.tool(), through({60.0, 80.0, 0.0})), simulation::Servo::kFarthest);
+}
+
+// A drag with the button down over the rim of a cavity, in which the tool is held by its shaft.
+TEST(PointerDrilling, TheForceIsTheThrustWhereverAPressedPointerGoes)
+{
+  Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
+  drillInto(session, {-4.0, 0.0, 0.0});
+  session.aim.press(PointerAim::Press::Drill);
+  for (int n = 0; n < 60; ++n)
+  {
+    session.aim.point(through({-4.0 + 0.2 * n, 0.1 * n, 0.0}));
+    for (int tick = 0; tick < 16; ++tick)
+    {
+      session.run(1);
+      ASSERT_LE(session.force().norm(), 1.0 + 1e-9) << n;
+      ASSERT_EQ(session.fault(), ServoFault::None) << n;
+    }
+  }
+  session.run(500);
+  EXPECT_LT(besideLine(session.tool(), through({-4.0 + 0.2 * 59, 5.9, 0.0})), 0.5);
+}
+
+// Of a tool that is taken up where its place has no room for shaft and handpiece, or is itself in
+// tissue.
+TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
+{
+  Session session(Mode::Surface);
+  AimSettings settings = session.aim.settings();
+  settings.tilt = 80.0; // the shaft lies nearly along the bone, and the handpiece below its surface
+  session.aim.setSettings(settings);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> anywhere(-9.0, 9.0), angle(-180.0, 180.0);
+  for (int n = 0; n < 30; ++n)
+  {
+    settings.turn = angle(random);
+    settings.tilt = 80.0 * (n % 3) / 2.0;
+    session.aim.setSettings(settings);
+    session.aim.point(through({anywhere(random), anywhere(random), 0.0}));
+    session.aim.press(n % 4 == 3 ? PointerAim::Press::Drill : PointerAim::Press::None);
+    for (int tick = 0; tick < 150; ++tick)
+    {
+      session.run(1);
+      ASSERT_EQ(session.fault(), ServoFault::None) << n << ' ' << tick;
+      ASSERT_LE(session.force().norm(), 1.0 + 1e-9) << n;
+    }
+  }
+}
+
+TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
+{
+  // The hole runs under the bone, as seen from the eye: there is no way out along the line of
+  // sight.
+  const auto bone = boneOf(
+      [](const Vector3d& p)
+      {
+        const Vector3d along = Vector3d(1.0, 0.0, -1.0).normalized();
+        const Vector3d mouth(-6.0, 0.0, 0.0);
+        const double t = std::clamp(along.dot(p - mouth), -100.0, 7.0);
+        return std::min(-p.z(), (p - mouth - t * along).norm() - 2.25);
+      });
+  Session session(Mode::Surface, bone);
+  const Vector3d end = Vector3d(-6.0, 0.0, 0.0) + 7.0 * Vector3d(1.0, 0.0, -1.0).normalized();
+  session.aim.point(through({-6.0, 0.0, 0.0}));
+  session.run(50);
+  ASSERT_TRUE(session.proxy.placeFree(
+      {end, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(-1.0, 0.0, 1.0))}));
+  const SightLine line = through({6.0, 3.0, 0.0});
+  session.aim.point(line);
+  for (int n = 0; n < 4000; ++n)
+  {
+    session.run(1);
+    ASSERT_LE(session.force().norm(), 1.0 + 1e-9) << n;
+    ASSERT_EQ(session.fault(), ServoFault::None) << n;
+  }
+  EXPECT_LT(besideLine(session.tool(), line), 0.2);
 }

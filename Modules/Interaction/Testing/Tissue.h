@@ -29,8 +29,9 @@ inline TissueQuery nothing()
   return [](const SightLine&) { return std::optional<double>(); };
 }
 
-/// A block of bone that fills its grid (20 x 20 x 20 mm about the origin) below z = 0.
-inline std::shared_ptr<const volume::TissueField> block()
+/// Bone where `depth` is above 0, mm, in a grid of 20 x 20 x 20 mm about the origin.
+template <typename Depth>
+std::shared_ptr<const volume::TissueField> boneOf(const Depth& depthAt)
 {
   const core::GridGeometry grid({41, 41, 41}, {0.5, 0.5, 0.5}, {-10.0, -10.0, -10.0});
   auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
@@ -38,13 +39,32 @@ inline std::shared_ptr<const volume::TissueField> block()
     for (int j = 0; j < 41; ++j)
       for (int i = 0; i < 41; ++i)
       {
-        const double depth = -grid.patientFromVoxel(Eigen::Vector3d(i, j, k)).z();
+        const double depth = depthAt(grid.patientFromVoxel(Eigen::Vector3d(i, j, k)));
         voxels->at(i, j, k) = static_cast<std::int16_t>(
             std::lround(std::clamp(300.0 + 400.0 * depth, -1000.0, 1500.0)));
       }
   return std::make_shared<volume::TissueField>(
       std::make_shared<volume::IntensityVolume>(std::move(voxels)),
       std::vector<volume::TissueField::SolidUnion>(), nullptr, volume::TissueField::Parameters());
+}
+
+/// A block of bone that fills its grid below z = 0.
+inline std::shared_ptr<const volume::TissueField> block()
+{
+  return boneOf([](const Eigen::Vector3d& p) { return -p.z(); });
+}
+
+/// The same with a round hole from (x, y, 0) along -z, its end a ball of the same radius about
+/// `depth` below.
+inline std::shared_ptr<const volume::TissueField> blockWithHole(double x, double y, double radius,
+                                                                double depth)
+{
+  return boneOf(
+      [=](const Eigen::Vector3d& p)
+      {
+        const Eigen::Vector3d axis(x, y, std::clamp(p.z(), -depth, 100.0));
+        return std::min(-p.z(), (p - axis).norm() - radius);
+      });
 }
 
 } // namespace petrous::interaction::testing

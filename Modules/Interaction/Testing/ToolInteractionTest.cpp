@@ -23,6 +23,9 @@ using Mode = AimSettings::Mode;
 namespace
 {
 
+constexpr int kHovers = simulation::ServoParameters::kPointer;
+constexpr int kPresses = kHovers | simulation::ServoParameters::kPressed;
+
 /// A window whose pointer holds the tool over a plane at z = 0, and its trackball.
 struct Program
 {
@@ -111,7 +114,7 @@ TEST(ToolInteraction, LeadsTheToolWithThePointer)
   EXPECT_EQ(hand.health, haptics::DeviceHealth::Good);
   expectNear(hand.pose.position, program.hoverOver(40, -25));
   EXPECT_EQ(hand.buttons, 0U);
-  EXPECT_EQ(program.tool->GetParameters().constantThrust, 0);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
 }
 
 TEST(ToolInteraction, DrillsWhileTheLeftButtonIsDown)
@@ -121,13 +124,13 @@ TEST(ToolInteraction, DrillsWhileTheLeftButtonIsDown)
   program.mouse(vtkCommand::LeftButtonPressEvent, 10, 5);
   EXPECT_TRUE(program.tool->GetDrilling());
   EXPECT_EQ(program.hand().buttons, program.tool->GetParameters().drillButtons);
-  EXPECT_EQ(program.tool->GetParameters().constantThrust, 1);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kPresses);
   program.mouse(vtkCommand::MouseMoveEvent, 50, 30);
   expectNear(program.hand().pose.position, program.hoverOver(50, 30, 2.0));
   program.mouse(vtkCommand::LeftButtonReleaseEvent, 50, 30);
   EXPECT_FALSE(program.tool->GetDrilling());
   EXPECT_EQ(program.hand().buttons, 0U);
-  EXPECT_EQ(program.tool->GetParameters().constantThrust, 0);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
   EXPECT_EQ(program.eye(), eye); // the trackball got none of it
 }
 
@@ -137,7 +140,7 @@ TEST(ToolInteraction, PressesWithoutTheDrillWithCtrl)
   program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0, 1);
   EXPECT_FALSE(program.tool->GetDrilling());
   EXPECT_EQ(program.hand().buttons, 0U);
-  EXPECT_EQ(program.tool->GetParameters().constantThrust, 1);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kPresses);
 }
 
 TEST(ToolInteraction, LeavesTheMouseToTheStyleOutOfDrillMode)
@@ -274,7 +277,7 @@ TEST(ToolInteraction, ReleasesWhatIsHeldWhenItIsSwitchedOff)
   const auto expectReleased = [](Program& program)
   {
     EXPECT_EQ(program.hand().buttons, 0U);
-    EXPECT_EQ(program.tool->GetParameters().constantThrust, 0);
+    EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
     EXPECT_FALSE(program.tool->GetDrilling());
   };
   Program off;

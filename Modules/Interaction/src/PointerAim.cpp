@@ -212,8 +212,17 @@ void PointerAim::apply(simulation::ServoParameters& parameters) const
   parameters.drillButtons = PointerDevice::kDrill;
   parameters.clutchButtons = PointerDevice::kFreeze;
   const bool pressing = m_press != Press::None && m_meets;
-  parameters.constantThrust = m_settings.mode == AimSettings::Mode::Surface && pressing ? 1 : 0;
-  const Vector3d approach = m_line ? m_line->direction : Vector3d(Vector3d::Zero());
+  const bool onSurface = m_settings.mode == AimSettings::Mode::Surface;
+  using Parameters = simulation::ServoParameters;
+  parameters.constantThrust = 0;
+  if (onSurface)
+    parameters.constantThrust = Parameters::kPointer | (pressing ? Parameters::kPressed : 0);
+  // The wheel presses by its way: so far, and not by the way that the pointer goes aside.
+  parameters.mostLead = onSurface ? 0.0F : static_cast<float>(m_settings.mostLead);
+  // A burr that is pressed is given a place with its ball's end on the tissue.
+  Vector3d approach = Vector3d::Zero();
+  if (m_line)
+    approach = m_settings.burrRadius * m_line->direction;
   std::copy(approach.data(), approach.data() + 3, parameters.approach);
 }
 

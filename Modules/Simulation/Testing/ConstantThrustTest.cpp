@@ -32,6 +32,7 @@ TEST(ConstantThrust, PressesAPlaneWithTheForceThatIsSet)
       session.proxy.stiffness = stiffness;
       session.proxy.normal = Vector3d(0.2, -0.5, 0.9).normalized();
       session.parameters.constantThrust = 1;
+      session.parameters.approach[2] = -10.0;
       session.parameters.thrust = thrust;
       // The place lies above, then in, then above the surface, and moves along it.
       session.go({0.0, 0.0, 6.0}, {10.0, 4.0, 6.0}, 1000);
@@ -56,6 +57,7 @@ TEST(ConstantThrust, KeepsTheForceWhileTheSurfaceGivesWay)
 {
   Session session(setupWith(1.0));
   session.parameters.constantThrust = 1;
+  session.parameters.approach[2] = -2.5;
   session.go({0.0, 0.0, 2.5}, {0.0, 0.0, 2.5}, 100);
   for (int n = 0; n < 1000; ++n)
   {
@@ -68,12 +70,13 @@ TEST(ConstantThrust, KeepsTheForceWhileTheSurfaceGivesWay)
   }
 }
 
-TEST(ConstantThrust, ComesAlongTheShaftNoFasterThanSet)
+TEST(ConstantThrust, ComesAlongItsApproachNoFasterThanSet)
 {
   Session session(setupWith(1.0));
   session.parameters.constantThrust = 1;
   session.parameters.approachSpeed = 30.0;
-  // The shaft points to +x: the burr comes along -x to a wall there.
+  session.parameters.approach[0] = -10.0;
+  // The burr comes along -x to a wall there.
   session.proxy.normal = Vector3d::UnitX();
   const Quaterniond heading = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitX());
   session.go({10.0, 0.0, 0.0}, {10.0, 0.0, 0.0}, 200, heading);
@@ -93,7 +96,7 @@ TEST(ConstantThrust, ComesAlongTheApproachThatIsGiven)
 {
   Session session(setupWith(1.0));
   session.parameters.constantThrust = 1;
-  session.parameters.approach[1] = 2.0;
+  session.parameters.approach[1] = 5.0;
   session.proxy.normal = -Vector3d::UnitY();
   session.go({0.0, -5.0, 0.0}, {0.0, -5.0, 0.0}, 200);
   EXPECT_NEAR((session.records.back().proxy.pose().position - Vector3d(0.0, -2.0, 0.0)).norm(), 0.0,
@@ -104,24 +107,38 @@ TEST(ConstantThrust, BacksOutOfTissueAndThenPresses)
 {
   Session session(setupWith(1.0));
   session.parameters.constantThrust = 1;
+  session.parameters.approach[2] = -3.0;
   session.go({0.0, 0.0, -3.0}, {0.0, 0.0, -3.0}, 400);
   EXPECT_NEAR(session.records.back().proxy.pose().position.z(), 2.0, 1e-9);
   EXPECT_NEAR(session.records.back().thrust, 1.0, 1e-9);
 }
 
-TEST(ConstantThrust, StopsWhereThereIsNothingToPressOn)
+TEST(ConstantThrust, GoesNoFartherFromItsPlaceThanTheSurfaceIs)
 {
   Session session(setupWith(1.0));
   session.proxy.absent = true;
   session.parameters.constantThrust = 1;
+  session.parameters.approach[1] = 4.0;
   session.go({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 3000);
-  EXPECT_NEAR(session.records.back().proxy.pose().position.z(), -ConstantThrust::kReach, 1e-9);
+  EXPECT_NEAR((session.records.back().proxy.pose().position - Vector3d(0.0, 4.0, 0.0)).norm(), 0.0,
+              1e-9);
+}
+
+TEST(ConstantThrust, WaitsAtItsPlaceWhereThereIsNothingToPressOn)
+{
+  Session session(setupWith(1.0));
+  session.proxy.absent = true;
+  session.parameters.constantThrust = 1;
+  session.go({1.0, 2.0, 3.0}, {3.0, 2.0, 1.0}, 3000);
+  EXPECT_NEAR((session.records.back().proxy.pose().position - Vector3d(3.0, 2.0, 1.0)).norm(), 0.0,
+              1e-9);
 }
 
 TEST(ConstantThrust, PullsSidewaysNoHarderThanItPresses)
 {
   Session session(setupWith(1.0));
   session.parameters.constantThrust = 1;
+  session.parameters.approach[2] = -2.5;
   session.go({0.0, 0.0, 2.5}, {0.0, 0.0, 2.5}, 100);
   const Vector3d before = session.records.back().proxy.pose().position;
   session.tick({{4.0, 0.0, 2.5}, Quaterniond::Identity()});
@@ -136,6 +153,7 @@ TEST(ConstantThrust, LeadsOnWhatFollows)
   session.proxy.stiffness = 10.0;
   session.parameters.constantThrust = 1;
   session.parameters.thrust = 0.2;
+  session.parameters.approach[2] = -2.5;
   session.go({0.0, 0.0, 2.5}, {0.0, 0.0, 2.5}, 100);
   session.go({0.0, 0.0, 2.5}, {10.0, 0.0, 2.5}, 100); // 0.1 m/s
   EXPECT_NEAR(session.records.back().proxy.pose().position.x(), 10.0, 0.5);
@@ -168,8 +186,8 @@ constexpr double kTick = 0.001, kSpeed = 50.0;
 Vector3d goalOf(ConstantThrust& thrust, const Vector3d& place, const Vector3d& at, double force)
 {
   return thrust
-      .goal({place, Quaterniond::Identity()}, {at, Quaterniond::Identity()}, -Vector3d::UnitZ(),
-            force, kSpeed, kTick)
+      .goal({place, Quaterniond::Identity()}, {at, Quaterniond::Identity()},
+            -5.0 * Vector3d::UnitZ(), force, kSpeed, kTick)
       .position;
 }
 
@@ -242,6 +260,52 @@ TEST(ConstantThrust, ComesBackGentlyToASurfaceThatItLost)
   // Were the surface there, it would be met with some newtons' tenths, not with 50 mm/s and 0.5 N.
   EXPECT_LE(10.0 * (free.pose.position - next).norm(), 3.0 * 0.1 + 1e-9);
   EXPECT_NEAR((at - free.pose.position).norm(), 0.01, 1e-9);
+}
+
+// What it was pressed to gave way, and the tool hangs on something that gives no row.
+TEST(ConstantThrust, AFallThatMakesNoWayIsOver)
+{
+  const Vector3d at(0.0, 0.0, 2.0);
+  ConstantThrust thrust = onAPlane(at, 10.0);
+  const Vector3d place(0.0, 0.0, 5.0); // the way to the surface leads along +x
+  const auto goal = [&]
+  {
+    return thrust
+        .goal({place, Quaterniond::Identity()}, {at, Quaterniond::Identity()}, {4.0, 0.0, 0.0}, 1.0,
+              kSpeed, kTick)
+        .position;
+  };
+  haptics::ProxyTick hangs;
+  hangs.pose.position = at;
+  for (int n = 0; n < ConstantThrust::kIdleTicks; ++n)
+  {
+    EXPECT_NEAR(goal().x(), 0.0, 1e-12) << n;
+    thrust.see(hangs, kSpeed, kTick);
+  }
+  EXPECT_GT(goal().x(), 0.0);
+  EXPECT_GT(goal().z(), at.z()); // back to its place
+}
+
+// The burr touches nothing, and the place is far: what holds it is pulled by the thrust, not more.
+TEST(ConstantThrust, AToolThatItsShaftHoldsPullsWithTheThrust)
+{
+  ConstantThrust thrust(10.0, 1);
+  const Vector3d at(0.0, 0.0, 2.0);
+  haptics::ProxyTick tick;
+  tick.status = haptics::ProxyStatus::Contact;
+  tick.pose.position = at;
+  tick.contactCount = 1;
+  tick.contacts[0].point = 7; // not of the burr
+  tick.contacts[0].thrust = 1.0;
+  for (int n = 0; n < 100; ++n)
+  {
+    const Vector3d goal = goalOf(thrust, {40.0, -20.0, 1.0}, at, 1.0);
+    if (n > 0)
+    {
+      EXPECT_LE(10.0 * (goal - at).norm(), 1.0 + 1e-12);
+    }
+    thrust.see(tick, kSpeed, kTick);
+  }
 }
 
 // The mode is left and entered again in contact: nothing of the time between counts.

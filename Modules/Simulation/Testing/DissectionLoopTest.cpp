@@ -158,6 +158,7 @@ TEST(DissectionLoop, DrillsAPlaneAtTheRateOfTheFeed)
   DissectionLoop loop(scene.work, *scene.mask, scene.feed);
   Session& session = scene.session;
   session.parameters.constantThrust = 1;
+  session.parameters.approach[2] = -2.2;
   session.pedal = 1.0;
   const haptics::Pose place{{0.1, -0.2, 2.2}, Quaterniond::Identity()};
   for (int n = 0; n < 400; ++n)

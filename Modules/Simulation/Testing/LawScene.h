@@ -11,6 +11,7 @@
 #include "petrous/Simulation/ConstantThrust.h"
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/SurfaceApproach.h"
 
 namespace petrous::simulation::testing
 {
@@ -28,6 +29,7 @@ public:
     , mask(std::make_shared<volume::PublishedMask>(work.mask()))
     , tissue(tissueOf(setting, work.mask().geometry()))
     , sides(sidesOf(setting, work.mask().geometry()))
+    , approach(tissue)
     , meets(meetsOf(setting, tissue, sides))
     , search(tissue, meets, {}, 0.5 * setting.burr.diameter)
     , feed(search, setting.burr, setting.voxel)
@@ -39,7 +41,6 @@ public:
   {
     session.parameters.constantThrust = 1;
     session.parameters.thrust = setting.thrust;
-    session.parameters.approach[2] = -1.0;
   }
 
   /// What follows a tick; the loop, unless another rule is measured.
@@ -80,6 +81,8 @@ public:
 
   const TickRecord& tick(const haptics::Pose& place)
   {
+    if (session.records.empty() || !(session.records.back().thrust > 0.0))
+      approach.apply(place.position, session.parameters);
     const TickRecord& record = session.tick(place, m_setting.tick);
     follow(record);
     return record;
@@ -124,6 +127,7 @@ public:
   std::shared_ptr<volume::PublishedMask> mask;
   volume::TissueField tissue;
   std::shared_ptr<const volume::LabelMap> sides;
+  SurfaceApproach approach; // to the bone as it was
   dissection::TissueResistance meets;
   dissection::BiteSearch search;
   RemovalFeed feed;

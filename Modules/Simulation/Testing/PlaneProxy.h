@@ -37,6 +37,17 @@ public:
       mask->release();
   }
 
+  bool placeFree(const haptics::Pose& pose) noexcept override
+  {
+    const volume::MaskState* state = mask ? mask->acquire() : nullptr;
+    const bool free = !solid(pole(pose.position), state);
+    if (mask)
+      mask->release();
+    if (free)
+      place(pose);
+    return free;
+  }
+
   const haptics::ProxyTick& step(const haptics::Pose& goal) noexcept override
   {
     m_tick = haptics::ProxyTick();

@@ -1,5 +1,6 @@
 #include "petrous/Simulation/RemovalFeed.h"
 
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -151,6 +152,42 @@ TEST(RemovalFeed, TakesTheSameAtAnyTickAndVoxel)
     EXPECT_NEAR(removed(0.2, degrees, 0.4, 1e-3, 0.5), weak, 0.02 * weak);
   }
 }
+
+// Shafts at 60 to 90 degrees from the normal, to the last of which the surface is parallel: the way
+// to the bone is the surface's normal, not the shaft.
+class FlatShafts : public ::testing::TestWithParam<Burr::Kind>
+{
+};
+
+TEST_P(FlatShafts, TakeTheSameAtAnyTickAndVoxel)
+{
+  std::map<double, std::shared_ptr<const haptics::PointShell>> shells; // by voxel
+  for (const double degrees : {0.0, 15.0, 30.0})                       // of elevation
+  {
+    const auto removed = [&](double voxel, double tick)
+    {
+      auto setting = settingOf(GetParam(), 1.0, degrees, voxel, tick);
+      auto& shell = shells[voxel];
+      if (!shell)
+        shell = shellOf(setting);
+      setting.shell = shell;
+      LawScene scene(setting);
+      scene.drill(0.25);
+      return total(scene.feed.balance());
+    };
+    SCOPED_TRACE(degrees);
+    const double usual = removed(0.2, 1e-3);
+    const double law = GetParam() == Burr::Kind::Cutting ? 5.65 : 1.004; // mm3/s at 1 N, 2 mm
+    EXPECT_NEAR(usual, 0.25 * law * std::cos(degrees * kDegree), 0.03 * usual);
+    EXPECT_NEAR(removed(0.15, 1e-3), usual, 0.02 * usual);
+    EXPECT_NEAR(removed(0.15, 5e-4), usual, 0.02 * usual);
+    EXPECT_NEAR(removed(0.3, 2e-3), usual, 0.02 * usual);
+    EXPECT_NEAR(removed(0.4, 1e-3), usual, 0.02 * usual);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfBothKinds, FlatShafts,
+                         ::testing::Values(Burr::Kind::Cutting, Burr::Kind::Diamond));
 
 // Its place lies far beyond the tool, so it pulls sideways by more than the thrust where that turns
 // by a little.

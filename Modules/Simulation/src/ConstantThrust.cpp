@@ -30,6 +30,10 @@ constexpr double kPlay = 0.15;
 constexpr double kMostGain = 0.5;
 
 constexpr double kArrived = 0.001; // mm
+constexpr double kStill = 1e-4;    // mm in a tick: no way
+
+// A tool that is beyond its approach goes back at once.
+constexpr double kLongestWayBack = 30.0; // mm
 
 // Ripples and the skin between tool and tissue are some hundredths of a millimetre: a tool that
 // presses by less is now on the surface and now off it.
@@ -94,8 +98,12 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
   }
   // A tick's work is bounded (ConstrainedProxy): what gave way far may not have been fallen
   // through.
-  m_falling = pressed && m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived;
+  const bool falls =
+      pressed && m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived;
+  m_idle = falls && moved.norm() < kStill ? m_idle + 1 : 0;
+  m_falling = falls && m_idle < kIdleTicks;
   m_contact = contact || m_falling;
+  m_touches = tick.contactCount > 0;
   m_inside = tick.status == haptics::ProxyStatus::Inside;
   m_proxy = tick.pose.position;
   m_hasProxy = true;
@@ -120,12 +128,10 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
                                    double dt) noexcept
 {
   Vector3d direction = m_direction;
+  const double reach = approach.stableNorm(); // mm
   if (!m_contact)
-  {
-    const double length = approach.stableNorm();
-    direction = length > 0.0 ? Vector3d(approach / length)
-                             : Vector3d(-(place.rotation * Vector3d::UnitZ()));
-  }
+    direction =
+        reach > 0.0 ? Vector3d(approach / reach) : Vector3d(-(place.rotation * Vector3d::UnitZ()));
   const Vector3d offset = place.position - proxy.position;
   Vector3d sideways = offset - direction.dot(offset) * direction;
   const double whole = thrust / m_stiffness;
@@ -138,12 +144,16 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
     along = -speed * dt;
   else if (!m_contact)
     along = std::min({speed * dt, std::max(whole, kArrived) + kHaste * m_sank,
-                      std::max(kReach + direction.dot(offset), -kReach)});
+                      std::max(reach + direction.dot(offset), -kLongestWayBack)});
   const double most = kMostSideways * whole + std::min(m_glide, kFollowSpeed * dt);
   const double length = sideways.norm();
   if (m_contact && length > most)
     sideways *= most / length;
-  m_goal = proxy.position + sideways + along * direction;
+  Vector3d lead = sideways + along * direction;
+  // Held by what is not the burr.
+  if (const double pulls = lead.norm(); m_touches && !m_contact && pulls > whole)
+    lead *= whole / pulls;
+  m_goal = proxy.position + lead;
   m_heading = direction;
   m_pressed = true;
   return {m_goal, place.rotation};

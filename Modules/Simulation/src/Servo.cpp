@@ -21,6 +21,15 @@ namespace
 constexpr double kLongestStep = 0.01; // s that a tick may count for
 constexpr double kPedalDown = 0.5;
 
+// Where a tool may be placed anew, mm from its place towards the eye: at last beyond any scan.
+constexpr double kFirstBack = 1.0;
+constexpr double kLastBack = 4096.0;
+constexpr double kNearer = 1.0;     // mm that it must come nearer by
+constexpr int kRest = 100;          // ticks until the next look, where it cannot
+constexpr double kHeldShare = 0.05; // of the contacts' forces
+constexpr double kNoWay = 1e-6;     // mm
+constexpr double kAtGoal = 0.005;   // mm: the proxy has a deadband
+
 const ServoSetup& checked(const ServoSetup& setup)
 {
   if (!(setup.stiffness > 0.0) || !std::isfinite(setup.stiffness))
@@ -42,6 +51,7 @@ Servo::Servo(haptics::Proxy& proxy, const ServoSetup& setup)
   , m_passivity(setup.passivity.value_or(haptics::PassivityGuard::Parameters()))
   , m_mapping(setup.center)
   , m_thrust(setup.stiffness, setup.burrPoints)
+  , m_traverse(setup.stiffness)
 {
 }
 
@@ -72,6 +82,9 @@ Servo::Step Servo::judge(const TickInput& input) noexcept
   const double* q = p.camera;
   step.view = {{q[0], q[1], q[2], q[3]}, p.scale};
   step.clutch = p.clutch || (input.buttons & p.clutchButtons) != 0;
+  const bool led = step.usable && !step.clutch;
+  step.pressed = led && (p.constantThrust & ServoParameters::kPressed) != 0;
+  step.pointer = led && (p.constantThrust & ServoParameters::kPointer) != 0;
   if (std::isfinite(input.now))
   {
     step.dt = m_hasTime ? std::clamp(past, 0.0, kLongestStep) : 0.0;
@@ -86,7 +99,8 @@ void Servo::map(Step& step, bool anew) noexcept
   if (!m_placed && step.usable)
   {
     step.mapped = m_mapping.map(step.device, step.view);
-    m_proxy.place(step.mapped);
+    if (!step.pointer || !placeAnew(step))
+      m_proxy.place(step.mapped);
     m_placed = true;
     return;
   }
@@ -120,18 +134,104 @@ void Servo::boundLead(Step& step, double mostLead) noexcept
   m_mapping.hold(step.device, step.view, step.mapped);
 }
 
-void Servo::reportContacts(const ProxyTick& tick) noexcept
+namespace
+{
+
+Eigen::Vector3d sightOf(const ServoParameters& p, const Pose& place) noexcept
+{
+  const Eigen::Vector3d given(p.approach[0], p.approach[1], p.approach[2]);
+  const double length = given.stableNorm();
+  return length > 0.0 ? Eigen::Vector3d(given / length)
+                      : Eigen::Vector3d(-(place.rotation * Eigen::Vector3d::UnitZ()));
+}
+
+// Of a tool to its place, mm; from the part of the line of sight that lies before that, since
+// tissue may keep it from coming nearer.
+double distanceTo(const Pose& place, const Eigen::Vector3d& tool,
+                  const Eigen::Vector3d& sight) noexcept
+{
+  const Eigen::Vector3d offset = tool - place.position;
+  const double before = std::min(sight.dot(offset), 0.0);
+  return (offset - before * sight).norm();
+}
+
+} // namespace
+
+bool Servo::isFar(const Step& step) const noexcept
+{
+  if (m_inside || m_traverse.stuck())
+    return true;
+  const Eigen::Vector3d sight = sightOf(m_record.input.parameters, step.mapped);
+  return distanceTo(step.mapped, m_proxy.pose().position, sight) > kFarthest;
+}
+
+bool Servo::placeAnew(const Step& step) noexcept
+{
+  const Eigen::Vector3d sight = sightOf(m_record.input.parameters, step.mapped);
+  const bool first = !m_placed || m_inside || m_traverse.stuck();
+  const double now = distanceTo(step.mapped, m_proxy.pose().position, sight);
+  Pose there = step.mapped;
+  for (double back = 0.0; back <= kLastBack; back = std::max(2.0 * back, kFirstBack))
+  {
+    there.position = step.mapped.position - back * sight;
+    if (!first && distanceTo(step.mapped, there.position, sight) + kNearer > now)
+      break;
+    if (!m_proxy.placeFree(there))
+      continue;
+    m_thrust = ConstantThrust(m_setup.stiffness, m_setup.burrPoints);
+    m_traverse.forget();
+    m_inside = m_touches = false;
+    return true;
+  }
+  m_rest = kRest;
+  return false;
+}
+
+// A tool that made no way is held, and the hand feels what the coupling is stretched by, also where
+// the contacts do not say all of it.
+void Servo::tellStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept
+{
+  const double told = m_record.wrench.wrench().linear.norm();
+  const double pulls = std::min(m_setup.stiffness * lead.norm(), m_record.input.parameters.thrust);
+  const bool holds = way.norm() <= kNoWay && lead.norm() > kAtGoal && !m_inside;
+  if (!holds || !(pulls > told))
+    return;
+  const Eigen::Vector3d force = -pulls / lead.norm() * lead;
+  std::copy(force.data(), force.data() + 3, m_record.wrench.force);
+}
+
+// Where the proxy is to go.
+Pose Servo::goalOf(const Step& step) noexcept
+{
+  const ServoParameters& p = m_record.input.parameters;
+  const Eigen::Vector3d approach(p.approach[0], p.approach[1], p.approach[2]);
+  if (step.pressed)
+    return m_thrust.goal(step.mapped, m_proxy.pose(), approach, p.thrust, p.approachSpeed, step.dt);
+  if (step.pointer)
+    return m_traverse.goal(step.mapped, m_proxy.pose(), approach, p.thrust, step.dt);
+  return step.mapped;
+}
+
+// `share` of what the contacts gave is what the hand is told.
+void Servo::reportContacts(const ProxyTick& tick, double share) noexcept
 {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   const Eigen::Vector3d spindle = tick.pose.rotation * Eigen::Vector3d::UnitZ();
   double weight = 0.0;
   double radius = 0.0;
+  double all = 0.0;
+  double shaft = 0.0;
+  double handpiece = 0.0;
   for (std::size_t n = 0; n < tick.contactCount; ++n)
   {
     const haptics::ProxyContact& contact = tick.contacts[n];
+    all += contact.thrust;
     if (contact.point >= m_setup.burrPoints)
+    {
+      (contact.arm.dot(spindle) < m_setup.handpiece ? shaft : handpiece) += contact.thrust;
       continue;
-    force += contact.thrust * contact.normal;
+    }
+    force += share * contact.thrust * contact.normal;
     weight += contact.thrust;
     radius += contact.thrust * (contact.arm - contact.arm.dot(spindle) * spindle).norm();
   }
@@ -142,15 +242,19 @@ void Servo::reportContacts(const ProxyTick& tick) noexcept
   for (int axis = 0; axis < 3; ++axis)
     m_record.burrForce[axis] = force[axis];
   m_record.proxy = PoseValues::of(tick.pose);
-  m_record.wrench = WrenchValues::of(tick.wrench);
-  m_record.thrust = tick.thrust;
+  m_record.wrench = WrenchValues::of({share * tick.wrench.linear, share * tick.wrench.angular});
+  m_record.thrust = share * tick.thrust;
+  if (shaft > kHeldShare * all)
+    m_record.held |= TickRecord::kShaft;
+  if (handpiece > kHeldShare * all)
+    m_record.held |= TickRecord::kHandpiece;
   m_record.penetration = tick.penetration;
   m_record.maskState = tick.maskState;
   m_record.contacts = static_cast<std::uint16_t>(tick.contactCount);
   m_record.status = static_cast<std::uint8_t>(tick.status);
 }
 
-void Servo::giveForce(const Step& step, const ProxyTick& tick, bool anew) noexcept
+void Servo::giveForce(const Step& step, const haptics::Wrench& wrench, bool anew) noexcept
 {
   const bool give = step.usable && !m_record.input.parameters.pause;
   if (!give)
@@ -161,7 +265,7 @@ void Servo::giveForce(const Step& step, const ProxyTick& tick, bool anew) noexce
   haptics::Wrench wanted;
   const double now = m_record.input.now;
   if (give)
-    wanted = m_mapping.toHand(tick.wrench, m_record.input.parameters.forceGain);
+    wanted = m_mapping.toHand(wrench, m_record.input.parameters.forceGain);
   if (give && m_setup.passivity)
     wanted = m_passivity.apply(wanted, step.device, now);
   const haptics::Wrench output = m_limits.apply(wanted, now);
@@ -184,15 +288,25 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   map(step, anew);
   m_record.mapped = PoseValues::of(step.mapped);
 
-  Pose goal = step.mapped;
-  if (p.constantThrust && step.usable && !step.clutch)
-    goal = m_thrust.goal(step.mapped, m_proxy.pose(), {p.approach[0], p.approach[1], p.approach[2]},
-                         p.thrust, p.approachSpeed, step.dt);
+  m_rest = std::max(m_rest - 1, 0);
+  const bool leapt = step.pointer && m_rest == 0 && isFar(step) && placeAnew(step);
+  anew = anew || leapt;
+  const Eigen::Vector3d before = m_proxy.pose().position;
+  const Pose goal = leapt ? m_proxy.pose() : goalOf(step);
   const ProxyTick& tick = m_placed ? m_proxy.step(goal) : m_none;
   m_touches = tick.contactCount > 0;
+  m_inside = tick.status == ProxyStatus::Inside;
   if (step.usable)
+  {
     m_thrust.see(tick, p.approachSpeed, step.dt);
-  reportContacts(tick);
+    m_traverse.see(tick);
+  }
+  // What meets tissue on its way does not press for that tick with what it was short of.
+  const double force = tick.wrench.linear.norm();
+  const bool bounded = (step.pressed || step.pointer) && force > p.thrust;
+  reportContacts(tick, bounded ? p.thrust / force : 1.0);
+  if (step.pressed || step.pointer)
+    tellStretch(goal.position - tick.pose.position, before - tick.pose.position);
 
   ServoFault fault = static_cast<ServoFault>(m_record.fault);
   if (tick.status == ProxyStatus::Retreated)
@@ -209,7 +323,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
     fault = fault == ServoFault::None ? ServoFault::Inside : fault;
   m_record.fault = static_cast<std::uint8_t>(fault);
 
-  giveForce(step, tick, anew);
+  giveForce(step, m_record.wrench.wrench(), anew);
   const bool wanted = p.drill || input.pedal >= kPedalDown || (input.buttons & p.drillButtons) != 0;
   m_record.drill = wanted && m_giving && !step.clutch && fault == ServoFault::None;
   return m_record;

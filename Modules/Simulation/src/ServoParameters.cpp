@@ -33,6 +33,8 @@ const char* firstFault(const ServoParameters& p) noexcept
     return "the approach must lie within 0 to 1000 mm/s";
   if (!within(static_cast<double>(p.mostLead), 0.0, 50.0))
     return "the hand's lead must lie within 0 to 50 mm";
+  if (p.constantThrust > (ServoParameters::kPressed | ServoParameters::kPointer))
+    return "the mode of constant thrust is unknown";
   for (const double a : p.approach)
     if (!within(a, -1e6, 1e6))
       return "the approach's direction is not finite";

@@ -32,6 +32,21 @@ haptics::DeviceReading TickInput::reading() const noexcept
   return reading;
 }
 
+bool isHeldOff(const TickRecord& record) noexcept
+{
+  const double force = record.wrench.wrench().linear.norm();
+  return record.drill != 0 && record.held != 0 && record.thrust < 0.5 * force;
+}
+
+std::string holderInWords(std::uint8_t held)
+{
+  const bool shaft = (held & TickRecord::kShaft) != 0;
+  const bool handpiece = (held & TickRecord::kHandpiece) != 0;
+  if (shaft && handpiece)
+    return "shaft and handpiece";
+  return shaft ? "the shaft" : handpiece ? "the handpiece" : "";
+}
+
 std::string inWords(const TickRecord& record)
 {
   switch (static_cast<ServoFault>(record.fault))

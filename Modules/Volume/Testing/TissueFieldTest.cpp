@@ -139,6 +139,27 @@ TEST(NearestSurface, LiesARadiusFromTheCentreOfASphere)
   EXPECT_FALSE(volume::NearestSurfaceSearch(field, 1.0).find(c));
 }
 
+// A ball that the scan's face cuts off: what is left of its surface counts, and the face does not.
+TEST(NearestSurface, TheFacesOfTheScanAreNoSurface)
+{
+  const core::GridGeometry grid({55, 73, 73}, Vector3d::Constant(0.25), {-9.5, -9.0, -9.0});
+  const TissueField field(ball(grid, {0.0, 0.0, 0.0}, 6.0), {}, nullptr, {});
+  volume::NearestSurfaceSearch search(field, 10.0);
+  const double face = 4.0, rim = std::sqrt(36.0 - face * face);
+  for (const double x : {2.8, 3.3, 3.7, 3.99, 4.0})
+    for (const double out : {0.5, 2.0, 3.0, 4.0})
+    {
+      const Vector3d p(x, 0.6 * out, 0.8 * out);
+      const double radius = p.norm();
+      const bool overhead =
+          6.0 / radius * x <= face; // the nearest point of the whole ball is there
+      const double truth = overhead ? 6.0 - radius : std::hypot(face - x, rim - out);
+      const auto nearest = search.find(p);
+      ASSERT_TRUE(nearest) << p.transpose();
+      EXPECT_NEAR(nearest->distance, -truth, 0.03) << p.transpose();
+    }
+}
+
 // A wall of 0.3 mm, in voxels of its own, amid voxels of 1 mm that hold air alone.
 TEST(NearestSurface, SeesAThinMeshBetweenTheVoxelsOfTheCt)
 {

@@ -87,7 +87,10 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
     const Eigen::Vector3d moved =
         best.point + slide * std::min(1.0, 0.5 * h / std::max(slide.norm(), 1e-12));
     const Eigen::Vector3d in = moved - 0.5 * h * n;
-    const auto hit = field.firstHit(moved + 0.5 * h * n, in);
+    const Eigen::Vector3d out = moved + 0.5 * h * n;
+    // What begins beyond the scan would meet its face, which is no surface.
+    const bool known = field.geometry().hullContains(field.geometry().voxelFromPatient(out));
+    const auto hit = known ? field.firstHit(out, in) : std::nullopt;
     if (!hit || *hit <= 0.0)
     {
       stride *= 0.5;

@@ -9,6 +9,7 @@
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/RecordingWriter.h"
 #include "petrous/Simulation/Servo.h"
+#include "petrous/Simulation/SurfaceApproach.h"
 
 namespace petrous::presenters
 {
@@ -59,6 +60,7 @@ public:
 private:
   simulation::DissectionLoop::Hooks hooks(TouchScene& scene, const Options& options);
   void sweep(const Eigen::Vector3d& at);
+  void approach(const Eigen::Vector3d& place);
 
   const dissection::Dissection& m_dissection;
   const volume::TissueField& m_tissue;
@@ -70,6 +72,8 @@ private:
   std::unique_ptr<CaseRemoval> m_removal;
   simulation::DissectionLoop m_loop;
   simulation::ServoParameters m_parameters;
+  simulation::SurfaceApproach m_approach;
+  std::uint64_t m_approached = 0; // the mask's state that it looked at
   simulation::TickRecord m_record;
   std::optional<Eigen::Vector3d> m_swept; // where the drill was last in tissue, mm
   std::vector<std::size_t> m_changed;     // bricks, while it sweeps

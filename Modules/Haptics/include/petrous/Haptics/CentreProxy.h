@@ -87,6 +87,7 @@ public:
   const Pose& pose() const noexcept override { return m_tick.pose; }
 
   void place(const Pose& pose) noexcept override;
+  bool placeFree(const Pose& pose) noexcept override; ///< of its centre
   const ProxyTick& step(const Pose& goal) noexcept override;
 
 private:

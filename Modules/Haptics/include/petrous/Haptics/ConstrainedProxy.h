@@ -41,6 +41,7 @@ public:
   const Pose& pose() const noexcept override { return m_sweep.pose(); }
 
   void place(const Pose& pose) noexcept override;
+  bool placeFree(const Pose& pose) noexcept override;
   const ProxyTick& step(const Pose& goal) noexcept override;
 
 private:

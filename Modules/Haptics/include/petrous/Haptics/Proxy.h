@@ -18,6 +18,9 @@ public:
   /// Puts the tool where it is told. Inside tissue it stays without contact until it is free.
   virtual void place(const Pose& pose) noexcept = 0;
 
+  /// The same where no tissue is; false, and it stays where it is, where there is some.
+  virtual bool placeFree(const Pose& pose) noexcept = 0;
+
   /// One tick towards `goal`, which must be finite; otherwise the tool stays and the wrench is
   /// zero. The result holds until the next call.
   virtual const ProxyTick& step(const Pose& goal) noexcept = 0;

@@ -13,15 +13,20 @@ namespace petrous::simulation
 /// In contact the goal lies F/k beyond the tool, against the burr's mean contact normal, so the
 /// coupling's force there is F, what it pulls sideways included; across that direction it is the
 /// given place. The direction follows the contacts as the tool goes along the surface; a burr that
-/// stays in its hollow presses on as it did. Before contact the tool comes along the approach at a
-/// set speed, at most `kReach` beyond the given place. Where the tool stands in tissue it backs out
-/// the same way.
+/// stays in its hollow presses on as it did. Before contact the tool comes along the approach,
+/// which is the way from the given place to the nearest surface, at a set speed and no farther from
+/// its place than that is long; without an approach it waits there. Where the tool stands in tissue
+/// it backs out the same way.
+///
+/// What gives way under the burr may take some ticks to be fallen through; a fall that makes no way
+/// for `kIdleTicks` is over, and the tool approaches again. While shaft or handpiece hold it, it
+/// pulls with no more than F.
 ///
 /// Nothing here allocates or throws.
 class ConstantThrust
 {
 public:
-  static constexpr double kReach = 30.0; ///< mm
+  static constexpr int kIdleTicks = 10;
 
   /// The coupling for a thrust of so many newtons, from the usual one at 0.04 N to 10 N/mm and
   /// 100 N mm/rad at 0.4 N and above. The ripples of a hollow, some 10 degrees steep at 0.4 mm
@@ -40,7 +45,7 @@ public:
   /// The goal of the next tick.
   /// place     X_PT as given
   /// proxy     where the tool is
-  /// approach  patient axes; zero: along the shaft of `place`
+  /// approach  from `place` to the nearest surface, patient mm; zero: none is known
   /// thrust    F, N
   /// speed     mm/s, dt s
   haptics::Pose goal(const haptics::Pose& place, const haptics::Pose& proxy,
@@ -54,9 +59,11 @@ private:
   std::size_t m_burrPoints;
   bool m_pressed = false; // to the goal of this tick
   bool m_contact = false;
+  bool m_touches = false; // with anything: burr, shaft, handpiece
   bool m_inside = false;
   bool m_hasProxy = false;
   bool m_falling = false; // no contact, but the goal that was pressed to is not reached either
+  int m_idle = 0;         // ticks of the fall that made no way
   Eigen::Vector3d m_direction{0.0, 0.0, 0.0}; // unit, into the tissue
   Eigen::Vector3d m_from{0.0, 0.0, 0.0};      // whence the way along the surface counts
   Eigen::Vector3d m_heading{0.0, 0.0, 0.0};   // of the last goal: that direction, or the approach

@@ -6,10 +6,12 @@
 #include "petrous/Haptics/DeviceGuard.h"
 #include "petrous/Haptics/ForceLimits.h"
 #include "petrous/Haptics/PassivityGuard.h"
+#include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
 #include "petrous/Simulation/ConstantThrust.h"
 #include "petrous/Simulation/HandMapping.h"
 #include "petrous/Simulation/TickRecord.h"
+#include "petrous/Simulation/Traverse.h"
 
 namespace petrous::simulation
 {
@@ -21,10 +23,11 @@ struct ServoSetup
   haptics::ForceLimits::Limits limits;
   /// Of the wrench on the hand, so stiffness means that in the hand: k scale^2 forceGain.
   std::optional<haptics::PassivityGuard::Parameters> passivity;
-  double stiffness = 1.0;                ///< of the proxy's coupling, N/mm, > 0
-  std::size_t burrPoints = 0;            ///< PointShell::burrCount of the proxy's tool
-  Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: see HandMapping
-  double stallAfter = 0.05;              ///< s without a tick: the tool is taken up anew
+  double stiffness = 1.0;     ///< of the proxy's coupling, N/mm, > 0
+  std::size_t burrPoints = 0; ///< PointShell::burrCount of the proxy's tool
+  double handpiece = haptics::BurrShape().shaftLength; ///< mm along the shaft, where it begins
+  Eigen::Vector3d center{0.0, 0.0, 0.0};               ///< patient mm: see HandMapping
+  double stallAfter = 0.05; ///< s without a tick: the tool is taken up anew
 };
 
 /// One tick of touch: reading -> guard -> mapping -> proxy -> passivity -> limits -> the wrench
@@ -35,6 +38,11 @@ struct ServoSetup
 /// force rising anew (in constant-thrust mode it goes to the place that is given). While force may
 /// not be given the tool rests, so that tissue that comes back still moves it out. A hand without
 /// force is kept on a leash (ServoParameters::mostLead), since nothing stops it in the tissue.
+///
+/// A pointer's tool (ServoParameters::kPointer) that is more than `kFarthest` from its place, that
+/// stands in tissue, or that tissue does not let go, is placed anew: on its line of sight, before
+/// the tissue, at the first place from its own towards the eye (0, 1, 2, 4 mm ...) that is free.
+/// There, and where a set thrust presses, the force on the hand is never more than the thrust.
 ///
 /// The same inputs in the same order give the same records to the last bit, as long as the proxy
 /// and its field do. `tick` neither allocates, locks, throws nor does I/O. One thread.
@@ -49,6 +57,8 @@ public:
 
   const ServoSetup& setup() const noexcept { return m_setup; }
 
+  static constexpr double kFarthest = 10.0; ///< mm
+
 private:
   struct Step
   {
@@ -58,12 +68,18 @@ private:
     double dt = 0.0;
     bool usable = false; ///< reading, clock and parameters are sound
     bool clutch = false;
+    bool pressed = false; ///< by a set thrust
+    bool pointer = false; ///< a pointer's tool
   };
   Step judge(const TickInput& input) noexcept;
   void map(Step& step, bool anew) noexcept;
   void boundLead(Step& step, double mostLead) noexcept;
-  void reportContacts(const haptics::ProxyTick& tick) noexcept;
-  void giveForce(const Step& step, const haptics::ProxyTick& tick, bool anew) noexcept;
+  bool isFar(const Step& step) const noexcept;
+  bool placeAnew(const Step& step) noexcept;
+  haptics::Pose goalOf(const Step& step) noexcept;
+  void tellStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept;
+  void reportContacts(const haptics::ProxyTick& tick, double share) noexcept;
+  void giveForce(const Step& step, const haptics::Wrench& wrench, bool anew) noexcept;
 
   ServoSetup m_setup;
   haptics::Proxy& m_proxy;
@@ -72,6 +88,7 @@ private:
   haptics::PassivityGuard m_passivity;
   HandMapping m_mapping;
   ConstantThrust m_thrust;
+  Traverse m_traverse;
   TickRecord m_record;
   haptics::ProxyTick m_none; // before the tool is placed
   std::uint64_t m_number = 0;
@@ -81,6 +98,8 @@ private:
   bool m_giving = false; ///< force was let in at the last tick
   bool m_wasUsable = false;
   bool m_touches = false; ///< at the last tick
+  bool m_inside = false;  ///< at the last tick
+  int m_rest = 0;         ///< ticks before it looks for another place again
 };
 
 static_assert(noexcept(std::declval<Servo&>().tick(std::declval<const TickInput&>())));

@@ -61,7 +61,11 @@ struct TickRecord
   std::uint8_t fault = 0;      ///< ServoFault
   std::uint8_t verdict = 0;    ///< haptics::DeviceVerdict
   std::uint8_t drill = 0;      ///< 1: the burr turns and may cut
-  std::uint16_t spare = 0;
+  std::uint8_t held = 0;       ///< what presses on tissue besides the burr: of kShaft, kHandpiece
+  std::uint8_t spare = 0;
+
+  static constexpr std::uint8_t kShaft = 1;
+  static constexpr std::uint8_t kHandpiece = 2;
 
   double time() const noexcept { return input.now; }
 };
@@ -72,5 +76,12 @@ static_assert(sizeof(TickRecord) == 8 + sizeof(TickInput) + 2 * 56 + 2 * 48 + 8 
 
 /// One plain sentence on the tick's fault; empty when there is none. It allocates.
 std::string inWords(const TickRecord& record);
+
+/// "the shaft", "the handpiece", "shaft and handpiece": what of the tool presses on tissue besides
+/// the burr; empty when nothing does. It allocates.
+std::string holderInWords(std::uint8_t held);
+
+/// The drill is on, and shaft or handpiece carry most of the force that the burr should have.
+bool isHeldOff(const TickRecord& record) noexcept;
 
 } // namespace petrous::simulation

@@ -19,6 +19,8 @@ struct NearestSurface
 
 /// Searches the nearest point of the surface f = 0, on f itself.
 ///
+/// The faces of the scan are no surface, whatever they cut (Documentation/frames.md, "Domain").
+///
 /// The grid is looked at in blocks of cells, the nearest first; which cells of a block the surface
 /// crosses is kept, so that many questions cost little. The field must outlive the search and must
 /// not change meanwhile. Unions of finer voxels than the CT's are looked at themselves, so that a

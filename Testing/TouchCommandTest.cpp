@@ -1,5 +1,6 @@
 #include <cmath>
 #include <sstream>
+#include <tuple>
 #include <vector>
 
 #include "CommandRunner.h"
@@ -129,6 +130,56 @@ TEST_F(TouchCommand, HoldsTheToolAtTheSurfaceAndSaysTheForce)
     ASSERT_GE(row.at("pz_mm"), kTop + 2.0 - 0.05 * 0.4);
     ASSERT_EQ(row.at("penetration_mm"), 0.0);
   }
+}
+
+// The place lies above the bone, and the shaft along it: the way to the bone is the bone's normal.
+TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
+{
+  const auto drilled = [this](double degrees) // of the shaft from the normal
+  {
+    const double half = degrees * std::acos(-1.0) / 360.0;
+    std::ofstream file(m_folder / "flat.csv");
+    file << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n";
+    for (const auto& [time, y, on] : {std::tuple(0.0, -1.0, 1), std::tuple(0.4, 1.0, 0)})
+      file << time << ",0.3," << y << ",2.6," << std::cos(half) << ",0," << std::sin(half) << ",0,"
+           << on << '\n';
+    file.close();
+    const auto answer = json(drill(m_folder / "flat.csv", " --thrust 1"));
+    EXPECT_NEAR(answer["removed_mm3"], answer["predicted_mm3"],
+                0.02 * answer["predicted_mm3"].template get<double>());
+    EXPECT_LE(answer["max_force_n"], 1.0 + 1e-9);
+    EXPECT_EQ(answer["held_off_ticks"], 0);
+    EXPECT_EQ(answer["held_by_shaft_ticks"], 0);
+    json("undo plane");
+    return answer["predicted_mm3"].template get<double>();
+  };
+  const double oblique = drilled(60.0);
+  EXPECT_GT(oblique, 1.0);
+  // r is the burr's radius times the cosine of the elevation.
+  EXPECT_NEAR(drilled(75.0) / oblique, std::sin(75.0 / 60.0 * 1.0471975512) / 0.8660254038, 0.04);
+  EXPECT_NEAR(drilled(90.0) / oblique, 1.0 / 0.8660254038, 0.04);
+}
+
+// The shaft points down: it lies on the bone, and the burr hangs in the air.
+TEST_F(TouchCommand, SaysThatTheShaftHoldsTheBurrOff)
+{
+  const double half = std::acos(-1.0) / 3.0; // 120 degrees from the normal
+  std::ofstream file(m_folder / "held.csv");
+  file << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n";
+  for (const double time : {0.0, 0.5})
+    file << time << ",0.3,0.2,7," << std::cos(half) << ",0," << std::sin(half) << ",0,"
+         << (time < 0.5) << '\n';
+  file.close();
+  const auto outcome = run(drill(m_folder / "held.csv", " --thrust 1"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("the shaft lay on tissue and held the burr off"), std::string::npos)
+      << outcome.err;
+  const auto answer = json(drill(m_folder / "held.csv", " --thrust 1"));
+  EXPECT_EQ(answer["removed_mm3"], 0.0);
+  EXPECT_GT(answer["held_off_ticks"], 100);
+  EXPECT_GE(answer["held_by_shaft_ticks"], answer["held_off_ticks"]);
+  EXPECT_EQ(answer["held_by_handpiece_ticks"], 0);
+  EXPECT_LE(answer["max_force_n"], 1.0 + 1e-9);
 }
 
 TEST_F(TouchCommand, KeepsTheCentreOutInThreeDegreesOfFreedom)

@@ -77,14 +77,15 @@ void CaseKeeper::open(const QString& what)
 void CaseKeeper::openPath(const fs::path& path, const std::string& seriesUid)
 {
   m_source = path;
-  import(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(path)),
-         [path, seriesUid](const core::Progress&) {
-           presenters::CaseSources sources;
-  sources.ct = path;
-  sources.seriesUid = seriesUid;
-  return sources;
-});
-} // namespace petrous::workstation
+  startImport(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(path)),
+              [path, seriesUid](const core::Progress&)
+              {
+                presenters::CaseSources sources;
+                sources.ct = path;
+                sources.seriesUid = seriesUid;
+                return sources;
+              });
+}
 
 void CaseKeeper::chooseSeries(const QStringList& uids, const QStringList& descriptions)
 {
@@ -160,23 +161,24 @@ void CaseKeeper::makeSample()
     return refuse(tr("No temporary folder can be made: %1").arg(folder->errorString()));
   try
   {
-    import(presenters::freeCaseName(m_model.library(), "sample patient"),
-           [folder](const core::Progress& progress) {
-             const fs::path out = pathOf(folder->filePath("sample patient"));
-    imaging::writeSamplePatient(out, {}, progress);
-    presenters::CaseSources sources;
-    sources.ct = out / "ct";
-    sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
-    return sources;
-  });
-}
-catch (const std::exception& fault)
-{
-  refuse(inWords(fault));
-}
+    startImport(presenters::freeCaseName(m_model.library(), "sample patient"),
+                [folder](const core::Progress& progress)
+                {
+                  const fs::path out = pathOf(folder->filePath("sample patient"));
+                  imaging::writeSamplePatient(out, {}, progress);
+                  presenters::CaseSources sources;
+                  sources.ct = out / "ct";
+                  sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
+                  return sources;
+                });
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(inWords(fault));
+  }
 }
 
-void CaseKeeper::import(const std::string& name, ImportJob::Prepare prepare)
+void CaseKeeper::startImport(const std::string& name, ImportJob::Prepare prepare)
 {
   if (!settle() || (m_model.unsaved() && !save()))
     return;

@@ -50,7 +50,7 @@ private:
   void openCase(const std::string& name);
   void openPath(const std::filesystem::path& path, const std::string& seriesUid = {});
   void chooseSeries(const QStringList& uids, const QStringList& descriptions);
-  void import(const std::string& name, ImportJob::Prepare prepare);
+  void startImport(const std::string& name, ImportJob::Prepare prepare);
   void showProgress(const std::string& name);
   void built(const std::shared_ptr<scene::Case>& value);
   void endJob();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -225,4 +226,31 @@ TEST_F(CaseBuilder, NamesTheFileThatIsNotThere)
     EXPECT_NE(std::string(error.what()).find("missing.nrrd"), std::string::npos);
     EXPECT_EQ(error.fault(), core::Fault::BadInput);
   }
+}
+
+// A label file without names, as most segmentation programs export it.
+TEST_F(CaseBuilder, StructuresWithoutANameDifferInColour)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  constexpr int count = 60;
+  for (int n = 0; n < count; ++n)
+    labels->at(n % 16, n / 16, 5) = static_cast<std::uint16_t>(n + 1);
+  imaging::writeLabelFile(m_folder / "many.nii.gz", volume::makeLabelMap(std::move(labels), {}));
+  std::filesystem::copy(m_folder / "incus.obj", m_folder / "piece.obj");
+  m_sources.parts.labels = {{"", m_folder / "many.nii.gz"}};
+  m_sources.parts.meshes = {{"", m_folder / "piece.obj"}};
+  const auto colors = [this]
+  {
+    const scene::Case value = presenters::buildCase("x", m_sources, {});
+    std::vector<std::array<float, 3>> found{value.meshes.front().look.color};
+    for (const auto& structure : value.labels.front().structures)
+      found.push_back(structure.look.color);
+    return found;
+  };
+  auto found = colors();
+  EXPECT_EQ(found, colors());
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(count + 1));
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
 }

@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
@@ -192,6 +193,27 @@ void settleDrawnOn(scene::Case& value)
   }
 }
 
+// Of all that the case has, and of a part that comes to it.
+std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
+                                           const std::vector<scene::StructurePart>& coming = {})
+{
+  std::vector<std::array<float, 3>> colors;
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      colors.push_back(structure.look.color);
+  for (const auto& structure : coming)
+    colors.push_back(structure.look.color);
+  for (const auto& mesh : value.meshes)
+    colors.push_back(mesh.look.color);
+  return colors;
+}
+
+// Whether the name of a structure says nothing of its look.
+bool isUnknown(const appearance::StructureLook& look)
+{
+  return look.preset == "other";
+}
+
 void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
@@ -211,8 +233,9 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
       structure.volume = map.volume(segment);
       structure.look = presets.lookFor(structure.name);
       const bool colored = segment.color != std::array<float, 3>{};
-      if (colored && structure.look.preset == "other")
-        structure.look.color = segment.color;
+      if (isUnknown(structure.look))
+        structure.look.color =
+            colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
       checkName(source.path, structure.name);
       if (scene::findStructure(value, structure.name))
         nameTaken(source.path, "structure", structure.name);
@@ -244,6 +267,8 @@ void addMesh(scene::Case& value, const PartSource& source)
   part.triangles = mesh->triangles.size();
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
+  if (isUnknown(part.look))
+    part.look.color = appearance::distinctColor(colorsOf(value));
   if (!source.drawnOn.empty())
     part.drawnOn = drawnOnNamed(value, source);
   value.meshes.push_back(std::move(part));

@@ -41,15 +41,16 @@ TouchDissection::TouchDissection(const dissection::Dissection& start, TouchScene
 
 simulation::DissectionLoop::Hooks TouchDissection::hooks(TouchScene& scene)
 {
-  auto hooks = scene.hooksOf(m_setup.burr,
-                             [this]
-                             {
-                               const std::lock_guard<std::mutex> lock(m_mutex);
-                               return m_camera;
-                             });
+  auto begin = TouchScene::beginOf(m_setup.burr,
+                                   [this]
+                                   {
+                                     const std::lock_guard<std::mutex> lock(m_mutex);
+                                     return m_camera;
+                                   });
+  simulation::DissectionLoop::Edited edited;
   if (m_setup.recorder)
-    hooks.edited = [this](const simulation::MaskEdit& edit) { m_setup.recorder->add(edit); };
-  return m_reporter.listen(std::move(hooks),
+    edited = [this](const simulation::MaskEdit& edit) { m_setup.recorder->add(edit); };
+  return m_reporter.listen(std::move(begin), std::move(edited),
                            [&drill = std::as_const(scene.drill())](dissection::Dissection& work)
                            {
                              auto removed = drill.measure(work);

@@ -100,12 +100,11 @@ std::unique_ptr<CaseRemoval> TouchScene::removalOf(const dissection::Burr& burr,
                                        catalogues);
 }
 
-simulation::DissectionLoop::Hooks
-TouchScene::hooksOf(const dissection::Burr& burr,
+simulation::DissectionLoop::Begin
+TouchScene::beginOf(const dissection::Burr& burr,
                     std::function<std::optional<core::CameraPose>()> camera)
 {
-  simulation::DissectionLoop::Hooks hooks;
-  hooks.begin = [burr, camera = std::move(camera)]
+  return [burr, camera = std::move(camera)]
   {
     dissection::StrokeInfo info;
     info.startedAt = utcNow();
@@ -113,6 +112,14 @@ TouchScene::hooksOf(const dissection::Burr& burr,
     info.camera = camera();
     return info;
   };
+}
+
+simulation::DissectionLoop::Hooks
+TouchScene::hooksOf(const dissection::Burr& burr,
+                    std::function<std::optional<core::CameraPose>()> camera)
+{
+  simulation::DissectionLoop::Hooks hooks;
+  hooks.begin = beginOf(burr, std::move(camera));
   hooks.close = [this](dissection::Dissection&) { m_drill.end(); };
   hooks.turn = [this](bool back)
   { return (back ? scene::undo(m_case, 1) : scene::redo(m_case, 1)) > 0; };

@@ -49,9 +49,9 @@ std::optional<PeerFit> runElastix(const RegistrationPair& pair, const std::files
 core::RigidTransform elastixTransform(const std::string& parameters);
 
 /// ITK's own v4 framework as its examples use it: Mattes' metric of 32 bins on 10 % of the voxels
-/// (at most 200,000),
-/// regular step gradient descent with scales from physical shift, 3 levels of 200 iterations, from
-/// the headers. Nothing where it throws (no overlap).
+/// (at most 200,000), regular step gradient descent with scales from physical shift, 3 levels of
+/// 200 iterations, from the headers.
+/// Nothing where it throws (no overlap).
 std::optional<PeerFit> runItk(const RegistrationPair& pair);
 
 std::string itkVersion(); ///< "ITK 5.2.1 v4"

@@ -109,7 +109,7 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     dissection::Dissection seen = scene.work;
     DissectionMailbox mailbox;
     DissectionReporter reporter(scene.work, mailbox);
-    DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}));
+    DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}, {}));
     TickRecord record;
     record.input.now = 1.0;
     ASSERT_TRUE(loop.sweep(record, first));

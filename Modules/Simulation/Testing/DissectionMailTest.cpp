@@ -45,7 +45,7 @@ protected:
   dissection::Dissection seen = scene.work;
   DissectionMailbox mailbox;
   DissectionReporter reporter{scene.work, mailbox};
-  DissectionLoop loop{scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {})};
+  DissectionLoop loop{scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}, {})};
   SpscRing<TickRecord> ring{1 << 15};
   std::size_t applied = 0, closed = 0; // as the events say
 
@@ -251,13 +251,12 @@ TEST_F(Following, StopLosesNoStrokeAndNoRequest)
 TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
 {
   int cuts = 0; // and no memory after the 21st
-  DissectionLoop::Hooks failing;
-  failing.edited = [&cuts](const MaskEdit& edit)
+  const auto failing = [&cuts](const MaskEdit& edit)
   {
     if (edit.kind == MaskEdit::Kind::Cut && ++cuts > 20)
       throw std::bad_alloc();
   };
-  DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {}, reporter.listen(failing, {}));
+  DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, failing, {}));
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);
   session.pedal = 1.0;
@@ -287,7 +286,8 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
 TEST_F(Following, AStrokeIsClosedAlsoWhereItCannotBeMeasured)
 {
   DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {},
-                        reporter.listen({}, [](dissection::Dissection&)
+                        reporter.listen({}, {},
+                                        [](dissection::Dissection&)
                                         { throw std::runtime_error("the labels are damaged"); }));
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);

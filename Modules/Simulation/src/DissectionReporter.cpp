@@ -13,10 +13,11 @@ DissectionReporter::DissectionReporter(const dissection::Dissection& work,
 {
 }
 
-DissectionLoop::Hooks DissectionReporter::listen(DissectionLoop::Hooks others, Complete complete)
+DissectionLoop::Hooks DissectionReporter::listen(DissectionLoop::Begin begin,
+                                                 DissectionLoop::Edited edited, Complete complete)
 {
   DissectionLoop::Hooks hooks;
-  hooks.begin = std::move(others.begin);
+  hooks.begin = std::move(begin);
   hooks.close = [this, complete = std::move(complete)](dissection::Dissection& work)
   { close(work, complete); };
   hooks.changed = [this](const std::vector<std::size_t>& bricks)
@@ -24,7 +25,7 @@ DissectionLoop::Hooks DissectionReporter::listen(DissectionLoop::Hooks others, C
     for (const std::size_t brick : bricks)
       m_mail.bricks[brick] = m_work.mask().brick(brick);
   };
-  hooks.edited = [this, edited = std::move(others.edited)](const MaskEdit& edit)
+  hooks.edited = [this, edited = std::move(edited)](const MaskEdit& edit)
   {
     if (edited)
       edited(edit);

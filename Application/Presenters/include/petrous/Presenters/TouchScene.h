@@ -83,9 +83,13 @@ public:
   std::unique_ptr<CaseRemoval> removalOf(const dissection::Burr& burr,
                                          const dissection::Catalogues& catalogues) const;
 
-  /// What a dissection loop tells the case: strokes are opened and listed as by a DrillSession, and
-  /// the case goes through its list when one is undone or redone.
-  /// `camera` is asked where each stroke is drilled from.
+  /// What is known of a stroke that begins now; `camera` is asked where it is drilled from.
+  static simulation::DissectionLoop::Begin
+  beginOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
+
+  /// What a dissection loop that cuts the case's own dissection tells the case: strokes are opened
+  /// and listed as by a DrillSession, and the case goes through its list when one is undone or
+  /// redone. No loop that cuts a fork of it (TouchDissection) may have these.
   simulation::DissectionLoop::Hooks
   hooksOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
 

@@ -16,8 +16,8 @@ namespace petrous::haptics
 /// W       wrench put out, on the hand, about the grip: held between ticks, so that its work over
 ///         the step that the grip then made is exact
 /// x, v    pose of the grip, mm and rad; v_n = (x_n - x_(n-1)) / dt
-/// |v|^2   |v_lin|^2 + lever^2 |omega|^2 and L = diag(1, lever): what makes one number of mm and
-/// rad |dx|_b^2 / dt  what the device's own damping has taken, which lets it render a spring up to
+/// |v|^2   |v_lin|^2 + lever^2 |omega|^2, L = diag(1, lever): makes one number of mm and rad
+/// |dx|_b^2 / dt  what the device's own damping has taken, which lets it render a spring up to
 ///         K = 2 b / dt (Colgate and Schenkel 1997) without the controller
 ///
 /// Differences from the paper, our choice: the energy is that of the true output over the true

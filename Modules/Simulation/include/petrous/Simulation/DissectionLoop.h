@@ -22,15 +22,18 @@ namespace petrous::simulation
 class DissectionLoop
 {
 public:
+  using Begin = std::function<dissection::StrokeInfo()>; ///< what is known of a new stroke
+  using Edited = std::function<void(const MaskEdit&)>;   ///< once done: for a recording
+
   struct Hooks
   {
-    std::function<dissection::StrokeInfo()> begin;      ///< what is known of a new stroke
+    Begin begin;
     std::function<void(dissection::Dissection&)> close; ///< closes the open stroke; empty:
                                                         ///< Dissection::endStroke
     std::function<bool(bool back)> turn; ///< one stroke back (true) or forth, false when there is
                                          ///< none; empty: Dissection::undo, redo
     std::function<void(const std::vector<std::size_t>&)> changed; ///< bricks, once published
-    std::function<void(const MaskEdit&)> edited;                  ///< once done: for a recording
+    Edited edited;
   };
 
   /// All must outlive this; `mask` must have been published from dissection.mask().

@@ -19,8 +19,10 @@ public:
   /// Both must outlive this; `work` is the loop's dissection.
   DissectionReporter(const dissection::Dissection& work, DissectionMailbox& mailbox);
 
-  /// The loop's hooks, so that this hears of all. Of `others` begin and edited are called, too.
-  DissectionLoop::Hooks listen(DissectionLoop::Hooks others, Complete complete);
+  /// The loop's hooks, so that this hears of all. Strokes are closed and undone in `work`, and
+  /// nowhere else: of the hooks there are only these two to be had beside this one's own.
+  DissectionLoop::Hooks listen(DissectionLoop::Begin begin, DissectionLoop::Edited edited,
+                               Complete complete);
 
   void note(const TickRecord& record); ///< for its fault
   void note(const std::string& recordingFault);

@@ -142,7 +142,7 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   else if (taken(name))
     nameTaken(source.path, "MR", name);
   checkName(source.path, name);
-  scene::ImagePart part = readImage(source.path, {}, std::nullopt, progress);
+  scene::ImagePart part = readImage(source.path, source.seriesUid, std::nullopt, progress);
   part.name = name;
   value.mr.push_back(std::move(part));
 }

@@ -19,6 +19,7 @@ struct PartSource
   std::filesystem::path path;
   /// Structures: the MR in whose patient space they lie, "ct" for the CT's; empty: not said.
   std::string drawnOn = {};
+  std::string seriesUid = {}; ///< MR: which series of a DICOM folder; empty: the one that is meant
 
   /// "NAME=FILE" or "FILE". What names a file that is there is a FILE, whatever it contains.
   static PartSource parse(const std::string& text);

@@ -1,6 +1,7 @@
 #include "HidReader.h"
 
 #include <chrono>
+#include <exception>
 
 #include "petrous/Devices/DeviceCatalogue.h"
 
@@ -51,11 +52,21 @@ void HidReader::run()
 {
   while (!m_stop)
   {
-    if (const auto connection = connect())
+    bool connected = false;
+    try
     {
-      read(*connection);
-      m_calls.disconnected();
+      if (const auto connection = connect())
+      {
+        connected = true;
+        read(*connection);
+      }
     }
+    catch (const std::exception&) // no memory: out of the thread it would end the program
+    {
+      setProblem("cannot be read");
+    }
+    if (connected)
+      m_calls.disconnected();
     std::unique_lock<std::mutex> lock(m_mutex);
     m_wake.wait_for(lock, std::chrono::duration<double>(m_lookEvery),
                     [this] { return m_stop.load(); });

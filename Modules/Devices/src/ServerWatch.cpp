@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <exception>
 #include <sstream>
 
 #include "ServerDescription.h"
@@ -81,15 +82,26 @@ ServedDevice::Status ServerWatch::status() const
 
 void ServerWatch::run()
 {
+  // No memory: out of the thread it would end the program, and the next beat tries again.
+  const auto attempt = [](const auto& what)
+  {
+    try
+    {
+      what();
+    }
+    catch (const std::exception&)
+    {
+    }
+  };
   if (launches())
-    start();
+    attempt([this] { start(); });
   auto last = Clock::now();
   std::unique_lock<std::mutex> lock(m_mutex);
   while (!m_wake.wait_for(lock, kPeriod, [this] { return m_stop; }))
   {
     lock.unlock();
     const auto now = Clock::now();
-    look(std::min(Seconds(now - last).count(), kLongestStep));
+    attempt([&] { look(std::min(Seconds(now - last).count(), kLongestStep)); });
     last = now;
     lock.lock();
   }

@@ -23,6 +23,7 @@
 #include "TouchBenchmark.h"
 #include "TouchBenchmarkScenes.h"
 #include "UndoBenchmark.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::cli
@@ -203,10 +204,10 @@ void bench(const Context& context, const BenchOptions& options)
     const auto report = benchmark.run(work.path, options, context.progress());
     const auto json = reportJson(report);
     const std::filesystem::path base = std::filesystem::path(out) / report.name;
-    writeTextFile(base.string() + ".json", json.dump(1) + "\n");
+    core::writeFile(base.string() + ".json", json.dump(1) + "\n");
     for (const auto& [part, text] : benchmark.plots(report))
-      writeTextFile(base.string() + part + (part.find('.') == std::string::npos ? ".svg" : ""),
-                    text);
+      core::writeFile(base.string() + part + (part.find('.') == std::string::npos ? ".svg" : ""),
+                      text);
     all.push_back(json);
     context.say(report.title);
     for (const auto& [key, value] : report.machine)

@@ -2,6 +2,7 @@
 #include "CaseRemarks.h"
 #include "Commands.h"
 #include "PointsFile.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Volume/NearestSurface.h"
 
@@ -96,7 +97,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
     rows.push_back(std::move(row));
   }
   if (!out.empty())
-    writeTextFile(out, csv);
+    core::writeFile(out, csv);
   else
     context.say(csv.substr(0, csv.size() - 1));
   context.give({{"case", value.name}, {"points", std::move(rows)}});

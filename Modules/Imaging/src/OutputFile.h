@@ -5,21 +5,17 @@
 #include <string>
 #include <string_view>
 
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Core/Progress.h"
 
 namespace petrous::imaging
 {
 
-/// A file that appears whole or not at all: bytes go to a temporary name in the same folder,
-/// `commit` puts them on the disk and renames. Without a commit nothing is left behind.
-/// Everything throws FileError (Unwritable) in words.
+/// core::OutputFile for voxels: in parts, compressed, and what it throws as FileError (Unwritable).
 class OutputFile
 {
 public:
   explicit OutputFile(const std::filesystem::path& path);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
 
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
@@ -34,11 +30,7 @@ public:
                        const core::Progress& progress);
 
 private:
-  [[noreturn]] void failWriting(const char* step, int error) const;
-
-  std::filesystem::path m_path;
-  std::string m_temporary;
-  int m_descriptor = -1;
+  core::OutputFile m_file;
 };
 
 } // namespace petrous::imaging

@@ -1,12 +1,14 @@
 #include "StagedFolder.h"
 
+#include <cerrno>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include <fcntl.h>
 #include <unistd.h>
 
-#include "petrous/Core/Error.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::imaging
 {
@@ -21,6 +23,25 @@ namespace fs = std::filesystem;
                     path.string() + ": cannot be written: " + fault.message());
 }
 
+// What is to be renamed must be on the disk.
+void syncFiles(const fs::path& folder, std::error_code& fault)
+{
+  for (fs::recursive_directory_iterator entry(folder, fault), end; !fault && entry != end;
+       entry.increment(fault))
+  {
+    if (entry->is_directory())
+      core::syncFolder(entry->path());
+    const int file = ::open(entry->path().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0 || (::fsync(file) != 0 && errno != EINVAL))
+      fault = {errno, std::generic_category()};
+    if (file >= 0)
+      ::close(file);
+    if (fault)
+      return;
+  }
+  core::syncFolder(folder);
+}
+
 } // namespace
 
 StagedFolder::StagedFolder(const fs::path& target)
@@ -32,7 +53,6 @@ StagedFolder::StagedFolder(const fs::path& target)
   const fs::file_status status = fs::status(m_target, fault);
   if (status.type() == fs::file_type::none)
     cannotWrite(m_target, fault);
-  const std::string process = std::to_string(getpid());
   if (fs::exists(status))
   {
     if (!fs::is_directory(status))
@@ -45,13 +65,12 @@ StagedFolder::StagedFolder(const fs::path& target)
       throw core::Error(core::Fault::Refused,
                         m_target.string() + ": not empty; name a new or an empty folder");
     m_inside = true;
-    m_staging = m_target / (".partial-" + process);
+    m_staging = core::temporaryBeside(m_target / "part");
     m_made = m_staging;
   }
   else
   {
-    m_staging =
-        m_target.parent_path() / ("." + m_target.filename().string() + ".partial-" + process);
+    m_staging = core::temporaryBeside(m_target);
     m_made = m_staging;
     for (fs::path up = m_staging.parent_path(); !up.empty() && !fs::exists(up, fault);
          up = up.parent_path())
@@ -76,6 +95,9 @@ StagedFolder::~StagedFolder()
 void StagedFolder::commit()
 {
   std::error_code fault;
+  syncFiles(m_staging, fault);
+  if (fault)
+    cannotWrite(m_target, fault);
   if (m_inside)
   {
     std::vector<fs::path> parts;
@@ -92,6 +114,7 @@ void StagedFolder::commit()
   if (fault)
     cannotWrite(m_target, fault);
   m_done = true;
+  core::syncFolder(m_inside ? m_target : m_target.parent_path());
 }
 
 } // namespace petrous::imaging

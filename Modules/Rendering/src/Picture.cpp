@@ -1,19 +1,16 @@
 #include "petrous/Rendering/Picture.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <string>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -39,36 +36,15 @@ void checkSize(const std::filesystem::path& file, int width, int height, std::si
                              " values cannot be written");
 }
 
-// The whole file beside its place, then a rename: a reader never sees half of it.
 void writeWhole(const std::filesystem::path& file, const void* bytes, std::size_t count)
 {
-  const std::filesystem::path temporary = file.string() + ".part-" + std::to_string(::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0)
-    failWriting(file, std::strerror(errno));
-  const char* rest = static_cast<const char*>(bytes);
-  int error = 0;
-  while (count > 0 && error == 0)
+  try
   {
-    const ssize_t written = ::write(descriptor, rest, count);
-    if (written < 0)
-    {
-      error = errno == EINTR ? 0 : errno;
-      continue;
-    }
-    rest += written;
-    count -= static_cast<std::size_t>(written);
+    core::writeFile(file, {static_cast<const char*>(bytes), count});
   }
-  if (error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL)
-    error = errno;
-  if (::close(descriptor) != 0 && error == 0)
-    error = errno;
-  if (error == 0 && std::rename(temporary.c_str(), file.c_str()) != 0)
-    error = errno;
-  if (error != 0)
+  catch (const core::OutputFileError& error)
   {
-    ::unlink(temporary.c_str());
-    failWriting(file, std::strerror(error));
+    throw RenderingError(RenderingError::Reason::CannotWrite, error.what());
   }
 }
 

@@ -1,0 +1,184 @@
+#include "petrous/Core/OutputFile.h"
+
+#include <cerrno>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "SystemCalls.h"
+#include "petrous/Core/InputFile.h"
+
+namespace
+{
+
+using namespace petrous;
+using petrous::testing::SystemCalls;
+namespace fs = std::filesystem;
+using Reason = core::OutputFileError::Reason;
+
+class OutputFile : public ::testing::Test
+{
+protected:
+  OutputFile()
+  {
+    std::string name = (fs::temp_directory_path() / "petrous-output-XXXXXX").string();
+    m_folder = ::mkdtemp(name.data());
+    m_file = m_folder / "file";
+    core::writeFile(m_file, "old");
+  }
+  ~OutputFile() override
+  {
+    SystemCalls::reset();
+    fs::remove_all(m_folder);
+  }
+
+  std::set<std::string> names() const
+  {
+    std::set<std::string> result;
+    for (const auto& entry : fs::directory_iterator(m_folder))
+      result.insert(entry.path().filename().string());
+    return result;
+  }
+
+  static Reason reasonOf(const fs::path& path)
+  {
+    try
+    {
+      core::writeFile(path, "new");
+    }
+    catch (const core::OutputFileError& error)
+    {
+      EXPECT_EQ(error.fault(), core::Fault::Refused);
+      EXPECT_EQ(std::string(error.what()), core::printable(path) + ": " + error.problem);
+      return error.reason;
+    }
+    ADD_FAILURE() << path << " was written";
+    return Reason::Failed;
+  }
+
+  fs::path m_folder;
+  fs::path m_file;
+};
+
+TEST_F(OutputFile, ReplacesAFileWhole)
+{
+  EXPECT_TRUE(core::writeFile(m_file, "new"));
+  EXPECT_EQ(core::readFile(m_file), "new");
+  EXPECT_EQ(names(), std::set<std::string>{"file"});
+}
+
+TEST_F(OutputFile, LeavesNothingWithoutACommit)
+{
+  {
+    core::OutputFile file(m_file);
+    file.write("half");
+    EXPECT_TRUE(core::isLeftover(file.temporary()));
+    EXPECT_EQ(names().size(), 2U);
+  }
+  EXPECT_EQ(core::readFile(m_file), "old");
+  EXPECT_EQ(names(), std::set<std::string>{"file"});
+}
+
+TEST_F(OutputFile, AStepThatFailsLeavesTheOldFile)
+{
+  for (const auto& [name, n, reason] :
+       {std::tuple("open", 1, Reason::NotPermitted), std::tuple("open", 2, Reason::NotPermitted),
+        std::tuple("write", 1, Reason::NotPermitted), std::tuple("fsync", 1, Reason::NotPermitted),
+        std::tuple("rename", 1, Reason::NotPermitted)})
+  {
+    SystemCalls::fail(name, n, EACCES);
+    EXPECT_EQ(reasonOf(m_file), reason) << name << n;
+    SystemCalls::reset();
+    EXPECT_EQ(core::readFile(m_file), "old") << name << n;
+    EXPECT_EQ(names(), std::set<std::string>{"file"}) << name << n;
+  }
+  SystemCalls::fail("write", 1, ENOSPC);
+  EXPECT_EQ(reasonOf(m_file), Reason::DiskFull);
+}
+
+// The file is there by then: an exception would be a lie.
+TEST_F(OutputFile, DoesNotThrowAfterTheRename)
+{
+  SystemCalls::fail("fsync", 2, EIO);
+  EXPECT_FALSE(core::writeFile(m_file, "new"));
+  EXPECT_EQ(core::readFile(m_file), "new");
+  SystemCalls::fail("fsync", 2, EINVAL); // a file system that cannot sync folders
+  EXPECT_TRUE(core::writeFile(m_file, "newer"));
+}
+
+TEST_F(OutputFile, KilledAtEachStepIsTheOldFileOrTheNew)
+{
+  for (int step = 1, ended = 0; ended == 0; ++step)
+  {
+    ASSERT_LT(step, 100);
+    core::writeFile(m_file, "old");
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      SystemCalls::killAt(step);
+      core::writeFile(m_file, "new");
+      SystemCalls::reset();
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ended = WIFEXITED(status);
+    const std::string content = core::readFile(m_file);
+    EXPECT_TRUE(content == "old" || content == "new") << step << ": " << content;
+    for (const std::string& name : names())
+    {
+      EXPECT_TRUE(name == "file" || core::isLeftover(m_folder / name)) << name;
+      if (name != "file")
+        fs::remove(m_folder / name);
+    }
+    EXPECT_TRUE(!ended || content == "new");
+  }
+}
+
+TEST_F(OutputFile, RefusesWhatIsNoRegularFile)
+{
+  EXPECT_EQ(reasonOf("/dev/null"), Reason::WrongPlace);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  const fs::path fifo = m_folder / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(reasonOf(fifo), Reason::WrongPlace);
+  EXPECT_EQ(reasonOf(m_folder), Reason::WrongPlace);
+  EXPECT_EQ(reasonOf(m_folder / "none" / "file"), Reason::WrongPlace);
+  EXPECT_EQ(reasonOf(m_file / "below"), Reason::WrongPlace);
+  EXPECT_EQ(reasonOf(m_folder / std::string(300, 'x')), Reason::WrongPlace);
+}
+
+TEST_F(OutputFile, KeepsALinkAndReplacesWhatItPointsTo)
+{
+  fs::create_directory(m_folder / "elsewhere");
+  core::writeFile(m_folder / "elsewhere" / "target", "old");
+  fs::create_symlink("elsewhere/target", m_folder / "link");
+  core::writeFile(m_folder / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(m_folder / "link"));
+  EXPECT_EQ(core::readFile(m_folder / "elsewhere" / "target"), "new");
+}
+
+TEST_F(OutputFile, HasTheModeThatTheUsersMaskAllows)
+{
+  const mode_t before = ::umask(027);
+  core::writeFile(m_folder / "new", "x");
+  ::umask(before);
+  struct stat status = {};
+  ASSERT_EQ(::stat((m_folder / "new").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST_F(OutputFile, NamesTemporaryFilesSoThatNobodyCanGuessThem)
+{
+  std::set<fs::path> names;
+  for (int n = 0; n < 100; ++n)
+    names.insert(core::temporaryBeside(m_file));
+  EXPECT_EQ(names.size(), 100U);
+  EXPECT_EQ(names.begin()->parent_path(), m_folder);
+}
+
+} // namespace

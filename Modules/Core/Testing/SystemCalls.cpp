@@ -1,0 +1,117 @@
+#include "SystemCalls.h"
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <cstddef>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+namespace
+{
+
+std::string failingName;
+int failingCall = 0;
+int failingError = 0;
+int killingCall = 0;
+std::atomic<int> calls{0};
+std::atomic<int> callsOfName{0};
+
+// Whether the call is to fail; errno is then set.
+bool refused(const char* name)
+{
+  const int n = ++calls;
+  if (killingCall > 0 && n == killingCall)
+    ::kill(::getpid(), SIGKILL);
+  if (failingCall == 0 || failingName != name || ++callsOfName != failingCall)
+    return false;
+  errno = failingError;
+  return true;
+}
+
+template <class Function>
+Function original(const char* name)
+{
+  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+} // namespace
+
+namespace petrous::testing
+{
+
+void SystemCalls::fail(const std::string& name, int n, int error)
+{
+  reset();
+  failingName = name;
+  failingError = error;
+  failingCall = n;
+}
+
+void SystemCalls::killAt(int n)
+{
+  reset();
+  killingCall = n;
+}
+
+int SystemCalls::count()
+{
+  return calls;
+}
+
+void SystemCalls::reset()
+{
+  failingCall = killingCall = 0;
+  calls = callsOfName = 0;
+}
+
+} // namespace petrous::testing
+
+extern "C"
+{
+  int open(const char* path, int flags, ...)
+  {
+    static const auto real = original<int (*)(const char*, int, ...)>("open");
+    va_list rest;
+    va_start(rest, flags);
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    if ((flags & (O_CREAT | O_DIRECTORY)) != 0 && refused("open"))
+      return -1;
+    return real(path, flags, mode);
+  }
+  ssize_t write(int file, const void* bytes, std::size_t count)
+  {
+    static const auto real = original<ssize_t (*)(int, const void*, std::size_t)>("write");
+    return refused("write") ? -1 : real(file, bytes, count);
+  }
+  int fsync(int file)
+  {
+    static const auto real = original<int (*)(int)>("fsync");
+    return refused("fsync") ? -1 : real(file);
+  }
+  int fdatasync(int file)
+  {
+    static const auto real = original<int (*)(int)>("fdatasync");
+    return refused("fdatasync") ? -1 : real(file);
+  }
+  int rename(const char* from, const char* to) noexcept
+  {
+    static const auto real = original<int (*)(const char*, const char*)>("rename");
+    return refused("rename") ? -1 : real(from, to);
+  }
+  int unlink(const char* path) noexcept
+  {
+    static const auto real = original<int (*)(const char*)>("unlink");
+    return refused("unlink") ? -1 : real(path);
+  }
+  int ftruncate(int file, off_t length) noexcept
+  {
+    static const auto real = original<int (*)(int, off_t)>("ftruncate");
+    return refused("ftruncate") ? -1 : real(file, length);
+  }
+}

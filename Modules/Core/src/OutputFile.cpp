@@ -1,0 +1,187 @@
+#include "petrous/Core/OutputFile.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <random>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "petrous/Core/InputFile.h"
+
+namespace petrous::core
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using Reason = OutputFileError::Reason;
+
+constexpr const char* kLeftover = ".petrous-";
+constexpr int kAttempts = 100;
+
+fs::path folderOf(const fs::path& path)
+{
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// The file to replace: the end of a chain of links.
+fs::path targetOf(const fs::path& path)
+{
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0)
+    return path;
+  if (S_ISDIR(status.st_mode))
+    throw OutputFileError(Reason::WrongPlace, path, "is a folder; name a file in it");
+  if (!S_ISREG(status.st_mode))
+    throw OutputFileError(Reason::WrongPlace, path,
+                          "is a device, pipe or socket; name a regular file");
+  std::error_code error;
+  if (!fs::is_symlink(path, error))
+    return path;
+  const fs::path target = fs::canonical(path, error);
+  return error ? path : target;
+}
+
+bool synced(int folder) noexcept
+{
+  return ::fsync(folder) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
+} // namespace
+
+OutputFileError::OutputFileError(Reason why, const fs::path& path, const std::string& what)
+  : Error(Fault::Refused, printable(path) + ": " + what)
+  , reason(why)
+  , problem(what)
+{
+}
+
+void throwOutputError(int error, const fs::path& path)
+{
+  switch (error)
+  {
+  case ENOSPC:
+  case EDQUOT:
+    throw OutputFileError(Reason::DiskFull, path,
+                          "cannot be written, the disk is full; free some space and try again");
+  case EFBIG: // also a limit of this process
+    throw OutputFileError(Reason::DiskFull, path,
+                          "cannot be written, the disk is full or the file too large for it; "
+                          "choose another disk");
+  case EACCES:
+  case EPERM:
+    throw OutputFileError(Reason::NotPermitted, path,
+                          "cannot be written, no permission; choose another folder or allow "
+                          "writing to this one");
+  case EROFS:
+    throw OutputFileError(Reason::NotPermitted, path,
+                          "cannot be written, the medium is read-only; choose another folder");
+  case ENOENT:
+    throw OutputFileError(Reason::WrongPlace, path,
+                          "cannot be written, its folder is not there; make the folder first");
+  case ENOTDIR:
+    throw OutputFileError(Reason::WrongPlace, path,
+                          "cannot be written, a file stands where its folder should be");
+  case EISDIR:
+    throw OutputFileError(Reason::WrongPlace, path, "is a folder; name a file in it");
+  case ENAMETOOLONG:
+    throw OutputFileError(Reason::WrongPlace, path,
+                          "cannot be written, the name is too long; shorten it");
+  default:
+    throw OutputFileError(Reason::Failed, path,
+                          "cannot be written (system error " + std::to_string(error) +
+                              "); check the disk");
+  }
+}
+
+fs::path temporaryBeside(const fs::path& path)
+{
+  std::random_device random;
+  char name[32];
+  std::snprintf(name, sizeof name, "%s%08x%08x", kLeftover, random(), random());
+  return folderOf(path) / name;
+}
+
+bool isLeftover(const fs::path& path)
+{
+  return path.filename().string().rfind(kLeftover, 0) == 0;
+}
+
+bool syncFolder(const fs::path& folder) noexcept
+{
+  const int descriptor =
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0)
+    return false;
+  const bool done = synced(descriptor);
+  ::close(descriptor);
+  return done;
+}
+
+OutputFile::OutputFile(const fs::path& path)
+  : m_path(targetOf(path))
+{
+  m_folder = ::open(folderOf(m_path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (m_folder < 0)
+    throwOutputError(errno, path);
+  for (int n = 0; m_descriptor < 0; ++n)
+  {
+    m_temporary = temporaryBeside(m_path);
+    m_descriptor = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (m_descriptor >= 0 || (errno == EEXIST && n < kAttempts))
+      continue;
+    const int error = errno;
+    ::close(m_folder);
+    throwOutputError(error, path);
+  }
+}
+
+OutputFile::~OutputFile()
+{
+  if (m_descriptor >= 0)
+  {
+    ::unlink(m_temporary.c_str());
+    ::close(m_descriptor);
+  }
+  ::close(m_folder);
+}
+
+void OutputFile::write(const void* bytes, std::size_t count)
+{
+  const auto* next = static_cast<const char*>(bytes);
+  while (count > 0)
+  {
+    const ssize_t written = ::write(m_descriptor, next, std::min(count, std::size_t{1} << 30));
+    if (written < 0 && errno == EINTR)
+      continue;
+    if (written <= 0)
+      throwOutputError(written < 0 ? errno : ENOSPC, m_path);
+    next += written;
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
+bool OutputFile::commit()
+{
+  if (::fsync(m_descriptor) != 0 && errno != EINVAL)
+    throwOutputError(errno, m_path);
+  if (::rename(m_temporary.c_str(), m_path.c_str()) != 0)
+    throwOutputError(errno, m_path);
+  ::close(m_descriptor);
+  m_descriptor = -1;
+  return synced(m_folder);
+}
+
+bool writeFile(const fs::path& path, std::string_view bytes)
+{
+  OutputFile file(path);
+  file.write(bytes);
+  return file.commit();
+}
+
+} // namespace petrous::core

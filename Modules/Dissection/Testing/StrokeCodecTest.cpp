@@ -139,3 +139,30 @@ TEST(StrokeCodec, RefusesToGiveBackWhatWasNotTaken)
   EXPECT_THROW(applied(bytes, dissection::Way::Back, volume::CutMask(kGrid)),
                core::InvalidParameter);
 }
+
+TEST(StrokeCodec, RefusesVoxelsBeyondTheGrid)
+{
+  // Bricks of 16 reach beyond 20 voxels.
+  const core::GridGeometry grid({20, 20, 20}, Vector3d::Constant(0.3), Vector3d::Zero());
+  const volume::CutMask mask(grid);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int at : {3, 4, 15}) // 19 is the last one
+    {
+      core::Index3 voxel{0, 0, 0};
+      voxel[static_cast<std::size_t>(axis)] = at;
+      core::Index3 position{0, 0, 0};
+      position[static_cast<std::size_t>(axis)] = 1;
+      auto after = std::make_shared<volume::CutMask::Brick>();
+      after->fill(volume::CutMask::kUntouched);
+      (*after)[static_cast<std::size_t>(voxel[0] + 16 * (voxel[1] + 16 * voxel[2]))] = 7;
+      const auto bytes =
+          dissection::encodeDeltas({{mask.brickIndex(position), nullptr, std::move(after)}});
+      dissection::BrickDraft draft(mask);
+      if (at == 3)
+        EXPECT_NO_THROW(dissection::applyDeltas(bytes, dissection::Way::Forth, draft));
+      else
+        EXPECT_THROW(dissection::applyDeltas(bytes, dissection::Way::Forth, draft),
+                     core::InvalidParameter)
+            << axis << ' ' << at;
+    }
+}

@@ -59,6 +59,22 @@ std::vector<std::uint8_t> decompress(const std::vector<std::uint8_t>& bytes, std
   return raw;
 }
 
+// Bricks at the grid's upper faces reach beyond it.
+bool takesBeyond(const CutMask& mask, std::size_t brick, const std::uint8_t* voxels)
+{
+  constexpr int kEdge = CutMask::kBrickEdge;
+  const core::Index3 size = mask.brickBox(brick).size();
+  if (size == core::Index3{kEdge, kEdge, kEdge})
+    return false;
+  for (int k = 0, n = 0; k < kEdge; ++k)
+    for (int j = 0; j < kEdge; ++j)
+      for (int i = 0; i < kEdge; ++i, ++n)
+        if ((i >= size[0] || j >= size[1] || k >= size[2]) &&
+            (voxels[n] | voxels[CutMask::kBrickVoxels + n]) != 0)
+          return true;
+  return false;
+}
+
 } // namespace
 
 std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas)
@@ -122,6 +138,8 @@ void applyDeltas(const std::vector<std::uint8_t>& packed, Way way, BrickDraft& d
     }
     if (!fits)
       damaged("it takes more than is there");
+    if (takesBeyond(mask, brick, voxels))
+      damaged("it takes voxels beyond the grid");
     voxels += kBrickBytes;
   }
 }

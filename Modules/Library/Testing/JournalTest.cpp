@@ -231,12 +231,14 @@ TEST(Journal, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
   drillLine(value, journal, 0, 4);
   Killed killed(library);
   {
-    // Another program, which does not look for journals, changes the case.
-    const fs::path manifest = killed.folder.path() / "cases/ear.json";
-    auto text = contentOf(killed.folder.path()).at("cases/ear.json");
-    const auto at = text.find("\"revision\": 1");
-    ASSERT_NE(at, std::string::npos);
-    std::ofstream(manifest) << text.replace(at, 13, "\"revision\": 2");
+    // Another program, which does not look for journals, puts another case there.
+    const TemporaryFolder elsewhere;
+    Library other(elsewhere.path());
+    scene::Case another = smallCase("ear", 20);
+    other.save(another);
+    for (const auto* part : {"cases", "objects"})
+      fs::copy(elsewhere.path() / part, killed.folder.path() / part,
+               fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
   EXPECT_EQ(killed.open().strokes.size(), 0u);
   ASSERT_EQ(killed.notices.size(), 1u);

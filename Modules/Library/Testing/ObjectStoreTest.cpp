@@ -56,7 +56,7 @@ TEST(ObjectStore, DiscardsOnlyWhatIsNew)
   store.add("bin", bytesOf("new"));
   store.add("bin", bytesOf("old"));
   store.discardNew();
-  EXPECT_EQ(store.read(old), bytesOf("old"));
+  EXPECT_EQ(store.readChecked(old, "the old one"), bytesOf("old"));
   EXPECT_EQ(test::contentOf(folder.path()).size(), 1u);
 }
 

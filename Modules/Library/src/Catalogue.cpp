@@ -1,9 +1,7 @@
 #include "Catalogue.h"
 
-#include <cctype>
-#include <cstring>
-
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
 
 namespace petrous::library
 {
@@ -11,13 +9,16 @@ namespace petrous::library
 namespace
 {
 
-constexpr int kBusyMilliseconds = 2000;
+constexpr int kWriterWaits = 2000; // ms
+constexpr int kReaderWaits = 500;  // ms; the manifests can be read instead
 
+// A rollback journal and not WAL: WAL cannot be read from a read-only medium but with `immutable`,
+// which is wrong while others write, and leaves files where it is only read.
 SQLite::Database openForWriting(const std::filesystem::path& file)
 {
   SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
-                            kBusyMilliseconds);
-  database.exec("PRAGMA journal_mode=WAL");
+                            kWriterWaits);
+  database.exec("PRAGMA journal_mode=DELETE");
   database.exec("PRAGMA synchronous=NORMAL");
   database.exec("CREATE TABLE IF NOT EXISTS cases ("
                 "name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, modified TEXT,"
@@ -26,19 +27,34 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
   return database;
 }
 
-// Read as it lies on the disk: asking leaves no -wal and -shm files behind. What a writer has not
-// brought into the file yet is then read from the manifests.
-std::string readOnlyUri(const std::filesystem::path& file)
+// SQLite would wait for a pipe.
+bool isRegular(const std::filesystem::path& file)
 {
-  constexpr const char* kDigits = "0123456789ABCDEF";
-  std::string uri = "file:";
-  for (const char byte : std::filesystem::absolute(file).string())
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error);
+}
+
+// Runs `change` on the database; on a new one where the old one is damaged.
+template <class Change>
+void write(const std::filesystem::path& file, const Change& change)
+{
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !isRegular(file))
+    return;
+  try
   {
-    const auto c = static_cast<unsigned char>(byte);
-    const bool plain = std::isalnum(c) != 0 || (c != 0 && std::strchr("/._-", c) != nullptr);
-    uri += plain ? std::string(1, byte) : std::string{'%', kDigits[c >> 4], kDigits[c & 15]};
+    SQLite::Database database = openForWriting(file);
+    change(database);
   }
-  return uri + "?immutable=1";
+  catch (const SQLite::Exception& fault)
+  {
+    if (fault.getErrorCode() != SQLITE_NOTADB && fault.getErrorCode() != SQLITE_CORRUPT)
+      throw;
+    for (const char* ending : {"", "-journal", "-wal", "-shm"})
+      std::filesystem::remove(file.string() + ending, error);
+    SQLite::Database database = openForWriting(file);
+    change(database);
+  }
 }
 
 } // namespace
@@ -48,55 +64,76 @@ Catalogue::Catalogue(std::filesystem::path file)
 {
 }
 
-std::optional<CaseSummary> Catalogue::find(const std::string& name,
-                                           const Stamp& stamp) const noexcept
+std::map<std::string, Catalogue::Entry> Catalogue::entries() const noexcept
 try
 {
-  if (!std::filesystem::exists(m_file))
-    return std::nullopt;
-  SQLite::Database database(readOnlyUri(m_file), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
-  SQLite::Statement query(database, "SELECT modified, nx, ny, nz, structures, strokes, removed_mm3 "
-                                    "FROM cases WHERE name = ? AND size = ? AND changed = ?");
-  query.bind(1, name);
-  query.bind(2, static_cast<std::int64_t>(stamp.size));
-  query.bind(3, stamp.changed);
-  if (!query.executeStep())
-    return std::nullopt;
-  CaseSummary summary;
-  summary.name = name;
-  summary.modified = query.getColumn(0).getString();
-  for (int a = 0; a < 3; ++a)
-    summary.dims[static_cast<std::size_t>(a)] = query.getColumn(1 + a).getInt();
-  summary.structures = static_cast<std::size_t>(query.getColumn(4).getInt64());
-  summary.strokes = static_cast<std::size_t>(query.getColumn(5).getInt64());
-  summary.removed = query.getColumn(6).getDouble();
-  return summary;
+  std::map<std::string, Entry> entries;
+  if (!isRegular(m_file))
+    return entries;
+  SQLite::Database database(m_file.string(), SQLite::OPEN_READONLY, kReaderWaits);
+  SQLite::Statement query(database, "SELECT name, size, changed, modified, nx, ny, nz, structures, "
+                                    "strokes, removed_mm3 FROM cases");
+  while (query.executeStep())
+  {
+    Entry entry;
+    CaseSummary& summary = entry.summary;
+    summary.name = query.getColumn(0).getString();
+    entry.stamp.size = static_cast<std::uintmax_t>(query.getColumn(1).getInt64());
+    entry.stamp.changed = query.getColumn(2).getInt64();
+    summary.modified = query.getColumn(3).getString();
+    for (int a = 0; a < 3; ++a)
+      summary.dims[static_cast<std::size_t>(a)] = query.getColumn(4 + a).getInt();
+    summary.structures = static_cast<std::size_t>(query.getColumn(7).getInt64());
+    summary.strokes = static_cast<std::size_t>(query.getColumn(8).getInt64());
+    summary.removed = query.getColumn(9).getDouble();
+    entries[summary.name] = std::move(entry);
+  }
+  return entries;
 }
 catch (const std::exception&)
 {
-  return std::nullopt;
+  return {};
 }
 
 void Catalogue::put(const CaseSummary& summary, const Stamp& stamp) noexcept
 try
 {
-  SQLite::Database database = openForWriting(m_file);
-  SQLite::Statement insert(database,
-                           "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(1, summary.name);
-  insert.bind(2, static_cast<std::int64_t>(stamp.size));
-  insert.bind(3, stamp.changed);
-  insert.bind(4, summary.modified);
-  for (int a = 0; a < 3; ++a)
-    insert.bind(5 + a, summary.dims[static_cast<std::size_t>(a)]);
-  insert.bind(8, static_cast<std::int64_t>(summary.structures));
-  insert.bind(9, static_cast<std::int64_t>(summary.strokes));
-  insert.bind(10, summary.removed);
-  insert.exec();
+  write(m_file,
+        [&](SQLite::Database& database)
+        {
+          SQLite::Statement insert(
+              database, "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+          insert.bind(1, summary.name);
+          insert.bind(2, static_cast<std::int64_t>(stamp.size));
+          insert.bind(3, stamp.changed);
+          insert.bind(4, summary.modified);
+          for (int a = 0; a < 3; ++a)
+            insert.bind(5 + a, summary.dims[static_cast<std::size_t>(a)]);
+          insert.bind(8, static_cast<std::int64_t>(summary.structures));
+          insert.bind(9, static_cast<std::int64_t>(summary.strokes));
+          insert.bind(10, summary.removed);
+          insert.exec();
+        });
 }
 catch (const std::exception&)
 {
-  // The manifest is what counts; `find` will not answer for it and it is read again.
+  // The manifest is what counts; `entries` will not answer for it and it is read again.
+}
+
+void Catalogue::remove(const std::string& name) noexcept
+try
+{
+  write(m_file,
+        [&](SQLite::Database& database)
+        {
+          SQLite::Statement statement(database, "DELETE FROM cases WHERE name = ?");
+          statement.bind(1, name);
+          statement.exec();
+        });
+}
+catch (const std::exception&)
+{
+  // An entry without a manifest is never asked for.
 }
 
 } // namespace petrous::library

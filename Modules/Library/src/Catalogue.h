@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
 
 #include "petrous/Library/Library.h"
@@ -10,9 +10,9 @@
 namespace petrous::library
 {
 
-/// The SQLite index over the manifests (WAL). It only saves time: an entry holds while the
-/// manifest's size and time of change are those it was made from, and where the database cannot be
-/// opened or written, everything is read from the manifests.
+/// The SQLite index over the manifests. It only saves time: an entry holds while the manifest's
+/// size and time of change are those it was made from, and where the database cannot be opened or
+/// written, everything is read from the manifests. A damaged one is made anew by `put`.
 class Catalogue
 {
 public:
@@ -25,8 +25,16 @@ public:
 
   explicit Catalogue(std::filesystem::path file);
 
-  std::optional<CaseSummary> find(const std::string& name, const Stamp& stamp) const noexcept;
+  struct Entry
+  {
+    CaseSummary summary;
+    Stamp stamp;
+  };
+
+  /// By name; as one reader sees it who locks writers out. Leaves no file behind.
+  std::map<std::string, Entry> entries() const noexcept;
   void put(const CaseSummary& summary, const Stamp& stamp) noexcept;
+  void remove(const std::string& name) noexcept;
 
 private:
   std::filesystem::path m_file;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "Graft.h"
 #include "JournalFile.h"
 #include "petrous/Dissection/StrokeCodec.h"
 #include "petrous/Scene/HistoryText.h"
@@ -23,22 +24,53 @@ std::string frameOf(JournalFrame::Kind kind, const dissection::StrokeInfo& info,
 
 } // namespace
 
-Journal::Journal(const Library& library, const scene::Case& value, Measure measure)
-  : m_folder(library.folder())
-  , m_name(value.name)
-  , m_revision(value.revision)
-  , m_base(value.strokes.size())
-  , m_measure(std::move(measure))
-  , m_written(value.strokes.size())
-  , m_changes(value.dissection->changes())
+SavedState::SavedState(const scene::Case& saved)
+  : name(saved.name)
+  , id(saved.id)
+  , revision(saved.revision)
+  , ct(saved.ct.object)
+  , history(saved.history)
 {
-  const fs::path path = journalPath(m_folder, m_name);
+  for (const scene::StrokePart& stroke : saved.strokes)
+    strokes.push_back(stroke.object);
+}
+
+Journal::Journal(const Library& library, SavedState saved, Measure measure)
+  : m_folder(library.folder())
+  , m_base(std::move(saved))
+  , m_measure(std::move(measure))
+  , m_written(m_base.strokes.size())
+  , m_history(m_base.history)
+{
+  const fs::path path = journalPath(m_folder, m_base.name);
   const JournalFile other(path);
   if (other.there() && !other.held())
     throw LibraryError(LibraryError::Reason::Conflict,
-                       "case '" + m_name + "' is being drilled by another program; end that first");
+                       "case '" + m_base.name +
+                           "' is being drilled by another process; end that first");
   if (other.there())
     setAside(path); // Library::open could not bring it back, and said so
+}
+
+void Journal::claim()
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  if (!m_file)
+    makeFile();
+}
+
+void Journal::leave()
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  m_file.reset();
+}
+
+void Journal::makeFile()
+{
+  const fs::path path = journalPath(m_folder, m_base.name);
+  if (const JournalFile other(path); other.there() && other.held())
+    setAside(path); // of a process that was killed since this object was made
+  m_file = std::make_unique<JournalFile>(path, JournalHead(m_base));
 }
 
 Journal::~Journal()
@@ -60,8 +92,7 @@ void Journal::write(std::vector<Kept> frames)
     bytes += kept.frame;
   const bool fresh = !m_file;
   if (fresh)
-    m_file = std::make_unique<JournalFile>(journalPath(m_folder, m_name),
-                                           JournalHead{m_name, m_revision, m_base});
+    makeFile();
   try
   {
     m_file->append(bytes);
@@ -111,7 +142,7 @@ std::optional<Journal::Kept> Journal::partOf(const dissection::Dissection& work)
 void Journal::follow(const dissection::Dissection& work)
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  if (m_changes != work.changes())
+  if (m_written != work.strokes().size() || !sameHistory(m_history, work.history()))
   {
     std::vector<Kept> frames;
     for (std::size_t n = m_written; n < work.strokes().size(); ++n)
@@ -122,7 +153,7 @@ void Journal::follow(const dissection::Dissection& work)
          encoded(JournalFrame{JournalFrame::Kind::History, scene::toText(work.history()), {}})});
     write(std::move(frames));
     m_written = work.strokes().size();
-    m_changes = work.changes();
+    m_history = work.history();
     m_open = false;
   }
   if (!work.strokeOpen())
@@ -138,13 +169,13 @@ void Journal::follow(const dissection::Dissection& work)
   }
 }
 
-void Journal::saved(const scene::Case& value)
+void Journal::saved(SavedState now)
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  const std::size_t strokes = value.strokes.size();
+  const std::size_t strokes = now.strokes.size();
   // A frame of the history holds all of it: what leads up to the saved one is of no more use.
   const std::string history =
-      encoded(JournalFrame{JournalFrame::Kind::History, scene::toText(value.history), {}});
+      encoded(JournalFrame{JournalFrame::Kind::History, scene::toText(now.history), {}});
   std::vector<Kept> left;
   for (const Kept& kept : m_kept)
   {
@@ -153,8 +184,7 @@ void Journal::saved(const scene::Case& value)
     else if (kept.strokes >= strokes)
       left.push_back(kept);
   }
-  const JournalHead head{value.name, value.revision, strokes};
-  const fs::path path = journalPath(m_folder, value.name);
+  const fs::path path = journalPath(m_folder, now.name);
   if (left.empty() && m_file)
   {
     m_file->remove();
@@ -168,7 +198,7 @@ void Journal::saved(const scene::Case& value)
     const fs::path next = path.string() + ".new";
     std::error_code ignored;
     fs::remove(next, ignored); // of one that was killed here
-    auto file = std::make_unique<JournalFile>(next, head);
+    auto file = std::make_unique<JournalFile>(next, JournalHead(now));
     try
     {
       file->append(bytes);
@@ -179,14 +209,12 @@ void Journal::saved(const scene::Case& value)
       file->remove();
       throw;
     }
-    if (value.name != m_name)
+    if (now.name != m_base.name)
       m_file->remove();
     m_file = std::move(file);
   }
   m_kept = std::move(left);
-  m_name = value.name;
-  m_revision = value.revision;
-  m_base = strokes;
+  m_base = std::move(now);
 }
 
 } // namespace petrous::library

@@ -9,9 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "DurableFile.h"
+#include "LibraryFolder.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/HistoryText.h"
 
 namespace petrous::library
 {
@@ -29,6 +30,7 @@ constexpr std::size_t kHash = 64;
 constexpr std::size_t kBefore = 8 + kHash;
 constexpr std::size_t kLeast = 5;
 constexpr int kFormat = 1;
+constexpr std::uint64_t kLongestHead = 1 << 24;
 
 void putNumber(std::string& to, std::uint64_t value, int bytes)
 {
@@ -80,11 +82,46 @@ bool headIn(const JournalFrame& frame, JournalHead& head)
   if (name == j.end() || revision == j.end() || strokes == j.end() || !name->is_string() ||
       !revision->is_number_unsigned() || !strokes->is_number_unsigned())
     return false;
-  head = {name->get<std::string>(), revision->get<std::uint64_t>(), strokes->get<std::size_t>()};
+  head.caseName = name->get<std::string>();
+  head.revision = revision->get<std::uint64_t>();
+  head.strokes = strokes->get<std::size_t>();
+  const auto text = [&j](const char* key)
+  {
+    const auto found = j.find(key);
+    return found != j.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  head.ct = text("ct");
+  head.strokesHash = text("strokes_sha256");
+  head.history = text("history");
   return true;
 }
 
+// Nothing but the beginning of a head.
+bool endsInHead(std::string_view bytes)
+{
+  return bytes.size() < kBefore + kLeast ||
+         (numberIn(bytes, 8) < kLongestHead && numberIn(bytes, 8) > bytes.size() - kBefore);
+}
+
 } // namespace
+
+std::string hashOfNames(const std::vector<std::string>& strokes)
+{
+  std::string all;
+  for (const std::string& object : strokes)
+    all += object + '\n';
+  return hashOf(all);
+}
+
+JournalHead::JournalHead(const SavedState& base)
+  : caseName(base.name)
+  , revision(base.revision)
+  , strokes(base.strokes.size())
+  , ct(base.ct)
+  , strokesHash(hashOfNames(base.strokes))
+  , history(scene::toText(base.history))
+{
+}
 
 std::string encoded(const JournalFrame& frame)
 {
@@ -99,10 +136,16 @@ std::string encoded(const JournalFrame& frame)
 
 std::string encoded(const JournalHead& head)
 {
-  const json j{{"petrous_journal", kFormat},
-               {"case", head.caseName},
-               {"revision", head.revision},
-               {"strokes", head.strokes}};
+  json j{{"petrous_journal", kFormat},
+         {"case", head.caseName},
+         {"revision", head.revision},
+         {"strokes", head.strokes}};
+  if (!head.history.empty())
+  {
+    j["ct"] = head.ct;
+    j["strokes_sha256"] = head.strokesHash;
+    j["history"] = head.history;
+  }
   return encoded(JournalFrame{JournalFrame::Kind::Head, j.dump(), {}});
 }
 
@@ -111,6 +154,7 @@ JournalContent journalFrom(std::string_view bytes)
   JournalContent content;
   JournalFrame frame;
   std::size_t length = frameIn(bytes, frame);
+  content.started = !endsInHead(bytes);
   content.headed = length > 0 && headIn(frame, content.head);
   while (content.headed && length > 0)
   {
@@ -134,9 +178,11 @@ fs::path setAside(const fs::path& journal)
   for (int n = 1;; ++n)
   {
     const fs::path aside = journal.string() + ".aside-" + std::to_string(n);
-    if (fs::exists(aside))
+    if (fs::exists(fs::symlink_status(aside)))
       continue;
-    renameDurably(journal, aside);
+    if (::rename(journal.c_str(), aside.c_str()) != 0)
+      throwForErrno(errno, aside);
+    core::syncFolder(aside.parent_path());
     return aside;
   }
 }
@@ -152,7 +198,11 @@ JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
   {
     if (m_descriptor >= 0)
       ::close(m_descriptor);
-    m_descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
+    m_descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+    if (m_descriptor < 0 && errno == EEXIST)
+      throw LibraryError(LibraryError::Reason::Conflict,
+                         "case '" + head.caseName +
+                             "' is being drilled by another process; end that first");
     if (m_descriptor < 0)
       throwForErrno(errno, path);
     while (::flock(m_descriptor, LOCK_EX) != 0 && errno == EINTR)
@@ -163,7 +213,8 @@ JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
   try
   {
     append(encoded(head));
-    syncFolder(path.parent_path());
+    if (!core::syncFolder(path.parent_path()))
+      throwForErrno(EIO, path);
   }
   catch (...)
   {
@@ -175,17 +226,23 @@ JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
 JournalFile::JournalFile(const fs::path& path)
   : m_path(path)
 {
-  m_descriptor = ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
+  m_descriptor = ::open(path.c_str(), O_RDWR | O_APPEND | O_NONBLOCK | O_CLOEXEC);
   if (m_descriptor < 0 && (errno == EROFS || errno == EACCES))
-    m_descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    m_descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (m_descriptor < 0 && errno == ENOENT)
     return;
   if (m_descriptor < 0)
     throwForErrno(errno, path);
-  m_held = ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0;
   struct stat info
   {
   };
+  if (::fstat(m_descriptor, &info) == 0 && !S_ISREG(info.st_mode))
+  {
+    ::close(m_descriptor);
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       core::printable(path) + ": is not a regular file; remove it");
+  }
+  m_held = ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0;
   if (::fstat(m_descriptor, &info) == 0 && info.st_nlink > 0)
   {
     m_size = static_cast<std::size_t>(info.st_size);
@@ -269,8 +326,10 @@ void JournalFile::write(std::string_view bytes)
 
 void JournalFile::moveTo(const fs::path& path)
 {
-  renameDurably(m_path, path);
+  if (::rename(m_path.c_str(), path.c_str()) != 0)
+    throwForErrno(errno, path);
   m_path = path;
+  core::syncFolder(path.parent_path());
 }
 
 void JournalFile::remove() noexcept

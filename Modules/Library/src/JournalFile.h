@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "petrous/Library/Journal.h"
+
 namespace petrous::library
 {
 
@@ -27,16 +29,28 @@ struct JournalFrame
   std::vector<std::uint8_t> bytes;
 };
 
+/// The state from which the session went on. What follows `strokes` is missing in journals of older
+/// programs.
 struct JournalHead
 {
+  JournalHead() = default;
+  explicit JournalHead(const SavedState& base);
+
   std::string caseName;
-  std::uint64_t revision = 0; ///< of the manifest from which the session went on
+  std::uint64_t revision = 0; ///< of the manifest
   std::size_t strokes = 0;    ///< that it has
+  std::string ct;             ///< its object
+  std::string strokesHash;    ///< of the names of their objects
+  std::string history;        ///< scene::toText
 };
+
+/// What JournalHead::strokesHash says of these strokes.
+std::string hashOfNames(const std::vector<std::string>& strokes);
 
 struct JournalContent
 {
-  bool headed = false; ///< else nothing of the rest is known
+  bool headed = false;  ///< else nothing of the rest is known
+  bool started = false; ///< else the writer ended before its head was whole
   JournalHead head;
   std::vector<JournalFrame> frames; ///< the good ones up to the first that is not
   std::size_t leftOver = 0;         ///< bytes behind them
@@ -58,7 +72,7 @@ std::filesystem::path setAside(const std::filesystem::path& journal);
 class JournalFile
 {
 public:
-  /// Makes the file with its head. Throws LibraryError.
+  /// Makes the file with its head. Throws LibraryError: Conflict where another process has one.
   JournalFile(const std::filesystem::path& path, const JournalHead& head);
 
   /// One that is there. `held()` is false where a live program has it, `there()` where it is gone.

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <fstream>
 #include <optional>
-#include <sstream>
+#include <random>
 
 #include <sys/stat.h>
 
 #include "Catalogue.h"
-#include "DurableFile.h"
+#include "Graft.h"
 #include "JournalFile.h"
+#include "LibraryFolder.h"
+#include "ManifestFile.h"
+#include "ObjectChecks.h"
 #include "Recovery.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -29,50 +31,11 @@ namespace
 
 using Reason = LibraryError::Reason;
 
-std::string readText(const fs::path& path)
+// An object that is gone (its last case was deleted meanwhile) is written again where the part is
+// still in memory.
+bool mustStore(const std::string& object, const ObjectStore& store)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file)
-    throw LibraryError(Reason::Damaged, path.string() + ": cannot be read");
-  return text.str();
-}
-
-struct FileState
-{
-  Catalogue::Stamp stamp;
-  std::string modified;
-};
-
-std::optional<FileState> stateOf(const fs::path& path)
-{
-  struct stat info
-  {
-  };
-  if (::stat(path.c_str(), &info) != 0)
-    return std::nullopt;
-  std::tm utc{};
-  ::gmtime_r(&info.st_mtim.tv_sec, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return FileState{
-      {static_cast<std::uintmax_t>(info.st_size),
-       static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1000000000 + info.st_mtim.tv_nsec},
-      text};
-}
-
-CaseSummary summaryOf(const scene::Case& value, const std::string& modified)
-{
-  CaseSummary summary;
-  summary.name = value.name;
-  summary.modified = modified;
-  summary.dims = value.ct.geometry.dims();
-  for (const auto& part : value.labels)
-    summary.structures += part.structures.size();
-  summary.strokes = value.applied();
-  summary.removed = value.removedVolume();
-  return summary;
+  return object.empty() || !store.contains(object);
 }
 
 // Puts the voxels of every part that has no object yet into the store.
@@ -80,7 +43,7 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
 {
   const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
   {
-    if (image.object.empty())
+    if (mustStore(image.object, store))
       image.object = store.add("nrrd", [&](const fs::path& path)
                                { imaging::writeRawNrrd(path, *image.volume.get(), part); });
   };
@@ -88,26 +51,51 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
   for (auto& mr : value.mr)
     storeImage(mr, progress.part(0.7, 0.8));
   for (auto& part : value.labels)
-    if (part.object.empty())
+    if (mustStore(part.object, store))
       part.object = store.add("seg.nrrd", [&](const fs::path& path)
                               { imaging::writeLabelFile(path, *part.labels.get()); });
   progress.report(0.9, "saving");
   for (auto& mesh : value.meshes)
-    if (mesh.object.empty())
+    if (mustStore(mesh.object, store))
       mesh.object = store.add("obj", [&](const fs::path& path)
                               { imaging::writeMesh(path, *mesh.mesh.get()); });
   for (scene::StrokePart& part : value.strokes)
-    if (part.object.empty())
+    if (mustStore(part.object, store))
     {
+      if (!part.stroke)
+        store.path(part.object); // says that it is missing
       part.bytes = part.stroke->packed.size();
       part.object = store.add("stroke", part.stroke->packed);
     }
+}
+
+std::string randomId()
+{
+  std::random_device random;
+  char text[33];
+  std::snprintf(text, sizeof text, "%08x%08x%08x%08x", random(), random(), random(), random());
+  return text;
+}
+
+std::string structureNames(const scene::LabelPart& part)
+{
+  std::string names;
+  for (std::size_t n = 0; n < part.structures.size() && n < 3; ++n)
+    names += (n > 0 ? ", '" : "'") + part.structures[n].name + "'";
+  return names + (part.structures.size() > 3 ? " and others" : "");
+}
+
+std::string imageText(const scene::Case& value, const scene::ImagePart& image)
+{
+  return (&image == &value.ct ? "the CT" : "MR '" + image.name + "'") + " of case '" + value.name +
+         "'";
 }
 
 } // namespace
 
 Library::Library(fs::path folder)
   : m_folder(std::move(folder))
+  , m_checks(std::make_shared<ObjectChecks>())
 {
 }
 
@@ -121,33 +109,44 @@ fs::path Library::objectFolder() const
   return m_folder / "objects";
 }
 
+fs::path Library::checkedManifestPath(const std::string& name) const
+{
+  fs::path path = manifestPath(name);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(path, error)))
+    return path;
+  std::string there;
+  for (const CaseSummary& summary : list())
+    there += (there.empty() ? "" : ", ") + summary.name;
+  throw LibraryError(Reason::NotFound,
+                     "no case '" + name + "' in " + m_folder.string() + "; " +
+                         (there.empty() ? "the library is empty" : "there are: " + there));
+}
+
+scene::Case Library::readManifest(const std::string& name) const
+{
+  return manifestIn(manifestPath(name), name);
+}
+
 std::vector<CaseSummary> Library::list() const
 {
   std::vector<CaseSummary> cases;
-  const Catalogue catalogue(m_folder / "library.sqlite");
-  std::error_code error;
-  fs::directory_iterator entry(m_folder / "cases", error);
-  // A library that was never saved to has no folder yet; anything else is a fault to be told.
-  if (error && error != std::errc::no_such_file_or_directory)
-    throw LibraryError(Reason::Damaged,
-                       (m_folder / "cases").string() + ": cannot be read (" + error.message() +
-                           "); give the library's folder and check its permissions");
-  for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
+  const auto known = Catalogue(m_folder / "library.sqlite").entries();
+  for (const std::string& name : namesIn(m_folder / "cases"))
   {
-    const fs::path& path = entry->path();
-    const auto state = stateOf(path);
-    if (path.extension() != ".json" || path.filename().string()[0] == '.' || !state)
-      continue;
-    const std::string name = path.stem().string();
-    if (auto known = catalogue.find(name, state->stamp))
+    const auto state = stateOf(manifestPath(name));
+    if (!state)
+      continue; // removed just now
+    const auto entry = known.find(name);
+    if (entry != known.end() && entry->second.stamp.size == state->stamp.size &&
+        entry->second.stamp.changed == state->stamp.changed)
     {
-      cases.push_back(std::move(*known));
+      cases.push_back(entry->second.summary);
       continue;
     }
     try
     {
-      cases.push_back(
-          summaryOf(scene::fromManifest(readText(path), path.string()), state->modified));
+      cases.push_back(summaryOf(readManifest(name), state->modified));
     }
     catch (const core::Error&)
     {
@@ -158,33 +157,23 @@ std::vector<CaseSummary> Library::list() const
       cases.push_back(std::move(damaged));
     }
   }
-  std::sort(cases.begin(), cases.end(),
-            [](const CaseSummary& a, const CaseSummary& b) { return a.name < b.name; });
   return cases;
 }
 
 bool Library::contains(const std::string& name) const
 {
   scene::checkCaseName(name);
-  return fs::exists(manifestPath(name));
+  std::error_code error;
+  return fs::exists(fs::symlink_status(manifestPath(name), error));
 }
 
 scene::Case Library::open(const std::string& name) const
 {
   scene::checkCaseName(name);
-  const fs::path path = manifestPath(name);
-  if (!fs::exists(path))
-  {
-    std::string there;
-    for (const CaseSummary& summary : list())
-      there += (there.empty() ? "" : ", ") + summary.name;
-    throw LibraryError(Reason::NotFound,
-                       "no case '" + name + "' in " + m_folder.string() + "; " +
-                           (there.empty() ? "the library is empty" : "there are: " + there));
-  }
-  const auto read = [&path] { return scene::fromManifest(readText(path), path.string()); };
+  checkedManifestPath(name);
+  const auto read = [this, &name] { return readManifest(name); };
   scene::Case value = read();
-  if (value.name == name && fs::exists(journalPath(m_folder, name)))
+  if (fs::exists(journalPath(m_folder, name)))
   {
     const std::string words = recover(*this, value, read);
     if (m_notice && !words.empty())
@@ -197,24 +186,34 @@ scene::Case Library::open(const std::string& name) const
 void Library::attach(scene::Case& value) const
 {
   const ObjectStore store(objectFolder());
-  const auto attachImage = [&store](scene::ImagePart& image)
+  const auto attachImage = [&](scene::ImagePart& image)
   {
     image.volume = core::Lazy<volume::IntensityVolume>(
-        [store, object = image.object] { return imaging::mapRawNrrd(store.path(object)); });
+        [store, checks = m_checks, object = image.object, what = imageText(value, image)]
+        {
+          const fs::path path = store.path(object);
+          auto volume = imaging::mapRawNrrd(path);
+          checks->start(path, what);
+          return volume;
+        });
   };
   attachImage(value.ct);
   for (auto& mr : value.mr)
     attachImage(mr);
   for (auto& part : value.labels)
     part.labels = core::Lazy<volume::LabelMap>(
-        [store, object = part.object] {
+        [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'"]
+        {
           return std::make_shared<const volume::LabelMap>(
-              imaging::readLabelFile(store.path(object)));
+              imaging::readLabelFile(store.checkedPath(object, what)));
         });
   for (auto& mesh : value.meshes)
     mesh.mesh = core::Lazy<core::TriangleMesh>(
-        [store, object = mesh.object] {
-          return std::make_shared<const core::TriangleMesh>(imaging::readMesh(store.path(object)));
+        [store, object = mesh.object,
+         what = "mesh '" + mesh.name + "' of case '" + value.name + "'"]
+        {
+          return std::make_shared<const core::TriangleMesh>(
+              imaging::readMesh(store.checkedPath(object, what)));
         });
 }
 
@@ -225,9 +224,13 @@ void Library::loadDissection(scene::Case& value) const
   const ObjectStore store(objectFolder());
   std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
   for (const scene::StrokePart& part : value.strokes)
-    strokes.push_back(part.stroke ? part.stroke
-                                  : std::make_shared<const dissection::Stroke>(dissection::Stroke{
-                                        part.info, store.readWhole(part.object)}));
+    strokes.push_back(
+        part.stroke
+            ? part.stroke
+            : std::make_shared<const dissection::Stroke>(dissection::Stroke{
+                  part.info,
+                  store.readChecked(part.object, "stroke " + std::to_string(strokes.size() + 1) +
+                                                     " of case '" + value.name + "'")}));
   try
   {
     value.dissection =
@@ -241,6 +244,33 @@ void Library::loadDissection(scene::Case& value) const
     value.strokes[n].stroke = std::move(strokes[n]);
 }
 
+void Library::checkVoxels(const scene::Case& value, const core::Progress& progress) const
+{
+  const ObjectStore store(objectFolder());
+  std::string damage;
+  const auto check = [&](const scene::ImagePart& image)
+  {
+    const bool resident = image.volume.peek() != nullptr;
+    if (image.object.empty() || (!resident && &image != &value.ct))
+      return;
+    const fs::path path = store.path(image.object);
+    if (resident && !m_checks->knows(path))
+      return; // made here, and not read from the library
+    const std::string words = m_checks->wait(path, imageText(value, image), progress);
+    damage += (damage.empty() || words.empty() ? "" : "; ") + words;
+  };
+  check(value.ct);
+  for (const auto& mr : value.mr)
+    check(mr);
+  if (!damage.empty())
+    throw LibraryError(Reason::Damaged, damage);
+}
+
+std::vector<std::string> Library::damageFound() const
+{
+  return m_checks->found();
+}
+
 void Library::save(scene::Case& value, const core::Progress& progress)
 {
   scene::checkCaseName(value.name);
@@ -249,42 +279,126 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   const FolderLock lock(m_folder / ".lock");
 
   const fs::path path = manifestPath(value.name);
-  if (value.revision == 0 && fs::exists(path))
+  const bool there = contains(value.name);
+  if (value.revision == 0 && there)
     throw LibraryError(Reason::NameTaken, "case '" + value.name + "' is there already in " +
                                               m_folder.string() + "; choose another name");
-  if (value.revision != 0)
+  if (value.revision == 0)
+    setOrphanAside(m_folder, value.name);
+  else
   {
-    const bool there = fs::exists(path);
-    const auto present =
-        there ? scene::fromManifest(readText(path), path.string()).revision : std::uint64_t{0};
-    if (present != value.revision)
+    const scene::Case present = there ? readManifest(value.name) : scene::Case{};
+    if (present.revision != value.revision || present.id != value.id)
       throw LibraryError(
           Reason::Conflict,
           "case '" + value.name + "' was " + (there ? "changed" : "removed") +
               " by another program since it was opened; open it again and repeat what you did");
   }
 
+  removeLeftovers(objectFolder());
+  removeLeftovers(m_folder / "cases");
   ObjectStore store(objectFolder());
-  store.removeLeftovers();
+  bool onDisk = true;
   try
   {
     scene::Case next = value;
     storeParts(next, store, progress);
+    if (next.revision == 0)
+      next.id = randomId();
     ++next.revision;
     progress.report(0.95, "saving");
     const std::string manifest = scene::toManifest(next);
     scene::fromManifest(manifest, path.string()); // what cannot be read again is never written
-    replaceDurably(path, manifest);
+    core::OutputFile file(path);
+    file.write(manifest);
+    onDisk = file.commit();
+    // The manifest is published: from here on nothing is taken back.
     store.forget();
     value = std::move(next);
+  }
+  catch (const core::OutputFileError& error)
+  {
+    store.discardNew();
+    throw libraryError(error, "case '" + value.name + "' is as it was");
   }
   catch (...)
   {
     store.discardNew();
     throw;
   }
+  if (!onDisk && m_notice)
+    m_notice("case '" + value.name + "' is saved, but the disk reported an error; check the disk");
   if (const auto state = stateOf(path))
     Catalogue(m_folder / "library.sqlite").put(summaryOf(value, state->modified), state->stamp);
+}
+
+std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
+                                 const core::Progress& progress)
+{
+  constexpr int kAttempts = 20; // somebody else saves again and again
+  for (int attempt = 1;; ++attempt)
+  {
+    try
+    {
+      save(value, progress);
+      return {};
+    }
+    catch (const LibraryError& error)
+    {
+      if (error.reason != Reason::Conflict || attempt == kAttempts)
+        throw;
+    }
+    if (auto now = mergedWithSaved(value, base))
+    {
+      try
+      {
+        save(*now, progress);
+      }
+      catch (const LibraryError& error)
+      {
+        if (error.reason != Reason::Conflict || attempt == kAttempts)
+          throw;
+        continue;
+      }
+      value = std::move(*now);
+      return "case '" + value.name +
+             "' was changed by another program meanwhile; what was drilled was added to it, on "
+             "branch '" +
+             value.history.branch().name + "'";
+    }
+    scene::Case own = value;
+    own.revision = 0;
+    for (int n = 1; own.name == value.name || contains(own.name); ++n)
+      own.name = value.name.substr(0, 80) + " drilled " + std::to_string(n);
+    save(own, progress);
+    const std::string name = std::exchange(value, std::move(own)).name;
+    return "case '" + name +
+           "' was removed or changed by another program meanwhile so that what was drilled does "
+           "not fit; it was saved as case '" +
+           value.name + "'";
+  }
+}
+
+// What another program saved, with the strokes drilled since `base`; nothing where they do not fit.
+std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
+                                                    const SavedState& base) const
+{
+  if (!contains(value.name) || value.strokes.size() < base.strokes.size())
+    return std::nullopt;
+  try
+  {
+    scene::Case now = readManifest(value.name);
+    if (now.id != base.id || !goesOnFrom(now, base))
+      return std::nullopt;
+    attach(now);
+    loadDissection(now);
+    const auto first = value.strokes.begin() + static_cast<std::ptrdiff_t>(base.strokes.size());
+    return graft(now, base, {{first, value.strokes.end()}, value.history});
+  }
+  catch (const core::Error&) // damaged meanwhile
+  {
+    return std::nullopt;
+  }
 }
 
 } // namespace petrous::library

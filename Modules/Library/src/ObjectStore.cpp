@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <memory>
 
 #include <openssl/evp.h>
+#include <unistd.h>
 
-#include "DurableFile.h"
+#include "LibraryFolder.h"
 
 namespace petrous::library
 {
@@ -53,24 +53,45 @@ bool isObjectName(const std::string& name)
          name.find('/') == std::string::npos;
 }
 
+[[noreturn]] void throwDamaged(const fs::path& object, const std::string& what)
+{
+  throw LibraryError(LibraryError::Reason::Damaged,
+                     core::printable(object) + ": " + what +
+                         ", is not what was stored there; restore the file from a copy of the "
+                         "library, or import it again");
+}
+
 } // namespace
 
-std::string sha256OfFile(const fs::path& path)
+std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
+try
 {
-  std::ifstream file(path, std::ios::binary);
+  const core::InputFile file(path);
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
                                                                         &EVP_MD_CTX_free);
-  if (!file || !context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1)
-    throw LibraryError(LibraryError::Reason::NotFound, path.string() + ": cannot be read");
+  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1)
+    throw std::bad_alloc();
   std::vector<char> block(1 << 20);
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
-    EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(file.gcount()));
-  if (file.bad())
-    throw LibraryError(LibraryError::Reason::Damaged,
-                       path.string() + ": cannot be read to its end");
+  for (std::uintmax_t done = 0; done < file.size();)
+  {
+    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), "checking");
+    const ssize_t got =
+        ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got <= 0)
+      throw LibraryError(LibraryError::Reason::Damaged,
+                         core::printable(path) + ": cannot be read to its end");
+    EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(got));
+    done += static_cast<std::uintmax_t>(got);
+  }
   Digest digest{};
   EVP_DigestFinal_ex(context.get(), digest.data(), nullptr);
   return hexadecimal(digest);
+}
+catch (const core::InputFileError& error)
+{
+  throw libraryError(error);
 }
 
 std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
@@ -78,6 +99,12 @@ std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
   Digest digest{};
   EVP_Digest(bytes, count, digest.data(), nullptr, EVP_sha256(), nullptr);
   return hexadecimal(digest);
+}
+
+void checkObject(const fs::path& object, const std::string& what, const core::Progress& progress)
+{
+  if (sha256OfFile(object, progress) != object.filename().string().substr(0, kHashDigits))
+    throwDamaged(object, what);
 }
 
 ObjectStore::ObjectStore(fs::path folder)
@@ -89,57 +116,112 @@ std::string ObjectStore::add(const std::string& ending,
                              const std::function<void(const fs::path&)>& write)
 {
   makeFolder(m_folder);
-  const TemporaryFile temporary{temporaryBeside(m_folder / ("object." + ending))};
+  // Writers choose the format by the ending.
+  const TemporaryFile temporary{core::temporaryBeside(m_folder / ending).string() + "." + ending};
   write(temporary.path);
   const std::string name = sha256OfFile(temporary.path) + "." + ending;
   const fs::path target = m_folder / name;
-  if (!fs::exists(target))
-  {
+  const bool there = contains(name);
+  if (there && sha256OfFile(target) == name.substr(0, kHashDigits))
+    return name;
+  if (!there)
     m_new.push_back(target);
-    renameDurably(temporary.path, target);
-  }
+  if (::rename(temporary.path.c_str(), target.c_str()) != 0)
+    throwForErrno(errno, target);
+  settle(core::syncFolder(m_folder));
   return name;
 }
 
 std::string ObjectStore::add(const std::string& ending, const std::vector<std::uint8_t>& bytes)
 {
-  return add(ending,
-             [&bytes](const fs::path& path) {
-               writeDurably(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-             });
+  makeFolder(m_folder);
+  const std::string name = sha256Of(bytes.data(), bytes.size()) + "." + ending;
+  const fs::path target = m_folder / name;
+  const bool there = contains(name);
+  if (there && sha256OfFile(target) == name.substr(0, kHashDigits))
+    return name;
+  if (!there)
+    m_new.push_back(target);
+  settle(core::writeFile(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+  return name;
+}
+
+// An object must be on the disk before a manifest names it.
+void ObjectStore::settle(bool synced) const
+{
+  if (!synced)
+    throw LibraryError(LibraryError::Reason::Unwritable,
+                       core::printable(m_folder) +
+                           ": the disk does not confirm what was written; check the disk");
+}
+
+bool ObjectStore::contains(const std::string& object) const noexcept
+{
+  std::error_code error;
+  return isObjectName(object) && fs::is_regular_file(m_folder / object, error);
 }
 
 fs::path ObjectStore::path(const std::string& object) const
 {
   if (!isObjectName(object))
     throw LibraryError(LibraryError::Reason::Damaged,
-                       m_folder.string() + ": the case names an object that is no object name");
+                       core::printable(m_folder) +
+                           ": the case names an object that is no object name");
   fs::path result = m_folder / object;
-  if (!fs::exists(result))
+  if (!contains(object))
     throw LibraryError(LibraryError::Reason::NotFound,
-                       result.string() + ": missing; restore the library from a copy");
+                       core::printable(result) + ": missing; restore the library from a copy");
   return result;
 }
 
-std::vector<std::uint8_t> ObjectStore::read(const std::string& object) const
+fs::path ObjectStore::checkedPath(const std::string& object, const std::string& what) const
 {
-  const fs::path file = path(object);
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(fs::file_size(file)));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream)
-    throw LibraryError(LibraryError::Reason::Damaged, file.string() + ": cannot be read");
-  return bytes;
+  fs::path result = path(object);
+  checkObject(result, what);
+  return result;
 }
 
-std::vector<std::uint8_t> ObjectStore::readWhole(const std::string& object) const
+std::vector<std::uint8_t> ObjectStore::readChecked(const std::string& object,
+                                                   const std::string& what) const
+try
 {
-  auto bytes = read(object);
+  const fs::path file = path(object);
+  const std::string text = core::readFile(file);
+  std::vector<std::uint8_t> bytes(text.begin(), text.end());
   if (sha256Of(bytes.data(), bytes.size()) != object.substr(0, kHashDigits))
-    throw LibraryError(LibraryError::Reason::Damaged,
-                       path(object).string() +
-                           ": is not what was written there; restore the library from a copy");
+    throwDamaged(file, what);
   return bytes;
+}
+catch (const core::InputFileError& error)
+{
+  throw libraryError(error);
+}
+
+std::vector<std::pair<std::string, std::uintmax_t>> ObjectStore::list() const
+{
+  std::vector<std::pair<std::string, std::uintmax_t>> objects;
+  std::error_code error;
+  for (fs::directory_iterator entry(m_folder, error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    std::error_code none;
+    const std::uintmax_t size = entry->file_size(none);
+    if (isObjectName(name) && !none)
+      objects.emplace_back(name, size);
+  }
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       core::printable(m_folder) + ": cannot be read; check the permissions");
+  std::sort(objects.begin(), objects.end());
+  return objects;
+}
+
+void ObjectStore::remove(const std::string& object)
+{
+  const fs::path file = path(object);
+  if (::unlink(file.c_str()) != 0)
+    throwForErrno(errno, file);
 }
 
 void ObjectStore::discardNew() noexcept
@@ -155,18 +237,6 @@ void ObjectStore::discardNew() noexcept
 void ObjectStore::forget() noexcept
 {
   m_new.clear();
-}
-
-void ObjectStore::removeLeftovers() noexcept
-{
-  std::error_code error;
-  for (fs::directory_iterator entry(m_folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (entry->path().filename().string().rfind(".", 0) == 0)
-    {
-      std::error_code ignored;
-      fs::remove(entry->path(), ignored);
-    }
 }
 
 } // namespace petrous::library

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "Graft.h"
 #include "JournalFile.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/ObjectStore.h"
@@ -37,7 +39,8 @@ Standing standingOf(const JournalContent& content, const scene::Case& value)
 {
   Standing standing;
   const JournalHead& head = content.head;
-  if (head.caseName != value.name || head.strokes > value.strokes.size())
+  if (head.caseName != value.name || head.strokes > value.strokes.size() ||
+      (!head.ct.empty() && head.ct != value.ct.object))
     return standing;
   const std::size_t since = value.strokes.size() - head.strokes;
   if (head.revision == value.revision)
@@ -122,6 +125,63 @@ std::string inWords(const Recovered& what, std::size_t leftOver)
   return text + (leftOver > 0 ? " (the end of its journal was not whole)" : "");
 }
 
+// The state that the journal goes on from, where the case has gone on from it too: another program
+// saved it meanwhile.
+std::optional<SavedState> commonState(const JournalContent& content, const scene::Case& value)
+{
+  const JournalHead& head = content.head;
+  if (head.history.empty() || head.caseName != value.name || head.strokes > value.strokes.size())
+    return std::nullopt;
+  SavedState base;
+  base.name = value.name;
+  base.ct = head.ct;
+  for (std::size_t n = 0; n < head.strokes; ++n)
+    base.strokes.push_back(value.strokes[n].object);
+  if (head.ct != value.ct.object || hashOfNames(base.strokes) != head.strokesHash)
+    return std::nullopt;
+  try
+  {
+    base.history = scene::historyFromText(head.history);
+  }
+  catch (const core::InvalidParameter&)
+  {
+    return std::nullopt;
+  }
+  if (base.history.size() != head.strokes)
+    return std::nullopt;
+  return base;
+}
+
+// Whether the case has all strokes of the journal: saved before the program was killed.
+bool isSpent(const JournalContent& content, const scene::Case& value)
+{
+  std::size_t at = content.head.strokes;
+  bool any = false;
+  bool open = false;
+  for (const JournalFrame& frame : content.frames)
+  {
+    open = frame.kind == Kind::Part || (open && frame.kind != Kind::Stroke);
+    if (frame.kind != Kind::Stroke)
+      continue;
+    any = true;
+    while (at < value.strokes.size() && value.strokes[at].object != nameIn(frame))
+      ++at;
+    if (at == value.strokes.size())
+      return false;
+    ++at;
+  }
+  return any && !open;
+}
+
+// The dissection as it was at an earlier state.
+dissection::Dissection atState(const scene::Case& value, const SavedState& base)
+{
+  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
+  for (std::size_t n = 0; n < base.strokes.size(); ++n)
+    strokes.push_back(value.strokes[n].stroke);
+  return {value.ct.geometry, std::move(strokes), base.history};
+}
+
 // The case with what the dissection has more.
 scene::Case withNew(scene::Case value, const dissection::Dissection& work)
 {
@@ -142,10 +202,10 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   const std::string about = "case '" + value.name + "': ";
   const auto aside = [&](const std::string& why)
   { return about + why + "; it was set aside as " + setAside(path).string(); };
+  if (!content.headed && content.started)
+    return aside("the journal of a session that ended without saving cannot be read");
   if (!content.headed)
   {
-    if (bytes.size() > encoded(JournalHead{value.name, value.revision, 0}).size() + 8)
-      return aside("the journal of a session that ended without saving cannot be read");
     file.remove(); // it ended before anything was in it
     return {};
   }
@@ -157,7 +217,13 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
     file.remove(); // nobody drilled
     return {};
   }
-  if (!standing.fits)
+  if (!standing.fits && isSpent(content, value))
+  {
+    file.remove();
+    return {};
+  }
+  const std::optional<SavedState> base = standing.fits ? std::nullopt : commonState(content, value);
+  if (!standing.fits && !base)
     return aside("the journal of a session that ended without saving belongs to another state of "
                  "the case");
   scene::Case next = value;
@@ -165,7 +231,19 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   try
   {
     library.loadDissection(next);
-    what = play(content, standing.saved, *next.dissection);
+    if (base)
+    {
+      Drilled drilled;
+      dissection::Dissection work = atState(next, *base);
+      what = play(content, 0, work);
+      drilled.history = work.history();
+      for (std::size_t n = base->strokes.size(); n < work.strokes().size(); ++n)
+        drilled.strokes.push_back(
+            {"", work.strokes()[n]->packed.size(), work.strokes()[n]->info, work.strokes()[n]});
+      next = graft(next, *base, drilled);
+    }
+    else
+      what = play(content, standing.saved, *next.dissection);
   }
   catch (const core::InvalidParameter& error)
   {
@@ -193,7 +271,10 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   if (what.strokes == 0 && what.part < 0.0 && !moved)
     return {};
   return about + "the last session ended without saving; " + inWords(what, content.leftOver) +
-         " came back";
+         " came back" +
+         (base ? ", on branch '" + value.history.branch().name +
+                     "', as another program had changed the case"
+               : "");
 }
 
 } // namespace

@@ -149,6 +149,7 @@ Case caseIn(const json& j)
   const auto presets = appearance::StructurePresets::builtIn();
   Case value;
   value.name = j.at("name").get<std::string>();
+  value.id = j.value("id", std::string());
   value.revision = j.at("revision").get<std::uint64_t>();
   value.iso = j.at("iso_hu").get<double>();
   value.denseBone = j.value("dense_bone_hu", value.denseBone);
@@ -221,6 +222,8 @@ std::string toManifest(const Case& value)
     j["labels"].push_back(labelsOut(part));
   for (const MeshPart& mesh : value.meshes)
     j["meshes"].push_back(meshOut(mesh));
+  if (!value.id.empty())
+    j["id"] = value.id;
   if (value.camera)
     j["camera"] = cameraOut(*value.camera);
   json strokes = json::array();

@@ -15,6 +15,20 @@ namespace petrous::library
 
 class JournalFile;
 
+/// A case as its manifest has it, as far as strokes go on from it.
+struct SavedState
+{
+  SavedState() = default;
+  SavedState(const scene::Case& saved); ///< one that was just opened or saved
+
+  std::string name;
+  std::string id;
+  std::uint64_t revision = 0;
+  std::string ct;                   ///< its object
+  std::vector<std::string> strokes; ///< their objects
+  dissection::History history;
+};
+
 /// What was drilled since a case was saved, on the disk: strokes as they end, and of a long stroke
 /// what was drilled every `kInterval` seconds, so that a kill loses no more than that.
 /// Library::open brings it back.
@@ -36,10 +50,14 @@ public:
   /// `follow`, once a part is due.
   using Measure = std::function<dissection::StrokeInfo(const dissection::Dissection&)>;
 
-  /// For a case that is saved and has its dissection loaded, as it is now. Where there is no
-  /// `measure`, parts say of their stroke what Dissection::openInfo does. Throws LibraryError:
-  /// Conflict where another program that runs is drilling in this case.
-  Journal(const Library& library, const scene::Case& value, Measure measure = {});
+  /// For a case of the library, as it was opened or saved; what was drilled since then is told with
+  /// `follow`. Where there is no `measure`, parts say of their stroke what Dissection::openInfo
+  /// does. Throws LibraryError: Conflict where another process is drilling in this case.
+  Journal(const Library& library, SavedState saved, Measure measure = {});
+
+  /// Makes the file at once, so that nobody else starts drilling in this case. Throws LibraryError
+  /// as the constructor, and where nothing can be written.
+  void claim();
 
   /// Removes the file: whoever ends in order has saved, or does not want to.
   ~Journal();
@@ -55,7 +73,10 @@ public:
 
   /// The case was saved: what it holds leaves the file, and what was drilled since stays there.
   /// Throws LibraryError; the file then still has all of it.
-  void saved(const scene::Case& value);
+  void saved(SavedState now);
+
+  /// What is not saved stays on the disk when this object goes: Library::open brings it back.
+  void leave();
 
   std::size_t bytes() const; ///< in the file
 
@@ -68,19 +89,18 @@ private:
   };
 
   void write(std::vector<Kept> frames);
+  void makeFile();
   std::optional<Kept> partOf(const dissection::Dissection& work);
 
   mutable std::mutex m_mutex;
   std::filesystem::path m_folder;
-  std::string m_name;
-  std::uint64_t m_revision = 0;
-  std::size_t m_base = 0; ///< strokes of the saved case
+  SavedState m_base;
   Measure m_measure;
   std::unique_ptr<JournalFile> m_file;
   std::vector<Kept> m_kept; ///< what the file holds
 
-  std::size_t m_written = 0;   ///< strokes that the case or the file has
-  std::uint64_t m_changes = 0; ///< Dissection::changes() then
+  std::size_t m_written = 0;     ///< strokes that the case or the file has
+  dissection::History m_history; ///< that it has
   bool m_open = false;
   std::optional<volume::CutMask> m_last; ///< as of the last part; none: as the stroke began
   Clock::time_point m_lastWall;

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "petrous/Core/Progress.h"
 #include "petrous/Library/LibraryError.h"
 
 namespace petrous::library
@@ -21,31 +23,37 @@ class ObjectStore
 public:
   explicit ObjectStore(std::filesystem::path folder);
 
-  /// Lets `write` make a file at a temporary path, then takes it in; returns the object's name.
-  /// Throws what `write` throws, and LibraryError; leaves nothing behind then.
+  /// Lets `write` make a file at a temporary path, then takes it in, durably; returns the object's
+  /// name. An object that is there already is held against its name, and replaced where it is
+  /// damaged. Throws what `write` throws, LibraryError and core::OutputFileError; leaves nothing
+  /// behind then.
   std::string add(const std::string& ending,
                   const std::function<void(const std::filesystem::path&)>& write);
 
   std::string add(const std::string& ending, const std::vector<std::uint8_t>& bytes);
 
+  bool contains(const std::string& object) const noexcept;
+
   /// Path of an object that is there; throws LibraryError (NotFound) naming it otherwise, and
   /// (Damaged) for a name that is no object name.
   std::filesystem::path path(const std::string& object) const;
 
-  std::vector<std::uint8_t> read(const std::string& object) const;
-
   /// The same, and the content must have the hash that the name says: throws LibraryError (Damaged)
-  /// otherwise.
-  std::vector<std::uint8_t> readWhole(const std::string& object) const;
+  /// otherwise. `what` names for the user what the object is.
+  std::filesystem::path checkedPath(const std::string& object, const std::string& what) const;
+  std::vector<std::uint8_t> readChecked(const std::string& object, const std::string& what) const;
+
+  /// Every object with its size in bytes.
+  std::vector<std::pair<std::string, std::uintmax_t>> list() const;
+  void remove(const std::string& object); ///< throws LibraryError
 
   /// Objects that this store added since `forget`, newest last; `discardNew` removes them again.
   void discardNew() noexcept;
   void forget() noexcept;
 
-  /// Removes the temporary files (names with a dot in front) that a killed writer left.
-  void removeLeftovers() noexcept;
-
 private:
+  void settle(bool synced) const;
+
   std::filesystem::path m_folder;
   std::vector<std::filesystem::path> m_new;
 };
@@ -54,6 +62,10 @@ private:
 std::string sha256Of(const std::uint8_t* bytes, std::size_t count);
 
 /// SHA-256 of a file in lower-case hexadecimal. Throws LibraryError when it cannot be read.
-std::string sha256OfFile(const std::filesystem::path& path);
+std::string sha256OfFile(const std::filesystem::path& path, const core::Progress& progress = {});
+
+/// Throws LibraryError (Damaged, NotFound) where a file's content is not what its name says.
+void checkObject(const std::filesystem::path& object, const std::string& what,
+                 const core::Progress& progress = {});
 
 } // namespace petrous::library

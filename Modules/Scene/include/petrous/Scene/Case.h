@@ -74,6 +74,7 @@ struct StrokePart
 struct Case
 {
   std::string name;
+  std::string id;             ///< random, of the saved case; a copy has another; may be empty
   std::uint64_t revision = 0; ///< of the manifest on disk; 0: never saved
   double iso = 300.0;         ///< HU
   /// HU of dense bone, where presets put their densest look; another number in an image that is not

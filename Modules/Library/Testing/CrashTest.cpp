@@ -1,0 +1,213 @@
+#include <cerrno>
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include "../../Core/Testing/SystemCalls.h"
+#include "TestCase.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Library/Journal.h"
+#include "petrous/Library/ObjectStore.h"
+
+using namespace petrous;
+using namespace petrous::library;
+using petrous::testing::SystemCalls;
+using test::contentOf;
+using test::drill;
+using test::smallCase;
+using test::TemporaryFolder;
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// Runs `work` in a child that is killed at each call that changes files, one after the other, on a
+// fresh copy of `from` each time; `check` sees what is left.
+template <class Work, class Check>
+void killedAtEachStep(const fs::path& from, const Work& work, const Check& check)
+{
+  const TemporaryFolder place;
+  for (int step = 1, ended = 0; ended == 0; ++step)
+  {
+    ASSERT_LT(step, 400);
+    const fs::path copy = place.path() / std::to_string(step);
+    fs::copy(from, copy, fs::copy_options::recursive);
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      try
+      {
+        Library library(copy);
+        SystemCalls::killAt(step);
+        work(library);
+        SystemCalls::reset();
+        ::_exit(0);
+      }
+      catch (...)
+      {
+        ::_exit(1);
+      }
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (WIFEXITED(status))
+    {
+      ASSERT_EQ(WEXITSTATUS(status), 0);
+      ended = 1;
+    }
+    Library library(copy);
+    check(library, ended != 0, step);
+    fs::remove_all(copy);
+  }
+}
+
+} // namespace
+
+TEST(Crash, KilledAtEachStepOfASaveIsTheOldCaseOrTheNew)
+{
+  const TemporaryFolder folder;
+  {
+    Library library(folder.path());
+    scene::Case value = smallCase("ear", 16);
+    library.save(value);
+  }
+  int olds = 0;
+  killedAtEachStep(
+      folder.path(),
+      [](Library& library)
+      {
+        scene::Case own = library.open("ear");
+        library.loadDissection(own);
+        drill(own, {8, 8, 8});
+        library.save(own);
+      },
+      [&olds](Library& library, bool ended, int step)
+      {
+        scene::Case after = library.open("ear");
+        ASSERT_NO_THROW(library.loadDissection(after)) << step;
+        EXPECT_TRUE(library.verify().damaged.empty()) << step;
+        olds += after.strokes.empty();
+        EXPECT_TRUE(!ended || after.strokes.size() == 1);
+        after.iso = 111;
+        library.save(after); // clears what was left
+        for (const auto& [name, content] : contentOf(library.folder()))
+          EXPECT_FALSE(core::isLeftover(name)) << name;
+      });
+  EXPECT_GT(olds, 3);
+}
+
+TEST(Crash, KilledAtEachStepOfARenameHasTheCaseUnderOneName)
+{
+  const TemporaryFolder folder;
+  {
+    Library library(folder.path());
+    scene::Case value = smallCase("ear", 16);
+    library.save(value);
+  }
+  killedAtEachStep(
+      folder.path(), [](Library& library) { library.rename("ear", "left ear"); },
+      [](Library& library, bool ended, int)
+      {
+        const auto cases = library.list();
+        ASSERT_EQ(cases.size(), 1u);
+        EXPECT_TRUE(cases[0].name == "left ear" || (cases[0].name == "ear" && !ended));
+        EXPECT_EQ(library.open(cases[0].name).name, cases[0].name);
+      });
+}
+
+// A journal that outlives its case must not be drilled into the next case of that name.
+TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
+{
+  const TemporaryFolder folder;
+  {
+    Library library(folder.path());
+    scene::Case value = smallCase("ear", 16);
+    library.save(value);
+    library.loadDissection(value);
+    Journal journal(library, value);
+    drill(value, {8, 8, 8});
+    journal.follow(*value.dissection);
+    journal.leave();
+  }
+  killedAtEachStep(
+      folder.path(), [](Library& library) { library.remove("ear"); },
+      [](Library& library, bool ended, int step)
+      {
+        if (library.contains("ear"))
+        {
+          EXPECT_FALSE(ended);
+          library.open("ear");
+          library.remove("ear");
+        }
+        scene::Case next = smallCase("ear", 16);
+        library.save(next);
+        EXPECT_EQ(library.open("ear").strokes.size(), 0u) << step;
+      });
+}
+
+// After the manifest's rename nothing may be taken back.
+TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear", 16);
+  library.save(value);
+  library.loadDissection(value);
+  int refused = 0, saved = 0;
+  for (const char* call : {"fsync", "rename", "open", "write"})
+    for (int n = 1; n < 12; ++n)
+    {
+      const auto before = contentOf(folder.path());
+      scene::Case next = value;
+      next.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
+      drill(next, {3.0 + n, 8.0, 4.0 + static_cast<double>(call[0] % 7)});
+      std::string told;
+      library.onNotice([&told](const std::string& words) { told = words; });
+      bool thrown = false;
+      SystemCalls::fail(call, n, EIO);
+      try
+      {
+        library.save(next);
+      }
+      catch (const core::Error& error)
+      {
+        thrown = true;
+        EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+      }
+      SystemCalls::reset();
+      EXPECT_TRUE(library.verify().damaged.empty()) << call << n;
+      const scene::Case after = library.open("ear");
+      if (thrown)
+      {
+        ++refused;
+        EXPECT_EQ(contentOf(folder.path()), before) << call << n << ": it said so";
+      }
+      else
+      {
+        ++saved;
+        EXPECT_EQ(after.strokes.size(), next.strokes.size()) << call << n;
+        value = next;
+      }
+    }
+  EXPECT_GT(refused, 4);
+  EXPECT_GT(saved, 4);
+}
+
+TEST(Crash, TellsThatTheDiskDidNotConfirmWhatIsSaved)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear", 16);
+  library.save(value);
+  std::string told;
+  library.onNotice([&told](const std::string& words) { told = words; });
+  value.iso = 222;
+  SystemCalls::fail("fsync", 2, EIO); // of the folder, after the rename
+  EXPECT_NO_THROW(library.save(value));
+  SystemCalls::reset();
+  EXPECT_NE(told.find("disk reported an error"), std::string::npos) << told;
+  EXPECT_EQ(library.open("ear").iso, 222);
+}

@@ -1,0 +1,349 @@
+#include <gtest/gtest.h>
+
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include "TestCase.h"
+#include "petrous/Library/Journal.h"
+#include "petrous/Library/ObjectStore.h"
+
+using namespace petrous;
+using namespace petrous::library;
+using test::contentOf;
+using test::drill;
+using test::smallCase;
+using test::TemporaryFolder;
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+class Maintenance : public ::testing::Test
+{
+protected:
+  scene::Case make(const std::string& name, int n = 16)
+  {
+    scene::Case value = smallCase(name, n);
+    m_library.save(value);
+    m_library.loadDissection(value);
+    return value;
+  }
+
+  template <class Action>
+  std::pair<LibraryError::Reason, std::string> refusal(const Action& action) const
+  {
+    try
+    {
+      action();
+    }
+    catch (const LibraryError& error)
+    {
+      return {error.reason, error.what()};
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {LibraryError::Reason::NotFound, {}};
+  }
+
+  void flipBit(const fs::path& file, std::uintmax_t at) const
+  {
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekg(static_cast<std::streamoff>(at));
+    const char byte = static_cast<char>(stream.get() ^ 4);
+    stream.seekp(static_cast<std::streamoff>(at));
+    stream.put(byte);
+  }
+
+  fs::path object(const std::string& name) const { return m_folder.path() / "objects" / name; }
+  fs::path manifest(const std::string& name) const
+  {
+    return m_folder.path() / "cases" / (name + ".json");
+  }
+
+  TemporaryFolder m_folder;
+  Library m_library{m_folder.path()};
+};
+
+} // namespace
+
+TEST_F(Maintenance, ACaseGoesByTheNameOfItsFile)
+{
+  make("a");
+  fs::copy(manifest("a"), manifest("b"));
+  scene::Case copy = m_library.open("b");
+  EXPECT_EQ(copy.name, "b");
+  copy.iso = 500;
+  m_library.save(copy);
+  EXPECT_EQ(m_library.open("a").iso, 300);
+  EXPECT_EQ(m_library.open("b").iso, 500);
+  ASSERT_EQ(m_library.list().size(), 2u);
+  EXPECT_EQ(m_library.list()[1].name, "b");
+}
+
+TEST_F(Maintenance, RenamesWithoutTouchingAnotherCase)
+{
+  scene::Case value = make("a");
+  drill(value, {8, 8, 8});
+  m_library.save(value);
+  make("b");
+  const auto before = contentOf(m_folder.path());
+  EXPECT_EQ(refusal([&] { m_library.rename("a", "b"); }).first, LibraryError::Reason::NameTaken);
+  EXPECT_EQ(refusal([&] { m_library.rename("x", "y"); }).first, LibraryError::Reason::NotFound);
+  EXPECT_THROW(m_library.rename("a", "../x"), core::InvalidParameter);
+  EXPECT_EQ(contentOf(m_folder.path()), before);
+  m_library.rename("a", "c");
+  EXPECT_FALSE(m_library.contains("a"));
+  EXPECT_EQ(m_library.open("c").strokes.size(), 1u);
+  EXPECT_EQ(m_library.list().at(1).name, "c");
+  // Who had it open under its old name is told, and does not write a second one.
+  EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
+}
+
+TEST_F(Maintenance, ACopyIsACaseOfItsOwnAndSharesTheObjects)
+{
+  scene::Case value = make("a");
+  drill(value, {8, 8, 8});
+  m_library.save(value);
+  const std::size_t objects = m_library.verify().objects;
+  m_library.copy("a", "b");
+  EXPECT_EQ(m_library.verify().objects, objects);
+  scene::Case copy = m_library.open("b");
+  EXPECT_EQ(copy.strokes.size(), 1u);
+  EXPECT_EQ(copy.revision, 1u);
+  scene::undo(copy, 1);
+  m_library.save(copy);
+  EXPECT_EQ(m_library.open("a").applied(), 1u);
+  EXPECT_EQ(refusal([&] { m_library.copy("a", "b"); }).first, LibraryError::Reason::NameTaken);
+}
+
+TEST_F(Maintenance, ADamagedCaseCanBeRenamedAndRemovedAndMadeAgain)
+{
+  make("a");
+  std::ofstream(manifest("a")) << "{";
+  EXPECT_TRUE(m_library.list().at(0).damaged);
+  m_library.rename("a", "b");
+  EXPECT_EQ(m_library.list().at(0).name, "b");
+  m_library.remove("b");
+  EXPECT_TRUE(m_library.list().empty());
+  EXPECT_NO_THROW(make("b"));
+  EXPECT_EQ(m_library.open("b").iso, 300);
+}
+
+// The revision alone would say that it is the case that was opened.
+TEST_F(Maintenance, DoesNotOverwriteACaseThatTookTheNameOfADeletedOne)
+{
+  scene::Case value = make("a");
+  m_library.remove("a");
+  make("a", 20);
+  ASSERT_EQ(m_library.open("a").revision, value.revision);
+  EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
+  EXPECT_EQ(m_library.open("a").ct.geometry.dims()[0], 20);
+}
+
+TEST_F(Maintenance, ACaseThatIsBeingDrilledIsNeitherRenamedNorRemoved)
+{
+  scene::Case value = make("a");
+  Journal journal(m_library, value);
+  journal.claim();
+  Library other(m_folder.path());
+  for (const auto& words :
+       {refusal([&] { other.rename("a", "b"); }), refusal([&] { other.remove("a"); }),
+        refusal([&] { Journal second(other, value); })})
+  {
+    EXPECT_EQ(words.first, LibraryError::Reason::Conflict);
+    EXPECT_NE(words.second.find("is being drilled by another process"), std::string::npos);
+  }
+}
+
+TEST_F(Maintenance, DeletionTakesJournalsAlong)
+{
+  scene::Case value = make("a");
+  Journal journal(m_library, value);
+  drill(value, {8, 8, 8});
+  journal.follow(*value.dissection);
+  journal.leave();
+  std::ofstream(m_folder.path() / "cases/a.journal.aside-1") << "x";
+  m_library.remove("a");
+  EXPECT_TRUE(fs::is_empty(m_folder.path() / "cases"));
+}
+
+TEST_F(Maintenance, OneFlippedBitOfAnyObjectIsFound)
+{
+  scene::Case value = make("a");
+  drill(value, {8, 8, 8});
+  m_library.save(value);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  struct Part
+  {
+    std::string object, words;
+    std::function<void(scene::Case&)> read;
+  };
+  const Part parts[] = {
+      {value.ct.object, "the CT of case 'a'", [this](scene::Case& c) { m_library.checkVoxels(c); }},
+      {value.labels[0].object, "'nerve' of case 'a'",
+       [](scene::Case& c) { c.labels[0].labels.get(); }},
+      {value.meshes[0].object, "mesh 'incus' of case 'a'",
+       [](scene::Case& c) { c.meshes[0].mesh.get(); }},
+      {value.strokes[0].object, "stroke 1 of case 'a'",
+       [this](scene::Case& c) { m_library.loadDissection(c); }}};
+  for (const Part& part : parts)
+  {
+    const fs::path file = object(part.object);
+    const std::uintmax_t at = fs::file_size(file) * 2 / 3;
+    flipBit(file, at);
+    Library fresh(m_folder.path());
+    scene::Case damaged = fresh.open("a");
+    m_library = fresh;
+    const auto [reason, words] = refusal([&] { part.read(damaged); });
+    EXPECT_EQ(reason, LibraryError::Reason::Damaged);
+    EXPECT_NE(words.find(part.words), std::string::npos) << words;
+    const Inspection found = fresh.verify();
+    ASSERT_EQ(found.damaged.size(), 1u) << part.words;
+    EXPECT_EQ(found.damaged[0].object, part.object);
+    EXPECT_EQ(found.damaged[0].cases, std::vector<std::string>{"a"});
+    flipBit(file, at);
+    EXPECT_TRUE(Library(m_folder.path()).verify().damaged.empty());
+  }
+}
+
+TEST_F(Maintenance, AMappedImageIsCheckedBehindTheReadersBack)
+{
+  const scene::Case value = make("a");
+  flipBit(object(value.ct.object), fs::file_size(object(value.ct.object)) - 100);
+  const Library fresh(m_folder.path());
+  const scene::Case damaged = fresh.open("a");
+  damaged.ct.volume.get();
+  for (int n = 0; n < 1000 && fresh.damageFound().empty(); ++n)
+    ::usleep(10000);
+  ASSERT_EQ(fresh.damageFound().size(), 1u);
+}
+
+// Storing the same CT again heals the library, whatever cases use it.
+TEST_F(Maintenance, AnImportReplacesADamagedObject)
+{
+  const scene::Case value = make("a");
+  flipBit(object(value.ct.object), fs::file_size(object(value.ct.object)) - 100);
+  EXPECT_FALSE(m_library.verify().damaged.empty());
+  make("b");
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, VerifyNamesMissingObjectsAndDamagedManifests)
+{
+  const scene::Case value = make("a");
+  make("b", 20);
+  fs::remove(object(value.meshes[0].object));
+  std::ofstream(manifest("b")) << "{";
+  const Inspection found = m_library.verify();
+  EXPECT_EQ(found.cases, 2u);
+  ASSERT_EQ(found.damaged.size(), 2u);
+  EXPECT_EQ(found.damaged[0].object, "cases/b.json");
+  EXPECT_EQ(found.damaged[1].object, value.meshes[0].object);
+}
+
+TEST_F(Maintenance, RemovesWhatNoCaseNeedsAndNothingElse)
+{
+  const scene::Case a = make("a");
+  const scene::Case b = make("b", 20);
+  EXPECT_EQ(m_library.collectGarbage().objects, 0u);
+  m_library.remove("b");
+  std::ofstream(m_folder.path() / "objects/.petrous-0123") << "left";
+  const Collected removed = m_library.collectGarbage();
+  EXPECT_GT(removed.objects, 0u);
+  EXPECT_FALSE(fs::exists(object(b.ct.object)));
+  EXPECT_FALSE(fs::exists(m_folder.path() / "objects/.petrous-0123"));
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  EXPECT_NO_THROW(m_library.open("a").ct.volume.get());
+}
+
+TEST_F(Maintenance, CollectsNothingWhileACaseCannotBeRead)
+{
+  make("a");
+  make("b", 20);
+  const auto objects = ObjectStore(m_folder.path() / "objects").list();
+  std::ofstream(manifest("b")) << "{";
+  EXPECT_EQ(refusal([&] { m_library.collectGarbage(); }).first, LibraryError::Reason::Damaged);
+  EXPECT_EQ(ObjectStore(m_folder.path() / "objects").list(), objects);
+}
+
+// A window still has the deleted case open.
+TEST_F(Maintenance, WhatWasCollectedIsStoredAgainFromMemory)
+{
+  make("a");
+  Library window(m_folder.path());
+  scene::Case open = window.open("a");
+  open.ct.volume.get();
+  open.labels[0].labels.get();
+  open.meshes[0].mesh.get();
+  m_library.remove("a");
+  m_library.collectGarbage();
+  open.name = "a again";
+  open.revision = 0;
+  window.save(open);
+  EXPECT_TRUE(window.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, SearchesCaseAndPartNames)
+{
+  make("Left ear");
+  make("right");
+  EXPECT_EQ(m_library.search("EAR").size(), 1u);
+  EXPECT_EQ(m_library.search("incus").size(), 2u);
+  EXPECT_TRUE(m_library.search("cochlea").empty());
+}
+
+TEST_F(Maintenance, RepairBringsStrokesBackAndMakesTheIndexAgain)
+{
+  scene::Case value = make("a");
+  Journal journal(m_library, value);
+  drill(value, {8, 8, 8});
+  journal.follow(*value.dissection);
+  journal.leave();
+  std::ofstream(m_folder.path() / "library.sqlite") << "no database";
+  EXPECT_EQ(m_library.repair().size(), 2u);
+  EXPECT_EQ(m_library.open("a").strokes.size(), 1u);
+  std::ifstream index(m_folder.path() / "library.sqlite", std::ios::binary);
+  std::string magic(6, ' ');
+  index.read(magic.data(), 6);
+  EXPECT_EQ(magic, "SQLite");
+}
+
+// Each of these would block whoever opens it.
+TEST_F(Maintenance, PipesAmongTheFilesAreNotWaitedFor)
+{
+  const scene::Case value = make("a");
+  ASSERT_EQ(::mkfifo(manifest("pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(m_library.list().at(1).damaged);
+  EXPECT_THROW(m_library.open("pipe"), LibraryError);
+  m_library.remove("pipe");
+  ASSERT_EQ(::mkfifo((m_folder.path() / "cases/a.journal").c_str(), 0600), 0);
+  std::string told;
+  m_library.onNotice([&told](const std::string& words) { told = words; });
+  EXPECT_EQ(m_library.open("a").name, "a");
+  EXPECT_NE(told.find("not a regular file"), std::string::npos) << told;
+  fs::remove(m_folder.path() / "cases/a.journal");
+  fs::remove(object(value.ct.object));
+  ASSERT_EQ(::mkfifo(object(value.ct.object).c_str(), 0600), 0);
+  EXPECT_THROW(m_library.open("a").ct.volume.get(), core::Error);
+  fs::remove(m_folder.path() / "library.sqlite");
+  ASSERT_EQ(::mkfifo((m_folder.path() / "library.sqlite").c_str(), 0600), 0);
+  EXPECT_EQ(m_library.list().size(), 1u);
+}
+
+// `immutable` reads past the locks, and so what a writer has half written.
+TEST_F(Maintenance, TheIndexIsNotReadWhileSomebodyWritesIt)
+{
+  make("a");
+  sqlite3* database = nullptr;
+  const std::string file = (m_folder.path() / "library.sqlite").string();
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database,
+                         "BEGIN EXCLUSIVE; UPDATE cases SET strokes = 77, structures = 77", nullptr,
+                         nullptr, nullptr),
+            SQLITE_OK);
+  ASSERT_EQ(sqlite3_db_cacheflush(database), SQLITE_OK); // in the file, and not committed
+  EXPECT_EQ(m_library.list().at(0).strokes, 0u) << "from the manifest";
+  sqlite3_exec(database, "ROLLBACK", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_EQ(m_library.list().at(0).structures, 1u);
+}

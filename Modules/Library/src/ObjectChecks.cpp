@@ -1,0 +1,118 @@
+#include "ObjectChecks.h"
+
+#include <chrono>
+#include <memory>
+#include <system_error>
+
+#include "petrous/Library/ObjectStore.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+ObjectChecks::~ObjectChecks()
+{
+  m_stop.cancel();
+  if (m_thread.joinable())
+    m_thread.join();
+}
+
+void ObjectChecks::start(const fs::path& object, const std::string& what)
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  if (!m_checks.try_emplace(object, Check{what, false, {}}).second)
+    return;
+  m_queue.push_back(object);
+  if (m_running)
+    return;
+  if (m_thread.joinable())
+    m_thread.join(); // it has nothing more to do and needs no lock
+  try
+  {
+    m_running = true;
+    m_thread = std::thread([this] { run(); });
+  }
+  catch (const std::system_error&)
+  {
+    m_running = false; // no more threads: `wait` does it
+  }
+}
+
+void ObjectChecks::run()
+{
+  const core::Progress progress(
+      {}, std::shared_ptr<const core::CancelToken>(std::shared_ptr<void>(), &m_stop));
+  for (;;)
+  {
+    fs::path object;
+    std::string what;
+    {
+      const std::lock_guard<std::mutex> lock(m_mutex);
+      if (m_queue.empty() || m_stop.isCancelled())
+      {
+        m_running = false;
+        return;
+      }
+      object = m_queue.front();
+      m_queue.pop_front();
+      what = m_checks[object].what;
+    }
+    std::string damage;
+    try
+    {
+      checkObject(object, what, progress);
+    }
+    catch (const core::CancelledError&)
+    {
+      continue;
+    }
+    catch (const std::exception& error)
+    {
+      damage = error.what();
+    }
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_checks[object].done = true;
+    m_checks[object].damage = damage;
+    m_done.notify_all();
+  }
+}
+
+std::string ObjectChecks::wait(const fs::path& object, const std::string& what,
+                               const core::Progress& progress)
+{
+  start(object, what);
+  std::unique_lock<std::mutex> lock(m_mutex);
+  while (!m_checks[object].done)
+  {
+    progress.check("checking the voxels");
+    if (!m_running)
+    {
+      m_running = true;
+      lock.unlock();
+      run();
+      lock.lock();
+      continue;
+    }
+    m_done.wait_for(lock, std::chrono::milliseconds(50));
+  }
+  return m_checks[object].damage;
+}
+
+bool ObjectChecks::knows(const fs::path& object) const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  return m_checks.count(object) > 0;
+}
+
+std::vector<std::string> ObjectChecks::found() const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  std::vector<std::string> result;
+  for (const auto& [object, check] : m_checks)
+    if (!check.damage.empty())
+      result.push_back(check.damage);
+  return result;
+}
+
+} // namespace petrous::library

@@ -140,7 +140,8 @@ TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
   scene::Case value = library::Library(folder).open("block");
   library::Library library(folder);
   library.loadDissection(value);
-  JournalThread journal(library, value);
+  JournalThread journal;
+  journal.begin(library, value);
   EXPECT_EQ(journal.takeFailure(), "");
   value.dissection->beginStroke({});
   value.dissection->cut({{6.0, 6.0, kTop}, {6.0, 6.0, kTop}, 1.0});
@@ -162,4 +163,65 @@ TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
   scene::Case again;
   EXPECT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
   EXPECT_EQ(voxels(again), voxels(value));
+}
+
+TEST_F(JournalThreadTest, GoesOnInTheLibraryThatTheCaseWasSavedTo)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.open("block");
+  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(hand.device, hand.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  const std::filesystem::path elsewhere = folder.string() + "-elsewhere";
+  std::filesystem::remove_all(elsewhere);
+  model.saveElsewhere(elsewhere, "block");
+  ASSERT_TRUE(model.touching());
+  EXPECT_TRUE(until([this] { return !journalled(); })) << "the old journal is of no more use";
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  std::filesystem::remove_all(folder);
+  std::filesystem::rename(elsewhere, folder); // what was open stays open
+  scene::Case again;
+  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 2; }));
+  EXPECT_EQ(voxels(again), voxels(model.value()));
+}
+
+TEST_F(JournalThreadTest, HasWhatWasDrilledWhileTheImportWasStored)
+{
+  library::Library library(folder);
+  library.remove("block");
+  WorkstationModel model{library};
+  scene::Case made = block();
+  scene::Case stored = made;
+  model.adopt(std::move(made));
+  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(hand.device, hand.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  library.save(stored);
+  model.stored(stored);
+  scene::Case again;
+  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
+  EXPECT_EQ(voxels(again), voxels(model.value()));
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 2; }));
+  EXPECT_EQ(voxels(again), voxels(model.value()));
+}
+
+// The journal told by the thread that cuts, then by the window: the states are of two dissections,
+// whose counts of changes say nothing of each other.
+TEST_F(JournalThreadTest, HasAnUndoThatFollowsManyStepsOfTheTool)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.open("block");
+  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(hand.device, hand.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  model.stopTouch();
+  for (const std::size_t done : {1U, 0U, 1U, 2U, 1U})
+  {
+    done < model.value().applied() ? model.undo() : model.redo();
+    ASSERT_EQ(model.value().applied(), done);
+    scene::Case again;
+    EXPECT_TRUE(until([&] { return !reopened(again).empty() && again.applied() == done; })) << done;
+  }
 }

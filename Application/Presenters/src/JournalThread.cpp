@@ -11,19 +11,8 @@ namespace
 constexpr std::chrono::seconds kAgain(1);
 } // namespace
 
-JournalThread::JournalThread(const library::Library& library, const scene::Case& value)
-  : m_journal(library, value,
-              [this](const dissection::Dissection& work)
-              {
-                dissection::StrokeInfo info = work.openInfo();
-                if (!m_measure)
-                  return info;
-                auto removed = m_measure(work);
-                info.removed = removed.total;
-                info.structures = std::move(removed.structures);
-                return info;
-              })
-  , m_thread([this] { run(); })
+JournalThread::JournalThread()
+  : m_thread([this] { run(); })
 {
 }
 
@@ -37,23 +26,51 @@ JournalThread::~JournalThread()
   m_thread.join();
 }
 
+void JournalThread::begin(const library::Library& library, const library::SavedState& saved)
+{
+  auto journal = std::make_unique<library::Journal>(library, saved,
+                                                    [this](const dissection::Dissection& work)
+                                                    {
+                                                      dissection::StrokeInfo info = work.openInfo();
+                                                      if (!m_measure)
+                                                        return info;
+                                                      auto removed = m_measure(work);
+                                                      info.removed = removed.total;
+                                                      info.structures =
+                                                          std::move(removed.structures);
+                                                      return info;
+                                                    });
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_tasks.begin.swap(journal);
+    m_tasks.beginStrokes = saved.strokes.size();
+    m_tasks.saved.reset(); // was told of the journal before
+    m_begun = true;
+  }
+  m_wake.notify_one();
+}
+
+bool JournalThread::begun() const
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  return m_begun;
+}
+
 void JournalThread::follow(const dissection::Dissection& work, const Measure& measure)
 {
   std::optional<Work> next(Work{work, measure});
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    m_work.swap(next);
+    m_tasks.work.swap(next);
   }
   m_wake.notify_one();
 }
 
-void JournalThread::saved(const scene::Case& value)
+void JournalThread::saved(const library::SavedState& now)
 {
-  std::optional<scene::Case> next(value);
-  next->dissection.reset(); // goes on, in another thread
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    m_saved.swap(next);
+    m_tasks.saved = now;
   }
   m_wake.notify_one();
 }
@@ -64,44 +81,58 @@ std::string JournalThread::takeFailure()
   return std::exchange(m_failure, {});
 }
 
-// What is written is empty then.
-void JournalThread::write(std::optional<Work>& work, std::optional<scene::Case>& saved)
+// What is written leaves the tasks.
+void JournalThread::write(Tasks& tasks)
 {
-  if (work)
+  if (tasks.work)
   {
-    m_measure = work->measure;
-    m_journal.follow(work->dissection);
-    work.reset();
+    m_latest = std::exchange(tasks.work, std::nullopt);
+    m_measure = m_latest->measure;
+    tasks.news = true;
   }
-  if (saved)
-    m_journal.saved(*saved);
-  saved.reset();
+  if (tasks.begin)
+  {
+    if (m_latest && m_latest->dissection.strokes().size() >= tasks.beginStrokes)
+      tasks.begin->follow(m_latest->dissection);
+    m_journal = std::move(tasks.begin);
+  }
+  else if (tasks.news && m_journal)
+    m_journal->follow(m_latest->dissection);
+  tasks.news = false;
+  if (tasks.saved && m_journal)
+    m_journal->saved(*tasks.saved);
+  tasks.saved.reset();
 }
 
 void JournalThread::run()
 {
-  std::optional<Work> work;
-  std::optional<scene::Case> saved;
+  Tasks tasks;
   bool told = false;
   for (;;)
   {
     bool stop = false;
     {
       std::unique_lock<std::mutex> lock(m_mutex);
-      if (work || saved) // could not be written
+      if (!tasks.empty()) // could not be written
         m_wake.wait_for(lock, kAgain, [this] { return m_stop; });
       else
-        m_wake.wait(lock, [this] { return m_stop || m_work || m_saved; });
-      if (m_work)
-        work = std::exchange(m_work, std::nullopt);
-      if (m_saved)
-        saved = std::exchange(m_saved, std::nullopt);
+        m_wake.wait(lock, [this] { return m_stop || !m_tasks.empty(); });
+      if (m_tasks.begin)
+      {
+        tasks.begin = std::move(m_tasks.begin);
+        tasks.beginStrokes = m_tasks.beginStrokes;
+        tasks.saved.reset();
+      }
+      if (m_tasks.work)
+        tasks.work = std::exchange(m_tasks.work, std::nullopt);
+      if (m_tasks.saved)
+        tasks.saved = std::exchange(m_tasks.saved, std::nullopt);
       stop = m_stop;
     }
     std::string why;
     try
     {
-      write(work, saved);
+      write(tasks);
     }
     catch (const std::exception& error)
     {
@@ -114,7 +145,7 @@ void JournalThread::run()
     }
     told = !why.empty();
     if (stop)
-      return;
+      break;
   }
 }
 

@@ -29,10 +29,12 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   forgetTissue();
   m_journal.reset();
+  m_saved.reset();
   m_nearby.reset();
   m_assembly = {}; // what it keeps is of the case before
   m_case = std::move(next);
   m_unsaved = unsaved;
+  m_journal = std::make_shared<JournalThread>();
   m_crosshair = m_case->ct.geometry.center();
   tell(events.caseChanged);
   tell(events.stateChanged);
@@ -236,6 +238,7 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   if (!m_case)
     return;
   stopTouch();
+  m_library.checkVoxels(*m_case); // most often done by now
   if (!m_scene)
   {
     m_reader.reset();
@@ -245,7 +248,7 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   TouchSession::Setup whole = setup;
   whole.catalogues = dissection::Catalogues::in(m_library.folder());
   if (m_journal)
-    whole.journal = [journal = m_journal.get(), measure = m_scene->drill().measurer()](
+    whole.journal = [journal = m_journal, measure = m_scene->drill().measurer()](
                         const dissection::Dissection& work) { journal->follow(work, measure); };
   m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, whole);
 }

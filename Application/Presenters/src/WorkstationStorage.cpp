@@ -14,14 +14,17 @@ void WorkstationModel::listen()
 }
 
 // From when the case is as it was saved, or goes on from there.
-void WorkstationModel::keepJournal()
+void WorkstationModel::keepJournal(const library::SavedState& saved)
 {
+  m_saved = saved;
   try
   {
-    if (m_journal)
-      m_journal->saved(*m_case);
+    if (!m_journal)
+      m_journal = std::make_shared<JournalThread>();
+    if (m_journal->begun())
+      m_journal->saved(saved);
     else
-      m_journal = std::make_unique<JournalThread>(m_library, *m_case);
+      m_journal->begin(m_library, saved);
   }
   catch (const std::exception& error)
   {
@@ -43,11 +46,14 @@ void WorkstationModel::open(const std::string& name)
   }
   catch (...)
   {
-    if (m_case && !m_journal)
-      keepJournal();
+    if (m_case && !m_journal && m_saved)
+    {
+      keepJournal(*m_saved);
+      m_journal->follow(*m_case->dissection);
+    }
     throw;
   }
-  keepJournal();
+  keepJournal(*m_case);
 }
 
 void WorkstationModel::adopt(scene::Case value)
@@ -63,6 +69,7 @@ void WorkstationModel::stored(const scene::Case& saved)
   m_beingStored = false;
   if (!m_case || m_case->name != saved.name)
     return;
+  m_case->id = saved.id;
   m_case->revision = saved.revision;
   m_case->ct.object = saved.ct.object;
   for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
@@ -71,8 +78,7 @@ void WorkstationModel::stored(const scene::Case& saved)
     m_case->labels[n].object = saved.labels[n].object;
   for (std::size_t n = 0; n < std::min(m_case->meshes.size(), saved.meshes.size()); ++n)
     m_case->meshes[n].object = saved.meshes[n].object;
-  if (m_case->strokes.size() == saved.strokes.size()) // else when it is saved with them
-    keepJournal();
+  keepJournal(saved); // what was drilled since then goes there at once
   tell(events.stateChanged);
 }
 
@@ -87,7 +93,7 @@ void WorkstationModel::save()
   if (!m_case)
     return;
   m_library.save(*m_case);
-  keepJournal();
+  keepJournal(*m_case);
   setUnsaved(false);
 }
 
@@ -98,7 +104,7 @@ void WorkstationModel::saveAs(const std::string& name)
   next.revision = 0;
   m_library.save(next);
   *m_case = std::move(next);
-  keepJournal();
+  keepJournal(*m_case);
   setUnsaved(false);
 }
 
@@ -121,8 +127,17 @@ void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const 
   *m_case = std::move(next);
   m_library = std::move(elsewhere);
   listen();
-  m_journal.reset();
-  keepJournal();
+  m_saved = *m_case;
+  try
+  {
+    if (!m_journal)
+      m_journal = std::make_shared<JournalThread>();
+    m_journal->begin(m_library, *m_saved); // a tool that is held goes on telling it
+  }
+  catch (const std::exception& error)
+  {
+    tell(events.noticed, std::string(error.what()));
+  }
   setUnsaved(false);
 }
 

@@ -131,13 +131,14 @@ private:
   void step(bool back);
   void followHistory();
   void setUnsaved(bool unsaved);
-  void keepJournal();
+  void keepJournal(const library::SavedState& saved);
 
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
   SceneAssembly m_assembly;
-  std::optional<DrillSession> m_session;    ///< made when first asked for, until there is m_scene
-  std::unique_ptr<JournalThread> m_journal; ///< of a case that is in the library
+  std::optional<DrillSession> m_session;      ///< made when first asked for, until there is m_scene
+  std::shared_ptr<JournalThread> m_journal;   ///< shared with the thread that cuts
+  std::optional<library::SavedState> m_saved; ///< nothing before the case is in the library
   std::unique_ptr<TouchScene> m_scene;
   std::unique_ptr<TouchSession> m_touch;      ///< after m_scene, which it uses
   std::unique_ptr<PlaceReader> m_reader;      ///< when first asked for; likewise

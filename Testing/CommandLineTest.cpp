@@ -4,6 +4,8 @@
 #include <sstream>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include "CommandRunner.h"
 
 using petrous::testing::CommandLine;
@@ -282,7 +284,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("render x --out a.png --size big", 2, "--size");
   expectRefused("archive x x.petrous", 2, "not built yet");
   expectRefused("new x --ct y --repair", 2, "not built yet");
-  expectRefused("library gc", 2, "not built yet");
+  expectRefused("library zebra", 2, "rename A B");
+  expectRefused("library rename a", 2, "library rename A B");
   const auto help = run("--help");
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.out.find("archive"), std::string::npos);
@@ -376,4 +379,61 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
   expectRefused("register ear --mr T2 --sign-off --json", 2, "missing before '--json'");
   expectRefused("appearance ear --set ct=", 2, "'ct=' is empty on one side");
   expectRefused("new ear --ct x --mr =y", 2, "'=y' is empty on one side");
+}
+
+TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  const auto pipe = m_folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((library() / "cases/pipe.json").c_str(), 0600), 0);
+  const auto before = std::filesystem::file_size(library() / "cases/ear.json");
+  const std::string out = " --out " + quoted(m_folder / "a.png");
+  for (const std::string& file : {quoted(pipe), std::string("/dev/zero"), quoted(m_folder)})
+    for (const std::string& arguments :
+         {"drill ear --path " + file, "drill ear --replay " + file, "probe ear --points " + file,
+          "render ear --size 32x32 --camera " + file + out, "appearance ear --tf ct=" + file})
+    {
+      const auto outcome = run(arguments);
+      EXPECT_EQ(outcome.code, 3) << arguments << ": " << outcome.err;
+      EXPECT_NE(outcome.err.find(file == quoted(m_folder) ? "is a folder" : "regular file"),
+                std::string::npos)
+          << outcome.err;
+    }
+  EXPECT_TRUE(json("library list")["cases"][1]["damaged"]);
+  expectRefused("info pipe", 3, "named pipe");
+  json("library delete pipe");
+  EXPECT_EQ(json("library list")["cases"].size(), 1u);
+  EXPECT_EQ(std::filesystem::file_size(library() / "cases/ear.json"), before);
+  // Nor is one replaced by what is written.
+  expectRefused("probe ear --points " + quoted(writePath({0, 0, 0}, {1, 0, 0})) + " --out " +
+                    quoted(pipe),
+                4, "regular file");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  json("library copy ear 'left ear'");
+  json("library rename ear 'right ear'");
+  EXPECT_EQ(json("info 'right ear'")["case"], "right ear");
+  json("appearance 'left ear' --iso 500");
+  EXPECT_NE(json("appearance 'right ear' --list")["iso_hu"], 500.0);
+  expectRefused("library rename 'left ear' 'right ear'", 4, "is there already");
+  expectRefused("library delete ear", 3, "no case 'ear'");
+  // By hand, as a technician does it.
+  std::filesystem::copy(library() / "cases/left ear.json", library() / "cases/by hand.json");
+  json("appearance 'by hand' --iso 600");
+  EXPECT_EQ(json("appearance 'left ear' --list")["iso_hu"], 500.0);
+  EXPECT_EQ(json("library search EAR")["cases"].size(), 2u);
+  EXPECT_EQ(json("library gc")["removed"], 0);
+  for (const std::string name : {"by hand", "left ear", "right ear"})
+    json("library delete '" + name + "'");
+  EXPECT_GT(json("library gc")["removed"], 0);
+  EXPECT_TRUE(json("library verify")["damaged"].empty());
+  EXPECT_TRUE(json("library list")["cases"].empty());
+  EXPECT_TRUE(std::filesystem::is_empty(library() / "objects"));
 }

@@ -53,6 +53,30 @@ protected:
 
   std::filesystem::path journal() const { return library() / "cases/bone.journal"; }
 
+  // A command, and `beside` run once the case is being drilled.
+  template <class Beside>
+  Outcome besides(const std::string& arguments, const Beside& beside) const
+  {
+    const auto out = m_folder / "beside.out", err = m_folder / "beside.err";
+    Outcome outcome;
+    std::thread other(
+        [&]
+        {
+          const int status =
+              std::system(("PETROUS_LIBRARY=" + quoted(library()) + " " + quoted(PETROUS_PROGRAM) +
+                           " " + arguments + " >" + quoted(out) + " 2>" + quoted(err))
+                              .c_str());
+          outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        });
+    for (int n = 0; n < 6000 && !std::filesystem::exists(journal()); ++n)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    beside();
+    other.join();
+    outcome.out = textOf(out);
+    outcome.err = textOf(err);
+    return outcome;
+  }
+
   // The drill command, killed once its journal has grown to `bytes`. False: it ended before.
   bool killDrill(const std::filesystem::path& session, std::uintmax_t bytes) const
   {
@@ -132,4 +156,73 @@ TEST_F(RecoveryCommand, AFailedDrillLeavesTheLibraryAsItWas)
       run("drill bone --path " + quoted(session) + " --log /dev/full --tick-hz 200");
   EXPECT_NE(outcome.code, 0);
   EXPECT_EQ(libraryContent(), before) << outcome.err;
+}
+
+TEST_F(RecoveryCommand, AChangeBesideADrillCostsNeither)
+{
+  const auto session = writeSession();
+  const std::size_t whole = json("drill bone --path " + quoted(session))["strokes"];
+  json("undo bone 99");
+  json("branch bone again --from 0");
+  const std::size_t before = json("info bone")["dissection"]["strokes"];
+  const Outcome outcome =
+      besides("drill bone --path " + quoted(session) + " --json",
+              [this]
+              {
+                json("appearance bone --iso 350");
+                expectRefused("drill bone --path " + quoted(m_folder / "session.csv"), 4,
+                              "is being drilled by another process");
+                expectRefused("library rename bone other", 4, "is being drilled");
+                expectRefused("library delete bone", 4, "is being drilled");
+              });
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("changed by another program meanwhile"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(json("info bone")["dissection"]["strokes"], before + whole);
+  EXPECT_EQ(json("appearance bone --list")["iso_hu"], 350.0);
+  EXPECT_FALSE(std::filesystem::exists(journal()));
+}
+
+TEST_F(RecoveryCommand, AKilledDrillComesBackAfterAChange)
+{
+  const auto session = writeSession();
+  ASSERT_TRUE(killDrill(session, 3000));
+  // As a program that does not know of journals leaves it: the journal is moved away for a moment.
+  std::filesystem::rename(journal(), m_folder / "journal");
+  json("appearance bone --iso 350");
+  std::filesystem::rename(m_folder / "journal", journal());
+  const Outcome outcome = run("info bone --json");
+  EXPECT_NE(outcome.err.find("came back"), std::string::npos) << outcome.err;
+  EXPECT_GE(json("info bone")["dissection"]["strokes"], 1);
+}
+
+TEST_F(RecoveryCommand, OneFlippedBitOfTheCtIsToldBeforeAnythingIsDrilledOrWritten)
+{
+  std::filesystem::path object;
+  for (const auto& entry : std::filesystem::directory_iterator(library() / "objects"))
+    object = entry.path();
+  {
+    std::fstream file(object, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekg(-1000, std::ios::end);
+    const char byte = static_cast<char>(file.get() ^ 8);
+    file.seekp(-1000, std::ios::end);
+    file.put(byte);
+  }
+  const auto before = libraryContent();
+  expectRefused("drill bone --path " + quoted(writeSession()), 3, "the CT of case 'bone'");
+  for (const std::string what : {"ct --out 'D/a.nrrd'", "surface --out 'D/a.stl'"})
+  {
+    std::string arguments = "export bone --what " + what;
+    arguments.replace(arguments.find('D'), 1, m_folder.string());
+    expectRefused(arguments, 3, object.filename().string());
+  }
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.nrrd"));
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.stl"));
+  const Outcome outcome = run("library verify --json");
+  EXPECT_EQ(outcome.code, 3);
+  const auto found = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(found["damaged"].size(), 1u);
+  EXPECT_EQ(found["damaged"][0]["object"], object.filename().string());
+  EXPECT_EQ(found["damaged"][0]["cases"], nlohmann::json({"bone"}));
+  EXPECT_EQ(libraryContent(), before);
 }

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <fstream>
 
 #include "AppearanceList.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -114,18 +114,6 @@ void setPreset(scene::Case& value, const std::string& assignment)
     appearance::applyPreset(*look, preset);
 }
 
-std::string readSmallFile(const std::string& path)
-{
-  constexpr std::size_t kLargest = 1 << 20;
-  std::ifstream file = openForReading(path);
-  std::string text(kLargest + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kLargest)
-    throw core::InvalidParameter(path + ": too large for a transfer function (over 1 MiB)");
-  return text;
-}
-
 void setTransfer(scene::Case& value, const std::string& assignment)
 {
   const auto [part, path] = split(value, assignment, "--tf PART=F.json");
@@ -136,7 +124,7 @@ void setTransfer(scene::Case& value, const std::string& assignment)
   if (path != "none")
     try
     {
-      transfer = appearance::TransferFunction::fromJson(readSmallFile(path));
+      transfer = appearance::TransferFunction::fromJson(core::readFile(path, kLargestJson));
     }
     catch (const core::InvalidParameter& error)
     {

@@ -7,6 +7,7 @@
 
 #include "CaseJson.h"
 #include "Context.h"
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::cli
 {
@@ -50,11 +51,11 @@ void check(const std::string& path, const core::CameraPose& camera)
 
 core::CameraPose readCamera(const std::string& path)
 {
-  std::ifstream file = openForReading(path);
+  const std::string text = core::readFile(path, kLargestJson);
   core::CameraPose camera;
   try
   {
-    const auto json = nlohmann::json::parse(file);
+    const auto json = nlohmann::json::parse(text);
     camera.position = vectorFrom(json, "position_mm");
     camera.focalPoint = vectorFrom(json, "focal_point_mm");
     camera.viewUp = vectorFrom(json, "view_up");

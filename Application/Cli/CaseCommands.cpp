@@ -221,44 +221,6 @@ void addInfo(CLI::App& app, Context& context)
                     "Also how much of each structure's surface was laid open (takes a moment)");
 }
 
-void addLibrary(CLI::App& app, Context& context)
-{
-  auto action = std::make_shared<std::string>();
-  auto text = std::make_shared<std::string>();
-  CLI::App* command = context.addCommand(
-      app, "library", "The cases on this machine",
-      [action, &context]
-      {
-        if (*action == "search" || *action == "verify" || *action == "gc")
-          notBuiltYet("'library " + *action + "'");
-        if (*action != "list")
-          throw UsageError("library: '" + *action + "' is unknown; there is 'list'");
-        const library::Library library = context.openLibrary();
-        nlohmann::json cases = nlohmann::json::array();
-        for (const auto& summary : library.list())
-        {
-          cases.push_back({{"name", summary.name},
-                           {"modified", summary.modified},
-                           {"dims", summary.dims},
-                           {"structures", summary.structures},
-                           {"strokes", summary.strokes},
-                           {"removed_mm3", summary.removed},
-                           {"damaged", summary.damaged}});
-          context.say(summary.name + "  " + summary.modified + "  " +
-                      (summary.damaged ? "damaged: its manifest cannot be read"
-                                       : std::to_string(summary.structures) + " structures, " +
-                                             std::to_string(summary.strokes) + " strokes, " +
-                                             fixed(summary.removed, 1) + " mm3 removed"));
-        }
-        if (cases.empty())
-          context.say("no case in " + library.folder().string());
-        context.give({{"library", library.folder().string()}, {"cases", std::move(cases)}});
-      });
-  command->add_option("ACTION", *action, "list")->required();
-  // In the contract for 'search', not built yet.
-  command->add_option("TEXT", *text)->group("");
-}
-
 } // namespace
 
 void addCaseCommands(CLI::App& app, Context& context)
@@ -267,7 +229,6 @@ void addCaseCommands(CLI::App& app, Context& context)
   addAdd(app, context);
   addRemove(app, context);
   addInfo(app, context);
-  addLibrary(app, context);
 }
 
 } // namespace petrous::cli

@@ -1,10 +1,11 @@
 #include "Context.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <mutex>
+#include <type_traits>
 
 #include <unistd.h>
 
@@ -14,16 +15,20 @@ namespace petrous::cli
 namespace
 {
 
-// A signal handler can reach nothing else; the token's flag is a lock-free atomic.
-std::shared_ptr<core::CancelToken>& interruptToken()
-{
-  static auto token = std::make_shared<core::CancelToken>();
-  return token;
-}
+// A signal handler can reach nothing else. Constant-initialised, and never destroyed: it is there
+// whenever the signal comes.
+core::CancelToken interrupted;
+static_assert(std::is_trivially_destructible_v<core::CancelToken>);
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void onInterrupt(int)
 {
-  interruptToken()->cancel();
+  interrupted.cancel();
+}
+
+std::shared_ptr<const core::CancelToken> interruptToken()
+{
+  return {std::shared_ptr<void>(), &interrupted};
 }
 
 } // namespace
@@ -35,14 +40,28 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
   command->add_option("--library", m_library, "Folder of the library")->type_name("DIR");
   command->add_flag("--json", m_json, "One JSON object on stdout and nothing else there");
   command->add_flag("--quiet", m_quiet, "No remarks and no progress");
-  command->callback(std::move(run));
+  command->callback(
+      [this, run = std::move(run)]
+      {
+        run();
+        refuseDamaged();
+      });
   return command;
+}
+
+// What a command only looked at was checked behind its back.
+void Context::refuseDamaged() const
+{
+  const auto damage = m_opened ? m_opened->damageFound() : std::vector<std::string>();
+  if (!damage.empty())
+    throw library::LibraryError(library::LibraryError::Reason::Damaged, damage.front());
 }
 
 library::Library Context::openLibrary() const
 {
   library::Library library(libraryFolder());
   library.onNotice([this](const std::string& words) { remark(words); });
+  m_opened = library;
   return library;
 }
 
@@ -113,36 +132,6 @@ core::Progress Context::progress() const
 void notBuiltYet(const std::string& what)
 {
   throw UsageError(what + " is not built yet");
-}
-
-std::ifstream openForReading(const std::filesystem::path& path)
-{
-  std::error_code error;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, error))
-    throw core::InvalidParameter(path.string() +
-                                 ": not there, a folder or not readable; give a file");
-  return file;
-}
-
-void writeTextFile(const std::filesystem::path& path, const std::string& bytes)
-{
-  const std::filesystem::path temporary =
-      path.parent_path() / (".tmp-" + std::to_string(::getpid()) + "-" + path.filename().string());
-  std::ofstream file(temporary, std::ios::binary);
-  file << bytes;
-  file.close();
-  std::error_code error;
-  if (file)
-    std::filesystem::rename(temporary, path, error);
-  if (!file || error)
-  {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw core::Error(core::Fault::Refused,
-                      path.string() + ": cannot be written (no such folder, no permission or a "
-                                      "full disk); choose another place");
-  }
 }
 
 } // namespace petrous::cli

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -48,9 +50,11 @@ public:
   core::Progress progress() const;
 
 private:
+  void refuseDamaged() const;
   std::filesystem::path libraryFolder() const;
 
   std::string m_library;
+  mutable std::optional<library::Library> m_opened;
   bool m_json = false;
   bool m_quiet = false;
 };
@@ -58,10 +62,8 @@ private:
 /// Text for an option that is in the contract and not built yet.
 [[noreturn]] void notBuiltYet(const std::string& what);
 
-/// A file to read; InvalidParameter naming it when it is not there, a folder or not readable.
-std::ifstream openForReading(const std::filesystem::path& path);
-
-/// Makes `bytes` the file's content, by a temporary file and rename.
-void writeTextFile(const std::filesystem::path& path, const std::string& bytes);
+/// The most that a file of options, points or poses may hold, bytes.
+constexpr std::uintmax_t kLargestInput = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t kLargestJson = std::uintmax_t{1} << 20;
 
 } // namespace petrous::cli

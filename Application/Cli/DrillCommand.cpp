@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <fstream>
 #include <optional>
 
 #include "CaseRemarks.h"
 #include "Commands.h"
 #include "DrillReport.h"
 #include "Numbers.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Library/Journal.h"
@@ -95,20 +95,38 @@ dissection::Catalogues cataloguesFrom(const Options& options, const std::filesys
 }
 
 void openCase(const Context& context, library::Library& library, const std::string& name,
-              scene::Case& value)
+              scene::Case& value, const core::Progress& progress)
 {
+  library.refuseWhereDrilled(name); // before minutes of reading
   value = library.open(name);
   library.loadDissection(value);
+  library.checkVoxels(value, progress);
   remarkMissingPlaces(context, value);
 }
 
 void save(const Context& context, library::Library& library, scene::Case& value,
-          const DrillReport& report, const core::Progress& progress)
+          const DrillReport& report, const library::SavedState& opened, library::Journal& journal,
+          const core::Progress& progress)
 {
-  if (report.changed())
-    library.save(value, progress.part(0.9, 1.0));
-  else
-    context.remark("nothing was cut; the case is as it was");
+  if (!report.changed())
+    return context.remark("nothing was cut; the case is as it was");
+  try
+  {
+    const std::string words = library.saveDrilled(value, opened, progress.part(0.9, 1.0));
+    if (!words.empty())
+      context.remark(words);
+  }
+  catch (const core::CancelledError&)
+  {
+    throw;
+  }
+  catch (const core::Error& error)
+  {
+    journal.leave();
+    throw core::Error(error.fault(), std::string(error.what()) +
+                                         "; what was drilled is kept in the case's journal and "
+                                         "comes back when the case is opened next");
+  }
 }
 
 double armAt(const presenters::PathDrill& session, const simulation::TickRecord& record)
@@ -142,22 +160,25 @@ std::unique_ptr<library::Journal> journalOf(const library::Library& library,
     info.structures = std::move(removed.structures);
     return info;
   };
-  return std::make_unique<library::Journal>(library, value, measured);
+  auto journal = std::make_unique<library::Journal>(library, value, measured);
+  journal->claim();
+  return journal;
 }
 
 void play(const Context& context, const Options& options)
 {
   presenters::PathDrill::Options tool = toolFrom(options);
-  std::ifstream file = openForReading(options.path);
+  std::ifstream file = core::openInput(options.path, kLargestInput);
   const auto path = dissection::ToolPath::read(file, options.path);
 
   library::Library library = context.openLibrary();
   scene::Case value;
-  openCase(context, library, options.caseName, value);
+  const core::Progress progress = context.progress();
+  openCase(context, library, options.caseName, value, progress);
+  const library::SavedState opened = value;
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
   tool.catalogues = cataloguesFrom(options, library.folder());
-  const core::Progress progress = context.progress();
   presenters::TouchScene touch(value, progress);
   const auto journal = journalOf(library, value, touch);
   presenters::PathDrill session(value, touch, tool);
@@ -182,7 +203,7 @@ void play(const Context& context, const Options& options)
   session.end();
   journal->follow(*value.dissection);
   report.close();
-  save(context, library, value, report, progress);
+  save(context, library, value, report, opened, *journal, progress);
 
   report.say(context);
   nlohmann::json answer = report.json();
@@ -199,15 +220,16 @@ void play(const Context& context, const Options& options)
 
 void replay(const Context& context, const Options& options)
 {
-  openForReading(options.replay); // says which file is not there
+  core::InputFile(options.replay); // says which file is not there
   simulation::RecordingReader reader(options.replay);
   checkTool(options, reader.setup());
 
   library::Library library = context.openLibrary();
   scene::Case value;
-  openCase(context, library, options.caseName, value);
-  const auto camera = presenters::currentCamera(value);
   const core::Progress progress = context.progress();
+  openCase(context, library, options.caseName, value, progress);
+  const library::SavedState opened = value;
+  const auto camera = presenters::currentCamera(value);
   presenters::TouchScene touch(value, progress, reader.setup().scene.firstState);
   const auto journal = journalOf(library, value, touch);
   presenters::HandReplay session(value, touch, reader, options.replay, camera);
@@ -229,7 +251,7 @@ void replay(const Context& context, const Options& options)
   if (!outcome.warning.empty())
     context.remark(outcome.warning);
   if (outcome.equal())
-    save(context, library, value, report, progress);
+    save(context, library, value, report, opened, *journal, progress);
 
   report.say(context);
   nlohmann::json answer = report.json();

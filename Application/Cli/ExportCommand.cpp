@@ -120,26 +120,34 @@ void exportCase(const Context& context, const Options& options)
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
+  // What is mapped for the file must be what was stored.
+  const auto checked = [&](const scene::ImagePart& image)
+  {
+    auto volume = image.volume.get();
+    library.checkVoxels(value, progress);
+    return volume;
+  };
   const auto mask = [&]() -> const volume::CutMask&
   {
     library.loadDissection(value);
     return std::as_const(*value.dissection).mask();
   };
   if (options.what == "ct")
-    imaging::writeVolume(options.out, *value.ct.volume.get(), progress);
+    imaging::writeVolume(options.out, *checked(value.ct), progress);
   else if (options.what == "mr")
-    imaging::writeVolume(options.out, *chooseMr(value, options.part).volume.get(), progress);
+    imaging::writeVolume(options.out, *checked(chooseMr(value, options.part)), progress);
   else if (options.what == "labels")
     imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part));
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);
   else if (options.what == "dissected")
-    value.ct.volume.get()->visit(
+    checked(value.ct)->visit(
         [&](const auto& ct)
         { imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress); });
   else if (options.what == "surface")
   {
     mask();
+    checked(value.ct);
     const volume::TissueField field = scene::tissueField(value);
     imaging::writeMesh(options.out,
                        rendering::extractSurface(field, field.geometry().fullBox(), progress));

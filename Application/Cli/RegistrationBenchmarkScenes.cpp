@@ -14,6 +14,7 @@
 #include "Numbers.h"
 #include "PhantomPairs.h"
 #include "RireFolder.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Volume/TissueExtent.h"
@@ -75,8 +76,7 @@ RegistrationPair pairOf(const fs::path& folder, const core::Progress& progress)
   const fs::path path = folder / "truth.json";
   try
   {
-    std::ifstream file(path);
-    const auto json = nlohmann::json::parse(file);
+    const auto json = nlohmann::json::parse(core::readFile(path));
     Eigen::Matrix4d matrix;
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)

@@ -1,7 +1,6 @@
 #include "RegistrationFiles.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -9,6 +8,7 @@
 
 #include "Context.h"
 #include "petrous/Core/CsvTable.h"
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::cli
 {
@@ -39,7 +39,7 @@ std::vector<double> numbersIn(std::string text)
 
 std::vector<registration::LandmarkPair> readLandmarks(const std::string& path)
 {
-  std::ifstream file = openForReading(path);
+  std::ifstream file = core::openInput(path, kLargestInput);
   std::vector<registration::LandmarkPair> pairs;
   core::readCsv(file, path, {"ct_x", "ct_y", "ct_z", "mr_x", "mr_y", "mr_z"},
                 [&pairs](std::size_t, const std::vector<double>& v) {
@@ -58,9 +58,7 @@ std::vector<registration::LandmarkPair> readLandmarks(const std::string& path)
 
 core::RigidTransform readTransform(const std::string& path)
 {
-  std::ifstream file = openForReading(path);
-  const std::vector<double> numbers =
-      numbersIn({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+  const std::vector<double> numbers = numbersIn(core::readFile(path, kLargestJson));
   if (numbers.size() != 16)
     throw core::InvalidParameter(path + ": holds no transform; give 16 numbers, row by row, or "
                                         "JSON with them under \"transform\"");

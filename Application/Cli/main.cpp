@@ -121,6 +121,7 @@ int runCommand(int argc, char** argv)
   cli::addSampleCommand(app, context);
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
+  cli::addLibraryCommand(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);
   cli::addSliceCommand(app, context);

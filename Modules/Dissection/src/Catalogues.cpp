@@ -1,9 +1,6 @@
 #include "petrous/Dissection/Catalogues.h"
 
-#include <fstream>
-#include <sstream>
-
-#include "petrous/Core/Error.h"
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::dissection
 {
@@ -11,20 +8,13 @@ namespace petrous::dissection
 namespace
 {
 
-std::string textOf(const std::filesystem::path& file)
-{
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream)
-    throw core::InvalidParameter(file.string() + ": cannot be read; it should be a JSON file");
-  return text.str();
-}
+constexpr std::uintmax_t kLargest = 16U << 20; // bytes
 
 template <typename Catalogue>
 Catalogue catalogueFrom(const std::filesystem::path& file)
 {
-  return file.empty() ? Catalogue::builtIn() : Catalogue(textOf(file), file.string());
+  return file.empty() ? Catalogue::builtIn()
+                      : Catalogue(core::readFile(file, kLargest), file.string());
 }
 
 } // namespace

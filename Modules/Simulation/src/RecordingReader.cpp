@@ -6,6 +6,7 @@
 #include "EditCodec.h"
 #include "RecordCodec.h"
 #include "RecordingFormat.h"
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::simulation
 {
@@ -14,10 +15,15 @@ using Reason = RecordingError::Reason;
 
 RecordingReader::RecordingReader(const std::filesystem::path& file)
   : m_name(file.filename().string())
-  , m_file(file, std::ios::binary)
 {
-  if (!m_file)
-    throw RecordingError(Reason::NotFound, m_name + ": no such file, or it cannot be read");
+  try
+  {
+    m_file = core::openInput(file);
+  }
+  catch (const core::InputFileError& error)
+  {
+    throw RecordingError(Reason::NotFound, m_name + ": " + error.problem);
+  }
   std::vector<std::uint8_t> head;
   if (!read(head, kMagicBytes) || std::memcmp(head.data(), kMagic, kMagicBytes) != 0)
     throw RecordingError(Reason::NotRecording, m_name + ": is not a recording of the hand");

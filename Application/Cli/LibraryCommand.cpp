@@ -1,0 +1,151 @@
+#include "Commands.h"
+#include "Numbers.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+struct Options
+{
+  std::string action;
+  std::vector<std::string> names;
+};
+
+void sayCases(const Context& context, const library::Library& library,
+              const std::vector<library::CaseSummary>& summaries)
+{
+  nlohmann::json cases = nlohmann::json::array();
+  for (const auto& summary : summaries)
+  {
+    cases.push_back({{"name", summary.name},
+                     {"modified", summary.modified},
+                     {"dims", summary.dims},
+                     {"structures", summary.structures},
+                     {"strokes", summary.strokes},
+                     {"removed_mm3", summary.removed},
+                     {"damaged", summary.damaged}});
+    context.say(summary.name + "  " + summary.modified + "  " +
+                (summary.damaged ? "damaged: its manifest cannot be read"
+                                 : std::to_string(summary.structures) + " structures, " +
+                                       std::to_string(summary.strokes) + " strokes, " +
+                                       fixed(summary.removed, 1) + " mm3 removed"));
+  }
+  if (cases.empty())
+    context.say("no case in " + library.folder().string());
+  context.give({{"library", library.folder().string()}, {"cases", std::move(cases)}});
+}
+
+void verify(const Context& context, const library::Library& library)
+{
+  const library::Inspection found = library.verify(context.progress());
+  nlohmann::json damaged = nlohmann::json::array();
+  for (const auto& one : found.damaged)
+  {
+    damaged.push_back({{"object", one.object}, {"cases", one.cases}, {"text", one.text}});
+    context.say(one.text);
+  }
+  context.say(std::to_string(found.cases) + " cases, " + std::to_string(found.objects) +
+              " objects, " + std::to_string(found.damaged.size()) + " damaged");
+  context.give({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
+  if (!found.damaged.empty())
+    throw library::LibraryError(library::LibraryError::Reason::Damaged,
+                                library.folder().string() + ": " +
+                                    std::to_string(found.damaged.size()) +
+                                    " files are damaged or missing; restore them from a copy");
+}
+
+void collect(const Context& context, library::Library& library)
+{
+  const library::Collected removed = library.collectGarbage();
+  context.say(std::to_string(removed.objects) + " objects that no case needs were removed, " +
+              std::to_string(removed.bytes) + " bytes");
+  context.give({{"removed", removed.objects}, {"bytes", removed.bytes}});
+}
+
+void repair(const Context& context, library::Library& library)
+{
+  const std::vector<std::string> done = library.repair();
+  for (const std::string& line : done)
+    context.say(line);
+  context.give({{"done", done}});
+}
+
+void run(const Context& context, const Options& options)
+{
+  const std::string& action = options.action;
+  const auto names = [&](std::size_t count, const std::string& form)
+  {
+    if (options.names.size() != count)
+      throw UsageError("library " + action + ": give 'petrous library " + form + "'");
+  };
+  library::Library library = context.openLibrary();
+  if (action == "list")
+  {
+    names(0, "list");
+    sayCases(context, library, library.list());
+  }
+  else if (action == "search")
+  {
+    names(1, "search TEXT");
+    sayCases(context, library, library.search(options.names[0]));
+  }
+  else if (action == "verify")
+  {
+    names(0, "verify");
+    verify(context, library);
+  }
+  else if (action == "gc")
+  {
+    names(0, "gc");
+    collect(context, library);
+  }
+  else if (action == "repair")
+  {
+    names(0, "repair");
+    repair(context, library);
+  }
+  else if (action == "rename")
+  {
+    names(2, "rename A B");
+    library.rename(options.names[0], options.names[1]);
+    context.say("case '" + options.names[0] + "' is now '" + options.names[1] + "'");
+    context.give({{"case", options.names[1]}, {"was", options.names[0]}});
+  }
+  else if (action == "copy")
+  {
+    names(2, "copy A B");
+    library.copy(options.names[0], options.names[1], context.progress());
+    context.say("case '" + options.names[1] + "' is a copy of '" + options.names[0] + "'");
+    context.give({{"case", options.names[1]}, {"from", options.names[0]}});
+  }
+  else if (action == "delete")
+  {
+    names(1, "delete NAME");
+    library.remove(options.names[0]);
+    context.say("case '" + options.names[0] +
+                "' is deleted; 'petrous library gc' frees what no other case needs");
+    context.give({{"case", options.names[0]}, {"deleted", true}});
+  }
+  else
+    throw UsageError("library: '" + action +
+                     "' is unknown; there are list, search TEXT, verify, gc, repair, rename A B, "
+                     "copy A B and delete NAME");
+}
+
+} // namespace
+
+void addLibraryCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command = context.addCommand(app, "library", "The cases on this machine",
+                                         [options, &context] { run(context, *options); });
+  command
+      ->add_option("ACTION", options->action,
+                   "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME")
+      ->required();
+  command->add_option("NAMES", options->names, "What the action is for");
+}
+
+} // namespace petrous::cli

@@ -15,6 +15,7 @@ ImportJob::ImportJob(library::Library library, std::string caseName, Prepare pre
   , m_prepare(std::move(prepare))
   , m_token(std::make_shared<core::CancelToken>())
 {
+  m_library.onNotice({}); // the window hears of it in its own thread only
   qRegisterMetaType<std::shared_ptr<scene::Case>>();
   qRegisterMetaType<std::shared_ptr<scene::Case>>("std::shared_ptr<petrous::scene::Case>");
 }

@@ -178,6 +178,7 @@ TEST_F(JournalThreadTest, GoesOnInTheLibraryThatTheCaseWasSavedTo)
   ASSERT_TRUE(model.touching());
   EXPECT_TRUE(until([this] { return !journalled(); })) << "the old journal is of no more use";
   ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  ASSERT_TRUE(until([&] { return std::filesystem::exists(elsewhere / "cases/block.journal"); }));
   std::filesystem::remove_all(folder);
   std::filesystem::rename(elsewhere, folder); // what was open stays open
   scene::Case again;

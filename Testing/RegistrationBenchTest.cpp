@@ -139,7 +139,7 @@ TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
   const auto report = json(
       "bench registration --quick --part pairs,conditions,calibration,stress --out " + quoted(out));
   std::set<std::string> kinds;
-  int fits = 0, calibrated = 0, refused = 0;
+  int fits = 0, processes = 0, calibrated = 0, refused = 0;
   for (const auto& point : report.at("points"))
   {
     const auto& setting = point.at("setting");
@@ -156,11 +156,17 @@ TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
     else if (setting.contains("what") && point.at("peer").is_null())
     {
       ++fits;
+      if (setting.at("what") == "process")
+      {
+        ++processes;
+        EXPECT_GT(point.at("extra").at("processor_s").get<double>(), 0.0);
+      }
       // The motion of a phantom patient is known: within 0.2 voxel of the MR.
       EXPECT_LT(point.at("extra").at("mr_voxels").get<double>(), 0.2) << setting.dump();
     }
   }
-  EXPECT_EQ(fits, 2) << "the fit, and the fit with its error";
+  EXPECT_EQ(fits, 3) << "the fit, the fit with its error, and that as a process of its own";
+  EXPECT_EQ(processes, 1);
   EXPECT_EQ(calibrated, 3);
   EXPECT_EQ(refused, 3) << "images of four dimensions";
   EXPECT_GE(kinds.size(), 30U);

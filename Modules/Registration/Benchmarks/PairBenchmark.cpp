@@ -129,7 +129,7 @@ Points onePair(const BenchmarkInput& input, const RegistrationPair& pair,
   all.extra["stated_max_mm"] = ours.error.max;
   all.extra["processor_s"] = quantile(processor, 0.5);
   add(all, ours.fit.mrFromCt);
-  if (input.process && !input.quick)
+  if (input.process)
     if (const auto process = repeated(times, [&] { return input.process(pair); }))
       add(peerPoint(pair, *process, "process", ""), process->mrFromCt);
   if (reference)

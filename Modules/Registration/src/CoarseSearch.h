@@ -29,8 +29,8 @@ struct SearchOptions
 /// The distinct maxima near any of the starts, best first: a grid of poses about each, of which the
 /// best are climbed from, at the coarsest level.
 ///
-/// Scored by the root of the overlap times (information less its bias from few samples), so that a pose that pushes
-/// most of the fixed image out of the other does not win by what little is left.
+/// Scored by the root of the overlap times (information less its bias from few samples), so that a
+/// pose that pushes most of the fixed image out of the other does not win by what little is left.
 std::vector<Basin> searchBasins(const ImagePair& pair,
                                 const std::vector<core::RigidTransform>& starts,
                                 const SearchOptions& options, const core::Progress& progress);

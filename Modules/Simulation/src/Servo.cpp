@@ -27,6 +27,7 @@ constexpr double kLastBack = 4096.0;
 constexpr double kNearer = 1.0;     // mm that it must come nearer by
 constexpr int kRest = 100;          // ticks until the next look, where it cannot
 constexpr double kHeldShare = 0.05; // of the contacts' forces
+constexpr double kFace = 0.01;      // mm: the handpiece's own face is met within rounding
 constexpr double kNoWay = 1e-6;     // mm
 constexpr double kAtGoal = 0.005;   // mm: the proxy has a deadband
 
@@ -228,7 +229,8 @@ void Servo::reportContacts(const ProxyTick& tick, double share) noexcept
     all += contact.thrust;
     if (contact.point >= m_setup.burrPoints)
     {
-      (contact.arm.dot(spindle) < m_setup.handpiece ? shaft : handpiece) += contact.thrust;
+      const bool byShaft = contact.arm.dot(spindle) < m_setup.handpiece - kFace;
+      (byShaft ? shaft : handpiece) += contact.thrust;
       continue;
     }
     force += share * contact.thrust * contact.normal;

@@ -168,6 +168,7 @@ std::optional<Bite> BiteSearch::find(const volume::CutMask& mask, const Wish& wi
     p.yielding = (depth - begin) / taken.work;
   p.known = true;
   p.end = at(depth);
+  taken.patch.arm *= p.burr / p.radius; // the cut is wider than the burr, whose teeth it is
   return Bite{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
 }
 

@@ -99,9 +99,10 @@ TEST_P(RemovalLaws, AreWhatIsRemoved)
         const double rate = force * 1e-3 * scene.feed.arm() * 2000.0 * kPi / pascal; // m3/s
         expected += 1e9 * rate * p.tick;
       });
-  // r_b cos(theta) of the flat surface, and more near the pole, where the patch has spread.
+  // r_b cos(theta) of the flat surface, more near the pole, where the patch has spread, and less at
+  // the equator: the mean of r_b cos(latitude) over a patch of 1 mm is 3 % less than r_b there.
   const double plain = 2.0 * std::cos(p.degrees * kDegree);
-  EXPECT_GT(arms / p.seconds, 0.97 * plain);
+  EXPECT_GT(arms / p.seconds, 0.95 * plain);
   if (p.degrees < 60.0)
   {
     EXPECT_LT(arms / p.seconds, 1.03 * plain);

@@ -8,6 +8,7 @@
 
 #include "BenchPlot.h"
 #include "SvgParts.h"
+#include "petrous/Core/NumberText.h"
 
 using namespace petrous;
 using namespace petrous::cli;
@@ -29,8 +30,8 @@ std::vector<Label> labelsOf(const std::string& svg)
   std::vector<Label> labels;
   for (std::sregex_iterator at(svg.begin(), svg.end(), text), end; at != end; ++at)
   {
-    const double x = std::stod((*at)[1]);
-    const double y = std::stod((*at)[2]);
+    const double x = core::parseDouble((*at)[1].str()).value();
+    const double y = core::parseDouble((*at)[2].str()).value();
     const double half = 0.5 * 6.36 * static_cast<double>((*at)[3].length());
     labels.push_back({(*at)[3], x - half, y - 7.3, x + half, y});
   }

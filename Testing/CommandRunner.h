@@ -59,7 +59,10 @@ protected:
   {
     const auto out = m_folder / ".stdout";
     const auto err = m_folder / ".stderr";
-    const std::string command = "PETROUS_LIBRARY=" + quoted(library()) + " " +
+    const char* preload =
+        std::getenv("PETROUS_TEST_PRELOAD"); // into the program, not into the test
+    const std::string command = "PETROUS_LIBRARY=" + quoted(library()) +
+                                (preload ? " LD_PRELOAD=" + quoted(preload) : "") + " " +
                                 quoted(PETROUS_PROGRAM) + " " + arguments + " >" + quoted(out) +
                                 " 2>" + quoted(err) + " </dev/null";
     const int status = std::system(command.c_str());

@@ -23,6 +23,7 @@
 #include "TouchBenchmark.h"
 #include "TouchBenchmarkScenes.h"
 #include "UndoBenchmark.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Rendering/RenderingError.h"
 
@@ -167,11 +168,8 @@ std::string lineOf(const core::BenchmarkPoint& point)
       "  " + (point.peer.empty() ? std::string("petrous") : point.peer) + "  " + point.scene;
   for (const auto& [key, value] : point.setting)
     line += "  " + key + " " + value;
-  char figures[64];
-  std::snprintf(figures, sizeof figures, "  %.3f ms  error %.3g ", 1e3 * point.seconds,
-                point.error);
-  line += (std::isnan(point.error) ? "  " + fixed(1e3 * point.seconds, 3) + " ms  error "
-                                   : std::string(figures)) +
+  line += "  " + fixed(1e3 * point.seconds, 3) + " ms  error " +
+          (std::isnan(point.error) ? "" : core::generalText(point.error, 3) + " ") +
           point.errorUnit;
   for (const auto& [key, value] : point.extra)
     line += "  " + key + " " + fixed(value, 3);

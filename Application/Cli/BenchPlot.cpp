@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <vector>
 
 #include "Numbers.h"
 #include "SvgParts.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::cli
 {
@@ -35,9 +35,7 @@ std::string hintOf(const core::BenchmarkPoint& point)
   words += ": " + fixed(1e3 * point.seconds, 2) + " ms";
   if (std::isnan(point.error))
     return words;
-  char error[32];
-  std::snprintf(error, sizeof error, "%.3g", point.error);
-  return words + ", " + error + " " + point.errorUnit;
+  return words + ", " + core::generalText(point.error, 3) + " " + point.errorUnit;
 }
 
 template <class Get>

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/SweptSphereCut.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/Phantom.h"
@@ -169,10 +170,8 @@ std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
     return std::nullopt;
   const core::GridGeometry& grid = patient.ct->geometry();
   const core::Index3& n = grid.dims();
-  char name[80];
-  std::snprintf(name, sizeof name, "real CT %d x %d x %d of %.2g mm", n[0], n[1], n[2],
-                grid.minSpacing());
-  patient.name = name;
+  patient.name = "real CT " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
+                 std::to_string(n[2]) + " of " + core::generalText(grid.minSpacing(), 2) + " mm";
   const auto extent = volume::tissueExtent(*patient.ct, kBenchmarkIso);
   // Where the mastoid of a head lies from the middle of its bone.
   openMastoid(patient, extent.center + Eigen::Vector3d(0.0, 18.0, -42.0));

@@ -43,6 +43,7 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
   command->callback(
       [this, run = std::move(run)]
       {
+        m_parsing.reset();
         run();
         refuseDamaged();
       });

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Library/Library.h"
 
@@ -53,6 +54,8 @@ private:
   void refuseDamaged() const;
   std::filesystem::path libraryFolder() const;
 
+  // CLI11 reads numbers as the C library does: with a point until the command runs.
+  std::optional<core::PlainNumbers> m_parsing{std::in_place};
   std::string m_library;
   mutable std::optional<library::Library> m_opened;
   bool m_json = false;

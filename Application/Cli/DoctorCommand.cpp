@@ -21,7 +21,7 @@ double memoryMiB(const std::string& key)
   std::ifstream file("/proc/meminfo");
   for (std::string line; std::getline(file, line);)
     if (line.rfind(key + ":", 0) == 0)
-      return std::strtod(line.c_str() + key.size() + 1, nullptr) / 1024.0;
+      return static_cast<double>(std::atoll(line.c_str() + key.size() + 1)) / 1024.0;
   return 0.0;
 }
 

@@ -41,6 +41,7 @@ DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
 {
   if (!m_file)
     throw core::InvalidParameter(m_name + ": cannot be written");
+  m_file.imbue(std::locale::classic());
   m_file.precision(std::numeric_limits<double>::max_digits10);
   m_file << "t_s,dx_mm,dy_mm,dz_mm,dqw,dqx,dqy,dqz,px_mm,py_mm,pz_mm,pqw,pqx,pqy,pqz,"
             "fx_n,fy_n,fz_n,tx_nmm,ty_nmm,tz_nmm,ox_n,oy_n,oz_n,otx_nmm,oty_nmm,otz_nmm,"

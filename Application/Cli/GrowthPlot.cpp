@@ -8,6 +8,7 @@
 
 #include "Numbers.h"
 #include "SvgParts.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::cli
 {
@@ -22,7 +23,7 @@ constexpr double kLeft = 70.0, kTop = 60.0, kWide = 340.0, kHigh = 280.0, kBetwe
 
 bool isNumber(const std::string& text)
 {
-  return !text.empty() && text.find_first_not_of("0123456789.") == std::string::npos;
+  return core::parseDouble(text).has_value();
 }
 
 std::string nameOf(const Point& point)
@@ -86,7 +87,8 @@ std::string growthSvg(const core::BenchmarkReport& report, const std::string& by
     if (std::find(names.begin(), names.end(), nameOf(point)) == names.end())
       names.push_back(nameOf(point));
   }
-  const Value right = [&by](const Point& point) { return std::stod(point.setting.at(by)); };
+  const Value right = [&by](const Point& point)
+  { return *core::parseDouble(point.setting.at(by)); };
   std::string result =
       svg::start(kLeft + 2.0 * kWide + kBetween + 40.0,
                  kTop + kHigh + 60.0 + 20.0 * static_cast<double>(names.size()), report.title);

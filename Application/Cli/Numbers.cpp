@@ -1,12 +1,12 @@
 #include "Numbers.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <sstream>
 
 #include "Context.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::cli
 {
@@ -18,12 +18,10 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
   std::istringstream stream(text);
   for (std::string field; std::getline(stream, field, ',');)
   {
-    double value = 0.0;
-    const char* end = field.data() + field.size();
-    const auto [rest, error] = std::from_chars(field.data(), end, value);
-    if (error != std::errc{} || rest != end || !std::isfinite(value))
+    const auto value = core::parseDouble(field);
+    if (!value || !std::isfinite(*value))
       throw UsageError(option + ": '" + field + "' is no number");
-    numbers.push_back(value);
+    numbers.push_back(*value);
   }
   if (numbers.size() != count)
     throw UsageError(option + ": " + std::to_string(count) + " numbers are needed, not " +
@@ -61,9 +59,7 @@ std::pair<int, int> parseSize(const std::string& text)
 
 std::string fixed(double value, int digits)
 {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return core::fixedText(value, digits);
 }
 
 } // namespace petrous::cli

@@ -2,6 +2,7 @@
 #include "CaseRemarks.h"
 #include "Commands.h"
 #include "PointsFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Volume/NearestSurface.h"
@@ -43,11 +44,7 @@ std::string structureAt(const scene::Case& value, const std::vector<scene::MeshS
 
 std::string number(const std::optional<double>& value)
 {
-  if (!value)
-    return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", *value);
-  return text;
+  return value ? core::generalText(*value, 9) : "";
 }
 
 void probe(Context& context, const std::string& name, const std::string& pointsFile,

@@ -9,6 +9,7 @@
 #include "Context.h"
 #include "petrous/Core/CsvTable.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::cli
 {
@@ -30,9 +31,16 @@ std::vector<double> numbersIn(std::string text)
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == ',' || c == ';' || c == '[' || c == ']'; },
       ' ');
+  std::vector<double> numbers;
   std::istringstream stream(text);
-  std::vector<double> numbers{std::istream_iterator<double>(stream), {}};
-  return stream.eof() ? numbers : std::vector<double>(); // something there is no number
+  for (std::string word; stream >> word;)
+  {
+    const auto number = core::parseDouble(word);
+    if (!number)
+      return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 } // namespace

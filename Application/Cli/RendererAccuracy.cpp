@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "OwnPicture.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 
 namespace petrous::cli
@@ -60,9 +61,7 @@ std::vector<Setting> settings()
 
 std::string shown(double value)
 {
-  char text[24];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
+  return core::generalText(value);
 }
 
 // A CT of 128^3 at 0.5 mm whose value is linear in the distance to a surface.

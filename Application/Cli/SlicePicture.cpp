@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "Numbers.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/PictureText.h"
 
 namespace petrous::cli
@@ -44,9 +45,8 @@ void addScaleBar(rendering::Picture& picture, double mmPerPixel)
   };
   bar(1, kDark);
   bar(0, kInk);
-  char text[32];
-  std::snprintf(text, sizeof text, "%g mm", length);
-  rendering::writeText(picture, text, {0.5 * (left + right), bottom - 10.0, 0.5, 1.0}, kLine, kInk);
+  rendering::writeText(picture, core::generalText(length) + " mm",
+                       {0.5 * (left + right), bottom - 10.0, 0.5, 1.0}, kLine, kInk);
 }
 
 } // namespace

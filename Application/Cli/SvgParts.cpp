@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "Numbers.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::cli::svg
 {
@@ -70,9 +70,7 @@ std::vector<LogAxis::Tick> LogAxis::ticks() const
     const double exponent = std::log10(mark);
     if (wide && std::abs(exponent - std::round(exponent)) > 0.01)
       continue;
-    char label[16];
-    std::snprintf(label, sizeof label, "%.3g", mark);
-    ticks.push_back({mark, share(mark), label});
+    ticks.push_back({mark, share(mark), core::generalText(mark, 3)});
   }
   return ticks;
 }

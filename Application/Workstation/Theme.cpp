@@ -4,6 +4,8 @@
 #include <QPalette>
 #include <QStyleFactory>
 
+#include "DecimalPoint.h"
+
 namespace petrous::workstation
 {
 
@@ -56,6 +58,7 @@ QLabel#big { font-size: 20px; color: #e4e8ed; }
 
 void applyTheme(QApplication& application)
 {
+  new DecimalPoint(application);
   application.setStyle(QStyleFactory::create("Fusion"));
   QPalette palette;
   palette.setColor(QPalette::Window, QColor("#1c2026"));

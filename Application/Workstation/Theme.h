@@ -10,7 +10,8 @@ class QApplication;
 namespace petrous::workstation
 {
 
-/// Dark and quiet, so that the bone is the brightest thing on the screen.
+/// Dark and quiet, so that the bone is the brightest thing on the screen; numbers with a decimal
+/// point (DecimalPoint.h). Before the first widget.
 void applyTheme(QApplication& application);
 
 /// The colour that a slice plane has in every view.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -100,11 +100,11 @@ void placeSurface(scene::Case& value)
     return;
   value.iso = scale.iso;
   value.denseBone = scale.dense;
-  std::ostringstream note;
-  note << "The intensities are not Hounsfield units: the surface of bone is put at " << scale.iso
-       << ", and dense bone taken for " << scale.dense
-       << ", by the image's histogram; 'petrous appearance --iso' moves the surface.";
-  value.ct.notes.push_back(note.str());
+  value.ct.notes.push_back(
+      "The intensities are not Hounsfield units: the surface of bone is put at " +
+      core::generalText(scale.iso) + ", and dense bone taken for " +
+      core::generalText(scale.dense) +
+      ", by the image's histogram; 'petrous appearance --iso' moves the surface.");
 }
 
 void checkName(const fs::path& path, const std::string& name)

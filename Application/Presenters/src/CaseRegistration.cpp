@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Registration/LiveMetric.h"
 #include "petrous/Scene/LayMr.h"
 
@@ -22,9 +22,7 @@ using SceneVerdict = scene::Registration::Verdict;
 
 std::string millimetres(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f mm", value);
-  return text;
+  return core::fixedText(value, 2) + " mm";
 }
 
 void add(std::string& text, const std::string& sentence)

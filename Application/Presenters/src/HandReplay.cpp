@@ -1,6 +1,6 @@
 #include "petrous/Presenters/HandReplay.h"
 
-#include <cstdio>
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::presenters
 {
@@ -10,9 +10,7 @@ namespace
 
 std::string number(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+  return core::generalText(value, 10);
 }
 
 std::string strokes(std::uint64_t count)

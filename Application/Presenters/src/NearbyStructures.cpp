@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Branches.h"
 
 namespace petrous::presenters
@@ -40,23 +40,18 @@ std::string cubicMillimetres(double volume)
 {
   if (volume > 0.0 && volume < 0.005)
     return "under 0.01 mm³";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.2f mm³", volume);
-  return text;
+  return core::fixedText(volume, 2) + " mm³";
 }
 
 std::string inWords(const NearbyStructure& structure)
 {
   std::string text = structure.name;
   std::replace(text.begin(), text.end(), '_', ' ');
-  char number[64];
+  const std::string uncertainty = core::fixedText(structure.uncertainty.millimetres(), 1);
   if (structure.state == NearbyStructure::State::Touched)
-    std::snprintf(number, sizeof number, " touched (± %.1f mm)",
-                  structure.uncertainty.millimetres());
+    text += " touched (± " + uncertainty + " mm)";
   else
-    std::snprintf(number, sizeof number, " %.1f mm ± %.1f", structure.distance,
-                  structure.uncertainty.millimetres());
-  text += number;
+    text += " " + core::fixedText(structure.distance, 1) + " mm ± " + uncertainty;
   if (structure.uncertainty.incomplete())
     text += "; registration's error unknown";
   return text;

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include <Eigen/Geometry>
 
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Scene/Placement.h"
 
@@ -108,10 +108,9 @@ std::string coordinates(const Eigen::Vector3d& point)
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
   {
-    char number[32];
     const double tenths = std::round(10.0 * point[axis]);
-    std::snprintf(number, sizeof number, "%.1f", tenths == 0.0 ? 0.0 : 0.1 * tenths); // no -0.0
-    text += (axis == 0 ? "(" : ", ") + std::string(number);
+    text += axis == 0 ? "(" : ", ";
+    text += core::fixedText(tenths == 0.0 ? 0.0 : 0.1 * tenths, 1); // no -0.0
   }
   return text + ")";
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::presenters
 {
@@ -56,7 +57,7 @@ SliceGeometry::SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d
   if (!(mmPerPixel > 0.0) || width < 1 || height < 1)
     throw core::InvalidParameter("slice: a picture of " + std::to_string(width) + " x " +
                                  std::to_string(height) + " pixels of " +
-                                 std::to_string(mmPerPixel) + " mm; all must be above 0");
+                                 core::generalText(mmPerPixel) + " mm; all must be above 0");
 }
 
 SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const core::GridGeometry& grid,

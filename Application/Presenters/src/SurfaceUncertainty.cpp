@@ -1,7 +1,8 @@
 #include "petrous/Presenters/SurfaceUncertainty.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::presenters
 {
@@ -29,20 +30,18 @@ SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::Structur
 
 std::string inWords(const SurfaceUncertainty& uncertainty)
 {
-  char text[96];
-  std::snprintf(text, sizeof text, "voxels %.2f x %.2f x %.2f mm, slices %.2f mm apart",
-                uncertainty.voxel[0], uncertainty.voxel[1], uncertainty.voxel[2],
-                uncertainty.sliceSpacing());
-  std::string words = text;
+  using core::fixedText;
+  std::string words = "voxels " + fixedText(uncertainty.voxel[0], 2) + " x " +
+                      fixedText(uncertainty.voxel[1], 2) + " x " +
+                      fixedText(uncertainty.voxel[2], 2) + " mm, slices " +
+                      fixedText(uncertainty.sliceSpacing(), 2) + " mm apart";
   if (uncertainty.drawnOn.empty())
     return words;
   words += "; drawn on the MR '" + uncertainty.drawnOn + "', ";
   if (!uncertainty.registration)
     return words + "registered, its error unknown";
-  std::snprintf(text, sizeof text, "registered to %.2f mm (p95) at ", *uncertainty.registration);
-  words += text + uncertainty.place;
-  std::snprintf(text, sizeof text, ", %.0f mm from here", uncertainty.away);
-  return words + text;
+  return words + "registered to " + fixedText(*uncertainty.registration, 2) + " mm (p95) at " +
+         uncertainty.place + ", " + fixedText(uncertainty.away, 0) + " mm from here";
 }
 
 } // namespace petrous::presenters

@@ -1,7 +1,6 @@
 #include "petrous/Appearance/TransferFunction.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::appearance
 {
@@ -97,11 +97,7 @@ ControlPoint pointIn(const json& j, const std::string& where)
 // The double that is written as shortly as the float is: 0.9, not 0.8999999761581421.
 double shortest(float value)
 {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
-  double result = 0.0;
-  std::from_chars(text, end, result);
-  return result;
+  return core::parseDouble(core::exactText(value)).value_or(value);
 }
 
 double extinctionOf(double opacity)

@@ -1,12 +1,12 @@
 #include "petrous/Core/CsvTable.h"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::core
 {
@@ -29,12 +29,8 @@ std::vector<std::string> split(const std::string& line)
 
 std::optional<double> number(const std::string& text)
 {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || rest != end || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = parseDouble(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // Positions of the wanted columns in the header's line.

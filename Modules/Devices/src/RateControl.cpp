@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::devices
 {
@@ -20,10 +20,9 @@ void require(double value, double least, double most, const char* name)
 {
   if (value >= least && value <= most)
     return;
-  std::ostringstream message;
-  message << "rate control: " << name << " is " << value << "; it must lie in [" << least << ", "
-          << most << "]";
-  throw core::InvalidParameter(message.str());
+  throw core::InvalidParameter(std::string("rate control: ") + name + " is " +
+                               core::generalText(value) + "; it must lie in [" +
+                               core::generalText(least) + ", " + core::generalText(most) + "]");
 }
 
 } // namespace

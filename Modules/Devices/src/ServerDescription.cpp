@@ -1,7 +1,8 @@
 #include "ServerDescription.h"
 
 #include <cmath>
-#include <sstream>
+
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::devices
 {
@@ -25,12 +26,8 @@ double number(const double& field)
 void check(double value, double most, const char* what, const char* unit, std::string& fault)
 {
   if (fault.empty() && !(value >= 0.0 && value <= most))
-  {
-    std::ostringstream words;
-    words << "describes a device with a " << what << " of " << value << ' ' << unit
-          << "; it must lie between 0 and " << most;
-    fault = words.str();
-  }
+    fault = std::string("describes a device with a ") + what + " of " + core::generalText(value) +
+            " " + unit + "; it must lie between 0 and " + core::generalText(most);
 }
 
 } // namespace

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
-#include <sstream>
 
 #include "ServerDescription.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::devices
 {
@@ -27,9 +27,7 @@ constexpr double kSettled = 10.0; // s; a server that ran so long may fail anew
 
 std::string seconds(double value)
 {
-  std::ostringstream text;
-  text << value << " s";
-  return text.str();
+  return core::generalText(value) + " s";
 }
 
 } // namespace

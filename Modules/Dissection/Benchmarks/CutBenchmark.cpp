@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/RemovedVolume.h"
 #include "petrous/Dissection/SweptSphereCut.h"
 
@@ -64,10 +65,8 @@ double deleteVoxels(volume::Volume<std::uint8_t>& bone, const Eigen::Vector3d& c
 
 core::BenchmarkPoint pointOf(const Outcome& outcome, double h, const std::string& peer)
 {
-  char spacing[16];
-  std::snprintf(spacing, sizeof spacing, "%.2f", h);
   core::BenchmarkPoint point;
-  point.setting["voxel_mm"] = spacing;
+  point.setting["voxel_mm"] = core::fixedText(h, 2);
   point.scene = "sphere of 4 mm in solid bone";
   point.isDefault = h == 0.3 && peer.empty();
   point.seconds = median(outcome.seconds);

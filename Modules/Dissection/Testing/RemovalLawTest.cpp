@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrCatalogue.h"
 
 using namespace petrous;
@@ -39,7 +40,7 @@ std::string materials(const std::string& energy, const std::string& friction,
 
 std::string burrs(double rake)
 {
-  return R"({"burrs":[{"kind":"cutting","rake_deg":)" + std::to_string(rake) +
+  return R"({"burrs":[{"kind":"cutting","rake_deg":)" + core::fixedText(rake, 6) +
          R"(,"diameters_mm":[4]},{"kind":"diamond","wear_coefficient":0.1,"diameters_mm":[4]}]})";
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::dissection
 {
@@ -15,7 +16,7 @@ constexpr double kSteepest = 1.0471975511965976; // pi / 3
 
 std::string text(double value)
 {
-  std::string result = std::to_string(value);
+  std::string result = core::fixedText(value, 6);
   result.erase(result.find_last_not_of('0') + 1);
   if (result.back() == '.')
     result.pop_back();

@@ -7,6 +7,7 @@
 
 #include "../Testing/ProxyChecks.h"
 #include "SteppedSphere.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/CentreProxy.h"
 
@@ -86,10 +87,8 @@ Walk walk(Proxy& proxy, const PointShell& shell, bool anyPoint, const volume::Ti
 core::BenchmarkPoint pointOf(const Walk& walk, double thickness, Program program)
 {
   core::BenchmarkPoint point;
-  char scene[64];
-  std::snprintf(scene, sizeof scene, "random hand%s, plate of %.1f voxels",
-                program == ThreeDof ? ", burr alone" : "", thickness);
-  point.scene = scene;
+  point.scene = std::string("random hand") + (program == ThreeDof ? ", burr alone" : "") +
+                ", plate of " + core::fixedText(thickness, 1) + " voxels";
   point.setting["voxel_mm"] = "0.3";
   if (program == Stepped)
     point.peer = "stepped sphere, no sweep";

@@ -1,12 +1,12 @@
 #include "TouchSurfaces.h"
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 
 #include "../Testing/SurfaceErrors.h"
 #include "SteppedSphere.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
@@ -26,9 +26,7 @@ constexpr char kPeer[] = "stepped sphere, no sweep";
 
 std::string shown(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return core::generalText(value, 4);
 }
 
 Scene sceneOf(const AnalyticSurface& surface, double h)

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "../Testing/CutBall.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
@@ -146,8 +146,7 @@ std::vector<core::BenchmarkPoint> touchTicks(const TouchScene& scene, bool quick
       slide(proxy, start, speed, ticks, all);
     }
     core::BenchmarkPoint point;
-    char text[16];
-    std::snprintf(text, sizeof text, "%.2f", speed);
+    const std::string text = core::fixedText(speed, 2);
     point.scene = "burr of 4 mm, " + scene.name + ", " + text + " m/s";
     point.setting["speed_m_s"] = text;
     point.setting["shell_points"] = std::to_string(shell.points.size());

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "Covering.h"
 #include "PointGrid.h"
 #include "ShellBudget.h"
 #include "SphereCover.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::haptics
 {
@@ -24,10 +24,9 @@ void check(const char* what, double value, double least, double most)
 {
   if (value >= least && value <= most)
     return;
-  std::ostringstream message;
-  message << "burr: " << what << " is " << value << " mm; it must lie between " << least << " and "
-          << most << " mm";
-  throw core::InvalidParameter(message.str());
+  throw core::InvalidParameter(std::string("burr: ") + what + " is " + core::generalText(value) +
+                               " mm; it must lie between " + core::generalText(least) + " and " +
+                               core::generalText(most) + " mm");
 }
 
 BurrShape checked(BurrShape shape)

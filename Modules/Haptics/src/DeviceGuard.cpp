@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::haptics
 {
@@ -162,41 +162,31 @@ const char* inWords(DeviceVerdict verdict) noexcept
 
 std::string inWords(const DeviceGuard::Judgement& judgement)
 {
-  const char* format = nullptr;
-  double scale = 1.0;
+  // There is none for a turn, nor where the device itself says that it is stale.
+  const double value = judgement.value;
+  if (value == 0.0)
+    return inWords(judgement.verdict);
   switch (judgement.verdict)
   {
   case DeviceVerdict::Jump:
-    format = "The device's handle jumped by %.1f mm from one reading to the next, faster than a "
-             "hand moves.";
-    break;
+    return "The device's handle jumped by " + core::fixedText(value, 1) +
+           " mm from one reading to the next, faster than a hand moves.";
   case DeviceVerdict::Stale:
-    format = "The device has sent nothing new for %.0f ms.";
-    scale = 1000.0;
-    break;
+    return "The device has sent nothing new for " + core::fixedText(1000.0 * value, 0) + " ms.";
   case DeviceVerdict::TimeBackward:
-    format = "The device's clock went back by %.1f ms.";
-    scale = 1000.0;
-    break;
+    return "The device's clock went back by " + core::fixedText(1000.0 * value, 1) + " ms.";
   case DeviceVerdict::TimeAhead:
-    format = "The device's clock is %.0f ms ahead of the computer's.";
-    scale = -1000.0;
-    break;
+    return "The device's clock is " + core::fixedText(-1000.0 * value, 0) +
+           " ms ahead of the computer's.";
   case DeviceVerdict::NotUnit:
-    format = "The device sent a rotation that is none: its quaternion's length is %.3g.";
-    break;
+    return "The device sent a rotation that is none: its quaternion's length is " +
+           core::generalText(value, 3) + ".";
   case DeviceVerdict::OutOfReach:
-    format = "The device sent a position %.3g mm away, farther than any hand reaches.";
-    break;
+    return "The device sent a position " + core::generalText(value, 3) +
+           " mm away, farther than any hand reaches.";
   default:
-    break;
-  }
-  // There is none for a turn, nor where the device itself says that it is stale.
-  if (format == nullptr || judgement.value == 0.0)
     return inWords(judgement.verdict);
-  char text[160];
-  std::snprintf(text, sizeof text, format, scale * judgement.value);
-  return text;
+  }
 }
 
 } // namespace petrous::haptics

@@ -43,7 +43,7 @@ double memoryMb(const std::string& name)
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
     if (line.rfind(name + ":", 0) == 0)
-      return std::stod(line.substr(name.size() + 1)) * 1024.0 / 1e6;
+      return static_cast<double>(std::stoll(line.substr(name.size() + 1))) * 1024.0 / 1e6;
   return 0.0;
 }
 

@@ -12,6 +12,8 @@
 
 #include <unistd.h>
 
+#include "petrous/Core/NumberText.h"
+
 namespace petrous::imaging::test
 {
 
@@ -105,7 +107,7 @@ struct TestSlice
       meta.element(group, 0x00020010, "UI", syntax.empty() ? own : syntax);
       out = std::string(128, '\0') + "DICM" + group;
     }
-    const std::string here = std::to_string(z);
+    const std::string here = core::fixedText(z, 6);
     element(out, 0x00080008, "CS", "ORIGINAL\\PRIMARY\\AXIAL");
     element(out, 0x00080016, "UI", sopClass);
     element(out, 0x00080018, "UI", "1.2.3.4.5." + std::to_string(1000 + static_cast<int>(z * 10)));
@@ -132,8 +134,8 @@ struct TestSlice
       number(out, 0x00280121, *paddingLimit);
     if (slope)
     {
-      element(out, 0x00281052, "DS", std::to_string(intercept));
-      element(out, 0x00281053, "DS", std::to_string(*slope));
+      element(out, 0x00281052, "DS", core::fixedText(intercept, 6));
+      element(out, 0x00281053, "DS", core::fixedText(*slope, 6));
     }
     if (!pixels)
       return out;

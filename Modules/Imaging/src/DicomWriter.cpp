@@ -21,6 +21,7 @@
 
 #include "PhantomShapes.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
 {
@@ -33,13 +34,13 @@ using Modality = SeriesDescription::Modality;
 /// length even: the most digits that fit.
 std::string decimal(double value)
 {
-  std::array<char, 40> text{};
   if (value == 0.0)
     return "0"; // also for -0
+  std::string text;
   for (int digits = 15; digits > 0; --digits)
-    if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= 15)
+    if (text = core::generalText(value, digits); text.size() <= 15)
       break;
-  return text.data();
+  return text;
 }
 
 std::string decimals(std::initializer_list<double> values)
@@ -290,6 +291,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             const std::filesystem::path file = folder / name.data();
             // into memory first: GDCM aborts the program where a disk is full
             std::ostringstream encoded;
+            encoded.imbue(std::locale::classic());
             writer.SetStream(encoded);
             if (!writer.Write())
               throw core::Error(core::Fault::Internal, file.string() + ": cannot be encoded");

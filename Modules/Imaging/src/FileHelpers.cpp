@@ -12,34 +12,6 @@ namespace petrous::imaging
 namespace
 {
 
-template <class T>
-std::string shortest(T value)
-{
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), end.ptr};
-}
-
-template <class T>
-std::optional<T> parse(std::string_view text)
-{
-  if (!text.empty() && text.front() == '+')
-    text.remove_prefix(1);
-  T value{};
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  // Too small for the type is zero, as everywhere; too large is no number.
-  if (end.ptr != text.data() + text.size() || text.empty() || end.ec == std::errc::invalid_argument)
-    return std::nullopt;
-  if (end.ec == std::errc::result_out_of_range)
-  {
-    if constexpr (std::is_floating_point_v<T>)
-      if (text.find("e-") != text.npos || text.find("E-") != text.npos)
-        return T{0};
-    return std::nullopt;
-  }
-  return value;
-}
-
 bool isSpace(char c)
 {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
@@ -131,22 +103,9 @@ std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::str
   return sum;
 }
 
-std::string exactText(double value)
-{
-  return shortest(value);
-}
-
-std::string exactText(float value)
-{
-  return shortest(value);
-}
-
 std::string roughText(double value)
 {
-  std::array<char, 64> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4);
-  return {text.data(), end.ptr};
+  return core::generalText(value, 4);
 }
 
 std::string dimsText(const std::vector<std::uint64_t>& dims)
@@ -157,19 +116,14 @@ std::string dimsText(const std::vector<std::uint64_t>& dims)
   return text;
 }
 
-std::optional<double> parseDouble(std::string_view text)
-{
-  return parse<double>(text);
-}
-
-std::optional<float> parseFloat(std::string_view text)
-{
-  return parse<float>(text);
-}
-
 std::optional<std::int64_t> parseInteger(std::string_view text)
 {
-  return parse<std::int64_t>(text);
+  if (!text.empty() && text.front() == '+')
+    text.remove_prefix(1);
+  std::int64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end ? std::optional(value) : std::nullopt;
 }
 
 std::string_view trimmed(std::string_view text)
@@ -201,19 +155,6 @@ std::string_view takeLine(std::string_view& text)
   if (!line.empty() && line.back() == '\r')
     line.remove_suffix(1);
   return line;
-}
-
-PlainNumbers::PlainNumbers()
-  : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
-  , m_before(uselocale(m_plain))
-{
-}
-
-PlainNumbers::~PlainNumbers()
-{
-  uselocale(m_before);
-  if (m_plain)
-    freelocale(m_plain);
 }
 
 } // namespace petrous::imaging

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <locale.h>
-
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileError.h"
 
 namespace petrous::imaging
@@ -38,16 +37,16 @@ std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit = 
 /// it names a list or a pattern. Throws NotFound.
 std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name);
 
-/// The shortest digits that read back to the same number, whatever the locale.
-std::string exactText(double value);
-std::string exactText(float value);
+using core::exactText;
+using core::parseDouble;
+using core::parseFloat;
+using core::PlainNumbers;
+
 /// Four significant digits, for messages.
 std::string roughText(double value);
 std::string dimsText(const std::vector<std::uint64_t>& dims);
 
-/// The whole of `text` as a number, whatever the locale.
-std::optional<double> parseDouble(std::string_view text);
-std::optional<float> parseFloat(std::string_view text);
+/// The whole of `text` as a whole number.
 std::optional<std::int64_t> parseInteger(std::string_view text);
 
 std::string_view trimmed(std::string_view text);
@@ -55,20 +54,5 @@ std::string_view trimmed(std::string_view text);
 std::string_view takeWord(std::string_view& text);
 /// Takes the next line off the front of `text`, without its end.
 std::string_view takeLine(std::string_view& text);
-
-/// While it lives, this thread reads and writes numbers with a point: ITK's readers follow the
-/// locale, and a program with a window may have set a decimal comma.
-class PlainNumbers
-{
-public:
-  PlainNumbers();
-  ~PlainNumbers();
-  PlainNumbers(const PlainNumbers&) = delete;
-  PlainNumbers& operator=(const PlainNumbers&) = delete;
-
-private:
-  locale_t m_plain;
-  locale_t m_before;
-};
 
 } // namespace petrous::imaging

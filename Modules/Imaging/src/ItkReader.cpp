@@ -1,6 +1,7 @@
 #include "ItkReader.h"
 
 #include <exception>
+#include <locale>
 
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
@@ -52,6 +53,32 @@ std::optional<Component> componentOf(itk::IOComponentEnum type)
   }
 }
 
+// While it lives, streams that are made have a decimal point and no grouping: MetaIO reads by them,
+// and they follow the global std::locale, which no thread has of its own. Where that is so already,
+// nothing happens.
+class PlainStreams
+{
+public:
+  PlainStreams()
+  {
+    const auto& numbers = std::use_facet<std::numpunct<char>>(m_before);
+    m_changed = numbers.decimal_point() != '.' || !numbers.grouping().empty();
+    if (m_changed) // without a name: the C library's locale stays
+      std::locale::global(std::locale(m_before, new std::numpunct<char>));
+  }
+  ~PlainStreams()
+  {
+    if (m_changed)
+      std::locale::global(m_before);
+  }
+  PlainStreams(const PlainStreams&) = delete;
+  PlainStreams& operator=(const PlainStreams&) = delete;
+
+private:
+  std::locale m_before;
+  bool m_changed = false;
+};
+
 } // namespace
 
 struct ItkReader::Io
@@ -82,6 +109,7 @@ ItkReader::~ItkReader() = default;
 bool ItkReader::readHeader()
 {
   const PlainNumbers plain;
+  const PlainStreams streams;
   itk::ImageIOBase& reader = *m_io->reader;
   try
   {
@@ -127,6 +155,7 @@ double ItkReader::origin(unsigned index) const
 bool ItkReader::read(const std::array<int, 3>& lower, const std::array<int, 3>& size, void* memory)
 {
   const PlainNumbers plain;
+  const PlainStreams streams;
   itk::ImageIORegion region(static_cast<unsigned>(m_dims.size()));
   for (unsigned a = 0; a < m_dims.size(); ++a)
   {

@@ -13,6 +13,7 @@
 
 #include "StagedFolder.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -34,7 +35,7 @@ constexpr double kMrMargin = 10.0; // mm more than the ear, so that the moved ea
 
 std::string shown(double value)
 {
-  std::string text = std::to_string(value);
+  std::string text = core::fixedText(value, 6);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.')
     text.pop_back();

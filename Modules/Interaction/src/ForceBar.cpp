@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
@@ -13,6 +12,8 @@
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::interaction
 {
@@ -105,12 +106,11 @@ void ForceBar::show(double force, double fullScale, double pixels, const Eigen::
         right + pixels * (kMarkGap + kMarkLength), mark + 0.5 * pixels);
   m_actors[Filled]->GetProperty()->SetColor(color.x(), color.y(), color.z());
 
-  char words[32];
-  std::snprintf(words, sizeof words, "%.1f N", force);
+  const std::string words = core::fixedText(force, 1) + " N";
   if (m_words != words) // letters are dear to draw
   {
     m_words = words;
-    m_text->SetInput(words);
+    m_text->SetInput(words.c_str());
   }
   m_text->GetTextProperty()->SetFontSize(static_cast<int>(std::lround(pixels * kTextSize)));
   m_text->SetPosition(left, top + pixels * kTextGap);

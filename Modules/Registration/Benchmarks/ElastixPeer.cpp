@@ -9,6 +9,7 @@
 
 #include "ChildProcess.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::registration
 {
@@ -77,6 +78,7 @@ void writeMetaImage(const fs::path& path, const volume::IntensityVolume& image)
       {
         using Value = typename std::decay_t<decltype(voxels)>::Value;
         std::ofstream header(path);
+        header.imbue(std::locale::classic());
         header.precision(12);
         header << "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
                << "BinaryDataByteOrderMSB = False\nTransformMatrix =";
@@ -136,10 +138,18 @@ core::RigidTransform elastixTransform(const std::string& parameters)
   if (p.size() != 6 || c.size() != 3 || kind.size() != 1 || kind[0] != "\"EulerTransform\"" ||
       (!zyx.empty() && zyx[0] != "\"false\""))
     throw core::Error(core::Fault::BadInput, "elastix: its result is no Euler transform of z x y");
+  const auto number = [](const std::string& word)
+  {
+    const auto value = core::parseDouble(word);
+    if (!value)
+      throw core::Error(core::Fault::BadInput,
+                        "elastix: '" + word + "' in its result is no number");
+    return *value;
+  };
   std::array<double, 6> v{};
   for (std::size_t i = 0; i < 6; ++i)
-    v[i] = std::stod(p[i]);
-  const Vector3d center(std::stod(c[0]), std::stod(c[1]), std::stod(c[2]));
+    v[i] = number(p[i]);
+  const Vector3d center(number(c[0]), number(c[1]), number(c[2]));
   const Eigen::Quaterniond turn = Eigen::AngleAxisd(v[2], Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(v[0], Vector3d::UnitX()) *
                                   Eigen::AngleAxisd(v[1], Vector3d::UnitY());

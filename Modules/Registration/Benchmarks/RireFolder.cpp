@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::registration
 {
@@ -61,6 +62,7 @@ public:
   double number(const std::string& name, const std::string& text) const
   {
     std::istringstream words(text);
+    words.imbue(std::locale::classic());
     double value = 0.0;
     if (!(words >> value) || !(value > 0.0) || value > 1e5)
       wrong(m_path, "'" + name + "' must be a number above 0");
@@ -200,6 +202,7 @@ RireStandard readRireStandard(const fs::path& path)
   for (std::string line; std::getline(file, line);)
   {
     std::istringstream words(line);
+    words.imbue(std::locale::classic());
     std::array<double, 7> v{};
     std::size_t n = 0;
     while (n < v.size() && words >> v[n])
@@ -223,8 +226,8 @@ RireStandard readRireStandard(const fs::path& path)
     standard.rms += (standard.toFromFrom * from.col(n) - to.col(n)).squaredNorm() / 8.0;
   standard.rms = std::sqrt(standard.rms);
   if (!(standard.rms < kNotRigid))
-    wrong(path,
-          "no rigid motion takes its points there (" + std::to_string(standard.rms) + " mm off)");
+    wrong(path, "no rigid motion takes its points there (" + core::generalText(standard.rms) +
+                    " mm off)");
   return standard;
 }
 

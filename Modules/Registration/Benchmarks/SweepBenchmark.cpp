@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 
 #include "RegistrationBenchmark.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Registration/Register.h"
 
 namespace petrous::registration
@@ -15,9 +15,7 @@ using Points = std::vector<core::BenchmarkPoint>;
 
 std::string words(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
+  return core::generalText(value);
 }
 
 // One setting of the schedule and the values to try; the default is among them.

@@ -1,6 +1,6 @@
-#include <cstdio>
-
 #include "Evidence.h"
+
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::registration
 {
@@ -21,12 +21,9 @@ constexpr double kAside = 0.6; // mm
 // further off and is not beyond doubt came to lie there by chance.
 constexpr double kFar = 50.0;
 
-template <class... Numbers>
-std::string text(const char* format, Numbers... numbers)
+std::string percent(double share)
 {
-  char line[256];
-  std::snprintf(line, sizeof line, format, numbers...);
-  return line;
+  return core::fixedText(100.0 * share, 0) + " %";
 }
 
 } // namespace
@@ -48,14 +45,13 @@ const char* nameOf(Verdict verdict)
 Judgement judge(const Evidence& e)
 {
   if (e.overlap < kLeastOverlap)
-    return {Verdict::Failed, text("the images share too little: %.0f %% of the smaller one's field",
-                                  100.0 * e.overlap)};
+    return {Verdict::Failed,
+            "the images share too little: " + percent(e.overlap) + " of the smaller one's field"};
   if (e.information < kLeastInformation)
-    return {Verdict::Failed,
-            text("the images tell next to nothing about each other (%.3f nats)", e.information)};
+    return {Verdict::Failed, "the images tell next to nothing about each other (" +
+                                 core::fixedText(e.information, 3) + " nats)"};
   if (e.strays > kLostStrays)
-    return {Verdict::Failed,
-            text("%.0f %% of the repeated fits ended elsewhere", 100.0 * e.strays)};
+    return {Verdict::Failed, percent(e.strays) + " of the repeated fits ended elsewhere"};
 
   std::string doubts;
   const auto doubt = [&doubts](const std::string& reason)
@@ -63,30 +59,30 @@ Judgement judge(const Evidence& e)
   if (!e.pointCovered)
     doubt("the point lies outside one of the images: its error is extrapolated");
   if (e.mirrored > kMirror)
-    doubt(text("the MR mirrored left to right fits as well (%.2f times the score): wrong side, or "
-               "a header with the sides exchanged?",
-               e.mirrored));
+    doubt("the MR mirrored left to right fits as well (" + core::fixedText(e.mirrored, 2) +
+          " times the score): wrong side, or a header with the sides exchanged?");
   if (e.runnerUp > kRival)
-    doubt(text("another pose fits nearly as well (%.2f times the score)", e.runnerUp));
+    doubt("another pose fits nearly as well (" + core::fixedText(e.runnerUp, 2) +
+          " times the score)");
   if (e.strays > kSomeStrays)
-    doubt(text("%.0f %% of the repeated fits ended elsewhere", 100.0 * e.strays));
+    doubt(percent(e.strays) + " of the repeated fits ended elsewhere");
   if (e.error.p95 > kWide && !e.displaced)
-    doubt(text("the error may reach %.1f mm", e.error.p95));
+    doubt("the error may reach " + core::fixedText(e.error.p95, 1) + " mm");
   if (e.displaced)
-    doubt(
-        text("what lies within %.0f mm of the point fits %.1f mm beside the rest: it is displaced "
-             "or the images are distorted there, and the error counts from where it lies",
-             e.displaced->radius, e.displaced->offset.norm()));
+    doubt("what lies within " + core::fixedText(e.displaced->radius, 0) + " mm of the point fits " +
+          core::fixedText(e.displaced->offset.norm(), 1) +
+          " mm beside the rest: it is displaced or the images are distorted there, and the error "
+          "counts from where it lies");
   else if (e.aside > kAside)
-    doubt(text("what lies about the point alone fits %.1f mm beside: the images differ by more "
-               "than a rigid motion",
-               e.aside));
+    doubt("what lies about the point alone fits " + core::fixedText(e.aside, 1) +
+          " mm beside: the images differ by more than a rigid motion");
   if (!doubts.empty() && e.moved > kFar)
-    return {Verdict::Failed, text("the fit ended %.0f mm from where it began: ", e.moved) + doubts};
+    return {Verdict::Failed,
+            "the fit ended " + core::fixedText(e.moved, 0) + " mm from where it began: " + doubts};
   if (!doubts.empty())
     return {Verdict::Doubtful, doubts};
-  return {Verdict::Good,
-          text("repeated fits agree; 95 of 100 errors are below %.2f mm", e.error.p95)};
+  return {Verdict::Good, "repeated fits agree; 95 of 100 errors are below " +
+                             core::fixedText(e.error.p95, 2) + " mm"};
 }
 
 } // namespace petrous::registration

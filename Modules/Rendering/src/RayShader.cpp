@@ -1,6 +1,5 @@
 #include "RayShader.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "OccupancyGrid.h"
@@ -10,6 +9,7 @@
 #include "RayMarchShader.h"
 #include "RayOpticsShader.h"
 #include "RaySceneShader.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Volume/LabelBorders.h"
 
@@ -49,20 +49,16 @@ std::string constants()
                                                   {"kMarginPerDepth", volume::kMarginPerDepth}};
   for (const auto& [name, value] : reals)
   {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.9g", value);
-    text += std::string("const float ") + name + " = float(" + digits + ");\n";
+    text += std::string("const float ") + name + " = float(" + core::generalText(value, 9) + ");\n";
   }
-  const auto add = [&text](const char* format, auto... values)
-  {
-    char part[96];
-    std::snprintf(part, sizeof part, format, values...);
-    text += part;
-  };
-  add("const vec3 kThicknessColors[%zu] = vec3[](", kThicknessColors.size());
+  text += "const vec3 kThicknessColors[" + std::to_string(kThicknessColors.size()) + "] = vec3[](";
   for (std::size_t n = 0; n < kThicknessColors.size(); ++n)
-    add("%svec3(%.6g, %.6g, %.6g)", n == 0 ? "" : ", ", double{kThicknessColors[n][0]},
-        double{kThicknessColors[n][1]}, double{kThicknessColors[n][2]});
+  {
+    text += n == 0 ? "vec3(" : ", vec3(";
+    for (std::size_t c = 0; c < 3; ++c)
+      text += (c == 0 ? "" : ", ") + core::generalText(kThicknessColors[n][c]);
+    text += ")";
+  }
   text += ");\n";
   const std::pair<const char*, unsigned> flags[] = {{"kMixed", OccupancyGrid::Mixed},
                                                     {"kLabels", OccupancyGrid::Labels},

@@ -1,8 +1,7 @@
 #include "petrous/Rendering/RenderQuality.h"
 
-#include <sstream>
-
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::rendering
 {
@@ -13,9 +12,8 @@ void require(bool holds, const char* name, double value, const char* range)
 {
   if (holds)
     return;
-  std::ostringstream text;
-  text << "picture quality: " << name << " is " << value << "; it must be " << range;
-  throw core::InvalidParameter(text.str());
+  throw core::InvalidParameter(std::string("picture quality: ") + name + " is " +
+                               core::generalText(value) + "; it must be " + range);
 }
 } // namespace
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 
 #include <Eigen/Geometry>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -30,10 +30,9 @@ double focalDistance(const core::CameraPose& camera)
 [[noreturn]] void refuse(const std::string& what, double value, double lower, double upper,
                          const std::string& why = {})
 {
-  std::ostringstream text;
-  text << "stereo: " << what << " of " << value << " mm; " << lower << " to " << upper
-       << " mm are possible" << why;
-  throw core::InvalidParameter(text.str());
+  throw core::InvalidParameter("stereo: " + what + " of " + core::generalText(value) + " mm; " +
+                               core::generalText(lower) + " to " + core::generalText(upper) +
+                               " mm are possible" + why);
 }
 
 bool within(double value, double lower, double upper)
@@ -70,11 +69,8 @@ StereoGeometry stereoGeometry(const core::CameraPose& camera, const StereoRig& r
     refuse("an eye separation", geometry.eyeSeparation, 0.0, StereoRig::kLargestSeparation);
   const double widest = separationOf(StereoRig::kWidestAngle, geometry.convergence);
   if (geometry.eyeSeparation > widest)
-  {
-    std::ostringstream at;
-    at << " where the eyes converge at " << geometry.convergence << " mm";
-    refuse("an eye separation", geometry.eyeSeparation, 0.0, widest, at.str());
-  }
+    refuse("an eye separation", geometry.eyeSeparation, 0.0, widest,
+           " where the eyes converge at " + core::generalText(geometry.convergence) + " mm");
   return geometry;
 }
 

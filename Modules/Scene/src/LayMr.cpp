@@ -1,8 +1,9 @@
 #include "petrous/Scene/LayMr.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::scene
 {
@@ -131,12 +132,7 @@ std::string registrationInWords(const ImagePart& mr)
   const Registration& how = *mr.registration;
   std::string words = "registered by " + methodInWords(how) + ", " + nameOf(how.verdict);
   if (how.error)
-  {
-    char text[64];
-    std::snprintf(text, sizeof text, ", error %.2f mm (p95)", how.error->p95);
-    words += text;
-    words += " at " + how.error->place;
-  }
+    words += ", error " + core::fixedText(how.error->p95, 2) + " mm (p95) at " + how.error->place;
   else
     words += ", its error unknown";
   if (const SignOff* signOff = validSignOff(mr))

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
 #include "CutSurface.h"
 #include "RemovalRun.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::simulation
 {
@@ -60,12 +60,7 @@ struct Scope
   }
 };
 
-std::string fixed(const char* format, double value)
-{
-  char text[24];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+using core::fixedText;
 
 LawScene::Setting settingOf(Burr::Kind kind, double diameter, double thrust, double degrees,
                             double voxel, double tick)
@@ -86,9 +81,9 @@ core::BenchmarkPoint pointOf(const std::string& scene, const std::string& series
   core::BenchmarkPoint point;
   point.scene = scene;
   point.series = series;
-  point.setting = {{"voxel_mm", fixed("%.2f", setting.voxel)},
-                   {"tick_ms", fixed("%.1f", 1e3 * setting.tick)},
-                   {"burr_mm", fixed("%.0f", setting.burr.diameter)}};
+  point.setting = {{"voxel_mm", fixedText(setting.voxel, 2)},
+                   {"tick_ms", fixedText(1e3 * setting.tick, 1)},
+                   {"burr_mm", fixedText(setting.burr.diameter, 0)}};
   point.isDefault = setting.voxel == kUsualVoxel && setting.tick == kUsualTick &&
                     setting.burr.diameter == kUsualBurr;
   times.enter(point);
@@ -154,7 +149,7 @@ Points balances(const Scope& scope, const core::Progress& progress)
         }
         LawScene::Setting setting = settingOf(kind, kUsualBurr, 0.0, 0.0, voxel, tick);
         auto point = pointOf(std::string(nameOf(kind)) + " of 4 mm, worst over thrust and angle",
-                             "voxel_mm, tick " + fixed("%.1f", 1e3 * tick) + " ms", setting, times);
+                             "voxel_mm, tick " + fixedText(1e3 * tick, 1) + " ms", setting, times);
         point.error = worst;
         point.extra["mean_error_percent"] = mean;
         point.extra["worst_at_thrust_n"] = at[0];
@@ -190,7 +185,7 @@ Points costs(const Scope& scope, const core::Progress& progress)
       const auto setting = grooveOf(diameter, voxel);
       const RemovalRun run = runByLaw(setting, scope.groove);
       auto point = pointOf("a step that bites, 1 N, led at 10 mm/s",
-                           "burr_mm, voxel " + fixed("%.2f", voxel) + " mm", setting, run.times);
+                           "burr_mm, voxel " + fixedText(voxel, 2) + " mm", setting, run.times);
       point.error = std::abs(run.error());
       point.extra["removed_mm3"] = run.measured;
       point.extra["forfeited_percent"] = 100.0 * run.forfeited / run.predicted;
@@ -209,7 +204,7 @@ void besidePeer(const Scope& scope, const LawScene::Setting& setting, const std:
   {
     const RemovalRun run = ours ? runByLaw(setting, seconds) : runByDeletion(setting, 0.5, most);
     auto point = pointOf("beside voxels deleted whole", series, setting, run.times);
-    point.setting["thrust_n"] = fixed("%.1f", setting.thrust);
+    point.setting["thrust_n"] = fixedText(setting.thrust, 1);
     point.isDefault = point.isDefault && ours && setting.thrust == 1.0;
     point.peer = ours ? "" : kPeer;
     point.error = std::abs(run.error());
@@ -225,7 +220,7 @@ Points comparisons(const Scope& scope, const core::Progress& progress)
   for (const double diameter : scope.peerBurrs)
   {
     progress.check("voxels deleted whole");
-    const std::string burr = ", " + fixed("%.0f", diameter) + " mm burr";
+    const std::string burr = ", " + fixedText(diameter, 0) + " mm burr";
     const auto setting = settingOf(Burr::Kind::Cutting, diameter, 1.0, 40.0, 0.2, kUsualTick);
     const auto vary = [&](const std::string& name, const std::vector<double>& values,
                           double LawScene::Setting::*member)
@@ -263,7 +258,7 @@ Points surfaces(const Scope& scope, const core::Progress& progress)
       scene.drill(std::min(scope.groove, 0.6));
       const SurfaceError error = surfaceErrorOf(scene, scope.centers, scope.directions);
       auto point = pointOf("surface of a groove against the balls that made it",
-                           "voxel_mm, " + fixed("%.0f", diameter) + " mm burr", setting, times);
+                           "voxel_mm, " + fixedText(diameter, 0) + " mm burr", setting, times);
       point.error = error.rms;
       point.errorUnit = "voxels, RMS";
       point.extra["max_voxels"] = error.most;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
@@ -121,10 +122,8 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
   while (replay.next())
     replay.feel();
 
-  char spacing[16];
-  std::snprintf(spacing, sizeof spacing, "%.2f", h);
   core::BenchmarkPoint point;
-  point.setting["voxel_mm"] = spacing;
+  point.setting["voxel_mm"] = core::fixedText(h, 2);
   point.scene = "4 mm burr drilling a block, hand with tremor";
   point.isDefault = h == 0.3;
   point.seconds = tick.wall(0.5);

@@ -1,8 +1,8 @@
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Simulation/Recording.h"
 
@@ -73,10 +73,9 @@ void eachPassivity(Passivity& p, Field field)
 
 std::string inWords(const RecordingSetup& setup)
 {
-  char diameter[32];
-  std::snprintf(diameter, sizeof diameter, "%.10g", setup.burr.diameter);
-  return std::string(dissection::nameOf(setup.burr.kind)) + " burr " + diameter + " mm, " +
-         std::to_string(setup.degrees) + " degrees of freedom";
+  return std::string(dissection::nameOf(setup.burr.kind)) + " burr " +
+         core::generalText(setup.burr.diameter, 10) + " mm, " + std::to_string(setup.degrees) +
+         " degrees of freedom";
 }
 
 std::string toJson(const RecordingSetup& setup)

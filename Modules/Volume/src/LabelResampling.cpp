@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "ThinStructures.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Volume/SmoothedUnion.h"
 
 namespace petrous::volume
@@ -76,15 +76,12 @@ core::GridGeometry commonGrid(const std::vector<LabelRanks>& grids, std::size_t 
   }
   if (dims.prod() < wanted)
   {
-    std::ostringstream note;
-    note.precision(3);
-    const auto put = [&note](const Vector3d& s)
-    { note << s[0] << " x " << s[1] << " x " << s[2] << " mm"; };
-    note << "structures: their common grid of ";
-    put(finest.spacing());
-    note << " would take " << wanted / 1e6 << " million voxels; drawn and felt on one of ";
-    put(spacing);
-    notes.push_back(note.str());
+    const auto rough = [](double value) { return core::generalText(value, 3); };
+    const auto inWords = [&rough](const Vector3d& s)
+    { return rough(s[0]) + " x " + rough(s[1]) + " x " + rough(s[2]) + " mm"; };
+    notes.push_back("structures: their common grid of " + inWords(finest.spacing()) +
+                    " would take " + rough(wanted / 1e6) +
+                    " million voxels; drawn and felt on one of " + inWords(spacing));
   }
   const core::Index3 size{static_cast<int>(dims[0]), static_cast<int>(dims[1]),
                           static_cast<int>(dims[2])};

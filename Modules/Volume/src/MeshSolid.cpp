@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
 
 #include "MeshInside.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Volume/Sampling.h"
 
 namespace petrous::volume
@@ -131,12 +131,10 @@ void checkLimits(const MeshSolidLimits& limits)
 
 std::string tooLargeText(double thickness, double bytes, double mostBytes)
 {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "it is %.3g mm thick in places and would take %.0f MB as voxels to stay whole; a "
-                "mesh may take %.0f MB",
-                thickness, std::ceil(bytes / (1 << 20)), std::floor(mostBytes / (1 << 20)));
-  return text;
+  return "it is " + core::generalText(thickness, 3) + " mm thick in places and would take " +
+         core::fixedText(std::ceil(bytes / (1 << 20)), 0) +
+         " MB as voxels to stay whole; a mesh may take " +
+         core::fixedText(std::floor(mostBytes / (1 << 20)), 0) + " MB";
 }
 
 // Raises voxels until none lies more than `most` below a neighbour along an axis.

@@ -69,7 +69,10 @@ RaySpan DrawnPart::clip(const PixelRay& ray) const
       span.face = -side.inwards;
     }
   }
-  const double inset = std::min(kInset * (1.0 + span.last), 0.5 * (span.last - span.first));
+  // What is thinner than rounding is nothing; an inset of it would turn its ends round.
+  const double inset = kInset * (1.0 + span.last);
+  if (!(span.last - span.first > 2.0 * inset))
+    return {};
   span.first += inset;
   span.last -= inset;
   return span;

@@ -319,7 +319,7 @@ void main()
   Span span = clipRay(origin, ray.direction);
   ray.first = span.first;
   float last = min(span.last, opaqueEnd(toMm));
-  bool alive = last > ray.first;
+  bool alive = last - ray.first > kThinnest * span.last;
   ray.last = (last - ray.first) / stepLength;
 
   ray.voxel = Way(origin + ray.first * ray.direction, ray.direction * stepLength);

@@ -1,6 +1,10 @@
 // Where a ray enters the part of the volume that is drawn, and where it ends. Second part of the ray
 // caster's fragment shader; see RayCast.frag.glsl.
 
+// Of the distance, some roundings of it: between faces that meet nothing is left, not what the digits
+// of two numbers differ by.
+const float kThinnest = 2e-6;
+
 // Where the ray enters the part of the volume that is drawn, where it leaves, and how the face that
 // it enters through looks at it.
 struct Span

@@ -1,7 +1,6 @@
 #include "petrous/Rendering/ScenePicture.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -16,9 +15,9 @@
 #include <vtkRenderer.h>
 #include <vtkVolume.h>
 #include <vtkWeakPointer.h>
-#include <vtk_glew.h>
 
 #include "AimCamera.h"
+#include "FrameTimer.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
 #include "ShadedMesh.h"
@@ -91,6 +90,7 @@ public:
   RenderQuality drawn; // of the last frame
   InteractionQuality interaction;
   bool interactive = false;
+  double milliseconds = 0.0; // of the latest frame whose time is known
   std::vector<std::unique_ptr<MeshActor>> meshes;
   ToolProps tool;
 
@@ -103,7 +103,7 @@ private:
   vtkNew<vtkCallbackCommand> m_onEnd;
   unsigned long m_startObserver = 0;
   unsigned long m_endObserver = 0;
-  std::chrono::steady_clock::time_point m_started;
+  FrameTimer m_timer;
 };
 
 ScenePicture::Implementation::Implementation()
@@ -129,17 +129,18 @@ void ScenePicture::Implementation::startFrame()
   mapper->SetQuality(drawn);
   // The lamp sits at the eye, as for the volume's rays; parallel rays have none.
   m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
-  m_started = std::chrono::steady_clock::now();
+  m_timer.begin();
 }
 
 void ScenePicture::Implementation::endFrame()
 {
+  m_timer.end(drawn);
   // At rest, too, so that the first frame that moves is not slower than the others.
-  glFinish(); // else the time would be that of giving orders
-  interaction.frameTook(
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_started)
-          .count(),
-      drawn);
+  if (const auto frame = m_timer.take())
+  {
+    milliseconds = frame->milliseconds;
+    interaction.frameTook(frame->milliseconds, frame->quality);
+  }
 }
 
 void ScenePicture::Implementation::setVolume(const SceneContents& contents)
@@ -181,6 +182,12 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
           if (window)
             prop->ReleaseGraphicsResources(window);
         });
+    if (window && m_timer.holdsQueries())
+    {
+      window->MakeCurrent();
+      m_timer.release();
+    }
+    m_timer = FrameTimer(); // the next context may be of another driver
     tool.removeFrom(last);
     last->RemoveLight(m_lamp);
     last->RemoveObserver(m_startObserver);
@@ -334,6 +341,11 @@ void ScenePicture::setCounting(bool counting)
 const RenderStatistics& ScenePicture::statistics() const
 {
   return m_implementation->mapper->GetStatistics();
+}
+
+double ScenePicture::frameMilliseconds() const
+{
+  return m_implementation->milliseconds;
 }
 
 void ScenePicture::throwLastError()

@@ -61,6 +61,10 @@ public:
   void setCounting(bool counting);
   const RenderStatistics& statistics() const; ///< of the last frame
 
+  /// What the latest frame took the graphics card whose time is known: with one, a frame or two
+  /// before the last, as nobody waits for it. 0: none yet.
+  double frameMilliseconds() const;
+
   /// Throws what went wrong in the last frame (RenderingError), once.
   void throwLastError();
 

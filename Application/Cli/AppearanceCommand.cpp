@@ -6,6 +6,7 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::cli
@@ -98,8 +99,12 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     return;
   }
   const double iso = parseNumbers(text, 1, "--iso").front();
-  if (std::abs(iso) > 32767.0)
-    throw UsageError("--iso: must lie within -32767 to 32767 HU, or be 'auto'");
+  const presenters::IntensityDisplay display = presenters::displayOf(value);
+  const double least = std::min(-32767.0, value.ct.range.min);
+  const double most = std::max(32767.0, value.ct.range.max);
+  if (iso < least || iso > most)
+    throw UsageError("--iso: must lie within " + display.number(least) + " to " +
+                     display.text(most) + ", or be 'auto'");
   value.iso = iso;
 }
 
@@ -318,8 +323,10 @@ void addAppearanceCommand(CLI::App& app, Context& context)
                                  const std::string& text, const std::string& type)
   { command->add_option(option, values, text)->allow_extra_args(false)->type_name(type); };
   command->add_option("CASE", options->name);
-  command->add_option("--iso", options->iso, "Surface of bone (300); auto: from the histogram")
-      ->type_name("HU|auto");
+  command
+      ->add_option("--iso", options->iso,
+                   "Surface of bone, in the CT's unit (300 HU); auto: from the histogram")
+      ->type_name("NUMBER|auto");
   perPart("--set", options->set, "A look of the catalogue (--presets)", "PART=PRESET");
   perPart("--tf", options->tf, "Transfer function; 'none' for one colour", "PART=F.json");
   perPart("--color", options->color, "Colour, 0 to 1 each, or #rrggbb", "PART=r,g,b");

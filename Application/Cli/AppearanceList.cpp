@@ -7,6 +7,7 @@
 #include "Numbers.h"
 #include "petrous/Appearance/LookMaterial.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::cli
@@ -77,8 +78,11 @@ void listAppearance(const Context& context, const scene::Case& value)
     context.say("  " + name + " (" + kind + "): " + describe(look, scale));
     return j;
   };
-  context.say("surface at " + fixed(value.iso, 1) + " HU, dense bone at " +
-              fixed(value.denseBone, 1) + " HU");
+  presenters::IntensityDisplay display = presenters::displayOf(value);
+  display.decimals = std::max(display.decimals, 1);
+  context.say("surface at " + display.text(value.iso) + ", dense bone at " +
+              display.text(value.denseBone) +
+              (display.hounsfield ? "" : " (not in Hounsfield units)"));
   nlohmann::json bone = entry("ct", "bone", value.boneLook);
   nlohmann::json parts = nlohmann::json::array();
   for (const auto& part : value.labels)
@@ -89,6 +93,7 @@ void listAppearance(const Context& context, const scene::Case& value)
   context.give({{"case", value.name},
                 {"iso_hu", value.iso},
                 {"dense_bone_hu", value.denseBone},
+                {"hounsfield", display.hounsfield},
                 {"bone", std::move(bone)},
                 {"parts", std::move(parts)}});
 }

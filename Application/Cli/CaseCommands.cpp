@@ -5,6 +5,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/ExposedSurfaces.h"
 #include "petrous/Scene/LayMr.h"
 
@@ -60,8 +61,11 @@ std::string sizeText(const core::GridGeometry& grid)
 void sayCase(const Context& context, const scene::Case& value)
 {
   context.say("case '" + value.name + "'");
-  context.say("  CT " + sizeText(value.ct.geometry) + ", " + fixed(value.ct.range.min, 0) + " to " +
-              fixed(value.ct.range.max, 0) + " HU, surface at " + fixed(value.iso, 0) + " HU");
+  const presenters::IntensityDisplay display = presenters::displayOf(value);
+  context.say("  CT " + sizeText(value.ct.geometry) + ", " + display.number(value.ct.range.min) +
+              " to " + display.text(value.ct.range.max) +
+              (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
+              display.text(value.iso));
   for (const auto& mr : value.mr)
     context.say("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
                 scene::registrationInWords(mr));

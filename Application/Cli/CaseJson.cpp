@@ -1,6 +1,7 @@
 #include "CaseJson.h"
 
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/LayMr.h"
@@ -166,6 +167,7 @@ json infoJson(const scene::Case& value)
   return {{"case", value.name},
           {"iso_hu", value.iso},
           {"dense_bone_hu", value.denseBone},
+          {"hounsfield", presenters::calibratedScale(value).calibrated},
           {"bone", lookJson(value.boneLook)},
           {"ct", std::move(ct)},
           {"mr", std::move(mr)},

@@ -6,6 +6,7 @@
 #include "Numbers.h"
 #include "Place.h"
 #include "SlicePicture.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/LayMr.h"
 
 namespace petrous::cli
@@ -60,14 +61,14 @@ OverlayMode parseMode(const std::string& word)
                              [](OverlayMode mode) { return std::string(nameOf(mode)); });
 }
 
-presenters::GreyWindow parseWindow(const std::string& text)
+std::optional<presenters::GreyWindow> parseWindow(const std::string& text)
 {
   if (text.empty())
-    return {};
+    return std::nullopt;
   const auto n = parseNumbers(text, 2, "--window WIDTH,LEVEL");
   if (!(n[0] > 0.0))
-    throw UsageError("--window WIDTH,LEVEL: the width must be above 0 HU");
-  return {n[0], n[1]};
+    throw UsageError("--window WIDTH,LEVEL: the width must be above 0");
+  return presenters::GreyWindow{n[0], n[1]};
 }
 
 SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
@@ -122,7 +123,7 @@ nlohmann::json overlayJson(const scene::ImagePart& mr, const presenters::SliceOv
 void slice(const Context& context, const SliceOptions& options)
 {
   const auto [width, height] = parseSize(options.size);
-  const presenters::GreyWindow window = parseWindow(options.window);
+  const auto wanted = parseWindow(options.window);
   parsePlane(options.plane);
   parseMode(options.mode);
   if (!(options.opacity >= 0.0 && options.opacity <= 1.0))
@@ -130,6 +131,8 @@ void slice(const Context& context, const SliceOptions& options)
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const scene::ImagePart* mr = findOverlay(options, value);
+  const presenters::IntensityDisplay display = presenters::displayOf(value);
+  const presenters::GreyWindow window = wanted.value_or(display.bone);
   const SliceGeometry geometry = sliceOf(options, value, width, height);
   if (value.applied() > 0)
     library.loadDissection(value);
@@ -159,6 +162,8 @@ void slice(const Context& context, const SliceOptions& options)
                 {"center_mm", vectorJson(geometry.center())},
                 {"mm_per_pixel", geometry.mmPerPixel()},
                 {"milliseconds", elapsed},
+                {"window", {{"width", window.width}, {"level", window.level}}},
+                {"hounsfield", display.hounsfield},
                 {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
                 {"resources", residentResources(value)}});
 }
@@ -183,7 +188,8 @@ void addSliceCommand(CLI::App& app, Context& context)
       ->add_option("--field-of-view", options->fieldOfView,
                    "Width of the picture, which then lies about --at (the whole slice)")
       ->type_name("MM");
-  command->add_option("--window", options->window, "Grey of the CT, HU (4000,700: bone)")
+  command
+      ->add_option("--window", options->window, "Grey of the CT, in its unit (bone: 4000,700 HU)")
       ->type_name("WIDTH,LEVEL");
   command->add_option("--overlay", options->overlay, "An MR of the case to see with the CT")
       ->type_name("MR");

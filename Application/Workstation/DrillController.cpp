@@ -11,6 +11,7 @@
 #include "HandKeeper.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
@@ -29,11 +30,11 @@ using haptics::DeviceVerdict;
 using simulation::ServoFault;
 using simulation::TickRecord;
 
-QString textOf(const presenters::PlaceReading& reading)
+QString textOf(const presenters::PlaceReading& reading, const presenters::IntensityDisplay& display)
 {
   QStringList lines;
   if (reading.hounsfield)
-    lines += DrillController::tr("%1 HU").arg(std::lround(*reading.hounsfield));
+    lines += words(display.text(*reading.hounsfield));
   if (!reading.structure.empty())
     lines += words(reading.structure).replace('_', ' ');
   lines += reading.surface
@@ -347,7 +348,8 @@ void DrillController::read(const TickRecord& record)
   m_sinceRead.start();
   if (!still)
     m_tip = tip;
-  m_view.display().setReading(textOf(m_model.readPlace(*m_tip)));
+  m_view.display().setReading(
+      textOf(m_model.readPlace(*m_tip), presenters::displayOf(m_model.value())));
   if (still)
     return;
   emit pointed(tip);

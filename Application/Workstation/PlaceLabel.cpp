@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "Theme.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
@@ -39,7 +40,7 @@ void PlaceLabel::showPlace(const Eigen::Vector3d& patient)
 {
   QString text = positionText(patient);
   if (const auto hounsfield = m_model.hounsfieldAt(patient))
-    text += tr("   %1 HU").arg(std::lround(*hounsfield));
+    text += "   " + words(presenters::displayOf(m_model.value()).text(*hounsfield));
   const std::string structure = m_model.structureAt(patient);
   if (!structure.empty())
     text += "   " + words(structure).replace('_', ' ');

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "SliceView.h"
+#include "Theme.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
@@ -19,7 +21,7 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
   setHandleWidth(3);
   for (SliceView* view : m_views)
   {
-    view->setToolTip(tr("Drag: move the crosshair.  Wheel: scroll.  Right drag: grey window (HU).\n"
+    view->setToolTip(tr("Drag: move the crosshair.  Wheel: scroll.  Right drag: grey window.\n"
                         "Ctrl+wheel: zoom.  Middle drag: move.  Red and hatched: drilled away."));
     addWidget(view);
     connect(view, &SliceView::crosshairMoved, this,
@@ -43,13 +45,17 @@ void SliceColumn::appearanceChanged()
 {
   const auto presenter = std::make_shared<const presenters::SlicePresenter>(m_model.value());
   for (SliceView* view : m_views)
+  {
     view->setPresenter(presenter, m_model.value().ct.geometry);
+    view->setIntensityDisplay(presenters::displayOf(m_model.value()));
+  }
 }
 
 void SliceColumn::crosshairMoved()
 {
   const auto hounsfield = m_model.hounsfieldAt(m_model.crosshair());
-  QString text = hounsfield ? tr("%1 HU").arg(std::lround(*hounsfield)) : QString();
+  QString text =
+      hounsfield ? words(presenters::displayOf(m_model.value()).text(*hounsfield)) : QString();
   const std::string structure = m_model.structureAt(m_model.crosshair());
   if (!structure.empty())
     text += "  " + QString::fromStdString(structure).replace('_', ' ');
@@ -77,12 +83,12 @@ void SliceColumn::setGreyWindow(const presenters::GreyWindow& window)
 
 void SliceColumn::boneWindow()
 {
-  setGreyWindow({});
+  setGreyWindow(presenters::displayOf(m_model.value()).bone);
 }
 
 void SliceColumn::softWindow()
 {
-  setGreyWindow({400.0, 40.0});
+  setGreyWindow(presenters::displayOf(m_model.value()).soft);
 }
 
 void SliceColumn::setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay)

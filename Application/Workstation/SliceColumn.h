@@ -25,7 +25,7 @@ public:
   void crosshairMoved();
   void maskChanged(const core::IndexBox& box); ///< of CT voxels
 
-  void boneWindow(); ///< width 4000, level 700 HU
+  void boneWindow(); ///< width 4000, level 700 HU, or what corresponds to it
   void softWindow(); ///< width 400, level 40 HU
   void fit();
 

@@ -19,6 +19,7 @@ namespace
 using presenters::SliceOrientation;
 
 constexpr double kHuPerPixel = 8.0;
+constexpr double kLeastHu = 10.0; // of a grey window
 constexpr int kMargin = 8;
 constexpr double kGap = 9.0; // of the crosshair, pixels
 
@@ -79,6 +80,12 @@ void SliceView::setGreyWindow(const presenters::GreyWindow& window)
 {
   m_window = window;
   stale();
+}
+
+void SliceView::setIntensityDisplay(const presenters::IntensityDisplay& display)
+{
+  m_display = display;
+  update();
 }
 
 void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay)
@@ -217,7 +224,8 @@ void SliceView::paintLetters(QPainter& painter) const
   if (underMouse())
   {
     const QString grey =
-        QString("W %1  L %2").arg(std::lround(m_window.width)).arg(std::lround(m_window.level));
+        QString("W %1  L %2")
+            .arg(words(m_display.number(m_window.width)), words(m_display.number(m_window.level)));
     const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
     drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
   }
@@ -270,8 +278,9 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
     emit crosshairMoved(patientAt(event->localPos()));
   else if (event->buttons() & Qt::RightButton)
   {
-    const double width = std::max(m_window.width + kHuPerPixel * step.x(), 10.0);
-    emit greyWindowChanged({width, m_window.level - 0.5 * kHuPerPixel * step.y()});
+    const double perPixel = kHuPerPixel * m_display.unit;
+    const double width = std::max(m_window.width + perPixel * step.x(), kLeastHu * m_display.unit);
+    emit greyWindowChanged({width, m_window.level - 0.5 * perPixel * step.y()});
   }
   else if (event->buttons() & Qt::MiddleButton)
   {

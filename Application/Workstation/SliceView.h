@@ -7,6 +7,7 @@
 #include <QWidget>
 
 #include "SliceMarks.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePresenter.h"
 
 namespace petrous::workstation
@@ -29,6 +30,7 @@ public:
   void fit(); ///< the whole slice
   void setCrosshair(const Eigen::Vector3d& patient);
   void setGreyWindow(const presenters::GreyWindow& window);
+  void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
   void setReadout(const QString& text); ///< what is under the crosshair
   void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< null: CT alone
   void setNotice(const QString& text); ///< what to know of what is shown
@@ -71,6 +73,7 @@ private:
   Eigen::Vector3d m_offset = Eigen::Vector3d::Zero(); // of the picture's middle, in the plane, mm
   double m_zoom = 1.0;
   presenters::GreyWindow m_window;
+  presenters::IntensityDisplay m_display;
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
   QString m_notice;
   std::vector<SliceMark> m_marks;

@@ -2,27 +2,26 @@
 
 #include <cmath>
 
+#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QSpinBox>
 #include <QTreeView>
 #include <QVBoxLayout>
 
 #include "StructuresModel.h"
 #include "Theme.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
 
 namespace
 {
-constexpr int kLowest = -500; // HU
-constexpr int kHighest = 2500;
 constexpr int kApplyAfter = 60; // ms
 } // namespace
 
@@ -32,24 +31,19 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   , m_structures(new StructuresModel(model, this))
   , m_list(new QTreeView)
   , m_slider(new QSlider(Qt::Horizontal))
-  , m_box(new QSpinBox)
+  , m_box(new QDoubleSpinBox)
 {
-  m_slider->setRange(kLowest, kHighest);
   m_slider->setPageStep(50);
   m_slider->setObjectName("isoSlider");
-  m_box->setRange(kLowest, kHighest);
-  m_box->setSingleStep(10);
-  m_box->setSuffix(tr(" HU"));
   m_box->setObjectName("isoBox");
-  const QString tip = tr("Bone is what is denser than this, in Hounsfield units (HU)");
-  m_slider->setToolTip(tip);
-  m_box->setToolTip(tip);
-  connect(m_slider, &QSlider::valueChanged, m_box, &QSpinBox::setValue);
-  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this,
-          [this](int value)
+  showRange();
+  connect(m_slider, &QSlider::valueChanged, this,
+          [this](int steps) { m_box->setValue(m_step * steps); });
+  connect(m_box, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          [this](double value)
           {
             const QSignalBlocker quiet(m_slider);
-            m_slider->setValue(value);
+            m_slider->setValue(static_cast<int>(std::lround(value / m_step)));
             m_apply.start();
           });
   m_apply.setSingleShot(true);
@@ -135,15 +129,35 @@ void StructuresPanel::offer(const QPoint& position)
     emit thicknessAsked(name);
 }
 
+// What the image has, in its unit.
+void StructuresPanel::showRange()
+{
+  const auto display =
+      m_model.hasCase() ? presenters::displayOf(m_model.value()) : presenters::IntensityDisplay();
+  m_step = display.step;
+  m_slider->setRange(static_cast<int>(std::floor(display.least / m_step)),
+                     static_cast<int>(std::ceil(display.most / m_step)));
+  m_box->setDecimals(display.decimals);
+  m_box->setRange(display.least, display.most);
+  m_box->setSingleStep(10.0 * m_step);
+  m_box->setSuffix(words(display.suffix()));
+  const QString tip = display.hounsfield
+                          ? tr("Bone is what is denser than this, in Hounsfield units (HU)")
+                          : tr("Bone is what is denser than this, in the image's own unit: it is "
+                               "not in Hounsfield units");
+  m_slider->setToolTip(tip);
+  m_box->setToolTip(tip);
+}
+
 void StructuresPanel::showIso()
 {
   if (!m_model.hasCase() || m_apply.isActive())
     return;
   const QSignalBlocker quietBox(m_box);
   const QSignalBlocker quietSlider(m_slider);
-  const int iso = static_cast<int>(std::lround(m_model.value().iso));
-  m_box->setValue(iso);
-  m_slider->setValue(iso);
+  showRange();
+  m_box->setValue(m_model.value().iso);
+  m_slider->setValue(static_cast<int>(std::lround(m_model.value().iso / m_step)));
 }
 
 void StructuresPanel::caseChanged()

@@ -5,9 +5,9 @@
 
 #include "petrous/Presenters/WorkstationModel.h"
 
+class QDoubleSpinBox;
 class QMenu;
 class QSlider;
-class QSpinBox;
 class QTreeView;
 
 namespace petrous::workstation
@@ -35,13 +35,15 @@ private:
   void offer(const QPoint& position);
   void addTissues(QMenu& menu, const QString& name);
   void showIso();
+  void showRange();
 
   presenters::WorkstationModel& m_model;
   StructuresModel* m_structures;
   QTreeView* m_list;
   QSlider* m_slider;
-  QSpinBox* m_box;
-  QTimer m_apply; // a slider on the move makes one change, not fifty
+  QDoubleSpinBox* m_box;
+  double m_step = 1.0; // of the slider, in the CT's unit
+  QTimer m_apply;      // a slider on the move makes one change, not fifty
 };
 
 } // namespace petrous::workstation

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/HandReplay.h"
 
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::presenters
 {
@@ -40,9 +41,12 @@ void checkFit(const scene::Case& value, const TouchScene& scene,
   if (now.ct != then.ct)
     refuse("was recorded on another CT than that of '" + value.name + "'");
   if (now.iso != then.iso)
-    refuse("was recorded with bone from " + number(then.iso) + " HU on, '" + value.name +
-           "' has it from " + number(now.iso) + " HU on: petrous appearance '" + value.name +
+  {
+    const std::string unit = displayOf(value).suffix();
+    refuse("was recorded with bone from " + number(then.iso) + unit + " on, '" + value.name +
+           "' has it from " + number(now.iso) + unit + " on: petrous appearance '" + value.name +
            "' --iso " + number(then.iso));
+  }
   if (now.tissue != then.tissue)
     refuse("was recorded with other structures under hand and drill than '" + value.name +
            "' has; see what is touchable and drillable: petrous appearance '" + value.name +

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "OverlayPainter.h"
+#include "petrous/Appearance/LookMaterial.h"
 
 namespace petrous::presenters
 {
@@ -111,10 +112,10 @@ SliceOverlay overlayOf(const scene::ImagePart& mr)
 
 EdgeLevels edgeLevels(const volume::IntensityScale& scale)
 {
-  // By 300 and 1800 HU, as the scale is defined: -400 HU, and 150 HU a mm.
-  const double unit = (scale.dense - scale.iso) / 1500.0;
-  return {static_cast<float>(scale.iso), static_cast<float>(scale.iso - 700.0 * unit),
-          static_cast<float>(150.0 * unit)};
+  const auto at = [&scale](double hounsfield)
+  { return scale.calibrated ? hounsfield : appearance::onScale(hounsfield, scale); };
+  return {static_cast<float>(scale.iso), static_cast<float>(at(-400.0)),
+          static_cast<float>(at(150.0) - at(0.0))};
 }
 
 double checkerSide(double mmPerPixel)

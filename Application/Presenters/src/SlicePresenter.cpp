@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "OverlayPainter.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -38,7 +39,7 @@ void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, co
 
 SlicePresenter::SlicePresenter(const scene::Case& value)
   : m_ct(value.ct.volume.get())
-  , m_edges(edgeLevels(value.intensityScale()))
+  , m_edges(edgeLevels(calibratedScale(value)))
 {
   if (value.dissection)
     m_mask = {value.dissection, &std::as_const(*value.dissection).mask()};
@@ -78,10 +79,9 @@ SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& w
   if (!m_ct)
     return pixels;
   const PlaneSamples ct = samplePlane(*m_ct, slice);
-  const GreyWindow grey{std::max(window.width, 1.0), window.level};
   for (std::size_t n = 0; n < count; ++n)
     if (!std::isnan(ct.values[n]))
-      std::fill_n(&pixels.rgb[3 * n], 3, greyOf(ct.values[n], grey));
+      std::fill_n(&pixels.rgb[3 * n], 3, greyOf(ct.values[n], window));
   if (overlay && overlay->mr)
     paintOverlay(*overlay, slice, pixels);
   for (const Layer& layer : m_layers)

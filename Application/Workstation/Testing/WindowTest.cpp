@@ -2,6 +2,7 @@
 
 #include <QAbstractItemModelTester>
 #include <QPushButton>
+#include <QSlider>
 #include <QSpinBox>
 #include <QTemporaryDir>
 #include <QTreeView>
@@ -156,12 +157,57 @@ TEST_F(Window, TheThresholdTakesTheBoneAway)
   saveBall("ball");
   openWindow();
   const int before = pixelsUnlikeTheCorner(picture());
-  window().findChild<QSpinBox*>("isoBox")->setValue(2400);
+  window().findChild<QDoubleSpinBox*>("isoBox")->setValue(2400);
   ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 2400.0; }));
   EXPECT_LT(pixelsUnlikeTheCorner(picture()), before / 2); // the structure stays
   EXPECT_TRUE(window().windowTitle().startsWith(QString::fromUtf8("•")));
   closeWindow();
   EXPECT_EQ(library().open("ball").iso, 2400.0);
+}
+
+// Cone beam: 14 for each HU, water at 14,000.
+TEST_F(Window, AnImageThatIsNotInHounsfieldUnitsHasGreyAndAThresholdThatReachesIt)
+{
+  scene::Case value = ballCase("cone beam");
+  const auto hounsfield = std::get<0>(value.ct.volume.get()->voxels()); // the ball's, -1000 to 1600
+  auto own = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry);
+  for (std::size_t n = 0; n < hounsfield->size(); ++n)
+    own->data()[n] = static_cast<std::uint16_t>(14000 + 14 * hounsfield->data()[n]);
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::uint16_t>>(own));
+  value.ct.range = {0.0, 36400.0};
+  value.iso = 18200.0;
+  value.denseBone = 35000.0;
+  library().save(value);
+  openWindow("cone beam");
+
+  auto* axial = window().findChild<SliceView*>("axialView");
+  const QImage image = axial->grab().toImage();
+  int white = 0;
+  int grey = 0;
+  for (int y = 60; y < image.height() - 60; ++y)
+    for (int x = 20; x < image.width() - 20; ++x)
+    {
+      const QColor color(image.pixel(x, y));
+      const bool plain = color.red() == color.green() && color.green() == color.blue();
+      white += plain && color.red() >= 250;
+      grey += plain && color.red() > 120 && color.red() < 245;
+    }
+  EXPECT_GT(grey, 1000) << "bone of 1600 HU";
+  EXPECT_LT(white, grey / 4);
+
+  auto* box = window().findChild<QDoubleSpinBox*>("isoBox");
+  auto* slider = window().findChild<QSlider*>("isoSlider");
+  EXPECT_EQ(box->value(), 18200.0);
+  EXPECT_EQ(box->suffix(), "");
+  const int before = pixelsUnlikeTheCorner(picture());
+  slider->setValue(slider->maximum());
+  EXPECT_EQ(box->value(), 36400.0);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 36400.0; }));
+  EXPECT_LT(pixelsUnlikeTheCorner(picture()), before / 2);
+  box->setValue(18200.0);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 18200.0; }));
+  EXPECT_NEAR(pixelsUnlikeTheCorner(picture()), before, before / 50);
 }
 
 TEST_F(Window, TheListOfStructuresChangesTheCase)

@@ -12,10 +12,10 @@
 namespace petrous::presenters
 {
 
-/// Grey from intensity: black at level - width/2, white at level + width/2, HU.
+/// Grey from intensity: black at level - width/2, white at level + width/2, in the image's unit.
 struct GreyWindow
 {
-  double width = 4000.0; ///< the bone window
+  double width = 4000.0; ///< the bone window, HU
   double level = 700.0;
 };
 

@@ -1,0 +1,114 @@
+#include "petrous/Presenters/IntensityDisplay.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "petrous/Presenters/SlicePresenter.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+
+namespace
+{
+
+// Of an image whose air is 0, bone `iso` and dense bone `dense`.
+scene::Case caseOf(double iso, double dense, double least, double most)
+{
+  scene::Case value;
+  value.iso = iso;
+  value.denseBone = dense;
+  value.ct.range = {least, most};
+  return value;
+}
+
+// The darkest and the brightest value that a window tells apart.
+std::pair<double, double> ends(const GreyWindow& window)
+{
+  return {window.level - 0.5 * window.width, window.level + 0.5 * window.width};
+}
+
+} // namespace
+
+TEST(IntensityDisplay, IsInHounsfieldUnitsWhereTheImageIsCalibrated)
+{
+  const IntensityDisplay display = displayOf(caseOf(300.0, 1800.0, -1024.0, 3071.0));
+  EXPECT_TRUE(display.hounsfield);
+  EXPECT_EQ(ends(display.bone), std::pair(-1300.0, 2700.0));
+  EXPECT_EQ(ends(display.soft), std::pair(-160.0, 240.0));
+  EXPECT_EQ(display.text(299.6), "300 HU");
+  EXPECT_EQ(display.text(-0.2), "0 HU");
+  EXPECT_EQ(display.least, -500.0);
+  EXPECT_EQ(display.most, 2500.0);
+  EXPECT_EQ(display.step, 1.0);
+  // Another threshold does not move the grey.
+  const IntensityDisplay high = displayOf(caseOf(2800.0, 1800.0, -1024.0, 3071.0));
+  EXPECT_EQ(ends(high.bone), std::pair(-1300.0, 2700.0));
+  EXPECT_EQ(high.most, 2800.0);
+}
+
+TEST(IntensityDisplay, FollowsAConeBeamImageThatCountsFromZero)
+{
+  // 1 HU is 14 of it: bone at 18,200, dense bone at 39,200, water at 14,000.
+  const IntensityDisplay display = displayOf(caseOf(18200.0, 39200.0, 0.0, 56000.0));
+  EXPECT_FALSE(display.hounsfield);
+  EXPECT_NEAR(display.unit, 14.0, 1e-9);
+  EXPECT_EQ(display.text(18200.0), "18200");
+  EXPECT_NEAR(ends(display.bone).first, 0.0, 1e-6) << "-1300 HU would lie below the image";
+  EXPECT_NEAR(ends(display.bone).second, 14.0 * 2700.0 + 14000.0, 1e-6);
+  EXPECT_NEAR(ends(display.soft).first, 14.0 * -160.0 + 14000.0, 1e-6);
+  EXPECT_NEAR(ends(display.soft).second, 14.0 * 240.0 + 14000.0, 1e-6);
+  EXPECT_EQ(display.least, 0.0);
+  EXPECT_EQ(display.most, 56000.0);
+  EXPECT_EQ(display.step, 50.0);
+}
+
+TEST(IntensityDisplay, TellsSmallNumbersApart)
+{
+  // Attenuation per millimetre.
+  const IntensityDisplay display = displayOf(caseOf(0.026, 0.056, 0.0, 0.08));
+  EXPECT_EQ(display.text(0.026), "0.02600");
+  EXPECT_NEAR(display.step, 5e-5, 1e-12);
+  EXPECT_EQ(display.least, 0.0);
+  EXPECT_EQ(display.most, 0.08);
+  EXPECT_EQ(display.text(-1e-9), "0.00000");
+}
+
+TEST(IntensityDisplay, ShowsAnImageWhoseThresholdLiesAboveDenseBone)
+{
+  const IntensityDisplay display = displayOf(caseOf(50000.0, 39200.0, 0.0, 56000.0));
+  EXPECT_NEAR(display.unit, 14.0, 1e-9);
+  EXPECT_NEAR(ends(display.bone).first, 0.0, 1e-6);
+  EXPECT_NEAR(ends(display.bone).second, 51800.0, 1e-6);
+  // One value throughout has no range to follow.
+  EXPECT_GT(displayOf(caseOf(7.0, 8.0, 7.0, 7.0)).bone.width, 0.0);
+}
+
+TEST(IntensityDisplay, SlicesOfSmallNumbersAreGrey)
+{
+  const core::GridGeometry grid({16, 16, 16}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  auto voxels = std::make_shared<volume::Volume<float>>(grid);
+  for (int k = 0; k < 16; ++k)
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < 16; ++i)
+        voxels->at(i, j, k) = 0.08F * static_cast<float>(i) / 15.0F;
+  scene::Case value = caseOf(0.026, 0.056, 0.0, 0.08);
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<float>>(std::move(voxels)));
+  value.ct.geometry = grid;
+  const auto slice = SliceGeometry::fitting(SliceOrientation::Axial, grid, {7.5, 7.5, 7.5}, 60, 60);
+  const IntensityDisplay display = displayOf(value);
+  const SlicePixels pixels = SlicePresenter(value).draw(slice, display.bone);
+  const auto [black, white] = ends(display.bone);
+  int told = 0;
+  for (int column = 0; column < 60; ++column)
+  {
+    const double x = slice.patientFromPixel(column, 30).x();
+    if (x < 0.1 || x > 14.9)
+      continue;
+    const double grey = 255.0 * std::clamp((0.08 * x / 15.0 - black) / (white - black), 0.0, 1.0);
+    EXPECT_NEAR(pixels.at(column, 30)[0], grey, 1.0) << x;
+    told += grey > 5.0 && grey < 250.0;
+  }
+  EXPECT_GT(told, 25);
+}

@@ -6,7 +6,10 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 
 #include "TestFiles.h"
@@ -244,19 +247,221 @@ TEST(ImageFile, NotesWhenQformAndSformDisagree)
   EXPECT_EQ(image.volume->geometry().origin()[2], 0.0);
 }
 
-TEST(ImageFile, NotesAMissingPlaceAndVoxelsThatAreNoNumber)
+TEST(ImageFile, NotesAMissingPlaceAndUnit)
 {
   const TestFolder folder;
   TestNifti nifti = shortNifti();
   nifti.sform = 0;
   EXPECT_TRUE(noted(readImageFile(putFile(folder / "a.nii", nifti.bytes())), "no place"));
-  std::vector<float> values = counting<float>(24);
-  values[3] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(noted(readImageFile(putFile(folder / "b.nrrd", nrrd("float", bytesOf(values)))),
-                    "1 voxels that are no number"));
   EXPECT_TRUE(noted(
       readImageFile(putFile(folder / "c.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24))))),
       "unit"));
+}
+
+TEST(ImageFile, RefusesVoxelsThatAreNotFinite)
+{
+  const TestFolder folder;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity, 1e300})
+  {
+    std::vector<double> values = counting<double>(24);
+    values[3] = values[20] = bad;
+    expectRefused(
+        refusalOf([&]
+                  { readImageFile(putFile(folder / "a.nrrd", nrrd("double", bytesOf(values)))); }),
+        Reason::Unsupported, "2 voxels that are not finite");
+  }
+  TestNifti nifti;
+  nifti.dataType = 16;
+  nifti.bits = 32;
+  std::vector<float> values = counting<float>(24);
+  values[7] = std::numeric_limits<float>::quiet_NaN();
+  nifti.voxels = bytesOf(values);
+  expectRefused(refusalOf([&] { readImageFile(putGzip(folder / "b.nii.gz", nifti.bytes())); }),
+                Reason::Unsupported, "1 voxels that are not finite");
+}
+
+// By hand, from the definition of each frame: a voxel (1, 1, 1) lies at (10.5, 20.25, 32) of the
+// file's own frame.
+TEST(ImageFile, PutsEveryNrrdSpaceWhereItsNameSays)
+{
+  const TestFolder folder;
+  const Eigen::Vector3d lps(10.5, 20.25, 32.0);
+  const Eigen::Vector3d ras(-10.5, -20.25, 32.0);
+  const Eigen::Vector3d las(10.5, -20.25, 32.0);
+  const std::pair<const char*, Eigen::Vector3d> spaces[] = {
+      {"left-posterior-superior", lps}, {"LPS", lps},
+      {"right-anterior-superior", ras}, {"RAS", ras},
+      {"left-anterior-superior", las},  {"LAS", las},
+      {"Left-Anterior-Superior", las},  {"scanner-xyz", lps},
+      {"3D-right-handed", lps}};
+  for (const auto& [space, place] : spaces)
+  {
+    const auto image =
+        readImageFile(putFile(folder / "a.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24)),
+                                                      "(0.5,0,0) (0,0.25,0) (0,0,2)", "", space)));
+    const Eigen::Vector3d at = image.volume->geometry().patientFromVoxel({1.0, 1.0, 1.0});
+    EXPECT_TRUE(at.isApprox(place, 1e-12)) << space << ": " << at.transpose();
+    EXPECT_EQ(noted(image, "not a patient's"), space[0] == 's' || space[0] == '3') << space;
+  }
+  // Left and right would be a guess.
+  for (const char* space : {"3D-left-handed", "left-posterior-inferior", "somewhere"})
+    expectRefused(refusalOf(
+                      [&]
+                      {
+                        readImageFile(putFile(folder / "b.nrrd",
+                                              nrrd("short", bytesOf(counting<std::int16_t>(24)),
+                                                   "(0.5,0,0) (0,0.25,0) (0,0,2)", "", space)));
+                      }),
+                  Reason::NoGeometry, "left-posterior-superior");
+}
+
+TEST(ImageFile, PutsTurnedAxesOfEveryNrrdSpaceWhereTheyPoint)
+{
+  const TestFolder folder;
+  // First axis down, second to the back (of LPS), third to the left; voxel (3, 2, 1).
+  const char* directions = "(0, 0, -2) (0, 0.5, 0) (0.25, 0, 0)";
+  const Eigen::Vector3d inFile(10.0 + 0.25, 20.0 + 1.0, 30.0 - 6.0);
+  const std::pair<const char*, Eigen::Vector3d> signs[] = {
+      {"LPS", {1.0, 1.0, 1.0}}, {"RAS", {-1.0, -1.0, 1.0}}, {"LAS", {1.0, -1.0, 1.0}}};
+  for (const auto& [space, sign] : signs)
+  {
+    const auto image =
+        readImageFile(putFile(folder / "a.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24)),
+                                                      directions, "", space)));
+    EXPECT_TRUE(image.volume->geometry()
+                    .patientFromVoxel({3.0, 2.0, 1.0})
+                    .isApprox(sign.cwiseProduct(inFile), 1e-12))
+        << space;
+    EXPECT_EQ(image.volume->at(3, 2, 1), 23);
+  }
+}
+
+TEST(ImageFile, ReadsNrrdWithTimeSkipsAndText)
+{
+  const TestFolder folder;
+  const std::string rest = "\nkinds: domain domain domain time\nendian: little\n";
+  const std::string head = "NRRD0005\ntype: int16\ndimension: 4\nspace: LAST\nsizes: 4 3 2 1\n"
+                           "space directions: (0.5,0,0,0) (0,0.25,0,0) (0,0,2,0) (0,0,0,1)\n"
+                           "space origin: (10,20,30,7)" +
+                           rest;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  std::string text;
+  for (int v = 0; v < 24; ++v)
+    text += std::to_string(v) + (v % 4 == 3 ? "\n" : " ");
+  const std::pair<const char*, std::string> files[] = {
+      {"raw.nrrd", head + "encoding: raw\n\n" + voxels},
+      {"skip.nrrd", head + "encoding: raw\nline skip: 2\nbyte skip: 3\n\na\nb\nxyz" + voxels},
+      {"end.nrrd", head + "encoding: raw\nbyte skip: -1\n\nwhatever" + voxels},
+      {"text.nrrd", head + "encoding: ascii\n\n" + text}};
+  for (const auto& [name, bytes] : files)
+  {
+    const auto image = readImageFile(putFile(folder / name, bytes));
+    EXPECT_EQ(image.volume->at(3, 2, 1), 23) << name;
+    EXPECT_EQ(image.volume->at(1, 0, 0), 1) << name;
+    EXPECT_TRUE(image.volume->geometry()
+                    .patientFromVoxel({1.0, 1.0, 1.0})
+                    .isApprox(Eigen::Vector3d(10.5, -20.25, 32.0), 1e-12))
+        << name;
+  }
+  expectRefused(refusalOf(
+                    [&]
+                    {
+                      readImageFile(putFile(folder / "bad.nrrd",
+                                            head + "encoding: ascii\n\n" + text.substr(0, 50)));
+                    }),
+                Reason::Unreadable);
+  expectRefused(
+      refusalOf([&] { readImageFile(putFile(folder / "bz.nrrd", head + "encoding: bz2\n\nx")); }),
+      Reason::Unsupported, "gzip");
+}
+
+/// Two gzip members, as pigz and bgzip write.
+std::string gzipped(const TestFolder& folder, const std::string& bytes, std::size_t members)
+{
+  std::string all;
+  const std::size_t part = (bytes.size() + members - 1) / members;
+  for (std::size_t at = 0; at < bytes.size(); at += part)
+    all += fileBytes(putGzip(folder / "member.gz", bytes.substr(at, part)));
+  return all;
+}
+
+// Flipped bits that leave a valid stream are known by the checksum behind it alone.
+TEST(ImageFile, NoticesEveryFlippedBitInGzipVoxels)
+{
+  const TestFolder folder;
+  std::vector<std::int16_t> voxels(std::size_t{40} * 30 * 20);
+  std::uint32_t random = 1;
+  for (std::int16_t& value : voxels)
+  {
+    random = random * 1664525U + 1013904223U;
+    value = static_cast<std::int16_t>(random >> 26);
+  }
+  std::string head = nrrd("short", "");
+  head.replace(head.find("4 3 2"), 5, "40 30 20");
+  head.replace(head.find("raw"), 3, "gzip");
+  TestNifti nifti;
+  nifti.dims = {3, 40, 30, 20, 1, 1, 1, 1};
+  nifti.voxels = bytesOf(voxels);
+  const core::PatientBox first{Eigen::Vector3d(10.0, 20.0, 30.0),
+                               Eigen::Vector3d(14.0, 22.0, 34.0)};
+  for (const std::size_t members : {std::size_t{1}, std::size_t{3}})
+    for (const char* name : {"a.nrrd", "a.nii.gz"})
+    {
+      const bool isNrrd = name[2] == 'n' && name[3] == 'r';
+      const std::string packed = gzipped(folder, isNrrd ? bytesOf(voxels) : nifti.bytes(), members);
+      const std::string start = isNrrd ? head : "";
+      const auto whole = readImageFile(putFile(folder / name, start + packed));
+      EXPECT_EQ(whole.volume->at(39, 29, 19), voxels.back()) << name;
+      std::size_t refused = 0;
+      constexpr std::size_t kFlips = 40;
+      for (std::size_t n = 0; n < kFlips; ++n)
+      {
+        std::string spoilt = packed;
+        // Behind the ten bytes of the header, of which some mean nothing, to the trailer's end.
+        const std::size_t at = 10 + n * (packed.size() - 11) / (kFlips - 1);
+        spoilt[at] = static_cast<char>(spoilt[at] ^ (1 << n % 8));
+        putFile(folder / name, start + spoilt);
+        refused += refusalOf([&] { readImageFile(folder / name); }).thrown ? 1 : 0;
+        // A region of interest is no reason to trust the rest.
+        const bool part = refusalOf([&] { readImageFile(folder / name, first); }).thrown;
+        EXPECT_TRUE(part || !isNrrd) << n;
+      }
+      EXPECT_GE(refused, members == 1 ? kFlips : kFlips - 2) << name; // inner headers
+    }
+}
+
+TEST(ImageFile, RefusesAGzipStreamThatGoesOn)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.voxels += std::string(std::size_t{4} << 20, '\0');
+  expectRefused(refusalOf([&] { readImageFile(putGzip(folder / "a.nii.gz", nifti.bytes())); }),
+                Reason::Unreadable, "far more voxels");
+}
+
+TEST(ImageFile, RefusesImpossibleQuaternionsAndPlaces)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.sform = 0;
+  nifti.qform = 1;
+  nifti.quaternion = {0.9F, 0.9F, 0.1F};
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
+                Reason::NoGeometry, "no rotation");
+  nifti.quaternion = {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F};
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
+                Reason::NoGeometry, "no rotation");
+  nifti.sform = 1;
+  EXPECT_TRUE(noted(readImageFile(putFile(folder / "b.nii", nifti.bytes())), "no rotation"));
+  nifti = shortNifti();
+  nifti.srow[3] = 1e30F;
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nii", nifti.bytes())); }),
+                Reason::NoGeometry, "1e+30 mm");
+  std::string far = nrrd("short", bytesOf(counting<std::int16_t>(24)));
+  far.replace(far.find("(10,20,30)"), 10, "(10,-2e5,30)");
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "d.nrrd", far)); }),
+                Reason::NoGeometry, "2e+05 mm");
 }
 
 TEST(ImageFile, ReadsRasNrrdAndDetachedFiles)
@@ -322,6 +527,33 @@ TEST(ImageFile, ReadsCompressedMetaImageAndChecksItsEnd)
                                             "MET_SHORT\nElementDataFile = LOCAL\n"));
                     }),
                 Reason::Unsupported, "2 dimensions");
+}
+
+TEST(ImageFile, AppliesTheRescaleOfMetaImageAndComparesItsAxes)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const auto read = [&](const std::string& more)
+  {
+    return readImageFile(
+        putFile(folder / "a.mha", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                                  "TransformMatrix = 0 1 0 -1 0 0 0 0 1\nOffset = 1 2 3\n"
+                                  "ElementSpacing = 1 4 2\nDimSize = 4 3 2\nDistanceUnits = mm\n" +
+                                      more + "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+                                      voxels));
+  };
+  EXPECT_EQ(read("").volume->at(3, 2, 1), 23);
+  EXPECT_EQ(read("ElementToIntensityFunctionSlope = 2\nElementToIntensityFunctionOffset = -1024\n")
+                .volume->at(3, 2, 1),
+            2 * 23 - 1024);
+  EXPECT_EQ(read("ElementToIntensityFunctionOffset = 0.5\n").volume->at(3, 2, 1), 23.5);
+  for (const char* slope : {"0", "nan", "inf", "x"})
+    expectRefused(
+        refusalOf([&] { read(std::string("ElementToIntensityFunctionSlope = ") + slope + "\n"); }),
+        Reason::Unreadable, "slope");
+  // The first axis comes from the front (A), the second from the left (L), the third from below.
+  EXPECT_TRUE(read("AnatomicalOrientation = ALI\n").notes.empty());
+  EXPECT_TRUE(noted(read("AnatomicalOrientation = RAI\n"), "ALI"));
 }
 
 TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
@@ -454,6 +686,31 @@ TEST(ImageFile, NamesWhatIsWrongWithAPath)
   const Refusal refusal = refusalOf([&] { readImageFile(putFile(folder / "b.nrrd", secret)); });
   ASSERT_TRUE(refusal.thrown);
   EXPECT_EQ(refusal.text.find("Doe"), std::string::npos); // no text of the file in a message
+}
+
+// Each would be waited for, or read, for ever.
+TEST(ImageFile, RefusesPipesAndDevicesOfEveryFormat)
+{
+  const TestFolder folder;
+  for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.nhdr", "a.mha", "a.mhd", "a.seg.nrrd",
+                           "a.obj", "a.stl", "a.ply", "b.ctbl"})
+    ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
+  for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.nhdr", "a.mha", "a.mhd"})
+  {
+    expectRefused(refusalOf([&] { readImageFile(folder / name); }), Reason::Unreadable, "ordinary");
+    expectRefused(refusalOf([&] { readLabelFile(folder / name); }), Reason::Unreadable, "ordinary");
+  }
+  for (const char* name : {"a.obj", "a.stl", "a.ply"})
+    expectRefused(refusalOf([&] { readMesh(folder / name); }), Reason::Unreadable, "ordinary");
+  std::filesystem::create_symlink("/dev/zero", folder / "zero.nrrd");
+  expectRefused(refusalOf([&] { readImageFile(folder / "zero.nrrd"); }), Reason::Unreadable);
+  std::string header = nrrd("short", "");
+  header.insert(header.find("endian"), "data file: a.nii\n");
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nhdr", header)); }),
+                Reason::NotFound);
+  // A table of names beside the labels is a convenience only.
+  EXPECT_NO_THROW(readLabelFile(
+      putFile(folder / "b.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24))))));
 }
 
 TEST(ImageFile, StopsWhenAsked)

@@ -1,8 +1,8 @@
 #include "FileHelpers.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <system_error>
 
@@ -11,6 +11,13 @@ namespace petrous::imaging
 
 namespace
 {
+
+/// "nan" and "inf" are words.
+template <class T>
+std::optional<T> finite(const std::optional<T>& value)
+{
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
 
 bool isSpace(char c)
 {
@@ -70,6 +77,17 @@ std::uintmax_t checkedFileSize(const std::filesystem::path& path)
   return size;
 }
 
+std::string readWholeFile(const std::filesystem::path& path)
+{
+  constexpr std::uintmax_t kMaxWhole = std::uintmax_t{4} << 30;
+  const std::uintmax_t size = checkedFileSize(path);
+  if (size > kMaxWhole)
+    fail(FileError::Reason::Unsupported, path,
+         "is " + roughText(static_cast<double>(size) / 1e9) +
+             " GB large; a file of this kind is read up to 4.3 GB");
+  return readBytes(path, size);
+}
+
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)
 {
   const std::uintmax_t size = std::min(checkedFileSize(path), limit);
@@ -81,26 +99,14 @@ std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)
   return bytes;
 }
 
-std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name)
+std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name)
 {
+  const std::filesystem::path file = header.parent_path() / name;
   std::error_code error;
-  const std::filesystem::path folder =
-      header.has_parent_path() ? header.parent_path() : std::filesystem::path(".");
-  const bool many = name.rfind("LIST", 0) == 0 || name.find('%') != name.npos;
-  if (!many)
-  {
-    const std::uintmax_t size = std::filesystem::file_size(folder / name, error);
-    if (error)
-      fail(FileError::Reason::NotFound, header,
-           "is a header whose file of voxels is not there; keep both in one folder");
-    return size;
-  }
-  std::uintmax_t sum = 0;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (entry->is_regular_file(error))
-      sum += entry->file_size(error);
-  return sum;
+  if (!std::filesystem::is_regular_file(file, error))
+    fail(FileError::Reason::NotFound, header,
+         "is a header whose file of voxels is not there; keep both in one folder");
+  return file;
 }
 
 std::string roughText(double value)
@@ -114,6 +120,16 @@ std::string dimsText(const std::vector<std::uint64_t>& dims)
   for (const std::uint64_t n : dims)
     text += (text.empty() ? "" : " x ") + std::to_string(n);
   return text;
+}
+
+std::optional<double> parseDouble(std::string_view text)
+{
+  return finite(core::parseDouble(text));
+}
+
+std::optional<float> parseFloat(std::string_view text)
+{
+  return finite(core::parseFloat(text));
 }
 
 std::optional<std::int64_t> parseInteger(std::string_view text)

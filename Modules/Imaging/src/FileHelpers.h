@@ -30,22 +30,25 @@ std::string baseName(const std::filesystem::path& path);
 /// empty file or one that may not be opened.
 std::uintmax_t checkedFileSize(const std::filesystem::path& path);
 
-/// The whole file, or its first `limit` bytes.
-std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit = UINTMAX_MAX);
+/// Throws FileError (Unsupported) for a file that is larger than any that is read whole, 4 GiB.
+std::string readWholeFile(const std::filesystem::path& path);
 
-/// Bytes of the file of voxels that a detached header names, or of all files in its folder where
-/// it names a list or a pattern. Throws NotFound.
-std::uintmax_t detachedBytes(const std::filesystem::path& header, const std::string& name);
+/// The first `limit` bytes of a file, or all where there are fewer.
+std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit);
+
+/// The file of voxels that a detached header names, beside the header. Throws NotFound.
+std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name);
 
 using core::exactText;
-using core::parseDouble;
-using core::parseFloat;
 using core::PlainNumbers;
 
 /// Four significant digits, for messages.
 std::string roughText(double value);
 std::string dimsText(const std::vector<std::uint64_t>& dims);
 
+/// The whole of `text` as a finite number, whatever the locale.
+std::optional<double> parseDouble(std::string_view text);
+std::optional<float> parseFloat(std::string_view text);
 /// The whole of `text` as a whole number.
 std::optional<std::int64_t> parseInteger(std::string_view text);
 

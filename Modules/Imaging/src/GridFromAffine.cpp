@@ -18,6 +18,8 @@ namespace
 constexpr double kLargestShear = 1e-3;  // dot product of two unit axes
 constexpr double kLargestCost = 0.1;    // mm
 constexpr double kNotedCost = 1e-3;     // mm
+constexpr double kCoarsest = 1e3;       // mm; of a voxel
+constexpr double kFarthest = 1e5;       // mm; a place beyond is garbage, as in SeriesGeometry.cpp
 constexpr double kRoundingShear = 1e-6; // float32 headers; left as it is
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 } // namespace
@@ -38,10 +40,17 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
   }
   const Eigen::Vector3d spacing = linear.colwise().norm().transpose();
   if (!linear.allFinite() || !origin.allFinite() || spacing.minCoeff() < 1e-6 ||
-      spacing.maxCoeff() > 1e6)
+      spacing.maxCoeff() > kCoarsest)
     fail(FileError::Reason::NoGeometry, path,
          "its header gives no voxel size or place in the patient that can be true; export it "
          "again with its geometry");
+  const Eigen::Vector3d last(size[0] - 1.0, size[1] - 1.0, size[2] - 1.0);
+  const double reach = origin.cwiseAbs().maxCoeff() + spacing.cwiseProduct(last).maxCoeff();
+  if (reach > kFarthest)
+    fail(FileError::Reason::NoGeometry, path,
+         "its header puts it " + roughText(reach) +
+             " mm from the origin of the patient's frame; a place within 100 m is believed, export "
+             "it again with its geometry");
 
   Eigen::Matrix3d axes = linear;
   for (int a = 0; a < 3; ++a)

@@ -91,7 +91,8 @@ Voxels keepOrNarrow(const core::GridGeometry& geometry, const std::shared_ptr<vo
   }
 }
 
-void noteNotFinite(const Voxels& voxels, std::vector<std::string>& notes)
+/// A number that is none would spread through every sample, picture and force near it.
+void requireFinite(const std::filesystem::path& path, const Voxels& voxels)
 {
   const auto* volume = std::get_if<std::shared_ptr<const volume::Volume<float>>>(&voxels);
   if (!volume)
@@ -100,7 +101,10 @@ void noteNotFinite(const Voxels& voxels, std::vector<std::string>& notes)
   const auto count = std::count_if(data, data + (*volume)->size(),
                                    [](float value) { return !std::isfinite(value); });
   if (count > 0)
-    notes.push_back("holds " + std::to_string(count) + " voxels that are no number");
+    fail(FileError::Reason::Unsupported, path,
+         "holds " + std::to_string(count) +
+             " voxels that are not finite numbers (NaN, infinite or beyond float); give them the "
+             "value of what lies outside the scanned field, such as -1024 in a CT");
 }
 
 core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry& geometry,
@@ -153,10 +157,10 @@ LoadedImage readImageFile(const std::filesystem::path& path,
       visitComponent(source.component(), [&](auto type)
                      { return keepOrNarrow<decltype(type)>(geometry, raw, source.rescaled()); });
   raw.reset();
+  requireFinite(path, voxels);
 
   LoadedImage image;
   image.notes = source.notes();
-  noteNotFinite(voxels, image.notes);
   std::optional<double> padding;
   if (source.nrrd())
     if (const std::string* text = source.nrrd()->key("petrous_padding"))

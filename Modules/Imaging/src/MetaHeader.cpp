@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <utility>
@@ -129,9 +130,47 @@ void findVoxels(const std::filesystem::path& path, const Fields& fields, MetaHea
   }
   else
   {
-    header.dataBytes = detachedBytes(path, data);
-    header.file = path.parent_path() / data;
+    header.file = detachedFile(path, data);
+    header.dataBytes = checkedFileSize(header.file);
   }
+}
+
+/// Letters of the side of the patient from which each axis comes ("RAI": LPS), where the file gives
+/// them. ITK and all that builds on it go by TransformMatrix, so the letters are only compared.
+void noteOrientation(const Fields& fields, bool hasAxes, const std::vector<double>& cosines,
+                     std::size_t n, std::vector<std::string>& notes)
+{
+  const std::string* said = valueOf(fields, {"AnatomicalOrientation"});
+  if (!said || said->size() < 3 || said->find('?') != said->npos)
+    return;
+  std::string real;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    std::size_t along = a;
+    if (hasAxes)
+      for (std::size_t row = 0; row < 3; ++row)
+        if (std::abs(cosines[a * n + row]) > std::abs(cosines[a * n + along]))
+          along = row;
+    real += (hasAxes && cosines[a * n + along] < 0.0 ? "LPS" : "RAI")[along];
+  }
+  if (said->compare(0, 3, real) != 0)
+    notes.push_back("names its axes otherwise (AnatomicalOrientation) than " + real + ", as its " +
+                    (hasAxes ? "TransformMatrix" : "missing TransformMatrix") +
+                    " says, which is used; check left and right");
+}
+
+void readRescale(const std::filesystem::path& path, const Fields& fields, MetaHeader& header)
+{
+  const std::string* slope = valueOf(fields, {"ElementToIntensityFunctionSlope"});
+  const std::string* offset = valueOf(fields, {"ElementToIntensityFunctionOffset"});
+  const auto a = slope ? parseDouble(*slope) : std::optional(1.0);
+  const auto b = offset ? parseDouble(*offset) : std::optional(0.0);
+  if (!a || !b || *a == 0.0)
+    fail(FileError::Reason::Unreadable, path,
+         "its rescale slope or offset (ElementToIntensityFunction) is not a number that can be "
+         "true; export it again from where it came");
+  header.slope = *a;
+  header.intercept = *b;
 }
 
 void readPlacement(const std::filesystem::path& path, const Fields& fields, MetaHeader& header)
@@ -151,6 +190,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
   if (!place || !axes)
     header.notes.emplace_back("states no full place in the patient (Offset, TransformMatrix): what "
                               "is missing is taken as 0, 0, 0 and axes to the left, back and top");
+  noteOrientation(fields, axes != nullptr, cosines, n, header.notes);
   for (std::size_t a = 0; a < 3; ++a)
   {
     const auto column = static_cast<Eigen::Index>(a);
@@ -179,6 +219,7 @@ MetaHeader readMetaHeader(const std::filesystem::path& path)
          "its voxels are of a type that is not read; save them as one whole number or float each");
   header.component = *component;
   findVoxels(path, fields, header);
+  readRescale(path, fields, header);
   readPlacement(path, fields, header);
   return header;
 }

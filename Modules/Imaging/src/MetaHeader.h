@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "ItkReader.h"
+#include "Component.h"
 
 namespace petrous::imaging
 {
@@ -20,6 +20,8 @@ struct MetaHeader
   Component component = Component::Int16;
   Eigen::Matrix3d linear; ///< d patient / d voxel of the first three axes, LPS mm
   Eigen::Vector3d origin; ///< LPS mm
+  double slope = 1.0;     ///< of what a voxel's number means (ElementToIntensityFunction)
+  double intercept = 0.0;
   std::vector<std::string> notes;
 
   std::filesystem::path file;   ///< where the voxels are

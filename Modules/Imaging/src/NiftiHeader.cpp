@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -21,7 +22,8 @@ constexpr std::size_t kHeaderBytes = 348;
 constexpr std::size_t kDataOffset = 352;
 constexpr double kLargestOffset = 1e9;
 constexpr const char* kGzipStart = "\x1f\x8b";
-constexpr double kPlacementsDiffer = 0.1; // mm; see "No silent guess"
+constexpr double kLongestQuaternion = 1.001; // squared; float32 and a few digits round by less
+constexpr double kPlacementsDiffer = 0.1;    // mm; see "No silent guess"
 // NIfTI counts right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 
@@ -106,10 +108,13 @@ Fields checkedFields(const std::filesystem::path& path)
   return fields;
 }
 
-Eigen::Matrix3d qformLinear(const Fields& fields, const Eigen::Vector3d& spacing)
+/// The axes of the qform; nothing where its quaternion is longer than 1, which no rotation is.
+std::optional<Eigen::Matrix3d> qformLinear(const Fields& fields, const Eigen::Vector3d& spacing)
 {
   const Eigen::Vector3d v(fields.get<float>(kQuaternion, 0), fields.get<float>(kQuaternion, 1),
                           fields.get<float>(kQuaternion, 2));
+  if (!(v.squaredNorm() <= kLongestQuaternion))
+    return std::nullopt;
   // nifti1.h, METHOD 2: a >= 0 follows from the unit length.
   const double rest = 1.0 - v.squaredNorm();
   Eigen::Quaterniond q(std::sqrt(std::max(rest, 0.0)), v[0], v[1], v[2]);
@@ -125,7 +130,7 @@ Eigen::Vector3d vectorOf(const Fields& fields, std::size_t offset)
   return {fields.get<float>(offset, 0), fields.get<float>(offset, 1), fields.get<float>(offset, 2)};
 }
 
-void readPlacement(const Fields& fields, NiftiHeader& header)
+void readPlacement(const std::filesystem::path& path, const Fields& fields, NiftiHeader& header)
 {
   const Eigen::Vector3d spacing =
       Eigen::Vector3d(fields.get<float>(kPixdim, 1), fields.get<float>(kPixdim, 2),
@@ -141,11 +146,15 @@ void readPlacement(const Fields& fields, NiftiHeader& header)
                               "right, front and top of the patient, from 0, 0, 0");
     return;
   }
-  const Eigen::Matrix3d qLinear = qformLinear(fields, spacing);
+  const auto qLinear = qformLinear(fields, spacing);
   const Eigen::Vector3d qOrigin = vectorOf(fields, kQoffset);
   if (!hasS)
   {
-    header.linear = qLinear;
+    if (!qLinear)
+      fail(FileError::Reason::NoGeometry, path,
+           "its header turns it by a quaternion (qform) that is no rotation; export it again with "
+           "its geometry");
+    header.linear = *qLinear;
     header.origin = qOrigin;
     return;
   }
@@ -158,6 +167,12 @@ void readPlacement(const Fields& fields, NiftiHeader& header)
   }
   if (!hasQ)
     return;
+  if (!qLinear)
+  {
+    header.notes.emplace_back("places itself twice, once by a quaternion (qform) that is no "
+                              "rotation; the sform is used");
+    return;
+  }
   double apart = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {
@@ -166,7 +181,7 @@ void readPlacement(const Fields& fields, NiftiHeader& header)
       index[a] = (corner >> a & 1)
                      ? static_cast<double>(header.dims[static_cast<std::size_t>(a)]) - 1
                      : 0.0;
-    const double d = ((header.linear - qLinear) * index + header.origin - qOrigin).norm();
+    const double d = ((header.linear - *qLinear) * index + header.origin - qOrigin).norm();
     apart = std::max(apart, d);
   }
   if (apart > kPlacementsDiffer)
@@ -232,7 +247,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& path)
   if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))
     fail(FileError::Reason::Unreadable, path,
          "its rescale slope or intercept is no number; export it again from where it came");
-  readPlacement(fields, header);
+  readPlacement(path, fields, header);
   const double unit = unitInMillimetres(fields.get<std::uint8_t>(kUnits), header.notes);
   header.linear = unit * kLpsFromRas.asDiagonal() * header.linear;
   header.origin = unit * kLpsFromRas.cwiseProduct(header.origin);

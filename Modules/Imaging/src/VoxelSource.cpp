@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
-#include <new>
-#include <system_error>
+#include <limits>
+#include <utility>
 
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
 #include "MetaHeader.h"
 #include "NiftiHeader.h"
+#include "NrrdLayout.h"
 #include "VoxelStream.h"
 
 namespace petrous::imaging
@@ -108,32 +108,18 @@ void VoxelSource::openNifti()
 void VoxelSource::openNrrd()
 {
   m_nrrd = readNrrdHeader(m_path);
-  if (const std::string* data = m_nrrd->field("data file"))
-    m_dataBytes = detachedBytes(m_path, *data);
-  const std::string* units = m_nrrd->field("space units");
-  std::string unit;
-  if (units)
-  {
-    std::string_view rest = *units;
-    unit = takeWord(rest);
-  }
-  const double scale = unitInMillimetres(unit, m_notes);
-  const std::string* space = m_nrrd->field("space");
-  const bool directions = m_nrrd->field("space directions") != nullptr;
-  if (!directions && !m_nrrd->field("spacings"))
-    fail(FileError::Reason::NoGeometry, m_path,
-         "its header gives no voxel size ('space directions'); export it again with its geometry");
-  if (!directions)
-    m_notes.emplace_back("states no place in the patient: its axes are taken as to the left, back "
-                         "and top of the patient, from 0, 0, 0");
-  else if (!space)
-    m_notes.emplace_back("states no patient frame; taken as left, posterior, superior (LPS)");
-  else if (space->find("left") == space->npos && space->find("right") == space->npos &&
-           *space != "LPS" && *space != "RAS" && *space != "LAS")
-    m_notes.emplace_back("its frame is not a patient's; taken as left, posterior, superior (LPS)");
-  readItkHeader();
+  NrrdLayout layout = readNrrdLayout(m_path, *m_nrrd);
+  m_notes = std::move(layout.notes);
+  m_dims = std::move(layout.dims);
+  m_components = layout.components;
+  m_stored = layout.component;
+  m_dataBytes = layout.dataBytes;
+  using Encoding = NrrdLayout::Encoding;
+  m_place = Place{layout.file,           layout.offset,
+                  layout.unpackedOffset, layout.encoding == Encoding::Gzip,
+                  layout.swapped,        layout.encoding == Encoding::Text};
   checkRoom();
-  takeItkGeometry(scale);
+  m_geometry = gridFromAffine(m_path, m_dims, layout.linear, layout.origin, m_notes);
 }
 
 void VoxelSource::openMeta()
@@ -143,6 +129,11 @@ void VoxelSource::openMeta()
   m_dims = std::move(header.dims);
   requireThreeDims();
   m_stored = header.component;
+  if (header.slope != 1.0 || header.intercept != 0.0)
+  {
+    m_slope = header.slope;
+    m_intercept = header.intercept;
+  }
   m_dataBytes = header.dataBytes;
   m_place = Place{header.file, header.offset, 0, header.packed, header.swapped};
   checkRoom();
@@ -154,22 +145,6 @@ void VoxelSource::openMeta()
   m_geometry = gridFromAffine(m_path, m_dims, header.linear, header.origin, m_notes);
 }
 
-void VoxelSource::readItkHeader()
-{
-  m_reader = std::make_unique<ItkReader>(m_path, ItkReader::Format::Nrrd);
-  if (!m_reader->readHeader())
-    fail(FileError::Reason::Unreadable, m_path,
-         "its header cannot be read; it is damaged or of an unknown kind, export it again");
-  m_dims = m_reader->dims();
-  m_components = m_reader->components();
-  const auto component = m_reader->component();
-  if (!component || m_components < 1)
-    fail(FileError::Reason::Unsupported, m_path,
-         "its voxels are of a type that is not read; save them as whole numbers or float");
-  m_stored = *component;
-  requireThreeDims();
-}
-
 void VoxelSource::requireThreeDims() const
 {
   std::vector<std::uint64_t> kept = m_dims;
@@ -178,20 +153,6 @@ void VoxelSource::requireThreeDims() const
   if (kept.size() != 3)
     fail(FileError::Reason::Unsupported, m_path,
          "holds " + dimsText(kept) + " voxels; one volume of 3 dimensions is needed");
-}
-
-void VoxelSource::takeItkGeometry(double unit)
-{
-  Eigen::Matrix3d linear;
-  Eigen::Vector3d origin;
-  for (unsigned a = 0; a < 3; ++a)
-  {
-    const auto axis = m_reader->axis(a);
-    for (unsigned row = 0; row < 3; ++row)
-      linear(row, a) = axis[row] * m_reader->spacing(a) * unit;
-    origin[a] = m_reader->origin(a) * unit;
-  }
-  m_geometry = gridFromAffine(m_path, m_dims, linear, origin, m_notes);
 }
 
 long double VoxelSource::voxelBytes() const
@@ -205,8 +166,13 @@ long double VoxelSource::voxelBytes() const
 
 void VoxelSource::checkRoom() const
 {
-  const long double packing = m_place && !m_place->packed ? 1.0L : kTightestPacking;
-  if (voxelBytes() > packing * static_cast<long double>(m_dataBytes))
+  // A number as text takes a digit and a gap, the last one no gap.
+  const long double numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
+  const long double needed =
+      m_place.isText ? 2.0L * voxelBytes() / numberBytes - 1.0L : voxelBytes();
+  const auto behind = static_cast<long double>(m_place.offset);
+  const long double there = static_cast<long double>(m_dataBytes) - behind;
+  if (needed > (m_place.packed ? kTightestPacking : 1.0L) * there)
     fail(FileError::Reason::Unreadable, m_path,
          "its header speaks of " + dimsText(m_dims) +
              " voxels, which the file is too short to hold; copy it again from where it came");
@@ -235,35 +201,47 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
   const std::size_t numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
   const std::size_t perVoxel = m_components * numberBytes;
   progress.report(0.0, "reading voxels");
-  if (m_place)
+  auto memory = allocate(m_path, box.count() * perVoxel);
+  if (m_place.isText)
+    readText(box, memory.get());
+  else
   {
-    auto memory = allocate(m_path, box.count() * perVoxel);
-    VoxelStream stream(m_place->file, m_place->offset, m_place->packed);
-    stream.skip(m_place->packedOffset);
-    readBox(stream, m_geometry->dims(), box, perVoxel, m_place->swapped, memory.get(), progress);
-    return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
+    VoxelStream stream(m_place.file, m_place.offset, m_place.packed);
+    stream.skip(m_place.packedOffset);
+    readBox(stream, m_geometry->dims(), box, perVoxel, memory.get(), progress);
+    if (m_place.swapped)
+      swapBytes(memory.get(), box.count() * m_components, numberBytes);
   }
-  const core::IndexBox loaded = m_geometry->fullBox();
-  auto memory = allocate(m_path, loaded.count() * perVoxel);
-  if (!m_reader->read(loaded.lower, loaded.size(), memory.get()))
-    fail(FileError::Reason::Unreadable, m_path,
-         "breaks off or is damaged within its voxels; copy it again from where it came");
-  progress.report(0.9, "reading voxels");
-  if (loaded == box)
-    return memory;
+  return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
+}
 
-  auto kept = allocate(m_path, box.count() * perVoxel);
-  const core::Index3 part = box.size();
-  const std::size_t row = static_cast<std::size_t>(part[0]) * perVoxel;
-  auto* out = static_cast<char*>(kept.get());
-  for (int k = 0; k < part[2]; ++k)
-    for (int j = 0; j < part[1]; ++j, out += row)
-      std::memcpy(out,
-                  static_cast<const char*>(memory.get()) +
-                      m_geometry->linearIndex(box.lower[0], box.lower[1] + j, box.lower[2] + k) *
-                          perVoxel,
-                  row);
-  return kept;
+void VoxelSource::readText(const core::IndexBox& box, void* out) const
+{
+  std::string bytes = readWholeFile(m_place.file);
+  std::replace(bytes.begin(), bytes.end(), ',', ' ');
+  std::string_view rest = std::string_view(bytes).substr(static_cast<std::size_t>(m_place.offset));
+  const core::Index3& dims = m_geometry->dims();
+  visitComponent(
+      m_stored,
+      [&](auto type)
+      {
+        using T = decltype(type);
+        auto* next = static_cast<T*>(out);
+        for (int k = 0; k < box.upper[2]; ++k)
+          for (int j = 0; j < dims[1]; ++j)
+            for (int i = 0; i < dims[0]; ++i)
+              for (std::size_t c = 0; c < m_components; ++c)
+              {
+                const auto value = parseDouble(takeWord(rest));
+                if (!value || *value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
+                    *value > static_cast<double>(std::numeric_limits<T>::max()))
+                  fail(FileError::Reason::Unreadable, m_path,
+                       "breaks off or is damaged within its voxels; copy it again from where it "
+                       "came");
+                if (box.contains({i, j, k}))
+                  *next++ = static_cast<T>(*value);
+              }
+      });
 }
 
 } // namespace petrous::imaging

@@ -11,15 +11,15 @@
 #include "petrous/Core/GridGeometry.h"
 #include "petrous/Core/Progress.h"
 
-#include "ItkReader.h"
+#include "Component.h"
 #include "NrrdHeader.h"
 
 namespace petrous::imaging
 {
 
 /// A NIfTI, NRRD or MetaImage file whose header has been read and found sound: its dimensions
-/// can be held by the file, its axes are perpendicular. No text of ITK or of the file
-/// ever reaches a message. Everything throws FileError.
+/// can be held by the file, its axes are perpendicular. No text of the file ever reaches a message.
+/// Everything throws FileError.
 class VoxelSource
 {
 public:
@@ -40,7 +40,6 @@ public:
   std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
 
 private:
-  /// Where the voxels lie, in formats whose voxels ITK would not check.
   struct Place
   {
     std::filesystem::path file;
@@ -48,22 +47,21 @@ private:
     std::uint64_t packedOffset = 0; ///< within the unpacked stream
     bool packed = false;
     bool swapped = false;
+    bool isText = false;
   };
   void openNifti();
   void openNrrd();
   void openMeta();
-  void readItkHeader();
   void requireThreeDims() const;
-  void takeItkGeometry(double unit);
   long double voxelBytes() const;
   void checkRoom() const;
+  void readText(const core::IndexBox& box, void* out) const;
   std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count) const;
 
   std::filesystem::path m_path;
-  std::unique_ptr<ItkReader> m_reader;
   std::vector<std::uint64_t> m_dims;
   std::optional<core::GridGeometry> m_geometry;
-  std::optional<Place> m_place;
+  Place m_place;
   Component m_stored = Component::Int16; ///< before the rescale
   std::size_t m_components = 1;
   double m_slope = 0.0; ///< 0: no rescale

@@ -13,8 +13,8 @@ namespace petrous::imaging
 namespace
 {
 constexpr std::size_t kPart = std::size_t{1} << 18;
-constexpr int kEitherWindow = 15 + 32; // zlib: 32 KiB window, gzip or zlib header
-constexpr std::size_t kLargestTail = 65536;
+constexpr int kEitherWindow = 15 + 32;       // zlib: 32 KiB window, gzip or zlib header
+constexpr std::uint64_t kMaxTail = 1U << 20; // bytes behind the voxels
 } // namespace
 
 struct VoxelStream::Inflater
@@ -73,10 +73,23 @@ void VoxelStream::skip(std::uint64_t count)
   }
 }
 
-void VoxelStream::finish()
+void VoxelStream::finish(std::uint64_t most, const core::Progress& progress)
 {
-  std::vector<char> tail(kLargestTail);
-  if (m_inflater && unpack(tail.data(), tail.size()) < tail.size() && !m_inflater->ended)
+  if (!m_inflater)
+    return;
+  std::vector<char> rest(kPart);
+  std::uint64_t behind = 0;
+  std::size_t count = 0;
+  do
+  {
+    progress.check("reading voxels");
+    count = unpack(rest.data(), rest.size());
+    behind += count;
+    if (behind > most)
+      fail(FileError::Reason::Unreadable, m_path,
+           "holds far more voxels than its header says; export it again from where it came");
+  } while (count == rest.size());
+  if (!m_inflater->ended)
     failDamaged();
 }
 
@@ -121,9 +134,9 @@ void VoxelStream::failDamaged() const
 }
 
 void readBox(VoxelStream& stream, const core::Index3& dims, const core::IndexBox& box,
-             std::size_t numberBytes, bool swapped, void* out, const core::Progress& progress)
+             std::size_t voxelBytes, void* out, const core::Progress& progress)
 {
-  const auto bytes = [numberBytes](int a) { return static_cast<std::uint64_t>(a) * numberBytes; };
+  const auto bytes = [voxelBytes](int a) { return static_cast<std::uint64_t>(a) * voxelBytes; };
   const std::uint64_t row = bytes(dims[0]);
   const std::uint64_t slice = row * static_cast<std::uint64_t>(dims[1]);
   const core::Index3 size = box.size();
@@ -146,11 +159,14 @@ void readBox(VoxelStream& stream, const core::Index3& dims, const core::IndexBox
     }
     stream.skip(row * static_cast<std::uint64_t>(dims[1] - box.upper[1]));
   }
-  if (box.upper[2] == dims[2])
-    stream.finish();
-  if (swapped)
-    for (char* number = static_cast<char*>(out); number != next; number += numberBytes)
-      std::reverse(number, number + numberBytes);
+  stream.finish(slice * static_cast<std::uint64_t>(dims[2] - box.upper[2]) + kMaxTail, progress);
+}
+
+void swapBytes(void* numbers, std::size_t count, std::size_t numberBytes)
+{
+  auto* number = static_cast<char*>(numbers);
+  for (std::size_t n = 0; n < count; ++n, number += numberBytes)
+    std::reverse(number, number + numberBytes);
 }
 
 } // namespace petrous::imaging

@@ -14,8 +14,8 @@ namespace petrous::imaging
 {
 
 /// The bytes of a file from an offset on, unpacked where they are gzip or zlib. A file that breaks
-/// off or fails its checksum is refused: ITK 5.2 would give NIfTI and MetaImage voxels from
-/// nothing there, in silence. Throws FileError (Unreadable).
+/// off or fails its checksum is refused: ITK 5.2 would give voxels from nothing there, in silence.
+/// Throws FileError (Unreadable).
 class VoxelStream
 {
 public:
@@ -28,8 +28,9 @@ public:
   void read(void* out, std::size_t count);
   void skip(std::uint64_t count);
 
-  /// Reads a packed stream on to its checksum, where that is near.
-  void finish();
+  /// Reads a packed stream on to its end, where the last checksum stands. More than `most` bytes
+  /// beyond what was asked for belong to another header, and are refused.
+  void finish(std::uint64_t most, const core::Progress& progress);
 
 private:
   struct Inflater;
@@ -41,9 +42,12 @@ private:
   std::unique_ptr<Inflater> m_inflater;
 };
 
-/// Reads a box of a grid whose voxels follow on `stream`, first axis fastest, and keeps only it.
-/// `numberBytes` is the size of what `swapped` turns round.
+/// Reads a box of a grid whose voxels of `voxelBytes` follow on `stream`, first axis fastest, and
+/// keeps only it. A packed stream is read to its end, so that damage anywhere is known.
 void readBox(VoxelStream& stream, const core::Index3& dims, const core::IndexBox& box,
-             std::size_t numberBytes, bool swapped, void* out, const core::Progress& progress);
+             std::size_t voxelBytes, void* out, const core::Progress& progress);
+
+/// Turns the bytes of each of `count` numbers round.
+void swapBytes(void* numbers, std::size_t count, std::size_t numberBytes);
 
 } // namespace petrous::imaging

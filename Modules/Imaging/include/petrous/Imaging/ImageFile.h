@@ -31,7 +31,8 @@ bool isImageFileName(const std::filesystem::path& path);
 /// that the file does not state is taken as mm and noted.
 ///
 /// Throws FileError: NoGeometry for axes that are not perpendicular, Unsupported for images that
-/// are 2-D, 4-D or hold vectors or colours, and for a roi that misses the image; CancelledError.
+/// are 2-D, 4-D or hold vectors, colours or values that are not finite, and for a roi that misses
+/// the image; CancelledError.
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi = std::nullopt,
                           const core::Progress& progress = {});

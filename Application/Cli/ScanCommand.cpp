@@ -69,8 +69,11 @@ void scan(const Context& context, const std::string& path)
       context.say("    noted: " + note);
   }
   sayFindings(context, result.unreadable);
+  for (const auto& note : result.notes)
+    context.say("noted: " + note);
   context.give({{"series", std::move(list)},
                 {"unreadable", findingsJson(result.unreadable)},
+                {"notes", result.notes},
                 {"foreign_files", result.foreignFiles}});
 }
 

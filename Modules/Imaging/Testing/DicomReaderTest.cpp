@@ -229,6 +229,29 @@ TEST(DicomReader, KeepsTissueThatTheHeaderCallsPadding)
   EXPECT_EQ(notes.size(), 1U);
 }
 
+// The sum of the largest value and the intercept does not fit 32 bits (seen by the sanitizer).
+TEST(DicomReader, RescalesTheLargestValuesOf32Bits)
+{
+  for (const double slope : {1.0, 3.0})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 2,
+                [slope](int, TestSlice& s)
+                {
+                  s.bitsAllocated = s.bitsStored = 32;
+                  s.slope = slope;
+                  s.intercept = 60000;
+                  s.cell = [](int i, int) {
+                    return i == 7 ? 0x7FFFFFFFU : i == 6 ? 0x80000000U : 0U;
+                  };
+                });
+    const IntensityVolume volume = readFolder(folder.path());
+    EXPECT_EQ(volume.at(7, 3, 1), static_cast<float>(slope * 2147483647.0 + 60000.0));
+    EXPECT_EQ(volume.at(6, 3, 1), static_cast<float>(slope * -2147483648.0 + 60000.0));
+    EXPECT_EQ(volume.at(0, 0, 0), 60000.0);
+  }
+}
+
 TEST(DicomReader, CropsToTheRegionAndReadsOnlyItsSlices)
 {
   const TemporaryFolder folder;

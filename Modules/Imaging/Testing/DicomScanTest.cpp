@@ -1,8 +1,12 @@
 #include "petrous/Imaging/DicomScan.h"
 
 #include <algorithm>
+#include <functional>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "TestDicom.h"
 
@@ -248,6 +252,220 @@ TEST(DicomScan, ReadsALinkedFolderOnceAndEndsOnALoop)
   ASSERT_EQ(result.series.size(), 1U);
   EXPECT_EQ(result.series.front().files, 3U);
   EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Ok);
+}
+
+TEST(DicomScan, DoesNotFollowAFolderLinkThatLeadsOut)
+{
+  const TemporaryFolder folder;
+  const TemporaryFolder elsewhere;
+  writeSeries(folder.path() / "mine", 3);
+  writeSeries(elsewhere.path(), 3, [](int, TestSlice& s) { s.seriesUid = "9.9"; });
+  fs::create_directory_symlink(elsewhere.path(), folder.path() / "out");
+  fs::create_directory_symlink("..", folder.path() / "up");
+  fs::create_symlink(elsewhere.path() / "s1.dcm", folder.path() / "one.dcm");
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 2U);
+  EXPECT_EQ(result.series[0].files, 3U);
+  EXPECT_EQ(result.series[1].files, 1U) << "links to files are as good as files";
+  ASSERT_EQ(result.notes.size(), 2U);
+  EXPECT_NE(result.notes[0].find("'out' leads to a folder elsewhere"), std::string::npos);
+  // A link that is named itself is what the user wants.
+  EXPECT_EQ(scanDicom(folder.path() / "out", {}).series.front().files, 3U);
+}
+
+// Without its file the volume would be a slice shorter, and nothing else would tell.
+TEST(DicomScan, NamesALostFirstOrLastSlice)
+{
+  for (const int k : {0, 4})
+    for (const long bytes : {0L, 100L, 131L, 140L, -1L})
+    {
+      const TemporaryFolder folder;
+      writeSeries(folder.path(), 5);
+      const fs::path file = folder.path() / ("s" + std::to_string(k) + ".dcm");
+      if (bytes >= 0)
+        fs::resize_file(file, static_cast<std::uintmax_t>(bytes));
+      else
+      {
+        fs::remove(file);
+        fs::create_symlink(folder.path() / "annex" / "gone", file);
+      }
+      const ScanResult result = scanDicom(folder.path(), {});
+      ASSERT_EQ(result.series.size(), 1U);
+      const SeriesGeometry& geometry = result.series.front().geometry;
+      EXPECT_EQ(geometry.verdict, Verdict::Refused) << k << ", " << bytes;
+      EXPECT_TRUE(has(geometry, FindingKind::Unreadable)) << k << ", " << bytes;
+      EXPECT_EQ(geometry.findings.front().text.find(file.filename().string()), 0U);
+    }
+}
+
+TEST(DicomScan, LeavesWhatWasNeverASliceAlone)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 5);
+  writeText(folder.path() / "readme.dcm", "this is no DICOM");
+  writeText(folder.path() / "LOCKFILE", "");
+  writeText(folder.path() / "s.txt", "");
+  const ScanResult result = scanDicom(folder.path(), {});
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Ok);
+  EXPECT_EQ(result.foreignFiles, 3U);
+}
+
+TEST(DicomScan, NotesALostSliceThatMayBeOfSeveralSeries)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 5);
+  for (int k = 5; k < 9; ++k)
+  {
+    TestSlice slice;
+    slice.z = k;
+    slice.seriesUid = "7.7";
+    slice.write(folder.path() / ("s" + std::to_string(k) + ".dcm"));
+  }
+  writeText(folder.path() / "s9.dcm", "");
+  const ScanResult result = scanDicom(folder.path(), {});
+  EXPECT_EQ(result.unreadable.size(), 1U);
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_EQ(result.notes.front().find("s9.dcm is empty"), 0U);
+}
+
+/// A user whom access rights bind.
+class AsNobody
+{
+public:
+  AsNobody()
+    : m_before(::geteuid())
+  {
+    if (m_before == 0 && ::seteuid(65534) != 0)
+      throw std::runtime_error("cannot become another user");
+  }
+  ~AsNobody()
+  {
+    if (m_before == 0 && ::seteuid(0) != 0)
+      std::abort();
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+private:
+  uid_t m_before;
+};
+
+TEST(DicomScan, SaysThatASubfolderMayNotBeRead)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "a", 3);
+  writeSeries(folder.path() / "b", 3);
+  fs::permissions(folder.path(), fs::perms::all);
+  fs::permissions(folder.path() / "b", fs::perms::none);
+  ScanResult result;
+  {
+    const AsNobody user;
+    result = scanDicom(folder.path(), {});
+  }
+  fs::permissions(folder.path() / "b", fs::perms::all);
+  ASSERT_EQ(result.series.size(), 1U);
+  ASSERT_EQ(result.unreadable.size(), 1U);
+  EXPECT_NE(result.unreadable.front().text.find("'b' may not be read"), std::string::npos);
+  ASSERT_EQ(result.notes.size(), 1U);
+}
+
+TEST(DicomScan, NeverWaitsForAPipe)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 3);
+  ASSERT_EQ(::mkfifo((folder.path() / "s3.dcm").c_str(), 0600), 0);
+  const ScanResult result = scanDicom(folder.path(), {});
+  EXPECT_EQ(result.series.front().files, 3U);
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes.front().find("not an ordinary file"), std::string::npos);
+  EXPECT_THROW(scanDicom(folder.path() / "s3.dcm", {}), DicomError);
+  EXPECT_THROW(scanDicom("/dev/zero", {}), DicomError);
+}
+
+/// The kinds of what is wrong with six slices, each shaped by `change`.
+std::vector<FindingKind> kindsOf(const std::function<void(int, TestSlice&)>& change)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 6, change);
+  const ScanResult result = scanDicom(folder.path(), {});
+  std::vector<FindingKind> kinds;
+  for (const DicomSeries& series : result.series)
+    for (const Finding& finding : series.geometry.findings)
+    {
+      kinds.push_back(finding.kind);
+      EXPECT_EQ(finding.text.find("DOE"), std::string::npos) << finding.text;
+    }
+  EXPECT_EQ(result.series.size(), 1U);
+  return kinds;
+}
+
+using Kinds = std::vector<FindingKind>;
+
+TEST(DicomScan, TellsPatientsOfOneSeriesApart)
+{
+  const auto blocks = [](std::uint32_t tag, const char* vr, const char* one, const char* other) {
+    return kindsOf([=](int k, TestSlice& s) { s.element(s.extra, tag, vr, k < 4 ? one : other); });
+  };
+  const Kinds patients{FindingKind::MixedPatients};
+  EXPECT_EQ(blocks(0x00100020, "LO", "DOE17", "DOE18"), patients);
+  EXPECT_EQ(blocks(0x00100030, "DA", "19500101", "19500102"), patients);
+  EXPECT_EQ(blocks(0x00100020, "LO", "DOE17", ""), Kinds());
+  EXPECT_EQ(blocks(0x00100020, "LO", "DOE17", "doe17 "), Kinds());
+  EXPECT_EQ(kindsOf([](int k, TestSlice& s) { s.studyUid = k < 4 ? "1.2.3" : "1.2.4"; }),
+            Kinds{FindingKind::MixedStudies});
+  // Without a UID, a folder's objects are taken as one series.
+  EXPECT_EQ(kindsOf(
+                [](int k, TestSlice& s)
+                {
+                  s.seriesUid.clear();
+                  s.element(s.extra, 0x00100020, "LO", k % 2 == 0 ? "DOE17" : "DOE18");
+                })
+                .front(),
+            FindingKind::MixedPatients);
+  EXPECT_EQ(kindsOf([](int, TestSlice& s) { s.seriesUid.clear(); }), Kinds());
+}
+
+TEST(DicomScan, TellsAcquisitionsAndKernelsApart)
+{
+  const auto with = [](std::uint32_t tag, const char* vr, const std::vector<std::string>& values,
+                       const std::string& modality = "CT", const std::string& thickness = "")
+  {
+    return kindsOf(
+        [=](int k, TestSlice& s)
+        {
+          s.modality = modality;
+          s.element(s.extra, tag, vr, values[static_cast<std::size_t>(k)]);
+          if (!thickness.empty())
+            s.element(s.extra, 0x00180050, "DS", thickness);
+        });
+  };
+  const Kinds mixed{FindingKind::MixedAcquisitions};
+  // Each of the two fills the gaps of the other: the stack is even, and of half the spacing.
+  EXPECT_EQ(with(0x00200012, "IS", {"1", "2", "1", "2", "1", "2"}), mixed);
+  EXPECT_EQ(with(0x00200012, "IS", {"1", "1", "2", "2", "1", "1"}), mixed);
+  EXPECT_EQ(with(0x00200012, "IS", {"1", "1", "1", "2", "2", "2"}), Kinds()) << "steps";
+  EXPECT_EQ(with(0x00200012, "IS", {"6", "5", "4", "3", "2", "1"}), Kinds()) << "steps";
+  EXPECT_EQ(with(0x00200012, "IS", {"1", "2", "1", "2", "1", "2"}, "MR", "0.5"), Kinds());
+  EXPECT_EQ(with(0x00200012, "IS", {"1", "2", "1", "2", "1", "2"}, "MR", "1.0"), mixed);
+  EXPECT_EQ(with(0x00181210, "SH", {"H30", "H70", "H30", "H70", "H30", "H70"}), mixed);
+  EXPECT_EQ(with(0x00181210, "SH", {"H30", "H30", "H30", "H30", "H30", "H70"}), mixed);
+  EXPECT_EQ(with(0x00181210, "SH", {"H30", "H30", "H30", "H30", "H30", "H30"}), Kinds());
+  EXPECT_EQ(with(0x00180060, "DS", {"80", "140", "80", "140", "80", "140"}), mixed);
+  EXPECT_EQ(with(0x00180060, "DS", {"120", "120.0", "120", "120", "120", "120"}), Kinds());
+  EXPECT_EQ(with(0x00200011, "IS", {"3", "3", "3", "4", "4", "4"}), mixed);
+}
+
+TEST(DicomScan, RefusesAModalityLut)
+{
+  const std::string item("\xfe\xff\x00\xe0\x00\x00\x00\x00", 8);
+  const std::string itemEnd("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  const std::string undefined("\x28\x00\x00\x30SQ\0\0\xff\xff\xff\xff", 12);
+  EXPECT_EQ(kindsOf([&](int, TestSlice& s) { s.element(s.extra, 0x00283000, "SQ", item); }),
+            Kinds{FindingKind::ModalityLut});
+  EXPECT_EQ(kindsOf([&](int, TestSlice& s) { s.extra = undefined + item + itemEnd; }),
+            Kinds{FindingKind::ModalityLut});
+  EXPECT_EQ(kindsOf([&](int, TestSlice& s) { s.extra = undefined + itemEnd; }), Kinds());
+  EXPECT_EQ(kindsOf([&](int, TestSlice& s) { s.element(s.extra, 0x00283000, "SQ", ""); }), Kinds());
 }
 
 TEST(DicomScan, StopsWhenCancelled)

@@ -109,6 +109,55 @@ TEST_P(PixelCodec, RefusesACodestreamOfAnotherSize)
   EXPECT_THROW(readFolder(folder.path()), DicomError);
 }
 
+/// What the program and the libraries in it write on the error stream meanwhile.
+template <class Action>
+std::string saidDuring(const Action& action)
+{
+  testing::internal::CaptureStderr();
+  action();
+  return testing::internal::GetCapturedStderr();
+}
+
+// The libraries' own words may quote the file, and stand between those of this program.
+TEST_P(PixelCodec, SaysNothingOfItsOwnAboutSpoiltBytes)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "raw", 2,
+              [](int k, TestSlice& s)
+              {
+                s.columns = 40;
+                s.rows = 30;
+                s.cell = [k](int i, int j) { return ramp(i, j, k); };
+              });
+  for (const char* name : {"s0.dcm", "s1.dcm"})
+    compress(folder.path() / "raw" / name, folder.path() / name, GetParam());
+  fs::remove_all(folder.path() / "raw");
+  std::ifstream stream(folder.path() / "s1.dcm", std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(stream)),
+                          std::istreambuf_iterator<char>());
+  const std::size_t pixels = whole.find(std::string("\xe0\x7f\x10\x00", 4));
+  ASSERT_NE(pixels, std::string::npos);
+  const std::string said = saidDuring(
+      [&]
+      {
+        for (std::size_t n = 0; n < 120; ++n)
+        {
+          std::string spoilt = whole;
+          const std::size_t at = pixels + 12 + n * (whole.size() - pixels - 13) / 119;
+          spoilt[at] = static_cast<char>(spoilt[at] ^ (1 << n % 8));
+          test::writeText(folder.path() / "s1.dcm", spoilt);
+          try
+          {
+            readFolder(folder.path());
+          }
+          catch (const DicomError&)
+          {
+          }
+        }
+      });
+  EXPECT_EQ(said, "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Syntaxes, PixelCodec,
                          testing::Values(gdcm::TransferSyntax::RLELossless,
                                          gdcm::TransferSyntax::JPEGLosslessProcess14_1,

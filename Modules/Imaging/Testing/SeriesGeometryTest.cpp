@@ -377,10 +377,11 @@ TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
   std::set<std::string> names;
   for (int kind = 0; kind <= static_cast<int>(FindingKind::Unreadable); ++kind)
     names.insert(kindName(static_cast<FindingKind>(kind)));
-  const std::set<std::string> expected{"gantry-tilt",     "missing-slice",   "uneven-spacing",
-                                       "duplicate-slice", "odd-orientation", "odd-size",
-                                       "mixed-rescale",   "no-geometry",     "localizer-mixed-in",
-                                       "multi-frame",     "not-an-image",    "unreadable"};
+  const std::set<std::string> expected{
+      "gantry-tilt",        "missing-slice",  "uneven-spacing", "duplicate-slice",
+      "odd-orientation",    "odd-size",       "mixed-rescale",  "no-geometry",
+      "localizer-mixed-in", "multi-frame",    "not-an-image",   "unreadable",
+      "modality-lut",       "mixed-patients", "mixed-studies",  "mixed-acquisitions"};
   EXPECT_EQ(names, expected);
 }
 

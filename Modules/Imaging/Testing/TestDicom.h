@@ -48,6 +48,7 @@ struct TestSlice
   int rows = 6;
   double z = 0.0;
   std::string seriesUid = "1.2.3.4";
+  std::string studyUid = "1.2.3.8";
   std::string modality = "CT";
   std::string sopClass = "1.2.840.10008.5.1.4.1.1.2";
   int bitsAllocated = 16;
@@ -115,6 +116,7 @@ struct TestSlice
     element(out, 0x0008103e, "LO", "EAR \x1b[31mTEST");
     out += extra;
     element(out, 0x00100010, "PN", "SECRET^NAME");
+    element(out, 0x0020000d, "UI", studyUid);
     element(out, 0x0020000e, "UI", seriesUid);
     element(out, 0x00200032, "DS", "-10\\20.5\\" + here);
     element(out, 0x00200037, "DS", "1\\0\\0\\0\\1\\0");

@@ -21,11 +21,18 @@ constexpr std::size_t kLargestDeflated = kLargestInflated;
 } // namespace
 
 ByteSource::ByteSource(const std::filesystem::path& file)
-  : m_descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC))
+  : m_descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) // a pipe would wait
 {
   struct stat status = {};
-  if (m_descriptor >= 0 && ::fstat(m_descriptor, &status) == 0)
+  if (m_descriptor < 0)
+    return;
+  if (::fstat(m_descriptor, &status) == 0 && S_ISREG(status.st_mode))
+  {
     m_size = static_cast<std::uint64_t>(status.st_size);
+    return;
+  }
+  ::close(m_descriptor);
+  m_descriptor = -1;
 }
 
 ByteSource::~ByteSource()

@@ -8,7 +8,8 @@
 namespace petrous::imaging
 {
 
-/// The bytes of a file, or of one inflated in memory. Reading beyond the end fails; nothing
+/// The bytes of a regular file, or of one inflated in memory. Not open: nothing there, or a pipe or
+/// device. Reading beyond the end fails; nothing
 /// throws but bad_alloc.
 class ByteSource
 {

@@ -18,6 +18,7 @@ constexpr Tag kItem = 0xfffee000;
 constexpr Tag kItemEnd = 0xfffee00d;
 constexpr Tag kSequenceEnd = 0xfffee0dd;
 constexpr Tag kTransferSyntax = 0x00020010;
+constexpr Tag kModalityLut = 0x00283000;
 
 bool isUpper(unsigned char c)
 {
@@ -35,7 +36,10 @@ bool hasLongLength(const unsigned char* vr)
 bool isWanted(Tag tag)
 {
   // Identification, equipment, relationship, image pixel: where our values are.
+  // Of the patient only what tells two apart.
   const Tag group = tag >> 16;
+  if (group == 0x0010)
+    return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100030;
   return group == 0x0002 || group == 0x0008 || group == 0x0018 || group == 0x0020 ||
          group == 0x0028;
 }
@@ -183,8 +187,12 @@ void DicomElements::readDataSet(std::uint64_t offset)
     {
       if (!skipItems(offset, m_explicit && !element.isUnknown, 0))
         return;
+      if (element.tag == kModalityLut)
+        m_hasModalityLut = offset > element.value + 8; // more than the delimiter
       continue;
     }
+    if (element.tag == kModalityLut)
+      m_hasModalityLut = element.length >= 8;
     if (!keep(element))
       return;
     offset += element.length;

@@ -55,6 +55,11 @@ public:
     return m_count == 0;
   }
 
+  bool hasModalityLut() const noexcept ///< a table instead of rescale slope and intercept
+  {
+    return m_hasModalityLut;
+  }
+
   /// Without padding and control characters: what a terminal or a JSON reader can bear.
   std::string text(Tag tag) const;
   std::vector<std::string> words(Tag tag) const; ///< split at backslashes
@@ -88,6 +93,7 @@ private:
   std::string m_syntax;
   bool m_bigEndian = false;
   bool m_explicit = true;
+  bool m_hasModalityLut = false;
   std::size_t m_count = 0;
   Pixels m_pixels;
   std::map<Tag, std::string> m_values;

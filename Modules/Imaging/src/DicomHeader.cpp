@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "DicomElements.h"
 
@@ -87,6 +88,33 @@ void readPlace(const DicomElements& elements, SliceHeader& slice)
   slice.frameOfReferenceUid = elements.text(0x00200052);
   slice.instanceNumber =
       static_cast<int>(std::clamp(elements.number(0x00200013).value_or(0.0), -1e9, 1e9));
+}
+
+/// 0 for nothing. Writers differ in capitals and in what they leave open at the end of a name.
+std::size_t keyOf(std::string text)
+{
+  text.erase(text.find_last_not_of(" ^") + 1);
+  for (char& c : text)
+    c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return text.empty() ? 0 : std::max<std::size_t>(std::hash<std::string>{}(text), 1);
+}
+
+void readOrigin(const DicomElements& elements, SliceHeader& slice)
+{
+  slice.patient = {keyOf(elements.text(0x00100020)), keyOf(elements.text(0x00100010)),
+                   keyOf(elements.text(0x00100030))};
+  slice.studyUid = elements.text(0x0020000d);
+  slice.modality = elements.text(0x00080060);
+  slice.kernel = elements.text(0x00181210);
+  slice.tube = elements.number(0x00180060);
+  const auto whole = [&elements](Tag tag) -> std::optional<int>
+  {
+    const auto value = elements.number(tag);
+    return value && std::abs(*value) < 1e9 ? std::optional(static_cast<int>(*value)) : std::nullopt;
+  };
+  slice.seriesNumber = whole(0x00200011);
+  slice.acquisition = whole(0x00200012);
+  slice.hasModalityLut = elements.hasModalityLut();
 }
 
 void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
@@ -181,6 +209,7 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
   header.description = elements.text(0x0008103e);
   slice.imageType = elements.words(0x00080008);
   readPlace(elements, slice);
+  readOrigin(elements, slice);
   readPixelFormat(elements, slice);
   const char* rescale = readRescale(elements, slice);
 
@@ -206,6 +235,20 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
     slice.damage = rescale;
 }
 
+/// Why a file that is not DICOM may have been, or nothing: empty, or no more than the zeros before
+/// DICOM's own marker.
+const char* shortDamage(ByteSource& source)
+{
+  std::array<unsigned char, 132> head{};
+  const std::uint64_t size = source.size();
+  if (size == 0)
+    return "is empty";
+  if (size >= head.size() || !source.read(0, head.data(), static_cast<std::size_t>(size)))
+    return "";
+  return std::all_of(head.begin(), head.end(), [](unsigned char c) { return c == 0; }) ? kCutShort
+                                                                                       : "";
+}
+
 } // namespace
 
 FileHeader readHeader(const std::filesystem::path& file)
@@ -221,7 +264,10 @@ FileHeader readHeader(const std::filesystem::path& file)
   }
   const DicomElements elements(source);
   if (elements.state() == DicomElements::State::Foreign)
+  {
+    header.slice.damage = shortDamage(source);
     return header;
+  }
   std::string sopClass = elements.text(0x00080016);
   if (sopClass.empty())
     sopClass = elements.text(0x00020002);

@@ -11,7 +11,7 @@ namespace petrous::imaging
 /// What a file turned out to be.
 enum class FileKind
 {
-  Foreign,   ///< not DICOM
+  Foreign,   ///< not DICOM; slice.damage says where it may have been a slice
   Directory, ///< a DICOMDIR: an index, no object of its own
   Broken,    ///< DICOM, but damaged before it says to which series it belongs
   Dicom      ///< an object of a series; slice.damage says whether its pixels can be read

@@ -281,7 +281,8 @@ private:
         // In 16 bits the sum wraps alike; a value that does not fit ends the try anyway.
         const auto offset = static_cast<std::uint16_t>(intercept);
         for (std::size_t i = 0; i < count; ++i)
-          to[i] = static_cast<T>(static_cast<std::uint16_t>(from[i] + offset));
+          to[i] = static_cast<T>(
+              static_cast<std::uint16_t>(static_cast<std::uint32_t>(from[i]) + offset));
       }
       else
         for (std::size_t i = 0; i < count; ++i)

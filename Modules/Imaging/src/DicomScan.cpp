@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -22,8 +24,8 @@ namespace
 
 const char* const kTask = "scan of the DICOM files";
 
-/// Lists every regular file once: links are followed, and a file or folder that is reached by
-/// two ways, or from within itself, counts where it is met first.
+/// What lies below a path: every regular file once, where it is met first, and what cannot be read.
+/// A link to a folder is followed where it stays below the path.
 class FileList
 {
 public:
@@ -32,43 +34,87 @@ public:
   {
   }
 
-  std::vector<fs::path> below(const fs::path& path)
+  void read(const fs::path& path)
   {
-    visit(path);
+    std::error_code error;
+    m_root = fs::canonical(path, error);
+    visit(path, true);
     while (!m_folders.empty())
     {
       const fs::path folder = std::move(m_folders.back());
       m_folders.pop_back();
       m_progress.check(kTask);
-      std::error_code error;
       // Sorted, so that which of two ways to a file is met first is not up to the disk.
       std::vector<fs::path> entries;
-      for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-           entry.increment(error))
+      fs::directory_iterator entry(folder, error);
+      for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
         entries.push_back(entry->path());
+      if (error)
+        unreadable(folder);
       std::sort(entries.begin(), entries.end());
-      for (const fs::path& entry : entries)
-        visit(entry);
+      for (const fs::path& each : entries)
+        visit(each, false);
     }
-    std::sort(m_files.begin(), m_files.end());
-    return std::move(m_files);
+    std::sort(files.begin(), files.end());
   }
 
+  std::vector<fs::path> files;
+  std::vector<FileHeader> lost;   ///< names without a file: links to nothing
+  std::vector<Finding> findings;  ///< of folders
+  std::vector<std::string> notes; ///< the same, and of links
+
 private:
-  void visit(const fs::path& path)
+  void visit(const fs::path& path, bool isRoot)
   {
     struct stat status = {};
-    if (::stat(path.c_str(), &status) != 0 || !m_seen.insert({status.st_dev, status.st_ino}).second)
+    if (::stat(path.c_str(), &status) != 0)
+    {
+      lost.emplace_back();
+      lost.back().slice.file = path;
+      lost.back().slice.damage = errno == EACCES ? "may not be opened" : "is a link to nothing";
       return;
+    }
+    if (m_seen.count({status.st_dev, status.st_ino}) > 0)
+      return;
+    std::error_code error;
+    if (S_ISDIR(status.st_mode) && !isRoot && fs::is_symlink(path, error) && !isBelow(path))
+    {
+      notes.push_back("The link '" + path.filename().string() +
+                      "' leads to a folder elsewhere and was not followed; name that folder itself "
+                      "where its files are wanted.");
+      return;
+    }
+    m_seen.insert({status.st_dev, status.st_ino});
     if (S_ISDIR(status.st_mode))
       m_folders.push_back(path);
     else if (S_ISREG(status.st_mode)) // a pipe or device would block
-      m_files.push_back(path);
+      files.push_back(path);
+    else
+      notes.push_back("'" + path.filename().string() +
+                      "' is not an ordinary file (a pipe or a device) and was not read.");
+  }
+
+  bool isBelow(const fs::path& path) const
+  {
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error);
+    return !error && std::mismatch(m_root.begin(), m_root.end(), real.begin(), real.end()).first ==
+                         m_root.end();
+  }
+
+  void unreadable(const fs::path& folder)
+  {
+    findings.push_back({FindingKind::Unreadable,
+                        "The folder '" + folder.filename().string() +
+                            "' may not be read; slices in it are missing. Its access rights must "
+                            "allow this user to read it.",
+                        0.0});
+    notes.push_back(findings.back().text);
   }
 
   const core::Progress& m_progress;
+  fs::path m_root;
   std::vector<fs::path> m_folders;
-  std::vector<fs::path> m_files;
   std::set<std::pair<dev_t, ino_t>> m_seen;
 };
 
@@ -96,22 +142,84 @@ Finding unreadable(const FileHeader& header)
           header.slice.file.filename().string() + " " + header.slice.damage + ".", 0.0};
 }
 
-/// A damaged file that does not say its series is a slice of the only one in its folder, as far
-/// as anyone can tell.
-void placeOrphans(const std::vector<const FileHeader*>& orphans,
-                  std::map<std::string, std::vector<const FileHeader*>>& groups, ScanResult& result)
+using Groups = std::map<std::string, std::vector<const FileHeader*>>;
+
+/// A file's name with "#" for each number: what the slices of one export have in common.
+std::string patternOf(const fs::path& file)
 {
-  std::map<fs::path, std::set<std::string>> seriesIn;
+  std::string pattern;
+  for (const char c : file.filename().string())
+  {
+    const bool isDigit = c >= '0' && c <= '9';
+    if (!isDigit)
+      pattern += c;
+    else if (pattern.empty() || pattern.back() != '#')
+      pattern += '#';
+  }
+  return pattern;
+}
+
+/// The series of one folder by the names of their files.
+struct FolderNames
+{
+  std::set<std::string> series;
+  std::map<std::string, std::set<std::string>> byPattern;
+  std::set<std::string> endings;
+};
+
+std::map<fs::path, FolderNames> namesOf(const Groups& groups)
+{
+  std::map<fs::path, FolderNames> folders;
   for (const auto& [key, members] : groups)
     for (const FileHeader* member : members)
-      seriesIn[member->slice.file.parent_path()].insert(key);
+    {
+      const fs::path& file = member->slice.file;
+      FolderNames& folder = folders[file.parent_path()];
+      folder.series.insert(key);
+      folder.byPattern[patternOf(file)].insert(key);
+      folder.endings.insert(file.extension().string());
+    }
+  return folders;
+}
+
+/// Whether a file that is not DICOM was a slice once, as far as anyone can tell.
+bool isLostSlice(const FileHeader& header, const std::map<fs::path, FolderNames>& folders)
+{
+  const fs::path& file = header.slice.file;
+  const auto folder = folders.find(file.parent_path());
+  if (folder == folders.end())
+    return false;
+  const std::string ending = file.extension().string();
+  return folder->second.byPattern.count(patternOf(file)) > 0 ||
+         (!header.slice.damage.empty() && !ending.empty() &&
+          folder->second.endings.count(ending) > 0);
+}
+
+/// A damaged file that does not say its series is a slice of the only one in its folder, or of the
+/// only one there whose files are named like it, as far as anyone can tell.
+void placeOrphans(const std::vector<const FileHeader*>& orphans,
+                  const std::map<fs::path, FolderNames>& folders, Groups& groups,
+                  ScanResult& result)
+{
   for (const FileHeader* orphan : orphans)
   {
-    const auto found = seriesIn.find(orphan->slice.file.parent_path());
-    if (found != seriesIn.end() && found->second.size() == 1)
-      groups[*found->second.begin()].push_back(orphan);
+    const auto folder = folders.find(orphan->slice.file.parent_path());
+    const std::set<std::string>* candidates = nullptr;
+    if (folder != folders.end())
+    {
+      const auto alike = folder->second.byPattern.find(patternOf(orphan->slice.file));
+      candidates = alike != folder->second.byPattern.end() && alike->second.size() == 1
+                       ? &alike->second
+                       : &folder->second.series;
+    }
+    if (candidates && candidates->size() == 1)
+      groups[*candidates->begin()].push_back(orphan);
     else
+    {
       result.unreadable.push_back(unreadable(*orphan));
+      result.notes.push_back(result.unreadable.back().text +
+                             " It may be a slice of any series in its folder.");
+    }
   }
 }
 
@@ -159,6 +267,10 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
 {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (!error && fs::exists(status) && !fs::is_directory(status) && !fs::is_regular_file(status))
+    throw DicomError(DicomError::Reason::NotFound,
+                     path.string() + ": is neither a folder nor an ordinary file; give the folder "
+                                     "that holds the CT's .dcm files");
   if (error || !fs::exists(status))
     throw DicomError(DicomError::Reason::NotFound,
                      path.string() + ": no such file or folder; give the folder that holds the "
@@ -169,16 +281,21 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
                      path.string() + ": the folder may not be read; its access rights must "
                                      "allow this user to read it");
 
-  const std::vector<fs::path> files = FileList(progress).below(path);
-  const std::vector<FileHeader> headers = readHeaders(files, progress);
+  FileList list(progress);
+  list.read(path);
+  std::vector<FileHeader> headers = readHeaders(list.files, progress);
+  std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;
-  std::map<std::string, std::vector<const FileHeader*>> groups;
+  result.unreadable = std::move(list.findings);
+  result.notes = std::move(list.notes);
+  Groups groups;
+  std::vector<FileHeader*> foreign;
   std::vector<const FileHeader*> orphans;
-  for (const FileHeader& header : headers)
+  for (FileHeader& header : headers)
   {
     if (header.kind == FileKind::Foreign)
-      ++result.foreignFiles;
+      foreign.push_back(&header);
     else if (header.kind == FileKind::Broken)
       orphans.push_back(&header);
     else if (header.kind == FileKind::Dicom)
@@ -187,7 +304,19 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
                                       : header.seriesUid]
           .push_back(&header);
   }
-  placeOrphans(orphans, groups, result);
+  const auto folders = namesOf(groups);
+  for (FileHeader* header : foreign)
+  {
+    if (!isLostSlice(*header, folders))
+    {
+      ++result.foreignFiles;
+      continue;
+    }
+    if (header->slice.damage.empty())
+      header->slice.damage = "is not DICOM, although it is named as a slice";
+    orphans.push_back(header);
+  }
+  placeOrphans(orphans, folders, groups, result);
 
   for (const auto& [key, members] : groups)
   {

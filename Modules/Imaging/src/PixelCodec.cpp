@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <gdcmImage.h>
 #include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
+#include <unistd.h>
 
 #include "ByteSource.h"
 #include "Codestream.h"
@@ -135,22 +137,57 @@ std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
   return bytes;
 }
 
-/// GDCM's warnings quote what they find.
-void silenceGdcm()
+/// Keeps what the codecs under GDCM write on the error stream from it, in this thread and while it
+/// lives: their words are not ours. They have nothing to say of a sound image ("Corrupt JPEG data:
+/// premature end of data segment"), and decode on.
+class CodecMessages
 {
-  static std::once_flag once;
-  std::call_once(once,
-                 []
-                 {
-                   gdcm::Trace::DebugOff();
-                   gdcm::Trace::WarningOff();
-                   gdcm::Trace::ErrorOff();
-                 });
-}
+public:
+  CodecMessages()
+  {
+    static std::once_flag once;
+    std::call_once(once,
+                   []
+                   {
+                     gdcm::Trace::DebugOff();
+                     gdcm::Trace::WarningOff();
+                     gdcm::Trace::ErrorOff();
+                     // They print to C's stderr, which is a variable in glibc. Without a buffer of
+                     // its own, its writer runs in the thread that prints.
+                     cookie_io_functions_t functions{};
+                     functions.write = write;
+                     if (FILE* stream = ::fopencookie(nullptr, "w", functions))
+                     {
+                       std::setvbuf(stream, nullptr, _IONBF, 0);
+                       stderr = stream;
+                     }
+                   });
+    t_listener = this;
+  }
+  ~CodecMessages() { t_listener = nullptr; }
+  CodecMessages(const CodecMessages&) = delete;
+  CodecMessages& operator=(const CodecMessages&) = delete;
+
+  bool any() const noexcept { return m_any; }
+
+private:
+  static ssize_t write(void*, const char* bytes, std::size_t count)
+  {
+    if (!t_listener)
+      return ::write(STDERR_FILENO, bytes, count);
+    t_listener->m_any = true;
+    return static_cast<ssize_t>(count);
+  }
+
+  static thread_local CodecMessages* t_listener;
+  bool m_any = false;
+};
+
+thread_local CodecMessages* CodecMessages::t_listener = nullptr;
 
 void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
 {
-  silenceGdcm();
+  const CodecMessages messages;
   const PixelFormat& format = slice.pixels;
   gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
   element.SetVR(gdcm::VR::OB);
@@ -193,7 +230,8 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
   }
   // The codestream's own word on bits and sign replaces the header's where they differ.
   const gdcm::PixelFormat& real = image.GetPixelFormat();
-  if (!decoded || real.GetSamplesPerPixel() != 1 || real.GetBitsAllocated() != format.bitsAllocated)
+  if (!decoded || messages.any() || real.GetSamplesPerPixel() != 1 ||
+      real.GetBitsAllocated() != format.bitsAllocated)
     fail(slice, "has a damaged compressed image");
   const BitField field =
       bitField(real.GetBitsStored(), real.GetHighBit(), real.GetPixelRepresentation() == 1);

@@ -122,6 +122,19 @@ double normalAngle(const SliceHeader& a, const SliceHeader& b) ///< degrees, 0 t
   return std::acos(std::min(1.0, std::abs(na.dot(nb)))) * 180.0 / M_PI;
 }
 
+/// Equal, or one of them not stated.
+template <class T>
+bool agree(const T& a, const T& b)
+{
+  return a == T{} || b == T{} || a == b;
+}
+
+bool samePatient(const SliceHeader& a, const SliceHeader& b)
+{
+  return agree(a.patient.id, b.patient.id) && agree(a.patient.name, b.patient.name) &&
+         agree(a.patient.birthDate, b.patient.birthDate);
+}
+
 class Assessor
 {
 public:
@@ -139,10 +152,12 @@ public:
   {
     setAsideUnreadable();
     setAsideNonImages();
+    setAsideStrangers();
     setAsideUnplaced();
     setAsideMinorities();
     judgeRescale();
     judgeStack();
+    judgeAcquisitions();
     m_result.verdict = m_result.findings.empty() ? Verdict::Ok : Verdict::Refused;
     m_result.slices = std::move(m_slices);
     return std::move(m_result);
@@ -188,6 +203,24 @@ private:
     if (!colour.empty())
       find(FindingKind::NotAnImage, "Colours instead of one CT or MR value a pixel in " +
                                         countOf(colour.size(), m_all) + ".");
+  }
+
+  /// A SeriesInstanceUID may be missing, or copied with the header of another series.
+  void setAsideStrangers()
+  {
+    const std::size_t images = m_slices.size();
+    const Headers others = takeMinority(m_slices, samePatient);
+    if (!others.empty())
+      find(FindingKind::MixedPatients, "Another patient than in the rest is named in " +
+                                           countOf(others.size(), images) +
+                                           "; keep the files of one patient in the folder.");
+    const std::size_t ofPatient = m_slices.size();
+    const Headers studies = takeMinority(m_slices, [](const SliceHeader& a, const SliceHeader& b)
+                                         { return agree(a.studyUid, b.studyUid); });
+    if (!studies.empty())
+      find(FindingKind::MixedStudies, "Another study than the rest is named in " +
+                                          countOf(studies.size(), ofPatient) +
+                                          "; keep the files of one study in the folder.");
   }
 
   void setAsideUnplaced()
@@ -269,10 +302,66 @@ private:
         std::count_if(s.begin(), s.end(),
                       [&s](const SliceHeader& a)
                       { return a.slope != s.front().slope || a.intercept != s.front().intercept; });
+    const auto tables =
+        std::count_if(s.begin(), s.end(), [](const SliceHeader& a) { return a.hasModalityLut; });
+    if (tables > 0)
+      find(FindingKind::ModalityLut,
+           "A table (Modality LUT) says what the values mean in " +
+               countOf(static_cast<std::size_t>(tables), s.size()) +
+               ", and tables are not read; export the series with rescale slope and intercept.");
     if (different > 0)
       find(FindingKind::MixedRescale,
            "The slices do not share one rescale slope and intercept, so equal tissue may have "
            "unequal values; no position is affected (0 mm).");
+  }
+
+  /// Slices of several scans may make an even stack together, each scan between the other's slices.
+  void judgeAcquisitions()
+  {
+    if (m_slices.size() < 2)
+      return;
+    const auto differs = [this](const auto& same)
+    {
+      const SliceHeader& first = m_slices.front();
+      return std::count_if(m_slices.begin(), m_slices.end(),
+                           [&](const SliceHeader& s) { return !same(first, s); }) > 0;
+    };
+    std::string what;
+    const auto add = [&what](const char* text)
+    { what += (what.empty() ? "" : ", ") + std::string(text); };
+    if (differs([](const auto& a, const auto& b) { return agree(a.modality, b.modality); }))
+      add("modalities");
+    if (differs([](const auto& a, const auto& b) { return agree(a.seriesNumber, b.seriesNumber); }))
+      add("series numbers");
+    if (differs([](const auto& a, const auto& b) { return agree(a.kernel, b.kernel); }))
+      add("reconstruction kernels");
+    if (differs([](const auto& a, const auto& b) { return agree(a.tube, b.tube); }))
+      add("tube voltages");
+    if (isInterleaved())
+      add("acquisitions that take turns along the stack");
+    if (!what.empty())
+      find(FindingKind::MixedAcquisitions,
+           "The slices are of several scans or reconstructions: they differ in " + what +
+               ", so neighbours may show equal tissue unequally and at different times; keep the "
+               "files of one in the folder.");
+  }
+
+  /// Whether an acquisition comes again after another one. Scanners that take a stack in steps
+  /// number the steps one after the other. Interleaving within one MR scan is usual: there slices
+  /// must also overlap.
+  bool isInterleaved() const
+  {
+    std::vector<int> runs;
+    for (const SliceHeader& slice : m_slices)
+      if (slice.acquisition && (runs.empty() || runs.back() != *slice.acquisition))
+        runs.push_back(*slice.acquisition);
+    std::sort(runs.begin(), runs.end());
+    if (std::adjacent_find(runs.begin(), runs.end()) == runs.end())
+      return false;
+    const SliceHeader& first = m_slices.front();
+    constexpr double kOverlap = 1.5; // thickness by spacing
+    return first.modality == "CT" || (first.thickness && m_result.grid &&
+                                      *first.thickness > kOverlap * m_result.grid->spacing()[2]);
   }
 
   void judgeStack()
@@ -324,6 +413,14 @@ const char* kindName(FindingKind kind) noexcept
     return "odd-size";
   case FindingKind::MixedRescale:
     return "mixed-rescale";
+  case FindingKind::ModalityLut:
+    return "modality-lut";
+  case FindingKind::MixedPatients:
+    return "mixed-patients";
+  case FindingKind::MixedStudies:
+    return "mixed-studies";
+  case FindingKind::MixedAcquisitions:
+    return "mixed-acquisitions";
   case FindingKind::NoGeometry:
     return "no-geometry";
   case FindingKind::LocalizerMixedIn:

@@ -30,6 +30,14 @@ struct PixelFormat
   std::uint64_t length = 0; ///< bytes of it; up to the end of the file where encapsulated
 };
 
+/// What tells two patients apart, as hashes: nothing of it can reach a message. 0: not stated.
+struct PatientKey
+{
+  std::size_t id = 0;
+  std::size_t name = 0;
+  std::size_t birthDate = 0;
+};
+
 /// What one file says about its slice. Absent or garbled numbers are nullopt.
 struct SliceHeader
 {
@@ -53,6 +61,14 @@ struct SliceHeader
   bool isImage = true;                ///< has pixel data
   std::vector<std::string> imageType; ///< words, e.g. ORIGINAL PRIMARY AXIAL
   std::string frameOfReferenceUid;
+  PatientKey patient;
+  std::string studyUid;
+  std::string modality;
+  std::string kernel;              ///< ConvolutionKernel
+  std::optional<double> tube;      ///< KVP, kV
+  std::optional<int> seriesNumber; ///< one series has one
+  std::optional<int> acquisition;  ///< AcquisitionNumber
+  bool hasModalityLut = false;     ///< a table takes the place of slope and intercept
   PixelFormat pixels;
   std::string damage; ///< empty, or why the file cannot be read ("is cut short")
 };
@@ -67,6 +83,10 @@ enum class FindingKind
   OddOrientation,
   OddSize,
   MixedRescale,
+  ModalityLut,
+  MixedPatients,
+  MixedStudies,
+  MixedAcquisitions,
   NoGeometry,
   LocalizerMixedIn,
   MultiFrame,

@@ -196,7 +196,7 @@ TEST_F(TouchCommand, KeepsTheCentreOutInThreeDegreesOfFreedom)
 TEST_F(TouchCommand, PressesASoftStructureInAsItsStiffnessSays)
 {
   writePad();
-  json("add plane --labels " + quoted(m_folder / "pad.nrrd"));
+  json("add plane --labels pad=" + quoted(m_folder / "pad.nrrd"));
   const double depth = 1.0; // of the hand below contact, which is at z = 6
   json(drill(press(6.0 - depth, false), ""));
   EXPECT_NEAR(log("log.csv").back().at("fz_n"), depth, 0.03) << "rigid until it is told";
@@ -224,7 +224,7 @@ TEST_F(TouchCommand, PressesASoftStructureInAsItsStiffnessSays)
 TEST_F(TouchCommand, DrillsASoftStructure)
 {
   writePad();
-  json("add plane --labels " + quoted(m_folder / "pad.nrrd"));
+  json("add plane --labels pad=" + quoted(m_folder / "pad.nrrd"));
   json("appearance plane --stiffness pad=0.5");
   const auto first = json(drill(press(5.0, true, 4.0), ""));
   EXPECT_EQ(first["strokes"], 1);

@@ -95,6 +95,11 @@ void remarkNotes(const Context& context, const scene::Case& value)
   };
   remark(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), remark);
+  for (const auto& part : value.labels)
+    for (const std::string& note : part.notes)
+      context.remark(
+          (part.structures.size() == 1 ? part.structures.front().name : std::string("labels")) +
+          ": " + note);
   std::for_each(value.meshes.begin(), value.meshes.end(), remark);
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -253,4 +254,149 @@ TEST_F(CaseBuilder, StructuresWithoutANameDifferInColour)
   ASSERT_EQ(found.size(), static_cast<std::size_t>(count + 1));
   std::sort(found.begin(), found.end());
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
+}
+
+// Labels and MR on the grid of the CT, written in three frames: all lie where the CT lies.
+TEST_F(CaseBuilder, PutsImagesAndLabelsOfEveryNrrdSpaceInOnePlace)
+{
+  const std::pair<const char*, const char*> frames[] = {
+      {"left-posterior-superior", "(1,0,0) (0,1,0) (0,0,1)\nspace origin: (-8,2,3)"},
+      {"right-anterior-superior", "(-1,0,0) (0,-1,0) (0,0,1)\nspace origin: (8,-2,3)"},
+      {"left-anterior-superior", "(1,0,0) (0,-1,0) (0,0,1)\nspace origin: (-8,-2,3)"}};
+  const auto write =
+      [&](const std::string& name, const char* space, const char* place, bool isLabel)
+  {
+    std::ofstream file(m_folder / name, std::ios::binary);
+    file << "NRRD0004\ntype: short\ndimension: 3\nspace: " << space
+         << "\nsizes: 16 12 10\nspace directions: " << place
+         << "\nspace units: \"mm\" \"mm\" \"mm\"\nendian: little\nencoding: raw\n";
+    if (isLabel)
+      file << "Segment0_ID:=a\nSegment0_Name:=" << name << "\nSegment0_LabelValue:=1\n";
+    file << "\n";
+    std::vector<std::int16_t> voxels(16 * 12 * 10, 0);
+    voxels[4 + 16 * (4 + 12 * 4)] = 1;
+    file.write(reinterpret_cast<const char*>(voxels.data()), 2 * 16 * 12 * 10);
+  };
+  int n = 0;
+  for (const auto& [space, place] : frames)
+  {
+    const std::string number = std::to_string(++n);
+    write("ct" + number + ".nrrd", space, place, false);
+    write("labels" + number + ".seg.nrrd", space, place, true);
+    m_sources.parts.mr.push_back({"mr" + number, m_folder / ("ct" + number + ".nrrd")});
+    m_sources.parts.labels.push_back({"", m_folder / ("labels" + number + ".seg.nrrd")});
+  }
+  for (int ct = 1; ct <= 3; ++ct)
+  {
+    m_sources.ct = m_folder / ("ct" + std::to_string(ct) + ".nrrd");
+    const auto value = presenters::buildCase("ear", m_sources, {});
+    const Vector3d there(-8 + 4, 2 + 4, 3 + 4);
+    EXPECT_TRUE(value.ct.geometry.patientFromVoxel({4, 4, 4}).isApprox(there)) << ct;
+    for (const auto& mr : value.mr)
+      EXPECT_TRUE(mr.geometry.patientFromVoxel({4, 4, 4}).isApprox(there)) << mr.name;
+    for (const auto& part : value.labels)
+    {
+      const auto& grid = part.labels.get()->voxels->geometry();
+      EXPECT_TRUE(grid.patientFromVoxel({4, 4, 4}).isApprox(there)) << part.structures[0].name;
+      EXPECT_EQ(part.drawnOn, "") << "of the CT's grid";
+    }
+  }
+}
+
+TEST_F(CaseBuilder, TakesNoPatientsNameFromAFilesName)
+{
+  const auto copy = [this](const char* from, const std::string& to)
+  {
+    std::filesystem::copy_file(m_folder / from, m_folder / to);
+    return PartSource{"", m_folder / to};
+  };
+  m_sources.parts.labels = {copy("facial_nerve.nii.gz", "Doe_John_facial_nerve.nii.gz"),
+                            copy("facial_nerve.nii.gz", "DOEJOHN19630412.nii.gz"),
+                            copy("facial_nerve.nii.gz", "doe.nii.gz"),
+                            {"John's tumour", m_folder / "facial_nerve.nii.gz"},
+                            {"", m_folder / "facial_nerve.nii.gz"}};
+  m_sources.parts.meshes = {copy("incus.obj", "John Doe.obj"), copy("incus.obj", "incus_left.obj")};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  std::vector<std::string> names;
+  for (const auto& part : value.labels)
+    names.push_back(part.structures[0].name);
+  EXPECT_EQ(names, (std::vector<std::string>{"facial nerve", "structure", "structure 2",
+                                             "John's tumour", "facial_nerve"}));
+  EXPECT_EQ(value.meshes[0].name, "mesh");
+  EXPECT_EQ(value.meshes[1].name, "incus_left");
+  EXPECT_EQ(value.meshes[1].notes.size(), 0U);
+  EXPECT_NE(value.meshes[0].notes.at(0).find("NAME=FILE"), std::string::npos);
+  EXPECT_NE(value.labels[1].notes.at(0).find("NAME=FILE"), std::string::npos);
+  EXPECT_TRUE(value.labels[4].notes.empty());
+  std::string manifest = scene::toManifest(value);
+  for (char& c : manifest)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  EXPECT_EQ(manifest.find("doe"), std::string::npos);
+}
+
+TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const core::GridGeometry away({4, 4, 4}, Vector3d::Ones(), Vector3d(-8, 2, 300));
+  const auto write = [this](const char* name, const core::GridGeometry& where, std::uint16_t value,
+                            std::vector<volume::Segment> segments)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(where, std::uint16_t{0});
+    voxels->at(1, 1, 1) = value;
+    imaging::writeLabelFile(m_folder / name, volume::makeLabelMap(voxels, std::move(segments)));
+  };
+  volume::Segment incus;
+  incus.name = "incus";
+  incus.index = 1;
+  volume::Segment drum;
+  drum.name = "drum";
+  drum.index = 2;
+  write("some.seg.nrrd", grid, 1, {incus, drum});
+  write("none.seg.nrrd", grid, 0, {incus, drum});
+  write("away.seg.nrrd", away, 2, {drum});
+  m_sources.parts.labels = {{"", m_folder / "some.seg.nrrd"}, {"", m_folder / "away.seg.nrrd"}};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels[0].notes.size(), 1U);
+  EXPECT_EQ(value.labels[0].notes[0].find("'drum' left out"), 0U) << value.labels[0].notes[0];
+  ASSERT_EQ(value.labels[1].notes.size(), 1U);
+  EXPECT_EQ(value.labels[1].notes[0].find("'drum' lies wholly outside the CT"), 0U);
+  EXPECT_EQ(scene::fromManifest(scene::toManifest(value), "x").labels[1].notes,
+            value.labels[1].notes);
+  m_sources.parts.labels = {{"", m_folder / "none.seg.nrrd"}};
+  EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), core::InvalidParameter);
+}
+
+TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)
+{
+  const auto write = [this](const char* name, float x)
+  {
+    core::TriangleMesh mesh;
+    mesh.vertices = {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    imaging::writeMesh(m_folder / name, mesh);
+  };
+  auto value = presenters::buildCase("ear", m_sources, {});
+  for (const float far : {5000.0F, -44000.0F, 3e38F})
+  {
+    write("incus.stl", far);
+    presenters::PartSources more;
+    more.meshes = {{"", m_folder / "incus.stl"}};
+    try
+    {
+      presenters::addParts(value, more, {});
+      FAIL() << far;
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("mm beyond the CT"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("incus.stl"), std::string::npos);
+    }
+    EXPECT_TRUE(value.meshes.empty());
+  }
+  // A vertex that no triangle has is not of the surface.
+  std::ofstream(m_folder / "incus.obj", std::ios::app) << "v 0 0 90000\n";
+  presenters::PartSources more;
+  more.meshes = {{"", m_folder / "incus.obj"}};
+  presenters::addParts(value, more, {});
+  EXPECT_EQ(value.meshes[0].mesh.get()->vertices.size(), 4U);
 }

@@ -1,7 +1,10 @@
 #include "petrous/Presenters/CaseBuilder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
+
+#include <Eigen/Geometry>
 
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
@@ -13,6 +16,7 @@
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
+#include "petrous/Volume/MeshSolid.h"
 
 namespace petrous::presenters
 {
@@ -22,17 +26,28 @@ namespace fs = std::filesystem;
 namespace
 {
 
-// The file's name up to its first format ending: "facial_nerve.nii.gz" -> "facial_nerve".
-std::string baseName(const fs::path& path)
+/// `wanted`, or with a number behind it where that is taken.
+template <class IsTaken>
+std::string freeName(const std::string& wanted, const IsTaken& isTaken)
 {
-  std::string name = path.filename().string();
-  for (const char* ending : {".seg.nrrd", ".nii.gz"})
-  {
-    const std::string end = ending;
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
-      return name.substr(0, name.size() - end.size());
-  }
-  return path.stem().string();
+  std::string name = wanted;
+  for (int n = 2; isTaken(name); ++n)
+    name = wanted + " " + std::to_string(n);
+  return name;
+}
+
+/// The name that a part gets from its file's, where nobody gave one; what of it is left out is
+/// noted.
+template <class IsTaken>
+std::string nameFromFile(const fs::path& path, const std::string& otherwise, const IsTaken& isTaken,
+                         std::vector<std::string>& notes)
+{
+  const FileName file = fileName(path);
+  if (file.isWhole)
+    return file.name;
+  notes.push_back("named so and not as its file, whose name may be a patient's; NAME=FILE gives "
+                  "another name");
+  return freeName(file.name.empty() ? otherwise : file.name, isTaken);
 }
 
 // The reader knows the series; the user knows the path.
@@ -81,6 +96,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
     imaging::ReadOptions options;
     options.roi = roi;
     std::vector<std::string> notes = series.geometry.notes;
+    notes.insert(notes.end(), scan.notes.begin(), scan.notes.end());
     part.volume = std::make_shared<const volume::IntensityVolume>(
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
@@ -214,20 +230,75 @@ bool isUnknown(const appearance::StructureLook& look)
   return look.preset == "other";
 }
 
+// The box of some voxels of `grid` in the voxels of `onto`.
+Eigen::AlignedBox3d boxOn(const core::GridGeometry& onto, const core::GridGeometry& grid,
+                          const core::IndexBox& box)
+{
+  Eigen::AlignedBox3d result;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d at;
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto axis = static_cast<std::size_t>(a);
+      at[a] = (corner >> a & 1) != 0 ? box.upper[axis] - 1 : box.lower[axis];
+    }
+    result.extend(onto.voxelFromPatient(grid.patientFromVoxel(at)));
+  }
+  return result;
+}
+
+bool liesOutside(const core::GridGeometry& ct, const core::GridGeometry& grid,
+                 const core::IndexBox& box)
+{
+  const auto& n = ct.dims();
+  const Eigen::AlignedBox3d hull(Eigen::Vector3d::Zero(),
+                                 Eigen::Vector3d(n[0] - 1.0, n[1] - 1.0, n[2] - 1.0));
+  return !hull.intersects(boxOn(ct, grid, box));
+}
+
+// Structures of which nothing will be seen or felt.
+void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume::LabelMap& map)
+{
+  if (part.drawnOn && !part.drawnOn->empty())
+    return; // through the registration of an MR, which may change
+  const auto boxes = volume::boxesOf(map);
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < map.segments.size(); ++s)
+    for (const auto& structure : part.structures)
+      if (structure.index == map.segments[s].index &&
+          liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
+        names.push_back(structure.name);
+  if (!names.empty())
+    part.notes.push_back(scene::listed(names) + " lies wholly outside the CT, so nothing of it is "
+                                                "seen or felt; check that it is this patient's");
+}
+
 void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  for (auto& map : imaging::readLabelFiles(source.path, progress))
+  auto loaded = imaging::loadLabels(source.path, progress);
+  std::vector<std::string> notes = std::move(loaded.notes);
+  std::vector<std::string> empty;
+  const std::size_t before = value.labels.size();
+  for (auto& map : loaded.maps)
   {
     scene::LabelPart part;
     for (const volume::Segment& segment : map.segments)
     {
       if (segment.voxels == 0)
+      {
+        empty.push_back(segment.name);
         continue;
+      }
       scene::StructurePart structure;
       structure.name = source.name.empty()        ? segment.name
                        : map.segments.size() == 1 ? source.name
                                                   : source.name + " " + segment.name;
+      if (source.name.empty() && loaded.isNamedAfterFile)
+        structure.name = nameFromFile(
+            source.path, "structure",
+            [&value](const std::string& name) { return scene::findStructure(value, name); }, notes);
       structure.index = segment.index;
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);
@@ -249,28 +320,62 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
         throw core::InvalidParameter(source.path.string() + ": two structures are called '" +
                                      structure.name + "'; rename one");
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
+    noteOutside(value, part, map);
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
     value.labels.push_back(std::move(part));
   }
+  if (value.labels.size() == before)
+    throw core::InvalidParameter(source.path.string() +
+                                 ": none of its structures has a voxel; export it again with what "
+                                 "was drawn");
+  if (!empty.empty())
+    notes.push_back(scene::listed(empty) + " left out, as no voxel carries " +
+                    (empty.size() == 1 ? "it" : "them"));
+  auto& first = value.labels[before].notes;
+  first.insert(first.begin(), notes.begin(), notes.end());
+}
+
+// A lost decimal point, or another unit. `what` names the image.
+void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
+                 const core::GridGeometry& grid, const std::string& what)
+{
+  const core::PatientBox box = grid.patientBounds();
+  const double reach = volume::reachBeyond(mesh, box);
+  if (reach <= volume::mostReach(box))
+    return;
+  throw core::InvalidParameter(
+      path.string() + ": reaches " + core::fixedText(reach, 0) + " mm beyond " + what +
+      ", and a surface of this patient at most " + core::fixedText(volume::mostReach(box), 0) +
+      " mm; look for a coordinate without its decimal point, and give it in mm");
 }
 
 void addMesh(scene::Case& value, const PartSource& source)
 {
   scene::MeshPart part;
-  part.name = source.name.empty() ? baseName(source.path) : source.name;
+  std::vector<std::string> notes;
+  part.name =
+      source.name.empty()
+          ? nameFromFile(
+                source.path, "mesh",
+                [&value](const std::string& name) { return scene::findMesh(value, name); }, notes)
+          : source.name;
   checkName(source.path, part.name);
   if (scene::findMesh(value, part.name))
     nameTaken(source.path, "mesh", part.name);
+  if (!source.drawnOn.empty())
+    part.drawnOn = drawnOnNamed(value, source);
   auto loaded = imaging::loadMesh(source.path);
+  const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
+  requireNear(source.path, loaded.mesh, mr ? mr->geometry : value.ct.geometry,
+              mr ? "the MR on which it was drawn" : "the CT");
   part.notes = std::move(loaded.notes);
+  part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
   auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));
   part.triangles = mesh->triangles.size();
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
   if (isUnknown(part.look))
     part.look.color = appearance::distinctColor(colorsOf(value));
-  if (!source.drawnOn.empty())
-    part.drawnOn = drawnOnNamed(value, source);
   value.meshes.push_back(std::move(part));
 }
 
@@ -294,6 +399,23 @@ PartSource PartSource::parseDrawn(const std::string& text)
   source.drawnOn = path.substr(at + 1);
   source.path = path.substr(0, at);
   return source;
+}
+
+FileName fileName(const fs::path& path)
+{
+  // The name up to its first format ending: "facial_nerve.nii.gz" -> "facial_nerve".
+  std::string stem = path.stem().string();
+  const std::string name = path.filename().string();
+  for (const std::string end : {".seg.nrrd", ".nii.gz"})
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+      stem = name.substr(0, name.size() - end.size());
+  const std::string known = appearance::StructurePresets::builtIn().knownWords(stem);
+  const auto letters = [](const std::string& text)
+  {
+    return std::count_if(text.begin(), text.end(),
+                         [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; });
+  };
+  return letters(known) == letters(stem) ? FileName{stem, true} : FileName{known, false};
 }
 
 scene::Case buildCase(const std::string& name, const CaseSources& sources,

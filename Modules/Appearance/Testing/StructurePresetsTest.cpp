@@ -195,3 +195,24 @@ TEST(StructureLook, FlagsGoThereAndBack)
   EXPECT_THROW(setFlags(look, "shown,loud"), petrous::core::InvalidParameter);
   EXPECT_EQ(flagsOf(look), "none");
 }
+
+TEST(StructurePresets, KnowsWhichWordsOfANameAreThoseOfStructures)
+{
+  const StructurePresets presets = StructurePresets::builtIn();
+  const std::pair<const char*, const char*> names[] = {
+      {"facial_nerve", "facial nerve"},
+      {"Facial Nerve-LEFT 2", "facial nerve left 2"},
+      {"FacialNerveLeft", "facial nerve left"},
+      {"sigmoid_sinus", "sigmoid sinus"},
+      {"Mueller_Hans_facial_nerve", "facial nerve"},
+      {"M\xc3\xbcller-cochlea-19630412", "cochlea"},
+      {"Cerebellum", "cerebellum"},
+      {"semicircular_canals_superior", "semicircular canals superior"},
+      {"Bonetti_left", ""},
+      {"left", ""},
+      {"labels", ""},
+      {"Doe^John", ""},
+      {"", ""}};
+  for (const auto& [name, words] : names)
+    EXPECT_EQ(presets.knownWords(name), words) << name;
+}

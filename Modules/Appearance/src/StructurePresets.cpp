@@ -68,6 +68,29 @@ std::string plainWords(std::string name)
   return name;
 }
 
+// Runs of letters or digits, in lower case; a capital after a small letter begins a new one.
+std::vector<std::string> wordsOf(const std::string& name)
+{
+  std::vector<std::string> words(1);
+  unsigned char before = 0;
+  for (const char each : name)
+  {
+    const auto c = static_cast<unsigned char>(each);
+    const bool isDigit = std::isdigit(c) != 0;
+    const bool isLetter = c >= 0x80 || std::isalpha(c) != 0; // UTF-8 beyond ASCII
+    const bool begins = (std::isdigit(before) != 0) != isDigit ||
+                        (std::isupper(c) != 0 && std::islower(before) != 0);
+    if (((!isDigit && !isLetter) || begins) && !words.back().empty())
+      words.emplace_back();
+    if (isDigit || isLetter)
+      words.back() += c < 0x80 ? static_cast<char>(std::tolower(c)) : each;
+    before = c;
+  }
+  if (words.back().empty())
+    words.pop_back();
+  return words;
+}
+
 } // namespace
 
 StructurePresets StructurePresets::builtIn()
@@ -99,6 +122,7 @@ StructurePresets::StructurePresets(std::string_view text)
       first.push_back({entry.at("words").get<std::vector<std::string>>(), index});
     }
     m_words.insert(m_words.begin(), first.begin(), first.end());
+    m_neutral = catalogue.value("neutral", std::vector<std::string>());
   }
   catch (const json::exception& error)
   {
@@ -128,6 +152,40 @@ StructureLook StructurePresets::lookFor(const std::string& structureName) const
 {
   const StructureLook* look = lookByWord(structureName);
   return look ? *look : m_other;
+}
+
+std::string StructurePresets::knownWords(const std::string& name) const
+{
+  // A catalogue's word may be a stem: "cerebell" of "cerebellum". Surnames go on otherwise.
+  const auto is = [](const std::string& word, const std::string& known)
+  {
+    static const char* const kEndings[] = {"s",  "es", "i",   "y",   "al",  "ar",  "ae",  "um",
+                                           "le", "is", "els", "oma", "ium", "ule", "ine", "ic"};
+    constexpr std::size_t kShortestStem = 4;
+    if (word == known || known.size() < kShortestStem)
+      return word == known;
+    return word.compare(0, known.size(), known) == 0 &&
+           std::any_of(std::begin(kEndings), std::end(kEndings),
+                       [&](const char* end) { return word.substr(known.size()) == end; });
+  };
+  std::string result;
+  bool isStructure = false;
+  for (const std::string& word : wordsOf(name))
+  {
+    const bool isNumber =
+        word.size() <= 2 && std::isdigit(static_cast<unsigned char>(word[0])) != 0;
+    const bool isNeutral =
+        isNumber || std::find(m_neutral.begin(), m_neutral.end(), word) != m_neutral.end();
+    bool isOfStructure = false;
+    for (const Words& entry : m_words)
+      for (const std::string& phrase : entry.words)
+        for (const std::string& known : wordsOf(phrase))
+          isOfStructure = isOfStructure || is(word, known);
+    isStructure = isStructure || (isOfStructure && !isNeutral);
+    if (isNeutral || isOfStructure)
+      result += (result.empty() ? "" : " ") + word;
+  }
+  return isStructure ? result : std::string();
 }
 
 StructureLook StructurePresets::preset(const std::string& name) const

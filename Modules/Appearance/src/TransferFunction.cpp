@@ -149,11 +149,15 @@ TransferFunction TransferFunction::fromJson(std::string_view text)
   {
     j = json::parse(text);
   }
-  catch (const json::exception& error)
+  catch (const json::parse_error& error) // its words quote the file
   {
-    const std::string what = error.what(); // "[json.exception...] parse error at line 1, ..."
-    const auto begin = what.find("] ");
-    refuseJson("not JSON: " + (begin == std::string::npos ? what : what.substr(begin + 2)));
+    const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
+    refuseJson("not JSON; look at line " +
+               std::to_string(1 + std::count(before.begin(), before.end(), '\n')));
+  }
+  catch (const json::exception&)
+  {
+    refuseJson("not JSON that can be read: a number is too large");
   }
   if (!j.is_object() || !j.contains("points") || !j["points"].is_array())
     refuseJson("must be {\"points\": [{\"value\": 300, \"color\": [r, g, b], \"opacity\": 0.2, "

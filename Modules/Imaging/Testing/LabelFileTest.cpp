@@ -182,7 +182,7 @@ TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
   replace("directions: ", "directions: none ");
   replace("kinds: ", "kinds: list ");
   const auto path = putFile(folder / "a.seg.nrrd", bytes);
-  const auto maps = readLabelFiles(path);
+  const auto maps = loadLabels(path).maps;
   ASSERT_EQ(maps.size(), 2U);
   EXPECT_EQ(maps[0].segments.size(), 1U);
   EXPECT_EQ(maps[0].segments[0].name, "bone");
@@ -192,6 +192,54 @@ TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
   EXPECT_EQ(maps[1].voxels->at(2, 1, 1), 2);
   EXPECT_NEAR(maps[1].voxels->geometry().spacing()[2], 1.0, 1e-12);
   expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
+}
+
+// By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) of the file's own frame.
+TEST(LabelFile, LiesWhereEverySpaceSays)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 4};
+  const std::pair<const char*, Eigen::Vector3d> spaces[] = {
+      {"left-posterior-superior", {2.0, 2.5, 4.0}},
+      {"right-anterior-superior", {-2.0, -2.5, 4.0}},
+      {"left-anterior-superior", {2.0, -2.5, 4.0}}};
+  for (const auto& [space, place] : spaces)
+    for (const char* name : {"a.seg.nrrd", "a.nrrd"})
+    {
+      std::string bytes = nrrd("uchar", values, slicerKeys(0, "incus", 4, 0));
+      bytes.replace(bytes.find("left-posterior-superior"), 23, space);
+      const auto map = readLabelFile(putFile(folder / name, bytes));
+      EXPECT_EQ(map.voxels->at(2, 1, 1), 4);
+      EXPECT_TRUE(map.voxels->geometry().patientFromVoxel({2.0, 1.0, 1.0}).isApprox(place, 1e-12))
+          << space << " " << name;
+    }
+}
+
+TEST(LabelFile, SaysWhichStructuresLieInNoLayer)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 3};
+  const auto loaded = loadLabels(
+      putFile(folder / "a.seg.nrrd",
+              nrrd("uchar", values, slicerKeys(0, "incus", 4, 0) + slicerKeys(1, "drum", 7, 3))));
+  ASSERT_EQ(loaded.maps.size(), 1U);
+  EXPECT_NE(find(loaded.maps[0], "incus"), nullptr);
+  EXPECT_EQ(find(loaded.maps[0], "drum"), nullptr);
+  EXPECT_TRUE(std::any_of(loaded.notes.begin(), loaded.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("'drum' was left out") != note.npos; }));
+}
+
+TEST(LabelFile, ColoursAreAlwaysNumbers)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 4};
+  std::string keys = slicerKeys(0, "incus", 4, 0);
+  keys.replace(keys.find("0.5 0.25 1"), 10, "nan inf 0.5");
+  const auto map = readLabelFile(putFile(folder / "a.seg.nrrd", nrrd("uchar", values, keys)));
+  EXPECT_EQ(find(map, "incus")->color, (std::array<float, 3>{0.0F, 0.0F, 0.5F}));
+  for (const char* table : {"4 incus nan 0 0 255\n", "4 nan inf 0 1 1 1 \"incus\"\n"})
+    EXPECT_TRUE(parseLabelTable(table).empty()) << table;
 }
 
 TEST(LabelFile, TakesNamesFromATableBesideIt)

@@ -81,9 +81,11 @@ std::vector<bool> valuesIn(const volume::Volume<std::uint16_t>& labels)
   return {seen.begin(), seen.end()};
 }
 
-/// Names for a file that carries none itself; may renumber a lone structure to 1.
+/// Names for a file that carries none itself; may renumber a lone structure to 1, and says then
+/// whether only the file's name names it.
 std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
-                                              volume::Volume<std::uint16_t>& labels)
+                                              volume::Volume<std::uint16_t>& labels,
+                                              bool& isNamedAfterFile)
 {
   const std::vector<bool> seen = valuesIn(labels);
   const auto count = std::count(seen.begin() + 1, seen.end(), true);
@@ -103,6 +105,7 @@ std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
   }
   std::transform(labels.data(), labels.data() + labels.size(), labels.data(),
                  [](std::uint16_t v) { return static_cast<std::uint16_t>(v != 0); });
+  isNamedAfterFile = true;
   volume::Segment segment;
   segment.name = baseName(path);
   segment.index = 1;
@@ -115,8 +118,8 @@ bool hasSegments(const VoxelSource& source)
          (source.nrrd()->key("Segment0_Name") || source.nrrd()->key("Segment0_ID"));
 }
 
-std::vector<volume::LabelMap> readLayers(const std::filesystem::path& path, bool oneOnly,
-                                         const core::Progress& progress)
+LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
+                        const core::Progress& progress)
 {
   progress.report(0.0, "reading labels");
   const VoxelSource source(path);
@@ -130,32 +133,37 @@ std::vector<volume::LabelMap> readLayers(const std::filesystem::path& path, bool
          "holds structures that overlap, in " + std::to_string(source.components()) +
              " layers; one layer is needed here");
   const auto raw = source.read(source.geometry().fullBox(), progress.part(0.0, 0.7));
-  std::vector<volume::LabelMap> maps;
+  LoadedLabels loaded;
+  loaded.notes = source.notes();
+  if (named)
+    for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
+      loaded.notes.push_back("'" + name +
+                             "' was left out: the file puts it in a layer that it has "
+                             "not; save it again in 3D Slicer");
   for (std::size_t layer = 0; layer < source.components(); ++layer)
   {
     progress.report(0.7, "reading labels");
     const Labels labels =
         visitComponent(source.component(), [&](auto type)
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
-    auto names =
-        named ? segmentsOfLayer(path, *source.nrrd(), layer) : namesFromOutside(path, *labels);
-    maps.push_back(volume::makeLabelMap(labels, std::move(names)));
+    auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
+                       : namesFromOutside(path, *labels, loaded.isNamedAfterFile);
+    loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
   progress.report(1.0, "reading labels");
-  return maps;
+  return loaded;
 }
 
 } // namespace
 
-volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
-{
-  return std::move(readLayers(path, true, progress).front());
-}
-
-std::vector<volume::LabelMap> readLabelFiles(const std::filesystem::path& path,
-                                             const core::Progress& progress)
+LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress)
 {
   return readLayers(path, false, progress);
+}
+
+volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
+{
+  return std::move(readLayers(path, true, progress).maps.front());
 }
 
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels)

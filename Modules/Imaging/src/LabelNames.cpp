@@ -136,24 +136,54 @@ std::vector<volume::Segment> readTable(const std::filesystem::path& path)
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size == 0 || size > kLargestTable)
     return {};
-  return parseLabelTable(readBytes(path));
+  return parseLabelTable(readBytes(path, kLargestTable));
+}
+
+std::string prefixOf(std::size_t segment)
+{
+  return "Segment" + std::to_string(segment) + "_";
+}
+
+bool hasSegment(const NrrdHeader& header, std::size_t segment)
+{
+  const std::string prefix = prefixOf(segment);
+  return header.key(prefix + "Name") || header.key(prefix + "LabelValue") ||
+         header.key(prefix + "ID");
+}
+
+/// -1 where what the file says is no number. Older files know one layer only and name none.
+std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
+{
+  const std::string* stated = header.key(prefixOf(segment) + "Layer");
+  return stated ? parseInteger(trimmed(*stated)).value_or(-1) : 0;
 }
 
 } // namespace
+
+std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers)
+{
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < kMostSegments && hasSegment(header, s); ++s)
+  {
+    const std::int64_t layer = layerOf(header, s);
+    if (layer >= 0 && layer < static_cast<std::int64_t>(layers))
+      continue;
+    const std::string* name = header.key(prefixOf(s) + "Name");
+    names.push_back(name && !name->empty() ? *name : "structure " + std::to_string(s));
+  }
+  return names;
+}
 
 std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
                                              const NrrdHeader& header, std::size_t layer)
 {
   std::vector<volume::Segment> segments;
-  for (std::size_t s = 0; s < kMostSegments; ++s)
+  for (std::size_t s = 0; s < kMostSegments && hasSegment(header, s); ++s)
   {
-    const std::string prefix = "Segment" + std::to_string(s) + "_";
+    const std::string prefix = prefixOf(s);
     const std::string* name = header.key(prefix + "Name");
     const std::string* value = header.key(prefix + "LabelValue");
-    if (!name && !value && !header.key(prefix + "ID"))
-      break;
-    const std::string* stated = header.key(prefix + "Layer");
-    if (stated && parseInteger(trimmed(*stated)) != static_cast<std::int64_t>(layer))
+    if (layerOf(header, s) != static_cast<std::int64_t>(layer))
       continue;
     // Slicer wrote no LabelValue before it knew layers: the structures counted from 1.
     const auto index =
@@ -183,7 +213,7 @@ std::string segmentKeys(const volume::LabelMap& labels)
   for (std::size_t s = 0; s < labels.segments.size(); ++s)
   {
     const volume::Segment& segment = labels.segments[s];
-    const std::string prefix = "Segment" + std::to_string(s) + "_";
+    const std::string prefix = prefixOf(s);
     std::string color;
     for (const float channel : segment.color)
       color += (color.empty() ? "" : " ") + exactText(channel);

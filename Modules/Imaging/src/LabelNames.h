@@ -18,6 +18,9 @@ namespace petrous::imaging
 std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
                                              const NrrdHeader& header, std::size_t layer);
 
+/// Names of the segments that lie in none of so many layers.
+std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers);
+
 /// The key/value lines that name the structures of a map, as 3D Slicer writes them.
 std::string segmentKeys(const volume::LabelMap& labels);
 

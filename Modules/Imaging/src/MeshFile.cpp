@@ -82,6 +82,29 @@ std::string plyBytes(const core::TriangleMesh& mesh)
   return bytes;
 }
 
+/// A vertex of no triangle is not of the surface, and must not count for where it lies.
+void dropUnusedVertices(core::TriangleMesh& mesh)
+{
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle)
+      place[corner] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (place[v] != kUnused)
+    {
+      mesh.vertices[kept] = mesh.vertices[v];
+      place[v] = kept++;
+    }
+  if (kept == mesh.vertices.size())
+    return;
+  mesh.vertices.resize(kept);
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle)
+      corner = place[corner];
+}
+
 } // namespace
 
 MeshBuilder::MeshBuilder(const std::filesystem::path& path)
@@ -137,6 +160,7 @@ core::TriangleMesh MeshBuilder::take()
   if (m_mesh.triangles.empty())
     fail(FileError::Reason::Unsupported, m_path,
          "holds no triangle; a surface of at least one is needed");
+  dropUnusedVertices(m_mesh);
   return std::move(m_mesh);
 }
 
@@ -153,7 +177,7 @@ LoadedMesh loadMesh(const std::filesystem::path& path)
   if (!isMeshFileName(path))
     fail(FileError::Reason::UnknownFormat, path,
          "is of no surface format that is read; give a .obj, .stl or .ply file");
-  const std::string bytes = readBytes(path);
+  const std::string bytes = readWholeFile(path);
   LoadedMesh loaded;
   loaded.mesh = endsWith(name, ".obj")   ? parseObj(path, bytes)
                 : endsWith(name, ".stl") ? parseStl(path, bytes)

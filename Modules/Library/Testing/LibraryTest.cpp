@@ -9,6 +9,7 @@
 
 #include "TestCase.h"
 #include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Library/ObjectStore.h"
 
 using namespace petrous;
 using namespace petrous::library;
@@ -301,4 +302,29 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
   library.save(last);
   for (const auto& [name, content] : contentOf(folder.path()))
     EXPECT_EQ(name.find("objects/."), std::string::npos) << name;
+}
+
+// A plain hash of a UID can be tried against the UIDs that somebody knows.
+TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
+{
+  const TemporaryFolder folder;
+  const std::string plain = sha256Of(reinterpret_cast<const std::uint8_t*>("1.2.3"), 5);
+  const auto savedIn = [&](const std::string& library, const std::string& name)
+  {
+    Library opened(folder.path() / library);
+    scene::Case value = smallCase(name);
+    value.ct.frameOfReference = plain;
+    opened.save(value);
+    EXPECT_EQ(value.ct.frameOfReference, opened.open(name).ct.frameOfReference);
+    const std::string first = value.ct.frameOfReference;
+    opened.save(value);
+    EXPECT_EQ(value.ct.frameOfReference, first) << "salted once";
+    return first;
+  };
+  const std::string one = savedIn("a", "ear");
+  EXPECT_EQ(one.size(), 64U);
+  EXPECT_NE(one, plain);
+  EXPECT_EQ(one, savedIn("a", "other ear")) << "in one library the same are known as such";
+  EXPECT_NE(one, savedIn("b", "ear"));
+  EXPECT_EQ(contentOf(folder.path() / "a").count("salt"), 1U);
 }

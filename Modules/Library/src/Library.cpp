@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <optional>
 #include <random>
@@ -89,6 +90,48 @@ std::string imageText(const scene::Case& value, const scene::ImagePart& image)
 {
   return (&image == &value.ct ? "the CT" : "MR '" + image.name + "'") + " of case '" + value.name +
          "'";
+}
+
+constexpr std::size_t kSaltDigits = 64; // 256 bits
+
+/// The library's secret, drawn once. Call with the library locked.
+std::string saltOf(const fs::path& folder)
+{
+  const fs::path path = folder / "salt";
+  if (!fs::exists(path))
+    core::writeFile(path, randomId() + randomId()); // from the system's generator
+  std::string salt;
+  try
+  {
+    salt = core::readFile(path, 2 * kSaltDigits);
+  }
+  catch (const core::InputFileError& error)
+  {
+    throw libraryError(error);
+  }
+  if (salt.size() != kSaltDigits)
+    throw LibraryError(Reason::Damaged,
+                       path.string() + ": is not what this program wrote; restore it from a copy, "
+                                       "or remove it (a new image's frame of reference is then "
+                                       "not known to be that of older ones)");
+  return salt;
+}
+
+/// Whoever knows a hospital's UIDs could try which of them a plain hash is of.
+void saltFrames(scene::Case& value, const fs::path& folder)
+{
+  const auto salted = [&folder](scene::ImagePart& image)
+  {
+    if (!image.isFrameSalted && !image.frameOfReference.empty())
+    {
+      const std::string text = saltOf(folder) + image.frameOfReference;
+      image.frameOfReference =
+          sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    }
+    image.isFrameSalted = true;
+  };
+  salted(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
 
 } // namespace
@@ -305,6 +348,7 @@ void Library::save(scene::Case& value, const core::Progress& progress)
     storeParts(next, store, progress);
     if (next.revision == 0)
       next.id = randomId();
+    saltFrames(next, m_folder);
     ++next.revision;
     progress.report(0.95, "saving");
     const std::string manifest = scene::toManifest(next);

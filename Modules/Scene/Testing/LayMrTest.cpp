@@ -179,3 +179,18 @@ TEST(LayMr, OnlyWhatMovesLosesItsSignatureWhenMrsAreLaidAsTheyLay)
   EXPECT_EQ(scene::validSignOff(value.mr[0]), nullptr);
   EXPECT_NE(scene::validSignOff(value.mr[1]), nullptr);
 }
+
+TEST(LayMr, RefusesATransformThatLeavesTheImagesNothingInCommon)
+{
+  scene::Case value = caseWith({"T2"});
+  for (const double far : {1e39, 1e5, 600.0})
+    EXPECT_THROW(scene::layMr(value, "T2",
+                              {Eigen::Quaterniond::Identity(), Vector3d(0.0, far, 0.0)},
+                              measured()),
+                 core::InvalidParameter)
+        << far;
+  EXPECT_FALSE(value.mr[0].registered);
+  scene::layMr(value, "T2", {Eigen::Quaterniond::Identity(), Vector3d(0.0, 400.0, 0.0)},
+               measured());
+  EXPECT_TRUE(value.mr[0].registered);
+}

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -294,4 +296,50 @@ TEST(Manifest, RefusesWhatContradictsItself)
   value = fullCase();
   value.name = "../escape";
   EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "m.json"), scene::ManifestError);
+}
+
+TEST(Manifest, NamesANumberThatIsNotFiniteAndWritesNothing)
+{
+  const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
+                        -std::numeric_limits<double>::infinity()};
+  for (const double number : bad)
+  {
+    const auto refused = [](const scene::Case& value, const std::string& place)
+    {
+      try
+      {
+        scene::toManifest(value);
+        FAIL() << place;
+      }
+      catch (const core::InvalidParameter& error)
+      {
+        EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << error.what();
+      }
+    };
+    scene::Case value = fullCase();
+    value.iso = number;
+    refused(value, "iso_hu");
+    value = fullCase();
+    value.labels[0].structures[0].look.color[1] = static_cast<float>(number);
+    refused(value, "labels.0.structures.0.look.color.1");
+    value = fullCase();
+    value.ct.range.max = number;
+    refused(value, "ct.max");
+    value = fullCase();
+    value.mr[0].registration->error->p95 = number;
+    refused(value, "mr.0.registration.error.p95_mm");
+  }
+}
+
+TEST(Manifest, KeepsTheNotesOfLabelsAndWhetherAFrameIsSalted)
+{
+  scene::Case value = fullCase();
+  value.labels[0].notes = {"'drum' was left out"};
+  value.mr[0].isFrameSalted = true;
+  const scene::Case back = scene::fromManifest(scene::toManifest(value), "x");
+  EXPECT_EQ(back.labels[0].notes, value.labels[0].notes);
+  EXPECT_TRUE(back.mr[0].isFrameSalted);
+  EXPECT_EQ(back.mr[0].frameOfReference, value.mr[0].frameOfReference);
+  value.mr[0].isFrameSalted = false;
+  EXPECT_FALSE(scene::fromManifest(scene::toManifest(value), "x").mr[0].isFrameSalted);
 }

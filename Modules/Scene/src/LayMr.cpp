@@ -43,6 +43,29 @@ void forgetVoxels(Case& value, const std::string& mr)
       mesh.touch = {};
 }
 
+// A transform in another unit, or without its decimal point, puts the images where they have
+// nothing in common; numbers beyond float would spoil whatever is computed from them.
+void checkMeets(const core::GridGeometry& ct, const ImagePart& mr,
+                const core::RigidTransform& mrFromCt)
+{
+  constexpr double kLeast = 500.0; // mm
+  const core::PatientBox ctBox = ct.patientBounds();
+  const core::PatientBox box = mr.geometry.patientBounds();
+  const double most =
+      std::max(kLeast, (ctBox.max() - ctBox.min()).norm() + (box.max() - box.min()).norm());
+  const Eigen::Vector3d at = mrFromCt * ct.center();
+  const double apart = (at.cwiseMax(box.min()).cwiseMin(box.max()) - at).norm();
+  if (apart <= most)
+    return;
+  throw core::InvalidParameter(
+      "MR '" + mr.name + "' cannot be registered so: the CT's middle would lie " +
+      core::fixedText(apart, 0) + " mm outside it, and at most " + core::fixedText(most, 0) +
+      " mm are taken; check unit and decimal point of the transform");
+}
+
+void lay(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
+         Registration how);
+
 } // namespace
 
 bool liesThrough(const Case& value, const std::string& name, const std::string& through)
@@ -68,8 +91,18 @@ void checkThrough(const Case& value, const std::string& name, const std::string&
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
            Registration how)
 {
-  ImagePart& mr = mrNamed(value, name);
   checkThrough(value, name, how.through);
+  checkMeets(value.ct.geometry, mrNamed(value, name), mrFromCt);
+  lay(value, name, mrFromCt, std::move(how));
+}
+
+namespace
+{
+
+void lay(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
+         Registration how)
+{
+  ImagePart& mr = mrNamed(value, name);
   how.signOff.reset();
   const bool hadPlace = mr.registered;
   const core::RigidTransform before = mr.mrFromCt;
@@ -90,9 +123,11 @@ void layMr(Case& value, const std::string& name, const core::RigidTransform& mrF
                  "to know its error";
     along.error.reset();
     along.metric.reset();
-    layMr(value, other.name, other.mrFromCt * before.inverse() * mrFromCt, std::move(along));
+    lay(value, other.name, other.mrFromCt * before.inverse() * mrFromCt, std::move(along));
   }
 }
+
+} // namespace
 
 void unlayMr(Case& value, const std::string& name)
 {

@@ -1,5 +1,8 @@
 #include "petrous/Scene/Manifest.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "DissectionJson.h"
@@ -14,6 +17,8 @@ namespace
 using nlohmann::json;
 
 constexpr int kFirstFormatWithBranches = 2;
+constexpr const char* kFrame = "frame_of_reference_salted_sha256";
+constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // of older programs
 
 json gridOut(const core::GridGeometry& grid)
 {
@@ -41,7 +46,7 @@ json imageOut(const ImagePart& image)
   json j{{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
          {"min", image.range.min}, {"max", image.range.max}, {"notes", image.notes}};
   if (!image.frameOfReference.empty())
-    j["frame_of_reference_sha256"] = image.frameOfReference;
+    j[image.isFrameSalted ? kFrame : kUnsaltedFrame] = image.frameOfReference;
   return j;
 }
 
@@ -53,7 +58,8 @@ ImagePart imageIn(const json& j)
   image.geometry = gridIn(j.at("grid"));
   image.range = {j.at("min").get<double>(), j.at("max").get<double>()};
   image.notes = j.at("notes").get<std::vector<std::string>>();
-  image.frameOfReference = j.value("frame_of_reference_sha256", std::string());
+  image.isFrameSalted = !j.contains(kUnsaltedFrame);
+  image.frameOfReference = j.value(image.isFrameSalted ? kFrame : kUnsaltedFrame, std::string());
   return image;
 }
 
@@ -116,6 +122,8 @@ json labelsOut(const LabelPart& part)
   json j{{"object", part.object}, {"structures", structures}};
   if (part.drawnOn)
     j["drawn_on"] = *part.drawnOn;
+  if (!part.notes.empty())
+    j["notes"] = part.notes;
   return j;
 }
 
@@ -125,6 +133,7 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
   part.object = j.at("object").get<std::string>();
   if (j.contains("drawn_on"))
     part.drawnOn = j.at("drawn_on").get<std::string>();
+  part.notes = j.value("notes", std::vector<std::string>());
   for (const json& s : j.at("structures"))
     part.structures.push_back({s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
                                s.at("voxels").get<std::uint64_t>(),
@@ -142,6 +151,25 @@ json meshOut(const MeshPart& mesh)
   if (!mesh.drawnOn.empty())
     j["drawn_on"] = mesh.drawnOn;
   return j;
+}
+
+bool isFinite(const json& j)
+{
+  if (j.is_structured())
+    return std::all_of(j.begin(), j.end(), [](const json& part) { return isFinite(part); });
+  return !j.is_number_float() || std::isfinite(j.get<double>());
+}
+
+/// JSON has no word for what is not finite: it would be written as null, and the case could not be
+/// read again.
+void requireFinite(const json& j, const std::string& where)
+{
+  if (isFinite(j))
+    return;
+  if (!j.is_structured())
+    throw core::InvalidParameter("case: " + where + " is not a finite number");
+  for (const auto& [key, part] : j.items())
+    requireFinite(part, where.empty() ? key : where + "." + key);
 }
 
 Case caseIn(const json& j)
@@ -230,6 +258,7 @@ std::string toManifest(const Case& value)
   for (const StrokePart& stroke : value.strokes)
     strokes.push_back(strokeOut(stroke));
   j["dissection"] = {{"history", historyOut(value.history)}, {"strokes", std::move(strokes)}};
+  requireFinite(j, "");
   return j.dump(1) + "\n";
 }
 

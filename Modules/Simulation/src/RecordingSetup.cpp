@@ -122,10 +122,11 @@ RecordingSetup setupFromJson(const std::string& text)
     if (in.contains("passivity_lever_mm"))
       eachPassivity(setup.servo.passivity.emplace(), get);
   }
-  catch (const json::exception& error)
+  catch (const json::exception&) // its words quote the file
   {
-    throw core::InvalidParameter(std::string("recording: the set-up cannot be read: ") +
-                                 error.what());
+    throw core::InvalidParameter(
+        "recording: the set-up cannot be read; it is damaged or of another "
+        "program");
   }
   return setup;
 }

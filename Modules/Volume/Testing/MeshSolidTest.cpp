@@ -373,6 +373,43 @@ TEST(MeshSolid, IsMadeOnlyInTheRegion)
   EXPECT_NEAR(crossing(*share, {8.0, 0.0, 0.0}, {1, 0, 0}, 4.0), 10.0 - 8.0, 0.05 * kSpacing);
 }
 
+// A vertex 5 m off took minutes: its spike was cut into triangles of half a voxel.
+TEST(MeshSolid, RefusesWhatReachesFarBeyondTheRegion)
+{
+  MeshSolidLimits limits;
+  limits.spacing = kSpacing;
+  limits.region = core::PatientBox{Vector3d(-20, -20, -20), Vector3d(20, 20, 20)};
+  for (const float far : {600.0F, 5000.0F, 44000.0F, 1e30F, -3e38F})
+  {
+    auto mesh = sphere({0, 0, 0}, 8.0);
+    mesh.vertices[100][1] = far;
+    const auto plan = volume::planMeshSolid(mesh, limits);
+    EXPECT_NE(plan.refusal.find("mm beyond the CT"), std::string::npos) << far << plan.refusal;
+  }
+  EXPECT_EQ(volume::reachBeyond(sphere({0, 0, 0}, 8.0), *limits.region), 0.0);
+  EXPECT_NEAR(volume::reachBeyond(sphere({30, 0, 0}, 8.0), *limits.region), 18.0, 0.1);
+  EXPECT_EQ(volume::mostReach(*limits.region), 500.0);
+  EXPECT_NEAR(volume::mostReach({Vector3d::Zero(), Vector3d(300, 400, 0)}), 500.0, 1e-9);
+  EXPECT_NEAR(volume::mostReach({Vector3d::Zero(), Vector3d(600, 800, 0)}), 1000.0, 1e-9);
+}
+
+// What leaves the region is cut off there, and what is left in it is as before.
+TEST(MeshSolid, IsTheSameInTheRegionWhereTheMeshGoesFarBeyond)
+{
+  MeshSolidLimits limits;
+  limits.spacing = kSpacing;
+  limits.region = core::PatientBox{Vector3d(-10, -10, -10), Vector3d(10, 10, 10)};
+  const auto beam = box({-400.0, -3.1, -2.3}, {400.0, 4.2, 5.4});
+  const auto plan = volume::planMeshSolid(beam, limits);
+  ASSERT_TRUE(plan) << plan.refusal;
+  const auto share = volume::solidOf(beam, plan);
+  for (const double x : {-9.7, 0.0, 9.7})
+  {
+    EXPECT_NEAR(crossing(*share, {x, 0.0, 0.0}, Vector3d::UnitY(), 8.0), 4.2, 0.02);
+    EXPECT_NEAR(crossing(*share, {x, 0.0, 0.0}, -Vector3d::UnitZ(), 8.0), 2.3, 0.02);
+  }
+}
+
 TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
 {
   constexpr double length = 12.0;

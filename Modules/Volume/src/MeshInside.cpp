@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -20,6 +21,42 @@ std::int64_t orientation(const std::array<std::int64_t, 2>& a, const std::array<
                          const std::array<std::int64_t, 2>& p) noexcept
 {
   return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+// The triangle's part in the box, as triangles (Sutherland and Hodgman 1974, one plane after the
+// other).
+std::vector<Triangle> clipped(const Triangle& triangle, const Eigen::AlignedBox3d& box)
+{
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& corner : triangle)
+    bounds.extend(corner);
+  if (box.contains(bounds))
+    return {triangle};
+  if (!box.intersects(bounds))
+    return {};
+  std::vector<Eigen::Vector3d> polygon(triangle.begin(), triangle.end());
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const double sense : {1.0, -1.0})
+    {
+      const double wall = sense > 0.0 ? box.min()[axis] : -box.max()[axis];
+      std::vector<Eigen::Vector3d> kept;
+      for (std::size_t c = 0; c < polygon.size(); ++c)
+      {
+        const Eigen::Vector3d& from = polygon[c];
+        const Eigen::Vector3d& to = polygon[(c + 1) % polygon.size()];
+        const double a = sense * from[axis] - wall;
+        const double b = sense * to[axis] - wall;
+        if (a >= 0.0)
+          kept.push_back(from);
+        if ((a >= 0.0) != (b >= 0.0))
+          kept.push_back(from + a / (a - b) * (to - from));
+      }
+      polygon = std::move(kept);
+    }
+  std::vector<Triangle> parts;
+  for (std::size_t c = 2; c < polygon.size(); ++c)
+    parts.push_back({polygon[0], polygon[c - 1], polygon[c]});
+  return parts;
 }
 
 } // namespace
@@ -270,7 +307,7 @@ void MeshInside::addSurface(const Triangle& triangle, double resolution,
     result.push_back({a, c, b});
 }
 
-std::vector<Triangle> MeshInside::surface(double resolution) const
+std::vector<Triangle> MeshInside::surface(double resolution, const Eigen::AlignedBox3d& box) const
 {
   constexpr std::size_t kChunk = 1024;
   std::vector<std::vector<Triangle>> chunks((m_triangles.size() + kChunk - 1) / kChunk);
@@ -279,7 +316,8 @@ std::vector<Triangle> MeshInside::surface(double resolution) const
                     {
                       const std::size_t last = std::min((chunk + 1) * kChunk, m_triangles.size());
                       for (std::size_t t = chunk * kChunk; t < last; ++t)
-                        addSurface(m_triangles[t], resolution, chunks[chunk]);
+                        for (const Triangle& part : clipped(m_triangles[t], box))
+                          addSurface(part, resolution, chunks[chunk]);
                     });
   std::vector<Triangle> result;
   for (const auto& chunk : chunks)

@@ -36,8 +36,9 @@ public:
 
   /// The triangles that bound the inside, without those that lie in it or bound nothing (a wall
   /// between two shells), corners counter-clockwise seen from outside. Triangles of which only a
-  /// part does are cut into smaller ones, down to edges of `resolution` mm.
-  std::vector<Triangle> surface(double resolution) const;
+  /// part does are cut into smaller ones, down to edges of `resolution` mm. What lies outside `box`
+  /// is cut off.
+  std::vector<Triangle> surface(double resolution, const Eigen::AlignedBox3d& box) const;
 
 private:
   using Lattice = std::array<std::int64_t, 2>; // of y and z

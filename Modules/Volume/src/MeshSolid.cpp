@@ -37,8 +37,10 @@ struct Chord
   bool facing;
 };
 
-// From the middle of each triangle inwards to the wall across.
-std::vector<Chord> chordsOf(const MeshTree& surface, double start, const core::Progress& progress)
+// From the middle of each triangle inwards to the wall across; `beyond` mm where that was cut off,
+// or not counted where `beyond` is 0.
+std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond,
+                            const core::Progress& progress)
 {
   const auto& triangles = surface.triangles();
   const std::size_t stride = 1 + triangles.size() / kMostSamples;
@@ -55,6 +57,8 @@ std::vector<Chord> chordsOf(const MeshTree& surface, double start, const core::P
                         return;
                       const Eigen::Vector3d inwards = -normal.normalized();
                       const auto hit = surface.firstAlong((a + b + c) / 3.0, inwards, start);
+                      if (!hit && beyond > 0.0)
+                        chords[n] = {beyond, area, true};
                       if (!hit)
                         return;
                       const auto& [d, e, f] = triangles[hit->triangle];
@@ -137,6 +141,19 @@ std::string tooLargeText(double thickness, double bytes, double mostBytes)
          core::fixedText(std::floor(mostBytes / (1 << 20)), 0) + " MB";
 }
 
+std::string farText(double reach)
+{
+  return "it reaches " + core::fixedText(reach, 0) +
+         " mm beyond the CT, so a coordinate lost its point or is not in mm";
+}
+
+// Of a mesh, what the voxels in a box may depend on, with room for the wall across from one in it.
+Eigen::AlignedBox3d roundAbout(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
+{
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant((upper - lower).norm());
+  return {lower - margin, upper + margin};
+}
+
 // Raises voxels until none lies more than `most` below a neighbour along an axis.
 void limitSteps(Volume<float>& volume, float most)
 {
@@ -166,6 +183,20 @@ void limitSteps(Volume<float>& volume, float most)
 
 } // namespace
 
+double mostReach(const core::PatientBox& region)
+{
+  constexpr double kLeast = 500.0; // mm
+  return std::max(kLeast, (region.max() - region.min()).norm());
+}
+
+double reachBeyond(const core::TriangleMesh& mesh, const core::PatientBox& region)
+{
+  const auto bounds = mesh.bounds();
+  const Eigen::Vector3d below = region.min() - bounds[0].cast<double>();
+  const Eigen::Vector3d above = bounds[1].cast<double>() - region.max();
+  return std::max({0.0, below.maxCoeff(), above.maxCoeff()});
+}
+
 MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimits& limits,
                             const core::Progress& progress)
 {
@@ -185,6 +216,11 @@ MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimit
     plan.refusal = "it lies outside the CT";
     return plan;
   }
+  if (limits.region && reachBeyond(mesh, *limits.region) > mostReach(*limits.region))
+  {
+    plan.refusal = farText(reachBeyond(mesh, *limits.region));
+    return plan;
+  }
   const MeshInside inside(mesh);
   if (inside.openEdges() > 0)
   {
@@ -192,9 +228,13 @@ MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimit
         "it is not closed: its surface ends at " + std::to_string(inside.openEdges()) + " edges";
     return plan;
   }
-  const MeshTree surface(inside.surface(0.5 * limits.spacing));
+  const Eigen::AlignedBox3d kept = roundAbout(lower, upper);
+  const bool isCut = !kept.contains(bounds[0].cast<double>().eval()) ||
+                     !kept.contains(bounds[1].cast<double>().eval());
+  const MeshTree surface(inside.surface(0.5 * limits.spacing, kept));
   progress.check(kTask);
-  const auto chords = chordsOf(surface, 4.0 * inside.unit(), progress);
+  const auto chords =
+      chordsOf(surface, 4.0 * inside.unit(), isCut ? (upper - lower).norm() : 0.0, progress);
   if (chords.empty())
   {
     plan.refusal = "it encloses nothing";
@@ -221,7 +261,8 @@ solidOf(const core::TriangleMesh& mesh, const MeshSolidPlan& plan, const core::P
     throw core::InvalidParameter("mesh: cannot become voxels: " + plan.refusal);
   const double edge = plan.grid.minSpacing();
   const MeshInside inside(mesh);
-  const MeshTree surface(inside.surface(0.5 * edge));
+  const auto bounds = plan.grid.patientBounds();
+  const MeshTree surface(inside.surface(0.5 * edge, roundAbout(bounds.min(), bounds.max())));
   auto share = std::make_shared<Volume<float>>(plan.grid);
   const core::Index3& dims = plan.grid.dims();
   const double band = kBand * edge;

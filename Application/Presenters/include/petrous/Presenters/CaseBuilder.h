@@ -28,6 +28,14 @@ struct PartSource
   static PartSource parseDrawn(const std::string& text);
 };
 
+/// What a file's own name says of the structure in it, without what may be a patient's name.
+struct FileName
+{
+  std::string name;     ///< the words of it that structures are called by, or empty
+  bool isWhole = false; ///< these are all of it ("facial_nerve_left"); otherwise ask, or say so
+};
+FileName fileName(const std::filesystem::path& path);
+
 struct PartSources
 {
   std::vector<PartSource> mr;     ///< DICOM folders, NIfTI, NRRD, MetaImage
@@ -51,7 +59,10 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress);
 
 /// Adds parts to a case; on an exception the case is as before. Structure names must be new to the
-/// case's labels, mesh names to its meshes.
+/// case's labels, mesh names to its meshes. A part that nobody named is named by its file's words
+/// for structures alone (fileName), and its notes say so. Refused (InvalidParameter) are
+/// labels without a voxel, and a mesh that reaches beyond the image on which it was drawn farther
+/// than volume::mostReach.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress);
 
 } // namespace petrous::presenters

@@ -22,6 +22,11 @@ public:
   /// The look that a structure of this name starts with, e.g. "facial_nerve" -> nerve.
   StructureLook lookFor(const std::string& structureName) const;
 
+  /// The words of a name by which structures, sides and parts are called, and short numbers, in
+  /// their order and in lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty where
+  /// no structure is among them.
+  std::string knownWords(const std::string& name) const;
+
   /// The preset of this name, or the one that the name would get as a structure's, e.g. "vessel" ->
   /// artery. Throws InvalidParameter listing the presets.
   StructureLook preset(const std::string& name) const;
@@ -40,6 +45,7 @@ private:
 
   std::vector<StructureLook> m_presets;
   std::vector<Words> m_words;
+  std::vector<std::string> m_neutral; ///< words beside those of structures in their names
   StructureLook m_other;
 };
 

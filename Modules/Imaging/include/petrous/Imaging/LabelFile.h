@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -9,6 +10,14 @@
 
 namespace petrous::imaging
 {
+
+struct LoadedLabels
+{
+  /// One map; of a .seg.nrrd whose structures overlap one for each layer.
+  std::vector<volume::LabelMap> maps;
+  std::vector<std::string> notes; ///< what was assumed or left out, one sentence each
+  bool isNamedAfterFile = false;  ///< nothing but the file's name names the one structure
+};
 
 /// Reads structures from a NIfTI, NRRD or MetaImage file of whole numbers (0 is nothing), on the
 /// grid of the file.
@@ -19,14 +28,13 @@ namespace petrous::imaging
 /// file's name. A file with one value other than 0 is one structure, index 1, named after the
 /// file ("facial_nerve.nii.gz": "facial_nerve"). What stays nameless is "label N".
 ///
-/// Throws FileError; Unsupported names a value below 0, above 65535 or not whole, and a
-/// segmentation whose structures overlap (several layers; see readLabelFiles). CancelledError.
+/// Throws FileError; Unsupported names a value below 0, above 65535 or not whole. CancelledError.
+LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {});
+
+/// As loadLabels, of a file whose structures do not overlap, without the notes. Throws FileError
+/// (Unsupported) for several layers.
 volume::LabelMap readLabelFile(const std::filesystem::path& path,
                                const core::Progress& progress = {});
-
-/// As readLabelFile, with one map for each layer of a .seg.nrrd whose structures overlap.
-std::vector<volume::LabelMap> readLabelFiles(const std::filesystem::path& path,
-                                             const core::Progress& progress = {});
 
 /// Writes .nii, .nii.gz, .nrrd or .seg.nrrd (3D Slicer's segmentation with names and colours);
 /// uint8 where every index is at most 255, else uint16; .nrrd and .seg.nrrd gzip-compressed.

@@ -36,6 +36,7 @@ struct LabelPart
   std::string object;
   core::Lazy<volume::LabelMap> labels; ///< as they were drawn; on the CT: labelsOnCt (Placement.h)
   std::vector<StructurePart> structures;
+  std::vector<std::string> notes; ///< what was assumed or left out when the file was read, in words
   /// The MR in whose patient space they lie; empty: the CT's. Nothing where an older case does not
   /// say it (placementOf).
   std::optional<std::string> drawnOn;

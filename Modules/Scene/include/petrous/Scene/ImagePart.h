@@ -30,6 +30,9 @@ struct ImagePart
   /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images that have the same were
   /// taken in one position of the patient, as the scanner holds it. Empty: not known.
   std::string frameOfReference;
+  /// Whether that was hashed once more with the library's own secret, which Library::save does;
+  /// comparable only where both are or neither is.
+  bool isFrameSalted = false;
 };
 
 } // namespace petrous::scene

@@ -10,7 +10,8 @@ namespace petrous::scene
 /// Lays an MR on the CT, and says how that was done. A sign-off of the transform before is void. An
 /// MR that came through this one moves along, so that it lies on this one as before; what was
 /// stated of its error holds no longer, and its record says so. Throws InvalidParameter where the
-/// case has no MR of that name.
+/// case has no MR of that name, and where the transform puts the CT's middle farther outside the MR
+/// than both are large, and than 500 mm: then its unit or a decimal point is wrong.
 ///
 /// mrFromCt  X_MC: CT patient points to this MR's patient points, LPS mm
 void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,

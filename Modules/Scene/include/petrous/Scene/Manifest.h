@@ -25,7 +25,8 @@ struct ManifestError : core::Error
 constexpr int kManifestFormat = 3;
 
 /// The case as JSON: everything but the voxels, which it names by their objects. Two equal cases
-/// give the same text. Numbers go there and back without loss.
+/// give the same text. Numbers go there and back without loss. Throws InvalidParameter naming the
+/// first that is not finite.
 std::string toManifest(const Case& value);
 
 /// A case without voxels; the library attaches them. `source` names the manifest in errors.

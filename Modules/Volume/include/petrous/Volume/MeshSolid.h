@@ -16,6 +16,13 @@ namespace petrous::volume
 /// Most memory that the voxels of one mesh may take.
 constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20;
 
+/// How far a mesh may reach beyond a region, mm: as far as that is large, and 500, as whole heads
+/// lie beside the CT of one ear. Beyond, a coordinate lost its point or is in another unit.
+double mostReach(const core::PatientBox& region);
+
+/// How far beyond the region the farthest of the mesh's vertices is, mm; 0 where none is.
+double reachBeyond(const core::TriangleMesh& mesh, const core::PatientBox& region);
+
 struct MeshSolidLimits
 {
   double spacing = 0.0; ///< mm, > 0; voxels are never larger where memory permits: the CT's finest
@@ -45,7 +52,8 @@ struct MeshSolidPlan
 ///                    errs by at most about e^2/8 (2/t + 2/t) = 0.04 h
 /// Where memory does not permit it, voxels are larger, up to half the thickness that a fiftieth of
 /// the surface falls below. A mesh that needs more memory even so is refused, and so is one that is
-/// not closed, encloses nothing, or lies outside the region.
+/// not closed, encloses nothing, lies outside the region, or reaches beyond it farther than
+/// mostReach. Only what lies within the region, and as far beyond as that is large, costs time.
 ///
 /// A mesh is closed when an even number of triangles meets at each edge: shells may lie apart,
 /// touch, overlap or be nested. Corners closer than 1e-7 of the mesh's size count as one.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Burrs.h"
+#include "JsonFault.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/RemovalLaw.h"
@@ -70,7 +71,7 @@ BurrCatalogue::BurrCatalogue(std::string_view text, const std::string& source)
   }
   catch (const json::exception& error)
   {
-    throw core::InvalidParameter(source + ": " + error.what());
+    throw core::InvalidParameter(source + ": " + jsonFault(error, text));
   }
   catch (const core::InvalidParameter& error)
   {

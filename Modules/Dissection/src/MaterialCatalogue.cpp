@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "JsonFault.h"
 #include "Materials.h"
 #include "petrous/Core/Error.h"
 
@@ -72,7 +73,7 @@ MaterialCatalogue::MaterialCatalogue(std::string_view text, const std::string& s
   }
   catch (const json::exception& error)
   {
-    throw core::InvalidParameter(source + ": " + error.what());
+    throw core::InvalidParameter(source + ": " + jsonFault(error, text));
   }
   catch (const core::InvalidParameter& error)
   {

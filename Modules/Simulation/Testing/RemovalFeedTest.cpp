@@ -179,7 +179,10 @@ TEST_P(FlatShafts, TakeTheSameAtAnyTickAndVoxel)
     SCOPED_TRACE(degrees);
     const double usual = removed(0.2, 1e-3);
     const double law = GetParam() == Burr::Kind::Cutting ? 5.65 : 1.004; // mm3/s at 1 N, 2 mm
-    EXPECT_NEAR(usual, 0.25 * law * std::cos(degrees * kDegree), 0.03 * usual);
+    // The mean over a patch of a millimetre is some per cent less than r_b cos(theta): see above.
+    const double plain = 0.25 * law * std::cos(degrees * kDegree);
+    EXPECT_GT(usual, 0.95 * plain);
+    EXPECT_LT(usual, 1.02 * plain);
     EXPECT_NEAR(removed(0.15, 1e-3), usual, 0.02 * usual);
     EXPECT_NEAR(removed(0.15, 5e-4), usual, 0.02 * usual);
     EXPECT_NEAR(removed(0.3, 2e-3), usual, 0.02 * usual);

@@ -1,9 +1,12 @@
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <regex>
 #include <sstream>
 #include <vector>
 
+#include <fcntl.h>
+#include <spawn.h>
 #include <sys/stat.h>
 
 #include "CommandRunner.h"
@@ -376,7 +379,7 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
   EXPECT_GT(tried, 70);
   expectRefused("info ''", 2, "CASE: the value is empty");
   expectRefused("register ear --mr T2 --init landmarks ''", 2, "--init: the value is empty");
-  expectRefused("register ear --mr T2 --sign-off --json", 2, "missing before '--json'");
+  expectRefused("register ear --mr T2 --sign-off --quiet", 2, "missing before '--quiet'");
   expectRefused("appearance ear --set ct=", 2, "'ct=' is empty on one side");
   expectRefused("new ear --ct x --mr =y", 2, "'=y' is empty on one side");
 }
@@ -436,4 +439,124 @@ TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
   EXPECT_TRUE(json("library verify")["damaged"].empty());
   EXPECT_TRUE(json("library list")["cases"].empty());
   EXPECT_TRUE(std::filesystem::is_empty(library() / "objects"));
+}
+
+TEST_F(CommandLine, FailuresAreJsonToo)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto failure = [this](const std::string& arguments, int code)
+  {
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << arguments << ": " << outcome.err;
+    const auto object = nlohmann::json::parse(outcome.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << arguments << ": " << outcome.out;
+    if (!object.is_object())
+      return nlohmann::json{};
+    EXPECT_EQ(object["schema_version"], 1);
+    EXPECT_EQ(object["error"]["exit_code"], code);
+    EXPECT_EQ(outcome.err, "petrous: " + object["error"]["text"].get<std::string>() + "\n");
+    return object["error"]["kind"];
+  };
+  EXPECT_EQ(failure("info zebra --json", 3), "bad-input");
+  EXPECT_EQ(failure("--json info zebra", 3), "bad-input");
+  EXPECT_EQ(failure("new bone --json --ct " + quoted(m_folder / "bone.nrrd"), 4), "refused");
+  EXPECT_EQ(failure("zebra --json", 2), "usage");
+  EXPECT_EQ(failure("info --json", 2), "usage");
+  EXPECT_EQ(failure("info bone --loud --json", 2), "usage");
+  EXPECT_EQ(json("info bone")["schema_version"], 1);
+}
+
+TEST_F(CommandLine, SharedOptionsMayStandBeforeTheSubcommand)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto elsewhere = m_folder / "elsewhere";
+  EXPECT_EQ(
+      run("--library " + quoted(elsewhere) + " new bone --ct " + quoted(m_folder / "bone.nrrd"))
+          .code,
+      0);
+  EXPECT_TRUE(std::filesystem::exists(elsewhere / "cases" / "bone.json"));
+  const auto before = run("--json --library " + quoted(elsewhere) + " info bone");
+  EXPECT_EQ(before.code, 0) << before.err;
+  EXPECT_EQ(before.out, run("info bone --json --library " + quoted(elsewhere)).out);
+  expectRefused("--library " + quoted(elsewhere) + " zebra", 2, "unknown subcommand 'zebra'");
+}
+
+TEST_F(CommandLine, HelpIsAWordToo)
+{
+  EXPECT_EQ(run("help").out, run("--help").out);
+  EXPECT_EQ(run("help drill").out, run("drill --help").out);
+  EXPECT_EQ(run("help drill").code, 0);
+  EXPECT_NE(run("help").out.find("130 interrupted"), std::string::npos);
+  EXPECT_NE(run("help drill").out.find("4 refused"), std::string::npos);
+  expectRefused("help zebra", 2, "zebra");
+}
+
+TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
+{
+  makePatient("--dims 32,32,40 --spacing 2");
+  EXPECT_EQ(run("scan --strict " + quoted(m_folder / "patient/ct")).code, 0);
+  ASSERT_EQ(
+      run("sample " + quoted(m_folder / "tilted") + " --dims 32,32,40 --spacing 2 --tilt 18.5")
+          .code,
+      0);
+  const std::string tilted = quoted(m_folder / "tilted/ct");
+  EXPECT_EQ(run("scan " + tilted).code, 0);
+  const auto strict = run("scan --json --strict " + tilted);
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_NE(strict.err.find("1 of 1 series not ok"), std::string::npos) << strict.err;
+  // The one object on stdout is the answer.
+  EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "refused");
+}
+
+TEST_F(CommandLine, RefusesAPictureWhoseNamePromisesAnotherFormat)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  for (const std::string name : {"x.jpg", "x", "x.png.gz", ".png"})
+  {
+    const auto file = quoted(m_folder / name);
+    expectRefused("render bone --size 64x48 --out " + file, 2, ".png");
+    expectRefused("slice bone --plane axial --out " + file, 2, ".png");
+    EXPECT_FALSE(std::filesystem::exists(m_folder / name));
+  }
+  expectRefused("render bone --size 64x48 --out " + quoted(m_folder / "x.png") + " --depth " +
+                    quoted(m_folder / "x.tif"),
+                2, ".npy");
+  EXPECT_EQ(run("render bone --size 64x48 --out " + quoted(m_folder / "X.PNG")).code, 0);
+}
+
+TEST_F(CommandLine, CtrlCEndsItByTheSignalAndLeavesNothing)
+{
+  const std::string out = m_folder / "patient";
+  const std::string log = m_folder / "log";
+  std::string words[] = {PETROUS_PROGRAM, "sample",    out,  "--dims",
+                         "400,400,400",   "--spacing", "0.2"};
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT, 0600);
+  pid_t process = 0;
+  ASSERT_EQ(::posix_spawn(&process, PETROUS_PROGRAM, &actions, nullptr, arguments.data(), environ),
+            0);
+  posix_spawn_file_actions_destroy(&actions);
+  // Its handler stands once SIGINT is among the caught signals of the process.
+  const auto handled = [process]
+  {
+    std::ifstream file("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(file, line);)
+      if (line.rfind("SigCgt:", 0) == 0)
+        return (std::stoull(line.substr(7), nullptr, 16) & (1u << (SIGINT - 1))) != 0;
+    return false;
+  };
+  while (!handled() && ::waitpid(process, nullptr, WNOHANG) == 0)
+    ::usleep(1000);
+  ::kill(process, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(process, &status, 0), process);
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_NE(textOf(log).find("cancelled"), std::string::npos) << textOf(log);
+  EXPECT_FALSE(std::filesystem::exists(out));
 }

@@ -52,7 +52,7 @@ TEST_F(SliceCommand, FindsAStructuresCentre)
 {
   const auto truth = nlohmann::json::parse(textOf(m_folder / "patient" / "truth.json"));
   const auto report = json(slice("--plane axial --at sigmoid_sinus --field-of-view 40"));
-  const auto corner = json(slice("--plane axial --at -1000,0,0 --field-of-view 40"));
+  const auto corner = json(slice("--plane axial --at -10,0,0 --field-of-view 40"));
   EXPECT_NE(report["center_mm"], corner["center_mm"]);
   // Within the phantom.
   for (int a = 0; a < 3; ++a)
@@ -92,4 +92,13 @@ TEST_F(SliceCommand, RefusesWhatCannotBeInOneLine)
   expectRefused(slice("--plane axial --window 0,40"), 2, "--window");
   expectRefused(slice("--plane axial --size 3x3"), 2, "--size");
   expectRefused("slice ear --plane axial --out /nowhere/slice.png", 4, "cannot be written");
+}
+
+TEST_F(SliceCommand, OutsideOfTheCtIsAnError)
+{
+  // The phantom's CT is 64 mm wide; what lies beside it has no grey.
+  expectRefused(slice("--plane axial --at -1000,0,0 --field-of-view 40"), 2,
+                "does not meet the CT");
+  expectRefused(slice("--plane axial --at -30,0,1e6"), 2, "patient LPS");
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "slice.png"));
 }

@@ -31,15 +31,35 @@ std::shared_ptr<const core::CancelToken> interruptToken()
   return {std::shared_ptr<void>(), &interrupted};
 }
 
+// A second Ctrl+C ends the process at once.
+void watchInterrupt()
+{
+  struct sigaction action = {};
+  action.sa_handler = onInterrupt;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
 } // namespace
+
+const char* const kExitCodes =
+    "Exit codes: 0 done; 1 a fault of this program or this machine; 2 wrong usage; 3 bad input; "
+    "4 refused so that nothing is lost; 130 interrupted (Ctrl+C)";
+
+void Context::addOptions(CLI::App& app)
+{
+  app.add_option("--library", m_library, "Folder of the library")->type_name("DIR");
+  app.add_flag("--json", m_json, "One JSON object on stdout and nothing else there");
+  app.add_flag("--quiet", m_quiet, "No remarks and no progress");
+}
 
 CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const std::string& text,
                               std::function<void()> run)
 {
   CLI::App* command = parent.add_subcommand(name, text);
-  command->add_option("--library", m_library, "Folder of the library")->type_name("DIR");
-  command->add_flag("--json", m_json, "One JSON object on stdout and nothing else there");
-  command->add_flag("--quiet", m_quiet, "No remarks and no progress");
+  addOptions(*command);
+  command->footer(kExitCodes);
   command->callback(
       [this, run = std::move(run)]
       {
@@ -92,8 +112,16 @@ void Context::say(const std::string& line) const
 
 void Context::give(const nlohmann::json& object) const
 {
-  if (m_json)
-    std::cout << object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  if (!m_json)
+    return;
+  m_gave = true;
+  std::cout << jsonText(object);
+}
+
+std::string jsonText(nlohmann::json object)
+{
+  object["schema_version"] = kSchemaVersion;
+  return object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 void Context::remark(const std::string& line) const
@@ -104,7 +132,7 @@ void Context::remark(const std::string& line) const
 
 core::Progress Context::progress() const
 {
-  std::signal(SIGINT, onInterrupt);
+  watchInterrupt();
   if (m_quiet || ::isatty(STDERR_FILENO) == 0)
     return core::Progress(nullptr, interruptToken());
   struct Bar
@@ -133,6 +161,17 @@ core::Progress Context::progress() const
 void notBuiltYet(const std::string& what)
 {
   throw UsageError(what + " is not built yet");
+}
+
+void requireSuffix(const std::string& option, const std::filesystem::path& path,
+                   const std::string& suffix)
+{
+  std::string found = path.extension().string();
+  for (char& letter : found)
+    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  if (found != suffix)
+    throw UsageError(option + ": the file's name must end in " + suffix + ", not '" +
+                     path.filename().string() + "'");
 }
 
 } // namespace petrous::cli

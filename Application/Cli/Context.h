@@ -25,10 +25,20 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// Version of the JSON that every subcommand prints: raised when a key changes its meaning or goes.
+constexpr int kSchemaVersion = 1;
+
+/// Closes the help texts.
+extern const char* const kExitCodes;
+
 /// What every subcommand shares: where the library is and how to speak.
 class Context
 {
 public:
+  /// Adds --library, --json and --quiet to the program, so that they may stand before the
+  /// subcommand too.
+  void addOptions(CLI::App& app);
+
   /// Adds a subcommand with --library, --json and --quiet; `run` is called when it was chosen.
   CLI::App* addCommand(CLI::App& parent, const std::string& name, const std::string& text,
                        std::function<void()> run);
@@ -44,10 +54,13 @@ public:
   /// The one JSON object on stdout; nothing without --json.
   void give(const nlohmann::json& object) const;
 
+  /// Whether the one JSON object was given: a failure after it has no second one.
+  bool gave() const noexcept { return m_gave; }
+
   /// A remark on stderr, e.g. what was accepted in a file; nothing with --quiet.
   void remark(const std::string& line) const;
 
-  /// Bar on stderr when it is a terminal; Ctrl+C asks the work to stop.
+  /// Bar on stderr when it is a terminal. Ctrl+C asks the work to stop, a second one ends it.
   core::Progress progress() const;
 
 private:
@@ -60,7 +73,11 @@ private:
   mutable std::optional<library::Library> m_opened;
   bool m_json = false;
   bool m_quiet = false;
+  mutable bool m_gave = false;
 };
+
+/// `object` as --json prints it, with its schema version.
+std::string jsonText(nlohmann::json object);
 
 /// Text for an option that is in the contract and not built yet.
 [[noreturn]] void notBuiltYet(const std::string& what);
@@ -68,5 +85,10 @@ private:
 /// The most that a file of options, points or poses may hold, bytes.
 constexpr std::uintmax_t kLargestInput = std::uintmax_t{1} << 30;
 constexpr std::uintmax_t kLargestJson = std::uintmax_t{1} << 20;
+
+/// UsageError where `path`, the value of `option`, does not end in `suffix` (".png"), in any case:
+/// a file whose name promises another format than it holds is opened by no program.
+void requireSuffix(const std::string& option, const std::filesystem::path& path,
+                   const std::string& suffix);
 
 } // namespace petrous::cli

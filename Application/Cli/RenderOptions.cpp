@@ -62,6 +62,9 @@ std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
 Shot parseShot(const RenderOptions& options)
 {
   Shot shot;
+  requireSuffix("--out", options.out, ".png");
+  if (!options.depth.empty())
+    requireSuffix("--depth", options.depth, ".npy");
   std::tie(shot.width, shot.height) = parseSize(options.size);
   const auto mode = rendering::parseStereoMode(options.stereo);
   if (!mode)

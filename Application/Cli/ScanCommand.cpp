@@ -47,8 +47,28 @@ void sayFindings(const Context& context, const std::vector<imaging::Finding>& fi
     context.say(std::string("    ") + imaging::kindName(finding.kind) + ": " + finding.text);
 }
 
-void scan(const Context& context, const std::string& path)
+struct Options
 {
+  std::string path;
+  bool strict = false;
+};
+
+// What --strict does not let pass; empty where every series is sound.
+std::string complaintOf(const imaging::ScanResult& result)
+{
+  std::size_t unsound = 0;
+  for (const auto& series : result.series)
+    unsound += series.geometry.verdict == imaging::Verdict::Ok ? 0 : 1;
+  if (unsound == 0 && result.unreadable.empty())
+    return {};
+  return std::to_string(unsound) + " of " + std::to_string(result.series.size()) +
+         " series not ok, " + std::to_string(result.unreadable.size()) +
+         " findings outside of series; --strict wants none";
+}
+
+void scan(const Context& context, const Options& options)
+{
+  const std::string& path = options.path;
   const auto result = imaging::scanDicom(path, context.progress());
   if (result.series.empty() && result.unreadable.empty())
     imaging::chooseSeries(result, path); // says what was found instead
@@ -75,18 +95,21 @@ void scan(const Context& context, const std::string& path)
                 {"unreadable", findingsJson(result.unreadable)},
                 {"notes", result.notes},
                 {"foreign_files", result.foreignFiles}});
+  if (const std::string complaint = complaintOf(result); options.strict && !complaint.empty())
+    throw core::InvalidParameter(path + ": " + complaint);
 }
 
 } // namespace
 
 void addScanCommand(CLI::App& app, Context& context)
 {
-  auto path = std::make_shared<std::string>();
-  context
-      .addCommand(app, "scan", "Judge the geometry of each DICOM series below a path",
-                  [path, &context] { scan(context, *path); })
-      ->add_option("PATH", *path, "Folder or file")
-      ->required();
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      context.addCommand(app, "scan", "Judge the geometry of each DICOM series below a path",
+                         [options, &context] { scan(context, *options); });
+  command->add_option("PATH", options->path, "Folder or file")->required();
+  command->add_flag("--strict", options->strict,
+                    "Exit 3 unless every series is ok and every DICOM file readable");
 }
 
 } // namespace petrous::cli

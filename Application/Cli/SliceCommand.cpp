@@ -84,6 +84,31 @@ SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int
   return {plane, at, *options.fieldOfView / width, width, height};
 }
 
+// Whether any pixel of the slice lies among the CT's voxels.
+bool meets(const SliceGeometry& slice, const core::GridGeometry& grid)
+{
+  const Eigen::Array3d last(grid.dims()[0] - 1, grid.dims()[1] - 1, grid.dims()[2] - 1);
+  for (int y = 0; y < slice.height(); ++y)
+    for (int x = 0; x < slice.width(); ++x)
+    {
+      const Eigen::Array3d voxel = grid.voxelFromPatient(slice.patientFromPixel(x, y)).array();
+      if ((voxel >= -0.5).all() && (voxel <= last + 0.5).all())
+        return true;
+    }
+  return false;
+}
+
+// "covers x -60 to 60, y -40 to 80, z 0 to 75 mm": the box about the CT, patient LPS.
+std::string coverageOf(const core::GridGeometry& grid)
+{
+  const core::PatientBox box = grid.patientBounds();
+  std::string text = "covers";
+  for (int axis = 0; axis < 3; ++axis)
+    text += std::string(axis == 0 ? " " : ", ") + "xyz"[axis] + " " + fixed(box.min()[axis], 1) +
+            " to " + fixed(box.max()[axis], 1);
+  return text + " mm";
+}
+
 std::optional<presenters::SliceOverlay> overlayOf(const SliceOptions& options,
                                                   const scene::ImagePart* mr)
 {
@@ -124,6 +149,7 @@ void slice(const Context& context, const SliceOptions& options)
 {
   const auto [width, height] = parseSize(options.size);
   const auto wanted = parseWindow(options.window);
+  requireSuffix("--out", options.out, ".png");
   parsePlane(options.plane);
   parseMode(options.mode);
   if (!(options.opacity >= 0.0 && options.opacity <= 1.0))
@@ -134,6 +160,9 @@ void slice(const Context& context, const SliceOptions& options)
   const presenters::IntensityDisplay display = presenters::displayOf(value);
   const presenters::GreyWindow window = wanted.value_or(display.bone);
   const SliceGeometry geometry = sliceOf(options, value, width, height);
+  if (!meets(geometry, value.ct.geometry))
+    throw UsageError("--at: the slice does not meet the CT, which " +
+                     coverageOf(value.ct.geometry) + " (patient LPS)");
   if (value.applied() > 0)
     library.loadDissection(value);
   if (options.noStructures)

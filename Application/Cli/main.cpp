@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -26,25 +27,48 @@ enum ExitCode
 // Named in the contract of the command line; their issues come later.
 constexpr std::array<const char*, 5> kNotBuilt{"archive", "restore", "send", "receive", "nodes"};
 
-int exitCodeOf(core::Fault fault)
+struct Failure
+{
+  const char* kind; ///< as --json names it
+  int exitCode;
+};
+
+constexpr Failure kUsageFailure{"usage", kUsage};
+constexpr Failure kRefusal{"refused", kRefused};
+constexpr Failure kInternalFailure{"internal", kOurFault};
+constexpr Failure kInterruption{"interrupted", 128 + SIGINT};
+
+Failure failureOf(core::Fault fault)
 {
   switch (fault)
   {
   case core::Fault::BadInput:
-    return kBadInput;
+    return {"bad-input", kBadInput};
   case core::Fault::Refused:
+    return kRefusal;
   case core::Fault::Cancelled:
-    return kRefused;
+    return kInterruption;
   case core::Fault::Internal:
     break;
   }
-  return kOurFault;
+  return kInternalFailure;
 }
 
-int complain(const std::string& text, int code)
+// With --json the one object on stdout says what failed, unless the answer itself stands there.
+int complain(const std::string& text, const Failure& failure, bool json)
 {
   std::cerr << "petrous: " << text << '\n';
-  return code;
+  if (json)
+    std::cout << cli::jsonText(
+                     {{"error",
+                       {{"kind", failure.kind}, {"text", text}, {"exit_code", failure.exitCode}}}})
+              << std::flush;
+  if (failure.exitCode != kInterruption.exitCode)
+    return failure.exitCode;
+  // A shell stops a loop of commands only where the process ended by the signal itself.
+  std::signal(SIGINT, SIG_DFL);
+  std::raise(SIGINT);
+  return failure.exitCode;
 }
 
 // Nobody leaves an option out by giving it nothing, as a script does whose variable is not set, nor
@@ -60,30 +84,27 @@ std::string emptyValue(const std::string& value, bool pair)
   return oneSided ? "'" + value + "' is empty on one side of '='" : "";
 }
 
-// Of every option and argument of every subcommand.
+// Of every option and argument of the program and of every subcommand.
 void refuseEmptyValues(CLI::App& app)
 {
   const auto all = [](const auto*) { return true; };
+  for (CLI::Option* option : app.get_options(all))
+    if (option->get_items_expected_max() > 0)
+    {
+      const bool pair = option->get_type_name().find('=') != std::string::npos;
+      // first, before other checks speak of a range
+      option->transform(
+          CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
+    }
   for (CLI::App* command : app.get_subcommands(all))
-  {
-    for (CLI::Option* option : command->get_options(all))
-      if (option->get_items_expected_max() > 0)
-      {
-        const bool pair = option->get_type_name().find('=') != std::string::npos;
-        // first, before other checks speak of a range
-        option->transform(
-            CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
-      }
     refuseEmptyValues(*command);
-  }
 }
 
 // "--option=" with nothing behind it would take the next word for its value.
-std::string optionWithoutValue(int argc, char** argv)
+std::string optionWithoutValue(const std::vector<std::string>& words)
 {
-  for (int n = 1; n < argc; ++n)
+  for (const std::string& word : words)
   {
-    const std::string word = argv[n];
     if (word == "--")
       break;
     if (word.size() > 3 && word.compare(0, 2, "--") == 0 && word.find('=') == word.size() - 1)
@@ -103,21 +124,38 @@ int openWorkstation(char** arguments)
     if (std::filesystem::exists(candidate))
     {
       ::execv(candidate.c_str(), arguments);
-      return complain(candidate.string() + ": cannot be started", kOurFault);
+      return complain(candidate.string() + ": cannot be started", kInternalFailure, false);
     }
   return complain("the workstation is not installed beside this program; 'petrous --help' lists "
                   "what the command line can do",
-                  kUsage);
+                  kUsageFailure, false);
 }
 
-int runCommand(int argc, char** argv)
+// `help` and `help COMMAND` are `--help` and `COMMAND --help`.
+std::vector<std::string> wordsOf(int argc, char** argv)
 {
-  CLI::App app("Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
-               "Without arguments the workstation opens.",
-               "petrous");
-  app.set_version_flag("--version", "petrous " PETROUS_VERSION);
-  app.require_subcommand(1);
-  cli::Context context;
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help")
+    return words;
+  words.erase(words.begin());
+  words.push_back("--help");
+  return words;
+}
+
+// The first word that is neither an option nor the value of --library.
+std::string subcommandIn(const std::vector<std::string>& words)
+{
+  for (std::size_t n = 0; n < words.size(); ++n)
+    if (words[n] == "--library")
+      ++n;
+    else if (words[n].empty() || words[n][0] != '-')
+      return words[n];
+  return {};
+}
+
+void addCommands(CLI::App& app, cli::Context& context)
+{
+  context.addOptions(app);
   cli::addSampleCommand(app, context);
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
@@ -133,20 +171,30 @@ int runCommand(int argc, char** argv)
   cli::addRegisterCommand(app, context);
   cli::addBenchCommand(app, context);
   cli::addDoctorCommand(app, context);
-  const std::string first = argv[1];
-  const auto isFirst = [&first](const CLI::App* command) { return command->get_name() == first; };
-  if (first[0] != '-' && app.get_subcommands(isFirst).empty())
-    return complain("'" + first + "' is no subcommand; see 'petrous --help'", kUsage);
-  if (const std::string option = optionWithoutValue(argc, argv); !option.empty())
-    return complain(option + ": the value is empty; give one, or leave it out", kUsage);
+}
+
+int runCommand(std::vector<std::string> words, cli::Context& context)
+{
+  CLI::App app("Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
+               "Without arguments the workstation opens.",
+               "petrous");
+  app.set_version_flag("--version", "petrous " PETROUS_VERSION);
+  app.require_subcommand(1);
+  app.footer(std::string("'petrous help COMMAND' tells more of one.\n") + cli::kExitCodes);
+  addCommands(app, context);
+  const std::string name = subcommandIn(words);
+  if (std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end())
+    throw cli::UsageError("'" + name + "' is not built yet");
+  const auto isNamed = [&name](const CLI::App* command) { return command->get_name() == name; };
+  if (!name.empty() && app.get_subcommands(isNamed).empty())
+    throw cli::UsageError("unknown subcommand '" + name + "'; see 'petrous --help'");
+  if (const std::string option = optionWithoutValue(words); !option.empty())
+    throw cli::UsageError(option + ": the value is empty; give one, or leave it out");
   refuseEmptyValues(app);
   try
   {
-    app.parse(argc, argv);
-    std::cout.flush();
-    return std::cout
-               ? kDone
-               : complain("the answer could not be written to stdout (a full disk?)", kRefused);
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    app.parse(std::move(words));
   }
   catch (const CLI::Success& asked) // --help, --version
   {
@@ -154,44 +202,54 @@ int runCommand(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    return complain(std::string(error.what()) + "; see 'petrous --help'", kUsage);
+    throw cli::UsageError(std::string(error.what()) + "; see 'petrous --help'");
   }
+  std::cout.flush();
+  if (!std::cout)
+    throw core::Error(core::Fault::Refused,
+                      "the answer could not be written to stdout (a full disk?)");
+  return kDone;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
+  if (argc < 2)
+    return openWorkstation(argv);
+  const std::vector<std::string> words = wordsOf(argc, argv);
+  cli::Context context;
+  // A line that does not parse is answered in JSON too.
+  const auto fail = [&](const std::string& text, const Failure& failure)
+  {
+    const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+    return complain(text, failure, json && !context.gave());
+  };
   try
   {
-    if (argc < 2)
-      return openWorkstation(argv);
-    const std::string first = argv[1];
-    if (std::find(kNotBuilt.begin(), kNotBuilt.end(), first) != kNotBuilt.end())
-      return complain("'" + first + "' is not built yet", kUsage);
-    return runCommand(argc, argv);
+    return runCommand(words, context);
   }
   catch (const cli::UsageError& error)
   {
-    return complain(error.what(), kUsage);
+    return fail(error.what(), kUsageFailure);
   }
   catch (const core::Error& error)
   {
-    return complain(error.what(), exitCodeOf(error.fault()));
+    return fail(error.what(), failureOf(error.fault()));
   }
   catch (const std::filesystem::filesystem_error& error)
   {
-    return complain(error.path1().string() + ": cannot be read or written; check that it is there "
-                                             "and its permissions",
-                    kRefused);
+    return fail(error.path1().string() + ": cannot be read or written; check that it is there "
+                                         "and its permissions",
+                kRefusal);
   }
   catch (const std::bad_alloc&)
   {
-    return complain("not enough memory; close other programs, or load less with --roi", kRefused);
+    return fail("not enough memory; close other programs, or load less with --roi", kRefusal);
   }
   catch (const std::exception&)
   {
     // Texts of other libraries may carry patient data; they stay out.
-    return complain("an unexpected fault; the library is as it was before", kOurFault);
+    return fail("an unexpected fault; the library is as it was before", kInternalFailure);
   }
 }

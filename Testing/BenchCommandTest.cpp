@@ -1,4 +1,5 @@
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -15,6 +16,9 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
 {
   const auto out = m_folder / "figures";
   const auto report = json("bench renderer --quick --edge 24 --out " + quoted(out));
+  // The commit that the figures were made on; "unknown" outside of a git checkout.
+  const std::string commit = report.at("commit");
+  EXPECT_TRUE(std::regex_match(commit, std::regex("[0-9a-f]{12}(-dirty)?|unknown"))) << commit;
   std::set<std::string> peers, varied, marked;
   int surfaces = 0;
   int interactive = 0;

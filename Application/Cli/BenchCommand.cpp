@@ -30,6 +30,8 @@
 namespace petrous::cli
 {
 
+extern const char* const kCommit; // written by Packaging/cmake/WriteCommit.cmake
+
 namespace
 {
 
@@ -158,6 +160,7 @@ nlohmann::json reportJson(const core::BenchmarkReport& report)
     machine[name] = value;
   return {{"name", report.name},
           {"title", report.title},
+          {"commit", kCommit},
           {"machine", std::move(machine)},
           {"points", std::move(points)}};
 }

@@ -42,12 +42,30 @@ bool bitsFit(std::uint32_t bits, const SliceHeader& slice)
   return bits >= 2 && bits <= static_cast<std::uint32_t>(slice.pixels.bitsAllocated);
 }
 
-/// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2.
+/// Tables and remarks that may stand before a scan (T.81 B.2.4, T.87 C.2.4).
+bool isTable(std::uint32_t marker)
+{
+  return marker == 0xffc4 || marker == 0xffcc || marker == 0xffdb || marker == 0xffdd ||
+         (marker >= 0xffe0 && marker <= 0xffef) || marker == 0xfff8 || marker == 0xfffe;
+}
+
+/// The scan header (SOS) of ITU-T T.81 B.2.3: one component, and for lossless frames one of the
+/// predictors 1 to 7. GDCM ends the program at another.
+bool scanFits(const Head& head, std::size_t at, std::uint32_t frame)
+{
+  const bool isLossless = frame == 0xffc3 || frame == 0xffc7 || frame == 0xffcb || frame == 0xffcf;
+  const std::uint32_t predictor = head.number(at + 7, 1);
+  return head.number(at + 2, 2) == 8 && head.number(at + 4, 1) == 1 &&
+         (!isLossless || (predictor >= 1 && predictor <= 7));
+}
+
+/// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2, and the scan header behind it.
 bool jpegFits(const Head& head, const SliceHeader& slice)
 {
   if (head.number(0, 2) != 0xffd8)
     return false;
   std::size_t at = 2;
+  std::uint32_t frame = 0;
   while (at + 4 <= head.size())
   {
     const std::uint32_t marker = head.number(at, 2);
@@ -59,12 +77,16 @@ bool jpegFits(const Head& head, const SliceHeader& slice)
     const bool isFrame = (marker >= 0xffc0 && marker <= 0xffcf && marker != 0xffc4 &&
                           marker != 0xffc8 && marker != 0xffcc) ||
                          marker == 0xfff7;
+    if (isFrame &&
+        (frame != 0 || !bitsFit(head.number(at + 4, 1), slice) ||
+         !sizeFits(head.number(at + 7, 2), head.number(at + 5, 2), head.number(at + 9, 1), slice)))
+      return false;
     if (isFrame)
-      return bitsFit(head.number(at + 4, 1), slice) &&
-             sizeFits(head.number(at + 7, 2), head.number(at + 5, 2), head.number(at + 9, 1),
-                      slice);
+      frame = marker;
+    if (marker == 0xffda)
+      return frame != 0 && scanFits(head, at, frame);
     const std::uint32_t length = head.number(at + 2, 2);
-    if (marker < 0xff01 || length < 2)
+    if ((!isFrame && !isTable(marker)) || length < 2)
       return false;
     at += 2 + length;
   }

@@ -274,7 +274,7 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
     follow(goal);
   m_tick.pose = m_sweep.pose();
   m_tick.penetration = m_sweep.penetration();
-  m_tick.samples = m_sweep.samples() + m_found;
+  m_tick.samples = m_sweep.samples() + m_sweep.surfaceSamples() + m_found;
   mask.release();
   return m_tick;
 }

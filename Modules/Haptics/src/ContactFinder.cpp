@@ -329,6 +329,14 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     FoundContact found = contactAt(hits[n].part, hits[n].place);
     if (found.contact.gap > m_nearGap)
       continue;
+    // The surface's own normal at first; what stopped the tool twice is an edge that it hides.
+    const bool again =
+        std::any_of(hits, hits + n,
+                    [&](const ShellSweep::Hit& other) {
+                      return other.point == ShellSweep::kNoPoint && other.place == hits[n].place;
+                    });
+    if (!again)
+      smooth(hits[n].part, hits[n].place, found);
     found.contact.gap = std::min(found.contact.gap, 0.0);
     found.stopped = true;
     take(hits[n].part, found);

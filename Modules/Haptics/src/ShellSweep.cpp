@@ -48,9 +48,9 @@ void ShellSweep::look(const volume::MaskState& state) noexcept
   m_surface->look(state);
 }
 
-std::size_t ShellSweep::samples() const noexcept
+std::size_t ShellSweep::surfaceSamples() const noexcept
 {
-  return m_samples + m_surface->samples();
+  return m_surface->samples();
 }
 
 ShellSweep::VoxelMap ShellSweep::mapOf(const Pose& pose) const noexcept

@@ -17,6 +17,7 @@ constexpr float kFlat = 0.2F;         // of the slope: how much a cell's edges m
 constexpr int kBulging = 2;           // lines a side of a cell that is not flat
 constexpr int kMostLines = 4;         // a side
 constexpr std::size_t kBrickCost = 3; // in samples of the field
+constexpr int kRenewal = 16;          // ticks, after a cut
 } // namespace
 
 SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
@@ -48,10 +49,19 @@ void SurfaceSamples::look(const volume::MaskState& state) noexcept
   m_samples = 0;
   if (!any())
     return;
-  if (m_state && m_raises != state.raises())
+  const bool raised = m_state && m_raises != state.raises();
+  if (raised)
     std::fill(m_empty.begin(), m_empty.end(), 0);
-  if (!m_state || m_number != state.number())
+  if (!m_state || raised)
     forget();
+  // A cut only takes tissue away, where the burr is: what the others meet is renewed later.
+  for (std::size_t part = 0; part < SolidParts::kParts; ++part)
+  {
+    List& list = m_lists[part];
+    list.cut = list.cut || m_number != state.number();
+    if (list.cut && (part == SolidParts::kBall || ++list.age >= kRenewal))
+      list.forget();
+  }
   m_state = &state;
   m_number = state.number();
   m_raises = state.raises();
@@ -60,10 +70,7 @@ void SurfaceSamples::look(const volume::MaskState& state) noexcept
 void SurfaceSamples::forget() noexcept
 {
   for (List& list : m_lists)
-  {
-    list.left = -1.0;
-    list.count = 0;
-  }
+    list.forget();
 }
 
 void SurfaceSamples::moved(double linear, double angular) noexcept
@@ -114,7 +121,7 @@ bool SurfaceSamples::freeAt(const Pose& pose) noexcept
 void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, bool inside) noexcept
 {
   List& list = m_lists[part];
-  list.count = 0;
+  list.forget();
   list.left = margin;
   const core::GridGeometry& grid = m_field.geometry();
   const Eigen::Matrix3d toTool = pose.rotation.toRotationMatrix().transpose();

@@ -21,8 +21,10 @@ namespace petrous::haptics
 /// bulges or the tool is thin. They depend on the field alone and not on the tool, so a pose that
 /// is free of them stays free however often they are found again.
 ///
-/// Samples are found for some way around the tool and kept until the tool has made that way, or the
-/// mask has another state. Only the constructor allocates; nothing locks or throws. One thread.
+/// Samples are found for some way around the tool and kept until the tool has made that way. After
+/// a cut those of the ball are found again at once, the others some ticks later: they hold more
+/// tissue than there is, never less. Only the constructor allocates; nothing locks or throws. One
+/// thread.
 class SurfaceSamples
 {
 public:
@@ -72,6 +74,16 @@ private:
     std::vector<Eigen::Vector3d> places; // patient, mm
     std::size_t count = 0;
     double left = -1.0; // mm that the part may still move; below 0: the samples are not known
+    bool cut = false;   // the mask changed since they were found
+    int age = 0;        // ticks since then
+
+    void forget() noexcept
+    {
+      count = 0;
+      left = -1.0;
+      cut = false;
+      age = 0;
+    }
   };
 
   void gather(std::size_t part, const Pose& pose, double margin, bool inside) noexcept;
@@ -87,7 +99,6 @@ private:
   double m_halfCell;                           // mm, half a cell's diagonal
   std::array<int, SolidParts::kParts> m_lines; // of a flat cell's side
   std::array<List, SolidParts::kParts> m_lists;
-  List m_scratch;
   std::vector<std::uint64_t> m_empty; // bits: bricks in which nothing is left
   const volume::MaskState* m_state = nullptr;
   std::uint64_t m_number = 0;

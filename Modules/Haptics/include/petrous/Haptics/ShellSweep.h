@@ -108,7 +108,11 @@ public:
   const Hit& blocker() const noexcept { return m_blocker; }
 
   /// Samples of the field since the last `look`: what a tick costs, whatever the machine.
-  std::size_t samples() const noexcept;
+  std::size_t samples() const noexcept { return m_samples; }
+
+  /// What finding the surface's samples cost, in samples of the field: bounded by the tool and not
+  /// by its way, so a tick's work is not cut short for it.
+  std::size_t surfaceSamples() const noexcept;
 
 private:
   struct VoxelMap // of a point in frame T: linear * p + offset

@@ -413,6 +413,11 @@ TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
   expectRefused("probe ear --points " + quoted(writePath({0, 0, 0}, {1, 0, 0})) + " --out " +
                     quoted(pipe),
                 4, "regular file");
+  for (const std::string option : {"--log ", "--record "})
+    EXPECT_NE(run("drill ear --path " + quoted(m_folder / "path.csv") + " " + option + quoted(pipe))
+                  .err.find("regular file"),
+              std::string::npos)
+        << option;
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 

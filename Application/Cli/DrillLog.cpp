@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "petrous/Core/Error.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::cli
 {
@@ -34,7 +34,7 @@ void write(std::ostream& stream, const simulation::WrenchValues& wrench)
 DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
                    presenters::TouchScene& scene)
   : m_name(file.string())
-  , m_file(file)
+  , m_file(core::outputTarget(file))
   , m_case(value)
   , m_scene(scene)
   , m_before(value.dissection->mask())

@@ -29,24 +29,6 @@ fs::path folderOf(const fs::path& path)
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// The file to replace: the end of a chain of links.
-fs::path targetOf(const fs::path& path)
-{
-  struct stat status = {};
-  if (::stat(path.c_str(), &status) != 0)
-    return path;
-  if (S_ISDIR(status.st_mode))
-    throw OutputFileError(Reason::WrongPlace, path, "is a folder; name a file in it");
-  if (!S_ISREG(status.st_mode))
-    throw OutputFileError(Reason::WrongPlace, path,
-                          "is a device, pipe or socket; name a regular file");
-  std::error_code error;
-  if (!fs::is_symlink(path, error))
-    return path;
-  const fs::path target = fs::canonical(path, error);
-  return error ? path : target;
-}
-
 bool synced(int folder) noexcept
 {
   return ::fsync(folder) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
@@ -123,8 +105,25 @@ bool syncFolder(const fs::path& folder) noexcept
   return done;
 }
 
+fs::path outputTarget(const fs::path& path)
+{
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0)
+    return path;
+  if (S_ISDIR(status.st_mode))
+    throw OutputFileError(Reason::WrongPlace, path, "is a folder; name a file in it");
+  if (!S_ISREG(status.st_mode))
+    throw OutputFileError(Reason::WrongPlace, path,
+                          "is a device, pipe or socket; name a regular file");
+  std::error_code error;
+  if (!fs::is_symlink(path, error))
+    return path;
+  const fs::path target = fs::canonical(path, error);
+  return error ? path : target;
+}
+
 OutputFile::OutputFile(const fs::path& path)
-  : m_path(targetOf(path))
+  : m_path(outputTarget(path))
 {
   m_folder = ::open(folderOf(m_path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (m_folder < 0)

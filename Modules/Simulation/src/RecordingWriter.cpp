@@ -6,6 +6,7 @@
 #include "EditCodec.h"
 #include "RecordCodec.h"
 #include "RecordingFormat.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::simulation
 {
@@ -33,7 +34,14 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Record
   : m_name(file.filename().string())
 {
   const std::vector<std::uint8_t> head = headOf(setup);
-  m_file.reset(std::fopen(file.c_str(), "wb"));
+  try
+  {
+    m_file.reset(std::fopen(core::outputTarget(file).c_str(), "wb"));
+  }
+  catch (const core::OutputFileError& error)
+  {
+    throw RecordingError(RecordingError::Reason::NotWritten, m_name + ": " + error.problem);
+  }
   if (!m_file)
     fail();
   m_block.ticks.reserve(kBlock);

@@ -70,6 +70,12 @@ private:
 /// Makes `bytes` the content of a file. As OutputFile::commit.
 bool writeFile(const std::filesystem::path& path, std::string_view bytes);
 
+/// The file that writing to `path` replaces: the end of a chain of links, or `path` where nothing is
+/// there. Throws OutputFileError where something else than a regular file stands there: opening a
+/// pipe would wait for its reader. For files that grow while they are written, and so are no
+/// OutputFile.
+std::filesystem::path outputTarget(const std::filesystem::path& path);
+
 /// A name in the same folder that nobody has or can guess, for files and folders to be renamed to
 /// `path` later. It satisfies isLeftover.
 std::filesystem::path temporaryBeside(const std::filesystem::path& path);

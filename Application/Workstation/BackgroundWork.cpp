@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "ImportJob.h"
+#include "Application.h"
 #include "Theme.h"
 #include "petrous/Core/Error.h"
 
@@ -23,8 +23,8 @@ void BackgroundWork::start(Work work)
 {
   drop();
   m_token = std::make_shared<core::CancelToken>();
-  m_busy = true;
-  m_thread = std::thread([this, work = std::move(work)] { run(work); });
+  m_thread = std::thread([this, work = std::move(work)] { guarded([&] { run(work); }); });
+  m_busy = true; // what it posts is heard later
 }
 
 void BackgroundWork::cancel()
@@ -36,6 +36,11 @@ void BackgroundWork::cancel()
 void BackgroundWork::drop()
 {
   cancel();
+  wait();
+}
+
+void BackgroundWork::wait()
+{
   if (m_thread.joinable())
     m_thread.join();
   ++m_number; // what is still on its way is of no interest
@@ -65,12 +70,36 @@ void BackgroundWork::end(Reply what)
       });
 }
 
+// Whoever hears it may be slower than the work.
+void BackgroundWork::tell(const std::shared_ptr<Latest>& latest, double fraction,
+                          const std::string& text)
+{
+  {
+    const std::lock_guard<std::mutex> lock(latest->mutex);
+    latest->fraction = fraction;
+    latest->text = text;
+    if (std::exchange(latest->onItsWay, true))
+      return;
+  }
+  post(
+      [this, latest]
+      {
+        std::unique_lock<std::mutex> lock(latest->mutex);
+        latest->onItsWay = false;
+        const double reached = latest->fraction;
+        const QString step = words(latest->text);
+        lock.unlock();
+        emit progressed(reached, step);
+      });
+}
+
 void BackgroundWork::run(const Work& work)
 {
   try
   {
-    const core::Progress progress([this](double fraction, const std::string& text)
-                                  { post([=] { emit progressed(fraction, words(text)); }); },
+    const auto latest = std::make_shared<Latest>();
+    const core::Progress progress([this, latest](double fraction, const std::string& text)
+                                  { tell(latest, fraction, text); },
                                   m_token);
     end(work(progress));
   }
@@ -84,6 +113,10 @@ void BackgroundWork::run(const Work& work)
   catch (const std::exception& error)
   {
     end([this, why = inWords(error)] { emit failed(why); });
+  }
+  catch (...)
+  {
+    end([this] { emit failed(tr("An unexpected fault.")); });
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <thread>
 
 #include <QObject>
@@ -30,14 +32,23 @@ public:
   void start(Work work);
   void cancel();         ///< asks it to end
   void drop();           ///< cancels and waits; nothing more is heard of it
+  void wait();           ///< waits; nothing more is heard of it
   void post(Reply what); ///< from the work's thread, while it is under way
 
 signals:
-  void progressed(double fraction, const QString& text);
+  void progressed(double fraction, const QString& text); ///< the latest, where there were more
   void failed(const QString& why);
   void cancelled();
 
 private:
+  struct Latest // of the progress
+  {
+    std::mutex mutex;
+    double fraction = 0.0;
+    std::string text;
+    bool onItsWay = false;
+  };
+  void tell(const std::shared_ptr<Latest>& latest, double fraction, const std::string& text);
   void run(const Work& work);
   void end(Reply what);
 

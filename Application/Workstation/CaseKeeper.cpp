@@ -1,6 +1,7 @@
 #include "CaseKeeper.h"
 
 #include <cmath>
+#include <utility>
 
 #include <QApplication>
 #include <QFileDialog>
@@ -8,8 +9,13 @@
 #include <QMessageBox>
 #include <QProgressDialog>
 #include <QPushButton>
+#include <QScopedValueRollback>
 #include <QTemporaryDir>
+#include <QTimer>
 
+#include "Application.h"
+#include "Banner.h"
+#include "CaseSaver.h"
 #include "OpenCaseDialog.h"
 #include "Theme.h"
 #include "petrous/Imaging/SamplePatient.h"
@@ -20,32 +26,146 @@ namespace petrous::workstation
 
 namespace fs = std::filesystem;
 
+using presenters::Content;
+using presenters::SourceContent;
+
 namespace
 {
+
+constexpr int kShowLoading = 300; // ms
 
 fs::path pathOf(const QString& text)
 {
   return fs::path(QFile::encodeName(text).toStdString());
 }
 
-class WaitCursor
+QString nameOf(const fs::path& path)
 {
-public:
-  WaitCursor() { QApplication::setOverrideCursor(Qt::WaitCursor); }
-  ~WaitCursor() { QApplication::restoreOverrideCursor(); }
-  WaitCursor(const WaitCursor&) = delete;
-  WaitCursor& operator=(const WaitCursor&) = delete;
-};
+  const auto plain = path.lexically_normal();
+  return QFile::decodeName(
+      (plain.has_filename() ? plain : plain.parent_path()).filename().string().c_str());
+}
+
+QString lineOf(const presenters::SeriesContent& series, int number)
+{
+  const auto spacing = [&series](Eigen::Index axis)
+  { return QString::number(series.spacing[axis], 'g', 3); };
+  return CaseKeeper::tr("%1.  %2  %3  (%4 slices, %5 × %6 × %7 mm)")
+      .arg(number)
+      .arg(words(series.modality), words(series.description))
+      .arg(series.slices)
+      .arg(spacing(0), spacing(1), spacing(2));
+}
+
+// "MR 't2', structures 'labels.seg.nrrd'"
+QString listOf(const std::vector<SourceContent>& sources)
+{
+  QStringList items;
+  for (const SourceContent& source : sources)
+    items += CaseKeeper::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
+                                           nameOf(source.path));
+  return items.join(", ");
+}
 
 } // namespace
 
-CaseKeeper::CaseKeeper(presenters::WorkstationModel& model, QWidget& window)
+CaseKeeper::CaseKeeper(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
+                       Banner& unsaved, Banner& loading)
   : m_model(model)
+  , m_saver(saver)
   , m_window(window)
+  , m_unsaved(unsaved)
+  , m_loading(loading)
 {
+  connect(&m_work, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            endWork();
+            m_model.notOpened();
+            refuse(why);
+          });
+  connect(&m_work, &BackgroundWork::cancelled, this,
+          [this]
+          {
+            endWork();
+            m_model.notOpened();
+            emit said(tr("Stopped; nothing was changed"));
+          });
+  connectBanners();
 }
 
 CaseKeeper::~CaseKeeper() = default;
+
+void CaseKeeper::connectBanners()
+{
+  m_unsaved.addButton("retrySave", tr("Try again"), [this] { save(); });
+  m_unsaved.addButton("saveAsOther", tr("Another name…"), [this] { saveAs(); });
+  m_unsaved.addButton("saveElsewhere", tr("Another folder…"),
+                      [this]
+                      {
+                        const QString folder = QFileDialog::getExistingDirectory(
+                            &m_window, tr("Library in another folder"));
+                        if (folder.isEmpty() || !m_model.hasCase())
+                          return;
+                        m_sayWhenSaved = true;
+                        m_saver.saveElsewhere(pathOf(folder));
+                      });
+  m_unsaved.addButton("quitUnsaved", tr("Quit without saving"),
+                      [this]
+                      {
+                        m_giveUp = true;
+                        m_window.close();
+                      });
+  m_unsaved.addButton("dismiss", tr("Go on working"),
+                      [this]
+                      {
+                        m_unsaved.hide();
+                        m_unsaved.setButtonVisible("quitUnsaved", false);
+                      });
+  m_unsaved.setButtonVisible("quitUnsaved", false);
+  connect(&m_saver, &CaseSaver::failed, this, &CaseKeeper::notSaved);
+  connect(&m_saver, &CaseSaver::saved, this,
+          [this](const QString& name)
+          {
+            m_unsaved.hide();
+            m_unsaved.setButtonVisible("quitUnsaved", false);
+            if (std::exchange(m_sayWhenSaved, false))
+              emit said(tr("Saved as %1").arg(name));
+          });
+
+  m_loading.addButton("loadStructures", tr("Prepare them"), [this] { prepare(); });
+  m_loading.addButton("cancelLoading", tr("Cancel"), [this] { m_preparation.cancel(); });
+  connect(&m_preparation, &BackgroundWork::progressed, this,
+          [this](double fraction, const QString& text)
+          {
+            m_loading.setText(tr("The structures are being prepared: %1, %2 %")
+                                  .arg(text)
+                                  .arg(100.0 * fraction, 0, 'f', 0));
+          });
+  const auto without = [this](const QString& why)
+  {
+    m_loading.setText(why);
+    m_loading.setButtonVisible("loadStructures", true);
+    m_loading.setButtonVisible("cancelLoading", false);
+    m_loading.show();
+  };
+  connect(&m_preparation, &BackgroundWork::cancelled, this,
+          [without]
+          {
+            without(tr(
+                "The structures were not prepared: they are not shown and felt as the list says."));
+          });
+  connect(&m_preparation, &BackgroundWork::failed, this,
+          [without](const QString& why)
+          { without(tr("The structures could not be prepared: %1").arg(why)); });
+}
+
+void CaseKeeper::notSaved(const QString& why)
+{
+  m_sayWhenSaved = false;
+  m_unsaved.setText(tr("Not saved: %1  The work is still open in this window.").arg(why));
+  m_unsaved.show();
+}
 
 void CaseKeeper::refuse(const QString& why)
 {
@@ -55,18 +175,23 @@ void CaseKeeper::refuse(const QString& why)
   box.exec();
 }
 
-void CaseKeeper::open(const QString& what)
+void CaseKeeper::open(const QStringList& what)
 {
-  if (m_job && !m_model.beingStored())
-    return; // one import at a time
-  const fs::path path = pathOf(what);
-  std::error_code error;
+  if (what.isEmpty())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit said(tr("One at a time: something is being read already"));
   try
   {
-    if (!presenters::namesCase(m_model.library(), bytes(what)) && fs::exists(path, error))
-      openPath(path);
+    std::vector<fs::path> paths;
+    std::error_code error;
+    for (const QString& one : what)
+      paths.push_back(pathOf(one));
+    if (what.size() == 1 && (presenters::namesCase(m_model.library(), bytes(what.front())) ||
+                             !fs::exists(paths.front(), error)))
+      openCase(bytes(what.front()));
     else
-      openCase(bytes(what));
+      lookAt(paths);
   }
   catch (const std::exception& fault)
   {
@@ -74,151 +199,13 @@ void CaseKeeper::open(const QString& what)
   }
 }
 
-void CaseKeeper::openPath(const fs::path& path, const std::string& seriesUid)
+// One piece of work with a box that shows how far it is.
+void CaseKeeper::work(const QString& title, BackgroundWork::Work work)
 {
-  m_source = path;
-  startImport(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(path)),
-              [path, seriesUid](const core::Progress&)
-              {
-                presenters::CaseSources sources;
-                sources.ct = path;
-                sources.seriesUid = seriesUid;
-                return sources;
-              });
-}
-
-void CaseKeeper::chooseSeries(const QStringList& uids, const QStringList& descriptions)
-{
-  endJob();
-  bool chosen = false;
-  const QString text = QInputDialog::getItem(
-      &m_window, tr("Which series?"), tr("There is more than one series; the case is made from:"),
-      descriptions, 0, false, &chosen);
-  const int index = descriptions.indexOf(text);
-  if (!chosen || index < 0)
-    return;
-  try
-  {
-    openPath(m_source, bytes(uids[index]));
-  }
-  catch (const std::exception& fault)
-  {
-    refuse(inWords(fault));
-  }
-}
-
-void CaseKeeper::openCase(const std::string& name)
-{
-  if (m_model.library().folder().empty() || !settle() || (m_model.unsaved() && !save()))
-    return;
-  try
-  {
-    const WaitCursor wait;
-    m_model.open(name);
-    emit said(tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
-                  .arg(words(name)));
-  }
-  catch (const std::exception& fault)
-  {
-    refuse(inWords(fault));
-  }
-}
-
-void CaseKeeper::openFolder()
-{
-  const QString folder = QFileDialog::getExistingDirectory(&m_window, tr("Open a DICOM folder"));
-  if (!folder.isEmpty())
-    open(folder);
-}
-
-void CaseKeeper::openImage()
-{
-  const QString file = QFileDialog::getOpenFileName(
-      &m_window, tr("Open an image"), {},
-      tr("CT images (*.nrrd *.nhdr *.nii *.nii.gz *.mha *.mhd *.dcm);;All files (*)"));
-  if (!file.isEmpty())
-    open(file);
-}
-
-void CaseKeeper::chooseCase()
-{
-  try
-  {
-    OpenCaseDialog dialog(m_model.library(), &m_window);
-    if (dialog.exec() == QDialog::Accepted && !dialog.chosen().empty())
-      openCase(dialog.chosen());
-  }
-  catch (const std::exception& fault)
-  {
-    refuse(inWords(fault));
-  }
-}
-
-void CaseKeeper::makeSample()
-{
-  const auto folder = std::make_shared<QTemporaryDir>();
-  if (!folder->isValid())
-    return refuse(tr("No temporary folder can be made: %1").arg(folder->errorString()));
-  try
-  {
-    startImport(presenters::freeCaseName(m_model.library(), "sample patient"),
-                [folder](const core::Progress& progress)
-                {
-                  const fs::path out = pathOf(folder->filePath("sample patient"));
-                  imaging::writeSamplePatient(out, {}, progress);
-                  presenters::CaseSources sources;
-                  sources.ct = out / "ct";
-                  sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
-                  return sources;
-                });
-  }
-  catch (const std::exception& fault)
-  {
-    refuse(inWords(fault));
-  }
-}
-
-void CaseKeeper::startImport(const std::string& name, ImportJob::Prepare prepare)
-{
-  if (!settle() || (m_model.unsaved() && !save()))
-    return;
-  m_job = std::make_unique<ImportJob>(m_model.library(), name, std::move(prepare));
-  showProgress(name);
-  connect(m_job.get(), &ImportJob::built, this, &CaseKeeper::built);
-  connect(m_job.get(), &ImportJob::saved, this,
-          [this](const std::shared_ptr<scene::Case>& saved)
-          {
-            endJob();
-            m_model.stored(*saved);
-            emit said(tr("Saved in the library as %1").arg(words(saved->name)));
-            if (m_saveWanted)
-              save();
-          });
-  connect(m_job.get(), &ImportJob::failed, this,
-          [this](const QString& why, bool wasBuilt)
-          {
-            endJob();
-            if (!wasBuilt)
-              return refuse(why);
-            m_model.notStored();
-            save(); // tells why not, and what can be done
-          });
-  connect(m_job.get(), &ImportJob::cancelled, this,
-          [this]
-          {
-            endJob();
-            emit said(tr("Import cancelled; nothing was changed"));
-          });
-  connect(m_job.get(), &ImportJob::severalSeries, this, &CaseKeeper::chooseSeries);
-  m_job->start();
-}
-
-void CaseKeeper::showProgress(const std::string& name)
-{
-  m_progress = std::make_unique<QProgressDialog>(tr("Looking at the files…"), tr("Cancel"), 0, 1000,
-                                                 &m_window);
+  endWork();
+  m_progress = std::make_unique<QProgressDialog>(title + "…", tr("Cancel"), 0, 1000, &m_window);
   m_progress->setObjectName("importProgress");
-  m_progress->setWindowTitle(tr("Making the case %1").arg(words(name)));
+  m_progress->setWindowTitle(title);
   m_progress->setWindowModality(Qt::WindowModal);
   m_progress->setMinimumDuration(250);
   m_progress->setMinimumWidth(420);
@@ -231,161 +218,372 @@ void CaseKeeper::showProgress(const std::string& name)
   connect(m_progress.get(), &QProgressDialog::canceled, this,
           [this]
           {
-            if (m_job)
-              m_job->cancel();
+            m_work.cancel();
             if (m_progress)
               m_progress->setLabelText(tr("Stopping…"));
           });
-  connect(m_job.get(), &ImportJob::progressed, m_progress.get(),
+  connect(&m_work, &BackgroundWork::progressed, m_progress.get(),
           [this](double fraction, const QString& text)
           {
-            if (!m_progress)
-              return;
-            m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
             if (!text.isEmpty())
               m_progress->setLabelText(text.left(1).toUpper() + text.mid(1) + "…");
+            // Goes through the event loop, where the work may end.
+            m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
           });
-}
-
-void CaseKeeper::built(const std::shared_ptr<scene::Case>& value)
-{
-  m_progress.reset();
-  const WaitCursor wait;
-  m_model.adopt(std::move(*value));
-  emit said(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
-}
-
-void CaseKeeper::endJob()
-{
-  m_progress.reset();
-  if (m_job)
+  try
   {
-    m_job->wait();
-    m_job.release()->deleteLater(); // it is the sender
+    m_work.start(std::move(work));
   }
-  emit importEnded();
+  catch (...)
+  {
+    endWork();
+    throw;
+  }
 }
 
-bool CaseKeeper::settle()
+// Not deleted at once: it may be in the middle of showing how far the work is.
+void CaseKeeper::endWork()
 {
+  if (!m_progress)
+    return;
+  disconnect(&m_work, nullptr, m_progress.get(), nullptr);
+  m_progress->cancel(); // hides it, and it does not come up after its minimum duration
+  m_progress.release()->deleteLater();
+}
+
+// The open case is safe, and another one may come.
+bool CaseKeeper::leaveCase()
+{
+  const QScopedValueRollback<bool> asking(m_asking, true); // nothing else begins meanwhile
   m_model.stopTouch(); // what was drilled until now is in the case
-  if (!m_job)
+  if (m_saver.flush())
     return true;
-  const WaitCursor wait;
-  if (!m_model.beingStored())
-    m_job->cancel();
-  m_job->wait();
-  // Its last words are on their way.
-  while (m_job)
-    QApplication::processEvents(QEventLoop::ExcludeUserInputEvents, 50);
+  emit said(tr("The open case is not saved yet; it stays open"));
+  return false;
+}
+
+void CaseKeeper::openCase(const std::string& name)
+{
+  if (m_model.library().folder().empty() || !leaveCase())
+    return;
+  m_model.beginOpen(name);
+  work(tr("Opening %1").arg(words(name)),
+       [this, library = m_model.library(),
+        name](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         const auto read = std::make_shared<presenters::ReadCase>(
+             presenters::ReadCase::from(library, name, progress));
+         return [this, read, name]
+         {
+           endWork();
+           m_model.opened(std::move(*read));
+           emit said(
+               tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
+                   .arg(words(name)));
+         };
+       });
+}
+
+void CaseKeeper::lookAt(const std::vector<fs::path>& paths)
+{
+  work(tr("Looking at the files"),
+       [this, paths](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         Sources found;
+         const auto count = static_cast<double>(paths.size());
+         for (const fs::path& path : paths)
+         {
+           const auto n = static_cast<double>(found.size());
+           found.push_back(presenters::lookAt(path, progress.part(n / count, (n + 1.0) / count)));
+         }
+         return [this, found = std::move(found)]
+         {
+           endWork();
+           decide(found);
+         };
+       });
+}
+
+bool CaseKeeper::chooseSeries(SourceContent& source, std::string& uid)
+{
+  QStringList lines;
+  for (const auto& series : source.series)
+    lines += lineOf(series, lines.size() + 1);
+  bool chosen = false;
+  const QString line = QInputDialog::getItem(
+      &m_window, tr("Which series?"),
+      tr("“%1” holds more than one series. A CT begins a case, an MR comes to the open one.")
+          .arg(nameOf(source.path)),
+      lines, 0, false, &chosen);
+  const int index = lines.indexOf(line);
+  if (!chosen || index < 0)
+    return false;
+  const auto& series = source.series[static_cast<std::size_t>(index)];
+  uid = series.uid;
+  source.content = series.content;
+  source.why = series.modality.empty() ? "says no modality" : "says modality " + series.modality;
   return true;
 }
 
-bool CaseKeeper::save()
+bool CaseKeeper::askContent(SourceContent& source)
 {
-  if (!m_model.hasCase())
-    return true;
-  m_saveWanted = m_model.beingStored();
-  if (m_saveWanted)
-    return true;
-  return keepTrying(false);
+  QMessageBox box(QMessageBox::Question, tr("What is this?"),
+                  tr("What is “%1”? It %2.").arg(nameOf(source.path), words(source.why)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askContent");
+  const bool open = m_model.hasCase();
+  const QString name = open ? words(m_model.value().name) : QString();
+  box.setInformativeText(
+      open ? tr("A CT or cone beam begins a case of its own; “%1” is saved and stays in the "
+                "library.")
+                 .arg(name)
+           : tr("A case begins with a CT or cone beam. An MR comes to a case that is open."));
+  auto* ct = box.addButton(tr("CT: a new case"), QMessageBox::ActionRole);
+  auto* mr = open ? box.addButton(tr("MR of “%1”").arg(name), QMessageBox::ActionRole) : nullptr;
+  const bool file = !fs::is_directory(source.path);
+  auto* labels = open && file
+                     ? box.addButton(tr("Structures of “%1”").arg(name), QMessageBox::ActionRole)
+                     : nullptr;
+  box.addButton(QMessageBox::Cancel);
+  box.exec();
+  const QAbstractButton* clicked = box.clickedButton();
+  if (!clicked || (clicked != ct && clicked != mr && clicked != labels))
+    return false;
+  source.content = clicked == ct ? Content::Ct : clicked == mr ? Content::Mr : Content::Labels;
+  return true;
 }
 
-bool CaseKeeper::keepTrying(bool leaving)
+void CaseKeeper::decide(const Sources& found)
 {
-  if (camera)
-    m_model.setCamera(camera());
-  std::function<void()> attempt = [this] { m_model.save(); };
-  for (;;)
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  Sources others;
+  const SourceContent* ct = nullptr;
+  presenters::CaseSources sources;
+  Sources known = found;
+  for (SourceContent& source : known)
   {
-    QString why;
-    try
+    std::string uid;
+    if (!source.series.empty() && !chooseSeries(source, uid))
+      return;
+    if (source.content == Content::Image && !askContent(source))
+      return;
+    switch (source.content)
     {
-      attempt();
-      emit said(tr("Saved"));
-      return true;
-    }
-    catch (const std::exception& fault)
-    {
-      why = inWords(fault);
-    }
-    const QString name = words(m_model.value().name);
-    const std::string next = bytes(name.left(80)) + " copy";
-    switch (askAfterFailure(why, leaving))
-    {
-    case Choice::Retry:
-      attempt = [this] { m_model.save(); };
+    case Content::Ct:
+    case Content::Image:
+      if (ct)
+        return refuse(tr("“%1” and “%2” are both CTs, and a case has one; open them one after the "
+                         "other.")
+                          .arg(nameOf(ct->path), nameOf(source.path)));
+      ct = &source;
+      sources.ct = source.path;
+      sources.seriesUid = uid;
+      continue;
+    case Content::Mr:
+      sources.parts.mr.push_back({{}, source.path, {}, uid});
       break;
-    case Choice::OtherName:
-    {
-      const QString other =
-          QInputDialog::getText(&m_window, tr("Save under another name"), tr("Name of the case:"),
-                                QLineEdit::Normal, words(next));
-      if (!other.isEmpty())
-        attempt = [this, other] { m_model.saveAs(bytes(other.trimmed())); };
+    case Content::Labels:
+      sources.parts.labels.push_back({{}, source.path});
+      break;
+    case Content::Mesh:
+      sources.parts.meshes.push_back({{}, source.path});
       break;
     }
-    case Choice::OtherFolder:
-    {
-      const QString folder =
-          QFileDialog::getExistingDirectory(&m_window, tr("Library in another folder"));
-      if (!folder.isEmpty())
-        attempt = [this, folder]
+    others.push_back(source);
+  }
+  if (ct)
+    return makeCase(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path)),
+                    [sources](const core::Progress&) { return sources; });
+  if (!m_model.hasCase())
+    return refuse(tr("A case begins with a CT, and there is none here: %1. Open the patient's CT "
+                     "first, then this.")
+                      .arg(listOf(others)));
+
+  const QString name = words(m_model.value().name);
+  QMessageBox box(QMessageBox::Question, tr("Add to the open case"),
+                  tr("Add to the case “%1”: %2?").arg(name, listOf(others)), QMessageBox::NoButton,
+                  &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askAdd");
+  box.setInformativeText(tr("It must be of the same patient.%1")
+                             .arg(sources.parts.mr.empty()
+                                      ? QString()
+                                      : tr(" An MR is shown over the CT once it is registered "
+                                           "(F5).")));
+  const auto* add = box.addButton(tr("Add to “%1”").arg(name), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Cancel);
+  box.exec();
+  if (box.clickedButton() == add)
+    addParts(sources.parts, listOf(others));
+}
+
+void CaseKeeper::makeCase(const std::string& name,
+                          std::function<presenters::CaseSources(const core::Progress&)> sources)
+{
+  if (!leaveCase())
+    return;
+  work(tr("Making the case %1").arg(words(name)),
+       [this, name,
+        sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         double reached = 0.0; // what is prepared quickly does not count as half of the work
+         const core::Progress first(
+             [&](double fraction, const std::string& text)
+             {
+               reached = 0.5;
+               progress.report(0.5 * fraction, text);
+             });
+         const auto from = sources(first);
+         const auto value = std::make_shared<scene::Case>(
+             presenters::buildCase(name, from, progress.part(reached, 1.0)));
+         return [this, value]
+         {
+           endWork();
+           adopt(std::move(*value));
+         };
+       });
+}
+
+void CaseKeeper::adopt(scene::Case value)
+{
+  if (!leaveCase()) // a device may have drilled meanwhile
+    return;
+  m_model.adopt(std::move(value));
+  m_sayWhenSaved = true;
+  m_saver.save();
+  emit said(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
+}
+
+void CaseKeeper::addParts(const presenters::PartSources& parts, const QString& what)
+{
+  m_model.stopTouch();
+  const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
+  value->dissection.reset();                                         // another thread writes there
+  work(tr("Adding to %1").arg(words(value->name)),
+       [this, value, parts, what](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         presenters::addParts(*value, parts, progress);
+         return [this, value, what]
+         {
+           endWork();
+           if (!m_model.hasCase() || m_model.value().name != value->name)
+             return;
+           const QString name = words(value->name);
+           m_model.takeParts(std::move(*value));
+           m_saver.save();
+           emit said(tr("Added to %1: %2").arg(name, what));
+         };
+       });
+}
+
+void CaseKeeper::prepare()
+{
+  m_preparation.drop();
+  m_loading.hide();
+  m_loading.setButtonVisible("loadStructures", false);
+  m_loading.setButtonVisible("cancelLoading", true);
+  if (!m_model.hasCase() || (m_model.ready() && m_model.drawable()))
+    return;
+  m_loading.setText(tr("The structures are being prepared…"));
+  QTimer::singleShot(kShowLoading, this,
+                     [this]
+                     {
+                       if (m_preparation.busy())
+                         m_loading.show();
+                     });
+  m_preparation.start(
+      [this,
+       prepare = m_model.preparation()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto done = std::make_shared<presenters::PreparedCase>(prepare(progress));
+        return [this, done]
         {
-          const library::Library elsewhere(pathOf(folder));
-          m_model.saveElsewhere(elsewhere.folder(),
-                                presenters::freeCaseName(elsewhere, m_model.value().name));
+          m_loading.hide();
+          if (m_model.prepared(std::move(*done)))
+            emit ready();
         };
-      break;
-    }
-    case Choice::GiveUp:
-      return true;
-    case Choice::Stay:
-      emit said(tr("Not saved"));
-      return false;
-    }
+      });
+}
+
+void CaseKeeper::openFolder()
+{
+  const QString folder = QFileDialog::getExistingDirectory(&m_window, tr("Open a DICOM folder"));
+  if (!folder.isEmpty())
+    open({folder});
+}
+
+void CaseKeeper::openFiles()
+{
+  open(QFileDialog::getOpenFileNames(
+      &m_window, tr("Open images, labels or meshes"), {},
+      tr("Images, labels, meshes (*.nrrd *.nhdr *.nii *.nii.gz *.mha *.mhd *.dcm *.obj *.stl "
+         "*.ply);;All files (*)")));
+}
+
+void CaseKeeper::chooseCase()
+{
+  if (m_work.busy())
+    return;
+  try
+  {
+    OpenCaseDialog dialog(m_model.library(), {}, &m_window);
+    if (dialog.exec() == QDialog::Accepted && !dialog.chosen().empty())
+      openCase(dialog.chosen());
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(inWords(fault));
   }
 }
 
-CaseKeeper::Choice CaseKeeper::askAfterFailure(const QString& why, bool leaving)
+void CaseKeeper::makeSample()
 {
-  QMessageBox box(QMessageBox::Warning, tr("Not saved"), why, QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
-  box.setInformativeText(tr("The work is still open in this window."));
-  const auto* retry = box.addButton(tr("Try again"), QMessageBox::AcceptRole);
-  const auto* name = box.addButton(tr("Another name…"), QMessageBox::ActionRole);
-  const auto* folder = box.addButton(tr("Another folder…"), QMessageBox::ActionRole);
-  const auto* quit =
-      leaving ? box.addButton(tr("Quit without saving"), QMessageBox::DestructiveRole) : nullptr;
-  auto* stay = box.addButton(tr("Go on working"), QMessageBox::RejectRole);
-  box.setEscapeButton(stay);
-  box.exec();
-  const auto* clicked = box.clickedButton();
-  if (clicked == retry)
-    return Choice::Retry;
-  if (clicked == name)
-    return Choice::OtherName;
-  if (clicked == folder)
-    return Choice::OtherFolder;
-  return quit && clicked == quit ? Choice::GiveUp : Choice::Stay;
+  if (m_work.busy())
+    return;
+  const auto folder = std::make_shared<QTemporaryDir>();
+  if (!folder->isValid())
+    return refuse(tr("No temporary folder can be made: %1").arg(folder->errorString()));
+  try
+  {
+    makeCase(presenters::freeCaseName(m_model.library(), "sample patient"),
+             [folder](const core::Progress& progress)
+             {
+               const fs::path out = pathOf(folder->filePath("sample patient"));
+               imaging::writeSamplePatient(out, {}, progress);
+               presenters::CaseSources sources;
+               sources.ct = out / "ct";
+               sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
+               return sources;
+             });
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(inWords(fault));
+  }
+}
+
+void CaseKeeper::save()
+{
+  if (!m_model.hasCase())
+    return;
+  m_sayWhenSaved = true;
+  m_saver.save();
 }
 
 void CaseKeeper::saveAs()
 {
-  if (!m_model.hasCase() || !settle())
-    return;
-  const std::string present = m_model.value().name;
-  const QString name = QInputDialog::getText(
-      &m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
-      words(presenters::freeCaseName(m_model.library(), present)));
-  if (name.isEmpty())
+  if (!m_model.hasCase())
     return;
   try
   {
-    if (camera)
-      m_model.setCamera(camera());
-    m_model.saveAs(bytes(name.trimmed()));
-    emit said(tr("Saved as %1").arg(name.trimmed()));
+    const QString name = QInputDialog::getText(
+        &m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
+        words(presenters::freeCaseName(m_model.library(), m_model.value().name)));
+    if (name.isEmpty() || !m_model.hasCase())
+      return;
+    m_sayWhenSaved = true;
+    m_saver.saveAs(bytes(name.trimmed()));
   }
   catch (const std::exception& fault)
   {
@@ -395,8 +593,20 @@ void CaseKeeper::saveAs()
 
 bool CaseKeeper::mayLeave()
 {
-  settle();
-  return !m_model.hasCase() || !m_model.unsaved() || keepTrying(true);
+  if (m_giveUp)
+    return true;
+  if (m_leaving) // asked again while it saves
+    return false;
+  m_leaving = true;
+  m_work.drop(); // an import leaves nothing behind
+  endWork();
+  m_preparation.drop();
+  m_model.stopTouch();
+  const bool safe = m_saver.flush();
+  m_leaving = false;
+  if (!safe)
+    m_unsaved.setButtonVisible("quitUnsaved", true);
+  return safe;
 }
 
 } // namespace petrous::workstation

@@ -3,10 +3,15 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <QObject>
+#include <QStringList>
 
-#include "ImportJob.h"
+#include "BackgroundWork.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/SourceContent.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QProgressDialog;
@@ -15,64 +20,75 @@ class QWidget;
 namespace petrous::workstation
 {
 
-/// Opens, imports, saves and closes cases, and says in words what went wrong. Nothing that was
-/// drilled is given up without asking.
+class Banner;
+class CaseSaver;
+
+/// Opens cases, makes them from files, adds files to the open one, and says in words what went
+/// wrong. Files are read in a thread of its own; what they are is decided by what they hold
+/// (presenters::lookAt), and where that leaves a doubt the user is asked. Nothing that was drilled
+/// is given up without asking.
 class CaseKeeper : public QObject
 {
   Q_OBJECT
 public:
-  /// `window` is the parent of dialogs.
-  CaseKeeper(presenters::WorkstationModel& model, QWidget& window);
+  /// `window` is the parent of dialogs; `unsaved` and `loading` are its banners.
+  CaseKeeper(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
+             Banner& unsaved, Banner& loading);
   ~CaseKeeper() override;
 
-  /// Asked before each save for the camera that is kept with the case.
-  std::function<core::CameraPose()> camera;
-
-  void open(const QString& what); ///< a case's name, a DICOM folder or an image file
-  void openFolder();              ///< asks for one
-  void openImage();               ///< asks for one
+  /// A case's name; or folders and files: a CT begins a case, all else comes to it, or to the open
+  /// one.
+  void open(const QStringList& what);
+  void openFolder(); ///< asks for one
+  void openFiles();  ///< asks for them
   void chooseCase();
   void makeSample();
 
-  bool save(); ///< false: still unsaved, and the user knows
+  void save(); ///< and says so
   void saveAs();
+  void prepare(); ///< what takes long of the open case (WorkstationModel::preparation)
 
-  /// Ends imports, saves what is unsaved. False when the user wants to stay.
+  /// Ends imports, saves what is unsaved. False when that failed, which the banner tells: the
+  /// window stays.
   bool mayLeave();
 
-  bool importing() const noexcept { return m_job != nullptr; }
+  bool busy() const noexcept { return m_work.busy() || m_preparation.busy(); }
 
 signals:
   void said(const QString& line); ///< for the status bar
-  void importEnded();
+  void ready();                   ///< the case's structures are loaded
 
 private:
+  using Sources = std::vector<presenters::SourceContent>;
+
   void openCase(const std::string& name);
-  void openPath(const std::filesystem::path& path, const std::string& seriesUid = {});
-  void chooseSeries(const QStringList& uids, const QStringList& descriptions);
-  void startImport(const std::string& name, ImportJob::Prepare prepare);
-  void showProgress(const std::string& name);
-  void built(const std::shared_ptr<scene::Case>& value);
-  void endJob();
-  bool settle(); ///< waits for a case that is being stored
-  enum class Choice
-  {
-    Retry,
-    OtherName,
-    OtherFolder,
-    GiveUp,
-    Stay
-  };
-  Choice askAfterFailure(const QString& why, bool leaving);
-  bool keepTrying(bool leaving);
+  void lookAt(const std::vector<std::filesystem::path>& paths);
+  void decide(const Sources& found);
+  bool chooseSeries(presenters::SourceContent& source, std::string& uid);
+  bool askContent(presenters::SourceContent& source);
+  void makeCase(const std::string& name,
+                std::function<presenters::CaseSources(const core::Progress&)> sources);
+  void addParts(const presenters::PartSources& parts, const QString& what);
+  void adopt(scene::Case value);
+  void work(const QString& title, BackgroundWork::Work work);
+  void endWork();
+  void connectBanners();
+  void notSaved(const QString& why);
+  bool leaveCase();
   void refuse(const QString& why);
 
   presenters::WorkstationModel& m_model;
+  CaseSaver& m_saver;
   QWidget& m_window;
-  std::unique_ptr<ImportJob> m_job;
-  std::unique_ptr<QProgressDialog> m_progress;
-  std::filesystem::path m_source; // of the import
-  bool m_saveWanted = false;      // a stroke ended while the case was being stored
+  Banner& m_unsaved;
+  Banner& m_loading;
+  BackgroundWork m_work;
+  BackgroundWork m_preparation;
+  std::unique_ptr<QProgressDialog> m_progress; // of m_work
+  bool m_sayWhenSaved = false;
+  bool m_asking = false; // in a dialog of its own
+  bool m_leaving = false;
+  bool m_giveUp = false; // the window may close with unsaved work
 };
 
 } // namespace petrous::workstation

@@ -195,6 +195,12 @@ void DrillController::takeAnew()
     m_anew.start();
 }
 
+void DrillController::tissueCame()
+{
+  if (m_tool != Tool::None && m_hands.device())
+    takeTool(); // the pointer's next move takes it up otherwise
+}
+
 void DrillController::bringHere()
 {
   if (!m_hands.device() || m_tool == Tool::None)
@@ -210,6 +216,11 @@ bool DrillController::takeTool()
     return true;
   if (m_tool == Tool::None || !m_model.hasCase() || m_hands.opening())
     return false;
+  if (!m_model.ready())
+  {
+    emit said(tr("The structures are still being loaded; then the tool can be taken up"));
+    return false;
+  }
   putAway(); // what a change of the tissue has ended
   emit said(m_tool == Tool::Burr ? tr("Taking up the burr…") : tr("Taking up the pointer…"));
   QApplication::setOverrideCursor(Qt::WaitCursor);

@@ -30,6 +30,7 @@ public:
 
   void setSlicesFollow(bool follow); ///< the crosshair goes with the burr while it drills
   void layDown();                    ///< no tool; ends an open stroke
+  void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< a device's tool before what the view's middle shows
 
 signals:

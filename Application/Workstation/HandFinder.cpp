@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "Application.h"
 #include "Theme.h"
 #include "petrous/Core/Error.h"
 
@@ -19,7 +20,7 @@ HandFinder::HandFinder(presenters::HandSources sources, int lookEvery, QObject* 
   , m_lookEvery(lookEvery)
 {
   if (m_sources.hid || !m_sources.serverFolders.empty())
-    m_thread = std::thread([this] { run(); });
+    m_thread = std::thread([this] { guarded([this] { run(); }); });
 }
 
 HandFinder::~HandFinder()
@@ -50,10 +51,11 @@ void HandFinder::run()
   {
     std::deque<std::function<void()>> jobs = std::exchange(m_jobs, {});
     lock.unlock();
+    // What one device throws must not end the others.
     for (const auto& job : jobs)
-      job();
-    jobs.clear();
-    look();
+      guarded(job);
+    guarded([&jobs] { jobs.clear(); });
+    guarded([this] { look(); });
     lock.lock();
     m_wake.wait_for(lock, std::chrono::milliseconds(m_lookEvery),
                     [this] { return m_stop || !m_jobs.empty(); });

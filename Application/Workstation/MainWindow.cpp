@@ -14,9 +14,13 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QUrl>
+#include <QVBoxLayout>
 
+#include "Application.h"
+#include "Banner.h"
 #include "BranchController.h"
 #include "CaseKeeper.h"
+#include "CaseSaver.h"
 #include "DrillBar.h"
 #include "DrillController.h"
 #include "HandBar.h"
@@ -47,11 +51,16 @@ namespace
 {
 constexpr int kMessage = 8000; // ms
 
-QString dropped(const QMimeData& data)
+QStringList dropped(const QMimeData& data)
 {
+  QStringList what;
   if (data.hasUrls())
-    return data.urls().size() == 1 ? data.urls().front().toLocalFile() : QString();
-  return data.hasText() ? data.text().trimmed() : QString();
+    for (const QUrl& url : data.urls())
+      what += url.toLocalFile();
+  else if (data.hasText())
+    what += data.text().trimmed();
+  what.removeAll(QString());
+  return what;
 }
 } // namespace
 
@@ -65,11 +74,15 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_panel(new StructuresPanel(m_model))
   , m_nearby(new NearbyPanel(m_model))
   , m_pages(new QStackedWidget)
+  , m_unsavedBanner(new Banner("unsavedBanner", Banner::Kind::Warning))
+  , m_loadingBanner(new Banner("loadingBanner", Banner::Kind::Notice))
+  , m_faultBanner(new Banner("faultBanner", Banner::Kind::Warning))
   , m_place(new PlaceLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_handBar, options.quadBuffer))
-  , m_keeper(new CaseKeeper(m_model, *this))
+  , m_saver(new CaseSaver(m_model))
+  , m_keeper(new CaseKeeper(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner))
   , m_finder(new HandFinder(options.hands, options.lookForHandsEvery, this))
   , m_hands(new HandKeeper(*m_finder, *m_handBar, *m_settings, this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
@@ -84,7 +97,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   m_picture->secure = [this] { return secure(); };
   m_branches->settle = [this] { m_drill->layDown(); };
   m_keeper->setParent(this);
-  m_keeper->camera = [this] { return m_view->picture().camera(); };
+  m_saver->setParent(this);
+  m_saver->camera = [this] { return m_view->picture().camera(); };
   setAcceptDrops(true);
   resize(1440, 900);
   layOut();
@@ -103,7 +117,8 @@ MainWindow::~MainWindow()
   delete m_nearby;  // asks the model when it is hidden
   delete m_finder;  // a server ends now
   delete m_picture; // the surgeon's window follows the view
-  delete m_keeper;  // its thread must not outlive the model
+  delete m_keeper;  // its threads must not outlive the model
+  delete m_saver;
 }
 
 void MainWindow::layOut()
@@ -122,7 +137,15 @@ void MainWindow::layOut()
   across->setSizes({700, 380});
   m_pages->addWidget(start);
   m_pages->addWidget(across);
-  setCentralWidget(m_pages);
+  m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
+  auto* whole = new QWidget;
+  auto* stack = new QVBoxLayout(whole);
+  stack->setContentsMargins(0, 0, 0, 0);
+  stack->setSpacing(0);
+  for (Banner* banner : {m_faultBanner, m_unsavedBanner, m_loadingBanner})
+    stack->addWidget(banner);
+  stack->addWidget(m_pages, 1);
+  setCentralWidget(whole);
 
   auto* structures = addDock(tr("Structures"), "structuresDock", m_panel, Qt::Key_F9);
   auto* picture = addDock(tr("Picture"), "pictureDock", m_picture->panel(), Qt::Key_F8);
@@ -169,12 +192,17 @@ QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget
 void MainWindow::connectModel()
 {
   m_model.events.caseChanged = [this] { caseChanged(); };
+  m_model.events.caseClosed = [this] { caseClosed(); };
+  m_model.events.preparationWanted = [this] { m_keeper->prepare(); };
+  m_model.events.partsChanged = [this] { partsChanged(); };
   m_model.events.appearanceChanged = [this]
   {
     m_picture->appearanceChanged();
     m_slices->appearanceChanged();
     m_panel->appearanceChanged();
   };
+  if (auto* application = qobject_cast<Application*>(QCoreApplication::instance()))
+    connect(application, &Application::faulted, this, &MainWindow::showFault);
   m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.mrMoved = [this] { m_registration->mrMoved(); };
@@ -208,7 +236,8 @@ void MainWindow::connectModel()
   connect(m_keeper, &CaseKeeper::said, this, tell);
   connect(m_thickness, &ThicknessController::said, this, tell);
   connect(m_registration, &RegistrationController::said, this, tell);
-  connect(m_branches, &BranchController::changed, m_keeper, &CaseKeeper::save);
+  connect(m_keeper, &CaseKeeper::ready, m_drill, &DrillController::tissueCame);
+  connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::said, this, tell);
   connect(m_picture, &PictureController::said, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
@@ -219,7 +248,7 @@ void MainWindow::connectActions()
   const auto on = [this](QAction* action, auto what)
   { connect(action, &QAction::triggered, this, what); };
   on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
-  on(m_actions->openImage, [this] { m_keeper->openImage(); });
+  on(m_actions->openImage, [this] { m_keeper->openFiles(); });
   on(m_actions->openCase, [this] { m_keeper->chooseCase(); });
   on(m_actions->sample, [this] { m_keeper->makeSample(); });
   on(m_actions->save, [this] { m_keeper->save(); });
@@ -248,14 +277,48 @@ void MainWindow::connectActions()
 void MainWindow::begin(const QString& what)
 {
   if (!what.isEmpty())
-    return m_keeper->open(what);
+    return m_keeper->open({what});
   if (const auto latest = m_model.latestCase())
-    m_keeper->open(words(*latest));
+    m_keeper->open({words(*latest)});
 }
 
-bool MainWindow::importing() const
+bool MainWindow::busy() const
 {
-  return m_keeper->importing();
+  return m_keeper->busy() || m_saver->busy();
+}
+
+void MainWindow::showFault(const QString& why)
+{
+  m_faultBanner->setText(tr("Something failed: %1  Save the case; if this comes again, start "
+                            "Petrous anew.")
+                             .arg(why));
+  m_faultBanner->show();
+}
+
+void MainWindow::caseClosed()
+{
+  m_drill->layDown();
+  m_view->display().setContents({});
+  m_slices->clear();
+  m_panel->caseChanged();
+  m_nearby->caseChanged();
+  m_thickness->caseChanged();
+  m_registration->caseChanged();
+  m_place->clear();
+  m_sum->clear();
+  m_pages->setCurrentIndex(0);
+}
+
+// The camera stays, and the tool is put away.
+void MainWindow::partsChanged()
+{
+  m_drill->layDown();
+  m_picture->appearanceChanged();
+  m_slices->appearanceChanged();
+  m_panel->caseChanged();
+  m_nearby->caseChanged();
+  m_thickness->caseChanged();
+  m_registration->caseChanged();
 }
 
 void MainWindow::caseChanged()
@@ -357,16 +420,16 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
 {
   const QString text = strokeText(stroke.get());
   if (!stroke)
-    statusBar()->showMessage(text, kMessage);
-  else if (m_keeper->save())
-    statusBar()->showMessage(text);
+    return statusBar()->showMessage(text, kMessage);
+  statusBar()->showMessage(text);
+  m_saver->save();
 }
 
 bool MainWindow::secure()
 {
   // Ends an open stroke, here and in the surgeon's window.
   m_drill->layDown();
-  return !m_model.hasCase() || !m_model.unsaved() || m_keeper->save();
+  return m_saver->flush();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)
@@ -385,7 +448,7 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event)
 
 void MainWindow::dropEvent(QDropEvent* event)
 {
-  const QString what = dropped(*event->mimeData());
+  const QStringList what = dropped(*event->mimeData());
   if (what.isEmpty())
     return;
   event->acceptProposedAction();

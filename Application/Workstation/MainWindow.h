@@ -15,8 +15,10 @@ class QStackedWidget;
 namespace petrous::workstation
 {
 
+class Banner;
 class BranchController;
 class CaseKeeper;
+class CaseSaver;
 class DrillBar;
 class DrillController;
 class HandBar;
@@ -54,7 +56,8 @@ public:
   void begin(const QString& what);
 
   const presenters::WorkstationModel& model() const noexcept { return m_model; }
-  bool importing() const;
+  /// Whether files or cases are being read, or written.
+  bool busy() const;
 
 protected:
   void closeEvent(QCloseEvent* event) override;
@@ -66,6 +69,9 @@ private:
   void connectModel();
   void connectActions();
   void caseChanged();
+  void caseClosed();
+  void partsChanged();
+  void showFault(const QString& why);
   void offerBurrs();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
@@ -85,10 +91,14 @@ private:
   StructuresPanel* m_panel;
   NearbyPanel* m_nearby;
   QStackedWidget* m_pages;
+  Banner* m_unsavedBanner;
+  Banner* m_loadingBanner;
+  Banner* m_faultBanner;
   PlaceLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;
   WindowActions* m_actions;
+  CaseSaver* m_saver;
   CaseKeeper* m_keeper;
   HandFinder* m_finder;
   HandKeeper* m_hands;

@@ -4,7 +4,7 @@
 
 #include <QApplication>
 
-#include "ImportJob.h"
+#include "Application.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"

@@ -1,24 +1,41 @@
 #pragma once
 
+#include <functional>
+
 #include <QDialog>
 
 #include "petrous/Library/Library.h"
 
+class QPushButton;
 class QTreeWidget;
 
 namespace petrous::workstation
 {
 
-/// The cases of the library to choose from.
+/// The cases of the library to choose from, to rename (F2) and to delete (Del).
 class OpenCaseDialog : public QDialog
 {
   Q_OBJECT
 public:
-  explicit OpenCaseDialog(const library::Library& library, QWidget* parent = nullptr);
+  /// What changes the library; both throw as it does. None: the dialog only chooses.
+  struct Changes
+  {
+    std::function<void(const std::string& name, const std::string& to)> rename;
+    std::function<void(const std::string& name)> remove;
+  };
+  OpenCaseDialog(const library::Library& library, Changes changes, QWidget* parent = nullptr);
 
-  std::string chosen() const; ///< empty: none
+  std::string chosen() const; ///< that can be opened; empty: none
 
 private:
+  void fill(const std::string& current);
+  std::string current() const; ///< damaged or not
+  void rename();
+  void remove();
+  void attempt(const std::function<void()>& change);
+
+  const library::Library& m_library;
+  Changes m_changes;
   QTreeWidget* m_list;
 };
 

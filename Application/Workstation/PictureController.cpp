@@ -78,6 +78,8 @@ void PictureController::appearanceChanged()
 
 void PictureController::showScene()
 {
+  if (m_model.loaded() && !m_model.drawable())
+    return; // the picture stays until what is shown now has been made
   try
   {
     m_view.display().setContents(m_model.sceneContents());

@@ -8,8 +8,8 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "Application.h"
 #include "BackgroundWork.h"
-#include "ImportJob.h"
 #include "MetricCurve.h"
 #include "MrOverlay.h"
 #include "RegistrationPanel.h"

@@ -13,9 +13,9 @@
 #include <QVBoxLayout>
 
 #include "AimBox.h"
+#include "Application.h"
 #include "FoldBox.h"
 #include "HandlesBox.h"
-#include "ImportJob.h"
 #include "LandmarksBox.h"
 #include "MetricCurve.h"
 #include "PanelButton.h"

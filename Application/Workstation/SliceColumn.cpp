@@ -43,12 +43,18 @@ void SliceColumn::caseChanged()
 
 void SliceColumn::appearanceChanged()
 {
-  const auto presenter = std::make_shared<const presenters::SlicePresenter>(m_model.value());
+  const auto presenter = std::make_shared<const presenters::SlicePresenter>(m_model.presentable());
   for (SliceView* view : m_views)
   {
     view->setPresenter(presenter, m_model.value().ct.geometry);
     view->setIntensityDisplay(presenters::displayOf(m_model.value()));
   }
+}
+
+void SliceColumn::clear()
+{
+  for (SliceView* view : m_views)
+    view->setPresenter(nullptr, {});
 }
 
 void SliceColumn::crosshairMoved()

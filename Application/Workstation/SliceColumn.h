@@ -21,6 +21,7 @@ public:
   explicit SliceColumn(presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
   void caseChanged();
+  void clear(); ///< no case is open
   void appearanceChanged();
   void crosshairMoved();
   void maskChanged(const core::IndexBox& box); ///< of CT voxels

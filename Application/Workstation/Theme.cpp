@@ -51,6 +51,10 @@ QPushButton#primary:hover { background: #3a8acb; }
 QPushButton#primary:focus { border-color: #b9dcf8; }
 QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
+QFrame[banner="notice"] { background: #24384a; border-bottom: 1px solid #3d6b92; }
+QFrame[banner="warning"] { background: #5a3217; border-bottom: 1px solid #d96b27; }
+QFrame[banner] QLabel { color: #f2f5f8; }
+QFrame[banner] QPushButton { padding: 4px 12px; }
 QLabel#dim { color: #9aa4af; }
 QLabel#big { font-size: 20px; color: #e4e8ed; }
 )";

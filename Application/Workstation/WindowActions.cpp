@@ -51,8 +51,12 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& h
   : QObject(&window)
 {
   QMenu* file = window.menuBar()->addMenu(tr("&File"));
-  openDicom = make(file, tr("Open &DICOM…"), QKeySequence::Open, tr("A folder of CT slices"));
-  openImage = make(file, tr("Open &image…"), {}, tr("A CT as NRRD, NIfTI or MetaImage"));
+  openDicom = make(file, tr("Open &DICOM…"), QKeySequence::Open,
+                   tr("A folder of CT slices: a new case; of MR slices: for the open case"));
+  openImage =
+      make(file, tr("Open &files…"), {},
+           tr("A CT as NRRD, NIfTI or MetaImage: a new case; MR, label maps and meshes: for "
+              "the open case"));
   openCase =
       make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O, tr("A case of the library"));
   sample = make(file, tr("&Make the sample patient"), {}, tr("An artificial temporal bone"));

@@ -6,6 +6,7 @@
 #include <QFile>
 #include <QStandardPaths>
 
+#include "Application.h"
 #include "MainWindow.h"
 #include "SceneDisplay.h"
 #include "Theme.h"
@@ -45,7 +46,7 @@ int main(int argc, char** argv)
   using namespace petrous;
   QSurfaceFormat::setDefaultFormat(workstation::surfaceFormat());
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
-  QApplication application(argc, argv);
+  workstation::Application application(argc, argv);
   QApplication::setApplicationName("petrous-workstation");
   QApplication::setApplicationVersion(PETROUS_VERSION);
   workstation::applyTheme(application);
@@ -70,6 +71,6 @@ int main(int argc, char** argv)
   options.hands = handSources();
   workstation::MainWindow window(library::Library(libraryFolder(parser)), options);
   window.show();
-  window.begin(parser.positionalArguments().value(0));
+  workstation::guarded([&] { window.begin(parser.positionalArguments().value(0)); });
   return QApplication::exec();
 }

@@ -67,3 +67,32 @@ TEST(DrillSession, LeavesAStructureThatIsNotDrillable)
   EXPECT_GT(session.field().value({6, 5.85, 5.85}), 0.0) << "the nerve is whole";
   EXPECT_LT(session.field().value({6, 7.2, 6}), 0.0) << "the bone round it is gone";
 }
+
+// A threshold moves bone, not what was drawn: sixty structures are not made again.
+TEST(DrillSession, AnotherLikeItSharesWhatWasMadeOfTheStructures)
+{
+  scene::Case value = boneCase();
+  auto labels =
+      std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+  labels->at(20, 20, 20) = 1;
+  scene::LabelPart part;
+  part.labels =
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(labels), {}));
+  part.structures.resize(1);
+  part.structures[0].name = "lesion";
+  part.structures[0].index = 1;
+  value.labels = {part};
+  scene::Case copy = value;
+  copy.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
+  const presenters::DrillSession like(copy);
+  value.iso = 1600.0;
+  presenters::DrillSession session(value, like);
+  EXPECT_EQ(session.field().solids(), like.field().solids());
+  EXPECT_LT(session.field().value({3, 3, 3}), 0.0) << "bone of 1500 HU below the threshold";
+  EXPECT_GT(like.field().value({3, 3, 3}), 0.0);
+  value.dissection->beginStroke({});
+  value.dissection->cut({{6, 6, 6}, {6, 6, 6}, 1.0}, session.protectedTissue());
+  EXPECT_TRUE(session.end()) << "of its own case";
+  EXPECT_EQ(value.strokes.size(), 1u);
+  EXPECT_GT(like.field().value({6, 6, 6}), 0.0);
+}

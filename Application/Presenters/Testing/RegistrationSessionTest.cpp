@@ -42,6 +42,7 @@ protected:
     value.ct = image("ct");
     value.mr = {image("T2"), image("DWI")};
     model.adopt(std::move(value));
+    model.prepareNow();
     model.events.mrMoved = [this] { ++moved; };
     session.caseChanged();
   }

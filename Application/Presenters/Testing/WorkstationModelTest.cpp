@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <thread>
 
 #include <unistd.h>
 
@@ -92,6 +93,7 @@ TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)
 {
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
+  model.prepareNow();
   EXPECT_FALSE(model.canUndo());
   stroke(model);
   core::IndexBox box;
@@ -111,6 +113,7 @@ TEST_F(WorkstationModelTest, UndoesTheOpenStrokeWhileTheToolIsInTheHand)
 {
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
+  model.prepareNow();
   HeldTool hand({6, 6, 8.5});
   model.startTouch(hand.device, hand.setup);
   hand.drill(true);
@@ -138,6 +141,7 @@ TEST_F(WorkstationModelTest, AnotherThresholdPutsTheToolAway)
 {
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
+  model.prepareNow();
   HeldTool hand({6, 6, 8.5});
   model.startTouch(hand.device, hand.setup);
   EXPECT_TRUE(model.touching());
@@ -145,8 +149,10 @@ TEST_F(WorkstationModelTest, AnotherThresholdPutsTheToolAway)
   EXPECT_FALSE(model.touching());
   EXPECT_FALSE(model.advanceTouch().record.has_value());
   model.adopt(block("other"));
+  model.prepareNow();
   model.startTouch(hand.device, hand.setup);
   model.adopt(block("block"));
+  model.prepareNow();
   EXPECT_FALSE(model.touching());
 }
 
@@ -175,6 +181,7 @@ TEST_F(WorkstationModelTest, AnMrThatMovesPutsTheToolAwayOnlyWhereSomethingWasDr
   value.labels = {part};
   scene::layMr(value, "T2", {}, {});
   model.adopt(std::move(value));
+  model.prepareNow();
   int told = 0;
   model.events.toolPutAway = [&told] { ++told; };
   const auto lay = [&model](const std::string& mr, double shift)
@@ -212,13 +219,14 @@ TEST_F(WorkstationModelTest, WorkGoesOnWhileSomebodyElseStoresTheCase)
 {
   library::Library library(folder);
   WorkstationModel model{library};
-  scene::Case made = block("block");
-  scene::Case stored = made;
-  model.adopt(made);
+  model.adopt(block("block"));
+  model.prepareNow();
+  EXPECT_TRUE(model.unsaved());
+  presenters::StoreTask task = model.beginStore();
   EXPECT_TRUE(model.beingStored());
   stroke(model);
-  library.save(stored);
-  model.stored(stored);
+  task.run();
+  model.stored(task);
   EXPECT_FALSE(model.beingStored());
   EXPECT_TRUE(model.unsaved()); // the stroke
   model.save();
@@ -267,6 +275,7 @@ TEST_F(WorkstationModelTest, HoldsTheCrosshairInTheCt)
 {
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
+  model.prepareNow();
   model.setCrosshair({-100, 3, 100});
   EXPECT_LT((model.crosshair() - Vector3d(0, 3, 11.7)).norm(), 1e-9);
   EXPECT_EQ(model.hounsfieldAt({3, 3, 3}), 1500.0);
@@ -277,6 +286,7 @@ TEST_F(WorkstationModelTest, AnotherThresholdMovesTheSurface)
 {
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
+  model.prepareNow();
   const auto low = model.surfaceAt(line());
   ASSERT_TRUE(low);
   model.setIso(1400.0);
@@ -306,4 +316,118 @@ TEST_F(WorkstationModelTest, BoneCanBeHiddenAndMadeTranslucent)
   EXPECT_EQ(contents.labels, nullptr);
   model.save();
   EXPECT_EQ(library.open("block").boneLook.opacity, 0.4F);
+}
+
+namespace
+{
+
+// A ball of "tumour" above the block.
+scene::LabelPart ballOf(const core::GridGeometry& grid, const std::string& name)
+{
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i)
+        if ((Vector3d(i, j, k) - Vector3d(20, 20, 28)).norm() < 6.0)
+          voxels->at(i, j, k) = 1;
+  scene::LabelPart part;
+  part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+  scene::StructurePart structure;
+  structure.name = name;
+  structure.index = 1;
+  structure.voxels = part.labels.get()->segments.front().voxels;
+  structure.volume = 1.0;
+  part.structures.push_back(structure);
+  return part;
+}
+
+} // namespace
+
+TEST_F(WorkstationModelTest, ShowsTheCtUntilItsStructuresAreLoaded)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case value = block("block");
+  value.labels.push_back(ballOf(value.ct.geometry, "tumour"));
+  model.adopt(value);
+  EXPECT_FALSE(model.ready());
+  EXPECT_TRUE(model.sceneContents().ct);
+  EXPECT_FALSE(model.sceneContents().labels);
+  EXPECT_TRUE(model.presentable().labels.empty());
+  EXPECT_FALSE(model.surfaceAt(line()));
+  HeldTool hand({6, 6, 11.5});
+  EXPECT_THROW(model.startTouch(hand.device, hand.setup), core::InvalidParameter);
+
+  int shown = 0;
+  model.events.appearanceChanged = [&shown] { ++shown; };
+  const auto prepare = model.preparation();
+  std::unique_ptr<presenters::PreparedCase> done;
+  std::thread([&] { done = std::make_unique<presenters::PreparedCase>(prepare({})); }).join();
+  EXPECT_TRUE(model.prepared(std::move(*done)));
+  EXPECT_TRUE(model.ready());
+  EXPECT_EQ(shown, 1);
+  EXPECT_TRUE(model.sceneContents().labels);
+  ASSERT_TRUE(model.surfaceAt(line()));
+  EXPECT_NEAR(model.surfaceAt(line())->z(), 0.3 * 34, 0.3); // of the ball
+  model.startTouch(hand.device, hand.setup);
+  EXPECT_TRUE(model.touching());
+}
+
+TEST_F(WorkstationModelTest, WhatWasPreparedForAnotherCaseIsDropped)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case value = block("block");
+  value.labels.push_back(ballOf(value.ct.geometry, "tumour"));
+  model.adopt(value);
+  auto late = model.preparation()({});
+  model.adopt(value);
+  EXPECT_FALSE(model.prepared(std::move(late)));
+  EXPECT_FALSE(model.ready());
+  core::Progress stop(nullptr,
+                      []
+                      {
+                        auto token = std::make_shared<core::CancelToken>();
+                        token->cancel();
+                        return token;
+                      }());
+  EXPECT_THROW(model.preparation()(stop), core::CancelledError);
+}
+
+TEST_F(WorkstationModelTest, PartsComeToTheOpenCaseAndItsStrokesStay)
+{
+  library::Library library(folder);
+  WorkstationModel model{library};
+  model.adopt(block("block"));
+  model.save();
+  scene::Case with = model.value(); // for another thread that reads files
+  with.dissection.reset();
+  with.labels.push_back(ballOf(with.ct.geometry, "tumour"));
+  stroke(model);
+  model.takeParts(std::move(with));
+  model.prepareNow();
+  EXPECT_TRUE(model.unsaved());
+  EXPECT_EQ(model.value().strokes.size(), 1u);
+  model.save();
+  const auto saved = library.open("block");
+  EXPECT_EQ(saved.strokes.size(), 1u);
+  ASSERT_EQ(saved.labels.size(), 1u);
+  EXPECT_EQ(saved.labels[0].structures[0].name, "tumour");
+}
+
+TEST_F(WorkstationModelTest, AClosedCaseIsGoneFromTheWindowOnly)
+{
+  library::Library library(folder);
+  WorkstationModel model{library};
+  model.adopt(block("block"));
+  model.save();
+  int closed = 0;
+  model.events.caseClosed = [&closed] { ++closed; };
+  model.close();
+  EXPECT_EQ(closed, 1);
+  EXPECT_FALSE(model.hasCase());
+  EXPECT_FALSE(model.unsaved());
+  EXPECT_FALSE(model.canUndo());
+  EXPECT_FALSE(model.surfaceAt(line()));
+  EXPECT_TRUE(library.contains("block"));
+  model.open("block");
+  stroke(model);
 }

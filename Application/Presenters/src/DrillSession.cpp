@@ -1,6 +1,7 @@
 #include "petrous/Presenters/DrillSession.h"
 
 #include <ctime>
+#include <utility>
 
 #include "petrous/Scene/CaseField.h"
 
@@ -18,16 +19,37 @@ dissection::RemovedVolume removedBy(const dissection::Dissection& work,
                                     structures);
 }
 
-} // namespace
-
-DrillSession::DrillSession(scene::Case& value)
-  : m_case(value)
-  , m_field(scene::tissueField(value))
-  , m_keep(scene::protectedTissue(value))
-  , m_structures(scene::drillableStructures(value))
+void checkLoaded(const scene::Case& value)
 {
   if (!value.dissection)
     throw core::InvalidParameter("drill: the case's dissection is not loaded");
+}
+
+// Shares the dissection.
+std::shared_ptr<const volume::CutMask> maskOf(const scene::Case& value)
+{
+  checkLoaded(value);
+  return {value.dissection, &std::as_const(*value.dissection).mask()};
+}
+
+} // namespace
+
+DrillSession::DrillSession(scene::Case& value, const core::Progress& progress)
+  : m_case(value)
+  , m_field(scene::tissueField(value, progress.part(0.0, 0.6)))
+  , m_keep(scene::protectedTissue(value, progress.part(0.6, 1.0)))
+  , m_structures(scene::drillableStructures(value))
+{
+  checkLoaded(value);
+}
+
+DrillSession::DrillSession(scene::Case& value, const DrillSession& like)
+  : m_case(value)
+  , m_field(like.m_field.ct(), like.m_field.solids(), maskOf(value),
+            {value.iso, like.m_field.parameters().scale})
+  , m_keep(like.m_keep)
+  , m_structures(like.m_structures)
+{
 }
 
 std::shared_ptr<const dissection::Stroke> DrillSession::end()

@@ -20,8 +20,14 @@ haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double>
 }
 
 TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState)
+  : TouchScene(value, DrillSession(value), progress, firstState)
+{
+}
+
+TouchScene::TouchScene(scene::Case& value, const DrillSession& drill,
+                       const core::Progress& progress, std::uint64_t firstState)
   : m_case(value)
-  , m_drill(value)
+  , m_drill(drill)
   , m_mask(std::make_shared<volume::PublishedMask>(value.dissection->mask(), firstState))
 {
   progress.check("feeling the tissue");

@@ -36,14 +36,84 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_unsaved = unsaved;
   m_journal = std::make_shared<JournalThread>();
   m_crosshair = m_case->ct.geometry.center();
+  waitForParts();
   tell(events.caseChanged);
   tell(events.stateChanged);
+  tell(events.preparationWanted);
+}
+
+void WorkstationModel::waitForParts()
+{
+  ++m_parts;
+  m_loaded = m_drawable = m_feelable = m_case->labels.empty() && m_case->meshes.empty();
 }
 
 void WorkstationModel::setUnsaved(bool unsaved)
 {
   m_unsaved = unsaved;
+  m_changes += unsaved;
   tell(events.stateChanged);
+}
+
+scene::Case WorkstationModel::presentable() const
+{
+  scene::Case value = *m_case;
+  if (!m_loaded)
+  {
+    value.labels.clear();
+    value.meshes.clear();
+  }
+  return value;
+}
+
+rendering::SceneContents WorkstationModel::sceneContents()
+{
+  return m_loaded ? m_assembly.contents(*m_case) : SceneAssembly().contents(presentable());
+}
+
+std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation() const
+{
+  scene::Case value = *m_case;
+  if (value.dissection) // a tool may cut the case's own
+    value.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
+  return [value = std::move(value), assembly = m_assembly, parts = m_parts, tissue = m_tissue,
+          felt = m_session || m_scene](const core::Progress& progress) mutable
+  {
+    const auto count = static_cast<double>(value.labels.size());
+    for (std::size_t n = 0; n < value.labels.size(); ++n)
+    {
+      progress.report(0.3 * static_cast<double>(n) / count, "loading structures");
+      value.labels[n].labels.get();
+    }
+    PreparedCase done;
+    done.assembly = std::move(assembly);
+    try
+    {
+      done.assembly.contents(value, progress.part(0.3, 0.6));
+    }
+    catch (const core::InvalidParameter&) // too much to draw, as who draws will say
+    {
+    }
+    if (!felt)
+      done.drill.emplace(value, progress.part(0.6, 1.0));
+    done.parts = parts;
+    done.tissue = tissue;
+    return done;
+  };
+}
+
+bool WorkstationModel::prepared(PreparedCase done)
+{
+  if (!m_case || done.parts != m_parts)
+    return false;
+  m_loaded = m_drawable = true;
+  m_assembly = std::move(done.assembly);
+  if (done.tissue == m_tissue)
+    m_feelable = true;
+  if (done.drill && done.tissue == m_tissue && !m_scene)
+    m_session.emplace(*m_case, *done.drill);
+  tell(events.appearanceChanged);
+  return true;
 }
 
 void WorkstationModel::setCamera(const core::CameraPose& camera)
@@ -101,8 +171,14 @@ void WorkstationModel::setIso(double hounsfield)
 {
   if (!m_case || drilling() || m_case->iso == hounsfield)
     return;
+  // Structures are where they were.
+  std::optional<DrillSession> before;
+  if (m_session || m_scene)
+    before.emplace(session());
   forgetTissue();
   m_case->iso = hounsfield;
+  if (before)
+    m_session.emplace(*m_case, *before);
   tell(events.appearanceChanged);
   setUnsaved(true);
 }
@@ -116,12 +192,18 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
   if (!found && !mesh)
     return;
   appearance::StructureLook& present = found ? found->look : mesh->look;
-  if (present.touchable != look.touchable || present.drillable != look.drillable ||
-      present.stiffness != look.stiffness || present.tissue != look.tissue)
+  const bool picture = present.shown != look.shown;
+  const bool tissue = present.touchable != look.touchable || present.drillable != look.drillable ||
+                      present.stiffness != look.stiffness || present.tissue != look.tissue;
+  if (tissue)
     forgetTissue();
+  m_feelable = m_feelable && !tissue;
+  m_drawable = m_drawable && !picture;
   present = look;
   tell(events.appearanceChanged);
   setUnsaved(true);
+  if (picture || tissue)
+    tell(events.preparationWanted);
 }
 
 void WorkstationModel::setBoneLook(const appearance::StructureLook& look)
@@ -198,10 +280,17 @@ void WorkstationModel::forgetTissue()
   m_reader.reset();
   m_scene.reset();
   m_session.reset();
+  ++m_tissue;
 }
 
 PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
 {
+  if (!ready())
+  {
+    PlaceReading reading;
+    reading.hounsfield = hounsfieldAt(patient);
+    return reading;
+  }
   if (!m_reader)
     m_reader = std::make_unique<PlaceReader>(*m_case, session().field());
   PlaceReading reading = m_reader->at(patient);
@@ -222,7 +311,7 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)
 {
-  if (!m_case)
+  if (!m_case || !ready())
     return std::nullopt;
   return interaction::firstTissue(session().field(), line);
 }
@@ -238,12 +327,15 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   if (!m_case)
     return;
   stopTouch();
+  if (!ready())
+    throw core::InvalidParameter("The structures are still being loaded; then the tool can be "
+                                 "taken up.");
   m_library.checkVoxels(*m_case); // most often done by now
   if (!m_scene)
   {
     m_reader.reset();
+    m_scene = std::make_unique<TouchScene>(*m_case, session());
     m_session.reset();
-    m_scene = std::make_unique<TouchScene>(*m_case);
   }
   TouchSession::Setup whole = setup;
   whole.catalogues = dissection::Catalogues::in(m_library.folder());
@@ -259,9 +351,11 @@ TouchSession::News WorkstationModel::hear(TouchSession::News news)
   if (m_journal)
     news.journalFault = m_journal->takeFailure();
   tellMask(news.bricks);
+  bool changed = !news.steps.empty();
   for (const auto& stroke : news.strokes)
-    m_unsaved = m_unsaved || stroke;
-  m_unsaved = m_unsaved || !news.steps.empty();
+    changed = changed || stroke;
+  m_unsaved = m_unsaved || changed;
+  m_changes += changed;
   if (!news.strokes.empty() || !news.steps.empty())
     tell(events.stateChanged);
   if (!news.steps.empty())

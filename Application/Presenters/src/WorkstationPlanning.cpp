@@ -15,7 +15,7 @@ namespace petrous::presenters
 std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
                                                                      double radius)
 {
-  if (!m_case)
+  if (!m_case || !m_loaded)
     return std::nullopt;
   if (!m_nearby)
     m_nearby = std::make_unique<NearbyStructures>(*m_case);
@@ -92,6 +92,8 @@ void WorkstationModel::showThickness(const std::string& structure)
 {
   if (!m_case || structure == thicknessOver())
     return;
+  if (!m_loaded)
+    throw core::InvalidParameter("The structures are still being loaded.");
   SceneAssembly next = m_assembly;
   next.showThickness(structure);
   next.contents(*m_case);

@@ -14,14 +14,14 @@ void WorkstationModel::listen()
 }
 
 // From when the case is as it was saved, or goes on from there.
-void WorkstationModel::keepJournal(const library::SavedState& saved)
+void WorkstationModel::keepJournal(const library::SavedState& saved, bool another)
 {
   m_saved = saved;
   try
   {
     if (!m_journal)
       m_journal = std::make_shared<JournalThread>();
-    if (m_journal->begun())
+    if (m_journal->begun() && !another)
       m_journal->saved(saved);
     else
       m_journal->begin(m_library, saved);
@@ -32,53 +32,173 @@ void WorkstationModel::keepJournal(const library::SavedState& saved)
   }
 }
 
+ReadCase ReadCase::from(const library::Library& library, const std::string& name,
+                        const core::Progress& progress)
+{
+  ReadCase result;
+  library::Library own = library; // with an ear of its own
+  own.onNotice([&result](const std::string& words) { result.notices.push_back(words); });
+  progress.report(0.0, "opening " + name);
+  result.value = std::make_unique<scene::Case>(own.open(name));
+  progress.report(0.3, "reading what was drilled");
+  own.loadDissection(*result.value);
+  progress.report(0.8, "reading the CT");
+  result.value->ct.volume.get(); // a missing object is told now
+  progress.check("opening " + name);
+  return result;
+}
+
 void WorkstationModel::open(const std::string& name)
+{
+  beginOpen(name);
+  try
+  {
+    opened(ReadCase::from(m_library, name));
+  }
+  catch (...)
+  {
+    notOpened();
+    throw;
+  }
+  prepareNow();
+}
+
+void WorkstationModel::beginOpen(const std::string& name)
 {
   stopTouch();
   if (m_case && m_case->name == name)
     m_journal.reset(); // or it would look as if another program drilled in it
-  try
-  {
-    auto next = std::make_unique<scene::Case>(m_library.open(name));
-    m_library.loadDissection(*next);
-    next->ct.volume.get(); // a missing object is told now
-    show(std::move(next), false);
-  }
-  catch (...)
-  {
-    if (m_case && !m_journal && m_saved)
-    {
-      keepJournal(*m_saved);
-      m_journal->follow(*m_case->dissection);
-    }
-    throw;
-  }
+}
+
+void WorkstationModel::opened(ReadCase next)
+{
+  show(std::move(next.value), false);
   keepJournal(*m_case);
+  for (const std::string& words : next.notices)
+    tell(events.noticed, words);
+}
+
+void WorkstationModel::notOpened()
+{
+  if (!m_case || m_journal || !m_saved)
+    return;
+  keepJournal(*m_saved);
+  m_journal->follow(*m_case->dissection);
 }
 
 void WorkstationModel::adopt(scene::Case value)
 {
   auto next = std::make_unique<scene::Case>(std::move(value));
   m_library.loadDissection(*next);
-  m_beingStored = true;
-  show(std::move(next), false);
+  show(std::move(next), true);
+  setUnsaved(true);
 }
 
-void WorkstationModel::stored(const scene::Case& saved)
+void WorkstationModel::takeParts(scene::Case with)
+{
+  if (!m_case)
+    return;
+  const auto append = [](auto& parts, auto& more)
+  {
+    for (std::size_t n = parts.size(); n < more.size(); ++n)
+      parts.push_back(std::move(more[n]));
+  };
+  for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
+    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // an MR came that may have the same grid
+  forgetTissue();
+  m_nearby.reset();
+  append(m_case->mr, with.mr);
+  append(m_case->labels, with.labels);
+  append(m_case->meshes, with.meshes);
+  waitForParts();
+  tell(events.partsChanged);
+  setUnsaved(true);
+  tell(events.preparationWanted);
+}
+
+void WorkstationModel::close()
+{
+  if (!m_case)
+    return;
+  forgetTissue();
+  m_journal.reset();
+  m_nearby.reset();
+  m_assembly = {};
+  m_case.reset();
+  m_saved.reset();
+  m_unsaved = false;
+  m_loaded = m_drawable = m_feelable = true;
+  ++m_parts;
+  tell(events.caseClosed);
+  tell(events.stateChanged);
+  tell(events.preparationWanted);
+}
+
+StoreTask WorkstationModel::beginStore()
+{
+  StoreTask task{m_library, *m_case, m_case->name, m_changes};
+  task.library.onNotice({});
+  task.value.dissection.reset();
+  m_beingStored = true;
+  return task;
+}
+
+StoreTask WorkstationModel::beginStoreAs(const std::string& name)
+{
+  StoreTask task = beginStore();
+  task.value.name = name;
+  task.value.revision = 0;
+  return task;
+}
+
+StoreTask WorkstationModel::beginStoreElsewhere(const std::filesystem::path& folder,
+                                                const std::string& name)
+{
+  StoreTask task = beginStoreAs(name);
+  task.library = library::Library(folder);
+  task.elsewhere = true;
+  scene::Case& value = task.value;
+  value.ct.object.clear();
+  for (auto& mr : value.mr)
+    mr.object.clear();
+  for (auto& part : value.labels)
+    part.object.clear();
+  for (auto& mesh : value.meshes)
+    mesh.object.clear();
+  for (auto& stroke : value.strokes)
+    stroke.object.clear();
+  return task;
+}
+
+void WorkstationModel::stored(const StoreTask& done)
 {
   m_beingStored = false;
-  if (!m_case || m_case->name != saved.name)
+  if (!m_case || m_case->name != done.from)
     return;
+  const scene::Case& saved = done.value;
+  const auto takeObjects = [](auto& parts, const auto& from)
+  {
+    for (std::size_t n = 0; n < std::min(parts.size(), from.size()); ++n)
+      parts[n].object = from[n].object;
+  };
   m_case->id = saved.id;
   m_case->revision = saved.revision;
   m_case->ct.object = saved.ct.object;
-  for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
-    m_case->mr[n].object = saved.mr[n].object;
-  for (std::size_t n = 0; n < std::min(m_case->labels.size(), saved.labels.size()); ++n)
-    m_case->labels[n].object = saved.labels[n].object;
-  for (std::size_t n = 0; n < std::min(m_case->meshes.size(), saved.meshes.size()); ++n)
-    m_case->meshes[n].object = saved.meshes[n].object;
-  keepJournal(saved); // what was drilled since then goes there at once
+  takeObjects(m_case->mr, saved.mr);
+  takeObjects(m_case->labels, saved.labels);
+  takeObjects(m_case->meshes, saved.meshes);
+  takeObjects(m_case->strokes, saved.strokes);
+  for (std::size_t n = 0; n < std::min(m_case->strokes.size(), saved.strokes.size()); ++n)
+    m_case->strokes[n].bytes = saved.strokes[n].bytes;
+  const bool other = done.elsewhere || m_case->name != saved.name;
+  m_case->name = saved.name;
+  if (done.elsewhere)
+  {
+    m_library = done.library;
+    listen();
+  }
+  m_unsaved = m_changes != done.changes;
+  keepJournal(saved, other); // what was drilled since then goes there at once
   tell(events.stateChanged);
 }
 
@@ -88,57 +208,34 @@ void WorkstationModel::notStored()
   setUnsaved(true);
 }
 
+void WorkstationModel::storeNow(StoreTask task)
+{
+  try
+  {
+    task.run();
+  }
+  catch (...)
+  {
+    notStored();
+    throw;
+  }
+  stored(task);
+}
+
 void WorkstationModel::save()
 {
-  if (!m_case)
-    return;
-  m_library.save(*m_case);
-  keepJournal(*m_case);
-  setUnsaved(false);
+  if (m_case)
+    storeNow(beginStore());
 }
 
 void WorkstationModel::saveAs(const std::string& name)
 {
-  scene::Case next = *m_case;
-  next.name = name;
-  next.revision = 0;
-  m_library.save(next);
-  *m_case = std::move(next);
-  keepJournal(*m_case);
-  setUnsaved(false);
+  storeNow(beginStoreAs(name));
 }
 
 void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const std::string& name)
 {
-  library::Library elsewhere(folder);
-  scene::Case next = *m_case;
-  next.name = name;
-  next.revision = 0;
-  next.ct.object.clear();
-  for (auto& mr : next.mr)
-    mr.object.clear();
-  for (auto& part : next.labels)
-    part.object.clear();
-  for (auto& mesh : next.meshes)
-    mesh.object.clear();
-  for (auto& stroke : next.strokes)
-    stroke.object.clear();
-  elsewhere.save(next);
-  *m_case = std::move(next);
-  m_library = std::move(elsewhere);
-  listen();
-  m_saved = *m_case;
-  try
-  {
-    if (!m_journal)
-      m_journal = std::make_shared<JournalThread>();
-    m_journal->begin(m_library, *m_saved); // a tool that is held goes on telling it
-  }
-  catch (const std::exception& error)
-  {
-    tell(events.noticed, std::string(error.what()));
-  }
-  setUnsaved(false);
+  storeNow(beginStoreElsewhere(folder, name));
 }
 
 } // namespace petrous::presenters

@@ -1,11 +1,16 @@
 #include "GuiTest.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QWheelEvent>
 
+#include "Banner.h"
 #include "DrillController.h"
 
 using namespace petrous;
@@ -212,39 +217,80 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   openWindow();
   auto other = library().open("ball");
   library().save(other); // somebody else
-  QString why;
-  onMessage(
-      [&why](QMessageBox& box)
-      {
-        why = box.text();
-        box.reject();
-      });
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  EXPECT_FALSE(banner->isVisible());
   drill(500);
-  EXPECT_TRUE(why.contains("ball")) << why.toStdString();
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(banner->text().contains("ball")) << banner->text().toStdString();
   EXPECT_TRUE(window().model().unsaved());
   EXPECT_TRUE(window().windowTitle().startsWith(QString::fromUtf8("•")));
   EXPECT_EQ(window().model().value().strokes.size(), 1u);
   EXPECT_TRUE(library().open("ball").strokes.empty());
 
-  // Quitting asks again; now the work goes under another name.
-  onMessage(
-      [this](QMessageBox& box)
-      {
-        auto* answer = new QTimer(&window());
-        QObject::connect(answer, &QTimer::timeout, answer,
-                         [answer]
-                         {
-                           auto* ask = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-                           if (!ask || qobject_cast<QMessageBox*>(ask))
-                             return;
-                           answer->stop();
-                           ask->accept(); // with the name that is offered
-                         });
-        answer->start(20);
-        for (QAbstractButton* button : box.buttons())
-          if (button->text().contains("name"))
-            return button->click();
-      });
+  // Nothing lies over the window, which goes on; the next stroke fails to be saved as well.
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  drill(300, 40);
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_EQ(window().findChildren<Banner*>("unsavedBanner").size(), 1);
+
+  // Quitting does not lose it, and does not ask in a box either.
+  auto* quit = banner->findChild<QPushButton*>("quitUnsaved");
+  EXPECT_FALSE(quit->isVisible());
+  EXPECT_FALSE(window().close());
+  EXPECT_TRUE(quit->isVisible());
+
+  // Now the work goes under another name.
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer,
+                   [&answer]
+                   {
+                     auto* ask = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+                     if (!ask)
+                       return;
+                     answer.stop();
+                     ask->accept(); // with the name that is offered
+                   });
+  answer.start(20);
+  banner->findChild<QPushButton*>("saveAsOther")->click();
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(banner->isVisible());
+  EXPECT_EQ(window().model().value().strokes.size(), library().open("ball 2").strokes.size());
   EXPECT_TRUE(window().close());
-  EXPECT_EQ(library().open("ball copy").strokes.size(), 1u);
+}
+
+// Another program that holds the library's lock, or a slow disk.
+TEST_F(Drill, NoStrokeWaitsForTheDisk)
+{
+  saveBall("ball");
+  openWindow();
+  const std::string path = (folder() / "library" / ".lock").string();
+  const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  ASSERT_GE(lock, 0);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  const auto end = [this] { return waitFor([this] { return !window().model().drilling(); }); };
+  for (const int at : {0, 25})
+  {
+    if (!action("Drill")->isChecked())
+      QTest::keyClick(&view(), Qt::Key_D);
+    const QPoint place = view().rect().center() + QPoint(at, 0);
+    QTest::mouseMove(&view(), place);
+    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, place);
+    QTest::qWait(400);
+    QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, place);
+    EXPECT_TRUE(end());
+    QTest::qWait(50);
+  }
+  EXPECT_EQ(window().model().value().strokes.size(), 2u);
+  EXPECT_TRUE(window().model().unsaved());
+  EXPECT_TRUE(window().busy());
+  action("Undo")->trigger(); // while it is being saved
+  EXPECT_TRUE(waitFor([this] { return window().model().value().applied() == 1; }));
+  EXPECT_TRUE(library().open("ball").strokes.empty());
+  ASSERT_EQ(::flock(lock, LOCK_UN), 0);
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").strokes.size(), 2u);
+  // What came after is saved when the window closes, which waits for it.
+  closeWindow();
+  EXPECT_EQ(library().open("ball").applied(), 1u);
+  ::close(lock);
 }

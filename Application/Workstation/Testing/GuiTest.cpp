@@ -4,6 +4,7 @@
 #include <QMimeData>
 #include <QScreen>
 
+#include "Application.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -82,6 +83,7 @@ void GuiTest::openWindow(const QString& what)
   QApplication::setActiveWindow(m_window.get()); // no window manager does it; keys need it
   m_window->begin(what);
   QTest::qWait(50);
+  EXPECT_TRUE(settled());
 }
 
 void GuiTest::closeWindow()
@@ -160,7 +162,12 @@ void GuiTest::drill(int milliseconds, int pixels)
 
 bool GuiTest::strokeEnds()
 {
-  return waitFor([this] { return !m_window->model().drilling(); });
+  return waitFor([this] { return !m_window->model().drilling(); }) && settled();
+}
+
+bool GuiTest::settled()
+{
+  return waitFor([this] { return !m_window->busy(); });
 }
 
 void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)
@@ -216,7 +223,7 @@ int main(int argc, char** argv)
   if (::testing::GTEST_FLAG(list_tests)) // needs no display
     return RUN_ALL_TESTS();
   QSurfaceFormat::setDefaultFormat(petrous::workstation::surfaceFormat());
-  QApplication application(argc, argv);
+  petrous::workstation::Application application(argc, argv);
   petrous::workstation::applyTheme(application);
   return RUN_ALL_TESTS();
 }

@@ -46,7 +46,8 @@ protected:
   void dropPath(const std::filesystem::path& path);
   /// Drills from the view's middle for `milliseconds`, moving right by `pixels`.
   void drill(int milliseconds, int pixels = 0);
-  bool strokeEnds(); ///< after the drill was let go: it is cut in a thread of its own
+  bool strokeEnds(); ///< after the drill was let go: it is cut in a thread of its own, and saved
+  bool settled();    ///< nothing is read or written any more
 
   /// Calls `react` with the next message box (polling), which must close it.
   void onMessage(const std::function<void(QMessageBox&)>& react);

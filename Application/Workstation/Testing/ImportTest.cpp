@@ -22,7 +22,7 @@ TEST_F(Import, ADroppedFileIsOnTheScreenAndInTheLibrary)
   imaging::writeVolume(file, *ballCase("x").ct.volume.get());
   openWindow();
   dropPath(file);
-  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().importing(); }));
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   EXPECT_EQ(window().model().value().name, "Left ear  2");
   EXPECT_TRUE(library().contains("Left ear  2"));
   EXPECT_FALSE(window().model().unsaved());
@@ -43,7 +43,7 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
   QTest::qWait(100);
   drill(600);
-  ASSERT_TRUE(waitFor([this] { return !window().importing(); }));
+  ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
   QTest::qWait(50);
   EXPECT_EQ(library().open("ct").strokes.size(), 1u);
 }
@@ -72,7 +72,7 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
                    });
   answer.start(20);
   dropPath(folder() / "visit");
-  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().importing(); }));
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   EXPECT_EQ(offered.size(), 2);
   EXPECT_EQ(window().model().value().name, "visit");
   EXPECT_GT(window().model().value().ct.range.max, 1000.0); // HU: the CT, not the MR
@@ -107,7 +107,7 @@ TEST_F(Import, AFolderWithoutImagesIsRefusedInOneLine)
   ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
   EXPECT_TRUE(text.contains("holiday")) << text.toStdString();
   EXPECT_FALSE(text.contains('\n'));
-  ASSERT_TRUE(waitFor([this] { return !window().importing(); }));
+  ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
   EXPECT_FALSE(window().model().hasCase());
   EXPECT_TRUE(library().list().empty());
 }
@@ -126,7 +126,7 @@ TEST_F(Import, CancelLeavesNoCase)
   QElapsedTimer clock;
   clock.start();
   progress->findChild<QPushButton*>()->click();
-  ASSERT_TRUE(waitFor([this] { return !window().importing(); }));
+  ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
   EXPECT_LT(clock.elapsed(), 10000); // it stops, it does not just go on unseen
   EXPECT_FALSE(window().model().hasCase());
   EXPECT_TRUE(library().list().empty());
@@ -141,4 +141,172 @@ TEST_F(Import, QuittingWhileTheCaseIsBeingSavedKeepsIt)
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
   closeWindow();
   EXPECT_TRUE(library().contains("ear"));
+}
+
+namespace
+{
+
+// The patient at 1.5 mm, in `folder`.
+void writePatient(const fs::path& folder)
+{
+  imaging::SampleOptions options;
+  options.spacing = 1.5;
+  imaging::writeSamplePatient(folder, options);
+}
+
+// Clicks the button of the next box whose words contain `button`; what the box says.
+QString answered(const std::function<void(const std::function<void(QMessageBox&)>&)>& onMessage,
+                 const QString& button, const std::function<void()>& act)
+{
+  QString text;
+  onMessage(
+      [&text, button](QMessageBox& box)
+      {
+        text = box.text();
+        for (QAbstractButton* candidate : box.buttons())
+          if (candidate->text().contains(button))
+            return candidate->click();
+        box.reject();
+      });
+  act();
+  EXPECT_TRUE(QTest::qWaitFor([&text] { return !text.isEmpty(); }, 60000));
+  return text;
+}
+
+} // namespace
+
+TEST_F(Import, AnMrComesToTheOpenCase)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const QString asked = answered([this](const auto& react) { onMessage(react); }, "Add to",
+                                 [this] { dropPath(folder() / "sample" / "mr"); });
+  EXPECT_TRUE(asked.contains("MR") && asked.contains("ct")) << asked.toStdString();
+  ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(window().model().value().name, "ct");
+  EXPECT_EQ(library().list().size(), 1u);
+  EXPECT_EQ(library().open("ct").mr.size(), 1u);
+  EXPECT_EQ(window().model().value().iso, 300.0);
+}
+
+TEST_F(Import, LabelsAndMeshesComeToTheOpenCaseAndCanBeDropped)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto camera = view().picture().camera();
+  answered([this](const auto& react) { onMessage(react); }, "Add to",
+           [this] { dropPath(folder() / "sample" / "labels.seg.nrrd"); });
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().labels.empty(); }));
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(window().model().ready());
+  EXPECT_EQ(view().picture().camera().position, camera.position);
+  EXPECT_FALSE(library().open("ct").labels.empty());
+  // "No" is no.
+  const auto parts = window().model().value().meshes.size();
+  answered([this](const auto& react) { onMessage(react); }, "Cancel",
+           [this] { dropPath(folder() / "sample" / "meshes" / "facial_nerve.obj"); });
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(window().model().value().meshes.size(), parts);
+}
+
+TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  for (const char* what : {"mr", "labels.seg.nrrd"})
+  {
+    const QString told = answered([this](const auto& react) { onMessage(react); }, "OK",
+                                  [&] { dropPath(folder() / "sample" / what); });
+    EXPECT_TRUE(told.contains("CT") && told.contains(what)) << told.toStdString();
+    EXPECT_TRUE(settled());
+  }
+  EXPECT_FALSE(window().model().hasCase());
+  EXPECT_TRUE(library().list().empty());
+}
+
+// An MR or a cone beam as a plain file: nobody can tell.
+TEST_F(Import, InDoubtTheUserIsAsked)
+{
+  saveBall("ball");
+  const auto plain = [this](const std::string& name)
+  {
+    const auto ball = ballCase("x");
+    auto image = std::make_shared<volume::Volume<std::int16_t>>(ball.ct.geometry);
+    std::uint32_t state = 1;
+    for (std::size_t n = 0; n < image->size(); ++n)
+    {
+      state = state * 1664525U + 1013904223U;
+      image->data()[n] = static_cast<std::int16_t>(200 + (state >> 24));
+    }
+    imaging::writeVolume(folder() / name, *image);
+    return folder() / name;
+  };
+  const fs::path file = plain("t2.nrrd");
+  openWindow();
+  QString text;
+  onMessage( // what it is, and then whether it is to be added
+      [this, &text](QMessageBox& box)
+      {
+        text = box.text();
+        onMessage(
+            [](QMessageBox& add)
+            {
+              for (QAbstractButton* button : add.buttons())
+                if (button->text().contains("Add to"))
+                  return button->click();
+            });
+        for (QAbstractButton* button : box.buttons())
+          if (button->text().contains("MR of"))
+            return button->click();
+      });
+  dropPath(file);
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().mr.empty(); }));
+  EXPECT_TRUE(text.contains("t2.nrrd")) << text.toStdString();
+  EXPECT_EQ(window().model().value().name, "ball");
+  EXPECT_TRUE(settled());
+  // As a CT it is a case of its own.
+  answered([this](const auto& react) { onMessage(react); }, "CT",
+           [&] { dropPath(plain("beam.nrrd")); });
+  ASSERT_TRUE(waitFor([this] { return window().model().value().name == "beam"; }));
+}
+
+TEST_F(Import, ACtBeginsACaseAndTheOpenOneIsSafe)
+{
+  saveBall("ball");
+  const fs::path file = folder() / "ear.nrrd";
+  imaging::writeVolume(file, *ballCase("x").ct.volume.get());
+  openWindow();
+  drill(400);
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier); // unsaved
+  EXPECT_TRUE(waitFor([this] { return window().model().value().applied() == 0; }));
+  EXPECT_TRUE(window().model().unsaved());
+  dropPath(file);
+  dropPath(file); // while it is looked at
+  ASSERT_TRUE(waitFor([this] { return window().model().value().name == "ear"; }));
+  EXPECT_TRUE(settled());
+  const auto ball = library().open("ball");
+  EXPECT_EQ(ball.strokes.size(), 1u);
+  EXPECT_EQ(ball.applied(), 0u);
+  EXPECT_EQ(library().list().size(), 2u) << "the second drop came while the first was read";
+}
+
+TEST_F(Import, FilesThatAreDroppedTogetherMakeOneCase)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  QMimeData data;
+  const auto url = [this](const char* name)
+  { return QUrl::fromLocalFile(QString::fromStdString((folder() / "sample" / name).string())); };
+  data.setUrls({url("labels.seg.nrrd"), url("ct"), url("mr"), url("meshes/incus.obj")});
+  drop(data);
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto saved = library().open("ct");
+  EXPECT_FALSE(saved.labels.empty());
+  EXPECT_EQ(saved.mr.size(), 1u);
+  EXPECT_EQ(saved.meshes.size(), 1u);
 }

@@ -92,6 +92,7 @@ TEST_F(Nearby, WarnsInWordsAndBySignWithinTheDistanceOfTheCase)
   picture();
   QTest::keyClick(&view(), Qt::Key_D);
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(settled());
   EXPECT_EQ(library().open("ball").labels[0].structures[0].look.warning, 12.0);
 }
 

@@ -161,6 +161,7 @@ TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
   EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 2) << "what came of it is seen";
   picture();
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(settled());
   const scene::Case saved = library().open("ear");
   ASSERT_TRUE(saved.mr.front().registered);
   EXPECT_TRUE(saved.mr.front().registration.has_value());
@@ -324,6 +325,7 @@ TEST_F(RegistrationWindow, IsSignedWithANameThatIsTypedAndOnlyForAsLongAsItLiesS
   EXPECT_TRUE(state().contains("A. Surgeon")) << state().toStdString();
   EXPECT_TRUE(name.text().isEmpty());
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(settled());
   ASSERT_NE(scene::validSignOff(library().open("ear").mr.front()), nullptr);
   click("handle11");
   EXPECT_EQ(scene::validSignOff(mr()), nullptr);

@@ -1,5 +1,8 @@
 #include "GuiTest.h"
 
+#include <new>
+#include <thread>
+
 #include <QAbstractItemModelTester>
 #include <QPushButton>
 #include <QSlider>
@@ -7,6 +10,8 @@
 #include <QTemporaryDir>
 #include <QTreeView>
 
+#include "Application.h"
+#include "Banner.h"
 #include "SliceView.h"
 #include "StartPage.h"
 #include "StructuresModel.h"
@@ -52,6 +57,7 @@ TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)
         box.accept();
       });
   window().begin("nobody");
+  EXPECT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
   EXPECT_TRUE(text.contains("no case 'nobody'")) << text.toStdString();
   EXPECT_FALSE(text.contains('\n'));
 }
@@ -66,7 +72,7 @@ TEST_F(Window, ACaseIsOpenedThoughAFolderHereHasItsName)
   openWindow("ball");
   std::filesystem::current_path(before);
   EXPECT_TRUE(window().model().hasCase());
-  EXPECT_FALSE(window().importing());
+  EXPECT_FALSE(window().busy());
 }
 
 TEST_F(Window, ADragTurnsThePatientAndAWheelZooms)
@@ -225,6 +231,34 @@ TEST_F(Window, TheListOfStructuresChangesTheCase)
   EXPECT_FALSE(nerve->look.drillable);
   EXPECT_TRUE(nerve->look.shown);
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(settled());
   const auto saved = library().open("ball");
   EXPECT_FALSE(scene::findStructure(saved, "nerve")->look.drillable);
+}
+
+// Qt would end the program.
+TEST_F(Window, WhatASlotThrowsIsToldAndTheWindowGoesOn)
+{
+  saveBall("ball");
+  openWindow();
+  auto* banner = window().findChild<Banner*>("faultBanner");
+  ASSERT_TRUE(banner);
+  EXPECT_FALSE(banner->isVisible());
+  QTimer::singleShot(0, &window(), [] { throw core::InvalidParameter("a burr of 400 mm"); });
+  EXPECT_TRUE(waitFor([banner] { return banner->isVisible(); }));
+  EXPECT_TRUE(banner->text().contains("a burr of 400 mm")) << banner->text().toStdString();
+  QTimer::singleShot(0, &window(), [] { throw 7; });
+  EXPECT_TRUE(waitFor([banner] { return banner->text().contains("unexpected"); }));
+  drill(300);
+  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  banner->findChild<QPushButton*>("dismissFault")->click();
+  EXPECT_FALSE(banner->isVisible());
+}
+
+TEST_F(Window, WhatAThreadThrowsIsToldToo)
+{
+  openWindow();
+  auto* banner = window().findChild<Banner*>("faultBanner");
+  std::thread([] { guarded([] { throw std::bad_alloc(); }); }).join();
+  EXPECT_TRUE(waitFor([banner] { return banner->text().contains("memory"); }));
 }

@@ -18,7 +18,12 @@ namespace petrous::presenters
 class DrillSession
 {
 public:
-  explicit DrillSession(scene::Case& value);
+  /// Throws CancelledError.
+  explicit DrillSession(scene::Case& value, const core::Progress& progress = {});
+
+  /// One for a case with the same structures as that of `like` (a copy of it, which may be gone),
+  /// whatever its threshold and its cut; what was made of the structures is shared.
+  DrillSession(scene::Case& value, const DrillSession& like);
 
   /// The field as it stands now; follows the cut.
   const volume::TissueField& field() const noexcept { return m_field; }

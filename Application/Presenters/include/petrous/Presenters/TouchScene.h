@@ -49,6 +49,10 @@ public:
   explicit TouchScene(scene::Case& value, const core::Progress& progress = {},
                       std::uint64_t firstState = 0);
 
+  /// The same with what is known of the case already.
+  TouchScene(scene::Case& value, const DrillSession& drill, const core::Progress& progress = {},
+             std::uint64_t firstState = 0);
+
   DrillSession& drill() noexcept { return m_drill; }
   const std::shared_ptr<volume::PublishedMask>& mask() const noexcept { return m_mask; }
   const std::shared_ptr<const haptics::HapticField>& field() const noexcept { return m_field; }

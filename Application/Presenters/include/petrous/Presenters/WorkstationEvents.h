@@ -12,6 +12,9 @@ namespace petrous::presenters
 struct WorkstationEvents
 {
   std::function<void()> caseChanged;       ///< another case
+  std::function<void()> caseClosed;        ///< none is open any more
+  std::function<void()> preparationWanted; ///< see WorkstationModel::preparation
+  std::function<void()> partsChanged;      ///< images, structures or meshes came to the case
   std::function<void()> appearanceChanged; ///< threshold, or how a structure is shown
   std::function<void(const core::IndexBox&)> maskChanged; ///< in a box of CT voxels
   std::function<void()> crosshairMoved;

@@ -20,6 +20,39 @@
 namespace petrous::presenters
 {
 
+/// A case that was read from the library, in whatever thread.
+struct ReadCase
+{
+  std::unique_ptr<scene::Case> value; ///< with its dissection
+  std::vector<std::string> notices;   ///< Library::onNotice
+
+  /// Throws as Library::open does, also where the CT is missing; CancelledError.
+  static ReadCase from(const library::Library& library, const std::string& name,
+                       const core::Progress& progress = {});
+};
+
+/// A copy of the open case on its way to the disk, see WorkstationModel::beginStore.
+struct StoreTask
+{
+  library::Library library;
+  scene::Case value; ///< without its dissection, in which another thread may write
+  std::string from;  ///< the open case's name
+  std::uint64_t changes = 0;
+  bool elsewhere = false; ///< the window works with `library` then
+
+  void run(const core::Progress& progress = {}) { library.save(value, progress); }
+};
+
+/// What takes long of a case with many structures, for its picture and for tools: made in whatever
+/// thread of a copy of the case, see WorkstationModel::preparation.
+struct PreparedCase
+{
+  SceneAssembly assembly;
+  std::optional<DrillSession> drill; ///< of a copy that is gone: only to make another one like it
+  std::uint64_t parts = 0;           // of the model when it was copied
+  std::uint64_t tissue = 0;          // likewise
+};
+
 /// The open case and what the window does with it. Without Qt, one thread.
 class WorkstationModel
 {
@@ -45,9 +78,29 @@ public:
   /// Opens a case of the library; on an exception the present one stays.
   void open(const std::string& name);
 
-  /// Shows a case made in memory, which somebody else saves now; `stored` tells how that ended.
+  /// The same with a thread that reads the case (ReadCase) between the two; then `opened` or
+  /// `notOpened`. The tool is put away.
+  void beginOpen(const std::string& name);
+  void opened(ReadCase next);
+  void notOpened();
+
+  /// Shows a case made in memory, which is not saved yet.
   void adopt(scene::Case value);
-  void stored(const scene::Case& saved); ///< names and revision are taken over
+
+  /// Takes over the parts that `with`, once a copy of the open case, has got beside those that this
+  /// one has (see addParts). What was drilled and chosen since then stays.
+  void takeParts(scene::Case with);
+
+  /// No case is open any more. What is unsaved is lost.
+  void close();
+
+  /// For a thread that saves: the case as it is now, and then `stored` or `notStored`. One at a
+  /// time. What changes meanwhile is unsaved.
+  StoreTask beginStore();
+  StoreTask beginStoreAs(const std::string& name); ///< as a new case, which is then the open one
+  /// Into another library, which the window then works with.
+  StoreTask beginStoreElsewhere(const std::filesystem::path& folder, const std::string& name);
+  void stored(const StoreTask& done); ///< names and revision are taken over
   void notStored();
   bool beingStored() const noexcept { return m_beingStored; }
 
@@ -55,8 +108,22 @@ public:
   void setCamera(const core::CameraPose& camera); ///< kept with the next save
   void save();                                    ///< throws as Library::save does
   void saveAs(const std::string& name);           ///< a new case; on an exception nothing changed
-  /// Into another library, which the window then works with.
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);
+
+  /// What takes long is still to be done (Events::preparationWanted asks for it) until `prepared`:
+  /// loaded   false after another case or parts came: pictures show the CT alone
+  /// drawable false after a structure was shown or hidden, too: its label field is of before
+  /// ready    false after a structure became tissue or none, too: there is no surface to be touched
+  bool loaded() const noexcept { return m_loaded; }
+  bool drawable() const noexcept { return m_loaded && m_drawable; }
+  bool ready() const noexcept { return m_loaded && m_feelable; }
+  /// What is to be done in another thread.
+  std::function<PreparedCase(const core::Progress&)> preparation() const;
+  /// False where the case is another one by now: nothing happened.
+  bool prepared(PreparedCase done);
+  void prepareNow() { prepared(preparation()({})); } ///< for who can wait
+  /// What can be shown now: the case, or while it is not loaded the case without its structures.
+  scene::Case presentable() const;
 
   bool canUndo() const noexcept;
   bool canRedo() const noexcept;
@@ -78,7 +145,7 @@ public:
   void changeMr(const std::function<void(scene::Case&)>& change);
 
   /// What a picture of the case shows, only with a case; see SceneAssembly.
-  rendering::SceneContents sceneContents() { return m_assembly.contents(*m_case); }
+  rendering::SceneContents sceneContents();
 
   /// Colours bone by its thickness over a structure; empty: no longer. Takes about a second.
   /// Throws InvalidParameter, and nothing changes, where it cannot be measured.
@@ -125,13 +192,16 @@ private:
   DrillSession& session();
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
+  void waitForParts();
   void forgetTissue();
   void tellMask(const std::vector<std::size_t>& bricks);
   TouchSession::News hear(TouchSession::News news);
   void step(bool back);
   void followHistory();
   void setUnsaved(bool unsaved);
-  void keepJournal(const library::SavedState& saved);
+  /// `another`: under another name or in another library.
+  void keepJournal(const library::SavedState& saved, bool another = false);
+  void storeNow(StoreTask task);
 
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
@@ -147,6 +217,12 @@ private:
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_beingStored = false;
+  std::uint64_t m_changes = 0; ///< of the case that is to be saved
+  bool m_loaded = true;
+  bool m_drawable = true;
+  bool m_feelable = true;
+  std::uint64_t m_parts = 0;  ///< which case, with which parts
+  std::uint64_t m_tissue = 0; ///< and which of them are tissue
 };
 
 } // namespace petrous::presenters

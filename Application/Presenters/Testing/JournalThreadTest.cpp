@@ -191,14 +191,13 @@ TEST_F(JournalThreadTest, HasWhatWasDrilledWhileTheImportWasStored)
   library::Library library(folder);
   library.remove("block");
   WorkstationModel model{library};
-  scene::Case made = block();
-  scene::Case stored = made;
-  model.adopt(std::move(made));
+  model.adopt(block());
+  StoreTask task = model.beginStore();
   HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
   model.startTouch(hand.device, hand.setup);
   ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
-  library.save(stored);
-  model.stored(stored);
+  task.run();
+  model.stored(task);
   scene::Case again;
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));

@@ -127,6 +127,11 @@ void save(const Context& context, library::Library& library, scene::Case& value,
                                          "; what was drilled is kept in the case's journal and "
                                          "comes back when the case is opened next");
   }
+  catch (...) // no memory, say
+  {
+    journal.leave();
+    throw;
+  }
 }
 
 double armAt(const presenters::PathDrill& session, const simulation::TickRecord& record)

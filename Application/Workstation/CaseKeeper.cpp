@@ -525,16 +525,43 @@ void CaseKeeper::chooseCase()
 {
   if (m_work.busy())
     return;
+  std::string again; // the open case, which was closed for a change and is opened afterwards
+  std::string chosen;
+  // An open case is saved and closed first: nothing of this window writes in it then.
+  const auto released = [this, &again](const std::string& name, const std::string& after,
+                                       const std::function<void(library::Library&)>& change)
+  {
+    library::Library library = m_model.library();
+    if (m_model.hasCase() && m_model.value().name == name)
+    {
+      if (!leaveCase())
+        throw core::Error(core::Fault::Refused,
+                          "the open case could not be saved; it stays as it is");
+      m_model.close();
+      again = name; // where the change fails
+    }
+    change(library);
+    if (again == name)
+      again = after;
+  };
   try
   {
-    OpenCaseDialog dialog(m_model.library(), {}, &m_window);
-    if (dialog.exec() == QDialog::Accepted && !dialog.chosen().empty())
-      openCase(dialog.chosen());
+    const OpenCaseDialog::Changes changes{
+        [&released](const std::string& name, const std::string& to)
+        { released(name, to, [&](library::Library& library) { library.rename(name, to); }); },
+        [&released](const std::string& name)
+        { released(name, {}, [&](library::Library& library) { library.remove(name); }); }};
+    OpenCaseDialog dialog(m_model.library(), changes, &m_window);
+    dialog.setObjectName("openCase");
+    if (dialog.exec() == QDialog::Accepted)
+      chosen = dialog.chosen();
   }
   catch (const std::exception& fault)
   {
     refuse(inWords(fault));
   }
+  if (!chosen.empty() || !again.empty())
+    openCase(chosen.empty() ? again : chosen);
 }
 
 void CaseKeeper::makeSample()

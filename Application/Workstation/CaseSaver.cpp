@@ -34,7 +34,10 @@ CaseSaver::~CaseSaver()
 
 void CaseSaver::save()
 {
-  ask([this] { return m_model.beginStore(); });
+  // What is queued saves the case as it is then: under another name or elsewhere, if that was
+  // asked.
+  if (!m_next)
+    ask([this] { return m_model.beginStore(); });
 }
 
 void CaseSaver::saveAs(const std::string& name)

@@ -113,6 +113,8 @@ bool WorkstationModel::prepared(PreparedCase done)
   if (done.drill && done.tissue == m_tissue && !m_scene)
     m_session.emplace(*m_case, *done.drill);
   tell(events.appearanceChanged);
+  if (!m_feelable) // the threshold was changed meanwhile
+    tell(events.preparationWanted);
   return true;
 }
 
@@ -327,6 +329,8 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   if (!m_case)
     return;
   stopTouch();
+  if (m_leaving)
+    throw core::InvalidParameter("Another case is being opened; then the tool can be taken up.");
   if (!ready())
     throw core::InvalidParameter("The structures are still being loaded; then the tool can be "
                                  "taken up.");

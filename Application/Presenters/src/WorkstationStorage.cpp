@@ -66,12 +66,14 @@ void WorkstationModel::open(const std::string& name)
 void WorkstationModel::beginOpen(const std::string& name)
 {
   stopTouch();
+  m_leaving = true;
   if (m_case && m_case->name == name)
     m_journal.reset(); // or it would look as if another program drilled in it
 }
 
 void WorkstationModel::opened(ReadCase next)
 {
+  m_leaving = false;
   show(std::move(next.value), false);
   keepJournal(*m_case);
   for (const std::string& words : next.notices)
@@ -80,10 +82,12 @@ void WorkstationModel::opened(ReadCase next)
 
 void WorkstationModel::notOpened()
 {
+  m_leaving = false;
   if (!m_case || m_journal || !m_saved)
     return;
   keepJournal(*m_saved);
-  m_journal->follow(*m_case->dissection);
+  if (m_journal)
+    m_journal->follow(*m_case->dissection);
 }
 
 void WorkstationModel::adopt(scene::Case value)

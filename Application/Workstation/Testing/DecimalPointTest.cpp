@@ -15,6 +15,7 @@ class DecimalPointTest : public GuiTest
 // Run once more under a decimal comma.
 TEST_F(DecimalPointTest, NumbersHaveAPointAndATypedCommaBecomesOne)
 {
+  openWindow();
   EXPECT_STREQ(std::localeconv()->decimal_point, ".");
   auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
   ASSERT_TRUE(thrust);

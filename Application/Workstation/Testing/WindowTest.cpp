@@ -4,11 +4,13 @@
 #include <thread>
 
 #include <QAbstractItemModelTester>
+#include <QInputDialog>
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTemporaryDir>
 #include <QTreeView>
+#include <QTreeWidget>
 
 #include "Application.h"
 #include "Banner.h"
@@ -261,4 +263,87 @@ TEST_F(Window, WhatAThreadThrowsIsToldToo)
   auto* banner = window().findChild<Banner*>("faultBanner");
   std::thread([] { guarded([] { throw std::bad_alloc(); }); }).join();
   EXPECT_TRUE(waitFor([banner] { return banner->text().contains("memory"); }));
+}
+
+// The open one too: it is renamed under the window, which goes on with it, and closed when deleted.
+TEST_F(Window, CasesAreRenamedAndDeletedWhereTheyAreChosen)
+{
+  saveBall("first");
+  saveBall("second");
+  openWindow("first");
+  ASSERT_TRUE(settled());
+  drill(300);
+  ASSERT_TRUE(strokeEnds());
+  // Answers to the dialogs in turn, each when it stands.
+  const auto inList = [](const std::function<void(QDialog&, QTreeWidget&)>& act)
+  {
+    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    if (dialog && dialog->objectName() == "openCase")
+      act(*dialog, *dialog->findChild<QTreeWidget*>("cases"));
+  };
+  const auto select = [](QTreeWidget& cases, const QString& name)
+  { cases.setCurrentItem(cases.findItems(name, Qt::MatchExactly).value(0)); };
+  const auto rename = [&](const QString& from, const QString& to)
+  {
+    QTimer::singleShot(0, &window(),
+                       [=]
+                       {
+                         inList(
+                             [&](QDialog& dialog, QTreeWidget& cases)
+                             {
+                               select(cases, from);
+                               QTimer::singleShot(0, &dialog,
+                                                  [to]
+                                                  {
+                                                    auto* ask = qobject_cast<QInputDialog*>(
+                                                        QApplication::activeModalWidget());
+                                                    ASSERT_TRUE(ask);
+                                                    ask->setTextValue(to);
+                                                    ask->accept();
+                                                  });
+                               dialog.findChild<QPushButton*>("renameCase")->click();
+                               dialog.reject();
+                             });
+                       });
+    action("Open case…")->trigger();
+  };
+  rename("first", "third");
+  ASSERT_TRUE(settled());
+  ASSERT_TRUE(window().model().hasCase());
+  EXPECT_EQ(window().model().value().name, "third");
+  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_EQ(library().open("third").strokes.size(), 1u);
+  EXPECT_FALSE(library().contains("first"));
+
+  const auto remove = [&](const QString& name, const QString& answer)
+  {
+    onMessage(
+        [answer](QMessageBox& box)
+        {
+          for (auto* button : box.buttons())
+            if (button->text().remove('&') == answer)
+              return button->click();
+          box.reject();
+        });
+    QTimer::singleShot(0, &window(),
+                       [=]
+                       {
+                         inList(
+                             [&](QDialog& dialog, QTreeWidget& cases)
+                             {
+                               select(cases, name);
+                               dialog.findChild<QPushButton*>("deleteCase")->click();
+                               dialog.reject();
+                             });
+                       });
+    action("Open case…")->trigger();
+  };
+  remove("third", "Cancel");
+  EXPECT_TRUE(library().contains("third"));
+  remove("second", "Delete");
+  EXPECT_FALSE(library().contains("second"));
+  EXPECT_TRUE(window().model().hasCase());
+  remove("third", "Delete");
+  EXPECT_FALSE(library().contains("third"));
+  EXPECT_FALSE(window().model().hasCase());
 }

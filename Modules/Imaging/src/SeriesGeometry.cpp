@@ -320,22 +320,29 @@ private:
   {
     if (m_slices.size() < 2)
       return;
-    const auto differs = [this](const auto& same)
+    const auto differs = [this](const auto& valueOf)
     {
-      const SliceHeader& first = m_slices.front();
-      return std::count_if(m_slices.begin(), m_slices.end(),
-                           [&](const SliceHeader& s) { return !same(first, s); }) > 0;
+      using Value = std::decay_t<decltype(valueOf(m_slices.front()))>;
+      Value stated{}; // of the first slice that states it
+      for (const SliceHeader& slice : m_slices)
+      {
+        if (!agree(stated, valueOf(slice)))
+          return true;
+        if (stated == Value{})
+          stated = valueOf(slice);
+      }
+      return false;
     };
     std::string what;
     const auto add = [&what](const char* text)
     { what += (what.empty() ? "" : ", ") + std::string(text); };
-    if (differs([](const auto& a, const auto& b) { return agree(a.modality, b.modality); }))
+    if (differs([](const SliceHeader& s) { return s.modality; }))
       add("modalities");
-    if (differs([](const auto& a, const auto& b) { return agree(a.seriesNumber, b.seriesNumber); }))
+    if (differs([](const SliceHeader& s) { return s.seriesNumber; }))
       add("series numbers");
-    if (differs([](const auto& a, const auto& b) { return agree(a.kernel, b.kernel); }))
+    if (differs([](const SliceHeader& s) { return s.kernel; }))
       add("reconstruction kernels");
-    if (differs([](const auto& a, const auto& b) { return agree(a.tube, b.tube); }))
+    if (differs([](const SliceHeader& s) { return s.tube; }))
       add("tube voltages");
     if (isInterleaved())
       add("acquisitions that take turns along the stack");

@@ -412,8 +412,15 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
     }
     scene::Case own = value;
     own.revision = 0;
+    std::string stem = value.name.substr(0, 80);
+    // Cut at a character's border (UTF-8), and names do not end in a space.
+    if (stem.size() < value.name.size())
+      while (!stem.empty() && (static_cast<unsigned char>(value.name[stem.size()]) & 0xC0) == 0x80)
+        stem.pop_back();
+    while (!stem.empty() && stem.back() == ' ')
+      stem.pop_back();
     for (int n = 1; own.name == value.name || contains(own.name); ++n)
-      own.name = value.name.substr(0, 80) + " drilled " + std::to_string(n);
+      own.name = stem + " drilled " + std::to_string(n);
     save(own, progress);
     const std::string name = std::exchange(value, std::move(own)).name;
     return "case '" + name +

@@ -216,6 +216,7 @@ private:
   StrokeMeter m_meter;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
+  bool m_leaving = false; ///< from beginOpen on no tool is taken up: its strokes would be lost
   bool m_beingStored = false;
   std::uint64_t m_changes = 0; ///< of the case that is to be saved
   bool m_loaded = true;

@@ -135,8 +135,8 @@ TEST_F(RegisterCommand, ASignOffStandsAloneAndEndsWithTheTransform)
   expectRefused("register ear --mr T2 --sign-off 'A. Surgeon' --init header", 2, "stands alone");
   expectRefused("register ear --mr T2 --sign-off ' '", 3, "who signs");
   const auto answer = json("register ear --mr T2 --sign-off 'A. Surgeon'");
-  for (const char* nobody : {"''", "= --json", "--json"})
-    expectRefused(std::string("register ear --mr T2 --sign-off ") + nobody, 2, "value is");
+  for (const char* nobody : {" ''", "= --quiet", " --quiet"})
+    expectRefused(std::string("register ear --mr T2 --sign-off") + nobody, 2, "value is");
   EXPECT_EQ(json("info ear")["mr"][0]["registration"]["signed_off"], answer["signed_off"]);
   EXPECT_EQ(answer["signed_off"]["who"], "A. Surgeon");
   auto how = json("info ear")["mr"][0]["registration"];

@@ -6,6 +6,7 @@
 #include "CommandRunner.h"
 #include "petrous/Simulation/RecordingReader.h"
 #include "petrous/Simulation/RecordingWriter.h"
+#include "petrous/Simulation/RemovalFeed.h"
 
 using namespace petrous::testing;
 
@@ -149,15 +150,21 @@ TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
                 0.02 * answer["predicted_mm3"].template get<double>());
     EXPECT_LE(answer["max_force_n"], 1.0 + 1e-9);
     EXPECT_EQ(answer["held_off_ticks"], 0);
-    EXPECT_EQ(answer["held_by_shaft_ticks"], 0);
+    // What the burr took beside the shaft's root is known to the shaft within 16 ticks.
+    EXPECT_LE(answer["held_by_shaft_ticks"], 40) << "of 400";
     json("undo plane");
     return answer["predicted_mm3"].template get<double>();
   };
   const double oblique = drilled(60.0);
   EXPECT_GT(oblique, 1.0);
-  // r is the burr's radius times the cosine of the elevation.
-  EXPECT_NEAR(drilled(75.0) / oblique, std::sin(75.0 / 60.0 * 1.0471975512) / 0.8660254038, 0.04);
-  EXPECT_NEAR(drilled(90.0) / oblique, 1.0 / 0.8660254038, 0.04);
+  // r is the mean over the patch, here one of about 1 mm in radius: 2/3 mm from its middle.
+  const auto arm = [](double degrees)
+  {
+    return petrous::simulation::RemovalFeed::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
+                                                   2.0 / 3.0);
+  };
+  EXPECT_NEAR(drilled(75.0) / oblique, arm(75.0) / arm(60.0), 0.04);
+  EXPECT_NEAR(drilled(90.0) / oblique, arm(90.0) / arm(60.0), 0.04);
 }
 
 // The shaft points down: it lies on the bone, and the burr hangs in the air.

@@ -79,6 +79,7 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   EXPECT_EQ(value().history.branch().name, "other");
   EXPECT_EQ(value().removedVolume(), removed);
   EXPECT_FALSE(std::as_const(*value().dissection).mask().untouched());
+  EXPECT_TRUE(settled());
   EXPECT_FALSE(window().model().unsaved());
   const scene::Case saved = library().open("ball");
   EXPECT_EQ(saved.history.branch().name, "other");

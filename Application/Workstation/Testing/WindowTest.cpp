@@ -183,7 +183,8 @@ TEST_F(Window, AnImageThatIsNotInHounsfieldUnitsHasGreyAndAThresholdThatReachesI
     own->data()[n] = static_cast<std::uint16_t>(14000 + 14 * hounsfield->data()[n]);
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::uint16_t>>(own));
-  value.ct.range = {0.0, 36400.0};
+  own->data()[0] = 60000; // metal; the image's brightest value is white
+  value.ct.range = {0.0, 60000.0};
   value.iso = 18200.0;
   value.denseBone = 35000.0;
   library().save(value);
@@ -210,8 +211,8 @@ TEST_F(Window, AnImageThatIsNotInHounsfieldUnitsHasGreyAndAThresholdThatReachesI
   EXPECT_EQ(box->suffix(), "");
   const int before = pixelsUnlikeTheCorner(picture());
   slider->setValue(slider->maximum());
-  EXPECT_EQ(box->value(), 36400.0);
-  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 36400.0; }));
+  EXPECT_EQ(box->value(), 60000.0);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 60000.0; }));
   EXPECT_LT(pixelsUnlikeTheCorner(picture()), before / 2);
   box->setValue(18200.0);
   ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 18200.0; }));

@@ -70,6 +70,8 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
   if (!pose.finite())
     return;
   m_refuge->place(pose);
+  m_hitCount = 0; // what stopped it elsewhere
+  m_caught = false;
   if (m_soft)
     m_soft->begin(pose);
 }

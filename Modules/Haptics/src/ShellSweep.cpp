@@ -144,7 +144,12 @@ void ShellSweep::measure() noexcept
   m_deepest = volume::TissueField::kAir;
   for (std::uint32_t i = 0; i < m_shell.points.size(); ++i)
     deepen(sampleAt(voxelOf(i)).value, i);
-  if (m_surface->any())
+  if (!m_surface->any())
+    return;
+  // Inside by a point already: finding all samples within the solid would cost milliseconds a tick.
+  if (m_deepest > 0.0)
+    m_surface->forget();
+  else
     m_surface->findInside(m_pose);
 }
 

@@ -115,10 +115,8 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
       return;
     const bool held = touching();
     forgetTissue();
-    m_feelable = false;
     if (held)
       tell(events.toolPutAway);
-    tell(events.preparationWanted);
   };
   try
   {

@@ -52,6 +52,7 @@ protected:
           box.accept();
         });
     window().begin("ball");
+    EXPECT_TRUE(settled());
     QTest::qWait(100);
     return told;
   }

@@ -1,3 +1,7 @@
+#include <chrono>
+#include <future>
+#include <mutex>
+
 #include <gtest/gtest.h>
 
 #include "petrous/Scene/CaseField.h"
@@ -168,4 +172,35 @@ TEST(MeshField, IsLeftByTheDrillWhereItMayNotBeDrilled)
   value.dissection->cut({kInside - Vector3d(2, 0, 0), kInside + Vector3d(2, 0, 0), 1.5}, keep);
   for (double x = 2.2; x < 9.8; x += 0.05)
     EXPECT_GT(field.value({x, 5.75, 5.75}), 0.0) << x;
+}
+
+TEST(MeshField, TellsWhatIsKnownOfAMeshWhileItsVoxelsAreMade)
+{
+  const scene::Case value = barInAir();
+  const scene::MeshPart& part = value.meshes[0];
+  const auto mesh = part.mesh.get();
+  std::future<std::string> asked; // outlives the making, for which it would wait
+  std::future_status status = std::future_status::timeout;
+  std::once_flag once;
+  const core::Progress progress(
+      [&](double, const std::string&)
+      {
+        std::call_once(once,
+                       [&]
+                       {
+                         asked = std::async(std::launch::async,
+                                            [&]
+                                            {
+                                              const bool made = part.touch.resident() != nullptr;
+                                              return (made ? "made; " : "") +
+                                                     part.touch.refusal(mesh, value.ct.geometry);
+                                            });
+                         status = asked.wait_for(std::chrono::seconds(20));
+                       });
+      });
+  const auto solid = part.touch.solid(mesh, value.ct.geometry, progress);
+  ASSERT_TRUE(solid);
+  EXPECT_EQ(status, std::future_status::ready) << "who asked waited for the maker";
+  EXPECT_EQ(asked.get(), "");
+  EXPECT_EQ(part.touch.resident(), solid);
 }

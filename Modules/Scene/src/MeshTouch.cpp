@@ -1,35 +1,60 @@
 #include "petrous/Scene/MeshTouch.h"
 
 #include <mutex>
-#include <optional>
 
 namespace petrous::scene
 {
 
+// Makers hold `making`, for seconds where a mesh is large. `mutex` is held for copies of pointers
+// only, so that who asks for what is known already never waits for a maker.
 struct MeshTouch::State
 {
-  // With the mutex held.
-  const volume::MeshSolidPlan& planFor(const std::shared_ptr<const core::TriangleMesh>& wanted,
-                                       const core::GridGeometry& ct)
+  using Plan = std::shared_ptr<const volume::MeshSolidPlan>;
+  using Solid = std::shared_ptr<const volume::Volume<float>>;
+
+  // Null where none is known for this mesh and grid.
+  Plan planKnown(const std::shared_ptr<const core::TriangleMesh>& wanted,
+                 const core::GridGeometry& ct) const
   {
-    if (plan && mesh == wanted && sameGrid(grid, ct))
-      return *plan;
-    plan.reset();
-    solid = nullptr;
+    const std::lock_guard<std::mutex> lock(mutex);
+    return plan && mesh == wanted && sameGrid(grid, ct) ? plan : nullptr;
+  }
+
+  // With `making` held.
+  Plan planFor(const std::shared_ptr<const core::TriangleMesh>& wanted,
+               const core::GridGeometry& ct)
+  {
+    if (Plan known = planKnown(wanted, ct))
+      return known;
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      plan = nullptr;
+      solid = nullptr;
+    }
     volume::MeshSolidLimits limits;
     limits.spacing = ct.minSpacing();
     limits.region = ct.patientBounds();
-    plan = volume::planMeshSolid(*wanted, limits);
+    auto made =
+        std::make_shared<const volume::MeshSolidPlan>(volume::planMeshSolid(*wanted, limits));
+    const std::lock_guard<std::mutex> lock(mutex);
+    plan = made;
     mesh = wanted;
     grid = ct;
-    return *plan;
+    return made;
   }
 
-  std::mutex mutex;
+  Solid solidKnown() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return solid;
+  }
+
+  std::mutex making;
+  mutable std::mutex mutex; // of what follows
   std::shared_ptr<const core::TriangleMesh> mesh;
   core::GridGeometry grid; // the CT's
-  std::optional<volume::MeshSolidPlan> plan;
-  std::shared_ptr<const volume::Volume<float>> solid;
+  Plan plan;
+  Solid solid;
 };
 
 MeshTouch::MeshTouch()
@@ -40,25 +65,31 @@ MeshTouch::MeshTouch()
 std::string MeshTouch::refusal(const std::shared_ptr<const core::TriangleMesh>& mesh,
                                const core::GridGeometry& ct) const
 {
-  const std::lock_guard<std::mutex> lock(m_state->mutex);
-  return m_state->planFor(mesh, ct).refusal;
+  if (const State::Plan known = m_state->planKnown(mesh, ct))
+    return known->refusal;
+  const std::lock_guard<std::mutex> lock(m_state->making);
+  return m_state->planFor(mesh, ct)->refusal;
 }
 
 std::shared_ptr<const volume::Volume<float>>
 MeshTouch::solid(const std::shared_ptr<const core::TriangleMesh>& mesh,
                  const core::GridGeometry& ct, const core::Progress& progress) const
 {
-  const std::lock_guard<std::mutex> lock(m_state->mutex);
-  const volume::MeshSolidPlan& plan = m_state->planFor(mesh, ct);
-  if (plan && !m_state->solid)
-    m_state->solid = volume::solidOf(*mesh, plan, progress);
-  return m_state->solid;
+  const std::lock_guard<std::mutex> lock(m_state->making);
+  const State::Plan plan = m_state->planFor(mesh, ct);
+  if (State::Solid known = m_state->solidKnown())
+    return known;
+  if (!*plan)
+    return nullptr;
+  State::Solid made = volume::solidOf(*mesh, *plan, progress);
+  const std::lock_guard<std::mutex> publishing(m_state->mutex);
+  m_state->solid = made;
+  return made;
 }
 
 std::shared_ptr<const volume::Volume<float>> MeshTouch::resident() const
 {
-  const std::lock_guard<std::mutex> lock(m_state->mutex);
-  return m_state->solid;
+  return m_state->solidKnown();
 }
 
 } // namespace petrous::scene

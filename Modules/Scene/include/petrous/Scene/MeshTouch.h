@@ -27,7 +27,8 @@ public:
   solid(const std::shared_ptr<const core::TriangleMesh>& mesh, const core::GridGeometry& ct,
         const core::Progress& progress = {}) const;
 
-  /// The voxels where they are made already, else null.
+  /// The voxels where they are made already, else null; never waits for who makes them. Nor does
+  /// `refusal` where it is known.
   std::shared_ptr<const volume::Volume<float>> resident() const;
 
 private:

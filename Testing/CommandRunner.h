@@ -122,7 +122,8 @@ protected:
 
   std::filesystem::path library() const { return m_folder / "library"; }
 
-  /// Every file of the library with its content, without its lock and index.
+  /// Every file of the library with its content, without its lock, its index and what can be made
+  /// again (derived/).
   std::map<std::string, std::string> libraryContent() const
   {
     std::map<std::string, std::string> files;
@@ -131,7 +132,8 @@ protected:
     for (const auto& entry : std::filesystem::recursive_directory_iterator(library()))
     {
       const std::string name = entry.path().filename().string();
-      if (entry.is_regular_file() && name != ".lock" && name.rfind("library.sqlite", 0) != 0)
+      if (entry.is_regular_file() && name != ".lock" && name.rfind("library.sqlite", 0) != 0 &&
+          entry.path().parent_path() != library() / "derived")
         files[entry.path().string()] = textOf(entry.path());
     }
     return files;

@@ -249,6 +249,8 @@ std::map<std::string, std::size_t> residentResources(const scene::Case& value)
     if (const auto solid = part.touch.resident())
       resources["meshes.touch." + part.name] = solid->bytes();
   }
+  if (const std::uintmax_t bytes = value.derived ? value.derived->bytes() : 0)
+    resources["disk.derived"] = bytes;
   if (value.dissection)
   {
     resources["mask.bricks"] = std::as_const(*value.dissection).mask().residentBytes();

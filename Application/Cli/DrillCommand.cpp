@@ -184,7 +184,7 @@ void play(const Context& context, const Options& options)
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
   tool.catalogues = cataloguesFrom(options, library.folder());
-  presenters::TouchScene touch(value, progress);
+  presenters::TouchScene touch(value, progress, 0, true);
   const auto journal = journalOf(library, value, touch);
   presenters::PathDrill session(value, touch, tool);
   DrillReport report(value, touch, 0.5 * tool.tool.burr.diameter, options.log, context.json());
@@ -235,7 +235,7 @@ void replay(const Context& context, const Options& options)
   openCase(context, library, options.caseName, value, progress);
   const library::SavedState opened = value;
   const auto camera = presenters::currentCamera(value);
-  presenters::TouchScene touch(value, progress, reader.setup().scene.firstState);
+  presenters::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);
   presenters::HandReplay session(value, touch, reader, options.replay, camera);
   DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());

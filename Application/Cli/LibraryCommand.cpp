@@ -1,5 +1,6 @@
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Library/DerivedCache.h"
 
 namespace petrous::cli
 {
@@ -61,7 +62,10 @@ void collect(const Context& context, library::Library& library)
   const library::Collected removed = library.collectGarbage();
   context.say(std::to_string(removed.objects) + " objects that no case needs were removed, " +
               std::to_string(removed.bytes) + " bytes");
-  context.give({{"removed", removed.objects}, {"bytes", removed.bytes}});
+  library::DerivedCache derived(library::derivedFolder(library.folder()));
+  const std::uintmax_t freed = derived.prune(0);
+  context.say("derived data removed: " + fixed(1e-6 * static_cast<double>(freed), 1) + " MB");
+  context.give({{"removed", removed.objects}, {"bytes", removed.bytes}, {"derived_bytes", freed}});
 }
 
 void repair(const Context& context, library::Library& library)

@@ -56,9 +56,8 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   library.loadDissection(value);
   remarkMissingPlaces(context, value);
   const core::Progress progress = context.progress();
-  const volume::TissueField field = scene::tissueField(value, progress.part(0.0, 0.2));
-  const auto meshes = scene::meshSolids(
-      value, [](const auto&) { return true; }, progress.part(0.2, 0.4));
+  const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
+  const auto meshes = scene::meshSolidsAt(value, points, progress.part(0.2, 0.4));
   const core::Progress probing = progress.part(0.4, 1.0);
   volume::NearestSurfaceSearch surface(field, kReach);
   const auto ct = value.ct.volume.get();
@@ -73,6 +72,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
     std::optional<double> hu;
     if (ct->geometry().hullContains(voxel))
       hu = ct->sample(voxel);
+    field.prepare({p, p});
     const auto nearest = surface.find(p);
     const std::string structure = structureAt(value, meshes, p);
     const auto component = [&](int axis)

@@ -34,10 +34,10 @@ std::shared_ptr<const volume::CutMask> maskOf(const scene::Case& value)
 
 } // namespace
 
-DrillSession::DrillSession(scene::Case& value, const core::Progress& progress)
+DrillSession::DrillSession(scene::Case& value, const core::Progress& progress, bool regional)
   : m_case(value)
   , m_field(scene::tissueField(value, progress.part(0.0, 0.6)))
-  , m_keep(scene::protectedTissue(value, progress.part(0.6, 1.0)))
+  , m_keep(scene::protectedTissue(value, progress.part(0.6, 1.0), regional))
   , m_structures(scene::drillableStructures(value))
 {
   checkLoaded(value);

@@ -99,7 +99,7 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
   {
     m_sources.clear(); // what follows may throw
     m_labels = nullptr;
-    m_labels = shown.sources.empty() ? nullptr : volume::makeLabelField(shown.sources, progress);
+    m_labels = scene::labelField(value, shown, progress);
     m_sources = std::move(shown.sources);
   }
   contents.labels = m_labels;

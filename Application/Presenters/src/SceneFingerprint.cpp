@@ -57,9 +57,12 @@ simulation::RecordedScene TouchScene::fingerprint() const
   result.ct = ct.value();
   result.iso = field.parameters().iso;
 
+  // All of it counts, wherever it is drilled.
+  const Eigen::Vector3d everywhere = Eigen::Vector3d::Constant(1e9);
+  m_drill.protectedTissue().prepare({-everywhere, everywhere});
   core::Fingerprint tissue;
   tissue.add(field.parameters().scale);
-  for (const auto* structures : {&field.solids(), &m_drill.protectedTissue()})
+  for (const auto* structures : {&field.solids(), &m_drill.protectedTissue().shares()})
   {
     tissue.add(structures->size());
     for (const auto& structure : *structures)

@@ -19,8 +19,9 @@ haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double>
   return simulation::ConstantThrust::coupling(*thrust);
 }
 
-TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState)
-  : TouchScene(value, DrillSession(value), progress, firstState)
+TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState,
+                       bool regional)
+  : TouchScene(value, DrillSession(value, {}, regional), progress, firstState)
 {
 }
 
@@ -35,7 +36,9 @@ TouchScene::TouchScene(scene::Case& value, const DrillSession& drill,
   std::vector<haptics::SoftStructure> soft;
   for (scene::SoftSolid& solid : tissue.soft)
     soft.push_back({std::move(solid.depth), solid.stiffness});
-  m_field = std::make_shared<const haptics::HapticField>(tissue.rigid, m_mask, std::move(soft));
+  m_field = std::make_shared<const haptics::HapticField>(
+      tissue.rigid, m_mask, std::move(soft),
+      haptics::KeptField{tissue.key ? value.derived : nullptr, tissue.key.value_or("")});
 }
 
 std::shared_ptr<const core::LockedMemory> TouchScene::lockedMemory() const

@@ -60,6 +60,7 @@ bool BiteWindow::gather(const CutMask& mask, const SweptSphere& way)
       m_grid.boxCovering(way.from.cwiseMin(way.to) - margin, way.from.cwiseMax(way.to) + margin);
   if (box.empty())
     return false;
+  prepare(m_keep, way, burr.reach(), m_grid);
   // One more voxel on each side, so that every cell of a voxel that changes lies within.
   for (std::size_t a = 0; a < 3; ++a)
   {

@@ -8,6 +8,14 @@
 namespace petrous::dissection
 {
 
+/// Before leastLeft is asked for voxels of a cut that reaches `reach` mm round its way.
+inline void prepare(const ProtectedTissue& keep, const SweptSphere& burr, double reach,
+                    const core::GridGeometry& grid)
+{
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach + 2.0 * grid.spacing().maxCoeff());
+  keep.prepare({burr.from.cwiseMin(burr.to) - margin, burr.from.cwiseMax(burr.to) + margin});
+}
+
 /// The least that a cut leaves of a voxel at a patient point, in steps of the mask.
 inline std::uint16_t leastLeft(const ProtectedTissue& keep, const Eigen::Vector3d& patient)
 {

@@ -104,6 +104,8 @@ std::vector<std::size_t> cut(CutMask& mask, const SweptSphere& burr, const Prote
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(coverage.reach());
   const core::IndexBox box = mask.geometry().boxCovering(burr.from.cwiseMin(burr.to) - margin,
                                                          burr.from.cwiseMax(burr.to) + margin);
+  if (!box.empty())
+    prepare(keep, burr, coverage.reach(), mask.geometry());
   std::vector<std::size_t> changed;
   const core::IndexBox bricks = mask.bricksCovering(box);
   for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)

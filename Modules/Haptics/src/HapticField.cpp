@@ -35,7 +35,7 @@ std::size_t offsetInBrick(int i, int j, int k) noexcept
 
 HapticField::HapticField(const TissueField& tissue,
                          std::shared_ptr<const volume::PublishedMask> mask,
-                         std::vector<SoftStructure> soft)
+                         std::vector<SoftStructure> soft, const KeptField& kept)
   : m_ct(tissue.ct())
   , m_mask(std::move(mask))
   , m_soft(std::move(soft))
@@ -62,7 +62,7 @@ HapticField::HapticField(const TissueField& tissue,
                         grid.voxelFromPatient(m_geometry.origin()),
                         Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)});
   }
-  TissueBricks bricks = findTissueBricks(tissue);
+  TissueBricks bricks = keptBricks(tissue, kept);
   m_bricks = bricks.dims;
   m_distance = std::move(bricks.distance);
   m_steepness = std::move(bricks.steepness);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <string>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "petrous/Haptics/HapticField.h"
 #include "petrous/Volume/ChebyshevDistance.h"
 
 namespace petrous::haptics
@@ -19,6 +22,7 @@ namespace
 constexpr std::uint8_t kTissue = 1;
 constexpr std::uint8_t kSome = 2; // a value above 0
 constexpr int kSlab = 8;          // brick layers that a thread does at once
+constexpr std::size_t kRun = 512; // bricks that are put together at once
 
 // Steepness codes.
 constexpr int kPerOctave = 16;
@@ -28,15 +32,37 @@ constexpr int kLast = 254;
 // A voxel that is no number is no tissue; f jumps beside it.
 constexpr float kJump = std::numeric_limits<float>::infinity();
 
+// The lowest code that a float with these leading bits can have.
+constexpr int kLeadingShift = 17; // 6 bits of the mantissa are left
+
+std::vector<std::uint8_t> lowestCodes()
+{
+  const auto& table = TissueBricks::steepnessOf();
+  std::vector<std::uint8_t> codes(std::size_t{1} << (31 - kLeadingShift));
+  int code = 1;
+  for (std::size_t leading = 0; leading < codes.size(); ++leading)
+  {
+    const auto bits = static_cast<std::uint32_t>(leading << kLeadingShift);
+    float least;
+    std::memcpy(&least, &bits, sizeof least);
+    while (code < kLast && table[static_cast<std::size_t>(code)] < least)
+      ++code;
+    codes[leading] = static_cast<std::uint8_t>(code);
+  }
+  return codes;
+}
+
 std::uint8_t codeOf(float steepness)
 {
+  static const std::vector<std::uint8_t> lowest = lowestCodes();
   if (!(steepness > 0.0F))
     return 0;
   const auto& table = TissueBricks::steepnessOf();
   if (!(steepness <= table[kLast]))
     return 255;
-  const int guess = static_cast<int>(std::floor(std::log2(steepness) * kPerOctave)) - kFirst;
-  int code = std::clamp(guess, 1, kLast);
+  std::uint32_t bits;
+  std::memcpy(&bits, &steepness, sizeof bits);
+  int code = lowest[bits >> kLeadingShift];
   while (code < kLast && table[static_cast<std::size_t>(code)] < steepness)
     ++code;
   return static_cast<std::uint8_t>(code);
@@ -63,7 +89,9 @@ public:
     const auto row = static_cast<std::size_t>(m_bricks[0]);
     for (std::vector<float>& rows : m_rows)
       rows.resize(row * static_cast<std::size_t>(dims[1]));
-    m_line.resize(static_cast<std::size_t>(dims[0]));
+    constexpr float kNone = -std::numeric_limits<float>::infinity();
+    m_line.resize(kPad + static_cast<std::size_t>(dims[0]) + kPad, kNone);
+    m_most.resize(static_cast<std::size_t>(dims[0]));
   }
 
   static constexpr std::size_t kFields = 4; // the largest value, then the steps
@@ -75,23 +103,23 @@ public:
     const auto width = static_cast<std::size_t>(m_dims[0]);
     const std::size_t slice = width * static_cast<std::size_t>(m_dims[1]);
     const T* voxels = volume.data() + slice * static_cast<std::size_t>(k);
+    float* line = m_line.data() + kPad;
     for (int j = 0; j < m_dims[1]; ++j)
     {
       const T* row = voxels + width * static_cast<std::size_t>(j);
       const auto out = static_cast<std::size_t>(m_bricks[0]) * static_cast<std::size_t>(j);
       for (std::size_t i = 0; i < width; ++i)
-        m_line[i] = static_cast<float>(row[i]);
-      reduce(m_line.data(), m_dims[0], 1, kValues, m_rows[0].data() + out, 1);
+        line[i] = static_cast<float>(row[i]);
+      reduceLine(kValues, m_rows[0].data() + out);
       const auto steps = [&](std::size_t field, const T* other, std::size_t count)
       {
         for (std::size_t i = 0; i < count; ++i)
         {
           const float step = std::abs(static_cast<float>(other[i]) - static_cast<float>(row[i]));
-          m_line[i] = std::isfinite(step) ? step : kJump;
+          line[i] = step <= std::numeric_limits<float>::max() ? step : kJump; // so NaN
         }
-        std::fill(m_line.begin() + static_cast<std::ptrdiff_t>(count), m_line.end(), 0.0F);
-        reduce(m_line.data(), m_dims[0], 1, field == 1 ? kAlong : kAcross,
-               m_rows[field].data() + out, 1);
+        std::fill(line + count, line + width, 0.0F);
+        reduceLine(field == 1 ? kAlong : kAcross, m_rows[field].data() + out);
       };
       steps(1, row + 1, width - 1);
       steps(2, row + width, j + 1 < m_dims[1] ? width : 0);
@@ -101,13 +129,23 @@ public:
     for (std::size_t f = 0; f < kFields; ++f)
     {
       into[f].resize(stride * static_cast<std::size_t>(m_bricks[1]));
-      for (std::size_t i = 0; i < stride; ++i)
-        reduce(m_rows[f].data() + i, m_dims[1], stride,
-               f == 0   ? kValues
-               : f == 2 ? kAlong
-                        : kAcross,
-               into[f].data() + i, stride);
+      const Range range = f == 0 ? kValues : f == 2 ? kAlong : kAcross;
+      for (int b = 0; b < m_bricks[1]; ++b)
+      {
+        float* most = into[f].data() + stride * static_cast<std::size_t>(b);
+        std::fill(most, most + stride, -std::numeric_limits<float>::infinity());
+        for (int j = std::max(2 * b + range.before, 0);
+             j <= std::min(2 * b + range.after, m_dims[1] - 1); ++j)
+          raise(most, m_rows[f].data() + stride * static_cast<std::size_t>(j), stride);
+      }
     }
+  }
+
+  /// The larger of each two; what is no number is left out.
+  static void raise(float* __restrict most, const float* values, std::size_t count)
+  {
+    for (std::size_t n = 0; n < count; ++n)
+      most[n] = values[n] > most[n] ? values[n] : most[n];
   }
 
 private:
@@ -117,29 +155,24 @@ private:
     int before, after;
   };
   static constexpr Range kValues{0, 2}, kAlong{-1, 2}, kAcross{-1, 3};
+  static constexpr std::size_t kPad =
+      4; // numbers beyond both ends of the line, which count nothing
 
-  // The largest of each brick's range; what is no number is left out.
-  static void reduce(const float* values, int count, std::size_t stride, Range range, float* out,
-                     std::size_t outStride)
+  // The largest of each brick's range in the line.
+  void reduceLine(Range range, float* out)
   {
-    for (int b = 0; 2 * b < count; ++b)
-    {
-      const int first = std::max(2 * b + range.before, 0);
-      const int last = std::min(2 * b + range.after, count - 1);
-      float most = -std::numeric_limits<float>::infinity();
-      for (int n = first; n <= last; ++n)
-      {
-        const float value = values[stride * static_cast<std::size_t>(n)];
-        most = value > most ? value : most;
-      }
-      out[outStride * static_cast<std::size_t>(b)] = most;
-    }
+    std::fill(m_most.begin(), m_most.end(), -std::numeric_limits<float>::infinity());
+    for (int n = range.before; n <= range.after; ++n)
+      raise(m_most.data(), m_line.data() + kPad + n, m_most.size());
+    for (std::size_t b = 0; b < static_cast<std::size_t>(m_bricks[0]); ++b)
+      out[b] = m_most[2 * b];
   }
 
   core::Index3 m_dims;
   core::Index3 m_bricks;
   std::array<std::vector<float>, kFields> m_rows;
   std::vector<float> m_line;
+  std::vector<float> m_most;
 };
 
 // Tissue lies above `level`; `scale` is what the unit of f is worth.
@@ -167,24 +200,30 @@ VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
       const int last = std::min(2 * bk + 3, dims[2] - 1);
       for (; next <= last; ++next)
         looker.look(volume, next, slices[static_cast<std::size_t>(next % 5)]);
-      for (std::size_t n = 0; n < layer; ++n)
+      for (std::size_t first = 0; first < layer; first += kRun)
       {
-        float most = -std::numeric_limits<float>::infinity();
-        Eigen::Array3f step = Eigen::Array3f::Zero();
+        const std::size_t count = std::min(kRun, layer - first);
+        std::array<float, kRun> most;
+        most.fill(-std::numeric_limits<float>::infinity());
+        std::array<std::array<float, kRun>, 3> step{};
         for (int k = std::max(2 * bk - 1, 0); k <= last; ++k)
         {
           const Layer& slice = slices[static_cast<std::size_t>(k % 5)];
           if (k >= 2 * bk && k <= 2 * bk + 2)
-            most = std::max(most, slice[0][n]);
-          for (Eigen::Index a = 0; a < 3; ++a)
+            SliceLook::raise(most.data(), slice[0].data() + first, count);
+          for (std::size_t a = 0; a < 3; ++a)
             if (a < 2 || k < 2 * bk + 3)
-              step[a] = std::max(step[a], slice[static_cast<std::size_t>(a) + 1][n]);
+              SliceLook::raise(step[a].data(), slice[a + 1].data() + first, count);
         }
-        const std::size_t brick = layer * static_cast<std::size_t>(bk) + n;
-        result.marks[brick] =
-            static_cast<std::uint8_t>((most > level ? kTissue : 0) | (most > 0.0F ? kSome : 0));
-        // The gradient of a trilinear cell is, along each axis, a mean of the four edges' steps.
-        result.steepness[brick] = codeOf((step * perMm).matrix().norm());
+        for (std::size_t n = 0; n < count; ++n)
+        {
+          const std::size_t brick = layer * static_cast<std::size_t>(bk) + first + n;
+          result.marks[brick] = static_cast<std::uint8_t>((most[n] > level ? kTissue : 0) |
+                                                          (most[n] > 0.0F ? kSome : 0));
+          // The gradient of a trilinear cell is, along each axis, a mean of the four edges' steps.
+          const Eigen::Array3f steepest(step[0][n], step[1][n], step[2][n]);
+          result.steepness[brick] = codeOf((steepest * perMm).matrix().norm());
+        }
       }
     }
   };
@@ -279,6 +318,30 @@ TissueBricks findTissueBricks(const volume::TissueField& tissue)
         *brick++ |= row[i];
     }
   return result;
+}
+
+TissueBricks keptBricks(const volume::TissueField& tissue, const KeptField& kept)
+{
+  if (!kept.store)
+    return findTissueBricks(tissue);
+  const std::string key = "tissue bricks " + std::to_string(kTissueBricksVersion) + " " + kept.key;
+  TissueBricks bricks;
+  for (std::size_t a = 0; a < 3; ++a)
+    bricks.dims[a] = (tissue.geometry().dims()[a] + kTissueBrick - 1) / kTissueBrick;
+  const auto count = static_cast<std::ptrdiff_t>(core::IndexBox{{0, 0, 0}, bricks.dims}.count());
+  auto bytes = kept.store->find(key);
+  if (bytes && bytes->size() == 2 * static_cast<std::size_t>(count))
+  {
+    bricks.steepness.assign(bytes->begin() + count, bytes->end());
+    bytes->resize(static_cast<std::size_t>(count));
+    bricks.distance = std::move(*bytes);
+    return bricks;
+  }
+  bricks = findTissueBricks(tissue);
+  core::DerivedStore::Bytes both(bricks.distance);
+  both.insert(both.end(), bricks.steepness.begin(), bricks.steepness.end());
+  kept.store->put(key, both);
+  return bricks;
 }
 
 } // namespace petrous::haptics

@@ -35,6 +35,14 @@ struct TissueBricks
   static const std::array<float, 256>& steepnessOf() noexcept;
 };
 
+/// Of what findTissueBricks returns: raised with every change of it.
+constexpr int kTissueBricksVersion = 1;
+
+struct KeptField;
+
+/// findTissueBricks, or what it returned for the same tissue before (HapticField.h).
+TissueBricks keptBricks(const volume::TissueField& tissue, const KeptField& kept);
+
 /// Reads every voxel of CT and unions once, in parallel.
 TissueBricks findTissueBricks(const volume::TissueField& tissue);
 

@@ -19,8 +19,10 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
+#include "petrous/Volume/VolumeBytes.h"
 
 namespace petrous::library
 {
@@ -134,6 +136,23 @@ void saltFrames(scene::Case& value, const fs::path& folder)
   std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
 
+// Unpacking a file of labels takes longer than all that is asked of it most often.
+std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
+                                                       const std::string& object,
+                                                       const std::string& what,
+                                                       core::DerivedStore& derived)
+{
+  // Nothing stands in for an object that is damaged, nor is kept of it.
+  const fs::path path = store.checkedPath(object, what);
+  const std::string key = "labels 1 " + object;
+  if (const auto bytes = derived.find(key))
+    if (auto labels = volume::labelMapFrom(*bytes))
+      return labels;
+  auto labels = std::make_shared<const volume::LabelMap>(imaging::readLabelFile(path));
+  derived.put(key, volume::bytesOf(*labels));
+  return labels;
+}
+
 } // namespace
 
 Library::Library(fs::path folder)
@@ -243,13 +262,11 @@ void Library::attach(scene::Case& value) const
   attachImage(value.ct);
   for (auto& mr : value.mr)
     attachImage(mr);
+  value.derived = std::make_shared<DerivedCache>(derivedFolder(m_folder));
   for (auto& part : value.labels)
     part.labels = core::Lazy<volume::LabelMap>(
-        [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'"]
-        {
-          return std::make_shared<const volume::LabelMap>(
-              imaging::readLabelFile(store.checkedPath(object, what)));
-        });
+        [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'",
+         derived = value.derived] { return unpackedLabels(store, object, what, *derived); });
   for (auto& mesh : value.meshes)
     mesh.mesh = core::Lazy<core::TriangleMesh>(
         [store, object = mesh.object,

@@ -256,6 +256,7 @@ TEST(CaseField, ProtectsWhatMayNotBeDrilledAlsoWhereItIsALumen)
   value.labels[0].structures[0].look.drillable = false;
   const auto keep = scene::protectedTissue(value);
   ASSERT_EQ(keep.size(), 1u);
-  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep[0], keep[0]->geometry().voxelFromPatient(kInside)),
+  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep.shares()[0],
+                                           keep.shares()[0]->geometry().voxelFromPatient(kInside)),
                    1.0);
 }

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "DerivedKey.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Volume/RegionalUnion.h"
+#include "petrous/Volume/VolumeBytes.h"
 
 namespace petrous::scene
 {
@@ -56,24 +60,74 @@ std::vector<Wish> wishes(const Case& value, const Wanted& wanted)
   return result;
 }
 
-// One union of all wanted structures; lumens count as if they were tissue.
-std::vector<volume::TissueField::SolidUnion> unionOf(const Case& value, const Wanted& wanted,
-                                                     const core::Progress& progress)
+// Of the one union of these structures, among derived data; no labels are loaded for it.
+std::optional<std::string> unionKey(const Case& value, const std::vector<Wish>& wished)
 {
-  std::vector<volume::LabelSource> sources;
-  for (const Wish& wish : wishes(value, wanted))
-    sources.push_back({wish.labels(value), wish.structure->index, 1, true});
-  const auto field = volume::makeLabelField(sources, progress);
-  if (!field)
+  DerivedKey key(value, "solid share", volume::kLabelFieldVersion);
+  for (const Wish& wish : wished)
+  {
+    key.add(*wish.part);
+    key.add(wish.structure->index);
+  }
+  return key.text();
+}
+
+std::shared_ptr<const volume::Volume<float>> keptShare(const Case& value,
+                                                       const std::optional<std::string>& key)
+{
+  const auto bytes = key ? value.derived->find(*key) : std::nullopt;
+  return bytes ? volume::shareFrom(*bytes) : nullptr;
+}
+
+// A share, and what works it out where that is done region by region.
+struct UnionShare
+{
+  volume::TissueField::SolidUnion share;
+  std::shared_ptr<volume::RegionalUnion> regional;
+};
+
+std::function<void(const core::PatientBox&)> preparerOf(const UnionShare& united)
+{
+  if (!united.regional)
     return {};
-  return {field->share};
+  return [regional = united.regional](const core::PatientBox& box) { regional->prepare(box); };
+}
+
+// One union of all wanted structures; lumens count as if they were tissue.
+UnionShare unionShare(const Case& value, const Wanted& wanted, const core::Progress& progress,
+                      bool regional)
+{
+  const std::vector<Wish> wished = wishes(value, wanted);
+  if (wished.empty())
+    return {};
+  const auto key = unionKey(value, wished);
+  if (auto kept = keptShare(value, key))
+    return {std::move(kept), nullptr};
+  std::vector<volume::LabelSource> sources;
+  for (const Wish& wish : wished)
+    sources.push_back({wish.labels(value), wish.structure->index, 1, true});
+  if (regional)
+  {
+    auto united = volume::RegionalUnion::make(sources, progress);
+    if (!united)
+      return {};
+    auto share = united->share();
+    return {std::move(share), std::move(united)};
+  }
+  const auto share = volume::makeSolidShare(sources, progress);
+  if (share && key)
+    if (const auto bytes = volume::bytesOf(*share))
+      value.derived->put(*key, *bytes);
+  return {share, nullptr};
 }
 
 // What is solid in f: one union of the structures, and each mesh for itself.
 std::vector<volume::TissueField::SolidUnion> solidsOf(const Case& value, const Wanted& wanted,
                                                       const core::Progress& progress)
 {
-  auto solids = unionOf(value, wanted, progress.part(0.0, 0.5));
+  std::vector<volume::TissueField::SolidUnion> solids;
+  if (UnionShare united = unionShare(value, wanted, progress.part(0.0, 0.5), false); united.share)
+    solids.push_back(std::move(united.share));
   for (MeshSolid& mesh : meshSolids(value, wanted, progress.part(0.5, 1.0)))
     solids.push_back(std::move(mesh.share));
   return solids;
@@ -103,6 +157,7 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
   for (const Wish& wish : all)
   {
     result.structures.push_back(wish.structure);
+    result.parts.push_back(wish.part);
     result.sources.push_back({wish.labels(value), wish.structure->index,
                               static_cast<std::uint8_t>(result.structures.size()),
                               wish.structure->look.solid});
@@ -110,13 +165,41 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
   return result;
 }
 
-std::vector<MeshSolid> meshSolids(const Case& value, const Wanted& wanted,
-                                  const core::Progress& progress)
+std::shared_ptr<const volume::LabelField> labelField(const Case& value, const LabelSources& sources,
+                                                     const core::Progress& progress)
+{
+  if (sources.sources.empty())
+    return nullptr;
+  DerivedKey key(value, "label field", volume::kLabelFieldVersion);
+  for (std::size_t n = 0; n < sources.sources.size(); ++n)
+  {
+    const volume::LabelSource& source = sources.sources[n];
+    key.add(*sources.parts[n]);
+    key.add(source.segment);
+    key.add(source.material);
+    key.add(source.solid ? 1 : 0);
+  }
+  if (const auto bytes = key.text() ? value.derived->find(*key.text()) : std::nullopt)
+    if (auto field = volume::labelFieldFrom(*bytes))
+      return field;
+  auto field = volume::makeLabelField(sources.sources, progress);
+  if (field && key.text())
+    if (const auto bytes = volume::bytesOf(*field))
+      value.derived->put(*key.text(), *bytes);
+  return field;
+}
+
+namespace
+{
+
+std::vector<MeshSolid> solidsOfMeshes(const Case& value,
+                                      const std::function<bool(const MeshPart&)>& wanted,
+                                      const core::Progress& progress)
 {
   std::vector<MeshSolid> solids;
   for (const MeshPart& part : value.meshes)
-    if (wanted(part.look) && !findStructure(value, part.name) &&
-        placementOf(value, part).missing.empty())
+    if (!findStructure(value, part.name) && placementOf(value, part).missing.empty() &&
+        wanted(part))
       solids.push_back({&part, nullptr});
   const auto count = static_cast<double>(solids.size());
   for (std::size_t n = 0; n < solids.size(); ++n)
@@ -129,6 +212,33 @@ std::vector<MeshSolid> meshSolids(const Case& value, const Wanted& wanted,
   const auto refused = [](const MeshSolid& solid) { return !solid.share; };
   solids.erase(std::remove_if(solids.begin(), solids.end(), refused), solids.end());
   return solids;
+}
+
+} // namespace
+
+std::vector<MeshSolid> meshSolids(const Case& value, const Wanted& wanted,
+                                  const core::Progress& progress)
+{
+  return solidsOfMeshes(
+      value, [&wanted](const MeshPart& part) { return wanted(part.look); }, progress);
+}
+
+std::vector<MeshSolid> meshSolidsAt(const Case& value, const std::vector<Eigen::Vector3d>& points,
+                                    const core::Progress& progress)
+{
+  const auto near = [&](const MeshPart& part)
+  {
+    const auto bounds = meshOnCt(value, part)->bounds();
+    const core::PatientBox box(bounds[0].cast<double>(), bounds[1].cast<double>());
+    // Its voxels are no larger than the CT's where memory permits, and what lies between two of
+    // them counts.
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(2.0 * value.ct.geometry.minSpacing() +
+                                                             0.02 * box.diagonal().norm());
+    const core::PatientBox around(box.min() - margin, box.max() + margin);
+    return std::any_of(points.begin(), points.end(),
+                       [&around](const Eigen::Vector3d& p) { return around.contains(p); });
+  };
+  return solidsOfMeshes(value, near, progress);
 }
 
 std::string untouchable(const Case& value, const MeshPart& mesh)
@@ -144,26 +254,77 @@ std::string untouchable(const Case& value, const MeshPart& mesh)
   return structure ? "" : mesh.touch.refusal(meshOnCt(value, mesh), value.ct.geometry);
 }
 
-volume::TissueField tissueField(const Case& value, const core::Progress& progress)
+namespace
+{
+
+volume::TissueField fieldOf(const Case& value, std::vector<volume::TissueField::SolidUnion> solids)
 {
   std::shared_ptr<const volume::CutMask> mask;
   if (value.dissection)
     mask = {value.dissection, &std::as_const(*value.dissection).mask()};
-  return {value.ct.volume.get(), solidsOf(value, felt, progress), std::move(mask),
+  return {value.ct.volume.get(), std::move(solids), std::move(mask),
           volume::TissueField::Parameters{value.iso, kFieldScale}};
 }
+
+} // namespace
+
+volume::TissueField tissueField(const Case& value, const core::Progress& progress)
+{
+  return fieldOf(value, solidsOf(value, felt, progress));
+}
+
+volume::TissueField regionalTissueField(const Case& value, const core::Progress& progress)
+{
+  const UnionShare united = unionShare(value, felt, progress.part(0.0, 0.5), true);
+  std::vector<volume::TissueField::SolidUnion> solids;
+  if (united.share)
+    solids.push_back(united.share);
+  for (MeshSolid& mesh : meshSolids(value, felt, progress.part(0.5, 1.0)))
+    solids.push_back(std::move(mesh.share));
+  volume::TissueField field = fieldOf(value, std::move(solids));
+  field.onPrepare(preparerOf(united));
+  return field;
+}
+
+namespace
+{
+
+constexpr int kMeshVoxelsVersion = 1; // of volume::planMeshSolid and solidOf
+
+std::optional<std::string> rigidKey(const Case& value, const Wanted& wanted)
+{
+  DerivedKey key(value, "rigid tissue", volume::kLabelFieldVersion);
+  key.add(kMeshVoxelsVersion);
+  key.add(*value.ct.volume.get());
+  key.add(value.iso);
+  key.add(kFieldScale);
+  for (const Wish& wish : wishes(value, wanted))
+  {
+    key.add(*wish.part);
+    key.add(wish.structure->index);
+  }
+  for (const MeshPart& part : value.meshes)
+    if (wanted(part.look) && !findStructure(value, part.name) &&
+        placementOf(value, part).missing.empty())
+      key.add(part);
+  return key.text();
+}
+
+} // namespace
 
 TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
                         const core::Progress& progress)
 {
   const auto soft = wishes(value, yields);
   const auto meshes = meshSolids(value, yields, progress.part(0.0, 0.1));
-  if (soft.empty() && meshes.empty())
-    return {whole, {}};
   const auto rigid = [](const auto& look) { return felt(look) && !yields(look); };
+  const auto key = rigidKey(value, rigid);
+  if (soft.empty() && meshes.empty())
+    return {whole, {}, key};
   TouchTissue result{
       {whole.ct(), solidsOf(value, rigid, progress.part(0.1, 0.3)), nullptr, whole.parameters()},
-      {}};
+      {},
+      key};
   const auto count = static_cast<double>(soft.size() + meshes.size());
   std::size_t done = 0;
   const auto add =
@@ -176,25 +337,29 @@ TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
   };
   for (const Wish& wish : soft)
   {
-    const auto field = volume::makeLabelField(
+    const auto share = volume::makeSolidShare(
         {{wish.labels(value), wish.structure->index, 1, true}}, progress.part(0.3, 0.3));
-    if (field)
-      add(wish.structure->name, *field->share, wish.structure->look.stiffness);
+    if (share)
+      add(wish.structure->name, *share, wish.structure->look.stiffness);
   }
   for (const MeshSolid& mesh : meshes)
     add(mesh.part->name, *mesh.share, mesh.part->look.stiffness);
   return result;
 }
 
-dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress)
+dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress,
+                                            bool regional)
 {
   const auto kept = [](const auto& look) { return !look.drillable; };
-  auto tissue = unionOf(value, kept, progress.part(0.0, 0.5));
+  UnionShare united = unionShare(value, kept, progress.part(0.0, 0.5), regional);
+  std::vector<dissection::ProtectedTissue::Share> shares;
+  if (united.share)
+    shares.push_back(std::move(united.share));
   // The mask, on the CT's voxels, is what keeps them: it must hold what is thinner than a voxel.
   for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
     if (auto guard = volume::guardOf(*mesh.share, value.ct.geometry))
-      tissue.push_back(std::move(guard));
-  return tissue;
+      shares.push_back(std::move(guard));
+  return dissection::ProtectedTissue(std::move(shares), preparerOf(united));
 }
 
 std::vector<dissection::NamedStructure> drillableStructures(const Case& value)

@@ -1,7 +1,11 @@
 #include "petrous/Scene/StructureShares.h"
 
+#include <optional>
+
+#include "DerivedKey.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/SmoothedUnion.h"
+#include "petrous/Volume/VolumeBytes.h"
 
 namespace petrous::scene
 {
@@ -18,6 +22,29 @@ core::GridGeometry grownGrid(const core::GridGeometry& grid, const core::IndexBo
       grid.spacing(),
       grid.patientFromVoxel(Eigen::Vector3d(box.lower[0] - 1, box.lower[1] - 1, box.lower[2] - 1)),
       grid.direction()};
+}
+
+std::optional<std::string> keyOf(const Case& value, const LabelPart& part, std::uint16_t index)
+{
+  DerivedKey key(value, "structure share", volume::kLabelFieldVersion);
+  key.add(part);
+  key.add(index);
+  return key.text();
+}
+
+std::shared_ptr<const volume::Volume<float>>
+keptOrMade(const volume::LabelMap& labels, std::uint16_t index, const core::IndexBox& box,
+           core::DerivedStore* derived, const std::optional<std::string>& key)
+{
+  if (const auto bytes = key ? derived->find(*key) : std::nullopt)
+    if (auto share = volume::shareFrom(*bytes))
+      return share;
+  auto share = volume::makeSmoothedUnion(
+      labels, [index](std::uint16_t i) { return i == index; }, box);
+  if (share && key)
+    if (const auto bytes = volume::bytesOf(*share))
+      derived->put(*key, *bytes);
+  return share;
 }
 
 } // namespace
@@ -40,11 +67,9 @@ std::vector<StructureShare> structureShares(const Case& value)
         if (index != structure.index || boxes[n].empty())
           continue;
         shares.push_back({structure.name, placement.drawnOn, grid, grownGrid(grid, boxes[n]),
-                          [labels, index, box = boxes[n]]
-                          {
-                            return volume::makeSmoothedUnion(
-                                *labels, [index](std::uint16_t i) { return i == index; }, box);
-                          }});
+                          [labels, index, box = boxes[n], derived = value.derived,
+                           key = keyOf(value, part, index)]
+                          { return keptOrMade(*labels, index, box, derived.get(), key); }});
       }
   }
   for (const MeshPart& mesh : value.meshes)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "LabelResampling.h"
+#include "SurfaceNet.h"
 #include "petrous/Volume/LabelBorders.h"
 
 namespace petrous::volume
@@ -288,6 +289,27 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
   field->hasLumen = ranks.hasLumen;
   progress.report(1.0, "structures");
   return field;
+}
+
+std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& sources,
+                                              const core::Progress& progress,
+                                              std::size_t mostVoxels)
+{
+  std::vector<LabelSource> solid = sources;
+  for (LabelSource& source : solid)
+    source.solid = true;
+  const LabelOrder order(solid);
+  if (onOneGrid(solid))
+  {
+    const auto inside = insideOf(solid, progress.part(0.0, 0.2));
+    return inside ? smoothedShare(*inside, progress.part(0.2, 1.0)) : nullptr;
+  }
+  std::vector<LabelRanks> grids = rankLabels(solid, order, progress.part(0.0, 0.3));
+  if (grids.empty())
+    return nullptr;
+  if (grids.size() == 1)
+    return smoothRanks(grids.front(), order, progress.part(0.3, 1.0));
+  return resampleLabels(grids, order, mostVoxels, progress.part(0.3, 1.0)).share;
 }
 
 } // namespace petrous::volume

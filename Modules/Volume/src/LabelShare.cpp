@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
 
 #include "SurfaceNet.h"
 
@@ -61,6 +64,118 @@ core::GridGeometry gridOf(const core::GridGeometry& grid, const core::IndexBox& 
 float quantisedShare(double share) noexcept
 {
   return static_cast<float>(std::round(share * kSteps) / kSteps);
+}
+
+namespace
+{
+
+// A map's voxels and which of its values count.
+struct WantedVoxels
+{
+  const Volume<std::uint16_t>* voxels;
+  std::vector<std::uint8_t> table;
+};
+
+std::vector<WantedVoxels> wantedIn(const std::vector<LabelSource>& sources)
+{
+  std::vector<WantedVoxels> maps;
+  for (const LabelSource& source : sources)
+  {
+    const Volume<std::uint16_t>* voxels = source.labels->voxels.get();
+    auto map = std::find_if(maps.begin(), maps.end(),
+                            [voxels](const WantedVoxels& m) { return m.voxels == voxels; });
+    if (map == maps.end())
+      map = maps.insert(
+          maps.end(), {voxels, std::vector<std::uint8_t>(
+                                   std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, 0)});
+    map->table[source.segment] = 1;
+  }
+  return maps;
+}
+
+// Calls visit(i) for the voxels of a row that count.
+template <class Visit>
+void forEachWanted(const std::uint16_t* row, int count, const std::vector<std::uint8_t>& table,
+                   const Visit& visit)
+{
+  constexpr int kWord = 4; // labels that are compared with nothing at once
+  for (int i = 0; i < count;)
+  {
+    std::uint64_t word = 1;
+    if (i + kWord <= count)
+      std::memcpy(&word, row + i, sizeof(word));
+    if (word == 0)
+    {
+      i += kWord;
+      continue;
+    }
+    for (const int end = std::min(i + kWord, count); i < end; ++i)
+      if (table[row[i]] != 0)
+        visit(i);
+  }
+}
+
+} // namespace
+
+bool onOneGrid(const std::vector<LabelSource>& sources)
+{
+  return std::all_of(sources.begin(), sources.end(),
+                     [&sources](const LabelSource& source)
+                     {
+                       return core::sameGrid(source.labels->voxels->geometry(),
+                                             sources.front().labels->voxels->geometry());
+                     });
+}
+
+std::shared_ptr<const Volume<std::uint8_t>> insideOf(const std::vector<LabelSource>& sources,
+                                                     const core::Progress& progress)
+{
+  if (sources.empty())
+    return nullptr;
+  const std::vector<WantedVoxels> maps = wantedIn(sources);
+  const core::GridGeometry& grid = maps.front().voxels->geometry();
+  const core::Index3& dims = grid.dims();
+  std::vector<core::IndexBox> slices(static_cast<std::size_t>(dims[2]));
+  const auto look = [&](int k)
+  {
+    progress.check("reading structures");
+    core::IndexBox& box = slices[static_cast<std::size_t>(k)];
+    for (const WantedVoxels& map : maps)
+      for (int j = 0; j < dims[1]; ++j)
+      {
+        int first = dims[0];
+        int last = -1;
+        forEachWanted(&map.voxels->at(0, j, k), dims[0], map.table,
+                      [&](int i)
+                      {
+                        first = std::min(first, i);
+                        last = i;
+                      });
+        if (last >= 0)
+          box = box.united({{first, j, k}, {last + 1, j + 1, k + 1}});
+      }
+  };
+  tbb::parallel_for(0, dims[2], look);
+  core::IndexBox box;
+  for (const core::IndexBox& slice : slices)
+    box = box.united(slice);
+  if (box.empty())
+    return nullptr;
+  auto inside = makeZeroVolume<std::uint8_t>(gridOf(grid, grown(box, kLabelMargin)));
+  const core::Index3 size = box.size();
+  const auto fill = [&](int k)
+  {
+    progress.check("reading structures");
+    for (const WantedVoxels& map : maps)
+      for (int j = 0; j < size[1]; ++j)
+      {
+        std::uint8_t* row = &inside->at(kLabelMargin, j + kLabelMargin, k + kLabelMargin);
+        forEachWanted(&map.voxels->at(box.lower[0], box.lower[1] + j, box.lower[2] + k), size[0],
+                      map.table, [row](int i) { row[i] = 1; });
+      }
+  };
+  tbb::parallel_for(0, size[2], fill);
+  return inside;
 }
 
 std::shared_ptr<Volume<float>> smoothRanks(const LabelRanks& ranks, const LabelOrder& order,

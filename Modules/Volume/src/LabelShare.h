@@ -34,6 +34,14 @@ float quantisedShare(double share) noexcept;
 std::shared_ptr<Volume<float>> smoothRanks(const LabelRanks& ranks, const LabelOrder& order,
                                            const core::Progress& progress);
 
+/// Whether the sources lie on one grid.
+bool onOneGrid(const std::vector<LabelSource>& sources);
+
+/// The voxels of sources on one grid, 1 in any of them and 0 elsewhere, on the box of them
+/// kLabelMargin wider; null when there are none.
+std::shared_ptr<const Volume<std::uint8_t>> insideOf(const std::vector<LabelSource>& sources,
+                                                     const core::Progress& progress);
+
 /// Calls body(tile indices, its voxels) for every tile of LabelTiles' size, in parallel.
 template <class Body>
 void forEachTile(const core::Index3& voxels, const core::Progress& progress,

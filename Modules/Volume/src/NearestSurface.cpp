@@ -72,13 +72,31 @@ void searchCell(const TissueField& field, const Eigen::Vector3d& from, const cor
       }
 }
 
+// Of all operands, mm: normals look that far.
+double coarsestSpacing(const TissueField& field)
+{
+  double spacing = field.geometry().spacing().maxCoeff();
+  for (const TissueField::SolidUnion& share : field.solids())
+    spacing = std::max(spacing, share->geometry().spacing().maxCoeff());
+  return spacing;
+}
+
+void prepareAround(const TissueField& field, const Eigen::Vector3d& point, double reach)
+{
+  const Eigen::Vector3d step = Eigen::Vector3d::Constant(reach);
+  field.prepare({point - step, point + step});
+}
+
 // Slides the point along the surface towards `from`, and back onto f = 0 by bisection.
 void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best)
 {
   const double h = field.finestSpacing();
   double stride = 1.0;
+  // A round goes half of h on and looks as far again, and half a voxel round that for the normal.
+  const double around = 1.5 * h + coarsestSpacing(field);
   for (int round = 0; round < kRefinements; ++round)
   {
+    prepareAround(field, best.point, around);
     const Eigen::Vector3d n = field.normal(best.point, 0.5);
     if (n.isZero())
       return;
@@ -185,6 +203,31 @@ void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) 
   }
 }
 
+// Where the CT alone is as solid as a union can be, no union is asked for.
+void NearestSurfaceSearch::prepareBlock(const core::IndexBox& corners) const
+{
+  constexpr double kMostOfUnion = 0.5;
+  const TissueField::Parameters& parameters = m_field.parameters();
+  bool alone = true;
+  for (int k = corners.lower[2]; k < corners.upper[2] && alone; ++k)
+    for (int j = corners.lower[1]; j < corners.upper[1] && alone; ++j)
+      for (int i = corners.lower[0]; i < corners.upper[0]; ++i)
+        alone = alone && (m_field.ct()->at(i, j, k) - parameters.iso) / parameters.scale >
+                             kMostOfUnion; // not of NaN
+  if (alone)
+    return;
+  const core::GridGeometry& grid = m_field.geometry();
+  const auto at = [&](const core::Index3& v) {
+    return grid.patientFromVoxel({1.0 * v[0], 1.0 * v[1], 1.0 * v[2]});
+  };
+  core::PatientBox box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.extend(at({(corner & 1) != 0 ? corners.upper[0] - 1 : corners.lower[0],
+                   (corner & 2) != 0 ? corners.upper[1] - 1 : corners.lower[1],
+                   (corner & 4) != 0 ? corners.upper[2] - 1 : corners.lower[2]}));
+  m_field.prepare(box);
+}
+
 const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::Index3& block)
 {
   const std::uint64_t key = static_cast<std::uint64_t>(block[0]) |
@@ -202,6 +245,7 @@ const std::vector<core::Index3>& NearestSurfaceSearch::crossedCells(const core::
     corners.lower[a] = block[a] * kBlock;
     corners.upper[a] = std::min(corners.lower[a] + n, grid.dims()[a]);
   }
+  prepareBlock(corners);
   std::array<bool, n * n * n> solid{};
   const auto at = [](int i, int j, int k) { return static_cast<std::size_t>(i + n * (j + n * k)); };
   const core::Index3 size = corners.size();
@@ -250,6 +294,8 @@ std::optional<NearestSurface> NearestSurfaceSearch::find(const Eigen::Vector3d& 
   if (best.distance >= reach)
     return std::nullopt;
   refine(m_field, patient, best);
+  prepareAround(m_field, patient, 0.0);
+  prepareAround(m_field, best.point, coarsestSpacing(m_field));
   return NearestSurface{m_field.value(patient) > 0.0 ? -best.distance : best.distance, best.point,
                         m_field.normal(best.point, 0.5)};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -21,6 +22,11 @@ constexpr int kStepsEach = 6;
 constexpr float kStep = 0.7F;
 constexpr float kClearance = 0.05F; // from the faces of its cell, so that no voxel changes sides
 constexpr int kNormalRounds = 1;
+constexpr int kNormalReach = 2 + kNormalRounds; // joins to the points that decide over a normal
+// And over a position, by a whole relaxation.
+constexpr int kRelaxationReach = kCurvatureRounds + kStepsEach - 1 + kNormalReach;
+constexpr int kSeedMargin = 3;   // voxels beyond a target whose cells say something of its shares
+constexpr int kWord = 8;         // voxels that are looked at at once
 constexpr float kCrease = 0.9F;  // cosine between the normals of two points with a crease between
 constexpr float kSmooth = 0.98F; // of two with none
 
@@ -30,6 +36,20 @@ constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
 Eigen::Vector3f toFloat(const core::Index3& index)
 {
   return toVector(index).cast<float>();
+}
+
+// Whether kWord voxels from `i` on are all inside, or all outside, in four rows.
+bool sameWord(const std::uint8_t* const (&rows)[4], int i, bool inside)
+{
+  const std::uint64_t same = inside ? 0x0101010101010101U : 0U;
+  for (const std::uint8_t* row : rows)
+  {
+    std::uint64_t word;
+    std::memcpy(&word, row + i, sizeof word);
+    if (word != same)
+      return false;
+  }
+  return true;
 }
 
 template <class Body>
@@ -55,14 +75,81 @@ double SurfaceNet::depthOf(float share) noexcept
   return (double{share} - 0.5) * double{kShareReach};
 }
 
+SurfaceNet::PointTable::PointTable(const core::Index3& dims)
+{
+  for (std::size_t a = 0; a < 3; ++a)
+    m_dims[a] = static_cast<std::size_t>((dims[a] + kEdge - 1) / kEdge);
+  m_bricks.resize(m_dims[0] * m_dims[1] * m_dims[2]);
+}
+
+std::int32_t& SurfaceNet::PointTable::slot(const core::Index3& cell)
+{
+  auto& brick = m_bricks[brickOf(cell[0], cell[1], cell[2])];
+  if (!brick)
+    brick = std::make_unique<std::int32_t[]>(kEdge * kEdge * kEdge); // all 0
+  return brick[offsetOf(cell[0], cell[1], cell[2])];
+}
+
 SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress,
                        const Wanted& wanted)
   : m_inside(inside)
-  , m_pointOf(makeZeroVolume<std::int32_t>(inside.geometry()))
+  , m_pointOf(inside.geometry().dims())
 {
   findPoints(progress, wanted);
+  placePoints();
   join();
-  findNormals();
+  findNormals(kJoinReach - kNormalReach);
+}
+
+SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside,
+                       const std::vector<core::IndexBox>& targets, const core::Progress& progress)
+  : m_inside(inside)
+  , m_pointOf(inside.geometry().dims())
+{
+  static_assert(kJoinReach == kRelaxations * kRelaxationReach + kNormalReach);
+  std::vector<core::IndexBox> seeds;
+  for (const core::IndexBox& target : targets)
+    seeds.push_back(grown(target, kSeedMargin));
+  findPoints(seeds, progress);
+  placePoints();
+  join();
+  findNormals(kJoinReach - kNormalReach);
+}
+
+// How many points of a region are at most so many joins from its seeds. They come first.
+std::size_t SurfaceNet::within(int joins) const noexcept
+{
+  if (m_within.empty())
+    return m_points.size();
+  return m_within[std::min(static_cast<std::size_t>(std::max(joins, 0)), m_within.size() - 1)];
+}
+
+int SurfaceNet::cornersOf(const core::Index3& cell) const noexcept
+{
+  int corners = 0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const core::Index3 v = voxelOf(cell, corner);
+    corners |= m_inside.at(v[0], v[1], v[2]) << corner;
+  }
+  return corners;
+}
+
+// Whether the border passes a face of a cell: 2 * axis, and 1 more for the upper one.
+bool SurfaceNet::passes(int corners, int face) noexcept
+{
+  int inside = 0;
+  for (int corner = 0; corner < 8; ++corner)
+    if ((corner >> face / 2 & 1) == (face & 1))
+      inside += corners >> corner & 1;
+  return inside != 0 && inside != 4;
+}
+
+core::Index3 SurfaceNet::across(const core::Index3& cell, int face) noexcept
+{
+  core::Index3 next = cell;
+  next[static_cast<std::size_t>(face / 2)] += (face & 1) != 0 ? 1 : -1;
+  return next;
 }
 
 void SurfaceNet::findPoints(const core::Progress& progress, const Wanted& wanted)
@@ -82,32 +169,85 @@ void SurfaceNet::findPoints(const core::Progress& progress, const Wanted& wanted
           const auto end = [&rows](int i)
           { return rows[0][i] | rows[1][i] << 2 | rows[2][i] << 4 | rows[3][i] << 6; };
           int before = end(0);
-          for (int i = 0; i + 1 < dims[0]; ++i)
+          for (int i = 0; i + 1 < dims[0];)
           {
+            // Most of a grid is far from any border.
+            if ((before == 0 || before == 85) && i + kWord < dims[0] &&
+                sameWord(rows, i + 1, before != 0))
+            {
+              i += kWord;
+              continue;
+            }
             const int after = end(i + 1);
             const int corners = before | after << 1;
             if (corners != 0 && corners != 255 && (!wanted || wanted({i, j, k})))
               points.push_back({{i, j, k}, static_cast<std::uint8_t>(corners)});
             before = after;
+            ++i;
           }
         }
       });
-  std::vector<std::size_t> first(slices.size() + 1, 0);
-  for (std::size_t k = 0; k < slices.size(); ++k)
-    first[k + 1] = first[k] + slices[k].size();
-  m_points.resize(first.back());
-  m_positions.resize(first.back());
-  tbb::parallel_for(std::size_t{0}, slices.size(),
-                    [&](std::size_t k)
-                    {
-                      std::copy(slices[k].begin(), slices[k].end(),
-                                m_points.begin() + static_cast<std::ptrdiff_t>(first[k]));
-                      for (std::size_t n = first[k]; n < first[k + 1]; ++n)
-                      {
-                        const core::Index3& cell = m_points[n].cell;
-                        m_pointOf->at(cell[0], cell[1], cell[2]) = static_cast<std::int32_t>(n + 1);
-                      }
-                    });
+  std::size_t count = 0;
+  for (const std::vector<Point>& slice : slices)
+    count += slice.size();
+  m_points.reserve(count);
+  for (std::vector<Point>& slice : slices)
+  {
+    for (const Point& point : slice)
+    {
+      m_points.push_back(point);
+      m_pointOf.slot(point.cell) = static_cast<std::int32_t>(m_points.size());
+    }
+    std::vector<Point>().swap(slice);
+  }
+}
+
+// Those in the seeds, then all that are joined with them, the nearest first.
+void SurfaceNet::findPoints(const std::vector<core::IndexBox>& seeds,
+                            const core::Progress& progress)
+{
+  const core::Index3& dims = m_inside.geometry().dims();
+  const core::IndexBox cells{{0, 0, 0}, {dims[0] - 1, dims[1] - 1, dims[2] - 1}};
+  const auto add = [this](const core::Index3& cell, int corners)
+  {
+    m_points.push_back({cell, static_cast<std::uint8_t>(corners)});
+    m_pointOf.slot(cell) = static_cast<std::int32_t>(m_points.size());
+  };
+  for (const core::IndexBox& seed : seeds)
+  {
+    const core::IndexBox box = seed.intersected(cells);
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        {
+          const int corners = cornersOf({i, j, k});
+          if (corners != 0 && corners != 255 && m_pointOf.at(i, j, k) == 0)
+            add({i, j, k}, corners);
+        }
+  }
+  m_within.push_back(m_points.size());
+  std::size_t first = 0;
+  for (int joins = 1; joins <= kJoinReach; ++joins)
+  {
+    progress.check("smoothing structures");
+    const std::size_t last = m_points.size();
+    for (; first < last; ++first)
+      for (int face = 0; face < 6; ++face)
+      {
+        const Point point = m_points[first];
+        if (!passes(point.corners, face))
+          continue;
+        const core::Index3 next = across(point.cell, face);
+        if (m_pointOf.at(next[0], next[1], next[2]) == 0)
+          add(next, cornersOf(next));
+      }
+    m_within.push_back(m_points.size());
+  }
+}
+
+void SurfaceNet::placePoints()
+{
+  m_positions.resize(m_points.size());
   // In the middle of where the border passes the cell's edges.
   forEachPoint(m_points.size(),
                [this](std::size_t n)
@@ -132,29 +272,28 @@ void SurfaceNet::join()
                [this](std::size_t n)
                {
                  const Point& point = m_points[n];
+                 Joined& joined = m_joined[n];
+                 joined.fill(-1);
+                 std::size_t count = 0;
                  for (int face = 0; face < 6; ++face)
                  {
-                   const int axis = face / 2;
-                   const bool high = (face & 1) != 0;
-                   int inside = 0;
-                   for (int corner = 0; corner < 8; ++corner)
-                     if ((corner >> axis & 1) == (high ? 1 : 0))
-                       inside += point.corners >> corner & 1;
-                   core::Index3 next = point.cell;
-                   next[static_cast<std::size_t>(axis)] += high ? 1 : -1;
-                   const bool passed = inside != 0 && inside != 4;
-                   m_joined[n][static_cast<std::size_t>(face)] =
-                       passed ? pointAt(next[0], next[1], next[2]) : -1;
+                   if (!passes(point.corners, face))
+                     continue;
+                   const core::Index3 next = across(point.cell, face);
+                   const int other = pointAt(next[0], next[1], next[2]);
+                   if (other >= 0)
+                     joined[count++] = other;
                  }
                });
 }
 
 // The mean of the quadrangles round a point. Each spans the four cells round an edge whose ends lie
-// on two sides.
-void SurfaceNet::findNormals()
+// on two sides. For the points `reach` joins from the seeds of a region; positions must hold
+// kNormalReach farther.
+void SurfaceNet::findNormals(int reach)
 {
   m_normals.resize(m_points.size());
-  forEachPoint(m_points.size(),
+  forEachPoint(within(reach + kNormalRounds),
                [this](std::size_t n)
                {
                  const Point& point = m_points[n];
@@ -191,61 +330,49 @@ void SurfaceNet::findNormals()
                  }
                  m_normals[n] = sum;
                });
-  std::vector<Eigen::Vector3f> scratch;
-  average(m_normals, scratch, kNormalRounds, [](std::size_t, std::size_t) { return 1.0F; });
-  forEachPoint(m_points.size(),
-               [this](std::size_t n)
+  std::vector<Eigen::Vector3f> raw(m_normals); // each round half of the way to the mean
+  static_assert(kNormalRounds == 1);
+  forEachPoint(within(reach),
+               [&](std::size_t n)
                {
-                 Eigen::Vector3f& normal = m_normals[n];
+                 Eigen::Vector3f sum = 0.0F * raw[n];
+                 float count = 0.0F;
+                 for (const std::int32_t other : m_joined[n])
+                 {
+                   if (other < 0)
+                     break;
+                   sum += raw[static_cast<std::size_t>(other)];
+                   count += 1.0F;
+                 }
+                 Eigen::Vector3f normal = raw[n];
+                 if (count > 0.0F)
+                   normal = 0.5F * raw[n] + 0.5F / count * sum;
                  const float length = normal.norm();
-                 normal *= length > 1e-6F ? 1.0F / length : 0.0F;
+                 m_normals[n] = normal * (length > 1e-6F ? 1.0F / length : 0.0F);
                });
 }
 
-// Each round half of the way to the mean of those joined; `weightOf(point, other)`.
-template <class T, class WeightOf>
-void SurfaceNet::average(std::vector<T>& values, std::vector<T>& scratch, int rounds,
-                         const WeightOf& weightOf) const
-{
-  scratch.resize(values.size());
-  for (int round = 0; round < rounds; ++round)
-  {
-    forEachPoint(values.size(),
-                 [&](std::size_t n)
-                 {
-                   T sum = 0.0F * values[n];
-                   float weights = 0.0F;
-                   for (const std::int32_t other : m_joined[n])
-                     if (other >= 0)
-                     {
-                       const float weight = weightOf(n, static_cast<std::size_t>(other));
-                       sum += weight * values[static_cast<std::size_t>(other)];
-                       weights += weight;
-                     }
-                   scratch[n] = values[n];
-                   if (weights >= 1e-3F)
-                     scratch[n] = 0.5F * values[n] + 0.5F / weights * sum;
-                 });
-    values.swap(scratch);
-  }
-}
-
+// What a region's point comes to depends on points that are a few joins farther with each of the
+// loops below, so those that are farther out are left as they are: kRelaxationReach a relaxation.
 void SurfaceNet::relax(const core::Progress& progress)
 {
   std::vector<float> curvature(m_points.size());
-  std::vector<float> scratch;
+  std::vector<float> scratch(m_points.size());
   std::vector<Eigen::Vector3f> next(m_points.size());
+  // How much the curvature of each that is joined counts, and 1/2 over their sum; 0: too little.
+  std::vector<std::array<float, 7>> weights(m_points.size());
   // From a point to the middle of those joined with it.
   const auto towardsMean = [this](std::size_t n) -> Eigen::Vector3f
   {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int count = 0;
     for (const std::int32_t other : m_joined[n])
-      if (other >= 0)
-      {
-        sum += m_positions[static_cast<std::size_t>(other)];
-        ++count;
-      }
+    {
+      if (other < 0)
+        break;
+      sum += m_positions[static_cast<std::size_t>(other)];
+      ++count;
+    }
     if (count == 0)
       return sum;
     return sum / static_cast<float>(count) - m_positions[n];
@@ -255,14 +382,42 @@ void SurfaceNet::relax(const core::Progress& progress)
   // A crease has its own curvature, which is none of the faces' beside it.
   const auto alike = [&](std::size_t n, std::size_t other)
   { return std::clamp((along(n, m_normals[other]) - kCrease) / (kSmooth - kCrease), 0.0F, 1.0F); };
+  int reach = kJoinReach - kNormalReach; // of good normals
   for (int relaxation = 0; relaxation < kRelaxations; ++relaxation)
   {
-    forEachPoint(m_points.size(), [&](std::size_t n) { curvature[n] = along(n, towardsMean(n)); });
-    average(curvature, scratch, kCurvatureRounds, alike);
-    for (int step = 0; step < kStepsEach; ++step)
+    forEachPoint(within(reach), [&](std::size_t n) { curvature[n] = along(n, towardsMean(n)); });
+    --reach;
+    forEachPoint(within(reach),
+                 [&](std::size_t n)
+                 {
+                   float sum = 0.0F;
+                   for (std::size_t at = 0; at < m_joined[n].size() && m_joined[n][at] >= 0; ++at)
+                   {
+                     const float weight = alike(n, static_cast<std::size_t>(m_joined[n][at]));
+                     weights[n][at] = weight;
+                     sum += weight;
+                   }
+                   weights[n][6] = sum >= 1e-3F ? 0.5F / sum : 0.0F;
+                 });
+    for (int round = 0; round < kCurvatureRounds; ++round, --reach)
+    {
+      // Each round half of the way to the mean of those joined.
+      forEachPoint(within(reach),
+                   [&](std::size_t n)
+                   {
+                     float sum = 0.0F * curvature[n];
+                     for (std::size_t at = 0; at < m_joined[n].size() && m_joined[n][at] >= 0; ++at)
+                       sum += weights[n][at] * curvature[static_cast<std::size_t>(m_joined[n][at])];
+                     scratch[n] = weights[n][6] > 0.0F ? 0.5F * curvature[n] + weights[n][6] * sum
+                                                       : curvature[n];
+                   });
+      curvature.swap(scratch);
+    }
+    ++reach;
+    for (int step = 0; step < kStepsEach; ++step, --reach)
     {
       progress.check("smoothing structures");
-      forEachPoint(m_points.size(),
+      forEachPoint(within(reach),
                    [&](std::size_t n)
                    {
                      const Eigen::Vector3f low = toFloat(m_points[n].cell).array() + kClearance;
@@ -272,7 +427,9 @@ void SurfaceNet::relax(const core::Progress& progress)
                    });
       m_positions.swap(next);
     }
-    findNormals();
+    ++reach;
+    reach -= kNormalReach;
+    findNormals(reach);
   }
 }
 

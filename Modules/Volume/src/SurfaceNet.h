@@ -22,6 +22,10 @@ namespace petrous::volume
 /// along its normal until the curvature there is that of its neighbourhood. Plane, cylinder and
 /// ball are at rest, so that nothing shrinks, and since the net has two sides a sheet one voxel
 /// thin is as safe as a thick one.
+///
+/// What a voxel's share comes to depends on no more than the points that are kJoinReach joins away,
+/// so the net of a region is built and relaxed for itself, and its shares are those of the whole
+/// net to the last bit.
 class SurfaceNet
 {
 public:
@@ -33,7 +37,14 @@ public:
   SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress,
              const Wanted& wanted = {});
 
+  /// The part of the net that decides over the voxels of `targets`: what was said of `inside`
+  /// holds.
+  SurfaceNet(const Volume<std::uint8_t>& inside, const std::vector<core::IndexBox>& targets,
+             const core::Progress& progress);
+
   void relax(const core::Progress& progress);
+
+  std::size_t points() const noexcept { return m_points.size(); }
 
   /// Signed distance of voxel centres from the net in voxels, above 0 inside, as a share:
   ///   1/2 + distance / kShareReach, from 0 to 1
@@ -45,6 +56,9 @@ public:
   /// distances would not do; and where it is a sheet or a rod, the distance is that from the plane
   /// or line fitted to it, a voxel in a gap of which may come to lie inside.
   void writeShare(Volume<float>& share, const core::Progress& progress) const;
+
+  /// The same for the voxels of a box of one of the net's targets; the others are left as they are.
+  void writeShareIn(const core::IndexBox& box, Volume<float>& share) const;
 
   /// Voxels from a share of nothing to one: 2 sqrt(3), so that on equal voxels the share falls as a
   /// cut's mask does, and a mask that keeps a structure leaves all of it (SweptSphereCut.h).
@@ -67,27 +81,86 @@ private:
     core::Index3 cell;
     std::uint8_t corners; ///< which of its voxels are inside, the first axis fastest
   };
+  using Joined = std::array<std::int32_t, 6>; ///< points, by the faces in order; then -1
+
+  /// Shares of the voxels of a box.
+  struct ShareView
+  {
+    core::IndexBox box;
+    float* data; ///< of its first voxel
+    std::ptrdiff_t row, slice;
+
+    float& at(const core::Index3& v) const noexcept
+    {
+      return data[(v[0] - box.lower[0]) + row * (v[1] - box.lower[1]) +
+                  slice * (v[2] - box.lower[2])];
+    }
+  };
+
+  /// Points by cell: 0 none, else 1 + the point. Memory is taken round the points only.
+  class PointTable
+  {
+  public:
+    explicit PointTable(const core::Index3& dims);
+    std::int32_t at(int i, int j, int k) const noexcept
+    {
+      const std::int32_t* row = rowFrom(i, j, k);
+      return row ? *row : 0;
+    }
+    std::int32_t& slot(const core::Index3& cell);
+    /// The entry of a cell, which those up to `rowEnd` follow; null: they are all 0.
+    const std::int32_t* rowFrom(int i, int j, int k) const noexcept
+    {
+      const auto& brick = m_bricks[brickOf(i, j, k)];
+      return brick ? brick.get() + offsetOf(i, j, k) : nullptr;
+    }
+    static int rowEnd(int i) noexcept { return (i | (kEdge - 1)) + 1; }
+
+  private:
+    static constexpr int kEdge = 8;
+    std::size_t brickOf(int i, int j, int k) const noexcept
+    {
+      return static_cast<std::size_t>(i / kEdge) +
+             m_dims[0] * (static_cast<std::size_t>(j / kEdge) +
+                          m_dims[1] * static_cast<std::size_t>(k / kEdge));
+    }
+    static std::size_t offsetOf(int i, int j, int k) noexcept
+    {
+      return static_cast<std::size_t>(i % kEdge + kEdge * (j % kEdge + kEdge * (k % kEdge)));
+    }
+
+    std::array<std::size_t, 3> m_dims;
+    std::vector<std::unique_ptr<std::int32_t[]>> m_bricks;
+  };
 
   std::vector<std::array<float, 2>> heightsIn(const core::IndexBox& tile) const;
   void writeDistances(Volume<float>& share, const core::Progress& progress) const;
-  void joinThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;
-  void fitThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const;
-  std::vector<std::uint8_t> thinCorners() const;
+  void writeDistancesIn(const core::IndexBox& tile, bool near, const ShareView& share) const;
+  void joinThin(const ShareView& share, const std::vector<std::size_t>& thinPoints) const;
+  void fitThin(const ShareView& share, const core::IndexBox& target,
+               const std::vector<std::size_t>& thinPoints) const;
+  std::uint8_t thinCorners(std::size_t point) const noexcept;
   bool isThin(const core::Index3& voxel) const noexcept;
+  int cornersOf(const core::Index3& cell) const noexcept;
+  static bool passes(int corners, int face) noexcept;
+  static core::Index3 across(const core::Index3& cell, int face) noexcept;
   void findPoints(const core::Progress& progress, const Wanted& wanted);
+  void findPoints(const std::vector<core::IndexBox>& seeds, const core::Progress& progress);
+  void placePoints();
   void join();
-  void findNormals();
-  template <class T, class WeightOf>
-  void average(std::vector<T>& values, std::vector<T>& scratch, int rounds,
-               const WeightOf& weightOf) const;
-  int pointAt(int i, int j, int k) const noexcept { return m_pointOf->at(i, j, k) - 1; }
+  void findNormals(int reach);
+  std::size_t within(int joins) const noexcept;
+  int pointAt(int i, int j, int k) const noexcept { return m_pointOf.at(i, j, k) - 1; }
+
+  static constexpr int kJoinReach = 131; ///< joins: see relax
 
   const Volume<std::uint8_t>& m_inside;
-  std::shared_ptr<Volume<std::int32_t>> m_pointOf; ///< by cell, 0 none, else 1 + the point
+  PointTable m_pointOf;
   std::vector<Point> m_points;
+  std::vector<std::size_t> m_within; ///< points at most so many joins from a seed; empty: the whole
   std::vector<Eigen::Vector3f> m_positions;
-  std::vector<Eigen::Vector3f> m_normals;            ///< out of the inside
-  std::vector<std::array<std::int32_t, 6>> m_joined; ///< -1 none
+  std::vector<Eigen::Vector3f> m_normals; ///< out of the inside
+  std::vector<Joined> m_joined;
 };
 
 /// The share that the relaxed net of `inside` writes, on its grid.

@@ -107,12 +107,14 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
 } // namespace
 
 // A voxel's fit asks for the inside alone, and changes its own share alone.
-void SurfaceNet::fitThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const
+void SurfaceNet::fitThin(const ShareView& share, const core::IndexBox& target,
+                         const std::vector<std::size_t>& thinPoints) const
 {
   std::vector<core::Index3> voxels;
-  for (std::size_t n = 0; n < m_points.size(); ++n)
-    for (int corner = 0; corner < 8 && thin[n] != 0; ++corner)
-      voxels.push_back(voxelOf(m_points[n].cell, corner));
+  for (const std::size_t n : thinPoints)
+    for (int corner = 0; corner < 8; ++corner)
+      if (const core::Index3 voxel = voxelOf(m_points[n].cell, corner); target.contains(voxel))
+        voxels.push_back(voxel);
   tbb::parallel_sort(voxels.begin(), voxels.end());
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.size(), 256),
@@ -124,7 +126,7 @@ void SurfaceNet::fitThin(Volume<float>& share, const std::vector<std::uint8_t>& 
                         const Fit fit = fitAround(m_inside, voxel);
                         if (!(fit.weight > 0.0))
                           continue;
-                        float& value = share.at(voxel[0], voxel[1], voxel[2]);
+                        float& value = share.at(voxel);
                         const double own = depthOf(value);
                         value = shareOf(own + fit.weight * (fit.depth - own));
                       }

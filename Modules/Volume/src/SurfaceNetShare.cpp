@@ -101,9 +101,57 @@ void joinCorners(int corners, int thin, const At& at, const Lift& lift)
 void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress) const
 {
   writeDistances(share, progress);
-  const std::vector<std::uint8_t> thin = thinCorners();
-  joinThin(share, thin);
-  fitThin(share, thin);
+  const core::IndexBox full = share.geometry().fullBox();
+  const ShareView all{full, share.data(), full.upper[0],
+                      static_cast<std::ptrdiff_t>(full.upper[0]) * full.upper[1]};
+  std::vector<std::uint8_t> thin(m_points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, thin.size(), 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range)
+                    {
+                      for (std::size_t n = range.begin(); n < range.end(); ++n)
+                        thin[n] = thinCorners(n);
+                    });
+  std::vector<std::size_t> thinPoints;
+  for (std::size_t n = 0; n < thin.size(); ++n)
+    if (thin[n] != 0)
+      thinPoints.push_back(n);
+  joinThin(all, thinPoints);
+  fitThin(all, full, thinPoints);
+}
+
+// What joins thin voxels asks for the shares one voxel beyond the box.
+void SurfaceNet::writeShareIn(const core::IndexBox& box, Volume<float>& share) const
+{
+  const core::IndexBox full = share.geometry().fullBox();
+  const core::IndexBox target = box.intersected(full);
+  if (target.empty())
+    return;
+  const core::IndexBox around = grown(target, 1).intersected(full);
+  const core::Index3 size = around.size();
+  std::vector<float> values(around.count(), 0.0F);
+  const ShareView view{around, values.data(), size[0],
+                       static_cast<std::ptrdiff_t>(size[0]) * size[1]};
+  writeDistancesIn(around, true, view);
+  std::vector<std::size_t> thinPoints;
+  const core::IndexBox cells = grown(target, 2).intersected(full);
+  for (int k = cells.lower[2]; k < cells.upper[2]; ++k)
+    for (int j = cells.lower[1]; j < cells.upper[1]; ++j)
+      for (int i = cells.lower[0]; i < cells.upper[0]; ++i)
+        if (const int n = pointAt(i, j, k); n >= 0 && thinCorners(static_cast<std::size_t>(n)) != 0)
+          thinPoints.push_back(static_cast<std::size_t>(n));
+  if (!thinPoints.empty())
+  {
+    joinThin(view, thinPoints);
+    fitThin(view, target, thinPoints);
+  }
+  for (int k = target.lower[2]; k < target.upper[2]; ++k)
+    for (int j = target.lower[1]; j < target.upper[1]; ++j)
+    {
+      float* row = &share.at(0, j, k);
+      for (int i = target.lower[0]; i < target.upper[0]; ++i)
+        if (const float value = view.at({i, j, k}); value > 0.0F) // see writeDistancesIn
+          row[i] = value;
+    }
 }
 
 // Heights over the points near the voxels of a tile: their weighted sum, and the weights.
@@ -115,12 +163,23 @@ std::vector<std::array<float, 2>> SurfaceNet::heightsIn(const core::IndexBox& ti
   for (int k = cells.lower[2]; k < cells.upper[2]; ++k)
     for (int j = cells.lower[1]; j < cells.upper[1]; ++j)
     {
-      const std::int32_t* row = &m_pointOf->at(0, j, k);
-      for (int i = cells.lower[0]; i < cells.upper[0]; ++i)
+      const std::int32_t* row = nullptr;
+      for (int i = cells.lower[0], from = i; i < cells.upper[0]; ++i)
       {
-        if (row[i] == 0)
+        if (i == from || i == PointTable::rowEnd(from))
+        {
+          from = i;
+          row = m_pointOf.rowFrom(i, j, k);
+        }
+        if (!row)
+        {
+          i = PointTable::rowEnd(i) - 1;
+          from = i;
           continue;
-        const auto n = static_cast<std::size_t>(row[i] - 1);
+        }
+        if (row[i - from] == 0)
+          continue;
+        const auto n = static_cast<std::size_t>(row[i - from] - 1);
         const Eigen::Vector3f& p = m_positions[n];
         const Eigen::Vector3f& normal = m_normals[n];
         const core::IndexBox near =
@@ -161,35 +220,44 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
   for (const Point& point : m_points)
     tiles.row(point.cell[1] / LabelTiles::kEdge,
               point.cell[2] / LabelTiles::kEdge)[point.cell[0] / LabelTiles::kEdge] = 1;
+  const core::IndexBox full = share.geometry().fullBox();
+  const ShareView all{full, share.data(), dims[0], static_cast<std::ptrdiff_t>(dims[0]) * dims[1]};
   const auto writeTile = [&](const core::Index3&, const core::IndexBox& tile)
   {
-    const core::Index3 size = tile.size();
     const bool near = tiles.any(grown(tile, kSpan));
     if (!near && m_inside.at(tile.lower[0], tile.lower[1], tile.lower[2]) == 0)
       return; // all of it is outside
-    const auto sums = near ? heightsIn(tile) : std::vector<std::array<float, 2>>();
-    for (int z = 0; z < size[2]; ++z)
-      for (int y = 0; y < size[1]; ++y)
-      {
-        const std::uint8_t* inside =
-            &m_inside.at(tile.lower[0], tile.lower[1] + y, tile.lower[2] + z);
-        float* row = &share.at(tile.lower[0], tile.lower[1] + y, tile.lower[2] + z);
-        for (int x = 0; x < size[0]; ++x)
-        {
-          const auto n = static_cast<std::size_t>(x + size[0] * (y + size[1] * z));
-          const bool in = inside[x] != 0;
-          float value = in ? 1.0F : 0.0F; // far from the net
-          if (!sums.empty() && sums[n][1] > 1e-9F)
-          {
-            const float depth = -sums[n][0] / sums[n][1];
-            value = shareOf(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
-          }
-          if (value > 0.0F) // memory is taken where something is written
-            row[x] = value;
-        }
-      }
+    writeDistancesIn(tile, near, all);
   };
   forEachTile(dims, progress, "smoothing structures", writeTile);
+}
+
+// `near`: whether there may be points that say something of the tile.
+void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
+                                  const ShareView& share) const
+{
+  const core::Index3 size = tile.size();
+  const auto sums = near ? heightsIn(tile) : std::vector<std::array<float, 2>>();
+  for (int z = 0; z < size[2]; ++z)
+    for (int y = 0; y < size[1]; ++y)
+    {
+      const core::Index3 first{tile.lower[0], tile.lower[1] + y, tile.lower[2] + z};
+      const std::uint8_t* inside = &m_inside.at(first[0], first[1], first[2]);
+      float* row = &share.at(first);
+      for (int x = 0; x < size[0]; ++x)
+      {
+        const auto n = static_cast<std::size_t>(x + size[0] * (y + size[1] * z));
+        const bool in = inside[x] != 0;
+        float value = in ? 1.0F : 0.0F; // far from the net
+        if (!sums.empty() && sums[n][1] > 1e-9F)
+        {
+          const float depth = -sums[n][0] / sums[n][1];
+          value = shareOf(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
+        }
+        if (value > 0.0F) // memory is taken where something is written
+          row[x] = value;
+      }
+    }
 }
 
 // Whether no eight voxels round it are all inside.
@@ -209,25 +277,20 @@ bool SurfaceNet::isThin(const core::Index3& voxel) const noexcept
   return true;
 }
 
-// By point, which of its voxels are inside and thin.
-std::vector<std::uint8_t> SurfaceNet::thinCorners() const
+// Which of a point's voxels are inside and thin.
+std::uint8_t SurfaceNet::thinCorners(std::size_t point) const noexcept
 {
-  std::vector<std::uint8_t> thin(m_points.size(), 0);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, m_points.size(), 4096),
-                    [&](const tbb::blocked_range<std::size_t>& range)
-                    {
-                      for (std::size_t n = range.begin(); n < range.end(); ++n)
-                        for (int corner = 0; corner < 8; ++corner)
-                          if ((m_points[n].corners >> corner & 1) != 0 &&
-                              isThin(voxelOf(m_points[n].cell, corner)))
-                            thin[n] = static_cast<std::uint8_t>(thin[n] | 1 << corner);
-                    });
-  return thin;
+  int thin = 0;
+  for (int corner = 0; corner < 8; ++corner)
+    if (has(m_points[point].corners, corner) && isThin(voxelOf(m_points[point].cell, corner)))
+      thin |= 1 << corner;
+  return static_cast<std::uint8_t>(thin);
 }
 
 // Lifts voxels beside two or three that touch by an edge or a corner: so far that there is inside
-// between them, and that their own voxel stays outside.
-void SurfaceNet::joinThin(Volume<float>& share, const std::vector<std::uint8_t>& thin) const
+// between them, and that their own voxel stays outside. Of a part of the shares all is lifted but
+// its outermost voxels.
+void SurfaceNet::joinThin(const ShareView& share, const std::vector<std::size_t>& thinPoints) const
 {
   struct Corners
   {
@@ -237,18 +300,20 @@ void SurfaceNet::joinThin(Volume<float>& share, const std::vector<std::uint8_t>&
   };
   const std::array<bool, 256> askew = cellsAskew();
   std::vector<Corners> cells;
-  for (std::size_t n = 0; n < m_points.size(); ++n)
-    if (thin[n] != 0 && askew[m_points[n].corners])
-      cells.push_back({m_points[n].cell, m_points[n].corners, thin[n]});
-  const auto valueAt = [&share](const core::Index3& v) -> float&
-  { return share.at(v[0], v[1], v[2]); };
+  for (const std::size_t n : thinPoints)
+    if (askew[m_points[n].corners])
+      cells.push_back({m_points[n].cell, m_points[n].corners, thinCorners(n)});
+  const auto valueAt = [&share](const core::Index3& v) -> float& { return share.at(v); };
   for (const Corners& cell : cells)
     for (int corner = 0; corner < 8; ++corner)
-      if (has(cell.thin, corner))
+      if (has(cell.thin, corner) && share.box.contains(voxelOf(cell.cell, corner)))
       {
         float& value = valueAt(voxelOf(cell.cell, corner));
         value = std::max(value, shareOf(kThinDepth));
       }
+  const auto partly = [&share](const Corners& cell)
+  { return !share.box.contains(cell.cell) || !share.box.contains(voxelOf(cell.cell, 7)); };
+  cells.erase(std::remove_if(cells.begin(), cells.end(), partly), cells.end());
   // The highest lift of a voxel counts, in whatever order they come.
   using Lifts = std::vector<std::pair<core::Index3, float>>;
   tbb::enumerable_thread_specific<Lifts> found;

@@ -18,8 +18,10 @@ namespace petrous::presenters
 class DrillSession
 {
 public:
-  /// Throws CancelledError.
-  explicit DrillSession(scene::Case& value, const core::Progress& progress = {});
+  /// regional: what is left alone is worked out round the cuts (scene::protectedTissue): for who
+  /// drills little, in one thread. Throws CancelledError.
+  explicit DrillSession(scene::Case& value, const core::Progress& progress = {},
+                        bool regional = false);
 
   /// One for a case with the same structures as that of `like` (a copy of it, which may be gone),
   /// whatever its threshold and its cut; what was made of the structures is shared.

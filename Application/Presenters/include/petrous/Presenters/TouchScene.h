@@ -45,9 +45,10 @@ class TouchScene
 public:
   /// Reads the CT once (about a second for 512^3), and measures soft structures. `firstState` is
   /// the number of the mask's state as the servo sees it: a session that is played again counts as
-  /// it did. Throws CancelledError.
+  /// it did.
+  /// regional: see DrillSession. Throws CancelledError.
   explicit TouchScene(scene::Case& value, const core::Progress& progress = {},
-                      std::uint64_t firstState = 0);
+                      std::uint64_t firstState = 0, bool regional = false);
 
   /// The same with what is known of the case already.
   TouchScene(scene::Case& value, const DrillSession& drill, const core::Progress& progress = {},

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "petrous/Dissection/ProtectedTissue.h"
 #include "petrous/Volume/CutMask.h"
 
 namespace petrous::dissection
@@ -15,9 +16,6 @@ struct SweptSphere
   Eigen::Vector3d to{0.0, 0.0, 0.0};
   double radius = 0.0; ///< mm, > 0
 };
-
-/// Structures that the drill must leave: their smoothed unions (SmoothedUnion.h).
-using ProtectedTissue = std::vector<std::shared_ptr<const volume::Volume<float>>>;
 
 /// Lowers the mask: mask = min(mask, 1 - coverage), never below what is protected. A burr that
 /// rests removes exactly nothing the second time. Returns the bricks that changed; each gets a

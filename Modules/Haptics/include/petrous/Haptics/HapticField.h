@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "petrous/Core/DerivedStore.h"
 #include "petrous/Core/LockedMemory.h"
 #include "petrous/Volume/DistanceMap.h"
 #include "petrous/Volume/PublishedMask.h"
@@ -39,6 +41,13 @@ struct FieldSample
   double left = volume::TissueField::kAir;  ///< of mask and hull the lower
 };
 
+/// Where a field keeps what it makes of the tissue, for the next one of the same.
+struct KeptField
+{
+  std::shared_ptr<core::DerivedStore> store; ///< null: nowhere
+  std::string key;                           ///< all that the rigid tissue depends on
+};
+
 /// The tissue field of PHYSICS.md ("One field") as a servo tick samples it: the same f as
 /// volume::TissueField, with the mask's present state, in voxel coordinates of the CT.
 ///
@@ -56,7 +65,7 @@ public:
   /// Throws InvalidParameter when the mask does not lie on the CT's grid, or a soft structure has
   /// no map or a stiffness out of its domain.
   HapticField(const volume::TissueField& tissue, std::shared_ptr<const volume::PublishedMask> mask,
-              std::vector<SoftStructure> soft = {});
+              std::vector<SoftStructure> soft = {}, const KeptField& kept = {});
 
   const core::GridGeometry& geometry() const noexcept { return m_geometry; }
   const volume::PublishedMask& mask() const noexcept { return *m_mask; }

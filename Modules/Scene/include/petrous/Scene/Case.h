@@ -8,6 +8,7 @@
 
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Core/DerivedStore.h"
 #include "petrous/Core/Lazy.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
@@ -91,6 +92,9 @@ struct Case
   std::vector<StrokePart> strokes; ///< all, in the order in which they were made
   dissection::History history;     ///< how they follow each other, and which are done
   std::shared_ptr<dissection::Dissection> dissection;
+
+  /// Where what follows from the parts is kept between programs; null: nowhere.
+  std::shared_ptr<core::DerivedStore> derived;
 
   std::size_t applied() const { return history.applied(); } ///< strokes that are done
   double removedVolume() const;                             ///< mm^3, of those

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct LabelSources
 {
   std::vector<volume::LabelSource> sources;
   std::vector<const StructurePart*> structures; ///< material i is structures[i - 1]
+  std::vector<const LabelPart*> parts;          ///< that they are of
 };
 
 /// The structures whose looks are wanted and that have a place on the CT (Placement.h; of all that
@@ -34,6 +36,11 @@ struct LabelSources
 /// structures are.
 LabelSources labelSources(const Case& value,
                           const std::function<bool(const appearance::StructureLook&)>& wanted);
+
+/// volume::makeLabelField of these; taken from the case's derived data where it is kept there, and
+/// kept there then.
+std::shared_ptr<const volume::LabelField> labelField(const Case& value, const LabelSources& sources,
+                                                     const core::Progress& progress = {});
 
 /// A mesh that hand and drill know, as the voxels that they know it by (volume::solidOf).
 struct MeshSolid
@@ -50,6 +57,10 @@ std::vector<MeshSolid>
 meshSolids(const Case& value, const std::function<bool(const appearance::StructureLook&)>& wanted,
            const core::Progress& progress = {});
 
+/// Those of all the case's meshes in which one of these points (patient LPS mm) may lie.
+std::vector<MeshSolid> meshSolidsAt(const Case& value, const std::vector<Eigen::Vector3d>& points,
+                                    const core::Progress& progress = {});
+
 /// Why the hand does not feel what goes by the mesh's name, in words that follow that name; empty
 /// when it does. Loads the mesh, makes no voxels.
 std::string untouchable(const Case& value, const MeshPart& mesh);
@@ -60,6 +71,11 @@ std::string untouchable(const Case& value, const MeshPart& mesh);
 /// by volume::makeLabelField, as the eye's are; each mesh is a solid of its own. Throws
 /// CancelledError.
 volume::TissueField tissueField(const Case& value, const core::Progress& progress = {});
+
+/// The same for who asks at few places: the union of the structures is worked out round them as
+/// they are asked for (TissueField::prepare), unless the derived data have the whole of it.
+/// One thread.
+volume::TissueField regionalTissueField(const Case& value, const core::Progress& progress = {});
 
 /// A structure or mesh that yields under the hand.
 struct SoftSolid
@@ -74,6 +90,7 @@ struct TouchTissue
 {
   volume::TissueField rigid;
   std::vector<SoftSolid> soft;
+  std::optional<std::string> key; ///< of what is rigid, but for the mask, among derived data
 };
 
 /// `whole` is the case's tissueField, and what is rigid where no touchable structure is soft. Each
@@ -84,7 +101,10 @@ TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
                         const core::Progress& progress = {});
 
 /// Structures and meshes that the drill must leave (`drillable` off), lumens among them.
-dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress = {});
+/// `regional`: the union of the structures is worked out round the cuts as they are made
+/// (ProtectedTissue::prepare), unless the derived data have the whole of it; for one thread.
+dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progress& progress = {},
+                                            bool regional = false);
 
 /// The structures and meshes that a stroke can take something of (`drillable` on), with their
 /// voxels. Loads the labels and these meshes.

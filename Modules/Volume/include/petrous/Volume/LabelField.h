@@ -56,6 +56,10 @@ struct LabelField
 /// every voxel were used. A single map's own grid is never touched.
 constexpr std::size_t kMostLabelVoxels = 500'000'000;
 
+/// Of what makeLabelField and makeSolidShare return: raised with every change of it, so that
+/// nothing is taken for theirs that an older program kept (core::DerivedStore).
+constexpr int kLabelFieldVersion = 1;
+
 /// Where structures overlap, the one that comes first in `sources` has the voxel; a lumen never
 /// takes a voxel from a solid structure. A structure thinner than a voxel of the common grid keeps
 /// every voxel that it touches for at least a part (SmoothedUnion.h, kInsideFloor).
@@ -65,5 +69,11 @@ constexpr std::size_t kMostLabelVoxels = 500'000'000;
 std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>& sources,
                                                  const core::Progress& progress = {},
                                                  std::size_t mostVoxels = kMostLabelVoxels);
+
+/// LabelField::share alone, with all sources taken as solid: what hand and drill ask for, at a part
+/// of the time and memory. Null when no source has a voxel. Throws as makeLabelField.
+std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& sources,
+                                              const core::Progress& progress = {},
+                                              std::size_t mostVoxels = kMostLabelVoxels);
 
 } // namespace petrous::volume

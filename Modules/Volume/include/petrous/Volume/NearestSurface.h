@@ -25,7 +25,8 @@ struct NearestSurface
 /// crosses is kept, so that many questions cost little. The field must outlive the search and must
 /// not change meanwhile. Unions of finer voxels than the CT's are looked at themselves, so that a
 /// thin mesh is seen where all of the CT's voxel centres around it lie in air; a wall of bone or of
-/// the cut between two of them is not seen. Not thread-safe.
+/// the cut between two of them is not seen. Tells the field what it asks (TissueField::prepare).
+/// Not thread-safe.
 class NearestSurfaceSearch
 {
 public:
@@ -49,6 +50,7 @@ private:
   };
   std::vector<Candidate> blocksWithinReach(const Eigen::Vector3d& patient, double reach) const;
   const std::vector<core::Index3>& crossedCells(const core::Index3& block);
+  void prepareBlock(const core::IndexBox& corners) const;
   void markFine(const core::IndexBox& corners, bool* cells) const;
 
   const TissueField& m_field;

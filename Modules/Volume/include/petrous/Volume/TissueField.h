@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "petrous/Volume/CutMask.h"
@@ -50,6 +52,21 @@ public:
   /// a mesh whose walls are thinner than a voxel of the CT.
   double finestSpacing() const noexcept { return m_finest; }
 
+  /// Is told of the places (patient LPS mm) that are asked of next, where unions are worked out
+  /// region by region (RegionalUnion.h).
+  void onPrepare(std::function<void(const core::PatientBox&)> prepare)
+  {
+    m_prepare = std::move(prepare);
+  }
+
+  /// For who asks at few places, before the queries below: all of them within the box. Searches
+  /// that say so do it themselves. Not while another thread asks.
+  void prepare(const core::PatientBox& box) const
+  {
+    if (m_prepare)
+      m_prepare(box);
+  }
+
   /// f at a patient point (LPS mm); kAir outside the grid.
   double value(const Eigen::Vector3d& patient) const;
 
@@ -96,6 +113,7 @@ private:
   std::shared_ptr<const CutMask> m_mask;
   Parameters m_parameters;
   double m_finest = 0.0;
+  std::function<void(const core::PatientBox&)> m_prepare;
 };
 
 } // namespace petrous::volume

@@ -16,6 +16,9 @@ namespace
 // How far a surface is looked for, mm.
 constexpr double kReach = 20.0;
 
+// Round a point, mm, where its surface mostly lies: what is there is worked out for all at once.
+constexpr double kNear = 3.0;
+
 std::string structureAt(const scene::Case& value, const std::vector<scene::MeshSolid>& meshes,
                         const Eigen::Vector3d& p)
 {
@@ -59,6 +62,10 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
   const auto meshes = scene::meshSolidsAt(value, points, progress.part(0.2, 0.4));
   const core::Progress probing = progress.part(0.4, 1.0);
+  std::vector<core::PatientBox> places;
+  for (const Eigen::Vector3d& p : points)
+    places.emplace_back(p - Eigen::Vector3d::Constant(kNear), p + Eigen::Vector3d::Constant(kNear));
+  field.prepareEach(places);
   volume::NearestSurfaceSearch surface(field, kReach);
   const auto ct = value.ct.volume.get();
 

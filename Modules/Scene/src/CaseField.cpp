@@ -86,11 +86,12 @@ struct UnionShare
   std::shared_ptr<volume::RegionalUnion> regional;
 };
 
-std::function<void(const core::PatientBox&)> preparerOf(const UnionShare& united)
+std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const UnionShare& united)
 {
   if (!united.regional)
     return {};
-  return [regional = united.regional](const core::PatientBox& box) { regional->prepare(box); };
+  return [regional = united.regional](const std::vector<core::PatientBox>& boxes)
+  { regional->prepare(boxes); };
 }
 
 // One union of all wanted structures; lumens count as if they were tissue.

@@ -1,6 +1,6 @@
 #include "petrous/Volume/RegionalUnion.h"
 
-#include <algorithm>
+#include <map>
 
 #include <tbb/parallel_for.h>
 
@@ -15,15 +15,48 @@ namespace
 
 constexpr int kEdge = LabelTiles::kEdge;
 
+// Tiles along the edge of the blocks that are worked out at once. The net round a tile is far
+// larger than that in it, and whoever asks for one asks for the next.
+constexpr int kBlock = 4;
+
 // Points of a net: where regions asked for more, the whole of a head's structures is cheaper.
 constexpr std::size_t kMostPoints = 2'000'000;
 
-std::size_t tileAt(const core::Index3& dims, int i, int j, int k)
+/// The units of `edge` that a box has a part of.
+core::IndexBox inUnits(const core::IndexBox& box, int edge)
 {
-  return static_cast<std::size_t>(i) +
-         static_cast<std::size_t>(dims[0]) *
-             (static_cast<std::size_t>(j) +
-              static_cast<std::size_t>(dims[1]) * static_cast<std::size_t>(k));
+  core::IndexBox units;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    units.lower[a] = box.lower[a] / edge;
+    units.upper[a] = (box.upper[a] - 1) / edge + 1;
+  }
+  return units;
+}
+
+core::IndexBox times(const core::IndexBox& units, int edge)
+{
+  core::IndexBox box;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    box.lower[a] = units.lower[a] * edge;
+    box.upper[a] = units.upper[a] * edge;
+  }
+  return box;
+}
+
+// Calls visit(tile's index, its number).
+template <class Visit>
+void forEachTile(const core::Index3& dims, const core::IndexBox& tiles, const Visit& visit)
+{
+  for (int k = tiles.lower[2]; k < tiles.upper[2]; ++k)
+    for (int j = tiles.lower[1]; j < tiles.upper[1]; ++j)
+      for (int i = tiles.lower[0]; i < tiles.upper[0]; ++i)
+        visit(core::Index3{i, j, k},
+              static_cast<std::size_t>(i) +
+                  static_cast<std::size_t>(dims[0]) *
+                      (static_cast<std::size_t>(j) +
+                       static_cast<std::size_t>(dims[1]) * static_cast<std::size_t>(k)));
 }
 
 } // namespace
@@ -57,56 +90,73 @@ std::shared_ptr<RegionalUnion> RegionalUnion::make(const std::vector<LabelSource
   return result;
 }
 
-void RegionalUnion::prepare(const core::PatientBox& patient, const core::Progress& progress)
+void RegionalUnion::prepare(const std::vector<core::PatientBox>& boxes,
+                            const core::Progress& progress)
 {
-  if (!m_inside || patient.isEmpty())
+  if (!m_inside)
     return;
-  const core::IndexBox box = m_share->geometry().boxCovering(patient.min(), patient.max());
-  if (!box.empty())
-    prepare(grown(box, 1), progress); // a position on a voxel may come out beside it
+  std::vector<core::IndexBox> voxels;
+  for (const core::PatientBox& patient : boxes)
+  {
+    if (patient.isEmpty())
+      continue;
+    const core::IndexBox box = m_share->geometry().boxCovering(patient.min(), patient.max());
+    if (!box.empty())
+      voxels.push_back(grown(box, 1)); // a position on a voxel may come out beside it
+  }
+  prepareVoxels(voxels, progress);
 }
 
 void RegionalUnion::prepare(const core::IndexBox& voxels, const core::Progress& progress)
 {
-  if (!m_inside)
-    return;
+  if (m_inside)
+    prepareVoxels({voxels}, progress);
+}
+
+void RegionalUnion::prepareVoxels(const std::vector<core::IndexBox>& boxes,
+                                  const core::Progress& progress)
+{
   const core::IndexBox full = m_share->geometry().fullBox();
-  const core::IndexBox box = voxels.intersected(full);
-  if (box.empty())
-    return;
-  std::vector<core::IndexBox> missing;
-  std::vector<std::size_t> numbers;
-  for (int k = box.lower[2] / kEdge; k <= (box.upper[2] - 1) / kEdge; ++k)
-    for (int j = box.lower[1] / kEdge; j <= (box.upper[1] - 1) / kEdge; ++j)
-      for (int i = box.lower[0] / kEdge; i <= (box.upper[0] - 1) / kEdge; ++i)
-        if (const std::size_t tile = tileAt(m_tileDims, i, j, k); !m_prepared[tile])
-        {
-          missing.push_back(core::IndexBox{
-              {i * kEdge, j * kEdge, k * kEdge},
-              {(i + 1) * kEdge, (j + 1) * kEdge,
-               (k + 1) * kEdge}}.intersected(full));
-          numbers.push_back(tile);
-        }
+  const core::IndexBox grid{{0, 0, 0}, m_tileDims};
+  std::map<std::size_t, core::IndexBox> missing; // the voxels of tiles
+  for (const core::IndexBox& asked : boxes)
+  {
+    const core::IndexBox box = asked.intersected(full);
+    if (box.empty())
+      continue;
+    const core::IndexBox tiles = inUnits(box, kEdge);
+    bool known = true;
+    forEachTile(m_tileDims, tiles,
+                [&](const core::Index3&, std::size_t tile) { known = known && m_prepared[tile]; });
+    if (known)
+      continue;
+    const core::IndexBox blocks = inUnits(tiles, kBlock);
+    forEachTile(m_tileDims, times(blocks, kBlock).intersected(grid),
+                [&](const core::Index3& at, std::size_t tile)
+                {
+                  if (!m_prepared[tile])
+                    missing.emplace(
+                        tile,
+                        times({at, {at[0] + 1, at[1] + 1, at[2] + 1}}, kEdge).intersected(full));
+                });
+  }
   if (missing.empty())
     return;
-  if (2 * missing.size() > m_prepared.size())
-  {
-    prepareAll(progress);
-    return;
-  }
-  SurfaceNet net(*m_inside, missing, progress);
+  std::vector<core::IndexBox> targets;
+  for (const auto& [tile, voxels] : missing)
+    targets.push_back(voxels);
+  if (2 * targets.size() > m_prepared.size())
+    return prepareAll(progress);
+  SurfaceNet net(*m_inside, targets, progress);
   m_pointsRelaxed += net.points();
   if (m_pointsRelaxed > kMostPoints)
-  {
-    prepareAll(progress);
-    return;
-  }
+    return prepareAll(progress);
   net.relax(progress);
-  tbb::parallel_for(std::size_t{0}, missing.size(),
-                    [&](std::size_t n) { net.writeShareIn(missing[n], *m_share); });
-  for (const std::size_t tile : numbers)
+  tbb::parallel_for(std::size_t{0}, targets.size(),
+                    [&](std::size_t n) { net.writeShareIn(targets[n], *m_share); });
+  for (const auto& [tile, voxels] : missing)
     m_prepared[tile] = true;
-  m_preparedTiles += numbers.size();
+  m_preparedTiles += missing.size();
 }
 
 void RegionalUnion::prepareAll(const core::Progress& progress)

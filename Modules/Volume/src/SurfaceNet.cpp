@@ -52,6 +52,39 @@ bool sameWord(const std::uint8_t* const (&rows)[4], int i, bool inside)
   return true;
 }
 
+// Calls visit(cell, corners) for the cells of a box that the border passes, the first axis fastest.
+template <class Visit>
+void forEachBorderCell(const Volume<std::uint8_t>& inside, const core::IndexBox& cells,
+                       const Visit& visit)
+{
+  const int width = inside.geometry().dims()[0];
+  for (int k = cells.lower[2]; k < cells.upper[2]; ++k)
+    for (int j = cells.lower[1]; j < cells.upper[1]; ++j)
+    {
+      const std::uint8_t* rows[4] = {&inside.at(0, j, k), &inside.at(0, j + 1, k),
+                                     &inside.at(0, j, k + 1), &inside.at(0, j + 1, k + 1)};
+      const auto end = [&rows](int i)
+      { return rows[0][i] | rows[1][i] << 2 | rows[2][i] << 4 | rows[3][i] << 6; };
+      int before = end(cells.lower[0]);
+      for (int i = cells.lower[0]; i < cells.upper[0];)
+      {
+        // Most of a grid is far from any border.
+        if ((before == 0 || before == 85) && i + kWord < width &&
+            sameWord(rows, i + 1, before != 0))
+        {
+          i += kWord;
+          continue;
+        }
+        const int after = end(i + 1);
+        const int corners = before | after << 1;
+        if (corners != 0 && corners != 255)
+          visit(core::Index3{i, j, k}, corners);
+        before = after;
+        ++i;
+      }
+    }
+}
+
 template <class Body>
 void forEachPoint(std::size_t count, const Body& body)
 {
@@ -145,6 +178,12 @@ bool SurfaceNet::passes(int corners, int face) noexcept
   return inside != 0 && inside != 4;
 }
 
+// Whether the border passes the edge of a cell that begins at a corner.
+bool SurfaceNet::crosses(int corners, int corner, int axis) noexcept
+{
+  return (corners >> corner & 1) != (corners >> (corner | 1 << axis) & 1);
+}
+
 core::Index3 SurfaceNet::across(const core::Index3& cell, int face) noexcept
 {
   core::Index3 next = cell;
@@ -156,37 +195,19 @@ void SurfaceNet::findPoints(const core::Progress& progress, const Wanted& wanted
 {
   const core::Index3& dims = m_inside.geometry().dims();
   std::vector<std::vector<Point>> slices(static_cast<std::size_t>(dims[2]));
-  tbb::parallel_for(
-      0, dims[2] - 1,
-      [&](int k)
-      {
-        progress.check("smoothing structures");
-        std::vector<Point>& points = slices[static_cast<std::size_t>(k)];
-        for (int j = 0; j + 1 < dims[1]; ++j)
-        {
-          const std::uint8_t* rows[4] = {&m_inside.at(0, j, k), &m_inside.at(0, j + 1, k),
-                                         &m_inside.at(0, j, k + 1), &m_inside.at(0, j + 1, k + 1)};
-          const auto end = [&rows](int i)
-          { return rows[0][i] | rows[1][i] << 2 | rows[2][i] << 4 | rows[3][i] << 6; };
-          int before = end(0);
-          for (int i = 0; i + 1 < dims[0];)
-          {
-            // Most of a grid is far from any border.
-            if ((before == 0 || before == 85) && i + kWord < dims[0] &&
-                sameWord(rows, i + 1, before != 0))
-            {
-              i += kWord;
-              continue;
-            }
-            const int after = end(i + 1);
-            const int corners = before | after << 1;
-            if (corners != 0 && corners != 255 && (!wanted || wanted({i, j, k})))
-              points.push_back({{i, j, k}, static_cast<std::uint8_t>(corners)});
-            before = after;
-            ++i;
-          }
-        }
-      });
+  tbb::parallel_for(0, dims[2] - 1,
+                    [&](int k)
+                    {
+                      progress.check("smoothing structures");
+                      std::vector<Point>& points = slices[static_cast<std::size_t>(k)];
+                      forEachBorderCell(
+                          m_inside, {{0, 0, k}, {dims[0] - 1, dims[1] - 1, k + 1}},
+                          [&](const core::Index3& cell, int corners)
+                          {
+                            if (!wanted || wanted(cell))
+                              points.push_back({cell, static_cast<std::uint8_t>(corners)});
+                          });
+                    });
   std::size_t count = 0;
   for (const std::vector<Point>& slice : slices)
     count += slice.size();
@@ -214,17 +235,12 @@ void SurfaceNet::findPoints(const std::vector<core::IndexBox>& seeds,
     m_pointOf.slot(cell) = static_cast<std::int32_t>(m_points.size());
   };
   for (const core::IndexBox& seed : seeds)
-  {
-    const core::IndexBox box = seed.intersected(cells);
-    for (int k = box.lower[2]; k < box.upper[2]; ++k)
-      for (int j = box.lower[1]; j < box.upper[1]; ++j)
-        for (int i = box.lower[0]; i < box.upper[0]; ++i)
-        {
-          const int corners = cornersOf({i, j, k});
-          if (corners != 0 && corners != 255 && m_pointOf.at(i, j, k) == 0)
-            add({i, j, k}, corners);
-        }
-  }
+    forEachBorderCell(m_inside, seed.intersected(cells),
+                      [&](const core::Index3& cell, int corners)
+                      {
+                        if (m_pointOf.at(cell[0], cell[1], cell[2]) == 0)
+                          add(cell, corners);
+                      });
   m_within.push_back(m_points.size());
   std::size_t first = 0;
   for (int joins = 1; joins <= kJoinReach; ++joins)
@@ -268,70 +284,89 @@ void SurfaceNet::placePoints()
 void SurfaceNet::join()
 {
   m_joined.resize(m_points.size());
-  forEachPoint(m_points.size(),
-               [this](std::size_t n)
-               {
-                 const Point& point = m_points[n];
-                 Joined& joined = m_joined[n];
-                 joined.fill(-1);
-                 std::size_t count = 0;
-                 for (int face = 0; face < 6; ++face)
-                 {
-                   if (!passes(point.corners, face))
-                     continue;
-                   const core::Index3 next = across(point.cell, face);
-                   const int other = pointAt(next[0], next[1], next[2]);
-                   if (other >= 0)
-                     joined[count++] = other;
-                 }
-               });
+  m_diagonal.resize(m_points.size());
+  const auto pointIn = [this](const core::Index3& cell)
+  { return pointAt(cell[0], cell[1], cell[2]); };
+  forEachPoint(
+      m_points.size(),
+      [&](std::size_t n)
+      {
+        const Point& point = m_points[n];
+        for (int face = 0; face < 6; ++face)
+          m_joined[n][static_cast<std::size_t>(face)] =
+              passes(point.corners, face) ? pointIn(across(point.cell, face)) : -1;
+        for (int axis = 0; axis < 3; ++axis)
+          for (int side = 0; side < 2; ++side)
+          {
+            const int corner = side != 0 ? 7 - (1 << axis) : 0;
+            core::Index3 cell = point.cell;
+            for (const int face : {2 * ((axis + 1) % 3) + side, 2 * ((axis + 2) % 3) + side})
+              cell = across(cell, face);
+            m_diagonal[n][static_cast<std::size_t>(2 * axis + side)] =
+                crosses(point.corners, corner, axis) ? pointIn(cell) : -1;
+          }
+      });
 }
 
-// The mean of the quadrangles round a point. Each spans the four cells round an edge whose ends lie
-// on two sides. For the points `reach` joins from the seeds of a region; positions must hold
-// kNormalReach farther.
+// The quadrangle round the edge that a point's cell has at its lowest voxel, along `axis`: of the
+// four cells round it this one has the highest indices. The product of its diagonals; zero where
+// the border does not pass the edge, or the net ends.
+Eigen::Vector3f SurfaceNet::quadrangle(std::size_t n, int axis) const
+{
+  const auto u = static_cast<std::size_t>((axis + 1) % 3);
+  const auto v = static_cast<std::size_t>((axis + 2) % 3);
+  const std::int32_t low = m_diagonal[n][static_cast<std::size_t>(2 * axis)];
+  const std::int32_t lowU = m_joined[n][2 * u];
+  const std::int32_t lowV = m_joined[n][2 * v];
+  if (!crosses(m_points[n].corners, 0, axis) || std::min({low, lowU, lowV}) < 0)
+    return Eigen::Vector3f::Zero();
+  const auto at = [this](std::int32_t point) -> const Eigen::Vector3f&
+  { return m_positions[static_cast<std::size_t>(point)]; };
+  return (m_positions[n] - at(low)).cross(at(lowU) - at(lowV));
+}
+
+// The mean of the quadrangles round a point. For the points `reach` joins from the seeds of a
+// region; positions must hold kNormalReach farther.
 void SurfaceNet::findNormals(int reach)
 {
   m_normals.resize(m_points.size());
+  std::vector<std::array<Eigen::Vector3f, 3>> quadrangles(m_points.size());
+  forEachPoint(within(reach + kNormalReach),
+               [&](std::size_t n)
+               {
+                 for (int axis = 0; axis < 3; ++axis)
+                   quadrangles[n][static_cast<std::size_t>(axis)] = quadrangle(n, axis);
+               });
+  std::vector<Eigen::Vector3f> raw(m_points.size());
   forEachPoint(within(reach + kNormalRounds),
-               [this](std::size_t n)
+               [&](std::size_t n)
                {
                  const Point& point = m_points[n];
                  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
                  for (int e = 0; e < 12; ++e)
                  {
+                   const int axis = e / 4;
                    const int low = kEdges[e][0];
-                   const bool lowInside = (point.corners >> low & 1) != 0;
-                   if (lowInside == ((point.corners >> kEdges[e][1] & 1) != 0))
+                   if (!crosses(point.corners, low, axis))
                      continue;
-                   const auto axis = static_cast<std::size_t>(e / 4);
-                   const std::size_t u = (axis + 1) % 3;
-                   const std::size_t v = (axis + 2) % 3;
-                   core::Index3 base =
-                       point.cell; // of the four cells the one with the lowest indices
-                   const core::Index3 corner = cornerOf(low);
-                   base[u] += corner[u] - 1;
-                   base[v] += corner[v] - 1;
-                   std::array<int, 4> points{};
-                   for (std::size_t p = 0; p < points.size(); ++p)
-                   {
-                     core::Index3 cell = base;
-                     cell[u] += static_cast<int>(p & 1U);
-                     cell[v] += static_cast<int>(p >> 1U);
-                     points[p] = pointAt(cell[0], cell[1], cell[2]);
-                   }
-                   if (*std::min_element(points.begin(), points.end()) < 0)
+                   const int u = (axis + 1) % 3;
+                   const int v = (axis + 2) % 3;
+                   const int up = (low >> u & 1) | (low >> v & 1) << 1;
+                   const auto face = [](int along)
+                   { return static_cast<std::size_t>(2 * along + 1); };
+                   const std::int32_t owner = up == 0   ? static_cast<std::int32_t>(n)
+                                              : up == 1 ? m_joined[n][face(u)]
+                                              : up == 2 ? m_joined[n][face(v)]
+                                                        : m_diagonal[n][face(axis)];
+                   if (owner < 0)
                      continue; // at an edge of the net
-                   const auto at = [&](std::size_t p) -> const Eigen::Vector3f&
-                   { return m_positions[static_cast<std::size_t>(points[p])]; };
-                   const Eigen::Vector3f quadrangle =
-                       (at(3) - at(0)).cross(at(2) - at(1)); // its diagonals
-                   sum += lowInside ? quadrangle : Eigen::Vector3f(-quadrangle);
+                   const Eigen::Vector3f& product =
+                       quadrangles[static_cast<std::size_t>(owner)][static_cast<std::size_t>(axis)];
+                   sum += (point.corners >> low & 1) != 0 ? product : Eigen::Vector3f(-product);
                  }
-                 m_normals[n] = sum;
+                 raw[n] = sum;
                });
-  std::vector<Eigen::Vector3f> raw(m_normals); // each round half of the way to the mean
-  static_assert(kNormalRounds == 1);
+  static_assert(kNormalRounds == 1); // each round half of the way to the mean
   forEachPoint(within(reach),
                [&](std::size_t n)
                {
@@ -340,7 +375,7 @@ void SurfaceNet::findNormals(int reach)
                  for (const std::int32_t other : m_joined[n])
                  {
                    if (other < 0)
-                     break;
+                     continue;
                    sum += raw[static_cast<std::size_t>(other)];
                    count += 1.0F;
                  }
@@ -369,7 +404,7 @@ void SurfaceNet::relax(const core::Progress& progress)
     for (const std::int32_t other : m_joined[n])
     {
       if (other < 0)
-        break;
+        continue;
       sum += m_positions[static_cast<std::size_t>(other)];
       ++count;
     }
@@ -391,8 +426,10 @@ void SurfaceNet::relax(const core::Progress& progress)
                  [&](std::size_t n)
                  {
                    float sum = 0.0F;
-                   for (std::size_t at = 0; at < m_joined[n].size() && m_joined[n][at] >= 0; ++at)
+                   for (std::size_t at = 0; at < m_joined[n].size(); ++at)
                    {
+                     if (m_joined[n][at] < 0)
+                       continue;
                      const float weight = alike(n, static_cast<std::size_t>(m_joined[n][at]));
                      weights[n][at] = weight;
                      sum += weight;
@@ -406,8 +443,10 @@ void SurfaceNet::relax(const core::Progress& progress)
                    [&](std::size_t n)
                    {
                      float sum = 0.0F * curvature[n];
-                     for (std::size_t at = 0; at < m_joined[n].size() && m_joined[n][at] >= 0; ++at)
-                       sum += weights[n][at] * curvature[static_cast<std::size_t>(m_joined[n][at])];
+                     for (std::size_t at = 0; at < m_joined[n].size(); ++at)
+                       if (m_joined[n][at] >= 0)
+                         sum +=
+                             weights[n][at] * curvature[static_cast<std::size_t>(m_joined[n][at])];
                      scratch[n] = weights[n][6] > 0.0F ? 0.5F * curvature[n] + weights[n][6] * sum
                                                        : curvature[n];
                    });

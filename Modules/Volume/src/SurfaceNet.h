@@ -81,7 +81,7 @@ private:
     core::Index3 cell;
     std::uint8_t corners; ///< which of its voxels are inside, the first axis fastest
   };
-  using Joined = std::array<std::int32_t, 6>; ///< points, by the faces in order; then -1
+  using Joined = std::array<std::int32_t, 6>; ///< points by face: 2 * axis, + 1 the upper; -1 none
 
   /// Shares of the voxels of a box.
   struct ShareView
@@ -143,11 +143,13 @@ private:
   bool isThin(const core::Index3& voxel) const noexcept;
   int cornersOf(const core::Index3& cell) const noexcept;
   static bool passes(int corners, int face) noexcept;
+  static bool crosses(int corners, int corner, int axis) noexcept;
   static core::Index3 across(const core::Index3& cell, int face) noexcept;
   void findPoints(const core::Progress& progress, const Wanted& wanted);
   void findPoints(const std::vector<core::IndexBox>& seeds, const core::Progress& progress);
   void placePoints();
   void join();
+  Eigen::Vector3f quadrangle(std::size_t point, int axis) const;
   void findNormals(int reach);
   std::size_t within(int joins) const noexcept;
   int pointAt(int i, int j, int k) const noexcept { return m_pointOf.at(i, j, k) - 1; }
@@ -161,6 +163,9 @@ private:
   std::vector<Eigen::Vector3f> m_positions;
   std::vector<Eigen::Vector3f> m_normals; ///< out of the inside
   std::vector<Joined> m_joined;
+  /// Across an edge of the cell along an axis, 2 * axis that of its lowest voxel and + 1 that
+  /// opposite: the fourth of the points round it. -1: the border does not pass it, or none there.
+  std::vector<Joined> m_diagonal;
 };
 
 /// The share that the relaxed net of `inside` writes, on its grid.

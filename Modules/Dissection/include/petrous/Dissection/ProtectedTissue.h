@@ -17,7 +17,7 @@ class ProtectedTissue
 {
 public:
   using Share = std::shared_ptr<const volume::Volume<float>>;
-  using Prepare = std::function<void(const core::PatientBox&)>;
+  using Prepare = std::function<void(const std::vector<core::PatientBox>&)>;
 
   ProtectedTissue() = default;
   ProtectedTissue(std::initializer_list<Share> shares)
@@ -41,7 +41,7 @@ public:
   void prepare(const core::PatientBox& box) const
   {
     if (m_prepare)
-      m_prepare(box);
+      m_prepare({box});
   }
 
 private:

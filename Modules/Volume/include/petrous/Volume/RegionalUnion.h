@@ -34,8 +34,9 @@ public:
   /// Voxels of the share's grid; the box may reach beyond it.
   void prepare(const core::IndexBox& voxels, const core::Progress& progress = {});
 
-  /// What trilinear interpolation in this box asks for.
-  void prepare(const core::PatientBox& patient, const core::Progress& progress = {});
+  /// What trilinear interpolation in these boxes asks for; at once, which costs less than one
+  /// after the other.
+  void prepare(const std::vector<core::PatientBox>& boxes, const core::Progress& progress = {});
 
   void prepareAll(const core::Progress& progress = {});
 
@@ -45,6 +46,7 @@ public:
 
 private:
   RegionalUnion() = default;
+  void prepareVoxels(const std::vector<core::IndexBox>& boxes, const core::Progress& progress);
 
   std::shared_ptr<const Volume<std::uint8_t>> m_inside; // null once the whole is made
   std::shared_ptr<Volume<float>> m_share;

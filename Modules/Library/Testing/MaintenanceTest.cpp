@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include "TestCase.h"
@@ -159,6 +163,60 @@ TEST_F(Maintenance, DeletionTakesJournalsAlong)
 {
   scene::Case value = make("a");
   Journal journal(m_library, value);
+// Under another name nobody would bring back what the journal holds.
+TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
+{
+  scene::Case value = make("a");
+  drill(value, {8, 8, 8});
+  m_library.save(value);
+  {
+    Journal journal(m_library, value);
+    drill(value, {4, 8, 8});
+    journal.follow(*value.dissection);
+    journal.leave();
+  }
+  const fs::path stroke = object(value.strokes[0].object);
+  fs::rename(stroke, m_folder.path() / "gone");
+  const auto before = contentOf(m_folder.path());
+  const auto [reason, words] = refusal([&] { m_library.rename("a", "b"); });
+  EXPECT_EQ(reason, LibraryError::Reason::Conflict);
+  EXPECT_NE(words.find("open the case first"), std::string::npos) << words;
+  EXPECT_EQ(contentOf(m_folder.path()), before);
+  fs::rename(m_folder.path() / "gone", stroke);
+  m_library.rename("a", "b");
+  EXPECT_EQ(m_library.open("b").strokes.size(), 2u);
+}
+
+// Nobody drills where somebody only looks at the journal, as whoever opens the case does.
+TEST_F(Maintenance, WhoLooksAtAJournalIsNotTakenForOneWhoDrills)
+{
+  make("a");
+  const fs::path journal = m_folder.path() / "cases/a.journal";
+  std::ofstream(journal) << "";
+  bool refused = true;
+  for (int n = 0; n < 50 && refused; ++n) // a busy machine may let the other wait for long
+  {
+    const int other = ::open(journal.c_str(), O_RDWR);
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    std::thread looking(
+        [other]
+        {
+          ::usleep(10000);
+          ::close(other);
+        });
+    try
+    {
+      m_library.refuseWhereDrilled("a");
+      refused = false;
+    }
+    catch (const LibraryError&)
+    {
+    }
+    looking.join();
+  }
+  EXPECT_FALSE(refused);
+}
+
   drill(value, {8, 8, 8});
   journal.follow(*value.dissection);
   journal.leave();

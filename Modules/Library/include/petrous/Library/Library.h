@@ -106,8 +106,9 @@ public:
   /// Throw LibraryError (Conflict) where another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;
 
-  /// Also of a case that is damaged. What a session drilled and did not save goes with it. Throws
-  /// LibraryError: NotFound, NameTaken, Conflict while another process is drilling in it.
+  /// Also of a case that is damaged. What a session drilled and did not save is brought back first,
+  /// and goes with a case that is removed. Throws LibraryError: NotFound, NameTaken, Conflict while
+  /// another process is drilling in it, or for a rename where it could not be brought back.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
   /// Shares the objects. Throws as `open` and `save`.

@@ -326,6 +326,29 @@ TEST(DicomScan, NotesALostSliceThatMayBeOfSeveralSeries)
   EXPECT_EQ(result.unreadable.size(), 1U);
   ASSERT_EQ(result.notes.size(), 1U);
   EXPECT_EQ(result.notes.front().find("s9.dcm is empty"), 0U);
+  for (const DicomSeries& series : result.series)
+  {
+    EXPECT_EQ(series.geometry.verdict, Verdict::Refused) << "nobody knows that it is whole";
+    EXPECT_TRUE(has(series.geometry, FindingKind::Unreadable));
+  }
+}
+
+TEST(DicomScan, ALostSliceSaysNothingOfASeriesInAnotherFolder)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "whole", 5);
+  writeSeries(folder.path() / "a", 5, [](int, TestSlice& s) { s.seriesUid = "7.7"; });
+  for (int k = 5; k < 9; ++k)
+  {
+    TestSlice slice;
+    slice.z = k;
+    slice.seriesUid = "8.8";
+    slice.write(folder.path() / "a" / ("s" + std::to_string(k) + ".dcm"));
+  }
+  writeText(folder.path() / "a" / "s9.dcm", "");
+  for (const DicomSeries& series : scanDicom(folder.path(), {}).series)
+    EXPECT_EQ(series.geometry.verdict == Verdict::Ok, series.uid != "7.7" && series.uid != "8.8")
+        << series.uid;
 }
 
 /// A user whom access rights bind.
@@ -366,6 +389,8 @@ TEST(DicomScan, SaysThatASubfolderMayNotBeRead)
   ASSERT_EQ(result.series.size(), 1U);
   ASSERT_EQ(result.unreadable.size(), 1U);
   EXPECT_NE(result.unreadable.front().text.find("'b' may not be read"), std::string::npos);
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Refused) << "'b' may hold more of it";
+  EXPECT_TRUE(has(result.series.front().geometry, FindingKind::Unreadable));
   ASSERT_EQ(result.notes.size(), 1U);
 }
 

@@ -91,6 +91,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   if (text == "auto")
   {
     const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+    context.refuseDamaged();
     value.iso = scale.iso;
     value.denseBone = scale.dense;
     if (!scale.calibrated)
@@ -306,6 +307,7 @@ void run(const Context& context, const Options& options)
     setWarning(value, assignment);
   for (const std::string& assignment : options.tissue)
     setTissue(context, value, assignment);
+  context.refuseDamaged();
   if (options.changes())
     library.save(value);
   listAppearance(context, value);

@@ -159,10 +159,6 @@ TEST_F(Maintenance, ACaseThatIsBeingDrilledIsNeitherRenamedNorRemoved)
   }
 }
 
-TEST_F(Maintenance, DeletionTakesJournalsAlong)
-{
-  scene::Case value = make("a");
-  Journal journal(m_library, value);
 // Under another name nobody would bring back what the journal holds.
 TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
 {
@@ -217,6 +213,10 @@ TEST_F(Maintenance, WhoLooksAtAJournalIsNotTakenForOneWhoDrills)
   EXPECT_FALSE(refused);
 }
 
+TEST_F(Maintenance, DeletionTakesJournalsAlong)
+{
+  scene::Case value = make("a");
+  Journal journal(m_library, value);
   drill(value, {8, 8, 8});
   journal.follow(*value.dissection);
   journal.leave();
@@ -236,14 +236,18 @@ TEST_F(Maintenance, OneFlippedBitOfAnyObjectIsFound)
     std::string object, words;
     std::function<void(scene::Case&)> read;
   };
-  const Part parts[] = {
-      {value.ct.object, "the CT of case 'a'", [this](scene::Case& c) { m_library.checkVoxels(c); }},
-      {value.labels[0].object, "'nerve' of case 'a'",
-       [](scene::Case& c) { c.labels[0].labels.get(); }},
-      {value.meshes[0].object, "mesh 'incus' of case 'a'",
-       [](scene::Case& c) { c.meshes[0].mesh.get(); }},
-      {value.strokes[0].object, "stroke 1 of case 'a'",
-       [this](scene::Case& c) { m_library.loadDissection(c); }}};
+  const Part parts[] = {{value.ct.object, "the CT of case 'a'",
+                         [this](scene::Case& c)
+                         {
+                           c.ct.volume.get();
+                           m_library.checkVoxels(c);
+                         }},
+                        {value.labels[0].object, "'nerve' of case 'a'",
+                         [](scene::Case& c) { c.labels[0].labels.get(); }},
+                        {value.meshes[0].object, "mesh 'incus' of case 'a'",
+                         [](scene::Case& c) { c.meshes[0].mesh.get(); }},
+                        {value.strokes[0].object, "stroke 1 of case 'a'",
+                         [this](scene::Case& c) { m_library.loadDissection(c); }}};
   for (const Part& part : parts)
   {
     const fs::path file = object(part.object);
@@ -271,9 +275,38 @@ TEST_F(Maintenance, AMappedImageIsCheckedBehindTheReadersBack)
   const Library fresh(m_folder.path());
   const scene::Case damaged = fresh.open("a");
   damaged.ct.volume.get();
-  for (int n = 0; n < 1000 && fresh.damageFound().empty(); ++n)
+  for (int n = 0; n < 1000 && fresh.damageFound(damaged).empty(); ++n)
     ::usleep(10000);
-  ASSERT_EQ(fresh.damageFound().size(), 1u);
+  ASSERT_EQ(fresh.damageFound(damaged).size(), 1u);
+  EXPECT_EQ(refusal([&] { fresh.checkAllRead(); }).first, LibraryError::Reason::Damaged);
+  const scene::Case other = make("another", 18);
+  EXPECT_TRUE(fresh.damageFound(other).empty()) << "that is of its own";
+}
+
+TEST_F(Maintenance, OnlyWhatIsReadIsHeldAgainstItsHash)
+{
+  const scene::Case value = make("a");
+  flipBit(object(value.ct.object), fs::file_size(object(value.ct.object)) - 100);
+  const Library fresh(m_folder.path());
+  const scene::Case damaged = fresh.open("a");
+  EXPECT_NO_THROW(fresh.checkVoxels(damaged));
+  EXPECT_NO_THROW(fresh.checkAllRead());
+}
+
+TEST_F(Maintenance, AnObjectThatIsRestoredIsReadAgain)
+{
+  const scene::Case value = make("a");
+  const fs::path file = object(value.ct.object);
+  flipBit(file, fs::file_size(file) - 100);
+  const Library fresh(m_folder.path());
+  const scene::Case damaged = fresh.open("a");
+  damaged.ct.volume.get();
+  EXPECT_EQ(refusal([&] { fresh.checkVoxels(damaged); }).first, LibraryError::Reason::Damaged);
+  flipBit(file, fs::file_size(file) - 100);
+  const scene::Case restored = fresh.open("a");
+  restored.ct.volume.get();
+  EXPECT_NO_THROW(fresh.checkVoxels(restored));
+  EXPECT_TRUE(fresh.damageFound(restored).empty());
 }
 
 // Storing the same CT again heals the library, whatever cases use it.

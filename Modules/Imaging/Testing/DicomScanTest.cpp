@@ -379,13 +379,21 @@ TEST(DicomScan, SaysThatASubfolderMayNotBeRead)
   writeSeries(folder.path() / "a", 3);
   writeSeries(folder.path() / "b", 3);
   fs::permissions(folder.path(), fs::perms::all);
-  fs::permissions(folder.path() / "b", fs::perms::none);
-  ScanResult result;
+  const auto scanWith = [&folder](fs::perms rights)
   {
-    const AsNobody user;
-    result = scanDicom(folder.path(), {});
-  }
-  fs::permissions(folder.path() / "b", fs::perms::all);
+    fs::permissions(folder.path() / "b", rights);
+    ScanResult result;
+    {
+      const AsNobody user;
+      result = scanDicom(folder.path(), {});
+    }
+    fs::permissions(folder.path() / "b", fs::perms::all);
+    return result;
+  };
+  const ScanResult namesOnly = scanWith(fs::perms::others_read | fs::perms::owner_read);
+  ASSERT_EQ(namesOnly.unreadable.size(), 1U);
+  EXPECT_EQ(namesOnly.series.front().geometry.verdict, Verdict::Refused);
+  const ScanResult result = scanWith(fs::perms::none);
   ASSERT_EQ(result.series.size(), 1U);
   ASSERT_EQ(result.unreadable.size(), 1U);
   EXPECT_NE(result.unreadable.front().text.find("'b' may not be read"), std::string::npos);

@@ -69,9 +69,13 @@ private:
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0)
     {
+      const bool denied = errno == EACCES;
+      std::error_code none;
+      if (denied && !fs::is_symlink(path, none)) // of its folder the names may be read, and no more
+        return unreadable(path.parent_path());
       lost.emplace_back();
       lost.back().slice.file = path;
-      lost.back().slice.damage = errno == EACCES ? "may not be opened" : "is a link to nothing";
+      lost.back().slice.damage = denied ? "may not be opened" : "is a link to nothing";
       return;
     }
     if (m_seen.count({status.st_dev, status.st_ino}) > 0)
@@ -104,6 +108,8 @@ private:
 
   void unreadable(const fs::path& folder)
   {
+    if (!m_unreadable.insert(folder).second)
+      return;
     findings.push_back({FindingKind::Unreadable,
                         "The folder '" + folder.filename().string() +
                             "' may not be read; slices in it are missing. Its access rights must "
@@ -115,6 +121,7 @@ private:
   const core::Progress& m_progress;
   fs::path m_root;
   std::vector<fs::path> m_folders;
+  std::set<fs::path> m_unreadable;
   std::set<std::pair<dev_t, ino_t>> m_seen;
 };
 

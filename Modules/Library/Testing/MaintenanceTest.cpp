@@ -15,6 +15,7 @@ using namespace petrous;
 using namespace petrous::library;
 using test::contentOf;
 using test::drill;
+using test::refusal;
 using test::smallCase;
 using test::TemporaryFolder;
 
@@ -28,25 +29,7 @@ class Maintenance : public ::testing::Test
 protected:
   scene::Case make(const std::string& name, int n = 16)
   {
-    scene::Case value = smallCase(name, n);
-    m_library.save(value);
-    m_library.loadDissection(value);
-    return value;
-  }
-
-  template <class Action>
-  std::pair<LibraryError::Reason, std::string> refusal(const Action& action) const
-  {
-    try
-    {
-      action();
-    }
-    catch (const LibraryError& error)
-    {
-      return {error.reason, error.what()};
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {LibraryError::Reason::NotFound, {}};
+    return test::savedCase(m_library, name, n);
   }
 
   void flipBit(const fs::path& file, std::uintmax_t at) const

@@ -133,6 +133,8 @@ std::string listWithGap(CLI::App& command, const std::vector<std::string>& words
         list = words[n].substr(name.size() + 1);
       else
         continue;
+      if (isBlank(list)) // told as of any option
+        continue;
       std::istringstream items(list + option->get_delimiter());
       for (std::string item; std::getline(items, item, option->get_delimiter());)
         if (isBlank(item))

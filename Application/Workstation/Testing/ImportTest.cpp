@@ -347,7 +347,7 @@ TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
   const fs::path file = folder() / "beam.nrrd";
   auto image = std::make_shared<volume::Volume<std::int16_t>>(ballCase("x").ct.geometry);
   for (std::size_t n = 0; n < image->size(); ++n) // counts from 0: no Hounsfield units
-    image->data()[n] = static_cast<std::int16_t>(n % 64 < 32 ? 0 : 2000 + n % 7);
+    image->data()[n] = static_cast<std::int16_t>(n % 64 < 32 ? n % 97 : 2000 + n * 7919 % 3001);
   imaging::writeVolume(file, *image);
   openWindow();
   answered([this](const auto& react) { onMessage(react); }, "CT", [&] { dropPath(file); });

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "CommandRunner.h"
 
 using petrous::testing::CommandLine;
@@ -191,6 +193,22 @@ TEST_F(AppearanceCommand, BoneCanBeHiddenButStaysTissue)
   EXPECT_EQ(part("ct")["flags"], "touchable,drillable");
   EXPECT_TRUE(run("appearance ear --flags ct=shown,touchable,drillable").err.empty());
   EXPECT_EQ(part("ct")["flags"], "shown,touchable,drillable");
+}
+
+TEST_F(AppearanceCommand, PartsThatAreNoKnownStructureDifferInColour)
+{
+  json("appearance ear --set cochlea=other --set incus=other");
+  std::set<nlohmann::json> colors;
+  std::size_t unknown = 0;
+  const auto list = json("appearance ear --list");
+  for (const auto& part : list["parts"])
+    if (part["preset"] == "other")
+    {
+      ++unknown;
+      colors.insert(part["color"]);
+    }
+  EXPECT_EQ(unknown, 2u);
+  EXPECT_EQ(colors.size(), unknown);
 }
 
 TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)

@@ -378,6 +378,10 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
     }
   EXPECT_GT(tried, 70);
   expectRefused("info ''", 2, "CASE: the value is empty");
+  expectRefused("info '  '", 2, "CASE: the value is empty");
+  for (const std::string list :
+       {"--part ,", "--part=,", "--part 'pairs,'", "--edge ,", "--edge '24, ,32'", "--edge=,24"})
+    expectRefused("bench renderer --quick --out x " + list, 2, "a value of its list is empty");
   expectRefused("register ear --mr T2 --init landmarks ''", 2, "--init: the value is empty");
   expectRefused("register ear --mr T2 --sign-off --quiet", 2, "missing before '--quiet'");
   expectRefused("appearance ear --set ct=", 2, "'ct=' is empty on one side");

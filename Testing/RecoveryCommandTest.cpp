@@ -128,6 +128,9 @@ TEST_F(RecoveryCommand, WhatAKilledDrillTookIsThereAgain)
     EXPECT_EQ(outcome.code, 0);
     EXPECT_NE(outcome.err.find("ended without saving"), std::string::npos) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    const auto notices = nlohmann::json::parse(outcome.out)["notices"];
+    ASSERT_EQ(notices.size(), 1u) << outcome.out;
+    EXPECT_EQ(notices[0].get<std::string>() + "\n", outcome.err);
     EXPECT_FALSE(std::filesystem::exists(journal()));
     EXPECT_EQ(run("info bone --json").err, "") << "it is told once";
     const auto strokes = json("history bone")["strokes"];
@@ -225,4 +228,45 @@ TEST_F(RecoveryCommand, OneFlippedBitOfTheCtIsToldBeforeAnythingIsDrilledOrWritt
   EXPECT_EQ(found["damaged"][0]["object"], object.filename().string());
   EXPECT_EQ(found["damaged"][0]["cases"], nlohmann::json({"bone"}));
   EXPECT_EQ(libraryContent(), before);
+}
+
+// The CT is held against its hash behind the command's back: whatever the command does, it must not
+// be done before that.
+TEST_F(RecoveryCommand, NothingIsSavedOrSaidOfADamagedCt)
+{
+  std::filesystem::path object;
+  for (const auto& entry : std::filesystem::directory_iterator(library() / "objects"))
+    object = entry.path();
+  std::string mr = textOf(m_folder / "bone.nrrd");
+  mr.back() = static_cast<char>(mr.back() + 1);
+  std::ofstream(m_folder / "mr.nrrd", std::ios::binary) << mr;
+  json("add bone --mr other=" + quoted(m_folder / "mr.nrrd"));
+  {
+    std::fstream file(object, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(-1000, std::ios::end);
+    file.put('\1');
+  }
+  const auto before = libraryContent();
+  const auto points = m_folder / "points.csv";
+  std::ofstream(points) << "x_mm,y_mm,z_mm\n0,0,0\n";
+  const std::string picture = quoted(m_folder / "picture.png");
+  for (const std::string& arguments :
+       {std::string("appearance bone --iso auto"), "slice bone --plane axial --out " + picture,
+        "render bone --engine reference --size 16x16 --out " + picture,
+        "probe bone --points " + quoted(points),
+        "probe bone --points " + quoted(points) + " --out " + quoted(m_folder / "rows.csv")})
+    expectRefused(arguments, 3, "the CT of case 'bone'");
+  const auto transform = m_folder / "transform.txt";
+  std::ofstream(transform) << "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n";
+  expectRefused("register bone --mr other --as-is --transform " + quoted(transform), 3,
+                "the CT of case 'bone'");
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "picture.png"));
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "rows.csv"));
+  EXPECT_EQ(libraryContent(), before);
+
+  const Outcome outcome = run("probe bone --json --points " + quoted(points));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("error")) << outcome.out;
+  json("export bone --what mr --part other --out " + quoted(m_folder / "other.nrrd"));
+  EXPECT_TRUE(std::filesystem::exists(m_folder / "other.nrrd")) << "it reads nothing of the CT";
 }

@@ -3,6 +3,7 @@
 #include "AppearanceList.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
@@ -91,6 +92,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   if (text == "auto")
   {
     const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+    context.refuseDamaged();
     value.iso = scale.iso;
     value.denseBone = scale.dense;
     if (!scale.calibrated)
@@ -108,6 +110,20 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   value.iso = iso;
 }
 
+// Of all parts but this one.
+std::vector<std::array<float, 3>> otherColors(const scene::Case& value, const std::string& part)
+{
+  std::vector<std::array<float, 3>> colors;
+  for (const auto& labels : value.labels)
+    for (const auto& structure : labels.structures)
+      if (structure.name != part)
+        colors.push_back(structure.look.color);
+  for (const auto& mesh : value.meshes)
+    if (mesh.name != part)
+      colors.push_back(mesh.look.color);
+  return colors;
+}
+
 void setPreset(scene::Case& value, const std::string& assignment)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
@@ -117,6 +133,13 @@ void setPreset(scene::Case& value, const std::string& assignment)
                                  "' is that of a lumen and cannot be the look of bone");
   for (StructureLook* look : part.looks)
     appearance::applyPreset(*look, preset);
+  // What is no known structure has a colour of its own, as when it came to the case.
+  if (preset.preset == appearance::StructurePresets::builtIn().lookFor({}).preset)
+  {
+    const auto color = appearance::distinctColor(otherColors(value, part.name));
+    for (StructureLook* look : part.looks)
+      appearance::setColor(*look, color);
+  }
 }
 
 void setTransfer(scene::Case& value, const std::string& assignment)
@@ -306,6 +329,7 @@ void run(const Context& context, const Options& options)
     setWarning(value, assignment);
   for (const std::string& assignment : options.tissue)
     setTissue(context, value, assignment);
+  context.refuseDamaged();
   if (options.changes())
     library.save(value);
   listAppearance(context, value);

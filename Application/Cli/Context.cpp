@@ -65,23 +65,26 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
       {
         m_parsing.reset();
         run();
-        refuseDamaged();
+        refuseDamaged(); // nothing was said
       });
   return command;
 }
 
-// What a command only looked at was checked behind its back.
 void Context::refuseDamaged() const
 {
-  const auto damage = m_opened ? m_opened->damageFound() : std::vector<std::string>();
-  if (!damage.empty())
-    throw library::LibraryError(library::LibraryError::Reason::Damaged, damage.front());
+  if (m_opened)
+    m_opened->checkAllRead(core::Progress(nullptr, interruptToken()));
 }
 
 library::Library Context::openLibrary() const
 {
   library::Library library(libraryFolder());
-  library.onNotice([this](const std::string& words) { remark(words); });
+  library.onNotice(
+      [this](const std::string& words)
+      {
+        m_notices.push_back(words);
+        remark(words);
+      });
   m_opened = library;
   return library;
 }
@@ -106,16 +109,21 @@ std::filesystem::path Context::libraryFolder() const
 
 void Context::say(const std::string& line) const
 {
+  refuseDamaged();
   if (!m_json && !m_quiet)
     std::cout << line << '\n';
 }
 
 void Context::give(const nlohmann::json& object) const
 {
+  refuseDamaged();
   if (!m_json)
     return;
   m_gave = true;
-  std::cout << jsonText(object);
+  nlohmann::json whole = object;
+  if (!m_notices.empty())
+    whole["notices"] = m_notices;
+  std::cout << jsonText(std::move(whole));
 }
 
 std::string jsonText(nlohmann::json object)

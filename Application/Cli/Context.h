@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -48,10 +49,16 @@ public:
 
   bool json() const noexcept { return m_json; }
 
+  /// Waits for the checks of what was read of the library: throws LibraryError (Damaged) where that
+  /// is not what was stored, CancelledError. For a command before it writes a file or saves; `say`
+  /// and `give` do it by themselves.
+  void refuseDamaged() const;
+
   /// Words for a person on stdout; nothing with --json or --quiet.
   void say(const std::string& line) const;
 
-  /// The one JSON object on stdout; nothing without --json.
+  /// The one JSON object on stdout, with "notices" where the library had something to say; nothing
+  /// without --json.
   void give(const nlohmann::json& object) const;
 
   /// Whether the one JSON object was given: a failure after it has no second one.
@@ -64,13 +71,13 @@ public:
   core::Progress progress() const;
 
 private:
-  void refuseDamaged() const;
   std::filesystem::path libraryFolder() const;
 
   // CLI11 reads numbers as the C library does: with a point until the command runs.
   std::optional<core::PlainNumbers> m_parsing{std::in_place};
   std::string m_library;
   mutable std::optional<library::Library> m_opened;
+  mutable std::vector<std::string> m_notices; ///< of the library
   bool m_json = false;
   bool m_quiet = false;
   mutable bool m_gave = false;

@@ -100,6 +100,7 @@ void openCase(const Context& context, library::Library& library, const std::stri
   library.refuseWhereDrilled(name); // before minutes of reading
   value = library.open(name);
   library.loadDissection(value);
+  value.ct.volume.get();
   library.checkVoxels(value, progress);
   remarkMissingPlaces(context, value);
 }

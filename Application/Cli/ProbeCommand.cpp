@@ -100,6 +100,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
     }
     rows.push_back(std::move(row));
   }
+  context.refuseDamaged();
   if (!out.empty())
     core::writeFile(out, csv);
   else

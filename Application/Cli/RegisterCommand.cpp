@@ -173,6 +173,7 @@ void registerMr(const Context& context, const Options& options)
                      {"metric", orNull(sample.metric)}});
   };
   const auto outcome = presenters::registerMr(value, request, progress.part(0.0, 0.98), listener);
+  context.refuseDamaged();
   const scene::ImagePart* mr = scene::findMr(value, options.mr);
   const bool wasSigned = scene::validSignOff(*mr) != nullptr;
   if (!outcome.failed)

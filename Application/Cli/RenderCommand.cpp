@@ -204,6 +204,7 @@ void render(const Context& context, const RenderOptions& options)
   if (!options.thickness.empty())
     rendering::drawThicknessLegend(result.picture, options.thickness,
                                    presenters::kFarthestThickness);
+  context.refuseDamaged();
   rendering::writePng(options.out, result.picture);
   if (result.depth)
     rendering::writeNpy(options.depth, *result.depth);

@@ -178,6 +178,7 @@ void slice(const Context& context, const SliceOptions& options)
   std::vector<std::string> lines{presenters::nameOf(geometry.orientation())};
   if (mr)
     lines.push_back("MR " + mr->name + (mr->registered ? "" : ": not registered"));
+  context.refuseDamaged();
   rendering::writePng(options.out, labelled(std::move(pixels), geometry, lines));
   if (mr && !mr->registered)
     context.remark("MR '" + mr->name +

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <iostream>
 #include <new>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -71,11 +72,16 @@ int complain(const std::string& text, const Failure& failure, bool json)
   return failure.exitCode;
 }
 
+bool isBlank(const std::string& text)
+{
+  return text.find_first_not_of(" \t") == std::string::npos;
+}
+
 // Nobody leaves an option out by giving it nothing, as a script does whose variable is not set, nor
 // means the next option by its value. Also of both sides of NAME=VALUE.
 std::string emptyValue(const std::string& value, bool pair)
 {
-  if (value.empty())
+  if (isBlank(value))
     return "the value is empty; give one, or leave it out";
   if (value.size() > 2 && value.compare(0, 2, "--") == 0 &&
       std::isalpha(static_cast<unsigned char>(value[2])) != 0)
@@ -110,6 +116,30 @@ std::string optionWithoutValue(const std::vector<std::string>& words)
     if (word.size() > 3 && word.compare(0, 2, "--") == 0 && word.find('=') == word.size() - 1)
       return word.substr(0, word.size() - 1);
   }
+  return {};
+}
+
+// Items that are nothing are dropped from a list before anybody could look at them.
+std::string listWithGap(CLI::App& command, const std::vector<std::string>& words)
+{
+  for (const CLI::Option* option : command.get_options([](const auto*) { return true; }))
+    for (std::size_t n = 0; option->get_delimiter() != '\0' && n < words.size(); ++n)
+    {
+      const std::string name = option->get_name();
+      std::string list;
+      if (words[n] == name && n + 1 < words.size())
+        list = words[n + 1];
+      else if (words[n].compare(0, name.size() + 1, name + "=") == 0)
+        list = words[n].substr(name.size() + 1);
+      else
+        continue;
+      if (isBlank(list)) // told as of any option
+        continue;
+      std::istringstream items(list + option->get_delimiter());
+      for (std::string item; std::getline(items, item, option->get_delimiter());)
+        if (isBlank(item))
+          return name;
+    }
   return {};
 }
 
@@ -190,6 +220,9 @@ int runCommand(std::vector<std::string> words, cli::Context& context)
     throw cli::UsageError("unknown subcommand '" + name + "'; see 'petrous --help'");
   if (const std::string option = optionWithoutValue(words); !option.empty())
     throw cli::UsageError(option + ": the value is empty; give one, or leave it out");
+  if (!name.empty())
+    if (const std::string option = listWithGap(*app.get_subcommand(name), words); !option.empty())
+      throw cli::UsageError(option + ": a value of its list is empty; give one, or leave it out");
   refuseEmptyValues(app);
   try
   {

@@ -32,7 +32,8 @@ using presenters::SourceContent;
 namespace
 {
 
-constexpr int kShowLoading = 300; // ms
+constexpr int kShowLoading = 300;   // ms
+constexpr int kLookForDamage = 500; // ms; images are held against their hash in another thread
 
 fs::path pathOf(const QString& text)
 {
@@ -70,12 +71,13 @@ QString listOf(const std::vector<SourceContent>& sources)
 } // namespace
 
 CaseKeeper::CaseKeeper(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
-                       Banner& unsaved, Banner& loading)
+                       Banner& unsaved, Banner& loading, Banner& damaged)
   : m_model(model)
   , m_saver(saver)
   , m_window(window)
   , m_unsaved(unsaved)
   , m_loading(loading)
+  , m_damaged(damaged)
 {
   connect(&m_work, &BackgroundWork::failed, this,
           [this](const QString& why)
@@ -92,6 +94,7 @@ CaseKeeper::CaseKeeper(presenters::WorkstationModel& model, CaseSaver& saver, QW
             emit said(tr("Stopped; nothing was changed"));
           });
   connectBanners();
+  watchForDamage();
 }
 
 CaseKeeper::~CaseKeeper() = default;
@@ -144,6 +147,8 @@ void CaseKeeper::connectBanners()
           });
   const auto without = [this](const QString& why)
   {
+    if (m_prepareAgain)
+      return prepare();
     m_loading.setText(why);
     m_loading.setButtonVisible("loadStructures", true);
     m_loading.setButtonVisible("cancelLoading", false);
@@ -158,6 +163,14 @@ void CaseKeeper::connectBanners()
   connect(&m_preparation, &BackgroundWork::failed, this,
           [without](const QString& why)
           { without(tr("The structures could not be prepared: %1").arg(why)); });
+}
+
+void CaseKeeper::watchForDamage()
+{
+  m_damaged.addButton("dismissDamage", tr("Close"), [this] { m_damaged.hide(); });
+  auto* look = new QTimer(this);
+  connect(look, &QTimer::timeout, this, &CaseKeeper::lookForDamage);
+  look->start(kLookForDamage);
 }
 
 void CaseKeeper::notSaved(const QString& why)
@@ -251,13 +264,14 @@ void CaseKeeper::endWork()
   m_progress.release()->deleteLater();
 }
 
-// The open case is safe, and another one may come.
+// The open case is safe, and another one may come; until then no tool is taken up.
 bool CaseKeeper::leaveCase()
 {
   const QScopedValueRollback<bool> asking(m_asking, true); // nothing else begins meanwhile
-  m_model.stopTouch(); // what was drilled until now is in the case
+  m_model.beginLeave(); // what was drilled until now is in the case, and nothing more is
   if (m_saver.flush())
     return true;
+  m_model.notOpened();
   emit said(tr("The open case is not saved yet; it stays open"));
   return false;
 }
@@ -354,6 +368,21 @@ bool CaseKeeper::askContent(SourceContent& source)
   return true;
 }
 
+bool CaseKeeper::askName(const SourceContent& source, std::string& name)
+{
+  if (!source.isNameless)
+    return true;
+  bool given = false;
+  const QString text = QInputDialog::getText(
+      &m_window, tr("Name of the structure"),
+      tr("What is the structure in “%1” called?\nThe file's own name is not kept: it may be a "
+         "patient's.")
+          .arg(nameOf(source.path)),
+      QLineEdit::Normal, words(presenters::fileName(source.path).name), &given);
+  name = bytes(text.trimmed());
+  return given;
+}
+
 void CaseKeeper::decide(const Sources& found)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
@@ -367,6 +396,9 @@ void CaseKeeper::decide(const Sources& found)
     if (!source.series.empty() && !chooseSeries(source, uid))
       return;
     if (source.content == Content::Image && !askContent(source))
+      return;
+    std::string name;
+    if (!askName(source, name))
       return;
     switch (source.content)
     {
@@ -384,10 +416,10 @@ void CaseKeeper::decide(const Sources& found)
       sources.parts.mr.push_back({{}, source.path, {}, uid});
       break;
     case Content::Labels:
-      sources.parts.labels.push_back({{}, source.path});
+      sources.parts.labels.push_back({name, source.path});
       break;
     case Content::Mesh:
-      sources.parts.meshes.push_back({{}, source.path});
+      sources.parts.meshes.push_back({name, source.path});
       break;
     }
     others.push_back(source);
@@ -423,6 +455,7 @@ void CaseKeeper::makeCase(const std::string& name,
 {
   if (!leaveCase())
     return;
+  m_model.notOpened(); // it stays in use as long as the other one is made
   work(tr("Making the case %1").arg(words(name)),
        [this, name,
         sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
@@ -449,7 +482,15 @@ void CaseKeeper::adopt(scene::Case value)
 {
   if (!leaveCase()) // a device may have drilled meanwhile
     return;
-  m_model.adopt(std::move(value));
+  try
+  {
+    m_model.adopt(std::move(value));
+  }
+  catch (...)
+  {
+    m_model.notOpened();
+    throw;
+  }
   m_sayWhenSaved = true;
   m_saver.save();
   emit said(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
@@ -461,15 +502,17 @@ void CaseKeeper::addParts(const presenters::PartSources& parts, const QString& w
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
   value->dissection.reset();                                         // another thread writes there
   work(tr("Adding to %1").arg(words(value->name)),
-       [this, value, parts, what](const core::Progress& progress) -> BackgroundWork::Reply
+       [this, value, parts, what,
+        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
        {
          presenters::addParts(*value, parts, progress);
-         return [this, value, what]
+         return [this, value, what, shownAs]
          {
            endWork();
-           if (!m_model.hasCase() || m_model.value().name != value->name)
-             return;
-           const QString name = words(value->name);
+           if (!m_model.hasCase() || m_model.shownAs() != shownAs)
+             return refuse(tr("%1 was not added: the case “%2” is not open any more.")
+                               .arg(what, words(value->name)));
+           const QString name = words(m_model.value().name);
            m_model.takeParts(std::move(*value));
            m_saver.save();
            emit said(tr("Added to %1: %2").arg(name, what));
@@ -477,13 +520,16 @@ void CaseKeeper::addParts(const presenters::PartSources& parts, const QString& w
        });
 }
 
+// One at a time. Who asks while one is under way has it done once more, and waits for nothing.
 void CaseKeeper::prepare()
 {
-  m_preparation.drop();
+  m_prepareAgain = m_preparation.busy();
+  if (m_prepareAgain)
+    return m_preparation.cancel();
   m_loading.hide();
   m_loading.setButtonVisible("loadStructures", false);
   m_loading.setButtonVisible("cancelLoading", true);
-  if (!m_model.hasCase() || (m_model.ready() && m_model.drawable()))
+  if (!m_model.preparationHelps())
     return;
   m_loading.setText(tr("The structures are being prepared…"));
   QTimer::singleShot(kShowLoading, this,
@@ -493,17 +539,42 @@ void CaseKeeper::prepare()
                          m_loading.show();
                      });
   m_preparation.start(
-      [this,
-       prepare = m_model.preparation()](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, make = m_model.preparation()](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        const auto done = std::make_shared<presenters::PreparedCase>(prepare(progress));
+        const auto done = std::make_shared<presenters::PreparedCase>(make(progress));
         return [this, done]
         {
+          if (m_prepareAgain) // of what the case was
+            return prepare();
           m_loading.hide();
           if (m_model.prepared(std::move(*done)))
             emit ready();
+          lookForDamage();
         };
       });
+}
+
+void CaseKeeper::prepareUnlessUnderWay()
+{
+  if (!m_preparation.busy())
+    prepare();
+}
+
+void CaseKeeper::lookForDamage()
+{
+  QStringList lines;
+  for (const std::string& one : m_model.damage())
+    lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
+                "until it is whole and opened again.")
+                 .arg(words(one));
+  for (const std::string& one : m_model.leftOut())
+    lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
+  const QString text = lines.join('\n');
+  if (text == m_damageTold)
+    return;
+  m_damageTold = text;
+  m_damaged.setText(text);
+  m_damaged.setVisible(!text.isEmpty());
 }
 
 void CaseKeeper::openFolder()
@@ -632,7 +703,10 @@ bool CaseKeeper::mayLeave()
   const bool safe = m_saver.flush();
   m_leaving = false;
   if (!safe)
+  {
     m_unsaved.setButtonVisible("quitUnsaved", true);
+    prepare(); // the window stays
+  }
   return safe;
 }
 

@@ -31,9 +31,9 @@ class CaseKeeper : public QObject
 {
   Q_OBJECT
 public:
-  /// `window` is the parent of dialogs; `unsaved` and `loading` are its banners.
+  /// `window` is the parent of dialogs; the banners are its own.
   CaseKeeper(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
-             Banner& unsaved, Banner& loading);
+             Banner& unsaved, Banner& loading, Banner& damaged);
   ~CaseKeeper() override;
 
   /// A case's name; or folders and files: a CT begins a case, all else comes to it, or to the open
@@ -47,6 +47,7 @@ public:
   void save(); ///< and says so
   void saveAs();
   void prepare(); ///< what takes long of the open case (WorkstationModel::preparation)
+  void prepareUnlessUnderWay(); ///< the same, where it was stopped or failed
 
   /// Ends imports, saves what is unsaved. False when that failed, which the banner tells: the
   /// window stays.
@@ -66,6 +67,7 @@ private:
   void decide(const Sources& found);
   bool chooseSeries(presenters::SourceContent& source, std::string& uid);
   bool askContent(presenters::SourceContent& source);
+  bool askName(const presenters::SourceContent& source, std::string& name);
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources);
   void addParts(const presenters::PartSources& parts, const QString& what);
@@ -73,6 +75,8 @@ private:
   void work(const QString& title, BackgroundWork::Work work);
   void endWork();
   void connectBanners();
+  void watchForDamage();
+  void lookForDamage();
   void notSaved(const QString& why);
   bool leaveCase();
   void refuse(const QString& why);
@@ -82,9 +86,12 @@ private:
   QWidget& m_window;
   Banner& m_unsaved;
   Banner& m_loading;
+  Banner& m_damaged;
   BackgroundWork m_work;
   BackgroundWork m_preparation;
   std::unique_ptr<QProgressDialog> m_progress; // of m_work
+  QString m_damageTold;
+  bool m_prepareAgain = false;
   bool m_sayWhenSaved = false;
   bool m_asking = false; // in a dialog of its own
   bool m_leaving = false;

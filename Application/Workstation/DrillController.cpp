@@ -172,6 +172,8 @@ void DrillController::setTool(Tool tool)
   m_bar.drillAction()->setChecked(tool == Tool::Burr);
   m_bar.pointerAction()->setChecked(tool == Tool::Pointer);
   applyBar();
+  if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
+    emit tissueWanted();
   takeTool();
 }
 
@@ -218,7 +220,7 @@ bool DrillController::takeTool()
     return false;
   if (!m_model.ready())
   {
-    emit said(tr("The structures are still being loaded; then the tool can be taken up"));
+    emit said(tr("The case is still being prepared; then the tool can be taken up"));
     return false;
   }
   putAway(); // what a change of the tissue has ended

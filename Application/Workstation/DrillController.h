@@ -36,6 +36,7 @@ public:
 signals:
   void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
   void pointedNowhere();
+  void tissueWanted(); ///< a tool was chosen, and the case is not prepared for it
   void burrMoved(const Eigen::Vector3d& center, double radius); ///< patient LPS mm; each picture
   void burrGone();                                              ///< out of the hand
   /// Null when nothing was cut.

@@ -62,6 +62,25 @@ QStringList dropped(const QMimeData& data)
   what.removeAll(QString());
   return what;
 }
+
+// What was assumed or left out as the parts of a case were read, each with its part.
+QStringList notesOf(const scene::Case& value)
+{
+  QStringList notes;
+  const auto add = [&notes](const std::string& part, const std::vector<std::string>& more)
+  {
+    for (const std::string& note : more)
+      notes += words(part) + ": " + words(note);
+  };
+  add("CT", value.ct.notes);
+  for (const auto& mr : value.mr)
+    add(mr.name, mr.notes);
+  for (const auto& part : value.labels)
+    add(part.structures.size() == 1 ? part.structures.front().name : "structures", part.notes);
+  for (const auto& mesh : value.meshes)
+    add(mesh.name, mesh.notes);
+  return notes;
+}
 } // namespace
 
 MainWindow::MainWindow(library::Library library, const WindowOptions& options)
@@ -77,12 +96,15 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_unsavedBanner(new Banner("unsavedBanner", Banner::Kind::Warning))
   , m_loadingBanner(new Banner("loadingBanner", Banner::Kind::Notice))
   , m_faultBanner(new Banner("faultBanner", Banner::Kind::Warning))
+  , m_notesBanner(new Banner("notesBanner", Banner::Kind::Notice))
+  , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
   , m_place(new PlaceLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_handBar, options.quadBuffer))
   , m_saver(new CaseSaver(m_model))
-  , m_keeper(new CaseKeeper(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner))
+  , m_keeper(new CaseKeeper(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner,
+                            *m_damageBanner))
   , m_finder(new HandFinder(options.hands, options.lookForHandsEvery, this))
   , m_hands(new HandKeeper(*m_finder, *m_handBar, *m_settings, this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
@@ -137,12 +159,14 @@ void MainWindow::layOut()
   across->setSizes({700, 380});
   m_pages->addWidget(start);
   m_pages->addWidget(across);
+  m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
   auto* whole = new QWidget;
   auto* stack = new QVBoxLayout(whole);
   stack->setContentsMargins(0, 0, 0, 0);
   stack->setSpacing(0);
-  for (Banner* banner : {m_faultBanner, m_unsavedBanner, m_loadingBanner})
+  for (Banner* banner :
+       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
     stack->addWidget(banner);
   stack->addWidget(m_pages, 1);
   setCentralWidget(whole);
@@ -237,6 +261,7 @@ void MainWindow::connectModel()
   connect(m_thickness, &ThicknessController::said, this, tell);
   connect(m_registration, &RegistrationController::said, this, tell);
   connect(m_keeper, &CaseKeeper::ready, m_drill, &DrillController::tissueCame);
+  connect(m_drill, &DrillController::tissueWanted, m_keeper, &CaseKeeper::prepareUnlessUnderWay);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::said, this, tell);
   connect(m_picture, &PictureController::said, this,
@@ -306,6 +331,7 @@ void MainWindow::caseClosed()
   m_registration->caseChanged();
   m_place->clear();
   m_sum->clear();
+  m_notesBanner->hide();
   m_pages->setCurrentIndex(0);
 }
 
@@ -319,6 +345,7 @@ void MainWindow::partsChanged()
   m_nearby->caseChanged();
   m_thickness->caseChanged();
   m_registration->caseChanged();
+  tellNotes();
 }
 
 void MainWindow::caseChanged()
@@ -344,11 +371,24 @@ void MainWindow::caseChanged()
   m_thickness->caseChanged();
   m_registration->caseChanged();
   m_view->setFocus();
-  QString notes;
-  for (const std::string& note : value.ct.notes)
-    notes += (notes.isEmpty() ? "" : "  ") + words(note);
-  if (!notes.isEmpty() && value.revision == 0)
-    statusBar()->showMessage(notes, 2 * kMessage);
+  m_notesBanner->hide();
+  m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
+  tellNotes();
+}
+
+// What was assumed or left out as files were read, until somebody has read it.
+void MainWindow::tellNotes()
+{
+  const QStringList notes = notesOf(m_model.value());
+  QStringList fresh;
+  for (const QString& note : notes)
+    if (!m_notesTold.contains(note))
+      fresh += note;
+  m_notesTold = notes;
+  if (fresh.isEmpty())
+    return;
+  m_notesBanner->setText(fresh.join('\n'));
+  m_notesBanner->show();
 }
 
 // Those of the library.

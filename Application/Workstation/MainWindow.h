@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <QMainWindow>
+#include <QStringList>
 
 #include "petrous/Presenters/HeldDevice.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -71,6 +72,7 @@ private:
   void caseChanged();
   void caseClosed();
   void partsChanged();
+  void tellNotes();
   void showFault(const QString& why);
   void offerBurrs();
   void maskChanged(const core::IndexBox& box);
@@ -94,6 +96,9 @@ private:
   Banner* m_unsavedBanner;
   Banner* m_loadingBanner;
   Banner* m_faultBanner;
+  Banner* m_notesBanner;
+  Banner* m_damageBanner;
+  QStringList m_notesTold;
   PlaceLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;

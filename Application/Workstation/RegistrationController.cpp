@@ -190,10 +190,11 @@ void RegistrationController::begin(Way way)
       [this](const registration::MetricSample& sample, const core::RigidTransform& best)
   { m_run->post([=] { heard(sample, best); }); };
   m_run->start(
-      [this, value = std::move(value), request,
-       listener](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, value = std::move(value), request, listener,
+       library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         const auto outcome = presenters::registerMr(value, request, progress, listener);
+        library.checkVoxels(value, progress); // that of damaged images is worth nothing
         return [this, outcome] { finished(outcome); };
       });
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "petrous/Imaging/DicomWriter.h"
@@ -332,6 +333,29 @@ TEST_F(CaseBuilder, TakesNoPatientsNameFromAFilesName)
   for (char& c : manifest)
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   EXPECT_EQ(manifest.find("doe"), std::string::npos);
+}
+
+TEST_F(CaseBuilder, TakesNoPatientsNameFromWhatADicomFolderHoldsBesideItsSlices)
+{
+  const core::GridGeometry grid({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero());
+  imaging::SeriesDescription series;
+  series.studyUid = "1.2.3";
+  series.frameOfReferenceUid = "1.2.4";
+  series.seriesUid = imaging::deterministicUid(1, "ct");
+  imaging::writeDicomSeries(
+      m_folder / "series",
+      volume::IntensityVolume(
+          std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{40})),
+      series);
+  ASSERT_EQ(::mkfifo((m_folder / "series/Doe, John.pipe").c_str(), 0600), 0);
+  std::filesystem::create_directory(m_folder / "elsewhere");
+  std::filesystem::create_directory_symlink(m_folder / "elsewhere", m_folder / "series/DOE^JOHN");
+  m_sources.ct = m_folder / "series";
+  std::string manifest = scene::toManifest(presenters::buildCase("ear", m_sources, {}));
+  for (char& c : manifest)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  EXPECT_EQ(manifest.find("doe"), std::string::npos) << manifest;
+  EXPECT_NE(manifest.find("left out in 2 places"), std::string::npos) << manifest;
 }
 
 TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <unistd.h>
@@ -430,4 +431,191 @@ TEST_F(WorkstationModelTest, AClosedCaseIsGoneFromTheWindowOnly)
   EXPECT_TRUE(library.contains("block"));
   model.open("block");
   stroke(model);
+}
+
+namespace
+{
+
+void flipBit(const std::filesystem::path& file)
+{
+  std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+  stream.seekg(-1000, std::ios::end);
+  const char byte = static_cast<char>(stream.get() ^ 4);
+  stream.seekp(-1000, std::ios::end);
+  stream.put(byte);
+}
+
+} // namespace
+
+TEST_F(WorkstationModelTest, NothingIsDrilledInADamagedCtAndNothingIsStoredOfIt)
+{
+  library::Library library(folder / "library");
+  scene::Case value = block("block");
+  library.save(value);
+  flipBit(folder / "library/objects" / value.ct.object);
+  {
+    WorkstationModel model{library::Library(folder / "library")};
+    model.open("block");
+    ASSERT_EQ(model.damage().size(), 1u);
+    EXPECT_NE(model.damage()[0].find("the CT of case 'block'"), std::string::npos);
+    HeldTool hand({6, 6, 8.5});
+    EXPECT_THROW(model.startTouch(hand.device, hand.setup), library::LibraryError);
+  }
+  // Stored elsewhere it would be whole by the hash of what it is now.
+  WorkstationModel model{library::Library(folder / "library")};
+  model.opened(ReadCase::from(model.library(), "block"));
+  EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), library::LibraryError);
+  EXPECT_TRUE(library::Library(folder / "other").list().empty());
+  EXPECT_EQ(model.library().folder(), folder / "library");
+}
+
+TEST_F(WorkstationModelTest, ACtOfTheLibraryIsCheckedBeforeAToolIsTakenUp)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  model.opened(ReadCase::from(library, "block"));
+  EXPECT_FALSE(model.ready());
+  EXPECT_TRUE(model.preparationHelps());
+  model.prepareNow();
+  EXPECT_TRUE(model.ready());
+  EXPECT_FALSE(model.preparationHelps());
+  EXPECT_TRUE(model.damage().empty());
+  stroke(model);
+}
+
+TEST_F(WorkstationModelTest, AStructureThatCannotBeReadIsLeftOutAndStaysAsItIs)
+{
+  library::Library library(folder / "library");
+  scene::Case value = block("block");
+  value.labels.push_back(ballOf(value.ct.geometry, "tumour"));
+  value.labels.push_back(ballOf(value.ct.geometry, "nerve"));
+  auto drawn = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+  drawn->at(20, 20, 24) = 1;
+  value.labels[1].labels =
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(drawn, {}));
+  auto solid = std::make_shared<core::TriangleMesh>();
+  solid->vertices = {{3, 3, 7}, {5, 3, 7}, {3, 5, 7}, {3, 3, 9}};
+  solid->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  scene::MeshPart mesh;
+  mesh.name = "incus";
+  mesh.triangles = 4;
+  mesh.mesh = std::shared_ptr<const core::TriangleMesh>(solid);
+  value.meshes.push_back(mesh);
+  library.save(value);
+  const auto objects = folder / "library/objects";
+  std::filesystem::rename(objects / value.labels[0].object, folder / "tumour");
+  std::filesystem::rename(objects / value.meshes[0].object, folder / "incus");
+
+  WorkstationModel model{library};
+  model.open("block");
+  ASSERT_EQ(model.leftOut().size(), 2u);
+  EXPECT_TRUE(model.ready()) << "the others are there";
+  ASSERT_TRUE(model.surfaceAt(line()));
+  EXPECT_LT(model.surfaceAt(line())->z(), 0.3 * 27) << "the nerve, and nothing of the tumour";
+  EXPECT_TRUE(model.sceneContents().labels);
+  model.readPlace({6, 6, 5});
+  stroke(model);
+  model.undo(); // it went where the tumour is
+  model.setIso(500.0);
+  EXPECT_TRUE(model.surfaceAt(line()));
+  EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), core::Error) << "not without it";
+
+  std::filesystem::rename(folder / "tumour", objects / value.labels[0].object);
+  std::filesystem::rename(folder / "incus", objects / value.meshes[0].object);
+  model.save();
+  const auto saved = library.open("block");
+  EXPECT_EQ(saved.labels.at(0).object, value.labels[0].object);
+  EXPECT_EQ(saved.meshes.at(0).object, value.meshes[0].object);
+  EXPECT_EQ(saved.labels[0].labels.get()->segments.size(), 1u);
+  model.open("block");
+  EXPECT_TRUE(model.leftOut().empty());
+  EXPECT_GT(model.surfaceAt(line())->z(), 0.3 * 33);
+}
+
+TEST_F(WorkstationModelTest, NoToolIsTakenUpInACaseThatIsLeft)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.prepareNow();
+  HeldTool hand({6, 6, 8.5});
+  model.startTouch(hand.device, hand.setup);
+  model.beginLeave();
+  EXPECT_FALSE(model.touching());
+  EXPECT_THROW(model.startTouch(hand.device, hand.setup), core::InvalidParameter);
+  model.notOpened(); // it stays
+  stroke(model);
+  model.beginLeave();
+  model.close();
+  model.adopt(block("other"));
+  stroke(model);
+}
+
+// Two that are compared must both be salted, or neither.
+TEST_F(WorkstationModelTest, TheOpenCaseHasTheFramesOfReferenceThatWereSaved)
+{
+  library::Library library(folder);
+  WorkstationModel model{library};
+  scene::Case value = block("block");
+  value.ct.frameOfReference = std::string(64, 'a');
+  model.adopt(value);
+  model.save();
+  EXPECT_TRUE(model.value().ct.isFrameSalted);
+  EXPECT_EQ(model.value().ct.frameOfReference, library.open("block").ct.frameOfReference);
+  scene::Case with = model.value();
+  with.mr.push_back(block("mr").ct);
+  with.mr[0].name = "mr";
+  with.mr[0].frameOfReference = std::string(64, 'a');
+  model.takeParts(with);
+  model.save();
+  EXPECT_EQ(model.value().mr[0].frameOfReference, model.value().ct.frameOfReference);
+}
+
+TEST_F(WorkstationModelTest, EachCaseThatIsShownIsAnotherOne)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  const auto first = model.shownAs();
+  model.save();
+  model.saveAs("another name");
+  EXPECT_EQ(model.shownAs(), first);
+  model.open("block");
+  EXPECT_NE(model.shownAs(), first);
+}
+
+TEST_F(WorkstationModelTest, ThicknessThatIsShownMeanwhileStays)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case value = block("block");
+  value.labels.push_back(ballOf(value.ct.geometry, "tumour"));
+  model.adopt(value);
+  model.prepareNow();
+  auto late = model.preparation()({});
+  model.showThickness("tumour");
+  EXPECT_TRUE(model.prepared(std::move(late)));
+  EXPECT_EQ(model.thicknessOver(), "tumour");
+  EXPECT_TRUE(model.sceneContents().thickness.distance);
+}
+
+TEST_F(WorkstationModelTest, AnMrThatMovedAStructureHasThatPreparedAgain)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case value = block("block");
+  value.mr.push_back(block("mr").ct);
+  value.mr[0].name = "mr";
+  value.mr[0].registered = true;
+  value.labels.push_back(ballOf(value.ct.geometry, "tumour"));
+  value.labels[0].drawnOn = "mr";
+  model.adopt(value);
+  model.prepareNow();
+  int wanted = 0;
+  model.events.preparationWanted = [&wanted] { ++wanted; };
+  const core::RigidTransform moved(Eigen::Quaterniond::Identity(), {1, 0, 0});
+  model.changeMr([&](scene::Case& open) { scene::layMr(open, "mr", moved, {}); });
+  EXPECT_EQ(wanted, 1);
+  EXPECT_TRUE(model.preparationHelps());
+  EXPECT_TRUE(model.ready()) << "whoever asks waits for it";
+  model.prepareNow();
+  EXPECT_FALSE(model.preparationHelps());
 }

@@ -96,7 +96,11 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
     imaging::ReadOptions options;
     options.roi = roi;
     std::vector<std::string> notes = series.geometry.notes;
-    notes.insert(notes.end(), scan.notes.begin(), scan.notes.end());
+    if (!scan.notes.empty()) // which name files and folders, and those may be called after patients
+      notes.push_back("Of what lies beside its slices, something was left out in " +
+                      std::to_string(scan.notes.size()) +
+                      (scan.notes.size() == 1 ? " place" : " places") +
+                      "; 'petrous scan' says what.");
     part.volume = std::make_shared<const volume::IntensityVolume>(
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);

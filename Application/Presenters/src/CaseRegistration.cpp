@@ -99,6 +99,7 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
     task.fixedFromCt = task.fixed->mrFromCt;
   }
   task.commonFrame = !task.mr->frameOfReference.empty() &&
+                     task.mr->isFrameSalted == task.fixed->isFrameSalted &&
                      task.mr->frameOfReference == task.fixed->frameOfReference;
   task.options.seed = request.seed;
   if (request.region)

@@ -85,6 +85,14 @@ void SceneAssembly::showThickness(const std::string& structure)
   m_thicknessOver = structure;
 }
 
+void SceneAssembly::takeThickness(const SceneAssembly& other)
+{
+  if (other.m_thicknessOver == m_thicknessOver)
+    return;
+  m_thicknessOver = other.m_thicknessOver;
+  m_thickness = other.m_thickness;
+}
+
 rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
                                                  const core::Progress& progress)
 {

@@ -6,7 +6,9 @@
 
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
@@ -139,6 +141,7 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
   if (!fs::is_directory(path) && imaging::isMeshFileName(path))
   {
     result.content = Content::Mesh;
+    result.isNameless = !fileName(path).isWhole;
     result.why = "is a surface of triangles";
     return result;
   }
@@ -152,6 +155,8 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
   }
   const auto image = imaging::readImageFile(path, std::nullopt, progress);
   result.content = contentOf(*image.volume);
+  result.isNameless = result.content == Content::Labels && !fileName(path).isWhole &&
+                      imaging::loadLabels(path, progress).isNamedAfterFile;
   result.why = result.content == Content::Labels
                    ? "has a few whole numbers in patches, as labels do"
                : result.content == Content::Ct ? "is in Hounsfield units"

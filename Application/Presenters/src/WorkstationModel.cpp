@@ -32,7 +32,12 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_saved.reset();
   m_nearby.reset();
   m_assembly = {}; // what it keeps is of the case before
+  m_unreadLabels.clear();
+  m_unreadMeshes.clear();
   m_case = std::move(next);
+  ++m_shown;
+  m_leaving = false;
+  m_checked = unsaved; // what was just made needs no check
   m_unsaved = unsaved;
   m_journal = std::make_shared<JournalThread>();
   m_crosshair = m_case->ct.geometry.center();
@@ -71,21 +76,68 @@ rendering::SceneContents WorkstationModel::sceneContents()
   return m_loaded ? m_assembly.contents(*m_case) : SceneAssembly().contents(presentable());
 }
 
+namespace
+{
+
+// Reads the parts of a copy of the case, each for itself. One that cannot be read makes way for an
+// empty one: the others are there nevertheless.
+template <class T, class Part>
+std::vector<PreparedCase::LeftOut> readParts(std::vector<Part>& parts, core::Lazy<T> Part::*member,
+                                             const core::Lazy<T>& empty,
+                                             const core::Progress& progress)
+{
+  std::vector<PreparedCase::LeftOut> leftOut;
+  const auto count = static_cast<double>(parts.size());
+  for (std::size_t n = 0; n < parts.size(); ++n)
+  {
+    progress.report(static_cast<double>(n) / count, "loading structures");
+    try
+    {
+      (parts[n].*member).get();
+    }
+    catch (const core::Error& error)
+    {
+      if (error.fault() == core::Fault::Cancelled)
+        throw;
+      leftOut.push_back({n, error.what()});
+      parts[n].*member = empty;
+    }
+  }
+  return leftOut;
+}
+
+// One for all, so that what was made of it is known again.
+core::Lazy<volume::LabelMap> noLabels()
+{
+  static const auto kNone = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(
+      std::make_shared<volume::Volume<std::uint16_t>>(
+          core::GridGeometry({2, 2, 2}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
+          std::uint16_t{0}),
+      {}));
+  return kNone;
+}
+
+core::Lazy<core::TriangleMesh> noMesh()
+{
+  static const auto kNone = std::make_shared<const core::TriangleMesh>();
+  return kNone;
+}
+
+} // namespace
+
 std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation() const
 {
   scene::Case value = *m_case;
   if (value.dissection) // a tool may cut the case's own
     value.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
-  return [value = std::move(value), assembly = m_assembly, parts = m_parts, tissue = m_tissue,
-          felt = m_session || m_scene](const core::Progress& progress) mutable
+  return [value = std::move(value), library = m_library, assembly = m_assembly, parts = m_parts,
+          tissue = m_tissue, felt = m_session || m_scene](const core::Progress& progress) mutable
   {
-    const auto count = static_cast<double>(value.labels.size());
-    for (std::size_t n = 0; n < value.labels.size(); ++n)
-    {
-      progress.report(0.3 * static_cast<double>(n) / count, "loading structures");
-      value.labels[n].labels.get();
-    }
     PreparedCase done;
+    done.labels =
+        readParts(value.labels, &scene::LabelPart::labels, noLabels(), progress.part(0.0, 0.2));
+    done.meshes =
+        readParts(value.meshes, &scene::MeshPart::mesh, noMesh(), progress.part(0.2, 0.3));
     done.assembly = std::move(assembly);
     try
     {
@@ -95,7 +147,14 @@ std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation
     {
     }
     if (!felt)
-      done.drill.emplace(value, progress.part(0.6, 1.0));
+      done.drill.emplace(value, progress.part(0.6, 0.95));
+    try
+    {
+      library.checkVoxels(value, progress.part(0.95, 1.0)); // most often done by now
+    }
+    catch (const library::LibraryError&) // WorkstationModel::damage tells
+    {
+    }
     done.parts = parts;
     done.tissue = tissue;
     return done;
@@ -106,16 +165,47 @@ bool WorkstationModel::prepared(PreparedCase done)
 {
   if (!m_case || done.parts != m_parts)
     return false;
-  m_loaded = m_drawable = true;
+  leaveOut(done);
+  m_loaded = m_drawable = m_checked = true;
+  done.assembly.takeThickness(m_assembly); // it may have been asked for meanwhile
   m_assembly = std::move(done.assembly);
   if (done.tissue == m_tissue)
     m_feelable = true;
-  if (done.drill && done.tissue == m_tissue && !m_scene)
+  if (done.drill && done.tissue == m_tissue && !m_scene && !m_session)
     m_session.emplace(*m_case, *done.drill);
   tell(events.appearanceChanged);
   if (!m_feelable) // the threshold was changed meanwhile
     tell(events.preparationWanted);
   return true;
+}
+
+void WorkstationModel::leaveOut(const PreparedCase& done)
+{
+  for (const PreparedCase::LeftOut& one : done.labels)
+  {
+    auto& labels = m_case->labels[one.part].labels;
+    m_unreadLabels.push_back({one.part, one.why, std::exchange(labels, noLabels())});
+  }
+  for (const PreparedCase::LeftOut& one : done.meshes)
+  {
+    auto& mesh = m_case->meshes[one.part].mesh;
+    m_unreadMeshes.push_back({one.part, one.why, std::exchange(mesh, noMesh())});
+  }
+}
+
+std::vector<std::string> WorkstationModel::damage() const
+{
+  return m_case ? m_library.damageFound(*m_case) : std::vector<std::string>();
+}
+
+std::vector<std::string> WorkstationModel::leftOut() const
+{
+  std::vector<std::string> sentences;
+  for (const auto& one : m_unreadLabels)
+    sentences.push_back(one.why);
+  for (const auto& one : m_unreadMeshes)
+    sentences.push_back(one.why);
+  return sentences;
 }
 
 void WorkstationModel::setCamera(const core::CameraPose& camera)
@@ -332,9 +422,10 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   if (m_leaving)
     throw core::InvalidParameter("Another case is being opened; then the tool can be taken up.");
   if (!ready())
-    throw core::InvalidParameter("The structures are still being loaded; then the tool can be "
-                                 "taken up.");
-  m_library.checkVoxels(*m_case); // most often done by now
+    throw core::InvalidParameter("The case is still being prepared; then the tool can be taken "
+                                 "up.");
+  if (const auto found = damage(); !found.empty())
+    throw library::LibraryError(library::LibraryError::Reason::Damaged, found.front());
   if (!m_scene)
   {
     m_reader.reset();

@@ -107,6 +107,7 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
   if (!m_case || drilling())
     return;
   const auto before = drawnOnMrs(*m_case);
+  bool tissueMoved = false;
   const auto follow = [&]
   {
     if (!before.empty())
@@ -117,6 +118,7 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
     forgetTissue();
     if (held)
       tell(events.toolPutAway);
+    tissueMoved = true;
   };
   try
   {
@@ -130,6 +132,8 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
   follow();
   tell(events.mrMoved);
   setUnsaved(true);
+  if (tissueMoved) // whoever asks before that waits for it
+    tell(events.preparationWanted);
 }
 
 } // namespace petrous::presenters

@@ -63,17 +63,21 @@ void WorkstationModel::open(const std::string& name)
   prepareNow();
 }
 
-void WorkstationModel::beginOpen(const std::string& name)
+void WorkstationModel::beginLeave()
 {
   stopTouch();
   m_leaving = true;
+}
+
+void WorkstationModel::beginOpen(const std::string& name)
+{
+  beginLeave();
   if (m_case && m_case->name == name)
     m_journal.reset(); // or it would look as if another program drilled in it
 }
 
 void WorkstationModel::opened(ReadCase next)
 {
-  m_leaving = false;
   show(std::move(next.value), false);
   keepJournal(*m_case);
   for (const std::string& words : next.notices)
@@ -130,19 +134,46 @@ void WorkstationModel::close()
   m_assembly = {};
   m_case.reset();
   m_saved.reset();
-  m_unsaved = false;
-  m_loaded = m_drawable = m_feelable = true;
+  m_unsaved = m_leaving = false;
+  m_loaded = m_drawable = m_feelable = m_checked = true;
+  m_unreadLabels.clear();
+  m_unreadMeshes.clear();
   ++m_parts;
+  ++m_shown;
   tell(events.caseClosed);
   tell(events.stateChanged);
   tell(events.preparationWanted);
 }
 
+void StoreTask::run(const core::Progress& progress)
+{
+  library::Library own = library; // with an ear of its own
+  own.onNotice([this](const std::string& words) { notices.push_back(words); });
+  if (source)
+  {
+    // What is mapped would be stored there under the hash of what it is by now.
+    const auto map = [](const scene::ImagePart& image) { image.volume.get(); };
+    map(value.ct);
+    std::for_each(value.mr.begin(), value.mr.end(), map);
+    source->checkVoxels(value, progress.part(0.0, 0.2));
+    const auto asNew = [](auto& part) { part.object.clear(); };
+    asNew(value.ct);
+    std::for_each(value.mr.begin(), value.mr.end(), asNew);
+    std::for_each(value.labels.begin(), value.labels.end(), asNew);
+    std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
+    std::for_each(value.strokes.begin(), value.strokes.end(), asNew);
+  }
+  own.save(value, source ? progress.part(0.2, 1.0) : progress);
+}
+
 StoreTask WorkstationModel::beginStore()
 {
-  StoreTask task{m_library, *m_case, m_case->name, m_changes};
-  task.library.onNotice({});
+  StoreTask task{m_library, *m_case, m_case->name, m_changes, std::nullopt};
   task.value.dissection.reset();
+  for (const auto& one : m_unreadLabels)
+    task.value.labels[one.part].labels = one.whole;
+  for (const auto& one : m_unreadMeshes)
+    task.value.meshes[one.part].mesh = one.whole;
   m_beingStored = true;
   return task;
 }
@@ -159,18 +190,7 @@ StoreTask WorkstationModel::beginStoreElsewhere(const std::filesystem::path& fol
                                                 const std::string& name)
 {
   StoreTask task = beginStoreAs(name);
-  task.library = library::Library(folder);
-  task.elsewhere = true;
-  scene::Case& value = task.value;
-  value.ct.object.clear();
-  for (auto& mr : value.mr)
-    mr.object.clear();
-  for (auto& part : value.labels)
-    part.object.clear();
-  for (auto& mesh : value.meshes)
-    mesh.object.clear();
-  for (auto& stroke : value.strokes)
-    stroke.object.clear();
+  task.source = std::exchange(task.library, library::Library(folder));
   return task;
 }
 
@@ -185,18 +205,27 @@ void WorkstationModel::stored(const StoreTask& done)
     for (std::size_t n = 0; n < std::min(parts.size(), from.size()); ++n)
       parts[n].object = from[n].object;
   };
+  // Salted by the save: one that is, and one that is not, say nothing of each other.
+  const auto takeFrame = [](scene::ImagePart& image, const scene::ImagePart& from)
+  {
+    image.frameOfReference = from.frameOfReference;
+    image.isFrameSalted = from.isFrameSalted;
+  };
   m_case->id = saved.id;
   m_case->revision = saved.revision;
   m_case->ct.object = saved.ct.object;
   takeObjects(m_case->mr, saved.mr);
+  takeFrame(m_case->ct, saved.ct);
+  for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
+    takeFrame(m_case->mr[n], saved.mr[n]);
   takeObjects(m_case->labels, saved.labels);
   takeObjects(m_case->meshes, saved.meshes);
   takeObjects(m_case->strokes, saved.strokes);
   for (std::size_t n = 0; n < std::min(m_case->strokes.size(), saved.strokes.size()); ++n)
     m_case->strokes[n].bytes = saved.strokes[n].bytes;
-  const bool other = done.elsewhere || m_case->name != saved.name;
+  const bool other = done.source || m_case->name != saved.name;
   m_case->name = saved.name;
-  if (done.elsewhere)
+  if (done.source)
   {
     m_library = done.library;
     listen();
@@ -204,6 +233,8 @@ void WorkstationModel::stored(const StoreTask& done)
   m_unsaved = m_changes != done.changes;
   keepJournal(saved, other); // what was drilled since then goes there at once
   tell(events.stateChanged);
+  for (const std::string& words : done.notices)
+    tell(events.noticed, words);
 }
 
 void WorkstationModel::notStored()

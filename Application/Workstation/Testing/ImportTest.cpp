@@ -7,6 +7,7 @@
 #include <QProgressDialog>
 #include <QPushButton>
 
+#include "Banner.h"
 #include "petrous/Imaging/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
 
@@ -309,4 +310,52 @@ TEST_F(Import, FilesThatAreDroppedTogetherMakeOneCase)
   EXPECT_FALSE(saved.labels.empty());
   EXPECT_EQ(saved.mr.size(), 1u);
   EXPECT_EQ(saved.meshes.size(), 1u);
+}
+
+// A file's name may be a patient's; nobody else would know what the structure is.
+TEST_F(Import, AStructureWithoutANameIsAskedForOne)
+{
+  saveBall("ball");
+  writePatient(folder() / "sample");
+  fs::copy(folder() / "sample/meshes/incus.obj", folder() / "Doe John.obj");
+  openWindow();
+  QString asked;
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer,
+                   [&]
+                   {
+                     auto* ask = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+                     if (!ask)
+                       return;
+                     answer.stop();
+                     asked = ask->labelText();
+                     ask->setTextValue("tumour");
+                     ask->accept();
+                   });
+  answer.start(20);
+  answered([this](const auto& react) { onMessage(react); }, "Add to",
+           [this] { dropPath(folder() / "Doe John.obj"); });
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().meshes.empty(); }));
+  EXPECT_TRUE(asked.contains("Doe John.obj")) << asked.toStdString();
+  EXPECT_EQ(window().model().value().meshes[0].name, "tumour");
+  EXPECT_TRUE(settled());
+}
+
+// What was assumed of a file stays on the screen until it was read.
+TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
+{
+  const fs::path file = folder() / "beam.nrrd";
+  auto image = std::make_shared<volume::Volume<std::int16_t>>(ballCase("x").ct.geometry);
+  for (std::size_t n = 0; n < image->size(); ++n) // counts from 0: no Hounsfield units
+    image->data()[n] = static_cast<std::int16_t>(n % 64 < 32 ? n % 97 : 2000 + n * 7919 % 3001);
+  imaging::writeVolume(file, *image);
+  openWindow();
+  answered([this](const auto& react) { onMessage(react); }, "CT", [&] { dropPath(file); });
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  auto* banner = window().findChild<Banner*>("notesBanner");
+  ASSERT_TRUE(banner);
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(banner->text().contains("not Hounsfield units")) << banner->text().toStdString();
+  banner->findChild<QPushButton*>("dismissNotes")->click();
+  EXPECT_FALSE(banner->isVisible());
 }

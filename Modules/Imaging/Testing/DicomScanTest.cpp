@@ -326,6 +326,29 @@ TEST(DicomScan, NotesALostSliceThatMayBeOfSeveralSeries)
   EXPECT_EQ(result.unreadable.size(), 1U);
   ASSERT_EQ(result.notes.size(), 1U);
   EXPECT_EQ(result.notes.front().find("s9.dcm is empty"), 0U);
+  for (const DicomSeries& series : result.series)
+  {
+    EXPECT_EQ(series.geometry.verdict, Verdict::Refused) << "nobody knows that it is whole";
+    EXPECT_TRUE(has(series.geometry, FindingKind::Unreadable));
+  }
+}
+
+TEST(DicomScan, ALostSliceSaysNothingOfASeriesInAnotherFolder)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "whole", 5);
+  writeSeries(folder.path() / "a", 5, [](int, TestSlice& s) { s.seriesUid = "7.7"; });
+  for (int k = 5; k < 9; ++k)
+  {
+    TestSlice slice;
+    slice.z = k;
+    slice.seriesUid = "8.8";
+    slice.write(folder.path() / "a" / ("s" + std::to_string(k) + ".dcm"));
+  }
+  writeText(folder.path() / "a" / "s9.dcm", "");
+  for (const DicomSeries& series : scanDicom(folder.path(), {}).series)
+    EXPECT_EQ(series.geometry.verdict == Verdict::Ok, series.uid != "7.7" && series.uid != "8.8")
+        << series.uid;
 }
 
 /// A user whom access rights bind.
@@ -356,16 +379,26 @@ TEST(DicomScan, SaysThatASubfolderMayNotBeRead)
   writeSeries(folder.path() / "a", 3);
   writeSeries(folder.path() / "b", 3);
   fs::permissions(folder.path(), fs::perms::all);
-  fs::permissions(folder.path() / "b", fs::perms::none);
-  ScanResult result;
+  const auto scanWith = [&folder](fs::perms rights)
   {
-    const AsNobody user;
-    result = scanDicom(folder.path(), {});
-  }
-  fs::permissions(folder.path() / "b", fs::perms::all);
+    fs::permissions(folder.path() / "b", rights);
+    ScanResult result;
+    {
+      const AsNobody user;
+      result = scanDicom(folder.path(), {});
+    }
+    fs::permissions(folder.path() / "b", fs::perms::all);
+    return result;
+  };
+  const ScanResult namesOnly = scanWith(fs::perms::others_read | fs::perms::owner_read);
+  ASSERT_EQ(namesOnly.unreadable.size(), 1U);
+  EXPECT_EQ(namesOnly.series.front().geometry.verdict, Verdict::Refused);
+  const ScanResult result = scanWith(fs::perms::none);
   ASSERT_EQ(result.series.size(), 1U);
   ASSERT_EQ(result.unreadable.size(), 1U);
   EXPECT_NE(result.unreadable.front().text.find("'b' may not be read"), std::string::npos);
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Refused) << "'b' may hold more of it";
+  EXPECT_TRUE(has(result.series.front().geometry, FindingKind::Unreadable));
   ASSERT_EQ(result.notes.size(), 1U);
 }
 

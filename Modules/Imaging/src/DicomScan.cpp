@@ -69,9 +69,13 @@ private:
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0)
     {
+      const bool denied = errno == EACCES;
+      std::error_code none;
+      if (denied && !fs::is_symlink(path, none)) // of its folder the names may be read, and no more
+        return unreadable(path.parent_path());
       lost.emplace_back();
       lost.back().slice.file = path;
-      lost.back().slice.damage = errno == EACCES ? "may not be opened" : "is a link to nothing";
+      lost.back().slice.damage = denied ? "may not be opened" : "is a link to nothing";
       return;
     }
     if (m_seen.count({status.st_dev, status.st_ino}) > 0)
@@ -104,10 +108,12 @@ private:
 
   void unreadable(const fs::path& folder)
   {
+    if (!m_unreadable.insert(folder).second)
+      return;
     findings.push_back({FindingKind::Unreadable,
                         "The folder '" + folder.filename().string() +
                             "' may not be read; slices in it are missing. Its access rights must "
-                            "allow this user to read it.",
+                            "allow this user to read it, or name a folder without it.",
                         0.0});
     notes.push_back(findings.back().text);
   }
@@ -115,6 +121,7 @@ private:
   const core::Progress& m_progress;
   fs::path m_root;
   std::vector<fs::path> m_folders;
+  std::set<fs::path> m_unreadable;
   std::set<std::pair<dev_t, ino_t>> m_seen;
 };
 
@@ -195,10 +202,13 @@ bool isLostSlice(const FileHeader& header, const std::map<fs::path, FolderNames>
           folder->second.endings.count(ending) > 0);
 }
 
+/// Of a series, what could not be read and may be of it: nobody can tell that it is whole.
+using Doubts = std::map<std::string, std::vector<Finding>>;
+
 /// A damaged file that does not say its series is a slice of the only one in its folder, or of the
 /// only one there whose files are named like it, as far as anyone can tell.
 void placeOrphans(const std::vector<const FileHeader*>& orphans,
-                  const std::map<fs::path, FolderNames>& folders, Groups& groups,
+                  const std::map<fs::path, FolderNames>& folders, Groups& groups, Doubts& doubts,
                   ScanResult& result)
 {
   for (const FileHeader* orphan : orphans)
@@ -208,9 +218,8 @@ void placeOrphans(const std::vector<const FileHeader*>& orphans,
     if (folder != folders.end())
     {
       const auto alike = folder->second.byPattern.find(patternOf(orphan->slice.file));
-      candidates = alike != folder->second.byPattern.end() && alike->second.size() == 1
-                       ? &alike->second
-                       : &folder->second.series;
+      candidates =
+          alike != folder->second.byPattern.end() ? &alike->second : &folder->second.series;
     }
     if (candidates && candidates->size() == 1)
       groups[*candidates->begin()].push_back(orphan);
@@ -219,6 +228,12 @@ void placeOrphans(const std::vector<const FileHeader*>& orphans,
       result.unreadable.push_back(unreadable(*orphan));
       result.notes.push_back(result.unreadable.back().text +
                              " It may be a slice of any series in its folder.");
+      Finding doubt = result.unreadable.back();
+      doubt.text += " It may be a slice of this series: copy it again from where it came from, or "
+                    "take it out of the folder if it is none.";
+      if (candidates)
+        for (const std::string& key : *candidates)
+          doubts[key].push_back(doubt);
     }
   }
 }
@@ -231,7 +246,8 @@ std::string firstNotEmpty(const std::vector<const FileHeader*>& members,
   return found == members.end() ? std::string() : (*found)->*field;
 }
 
-DicomSeries makeSeries(const std::vector<const FileHeader*>& members)
+DicomSeries makeSeries(const std::vector<const FileHeader*>& members,
+                       const std::vector<Finding>& doubts)
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
@@ -242,6 +258,9 @@ DicomSeries makeSeries(const std::vector<const FileHeader*>& members)
   for (const FileHeader* member : members)
     slices.push_back(member->slice);
   series.geometry = assess(std::move(slices));
+  if (!doubts.empty())
+    series.geometry.verdict = Verdict::Refused;
+  series.geometry.findings.insert(series.geometry.findings.end(), doubts.begin(), doubts.end());
   if (!series.geometry.slices.empty())
     series.frameOfReferenceUid = series.geometry.slices.front().frameOfReferenceUid;
   return series;
@@ -287,6 +306,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;
+  const std::vector<Finding> folderDoubts = list.findings; // of every series: any may go on there
   result.unreadable = std::move(list.findings);
   result.notes = std::move(list.notes);
   Groups groups;
@@ -316,12 +336,15 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
       header->slice.damage = "is not DICOM, although it is named as a slice";
     orphans.push_back(header);
   }
-  placeOrphans(orphans, folders, groups, result);
+  Doubts doubts;
+  placeOrphans(orphans, folders, groups, doubts, result);
 
   for (const auto& [key, members] : groups)
   {
     progress.check(kTask);
-    result.series.push_back(makeSeries(members));
+    std::vector<Finding>& open = doubts[key];
+    open.insert(open.end(), folderDoubts.begin(), folderDoubts.end());
+    result.series.push_back(makeSeries(members, open));
   }
   // By first file: the order in which a file manager shows them.
   std::vector<std::pair<fs::path, std::size_t>> order;

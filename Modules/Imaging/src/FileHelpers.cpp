@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
+
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::imaging
 {
@@ -59,22 +60,36 @@ std::string baseName(const std::filesystem::path& path)
   return path.stem().string();
 }
 
+namespace
+{
+
+// Not empty.
+core::InputFile opened(const std::filesystem::path& path)
+try
+{
+  core::InputFile file(path);
+  if (file.size() == 0)
+    fail(FileError::Reason::Unreadable, path, "is empty; copy it again from where it came");
+  return file;
+}
+catch (const core::InputFileError& error)
+{
+  using Reason = core::InputFileError::Reason;
+  std::error_code ignored;
+  if (error.reason == Reason::NotFound)
+    fail(FileError::Reason::NotFound, path, "there is no such file; check the name");
+  if (error.reason == Reason::NotRegular && std::filesystem::is_directory(path, ignored))
+    fail(FileError::Reason::NotFound, path, "is a folder; name a file in it");
+  if (error.reason == Reason::NotRegular)
+    fail(FileError::Reason::Unreadable, path, "is not an ordinary file; name one that may be read");
+  fail(FileError::Reason::Unreadable, path, "may not be opened; allow reading it");
+}
+
+} // namespace
+
 std::uintmax_t checkedFileSize(const std::filesystem::path& path)
 {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    fail(FileError::Reason::NotFound, path, "there is no such file; check the name");
-  if (status.type() == std::filesystem::file_type::directory)
-    fail(FileError::Reason::NotFound, path, "is a folder; name a file in it");
-  if (status.type() != std::filesystem::file_type::regular)
-    fail(FileError::Reason::Unreadable, path, "is not an ordinary file; name one that may be read");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || !std::ifstream(path, std::ios::binary))
-    fail(FileError::Reason::Unreadable, path, "may not be opened; allow reading it");
-  if (size == 0)
-    fail(FileError::Reason::Unreadable, path, "is empty; copy it again from where it came");
-  return size;
+  return opened(path).size();
 }
 
 std::string readWholeFile(const std::filesystem::path& path)
@@ -89,14 +104,13 @@ std::string readWholeFile(const std::filesystem::path& path)
 }
 
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)
+try
 {
-  const std::uintmax_t size = std::min(checkedFileSize(path), limit);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(in.gcount()) != size)
-    fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
-  return bytes;
+  return opened(path).read(limit);
+}
+catch (const core::InputFileError&)
+{
+  fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
 }
 
 std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name)

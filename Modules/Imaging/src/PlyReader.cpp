@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "Component.h"
 #include "FileHelpers.h"
 
 namespace petrous::imaging
@@ -22,23 +23,11 @@ enum class Encoding
   BigEndian
 };
 
-enum class Number
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Float,
-  Double
-};
-
 struct Property
 {
   std::string name;
-  Number type = Number::Float;
-  std::optional<Number> listCount; ///< the type of a list's length
+  Component type = Component::Float;
+  std::optional<Component> listCount; ///< the type of a list's length
 };
 
 struct Element
@@ -48,46 +37,34 @@ struct Element
   std::vector<Property> properties;
 };
 
-std::optional<Number> numberNamed(std::string_view name)
+std::optional<Component> numberNamed(std::string_view name)
 {
-  constexpr std::array<std::pair<std::string_view, Number>, 16> kNames{
-      {{"char", Number::Int8},
-       {"int8", Number::Int8},
-       {"uchar", Number::UInt8},
-       {"uint8", Number::UInt8},
-       {"short", Number::Int16},
-       {"int16", Number::Int16},
-       {"ushort", Number::UInt16},
-       {"uint16", Number::UInt16},
-       {"int", Number::Int32},
-       {"int32", Number::Int32},
-       {"uint", Number::UInt32},
-       {"uint32", Number::UInt32},
-       {"float", Number::Float},
-       {"float32", Number::Float},
-       {"double", Number::Double},
-       {"float64", Number::Double}}};
+  constexpr std::array<std::pair<std::string_view, Component>, 16> kNames{
+      {{"char", Component::Int8},
+       {"int8", Component::Int8},
+       {"uchar", Component::UInt8},
+       {"uint8", Component::UInt8},
+       {"short", Component::Int16},
+       {"int16", Component::Int16},
+       {"ushort", Component::UInt16},
+       {"uint16", Component::UInt16},
+       {"int", Component::Int32},
+       {"int32", Component::Int32},
+       {"uint", Component::UInt32},
+       {"uint32", Component::UInt32},
+       {"float", Component::Float},
+       {"float32", Component::Float},
+       {"double", Component::Double},
+       {"float64", Component::Double}}};
   for (const auto& [known, number] : kNames)
     if (known == name)
       return number;
   return std::nullopt;
 }
 
-std::size_t sizeOf(Number type)
+std::size_t sizeOf(Component type)
 {
-  switch (type)
-  {
-  case Number::Int8:
-  case Number::UInt8:
-    return 1;
-  case Number::Int16:
-  case Number::UInt16:
-    return 2;
-  case Number::Double:
-    return 8;
-  default:
-    return 4;
-  }
+  return visitComponent(type, [](auto number) { return sizeof number; });
 }
 
 class PlyParser
@@ -198,7 +175,7 @@ private:
       m_builder.failUnreadable("its header counts more than the file can hold");
   }
 
-  double take(Number type)
+  double take(Component type)
   {
     if (m_encoding == Encoding::Text)
     {
@@ -218,36 +195,17 @@ private:
     return decoded(type, raw.data());
   }
 
-  static double decoded(Number type, const char* raw)
+  static double decoded(Component type, const char* raw)
   {
-    const auto as = [raw](auto value)
-    {
-      std::memcpy(&value, raw, sizeof value);
-      return static_cast<double>(value);
-    };
-    switch (type)
-    {
-    case Number::Int8:
-      return as(std::int8_t{});
-    case Number::UInt8:
-      return as(std::uint8_t{});
-    case Number::Int16:
-      return as(std::int16_t{});
-    case Number::UInt16:
-      return as(std::uint16_t{});
-    case Number::Int32:
-      return as(std::int32_t{});
-    case Number::UInt32:
-      return as(std::uint32_t{});
-    case Number::Float:
-      return as(float{});
-    case Number::Double:
-      break;
-    }
-    return as(double{});
+    return visitComponent(type,
+                          [raw](auto value)
+                          {
+                            std::memcpy(&value, raw, sizeof value);
+                            return static_cast<double>(value);
+                          });
   }
 
-  std::int64_t takeWhole(Number type, const char* what)
+  std::int64_t takeWhole(Component type, const char* what)
   {
     const double value = take(type);
     if (!(std::abs(value) <= 4294967295.0) || value != std::floor(value))
@@ -255,7 +213,7 @@ private:
     return static_cast<std::int64_t>(value);
   }
 
-  std::int64_t takeLength(Number type)
+  std::int64_t takeLength(Component type)
   {
     const std::int64_t length = takeWhole(type, "a list has no valid length");
     if (length < 0 || static_cast<std::uint64_t>(length) > m_rest.size())

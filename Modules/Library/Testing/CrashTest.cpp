@@ -124,9 +124,7 @@ TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
   const TemporaryFolder folder;
   {
     Library library(folder.path());
-    scene::Case value = smallCase("ear", 16);
-    library.save(value);
-    library.loadDissection(value);
+    scene::Case value = test::savedCase(library, "ear", 16);
     Journal journal(library, value);
     drill(value, {8, 8, 8});
     journal.follow(*value.dissection);
@@ -153,9 +151,7 @@ TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
 {
   const TemporaryFolder folder;
   Library library(folder.path());
-  scene::Case value = smallCase("ear", 16);
-  library.save(value);
-  library.loadDissection(value);
+  scene::Case value = test::savedCase(library, "ear", 16);
   int refused = 0, saved = 0;
   for (const char* call : {"fsync", "rename", "open", "write"})
     for (int n = 1; n < 12; ++n)

@@ -17,6 +17,7 @@
 using namespace petrous;
 using namespace petrous::library;
 using test::contentOf;
+using test::savedCase;
 using test::smallCase;
 using test::TemporaryFolder;
 
@@ -29,14 +30,6 @@ std::vector<std::uint16_t> voxelsOf(const scene::Case& value)
 {
   const auto dense = std::as_const(*value.dissection).mask().dense();
   return {dense.data(), dense.data() + dense.size()};
-}
-
-scene::Case savedCase(Library& library, const std::string& name = "ear")
-{
-  scene::Case value = smallCase(name);
-  library.save(value);
-  library.loadDissection(value);
-  return value;
 }
 
 // One step of 0.5 s of a stroke that goes on in a line of voxels.

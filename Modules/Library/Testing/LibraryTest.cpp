@@ -15,26 +15,12 @@ using namespace petrous;
 using namespace petrous::library;
 using test::contentOf;
 using test::drill;
+using test::refusal;
 using test::smallCase;
 using test::TemporaryFolder;
 
 namespace
 {
-
-template <class Action>
-LibraryError::Reason reasonOf(const Action& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const LibraryError& error)
-  {
-    return error.reason;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return LibraryError::Reason::Damaged;
-}
 
 bool sameVoxels(const volume::CutMask& a, const volume::CutMask& b)
 {
@@ -128,7 +114,7 @@ TEST(Library, RefusesATakenNameAndStaysAsItWas)
   library.save(value);
   const auto before = contentOf(folder.path());
   scene::Case other = smallCase("ear", 20);
-  EXPECT_EQ(reasonOf([&] { library.save(other); }), LibraryError::Reason::NameTaken);
+  EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::NameTaken);
   EXPECT_EQ(contentOf(folder.path()), before);
   EXPECT_EQ(other.revision, 0u);
 }
@@ -146,7 +132,7 @@ TEST(Library, RefusesToOverwriteWhatAnotherProgramSaved)
   const auto before = contentOf(folder.path());
   library.loadDissection(mine);
   drill(mine, {8, 8, 8});
-  EXPECT_EQ(reasonOf([&] { library.save(mine); }), LibraryError::Reason::Conflict);
+  EXPECT_EQ(refusal([&] { library.save(mine); }).first, LibraryError::Reason::Conflict);
   EXPECT_EQ(contentOf(folder.path()), before);
   EXPECT_EQ(mine.strokes.size(), 1u) << "the work is still in memory";
 }
@@ -176,7 +162,8 @@ TEST(Library, SaysWhichObjectIsMissingAndWhichManifestIsDamaged)
   scene::Case value = smallCase("ear");
   library.save(value);
   std::filesystem::remove(folder.path() / "objects" / value.ct.object);
-  EXPECT_EQ(reasonOf([&] { library.open("ear").ct.volume.get(); }), LibraryError::Reason::NotFound);
+  EXPECT_EQ(refusal([&] { library.open("ear").ct.volume.get(); }).first,
+            LibraryError::Reason::NotFound);
   std::ofstream(folder.path() / "cases/ear.json") << "{";
   EXPECT_THROW(library.open("ear"), core::Error);
   EXPECT_TRUE(library.list().at(0).damaged);
@@ -228,7 +215,7 @@ TEST(Library, AFullDiskLeavesTheCaseAsItWas)
       {
       }
     }
-    EXPECT_EQ(reasonOf([&] { library.save(value); }), LibraryError::Reason::DiskFull);
+    EXPECT_EQ(refusal([&] { library.save(value); }).first, LibraryError::Reason::DiskFull);
     EXPECT_EQ(library.open("ear").strokes.size(), 0u);
     std::filesystem::remove(disk / "filler");
     library.save(value);
@@ -251,9 +238,9 @@ TEST(Library, AReadOnlyLibraryCanBeReadAndRefusesInWords)
     ASSERT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr), 0);
     EXPECT_EQ(library.list().size(), 1u);
     EXPECT_EQ(library.open("ear").ct.volume.get()->at(1, 0, 0), 401.0);
-    EXPECT_EQ(reasonOf([&] { library.save(value); }), LibraryError::Reason::Unwritable);
+    EXPECT_EQ(refusal([&] { library.save(value); }).first, LibraryError::Reason::Unwritable);
     scene::Case other = smallCase("other");
-    EXPECT_EQ(reasonOf([&] { library.save(other); }), LibraryError::Reason::Unwritable);
+    EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::Unwritable);
   }
   ::umount2(disk.c_str(), MNT_DETACH);
 }

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include "TestCase.h"
@@ -11,6 +15,7 @@ using namespace petrous;
 using namespace petrous::library;
 using test::contentOf;
 using test::drill;
+using test::refusal;
 using test::smallCase;
 using test::TemporaryFolder;
 
@@ -24,25 +29,7 @@ class Maintenance : public ::testing::Test
 protected:
   scene::Case make(const std::string& name, int n = 16)
   {
-    scene::Case value = smallCase(name, n);
-    m_library.save(value);
-    m_library.loadDissection(value);
-    return value;
-  }
-
-  template <class Action>
-  std::pair<LibraryError::Reason, std::string> refusal(const Action& action) const
-  {
-    try
-    {
-      action();
-    }
-    catch (const LibraryError& error)
-    {
-      return {error.reason, error.what()};
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {LibraryError::Reason::NotFound, {}};
+    return test::savedCase(m_library, name, n);
   }
 
   void flipBit(const fs::path& file, std::uintmax_t at) const
@@ -155,6 +142,60 @@ TEST_F(Maintenance, ACaseThatIsBeingDrilledIsNeitherRenamedNorRemoved)
   }
 }
 
+// Under another name nobody would bring back what the journal holds.
+TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
+{
+  scene::Case value = make("a");
+  drill(value, {8, 8, 8});
+  m_library.save(value);
+  {
+    Journal journal(m_library, value);
+    drill(value, {4, 8, 8});
+    journal.follow(*value.dissection);
+    journal.leave();
+  }
+  const fs::path stroke = object(value.strokes[0].object);
+  fs::rename(stroke, m_folder.path() / "gone");
+  const auto before = contentOf(m_folder.path());
+  const auto [reason, words] = refusal([&] { m_library.rename("a", "b"); });
+  EXPECT_EQ(reason, LibraryError::Reason::Conflict);
+  EXPECT_NE(words.find("open the case first"), std::string::npos) << words;
+  EXPECT_EQ(contentOf(m_folder.path()), before);
+  fs::rename(m_folder.path() / "gone", stroke);
+  m_library.rename("a", "b");
+  EXPECT_EQ(m_library.open("b").strokes.size(), 2u);
+}
+
+// Nobody drills where somebody only looks at the journal, as whoever opens the case does.
+TEST_F(Maintenance, WhoLooksAtAJournalIsNotTakenForOneWhoDrills)
+{
+  make("a");
+  const fs::path journal = m_folder.path() / "cases/a.journal";
+  std::ofstream(journal) << "";
+  bool refused = true;
+  for (int n = 0; n < 50 && refused; ++n) // a busy machine may let the other wait for long
+  {
+    const int other = ::open(journal.c_str(), O_RDWR);
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    std::thread looking(
+        [other]
+        {
+          ::usleep(10000);
+          ::close(other);
+        });
+    try
+    {
+      m_library.refuseWhereDrilled("a");
+      refused = false;
+    }
+    catch (const LibraryError&)
+    {
+    }
+    looking.join();
+  }
+  EXPECT_FALSE(refused);
+}
+
 TEST_F(Maintenance, DeletionTakesJournalsAlong)
 {
   scene::Case value = make("a");
@@ -178,14 +219,18 @@ TEST_F(Maintenance, OneFlippedBitOfAnyObjectIsFound)
     std::string object, words;
     std::function<void(scene::Case&)> read;
   };
-  const Part parts[] = {
-      {value.ct.object, "the CT of case 'a'", [this](scene::Case& c) { m_library.checkVoxels(c); }},
-      {value.labels[0].object, "'nerve' of case 'a'",
-       [](scene::Case& c) { c.labels[0].labels.get(); }},
-      {value.meshes[0].object, "mesh 'incus' of case 'a'",
-       [](scene::Case& c) { c.meshes[0].mesh.get(); }},
-      {value.strokes[0].object, "stroke 1 of case 'a'",
-       [this](scene::Case& c) { m_library.loadDissection(c); }}};
+  const Part parts[] = {{value.ct.object, "the CT of case 'a'",
+                         [this](scene::Case& c)
+                         {
+                           c.ct.volume.get();
+                           m_library.checkVoxels(c);
+                         }},
+                        {value.labels[0].object, "'nerve' of case 'a'",
+                         [](scene::Case& c) { c.labels[0].labels.get(); }},
+                        {value.meshes[0].object, "mesh 'incus' of case 'a'",
+                         [](scene::Case& c) { c.meshes[0].mesh.get(); }},
+                        {value.strokes[0].object, "stroke 1 of case 'a'",
+                         [this](scene::Case& c) { m_library.loadDissection(c); }}};
   for (const Part& part : parts)
   {
     const fs::path file = object(part.object);
@@ -213,9 +258,38 @@ TEST_F(Maintenance, AMappedImageIsCheckedBehindTheReadersBack)
   const Library fresh(m_folder.path());
   const scene::Case damaged = fresh.open("a");
   damaged.ct.volume.get();
-  for (int n = 0; n < 1000 && fresh.damageFound().empty(); ++n)
+  for (int n = 0; n < 1000 && fresh.damageFound(damaged).empty(); ++n)
     ::usleep(10000);
-  ASSERT_EQ(fresh.damageFound().size(), 1u);
+  ASSERT_EQ(fresh.damageFound(damaged).size(), 1u);
+  EXPECT_EQ(refusal([&] { fresh.checkAllRead(); }).first, LibraryError::Reason::Damaged);
+  const scene::Case other = make("another", 18);
+  EXPECT_TRUE(fresh.damageFound(other).empty()) << "that is of its own";
+}
+
+TEST_F(Maintenance, OnlyWhatIsReadIsHeldAgainstItsHash)
+{
+  const scene::Case value = make("a");
+  flipBit(object(value.ct.object), fs::file_size(object(value.ct.object)) - 100);
+  const Library fresh(m_folder.path());
+  const scene::Case damaged = fresh.open("a");
+  EXPECT_NO_THROW(fresh.checkVoxels(damaged));
+  EXPECT_NO_THROW(fresh.checkAllRead());
+}
+
+TEST_F(Maintenance, AnObjectThatIsRestoredIsReadAgain)
+{
+  const scene::Case value = make("a");
+  const fs::path file = object(value.ct.object);
+  flipBit(file, fs::file_size(file) - 100);
+  const Library fresh(m_folder.path());
+  const scene::Case damaged = fresh.open("a");
+  damaged.ct.volume.get();
+  EXPECT_EQ(refusal([&] { fresh.checkVoxels(damaged); }).first, LibraryError::Reason::Damaged);
+  flipBit(file, fs::file_size(file) - 100);
+  const scene::Case restored = fresh.open("a");
+  restored.ct.volume.get();
+  EXPECT_NO_THROW(fresh.checkVoxels(restored));
+  EXPECT_TRUE(fresh.damageFound(restored).empty());
 }
 
 // Storing the same CT again heals the library, whatever cases use it.

@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include <unistd.h>
 
 #include "petrous/Library/Library.h"
@@ -70,6 +72,31 @@ inline scene::Case smallCase(const std::string& name, int n = 24)
   incus.mesh = std::shared_ptr<const core::TriangleMesh>(mesh);
   value.meshes.push_back(incus);
   return value;
+}
+
+/// The same, in the library, with its dissection.
+inline scene::Case savedCase(Library& library, const std::string& name = "ear", int n = 24)
+{
+  scene::Case value = smallCase(name, n);
+  library.save(value);
+  library.loadDissection(value);
+  return value;
+}
+
+/// Why the library refuses to do it, and its words.
+template <class Action>
+std::pair<LibraryError::Reason, std::string> refusal(const Action& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const LibraryError& error)
+  {
+    return {error.reason, error.what()};
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {LibraryError::Reason::NotFound, {}};
 }
 
 inline void drill(scene::Case& value, const Eigen::Vector3d& voxel)

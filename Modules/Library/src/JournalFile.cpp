@@ -1,6 +1,8 @@
 #include "JournalFile.h"
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -101,6 +103,20 @@ bool endsInHead(std::string_view bytes)
 {
   return bytes.size() < kBefore + kLeast ||
          (numberIn(bytes, 8) < kLongestHead && numberIn(bytes, 8) > bytes.size() - kBefore);
+}
+
+// Who drills holds the lock as long as that lasts; who only looks for a moment. A moment's lock is
+// waited for, or the one who looks would be taken for one who drills.
+bool lockSoon(int descriptor)
+{
+  constexpr int kTries = 20;
+  for (int n = 0; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++n)
+  {
+    if (n == kTries || (errno != EWOULDBLOCK && errno != EINTR))
+      return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
 }
 
 } // namespace
@@ -242,7 +258,7 @@ JournalFile::JournalFile(const fs::path& path)
     throw LibraryError(LibraryError::Reason::Damaged,
                        core::printable(path) + ": is not a regular file; remove it");
   }
-  m_held = ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0;
+  m_held = lockSoon(m_descriptor);
   if (::fstat(m_descriptor, &info) == 0 && info.st_nlink > 0)
   {
     m_size = static_cast<std::size_t>(info.st_size);

@@ -94,6 +94,16 @@ std::string imageText(const scene::Case& value, const scene::ImagePart& image)
          "'";
 }
 
+void refuse(const std::vector<std::string>& damage)
+{
+  if (damage.empty())
+    return;
+  std::string all;
+  for (const std::string& words : damage)
+    all += (all.empty() ? "" : "; ") + words;
+  throw LibraryError(Reason::Damaged, all);
+}
+
 constexpr std::size_t kSaltDigits = 64; // 256 bits
 
 /// The library's secret, drawn once. Call with the library locked.
@@ -304,31 +314,42 @@ void Library::loadDissection(scene::Case& value) const
     value.strokes[n].stroke = std::move(strokes[n]);
 }
 
-void Library::checkVoxels(const scene::Case& value, const core::Progress& progress) const
+// The objects that were read from here, each with what it is.
+std::vector<std::pair<fs::path, std::string>> Library::mappedImages(const scene::Case& value) const
 {
-  const ObjectStore store(objectFolder());
-  std::string damage;
-  const auto check = [&](const scene::ImagePart& image)
+  std::vector<std::pair<fs::path, std::string>> images;
+  const auto add = [&](const scene::ImagePart& image)
   {
-    const bool resident = image.volume.peek() != nullptr;
-    if (image.object.empty() || (!resident && &image != &value.ct))
-      return;
-    const fs::path path = store.path(image.object);
-    if (resident && !m_checks->knows(path))
-      return; // made here, and not read from the library
-    const std::string words = m_checks->wait(path, imageText(value, image), progress);
-    damage += (damage.empty() || words.empty() ? "" : "; ") + words;
+    const fs::path path = objectFolder() / image.object;
+    if (image.volume.peek() && m_checks->knows(path)) // others were made here
+      images.emplace_back(path, imageText(value, image));
   };
-  check(value.ct);
-  for (const auto& mr : value.mr)
-    check(mr);
-  if (!damage.empty())
-    throw LibraryError(Reason::Damaged, damage);
+  add(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), add);
+  return images;
 }
 
-std::vector<std::string> Library::damageFound() const
+void Library::checkVoxels(const scene::Case& value, const core::Progress& progress) const
 {
-  return m_checks->found();
+  std::vector<std::string> damage;
+  for (const auto& [path, what] : mappedImages(value))
+    if (const std::string words = m_checks->wait(path, what, progress); !words.empty())
+      damage.push_back(words);
+  refuse(damage);
+}
+
+void Library::checkAllRead(const core::Progress& progress) const
+{
+  refuse(m_checks->waitForAll(progress));
+}
+
+std::vector<std::string> Library::damageFound(const scene::Case& value) const
+{
+  std::vector<std::string> damage;
+  for (const auto& [path, what] : mappedImages(value))
+    if (const std::string words = m_checks->found(path); !words.empty())
+      damage.push_back(words);
+  return damage;
 }
 
 void Library::save(scene::Case& value, const core::Progress& progress)

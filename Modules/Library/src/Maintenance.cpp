@@ -85,6 +85,23 @@ void Library::refuseWhereDrilled(const std::string& name) const
                        "case '" + name + "' is being drilled by another process; end that first");
 }
 
+namespace
+{
+
+// A journal goes on from the case of its name; under another one nobody would bring it back.
+void refuseWhereUnrecovered(const fs::path& library, const std::string& name)
+{
+  const fs::path journal = journalPath(library, name);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(journal, error)))
+    throw LibraryError(Reason::Conflict,
+                       "case '" + name + "': " + core::printable(journal) +
+                           " holds what a session drilled and did not save; open the case first, "
+                           "which brings it back or says why it cannot, then rename it");
+}
+
+} // namespace
+
 void Library::rename(const std::string& from, const std::string& to)
 {
   scene::checkCaseName(from);
@@ -105,6 +122,7 @@ void Library::rename(const std::string& from, const std::string& to)
   }();
   const FolderLock lock(m_folder / ".lock");
   refuseWhereDrilled(from);
+  refuseWhereUnrecovered(m_folder, from);
   checkedManifestPath(from);
   if (contains(to))
     throw LibraryError(Reason::NameTaken, "case '" + to + "' is there already in " +

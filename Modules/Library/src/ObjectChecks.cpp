@@ -21,8 +21,10 @@ ObjectChecks::~ObjectChecks()
 void ObjectChecks::start(const fs::path& object, const std::string& what)
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  if (!m_checks.try_emplace(object, Check{what, false, {}}).second)
+  const auto [known, isNew] = m_checks.try_emplace(object, Check{what, false, {}});
+  if (!isNew && known->second.damage.empty())
     return;
+  known->second = {what, false, {}};
   m_queue.push_back(object);
   if (m_running)
     return;
@@ -81,7 +83,8 @@ void ObjectChecks::run()
 std::string ObjectChecks::wait(const fs::path& object, const std::string& what,
                                const core::Progress& progress)
 {
-  start(object, what);
+  if (!knows(object))
+    start(object, what);
   std::unique_lock<std::mutex> lock(m_mutex);
   while (!m_checks[object].done)
   {
@@ -99,20 +102,32 @@ std::string ObjectChecks::wait(const fs::path& object, const std::string& what,
   return m_checks[object].damage;
 }
 
+std::vector<std::string> ObjectChecks::waitForAll(const core::Progress& progress)
+{
+  std::vector<fs::path> objects;
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    for (const auto& [object, check] : m_checks)
+      objects.push_back(object);
+  }
+  std::vector<std::string> damage;
+  for (const fs::path& object : objects)
+    if (const std::string words = wait(object, {}, progress); !words.empty())
+      damage.push_back(words);
+  return damage;
+}
+
 bool ObjectChecks::knows(const fs::path& object) const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
   return m_checks.count(object) > 0;
 }
 
-std::vector<std::string> ObjectChecks::found() const
+std::string ObjectChecks::found(const fs::path& object) const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  std::vector<std::string> result;
-  for (const auto& [object, check] : m_checks)
-    if (!check.damage.empty())
-      result.push_back(check.damage);
-  return result;
+  const auto check = m_checks.find(object);
+  return check == m_checks.end() ? std::string() : check->second.damage;
 }
 
 } // namespace petrous::library

@@ -25,7 +25,8 @@ public:
   ObjectChecks(const ObjectChecks&) = delete;
   ObjectChecks& operator=(const ObjectChecks&) = delete;
 
-  /// `what` names for the user what the object is. Nothing happens for one that was given before.
+  /// `what` names for the user what the object is. One that was found whole, or that waits for its
+  /// turn, is not looked at again; one that was damaged is: it may have been restored.
   void start(const std::filesystem::path& object, const std::string& what);
 
   bool knows(const std::filesystem::path& object) const;
@@ -35,8 +36,11 @@ public:
   std::string wait(const std::filesystem::path& object, const std::string& what,
                    const core::Progress& progress = {});
 
-  /// The damage found so far, one sentence each.
-  std::vector<std::string> found() const;
+  /// Waits for all that were given: the damage, one sentence each. Throws CancelledError.
+  std::vector<std::string> waitForAll(const core::Progress& progress = {});
+
+  /// The damage of an object that was found so far, one sentence; empty: none.
+  std::string found(const std::filesystem::path& object) const;
 
 private:
   struct Check

@@ -121,11 +121,8 @@ std::string ObjectStore::add(const std::string& ending,
   write(temporary.path);
   const std::string name = sha256OfFile(temporary.path) + "." + ending;
   const fs::path target = m_folder / name;
-  const bool there = contains(name);
-  if (there && sha256OfFile(target) == name.substr(0, kHashDigits))
+  if (!makeRoom(name))
     return name;
-  if (!there)
-    m_new.push_back(target);
   if (::rename(temporary.path.c_str(), target.c_str()) != 0)
     throwForErrno(errno, target);
   settle(core::syncFolder(m_folder));
@@ -137,13 +134,21 @@ std::string ObjectStore::add(const std::string& ending, const std::vector<std::u
   makeFolder(m_folder);
   const std::string name = sha256Of(bytes.data(), bytes.size()) + "." + ending;
   const fs::path target = m_folder / name;
-  const bool there = contains(name);
-  if (there && sha256OfFile(target) == name.substr(0, kHashDigits))
+  if (!makeRoom(name))
     return name;
-  if (!there)
-    m_new.push_back(target);
   settle(core::writeFile(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
   return name;
+}
+
+// False where the object is there and whole.
+bool ObjectStore::makeRoom(const std::string& object)
+{
+  const fs::path target = m_folder / object;
+  if (!contains(object))
+    m_new.push_back(target);
+  else if (sha256OfFile(target) == object.substr(0, kHashDigits))
+    return false;
+  return true;
 }
 
 // An object must be on the disk before a manifest names it.

@@ -33,6 +33,8 @@ public:
   /// `contents` on, which throws where there is none of this name; empty: no longer.
   void showThickness(const std::string& structure);
   const std::string& thicknessOver() const noexcept { return m_thicknessOver; }
+  /// The thickness that `other` shows, or none.
+  void takeThickness(const SceneAssembly& other);
 
 private:
   std::string m_thicknessOver;

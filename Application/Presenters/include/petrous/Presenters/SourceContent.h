@@ -36,7 +36,8 @@ struct SourceContent
 {
   std::filesystem::path path;
   Content content = Content::Image;
-  std::string why; ///< what that was decided by: a phrase that follows "it", for the user
+  std::string why;         ///< what that was decided by: a phrase that follows "it", for the user
+  bool isNameless = false; ///< nothing names its one structure but the file, maybe by a patient
   /// Of a DICOM folder with several series that can be read: the user says which. `content` is then
   /// without meaning.
   std::vector<SeriesContent> series;

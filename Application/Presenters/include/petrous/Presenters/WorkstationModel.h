@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "petrous/Interaction/SightLine.h"
 #include "petrous/Library/Library.h"
@@ -38,19 +39,29 @@ struct StoreTask
   scene::Case value; ///< without its dissection, in which another thread may write
   std::string from;  ///< the open case's name
   std::uint64_t changes = 0;
-  bool elsewhere = false; ///< the window works with `library` then
+  std::optional<library::Library> source; ///< where the case moves from; the window works with
+                                          ///< `library` then
+  std::vector<std::string> notices = {};  ///< Library::onNotice
 
-  void run(const core::Progress& progress = {}) { library.save(value, progress); }
+  /// Throws as Library::save; LibraryError (Damaged) also where a part that moves to another
+  /// library is not what was stored in this one.
+  void run(const core::Progress& progress = {});
 };
 
 /// What takes long of a case with many structures, for its picture and for tools: made in whatever
 /// thread of a copy of the case, see WorkstationModel::preparation.
 struct PreparedCase
 {
+  struct LeftOut
+  {
+    std::size_t part = 0; ///< of the case's labels, or of its meshes
+    std::string why;      ///< one sentence
+  };
   SceneAssembly assembly;
-  std::optional<DrillSession> drill; ///< of a copy that is gone: only to make another one like it
-  std::uint64_t parts = 0;           // of the model when it was copied
-  std::uint64_t tissue = 0;          // likewise
+  std::optional<DrillSession> drill;   ///< of a copy that is gone: only to make another one like it
+  std::vector<LeftOut> labels, meshes; ///< that are missing or damaged
+  std::uint64_t parts = 0;             // of the model when it was copied
+  std::uint64_t tissue = 0;            // likewise
 };
 
 /// The open case and what the window does with it. Without Qt, one thread.
@@ -78,6 +89,11 @@ public:
   /// Opens a case of the library; on an exception the present one stays.
   void open(const std::string& name);
 
+  /// Before the open case is saved to make way for another one, or to be closed: puts the tool
+  /// away, and none is taken up (what it drilled would be lost) until the case is another one, is
+  /// closed, or `notOpened`.
+  void beginLeave();
+
   /// The same with a thread that reads the case (ReadCase) between the two; then `opened` or
   /// `notOpened`. The tool is put away.
   void beginOpen(const std::string& name);
@@ -93,6 +109,10 @@ public:
 
   /// No case is open any more. What is unsaved is lost.
   void close();
+
+  /// Another number for each case that was opened or adopted: a case may get another name, and
+  /// another case its name.
+  std::uint64_t shownAs() const noexcept { return m_shown; }
 
   /// For a thread that saves: the case as it is now, and then `stored` or `notStored`. One at a
   /// time. What changes meanwhile is unsaved.
@@ -113,10 +133,17 @@ public:
   /// What takes long is still to be done (Events::preparationWanted asks for it) until `prepared`:
   /// loaded   false after another case or parts came: pictures show the CT alone
   /// drawable false after a structure was shown or hidden, too: its label field is of before
-  /// ready    false after a structure became tissue or none, too: there is no surface to be touched
+  /// ready    false after a structure became tissue or none, too: there is no surface to be
+  /// touched;
+  ///          and while the CT of the library was not held against its hash
   bool loaded() const noexcept { return m_loaded; }
   bool drawable() const noexcept { return m_loaded && m_drawable; }
-  bool ready() const noexcept { return m_loaded && m_feelable; }
+  bool ready() const noexcept { return m_loaded && m_feelable && m_checked; }
+  /// Whether `preparation` would spare somebody a wait.
+  bool preparationHelps() const noexcept
+  {
+    return m_case && (!ready() || !drawable() || !(m_session || m_scene));
+  }
   /// What is to be done in another thread.
   std::function<PreparedCase(const core::Progress&)> preparation() const;
   /// False where the case is another one by now: nothing happened.
@@ -124,6 +151,13 @@ public:
   void prepareNow() { prepared(preparation()({})); } ///< for who can wait
   /// What can be shown now: the case, or while it is not loaded the case without its structures.
   scene::Case presentable() const;
+
+  /// What of the images that were read is not what was stored, one sentence each, as far as that is
+  /// known by now; no tool is taken up then.
+  std::vector<std::string> damage() const;
+  /// Structures that are missing or damaged, one sentence each: they are neither shown nor felt,
+  /// and the case keeps them as they are on the disk.
+  std::vector<std::string> leftOut() const;
 
   bool canUndo() const noexcept;
   bool canRedo() const noexcept;
@@ -193,6 +227,7 @@ private:
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
   void waitForParts();
+  void leaveOut(const PreparedCase& done);
   void forgetTissue();
   void tellMask(const std::vector<std::size_t>& bricks);
   TouchSession::News hear(TouchSession::News news);
@@ -222,6 +257,18 @@ private:
   bool m_loaded = true;
   bool m_drawable = true;
   bool m_feelable = true;
+  bool m_checked = true; ///< the CT was held against its hash
+  /// A part that cannot be read is empty in m_case; this is what it was.
+  template <class T>
+  struct Unread
+  {
+    std::size_t part;
+    std::string why;
+    core::Lazy<T> whole;
+  };
+  std::vector<Unread<volume::LabelMap>> m_unreadLabels;
+  std::vector<Unread<core::TriangleMesh>> m_unreadMeshes;
+  std::uint64_t m_shown = 0;
   std::uint64_t m_parts = 0;  ///< which case, with which parts
   std::uint64_t m_tissue = 0; ///< and which of them are tissue
 };

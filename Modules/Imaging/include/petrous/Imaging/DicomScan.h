@@ -53,15 +53,18 @@ struct ScanResult
   std::vector<DicomSeries> series; ///< by first file's path
   std::vector<Finding> unreadable; ///< damaged DICOM files that belong to no known series
   std::size_t foreignFiles = 0;    ///< files that are not DICOM
-  std::vector<std::string> notes;  ///< what was left out below the path, one sentence each
+  /// What was left out below the path, one sentence each. Names files and folders, which may be
+  /// called after the patient: for the user's own screen only.
+  std::vector<std::string> notes;
 };
 
 /// Reads the header of every DICOM file at or below `path`, in parallel, and judges each series.
 ///
 /// Files are known by content, not by name; each file is read once. Links to files are followed,
 /// links to folders where they stay below `path`. A file that is not DICOM, but is named as the
-/// slices beside it are, is a lost slice; so is an empty one with their ending. Folders that may
-/// not be read and links that are not followed are noted.
+/// slices beside it are, is a lost slice; so is an empty one with their ending. A series is refused
+/// where a lost slice in its folder, or a folder that may not be read, may hold more of it. Links
+/// that are not followed are noted.
 ///
 /// Throws DicomError (NotFound) and CancelledError.
 ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& progress);

@@ -85,11 +85,13 @@ public:
   /// Reads the strokes into `value.dissection` where that is not done yet.
   void loadDissection(scene::Case& value) const;
 
-  /// Waits until the images of the case that are mapped, and its CT, have been held against their
-  /// hash. Throws LibraryError (Damaged) naming them, CancelledError.
+  /// Waits until the images of the case that were read from here have been held against their hash.
+  /// Throws LibraryError (Damaged) naming those that are damaged, CancelledError.
   void checkVoxels(const scene::Case& value, const core::Progress& progress = {}) const;
-  /// Damage of mapped images that was found until now, one sentence each.
-  std::vector<std::string> damageFound() const;
+  /// The same for all images that were read through this object or a copy of it, of whatever case.
+  void checkAllRead(const core::Progress& progress = {}) const;
+  /// Damage of the case's images that was found until now, one sentence each. Does not wait.
+  std::vector<std::string> damageFound(const scene::Case& value) const;
 
   /// Writes what is new and the manifest. A case with revision 0 is new: its name must be free.
   /// On any exception the library and the case are as before.
@@ -106,8 +108,9 @@ public:
   /// Throw LibraryError (Conflict) where another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;
 
-  /// Also of a case that is damaged. What a session drilled and did not save goes with it. Throws
-  /// LibraryError: NotFound, NameTaken, Conflict while another process is drilling in it.
+  /// Also of a case that is damaged. What a session drilled and did not save is brought back first,
+  /// and goes with a case that is removed. Throws LibraryError: NotFound, NameTaken, Conflict while
+  /// another process is drilling in it, or for a rename where it could not be brought back.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
   /// Shares the objects. Throws as `open` and `save`.
@@ -131,6 +134,8 @@ private:
   std::filesystem::path checkedManifestPath(const std::string& name) const;
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
+  std::vector<std::pair<std::filesystem::path, std::string>>
+  mappedImages(const scene::Case& value) const;
   std::optional<scene::Case> mergedWithSaved(const scene::Case& value,
                                              const SavedState& base) const;
 

@@ -52,6 +52,7 @@ public:
   void forget() noexcept;
 
 private:
+  bool makeRoom(const std::string& object);
   void settle(bool synced) const;
 
   std::filesystem::path m_folder;

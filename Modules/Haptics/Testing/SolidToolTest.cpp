@@ -1,8 +1,6 @@
-#include "petrous/Haptics/ConstrainedProxy.h"
-
 #include <gtest/gtest.h>
 
-#include "ProxyChecks.h"
+#include "SolidChecks.h"
 
 using namespace petrous;
 using namespace petrous::haptics;
@@ -14,83 +12,6 @@ using Eigen::Vector3d;
 namespace
 {
 
-constexpr double kMost = 0.05; // mm, of bone in the tool
-
-// How deep a point lies in ball, shaft and handpiece, mm; the shapes as BurrShape says them.
-double depthIn(const BurrShape& shape, double shaftRadius, const Vector3d& p)
-{
-  const double across = std::hypot(p.x(), p.y());
-  double depth = shape.radius - p.norm();
-  if (p.z() > 0.0 && p.z() < shape.shaftLength)
-    depth = std::max(depth, shaftRadius - across);
-  const double along = p.z() - shape.shaftLength;
-  if (shape.handpieceRadius > 0.0 && along > 0.0 && along < shape.handpieceLength)
-    depth = std::max(
-        depth, std::min({shape.handpieceRadius - across, along, shape.handpieceLength - along}));
-  return depth;
-}
-
-// Truth: the bone of the interpolated field in a box, looked at `perVoxel` times a voxel.
-double deepestBone(const Scene& scene, const BurrShape& shape, double shaftRadius, const Pose& pose,
-                   double perVoxel)
-{
-  const core::GridGeometry& grid = scene.field->geometry();
-  const Vector3d last(grid.dims()[0] - 1, grid.dims()[1] - 1, grid.dims()[2] - 1);
-  const Matrix3d toTool = pose.rotation.toRotationMatrix().transpose();
-  const double step = 1.0 / perVoxel;
-  double deepest = 0.0;
-  Vector3d v;
-  // Voxels that may hold bone first, then their insides.
-  for (v.z() = 0.0; v.z() < last.z(); v.z() += 1.0)
-    for (v.y() = 0.0; v.y() < last.y(); v.y() += 1.0)
-      for (v.x() = 0.0; v.x() < last.x(); v.x() += 1.0)
-      {
-        const Vector3d middle = grid.patientFromVoxel(v + Vector3d::Constant(0.5));
-        if (depthIn(shape, shaftRadius, toTool * (middle - pose.position)) <
-            -0.9 * grid.spacing().maxCoeff())
-          continue;
-        bool any = false;
-        for (int n = 0; n < 8 && !any; ++n)
-          any = scene.tissue->value(
-                    grid.patientFromVoxel(v + Vector3d(n & 1, (n >> 1) & 1, n >> 2))) > 0.0;
-        if (!any)
-          continue;
-        for (double z = 0.0; z < 1.0; z += step)
-          for (double y = 0.0; y < 1.0; y += step)
-            for (double x = 0.0; x < 1.0; x += step)
-            {
-              const Vector3d p = grid.patientFromVoxel(v + Vector3d(x, y, z));
-              const double depth = depthIn(shape, shaftRadius, toTool * (p - pose.position));
-              if (depth > deepest && scene.tissue->value(p) > 0.0)
-                deepest = depth;
-            }
-      }
-  return deepest;
-}
-
-core::GridGeometry boxOf(const Vector3d& half, double h, const Vector3d& phase)
-{
-  core::Index3 dims;
-  Vector3d last;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    const auto axis = static_cast<Eigen::Index>(a);
-    dims[a] = static_cast<int>(std::ceil(2.0 * half[axis] / h)) + 1;
-    last[axis] = h * (dims[a] - 1);
-  }
-  return {dims, Vector3d::Constant(h), -0.5 * last + h * phase};
-}
-
-// A plate on edge: `thickness` along x, up to z = 0.
-SignedDistance plateOnEdge(double thickness, const Matrix3d& turn = Matrix3d::Identity())
-{
-  return [=](const Vector3d& at)
-  {
-    const Vector3d p = turn.transpose() * at;
-    return std::min(0.5 * thickness - std::abs(p.x()), -p.z());
-  };
-}
-
 // A needle of that width, up to z = 0.
 SignedDistance spike(double width, const Matrix3d& turn = Matrix3d::Identity())
 {
@@ -99,40 +20,6 @@ SignedDistance spike(double width, const Matrix3d& turn = Matrix3d::Identity())
     const Vector3d p = turn.transpose() * at;
     return std::min(0.5 * width - std::hypot(p.x(), p.y()), -p.z());
   };
-}
-
-const Quaterniond kAlongX = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitX());
-
-struct Dragged
-{
-  double deepest = 0.0; // mm, truth
-  double told = 0.0;    // mm, greatest penetration of the ticks
-};
-
-// The tool lies along x and is drawn down over the bone by 3 mm in 300 ticks; `at` is the place of
-// its axis, from the burr's centre, that is above the origin.
-Dragged drag(const Scene& scene, const BurrShape& shape, double radius, double at,
-             double perVoxel = 8.0)
-{
-  const double h = scene.field->voxel();
-  ConstrainedProxy proxy(scene.field, makeBurrShell(shape, h));
-  const double shaftRadius = proxy.shell().solid.shaftRadius;
-  const auto pose = [&](double z)
-  {
-    return poseAt({-at, 0.07, z}, kAlongX * Quaterniond(Eigen::AngleAxisd(0.2, Vector3d::UnitZ())));
-  };
-  const double start = radius + 2.0 * h;
-  proxy.place(pose(start));
-  Dragged result;
-  for (int t = 1; t <= 300; ++t)
-  {
-    const ProxyTick& tick = proxy.step(pose(start - 0.01 * t));
-    result.told = std::max(result.told, tick.penetration);
-    if (t % 150 == 0)
-      result.deepest =
-          std::max(result.deepest, deepestBone(scene, shape, shaftRadius, tick.pose, perVoxel));
-  }
-  return result;
 }
 
 } // namespace
@@ -224,7 +111,7 @@ TEST(SolidTool, HandpiecesFaceDoesNotSinkOverASpike)
     SCOPED_TRACE(across);
     const Scene scene =
         sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), spike(2.0 * h)));
-    ConstrainedProxy proxy(scene.field, makeBurrShell(shape, h));
+    ConstrainedProxy proxy(scene.field, sharedShell(shape, h));
     const auto pose = [&](double z) { return poseAt({across, 0.1, z - shape.shaftLength}); };
     proxy.place(pose(0.5));
     const ProxyTick* tick = nullptr;
@@ -254,7 +141,7 @@ TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
   for (const double lever : {6.3, 12.0, 17.7, 24.45})
   {
     SCOPED_TRACE(lever);
-    ConstrainedProxy proxy(scene.field, makeBurrShell({}, h));
+    ConstrainedProxy proxy(scene.field, sharedShell({}, h));
     const auto pose = [&](double z) { return poseAt({-lever, 0.07, z}, kAlongX); };
     const double touch = top + radius;
     proxy.place(pose(touch + 0.2));
@@ -304,7 +191,7 @@ TEST(SolidTool, WhateverStopsTheToolIsFelt)
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   const auto draw = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
-  ConstrainedProxy proxy(scene.field, makeBurrShell(shape, h));
+  ConstrainedProxy proxy(scene.field, sharedShell(shape, h));
   for (int n = 0; n < 12; ++n)
   {
     SCOPED_TRACE(n);

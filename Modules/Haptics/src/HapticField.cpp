@@ -19,6 +19,7 @@ constexpr double kHullSlope = 0.25; // of f a voxel, at the border of the grid
 // Of a mask, per voxel along an axis: a cut's ramp rises by 1/2 over a voxel diagonal (adr 6), and
 // what is protected by a smoothed union's 1/2 a voxel.
 constexpr double kMaskSlope = 0.5;
+constexpr double kSameGrid = 1e-6; // voxels a voxel: a union's voxels are the CT's
 
 // Of a position that is not negative.
 double inBrick(double voxel) noexcept
@@ -30,6 +31,21 @@ std::size_t offsetInBrick(int i, int j, int k) noexcept
 {
   constexpr int edge = CutMask::kBrickEdge;
   return static_cast<std::size_t>((i % edge) + edge * ((j % edge) + edge * (k % edge)));
+}
+
+// Whether it does not end at the hull of its voxels while it is tissue.
+bool endsInAir(const volume::Volume<float>& share) noexcept
+{
+  const core::Index3& n = share.geometry().dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+    {
+      const bool face = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
+      for (int i = 0; i < n[0]; i += face || i == n[0] - 1 ? 1 : n[0] - 1)
+        if (share.at(i, j, k) > 0.5F)
+          return false;
+    }
+  return true;
 }
 } // namespace
 
@@ -58,9 +74,13 @@ HapticField::HapticField(const TissueField& tissue,
   {
     const core::GridGeometry& grid = share->geometry();
     const core::Index3& dims = grid.dims();
-    m_solids.push_back({share, grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
-                        grid.voxelFromPatient(m_geometry.origin()),
-                        Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)});
+    Solid solid{share, grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
+                grid.voxelFromPatient(m_geometry.origin()),
+                Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)};
+    const Eigen::Vector3d whole = solid.offset.array().round();
+    solid.onGrid = (solid.fromCt - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kSameGrid &&
+                   (solid.offset - whole).cwiseAbs().maxCoeff() < kSameGrid && endsInAir(*share);
+    m_solids.push_back(std::move(solid));
   }
   TissueBricks bricks = keptBricks(tissue, kept);
   m_bricks = bricks.dims;
@@ -329,8 +349,11 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
           if (i < dims[0] && j < dims[1] && k < dims[2])
             take(n, i, j, k);
   };
-  values.uncut.fill(air);
-  values.left.fill(air);
+  values.tissues = 1;
+  values.others = false;
+  values.tissue[0].fill(air);
+  values.mask.fill(air);
+  values.hull.fill(air);
   const auto row = static_cast<std::size_t>(dims[0]);
   const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
   m_ct->visit(
@@ -348,18 +371,33 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
                               slice * static_cast<std::size_t>(k)]) -
                    iso) *
                   perUnit;
-              values.uncut[n] = std::isnan(value) ? air : value;
+              values.tissue[0][n] = std::isnan(value) ? air : value;
             });
       });
   const Eigen::Vector3d corner(first[0], first[1], first[2]);
   if (m_distance[brickAt(corner)] & TissueBricks::kUnionHere)
-    forEach(
-        [&](std::size_t n, int i, int j, int k)
-        {
-          for (std::size_t s = 0; s < m_solids.size(); ++s)
-            values.uncut[n] =
-                std::max(values.uncut[n], static_cast<float>(solid(s, Eigen::Vector3d(i, j, k))));
-        });
+    for (std::size_t s = 0; s < m_solids.size(); ++s)
+    {
+      if (!m_solids[s].onGrid)
+      {
+        values.others = true;
+        continue;
+      }
+      std::array<float, 27> share;
+      share.fill(air);
+      forEach([&](std::size_t n, int i, int j, int k)
+              { share[n] = static_cast<float>(solid(s, Eigen::Vector3d(i, j, k))); });
+      if (!(*std::max_element(share.begin(), share.end()) > 0.0F))
+        continue;
+      if (values.tissues < values.tissue.size())
+      {
+        values.tissue[values.tissues++] = share;
+        continue;
+      }
+      std::array<float, 27>& last = values.tissue.back();
+      std::transform(last.begin(), last.end(), share.begin(), last.begin(),
+                     [](float a, float b) { return std::max(a, b); });
+    }
   constexpr int edge = CutMask::kBrickEdge;
   const core::Index3& bricks = m_mask->brickDims();
   std::size_t known = static_cast<std::size_t>(-1);
@@ -377,12 +415,40 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
           known = at;
           cut = mask.brick(at);
         }
-        const float left = cut ? static_cast<float>((*cut)[offsetInBrick(i, j, k)]) /
-                                         static_cast<float>(CutMask::kUntouched) -
-                                     0.5F
-                               : 0.5F;
-        values.left[n] = std::min(left, static_cast<float>(hull(Eigen::Vector3d(i, j, k))));
+        values.mask[n] = cut ? static_cast<float>((*cut)[offsetInBrick(i, j, k)]) /
+                                       static_cast<float>(CutMask::kUntouched) -
+                                   0.5F
+                             : 0.5F;
+        values.hull[n] = static_cast<float>(hull(Eigen::Vector3d(i, j, k)));
       });
+}
+
+double HapticField::rest(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept
+{
+  const double border = hull(voxel);
+  return border >= 0.0 ? std::min(left(cellAt(voxel, m_geometry.dims()), mask), border) : border;
+}
+
+double HapticField::tissueOf(std::size_t of, const Eigen::Vector3d& voxel) const noexcept
+{
+  if (!(hull(voxel) >= 0.0))
+    return TissueField::kAir;
+  return of == kCt ? ct(cellAt(voxel, m_geometry.dims())) : solid(of, voxel);
+}
+
+std::array<float, 8> HapticField::unionCell(std::size_t n, const core::Index3& cell) const noexcept
+{
+  const volume::Volume<float>& share = *m_solids[n].share;
+  const core::Index3& dims = share.geometry().dims();
+  const auto row = static_cast<std::size_t>(dims[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
+  const float* first = share.data() + static_cast<std::size_t>(cell[0]) +
+                       row * static_cast<std::size_t>(cell[1]) +
+                       slice * static_cast<std::size_t>(cell[2]);
+  std::array<float, 8> corners;
+  for (std::size_t c = 0; c < 8; ++c)
+    corners[c] = first[(c & 1) + row * ((c >> 1) & 1) + slice * (c >> 2)] - 0.5F;
+  return corners;
 }
 
 std::vector<core::LockedMemory::Range> HapticField::memory() const

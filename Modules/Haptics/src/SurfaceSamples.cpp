@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "TissueBricks.h"
 
@@ -18,26 +19,20 @@ constexpr int kBulging = 2;           // lines a side of a cell that is not flat
 constexpr int kMostLines = 4;         // a side
 constexpr std::size_t kBrickCost = 3; // in samples of the field
 constexpr int kRenewal = 16;          // ticks, after a cut
+constexpr float kWithin = 1e-5F;      // of f: another tissue goes on there
+constexpr int kHalvings = 10;         // of a line in a union's cell, to a cut
 } // namespace
 
 SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
   : m_field(field)
   , m_parts(solid)
   , m_extra(kExtra * field.voxel())
-  , m_halfCell(0.5 * field.geometry().spacing().norm())
 {
   if (!any())
     return;
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
     if (m_parts.has(part))
-    {
-      // Two samples are at most a line's distance apart, so the tool sinks in between by the
-      // sagitta of half of it.
-      const double most = 2.0 * std::sqrt(2.0 * kSagitta * m_parts.radius(part));
-      const double needed = std::ceil(field.geometry().spacing().maxCoeff() / most);
-      m_lines[part] = static_cast<int>(std::clamp(needed, 1.0, double{kMostLines}));
       m_lists[part].places.resize(kMostSamples);
-    }
   const core::Index3& dims = field.brickDims();
   const std::size_t bricks = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) *
                              static_cast<std::size_t>(dims[2]);
@@ -124,7 +119,7 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
   list.forget();
   list.left = margin;
   const core::GridGeometry& grid = m_field.geometry();
-  const Eigen::Matrix3d toTool = pose.rotation.toRotationMatrix().transpose();
+  const Search search{part, pose, pose.rotation.toRotationMatrix().transpose(), margin, inside};
   // The part's box, in bricks.
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
@@ -174,9 +169,7 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
     const Eigen::Vector3d extent = (upper - lower).cwiseProduct(grid.spacing());
     const Eigen::Vector3d middle = 0.5 * (lower + upper);
     const double radius = 0.5 * extent.norm();
-    const double distance =
-        m_parts.distance(part, toTool * (grid.patientFromVoxel(middle) - pose.position));
-    if (distance > radius + margin || (!inside && distance < -radius))
+    if (!reaches(search, grid.patientFromVoxel(middle), radius))
       continue;
     if (m_field.clearance(middle) > radius)
       continue;
@@ -193,7 +186,7 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
     }
     if (most == 0)
     {
-      addBrick(part, box.lower, pose, toTool, margin, inside);
+      addBrick(search, box.lower);
       continue;
     }
     const auto axis = static_cast<std::size_t>(longest);
@@ -207,8 +200,159 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
   }
 }
 
-void SurfaceSamples::addBrick(std::size_t part, const core::Index3& brick, const Pose& pose,
-                              const Eigen::Matrix3d& toTool, double margin, bool inside) noexcept
+bool SurfaceSamples::reaches(const Search& search, const Eigen::Vector3d& middle,
+                             double radius) const noexcept
+{
+  const double distance =
+      m_parts.distance(search.part, search.toTool * (middle - search.pose.position));
+  return distance <= radius + search.margin && (search.inside || distance >= -radius);
+}
+
+void SurfaceSamples::add(const Search& search, const Eigen::Vector3d& place) noexcept
+{
+  List& list = m_lists[search.part];
+  if (list.count < kMostSamples &&
+      m_parts.distance(search.part, search.toTool * (place - search.pose.position)) <=
+          search.margin)
+    list.places[list.count++] = place;
+}
+
+// Two samples of a flat surface are at most a line's distance apart, so the tool sinks in between
+// by the sagitta of half of it.
+int SurfaceSamples::linesFor(std::size_t part, const core::GridGeometry& grid,
+                             bool flat) const noexcept
+{
+  const double most = 2.0 * std::sqrt(2.0 * kSagitta * m_parts.radius(part));
+  const double needed = std::ceil(grid.spacing().maxCoeff() / most);
+  const int lines = static_cast<int>(std::clamp(needed, 1.0, double{kMostLines}));
+  return flat ? lines : std::min(kBulging * lines, kMostLines);
+}
+
+namespace
+{
+
+using Corners = std::array<float, 8>; // of a trilinear cell, first axis fastest
+
+float least(const Corners& f) noexcept
+{
+  return *std::min_element(f.begin(), f.end());
+}
+
+float most(const Corners& f) noexcept
+{
+  return *std::max_element(f.begin(), f.end());
+}
+
+// Whether its edges along each axis are about alike.
+bool isFlat(const Corners& f) noexcept
+{
+  std::array<float, 3> mean{};
+  float spread = 0.0F;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const std::size_t step = std::size_t{1} << a;
+    float shortest = std::numeric_limits<float>::infinity();
+    float longest = -shortest;
+    for (std::size_t n = 0; n < 8; ++n)
+    {
+      if (n & step)
+        continue;
+      const float rise = f[n | step] - f[n];
+      mean[a] += 0.25F * rise;
+      shortest = std::min(shortest, rise);
+      longest = std::max(longest, rise);
+    }
+    spread = std::max(spread, longest - shortest);
+  }
+  return spread * spread <=
+         kFlat * kFlat * (mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+}
+
+// A line through a cell along an axis.
+struct Line
+{
+  std::size_t along;
+  float u, v; // where it is on the two axes that follow
+
+  // f where it enters and leaves.
+  std::array<float, 2> ends(const Corners& f) const noexcept
+  {
+    const std::size_t a = std::size_t{1} << along;
+    const std::size_t b = std::size_t{1} << ((along + 1) % 3);
+    const std::size_t c = std::size_t{1} << ((along + 2) % 3);
+    const auto at = [&](std::size_t side)
+    {
+      const float low = f[side] + u * (f[side | b] - f[side]);
+      const float high = f[side | c] + u * (f[side | b | c] - f[side | c]);
+      return low + v * (high - low);
+    };
+    return {at(0), at(a)};
+  }
+
+  Eigen::Vector3d at(const core::Index3& cell, float t) const noexcept // voxel
+  {
+    Eigen::Vector3d voxel(cell[0], cell[1], cell[2]);
+    voxel[static_cast<Eigen::Index>(along)] += t;
+    voxel[static_cast<Eigen::Index>((along + 1) % 3)] += u;
+    voxel[static_cast<Eigen::Index>((along + 2) % 3)] += v;
+    return voxel;
+  }
+};
+
+template <class Take>
+void forEachLine(int lines, const Take& take)
+{
+  const float step = 1.0F / static_cast<float>(lines);
+  for (std::size_t along = 0; along < 3; ++along)
+    for (int i = 0; i < lines; ++i)
+      for (int j = 0; j < lines; ++j)
+        take(Line{along, step * static_cast<float>(i), step * static_cast<float>(j)});
+}
+
+// Where on a line an operand is above 0.
+struct Span
+{
+  float from = 0.0F;
+  float to = 1.0F;
+
+  bool any() const noexcept { return from < to; }
+};
+
+Span positive(const std::array<float, 2>& f) noexcept
+{
+  const auto [a, b] = f;
+  if (a > 0.0F)
+    return {0.0F, b > 0.0F ? 1.0F : a / (a - b)};
+  if (b > 0.0F)
+    return {a / (a - b), 1.0F};
+  return {1.0F, 0.0F};
+}
+
+Span both(const Span& a, const Span& b) noexcept
+{
+  return {std::max(a.from, b.from), std::min(a.to, b.to)};
+}
+
+Corners cornersOf(const std::array<float, 27>& values, std::size_t base) noexcept
+{
+  Corners corners;
+  for (std::size_t n = 0; n < 8; ++n)
+    corners[n] = values[base + (n & 1) + 3 * ((n >> 1) & 1) + 9 * (n >> 2)];
+  return corners;
+}
+
+} // namespace
+
+struct SurfaceSamples::Cell
+{
+  std::array<Corners, HapticField::BrickValues::kMostTissues> tissue;
+  std::size_t tissues = 0; // those that are above 0 somewhere in it
+  Corners mask;
+  Corners hull;
+  bool others = false; // there may be unions with cells of their own
+};
+
+void SurfaceSamples::addBrick(const Search& search, const core::Index3& brick) noexcept
 {
   const core::Index3& bricks = m_field.brickDims();
   const std::size_t index =
@@ -223,8 +367,9 @@ void SurfaceSamples::addBrick(std::size_t part, const core::Index3& brick, const
   HapticField::BrickValues values;
   m_field.brickValues(brick, *m_state, values);
   const core::GridGeometry& grid = m_field.geometry();
+  const double halfCell = 0.5 * grid.spacing().norm();
   const core::Index3& dims = grid.dims();
-  bool empty = true;
+  bool empty = !values.others;
   for (int c = 0; c < 8; ++c)
   {
     const core::Index3 in{c & 1, (c >> 1) & 1, c >> 2};
@@ -232,136 +377,234 @@ void SurfaceSamples::addBrick(std::size_t part, const core::Index3& brick, const
                             kTissueBrick * brick[2] + in[2]};
     if (cell[0] + 1 >= dims[0] || cell[1] + 1 >= dims[1] || cell[2] + 1 >= dims[2])
       continue;
-    std::array<float, 8> uncut;
-    std::array<float, 8> left;
     const auto base = static_cast<std::size_t>(in[0] + 3 * (in[1] + 3 * in[2]));
-    for (std::size_t n = 0; n < 8; ++n)
+    Cell corners;
+    corners.mask = cornersOf(values.mask, base);
+    if (!(most(corners.mask) > 0.0F))
+      continue;
+    corners.hull = cornersOf(values.hull, base);
+    const bool whole = least(corners.mask) > 0.0F && least(corners.hull) > 0.0F;
+    bool full = false;
+    for (std::size_t n = 0; n < values.tissues; ++n)
     {
-      const std::size_t at = base + (n & 1) + 3 * ((n >> 1) & 1) + 9 * (n >> 2);
-      uncut[n] = values.uncut[at];
-      left[n] = values.left[at];
+      Corners& f = corners.tissue[corners.tissues];
+      f = cornersOf(values.tissue[n], base);
+      full = full || least(f) > 0.0F;
+      if (most(f) > 0.0F)
+        ++corners.tissues;
     }
-    const auto [uncutLeast, uncutMost] = std::minmax_element(uncut.begin(), uncut.end());
-    const auto [leftLeast, leftMost] = std::minmax_element(left.begin(), left.end());
-    if (!(*uncutMost > 0.0F) || !(*leftMost > 0.0F))
+    corners.others = values.others;
+    if (corners.tissues == 0 && (whole || !corners.others))
       continue;
     empty = false;
-    if (*uncutLeast > 0.0F && *leftLeast > 0.0F)
+    if (whole && full)
       continue;
     const Eigen::Vector3d middle =
         grid.patientFromVoxel(Eigen::Vector3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5));
-    const double distance = m_parts.distance(part, toTool * (middle - pose.position));
-    if (distance > m_halfCell + margin || (!inside && distance < -m_halfCell))
-      continue;
-    addCell(part, cell, uncut, left, pose, toTool, margin);
+    if (reaches(search, middle, halfCell))
+      addCell(search, cell, corners);
   }
   if (empty)
     m_empty[index / 64] |= bit;
+  if (!values.others)
+    return;
+  const bool whole = *std::min_element(values.mask.begin(), values.mask.end()) > 0.0F &&
+                     *std::min_element(values.hull.begin(), values.hull.end()) > 0.0F;
+  for (std::size_t n = 0; n < m_field.unions(); ++n)
+    if (!m_field.onGrid(n))
+      addUnion(search, brick, n, whole);
 }
 
-namespace
+void SurfaceSamples::addCell(const Search& search, const core::Index3& cell,
+                             const Cell& values) noexcept
 {
+  const core::GridGeometry& grid = m_field.geometry();
+  // One operand that crosses 0 and is about flat.
+  const Corners* crossing = nullptr;
+  int crossings = values.others ? 1 : 0;
+  const auto look = [&](const Corners& f)
+  {
+    if (least(f) > 0.0F)
+      return;
+    crossing = &f;
+    ++crossings;
+  };
+  for (std::size_t n = 0; n < values.tissues; ++n)
+    look(values.tissue[n]);
+  look(values.mask);
+  look(values.hull);
+  const bool flat = crossings == 1 && crossing && isFlat(*crossing);
+  const auto place = [&](const Line& line, float t)
+  { return Eigen::Vector3d(grid.patientFromVoxel(line.at(cell, t))); };
+  forEachLine(linesFor(search.part, grid, flat),
+              [&](const Line& line)
+              {
+                const std::array<float, 2> mask = line.ends(values.mask);
+                const std::array<float, 2> hull = line.ends(values.hull);
+                const Span rest = both(positive(mask), positive(hull));
+                if (!rest.any())
+                  return;
+                // An end may be a crossing itself: on the grid's border f is 0.
+                const bool restFrom = std::min(mask[0], hull[0]) <= 0.0F;
+                const bool restTo = std::min(mask[1], hull[1]) <= 0.0F;
+                std::array<std::array<float, 2>, HapticField::BrickValues::kMostTissues> f;
+                for (std::size_t n = 0; n < values.tissues; ++n)
+                  f[n] = line.ends(values.tissue[n]);
+                const auto within = [&](std::size_t first, std::size_t last, float t)
+                {
+                  return std::any_of(f.begin() + static_cast<std::ptrdiff_t>(first),
+                                     f.begin() + static_cast<std::ptrdiff_t>(last),
+                                     [t](const std::array<float, 2>& ends)
+                                     { return ends[0] + t * (ends[1] - ends[0]) > kWithin; });
+                };
+                const auto add = [&](std::size_t n, float t)
+                {
+                  // Not where another tissue goes on; where a cut ends several, once.
+                  if (!within(0, n, t) && !within(n + 1, values.tissues, t) &&
+                      !(values.others && inOthers(line.at(cell, t), HapticField::kCt)))
+                    this->add(search, place(line, t));
+                };
+                for (std::size_t n = 0; n < values.tissues; ++n)
+                {
+                  const Span own = positive(f[n]);
+                  const Span span = both(own, rest);
+                  if (!span.any())
+                    continue;
+                  if (f[n][0] <= 0.0F && own.from >= rest.from)
+                    add(n, span.from);
+                  else if (restFrom && !within(0, n, span.from))
+                    this->add(search, place(line, span.from));
+                  if (f[n][1] <= 0.0F && own.to <= rest.to)
+                    add(n, span.to);
+                  else if (restTo && !within(0, n, span.to))
+                    this->add(search, place(line, span.to));
+                }
+                if (!values.others)
+                  return;
+                // What was cut out of a union between the corners of the CT.
+                if (restFrom && !within(0, values.tissues, rest.from) &&
+                    inOthers(line.at(cell, rest.from), HapticField::kCt))
+                  this->add(search, place(line, rest.from));
+                if (restTo && !within(0, values.tissues, rest.to) &&
+                    inOthers(line.at(cell, rest.to), HapticField::kCt))
+                  this->add(search, place(line, rest.to));
+              });
+}
 
-// Of a trilinear cell: whether its edges along each axis are about alike.
-bool isFlat(const std::array<float, 8>& f) noexcept
+// Whether a place lies in another union: beside the CT's cells those with cells of their own.
+bool SurfaceSamples::inOthers(const Eigen::Vector3d& voxel, std::size_t but) const noexcept
 {
-  std::array<float, 3> mean{};
-  float spread = 0.0F;
+  for (std::size_t n = 0; n < m_field.unions(); ++n)
+    if (n != but && !(but == HapticField::kCt && m_field.onGrid(n)) &&
+        m_field.tissueOf(n, voxel) > kWithin)
+      return true;
+  return false;
+}
+
+// The cells of a union with voxels of its own that reach into the brick.
+void SurfaceSamples::addUnion(const Search& search, const core::Index3& brick, std::size_t n,
+                              bool whole) noexcept
+{
+  const core::Index3& dims = m_field.geometry().dims();
+  const core::GridGeometry& own = m_field.unionGrid(n);
+  Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d upper = -lower;
+  for (int c = 0; c < 8; ++c)
+  {
+    Eigen::Vector3d corner;
+    for (std::size_t a = 0; a < 3; ++a)
+      corner[static_cast<Eigen::Index>(a)] =
+          std::min(kTissueBrick * (brick[a] + ((c >> a) & 1)), dims[a] - 1);
+    const Eigen::Vector3d at = m_field.unionFromCt(n, corner);
+    lower = lower.cwiseMin(at);
+    upper = upper.cwiseMax(at);
+  }
+  core::Index3 first;
+  core::Index3 last;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    const std::size_t step = std::size_t{1} << a;
-    float least = 0.0F;
-    float most = 0.0F;
-    bool first = true;
-    for (std::size_t n = 0; n < 8; ++n)
-    {
-      if (n & step)
-        continue;
-      const float rise = f[n | step] - f[n];
-      mean[a] += 0.25F * rise;
-      least = first ? rise : std::min(least, rise);
-      most = first ? rise : std::max(most, rise);
-      first = false;
-    }
-    spread = std::max(spread, most - least);
-  }
-  return spread * spread <=
-         kFlat * kFlat * (mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
-}
-
-// Where a + (b - a) t > 0, within 0 to 1.
-struct Span
-{
-  float from = 0.0F;
-  float to = 1.0F;
-};
-
-Span positive(float a, float b) noexcept
-{
-  if (a > 0.0F)
-    return {0.0F, b > 0.0F ? 1.0F : a / (a - b)};
-  if (b > 0.0F)
-    return {a / (a - b), 1.0F};
-  return {1.0F, 0.0F};
-}
-
-} // namespace
-
-template <class Corner>
-void SurfaceSamples::addCell(std::size_t part, const core::Index3& cell, const Corner& uncut,
-                             const Corner& left, const Pose& pose, const Eigen::Matrix3d& toTool,
-                             double margin) noexcept
-{
-  List& list = m_lists[part];
-  const core::GridGeometry& grid = m_field.geometry();
-  const bool cut = *std::min_element(left.begin(), left.end()) <= 0.0F;
-  const bool grown = *std::min_element(uncut.begin(), uncut.end()) <= 0.0F;
-  const bool flat = cut != grown && isFlat(cut ? left : uncut);
-  const int lines = flat ? m_lines[part] : std::min(kBulging * m_lines[part], kMostLines);
-  const float step = 1.0F / static_cast<float>(lines);
-  const auto add = [&](std::size_t along, float at, float u, float v)
-  {
-    if (list.count == kMostSamples)
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double cells = own.dims()[a] - 1.0;
+    if (!(upper[axis] >= 0.0) || !(lower[axis] <= cells) || !(cells >= 1.0))
       return;
-    Eigen::Vector3d voxel(cell[0], cell[1], cell[2]);
-    voxel[static_cast<Eigen::Index>(along)] += at;
-    voxel[static_cast<Eigen::Index>((along + 1) % 3)] += u;
-    voxel[static_cast<Eigen::Index>((along + 2) % 3)] += v;
-    const Eigen::Vector3d place = grid.patientFromVoxel(voxel);
-    if (m_parts.distance(part, toTool * (place - pose.position)) <= margin)
-      list.places[list.count++] = place;
-  };
-  for (std::size_t along = 0; along < 3; ++along)
-  {
-    const std::size_t a = std::size_t{1} << along;
-    const std::size_t b = std::size_t{1} << ((along + 1) % 3);
-    const std::size_t c = std::size_t{1} << ((along + 2) % 3);
-    for (int i = 0; i < lines; ++i)
-      for (int j = 0; j < lines; ++j)
-      {
-        const float u = step * static_cast<float>(i);
-        const float v = step * static_cast<float>(j);
-        const auto at = [&](const Corner& f, std::size_t side)
-        {
-          const float low = f[side] + u * (f[side | b] - f[side]);
-          const float high = f[side | c] + u * (f[side | b | c] - f[side | c]);
-          return low + v * (high - low);
-        };
-        const float bone[] = {at(uncut, 0), at(uncut, a)};
-        const float rest[] = {at(left, 0), at(left, a)};
-        const Span inBone = positive(bone[0], bone[1]);
-        const Span inRest = positive(rest[0], rest[1]);
-        const float from = std::max(inBone.from, inRest.from);
-        const float to = std::min(inBone.to, inRest.to);
-        if (!(from < to))
-          continue;
-        // An end may be a crossing itself: on the grid's border f is 0.
-        if (std::min(bone[0], rest[0]) <= 0.0F)
-          add(along, from, u, v);
-        if (std::min(bone[1], rest[1]) <= 0.0F)
-          add(along, to, u, v);
-      }
+    first[a] = static_cast<int>(std::clamp(std::floor(lower[axis]), 0.0, cells - 1.0));
+    last[a] = static_cast<int>(std::clamp(std::floor(upper[axis]), 0.0, cells - 1.0));
   }
+  const double halfCell = 0.5 * own.spacing().norm();
+  core::Index3 cell;
+  for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2])
+    for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
+      for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0])
+      {
+        ++m_samples;
+        const Corners share = m_field.unionCell(n, cell);
+        if (!(most(share) > 0.0F))
+          continue;
+        bool border = false;
+        for (std::size_t a = 0; a < 3; ++a)
+          border = border || cell[a] == 0 || cell[a] == own.dims()[a] - 2;
+        if (least(share) > 0.0F && whole && !border)
+          continue;
+        const Eigen::Vector3d middle =
+            own.patientFromVoxel(Eigen::Vector3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5));
+        if (reaches(search, middle, halfCell))
+          addUnionCell(search, brick, n, whole, cell, share);
+      }
+}
+
+// Of each sample the brick in which it lies is asked, so that none is found twice.
+void SurfaceSamples::addUnionCell(const Search& search, const core::Index3& brick, std::size_t n,
+                                  bool whole, const core::Index3& cell,
+                                  const Corners& share) noexcept
+{
+  const core::GridGeometry& own = m_field.unionGrid(n);
+  const core::GridGeometry& grid = m_field.geometry();
+  const auto ctVoxel = [&](const Line& line, float t) -> Eigen::Vector3d
+  { return grid.voxelFromPatient(own.patientFromVoxel(line.at(cell, t))); };
+  const auto add = [&](const Line& line, float t)
+  {
+    const Eigen::Vector3d voxel = ctVoxel(line, t);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const double at = voxel[static_cast<Eigen::Index>(a)];
+      // The last brick has the voxels at the grid's border.
+      const bool tail = brick[a] + 1 == m_field.brickDims()[a];
+      if (!(at >= kTissueBrick * brick[a]) || !(tail || at < kTissueBrick * (brick[a] + 1)))
+        return;
+    }
+    if (!(m_field.tissueOf(HapticField::kCt, voxel) > kWithin) && !inOthers(voxel, n))
+      this->add(search, grid.patientFromVoxel(voxel));
+  };
+  const auto rest = [&](const Line& line, float t)
+  { return m_field.rest(ctVoxel(line, t), *m_state); };
+  forEachLine(linesFor(search.part, own, least(share) <= 0.0F && whole && isFlat(share)),
+              [&](const Line& line)
+              {
+                const std::array<float, 2> f = line.ends(share);
+                const Span span = positive(f);
+                if (!span.any())
+                  return;
+                const std::size_t a = line.along;
+                const bool from = f[0] <= 0.0F || cell[a] == 0;
+                const bool to = f[1] <= 0.0F || cell[a] == own.dims()[a] - 2;
+                const bool leftFrom = whole || rest(line, span.from) > 0.0;
+                const bool leftTo = whole || rest(line, span.to) > 0.0;
+                if (from && leftFrom)
+                  add(line, span.from);
+                if (to && leftTo)
+                  add(line, span.to);
+                if (leftFrom == leftTo)
+                  return;
+                // The cut lies between: on the side of what is left.
+                float left = leftFrom ? span.from : span.to;
+                float gone = leftFrom ? span.to : span.from;
+                for (int halving = 0; halving < kHalvings; ++halving)
+                {
+                  const float middle = 0.5F * (left + gone);
+                  (rest(line, middle) > 0.0 ? left : gone) = middle;
+                }
+                add(line, left);
+              });
 }
 
 } // namespace petrous::haptics

@@ -16,10 +16,11 @@ namespace petrous::haptics
 /// edge, a ridge, a spike) cannot pass between its points, but it has samples of its own.
 ///
 /// The samples are where lines parallel to the grid's axes cross f = 0. Along such a line each
-/// operand of f is linear in a cell, so each sample lies on the interpolated surface. A cell has
-/// the lines along its edges where its surface is about flat, and 2 x 2 or more a side where it
-/// bulges or the tool is thin. They depend on the field alone and not on the tool, so a pose that
-/// is free of them stays free however often they are found again.
+/// operand of f is linear in a cell, so each sample lies on the interpolated surface; a union whose
+/// voxels are not the CT's has lines in its own cells. A cell has the lines along its edges where
+/// its surface is about flat, and 2 x 2 or more a side where it bulges or the tool is thin. They
+/// depend on the field alone and not on the tool, so a pose that is free of them stays free however
+/// often they are found again.
 ///
 /// Samples are found for some way around the tool and kept until the tool has made that way. After
 /// a cut those of the ball are found again at once, the others some ticks later: they hold more
@@ -86,18 +87,30 @@ private:
     }
   };
 
+  struct Search // round a part at a pose
+  {
+    std::size_t part;
+    Pose pose;
+    Eigen::Matrix3d toTool;
+    double margin;
+    bool inside;
+  };
+  struct Cell; // operands at a cell's corners
   void gather(std::size_t part, const Pose& pose, double margin, bool inside) noexcept;
-  void addBrick(std::size_t part, const core::Index3& brick, const Pose& pose,
-                const Eigen::Matrix3d& toTool, double margin, bool inside) noexcept;
-  template <class Corner>
-  void addCell(std::size_t part, const core::Index3& cell, const Corner& uncut, const Corner& left,
-               const Pose& pose, const Eigen::Matrix3d& toTool, double margin) noexcept;
+  void addBrick(const Search& search, const core::Index3& brick) noexcept;
+  void addCell(const Search& search, const core::Index3& cell, const Cell& values) noexcept;
+  void addUnion(const Search& search, const core::Index3& brick, std::size_t n,
+                bool whole) noexcept;
+  void addUnionCell(const Search& search, const core::Index3& brick, std::size_t n, bool whole,
+                    const core::Index3& cell, const std::array<float, 8>& share) noexcept;
+  bool inOthers(const Eigen::Vector3d& voxel, std::size_t but) const noexcept;
+  bool reaches(const Search& search, const Eigen::Vector3d& middle, double radius) const noexcept;
+  void add(const Search& search, const Eigen::Vector3d& place) noexcept;
+  int linesFor(std::size_t part, const core::GridGeometry& grid, bool flat) const noexcept;
 
   const HapticField& m_field;
   SolidParts m_parts;
-  double m_extra;                              // mm, beyond what is asked for
-  double m_halfCell;                           // mm, half a cell's diagonal
-  std::array<int, SolidParts::kParts> m_lines; // of a flat cell's side
+  double m_extra; // mm, beyond what is asked for
   std::array<List, SolidParts::kParts> m_lists;
   std::vector<std::uint64_t> m_empty; // bits: bricks in which nothing is left
   const volume::MaskState* m_state = nullptr;

@@ -99,16 +99,43 @@ public:
   double steepness(const Eigen::Vector3d& voxel) const noexcept;
   double leftSteepness() const noexcept { return m_leftSteepness; }
 
-  /// Operands at the 3^3 voxels of a brick of 2^3 cells, first axis fastest: `uncut` and `left` as
-  /// in FieldSample. Beyond the grid's last voxel both are air.
+  /// Operands of f at the 3^3 voxels of a brick of 2^3 cells, first axis fastest, each of them by
+  /// itself: they are interpolated before the greater or lower of them is taken. Beyond the grid's
+  /// last voxel all are air.
   struct BrickValues
   {
-    std::array<float, 27> uncut;
-    std::array<float, 27> left;
+    static constexpr std::size_t kMostTissues = 8; ///< of more, the rest are taken at the voxels
+    std::array<std::array<float, 27>, kMostTissues> tissue; ///< CT, then unions above 0 somewhere
+    std::size_t tissues = 1;
+    bool others = false; ///< unions whose voxels are not the CT's may be here: see unionCell
+    std::array<float, 27> mask;
+    std::array<float, 27> hull;
   };
   const core::Index3& brickDims() const noexcept { return m_bricks; }
   void brickValues(const core::Index3& brick, const volume::MaskState& mask,
                    BrickValues& values) const noexcept;
+
+  /// Of mask - 1/2 and hull the lower; below 0 beyond the hull.
+  double rest(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
+
+  /// Unions by number, below `unions`. One whose voxels are the CT's is `onGrid`; others have cells
+  /// of their own, between the voxels v and v + 1 of theirs, with corners as share - 1/2, first
+  /// axis fastest. A union ends at the hull of its voxels, whatever it is there.
+  std::size_t unions() const noexcept { return m_solids.size(); }
+  bool onGrid(std::size_t n) const noexcept { return m_solids[n].onGrid; }
+  std::array<float, 8> unionCell(std::size_t n, const core::Index3& cell) const noexcept;
+  Eigen::Vector3d unionFromCt(std::size_t n, const Eigen::Vector3d& voxel) const noexcept
+  {
+    return m_solids[n].fromCt * voxel + m_solids[n].offset;
+  }
+  const core::GridGeometry& unionGrid(std::size_t n) const noexcept
+  {
+    return m_solids[n].share->geometry();
+  }
+
+  /// f of the CT (kCt) or of a union alone, uncut, at a voxel position of the CT.
+  static constexpr std::size_t kCt = static_cast<std::size_t>(-1);
+  double tissueOf(std::size_t of, const Eigen::Vector3d& voxel) const noexcept;
 
   /// What `sample` reads, for a thread that may not wait for the disk: CT, unions and what was made
   /// here. The mask's states come and go, and are in no file. Valid as long as the field.
@@ -123,6 +150,7 @@ private:
     Eigen::Matrix3d fromCt; ///< voxel of the union from voxel of the CT: fromCt * v + offset
     Eigen::Vector3d offset;
     Eigen::Vector3d last; ///< greatest voxel coordinate
+    bool onGrid = false;  ///< its voxels are voxels of the CT
   };
 
   struct Cell;

@@ -15,6 +15,7 @@ namespace
 constexpr double kSagitta = 0.02; // mm, of a thin tool between two samples of a flat surface
 constexpr float kFlat = 0.2F;     // of the slope: how much a cell's edges may differ
 constexpr int kBulging = 2;       // lines a side of a cell that is not flat
+constexpr double kBulge = 0.15;   // mm: lines as near as that need not be more
 constexpr int kMostLines = 4;     // a side
 constexpr int kRenewal = 16;      // ticks, of the handpiece after a cut
 // Voxels, of ball and others: the margin is not made smaller to be cheap. The ball is searched
@@ -372,7 +373,8 @@ int SurfaceSamples::linesFor(std::size_t part, const core::GridGeometry& grid,
   const double most = 2.0 * std::sqrt(2.0 * kSagitta * m_parts.radius(part));
   const double needed = std::ceil(grid.spacing().maxCoeff() / most);
   const int lines = static_cast<int>(std::clamp(needed, 1.0, double{kMostLines}));
-  return flat ? lines : std::min(kBulging * lines, kMostLines);
+  const bool fine = grid.spacing().maxCoeff() <= kBulge * lines;
+  return flat || fine ? lines : std::min(kBulging * lines, kMostLines);
 }
 
 namespace

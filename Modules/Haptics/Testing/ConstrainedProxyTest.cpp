@@ -186,7 +186,7 @@ TEST(ConstrainedProxy, StopsBeforeTissueWhenTheGoalJumpsBeyondIt)
   const Vector3d normal = Vector3d(1.0, 0.2, 0.1).normalized();
   ConstrainedProxy proxy(scene.field, shell);
   proxy.place(poseAt(25.0 * normal));
-  for (int t = 0; t < 5; ++t)
+  for (int t = 0; t < 8; ++t)
   {
     const ProxyTick& tick = proxy.step(poseAt(-25.0 * normal));
     ASSERT_LE(deepest(*scene.tissue, shell, tick.pose), 0.0);

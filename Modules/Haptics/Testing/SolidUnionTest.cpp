@@ -122,8 +122,12 @@ TEST(SolidUnion, SamplesLieOnTheSurface)
       const Pose pose = poseAt(at);
       samples.look(state);
       samples.forget();
-      samples.find(pose, 0.0, 0.0, h);
-      for (std::size_t n = 0; n < samples.count(SolidParts::kBall); ++n, ++count)
+      for (int tick = 0; tick < 100; ++tick)
+      {
+        samples.look(state);
+        samples.find(pose, 0.0, 0.0, h);
+      }
+      for (std::size_t n = 0; n < samples.within(SolidParts::kBall, h); ++n, ++count)
       {
         const Vector3d& place = samples.place(SolidParts::kBall, n);
         const Vector3d voxel = box.voxelFromPatient(place);

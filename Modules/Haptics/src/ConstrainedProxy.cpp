@@ -20,6 +20,7 @@ constexpr double kSkin = 0.01;
 constexpr double kSkinSlack = 0.3; // of the skin, that need not be given back
 constexpr double kMostLift = 0.05; // voxels, over a bump
 constexpr int kMostStretches = 32; // sweeps of a tick that end freely
+constexpr double kLeastWay = 1e-6; // mm
 
 constexpr ParameterCheck kCheck("constrained proxy");
 
@@ -89,6 +90,7 @@ bool ConstrainedProxy::placeFree(const Pose& pose) noexcept
 // for that, and then the first one's motion stands.
 Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
 {
+  static_assert(kMostHits <= ContactFinder::kMostHits);
   const double skin = kSkin * m_sweep.field().voxel();
   m_finder->find(m_hits.data(), std::min(m_hitCount, kMostHits));
   m_found += m_finder->samples();
@@ -172,10 +174,15 @@ ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noex
   for (;;)
   {
     share = std::min(share, farthest - done);
-    const Motion part{share * motion.linear, share * motion.angular};
     if (done > 0.0)
       m_sweep.findNear(0.0);
-    m_sweep.addNear(part.linear.norm(), part.angular.norm());
+    const double known =
+        m_sweep.addNear(share * motion.linear.norm(), share * motion.angular.norm());
+    m_waits = known * share * way < kLeastWay;
+    if (m_waits)
+      break;
+    share *= known;
+    const Motion part{share * motion.linear, share * motion.angular};
     m_tick.nearPoints = std::max(m_tick.nearPoints, m_sweep.nearCount());
     const std::size_t most = static_cast<std::size_t>(m_parameters.samples);
     hit = m_sweep.advance(part, most - std::min(most, m_found));
@@ -194,6 +201,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
   const double reach = m_sweep.shell().reach;
   const double ahead = (m_parameters.nearGap + kSkin) * h;
   int stretches = 0;
+  m_waits = false;
   // What stopped a tick that made no way is still there in the next one; so a tick need not find it
   // all, and its work can be bounded without the tool being caught on a bump.
   if (!m_caught || m_caughtIn != m_sweep.state().number())
@@ -224,7 +232,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
         if (stop.any)
           m_hits[m_hitCount++ % kMostHits] = stop;
     }
-    if ((!hit.any && hit.free >= 1.0 && part >= 1.0) || spent())
+    if ((!hit.any && hit.free >= 1.0 && part >= 1.0) || spent() || m_waits)
       break;
     if (!hit.any)
       ++stretches;

@@ -23,11 +23,12 @@ constexpr double kAligned = 0.01;       // rad, residual of a found contact
 constexpr double kMisaligned = 0.05;    // rad, residual of one that was not found
 constexpr int kTurns = 4;
 constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the surface as it is, ripples too
-constexpr double kDeepest = 0.05; // voxels: of a gap that is given back in one motion
-constexpr std::size_t kMostCandidates = 8192;
-constexpr std::size_t kMostOnSolid = 192;
-constexpr std::size_t kMostSmooth = 24; // that have their tissue's normal looked at
-constexpr double kStretch = 1.0;        // voxels between two contacts of a line of contact
+constexpr double kDeepest = 0.05;          // voxels: of a gap that is given back in one motion
+constexpr std::size_t kMostOnSolid = 128;  // found as near, besides those that stopped a motion
+constexpr std::size_t kMostLooked = 1024;  // samples, the nearest first; the sweep has all
+constexpr std::size_t kLooksInASample = 2; // of the field, at known contacts
+constexpr std::size_t kMostSmooth = 24;    // that have their tissue's normal looked at
+constexpr double kStretch = 1.0;           // voxels between two contacts of a line of contact
 constexpr double kOnBall = 0.1;  // voxels: a sample as deep as the ball's contacts say, about
 constexpr double kSmooth = 0.9;  // cosine, of the tissue's normal and the tool's
 constexpr double kSameGap = 0.1; // voxels: a surface is smooth where its normal leads to it
@@ -37,9 +38,9 @@ ContactFinder::ContactFinder(const ShellSweep& sweep, double nearGap)
   : m_sweep(sweep)
   , m_nearGap(nearGap * sweep.field().voxel())
   , m_order(sweep.shell().points.size())
-  , m_found(sweep.shell().points.size() + kMostOnSolid)
+  , m_found(sweep.shell().points.size() + kMostOnSolid + kMostHits)
   , m_next(m_found.size())
-  , m_candidates(sweep.surface().any() ? kMostCandidates : 0)
+  , m_candidates(sweep.surface().any() ? SolidParts::kParts * SurfaceSamples::kMostSamples : 0)
 {
   const PointShell& shell = sweep.shell();
   const auto first = std::find_if(
@@ -322,7 +323,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     m_found[m_count] = found;
     enter(part, m_count++);
   };
-  for (std::size_t n = 0; n < hitCount; ++n)
+  for (std::size_t n = 0; n < std::min(hitCount, kMostHits); ++n)
   {
     if (hits[n].point != ShellSweep::kNoPoint)
       continue;
@@ -342,24 +343,36 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     take(hits[n].part, found);
   }
   std::size_t count = 0;
+  std::size_t looked = 0;
   for (std::uint32_t part = 0; part < SolidParts::kParts; ++part)
-    for (std::size_t n = 0; n < surface.count(part) && count < kMostCandidates; ++n)
+  {
+    const std::size_t within = surface.within(part, m_nearGap);
+    looked += within;
+    for (std::size_t n = 0; n < within; ++n)
     {
       const double gap =
           surface.parts().distance(part, toTool * (surface.place(part, n) - pose.position));
       if (gap <= m_nearGap)
         m_candidates[count++] = {gap, part, static_cast<std::uint32_t>(n)};
     }
-  std::sort(m_candidates.begin(), m_candidates.begin() + static_cast<std::ptrdiff_t>(count),
-            [](const Candidate& a, const Candidate& b)
-            {
-              return a.gap != b.gap     ? a.gap < b.gap
-                     : a.part != b.part ? a.part < b.part
-                                        : a.number < b.number;
-            });
-  std::size_t added = 0;
-  for (std::size_t n = 0; n < count && added < kMostOnSolid - ShellSweep::kMostSteps; ++n)
+  }
+  m_samples += looked / SurfaceSamples::kUnit;
+  // The nearest first, by number where two are as near.
+  const auto after = [](const Candidate& a, const Candidate& b)
   {
+    return a.gap != b.gap     ? a.gap > b.gap
+           : a.part != b.part ? a.part > b.part
+                              : a.number > b.number;
+  };
+  const auto begin = m_candidates.begin();
+  auto end = begin + static_cast<std::ptrdiff_t>(count);
+  std::make_heap(begin, end, after);
+  std::size_t added = 0;
+  looked = 0;
+  for (; end != begin && added < kMostOnSolid && looked < kMostLooked; ++looked)
+  {
+    std::pop_heap(begin, end, after);
+    const std::size_t n = static_cast<std::size_t>(--end - begin);
     const std::uint32_t part = m_candidates[n].part;
     const Eigen::Vector3d& place = surface.place(part, m_candidates[n].number);
     FoundContact found = contactAt(part, place);
@@ -372,6 +385,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     take(part, found);
     ++added;
   }
+  m_samples += looked / kLooksInASample;
 }
 
 bool ContactFinder::explained(const ShellSweep::Near& near) const noexcept

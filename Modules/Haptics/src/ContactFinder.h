@@ -34,6 +34,8 @@ struct FoundContact
 class ContactFinder
 {
 public:
+  static constexpr std::size_t kMostHits = 64; ///< that `find` may be given
+
   /// `nearGap` in voxels: contacts farther away than that are none.
   ContactFinder(const ShellSweep& sweep, double nearGap);
 

@@ -398,6 +398,13 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
       std::transform(last.begin(), last.end(), share.begin(), last.begin(),
                      [](float a, float b) { return std::max(a, b); });
     }
+  if (untouched(brick, mask))
+  {
+    // The hull is a voxel or more away: what counts is that it is above 0.
+    values.mask.fill(0.5F);
+    values.hull.fill(static_cast<float>(kHullSlope));
+    return;
+  }
   constexpr int edge = CutMask::kBrickEdge;
   const core::Index3& bricks = m_mask->brickDims();
   std::size_t known = static_cast<std::size_t>(-1);
@@ -421,6 +428,29 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
                              : 0.5F;
         values.hull[n] = static_cast<float>(hull(Eigen::Vector3d(i, j, k)));
       });
+}
+
+bool HapticField::untouched(const core::Index3& brick, const volume::MaskState& mask) const noexcept
+{
+  const core::Index3& bricks = m_mask->brickDims();
+  std::array<std::array<int, 2>, 3> range;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const int first = kTissueBrick * brick[a];
+    const int last = first + kTissueBrick;
+    if (first == 0 || last >= m_geometry.dims()[a] - 1)
+      return false;
+    range[a] = {first / CutMask::kBrickEdge, last / CutMask::kBrickEdge};
+  }
+  for (int k = range[2][0]; k <= range[2][1]; ++k)
+    for (int j = range[1][0]; j <= range[1][1]; ++j)
+      for (int i = range[0][0]; i <= range[0][1]; ++i)
+        if (mask.brick(static_cast<std::size_t>(i) +
+                       static_cast<std::size_t>(bricks[0]) *
+                           (static_cast<std::size_t>(j) +
+                            static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k))))
+          return false;
+  return true;
 }
 
 double HapticField::rest(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept

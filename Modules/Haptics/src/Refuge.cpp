@@ -7,7 +7,8 @@ namespace petrous::haptics
 
 namespace
 {
-constexpr double kTrailStep = 0.5; // voxels
+constexpr double kTrailStep = 0.5;         // voxels
+constexpr std::size_t kMostRetreat = 3000; // samples of the field in a tick
 } // namespace
 
 Refuge::Refuge(ShellSweep& sweep)
@@ -16,10 +17,10 @@ Refuge::Refuge(ShellSweep& sweep)
 {
 }
 
-void Refuge::settle() noexcept
+void Refuge::settle(std::size_t most) noexcept
 {
-  m_sweep.measure();
-  m_inside = m_sweep.penetration() > 0.0;
+  m_inside = !m_sweep.measure(most);
+  m_retreats = false;
   if (!m_inside)
     remember();
 }
@@ -31,7 +32,7 @@ void Refuge::place(const Pose& pose) noexcept
   m_raises = m_sweep.state().raises();
   m_sweep.moveTo(pose);
   m_trailLength = 0;
-  settle();
+  settle(SIZE_MAX);
   mask.release();
 }
 
@@ -46,8 +47,10 @@ bool Refuge::freeAt(const Pose& pose) noexcept
 
 void Refuge::follow(const Pose& goal) noexcept
 {
+  if (m_retreats)
+    return;
   m_sweep.moveTo(goal);
-  settle();
+  settle(ShellSweep::kMostQuery);
 }
 
 void Refuge::remember() noexcept
@@ -61,34 +64,42 @@ void Refuge::remember() noexcept
   m_trailLength = std::min(m_trailLength + 1, kTrail);
 }
 
-// Back along the path to the last pose that is free now.
+// Back along the path to the last pose that is free now, as far as a tick's work goes.
 bool Refuge::retreat() noexcept
 {
   while (m_trailLength > 0)
   {
+    if (m_sweep.samples() + m_sweep.surfaceSamples() > kMostRetreat)
+      return false;
     const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
     if (m_sweep.freeAt(m_trail[last]))
     {
       m_sweep.moveTo(m_trail[last]);
+      m_inside = m_retreats = false;
       return true;
     }
     m_trailEnd = last;
     --m_trailLength;
   }
+  m_retreats = false;
   return false;
 }
 
 bool Refuge::notice() noexcept
 {
-  if (m_sweep.state().raises() == m_raises)
-    return false;
-  m_raises = m_sweep.state().raises();
-  m_sweep.forgetClearances();
-  if (m_inside || m_sweep.freeAt(m_sweep.pose()))
-    return false;
-  m_inside = !retreat();
-  m_sweep.measure();
-  return !m_inside;
+  if (m_sweep.state().raises() != m_raises)
+  {
+    m_raises = m_sweep.state().raises();
+    m_sweep.forgetClearances();
+    if ((m_inside && !m_retreats) || m_sweep.freeAt(m_sweep.pose()))
+    {
+      m_inside = m_inside && !m_retreats;
+      m_retreats = false;
+      return false;
+    }
+    m_inside = m_retreats = true;
+  }
+  return m_retreats && retreat();
 }
 
 } // namespace petrous::haptics

@@ -26,7 +26,8 @@ public:
   bool freeAt(const Pose& pose) noexcept;
 
   /// Looks at the sweep's present state of the mask. True when tissue came back round the tool and
-  /// it went back on its path.
+  /// it went back on its path. What of that a tick's work is not enough for, the next ones do; the
+  /// tool is inside until then.
   bool notice() noexcept;
 
   bool inside() const noexcept { return m_inside; }
@@ -40,7 +41,7 @@ public:
 private:
   static constexpr std::size_t kTrail = 512;
 
-  void settle() noexcept;
+  void settle(std::size_t most) noexcept;
   bool retreat() noexcept;
 
   ShellSweep& m_sweep;
@@ -49,6 +50,7 @@ private:
   std::size_t m_trailLength = 0;
   std::uint64_t m_raises = 0;
   bool m_inside = false;
+  bool m_retreats = false; // inside, and the way back is not looked through yet
 };
 
 } // namespace petrous::haptics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "SurfaceSamples.h"
 
@@ -12,7 +13,8 @@ namespace
 {
 // Stretches of a path shorter than this much of a voxel are not halved further.
 constexpr double kFinest = 1.0 / 16.0;
-constexpr std::size_t kMostMeetings = 65536;
+constexpr std::size_t kLooksInADistance = 4; // at a sample that sleeps
+constexpr std::size_t kMostMeetings = SolidParts::kParts * SurfaceSamples::kMostSamples;
 } // namespace
 
 ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shell, double step,
@@ -36,7 +38,7 @@ ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shel
   m_maps[0] = mapOf(m_pose);
   m_surface = std::make_unique<SurfaceSamples>(*m_field, m_shell.solid);
   if (m_surface->any())
-    m_meetings.resize(kMostMeetings);
+    m_meetings.assign(kMostMeetings, Meeting{});
 }
 
 ShellSweep::~ShellSweep() = default;
@@ -45,7 +47,13 @@ void ShellSweep::look(const volume::MaskState& state) noexcept
 {
   m_state = &state;
   m_samples = 0;
+  m_distances = 0;
   m_surface->look(state);
+}
+
+std::size_t ShellSweep::samples() const noexcept
+{
+  return m_samples + m_distances / SurfaceSamples::kUnit;
 }
 
 std::size_t ShellSweep::surfaceSamples() const noexcept
@@ -65,6 +73,7 @@ void ShellSweep::moveTo(const Pose& pose) noexcept
   m_pose = pose;
   m_pose.rotation.normalize();
   m_maps[0] = mapOf(m_pose);
+  m_deepest = volume::TissueField::kAir;
   forgetClearances();
 }
 
@@ -72,6 +81,7 @@ void ShellSweep::forgetClearances() noexcept
 {
   std::fill(m_clearance.begin(), m_clearance.end(), 0.0);
   m_surface->forget();
+  m_inside = 0.0;
 }
 
 // Of a point whose known clearance is not enough.
@@ -100,7 +110,7 @@ void ShellSweep::findNear(double distance) noexcept
     m_surface->find(m_pose, 0.0, 0.0, distance);
 }
 
-void ShellSweep::addNear(double linear, double angular) noexcept
+double ShellSweep::addNear(double linear, double angular) noexcept
 {
   for (std::size_t i = 0; i < m_clearance.size(); ++i)
   {
@@ -108,8 +118,7 @@ void ShellSweep::addNear(double linear, double angular) noexcept
     if (!(m_clearance[i] > way) && !m_isNear[i])
       judge(i, way);
   }
-  if (m_surface->any())
-    m_surface->find(m_pose, linear, angular, 0.0);
+  return m_surface->any() ? m_surface->find(m_pose, linear, angular, 0.0) : 1.0;
 }
 
 bool ShellSweep::freeAt(const Pose& pose) noexcept
@@ -119,11 +128,7 @@ bool ShellSweep::freeAt(const Pose& pose) noexcept
                    [&](const Eigen::Vector3d& p)
                    { return sampleAt(map.linear * p + map.offset).value <= 0.0; }))
     return false;
-  if (!m_surface->any())
-    return true;
-  const bool free = m_surface->freeAt(pose);
-  m_surface->forget(); // the samples of another place
-  return free;
+  return m_surface->insideAt(pose, kMostQuery) == 0.0;
 }
 
 bool ShellSweep::nearFreeAt(const Pose& pose) noexcept
@@ -139,23 +144,22 @@ bool ShellSweep::nearFreeAt(const Pose& pose) noexcept
   return true;
 }
 
-void ShellSweep::measure() noexcept
+bool ShellSweep::measure(std::size_t most) noexcept
 {
   m_deepest = volume::TissueField::kAir;
   for (std::uint32_t i = 0; i < m_shell.points.size(); ++i)
     deepen(sampleAt(voxelOf(i)).value, i);
-  if (!m_surface->any())
-    return;
-  // Inside by a point already: finding all samples within the solid would cost milliseconds a tick.
+  m_inside = 0.0;
   if (m_deepest > 0.0)
-    m_surface->forget();
-  else
-    m_surface->findInside(m_pose);
+    return false;
+  const std::optional<double> inside = m_surface->insideAt(m_pose, most);
+  m_inside = inside.value_or(0.0);
+  return inside == 0.0;
 }
 
 double ShellSweep::penetration() const noexcept
 {
-  const double ofSolid = m_surface->any() ? m_surface->depth(m_pose) : 0.0;
+  const double ofSolid = std::max(m_inside, m_surface->any() ? m_surface->depth(m_pose) : 0.0);
   if (!(m_deepest > 0.0))
     return ofSolid;
   const Eigen::Vector3d voxel = voxelOf(m_deepestPoint);
@@ -213,6 +217,7 @@ double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& a
 
 double ShellSweep::distanceAt(const Meeting& meeting, const Pose& pose) const noexcept
 {
+  ++m_distances;
   return m_surface->parts().distance(meeting.part,
                                      pose.rotation.conjugate() * (meeting.place - pose.position));
 }
@@ -230,8 +235,12 @@ void ShellSweep::findMeetings(const Motion& motion) noexcept
   const Eigen::Matrix3d toTool = m_pose.rotation.toRotationMatrix().transpose();
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
   {
-    const std::size_t count = m_surface->count(part);
-    for (std::size_t n = 0; n < count && m_meetingCount < kMostMeetings; ++n)
+    if (!parts.has(part))
+      continue;
+    const std::size_t count =
+        m_surface->within(part, linear + angular * (m_surface->arm(part) + linear));
+    m_distances += count;
+    for (std::size_t n = 0; n < count; ++n)
     {
       const Eigen::Vector3d& place = m_surface->place(part, n);
       const Eigen::Vector3d at = toTool * (place - m_pose.position);
@@ -272,6 +281,7 @@ void ShellSweep::meet(std::uint32_t s, const Motion& motion, double perStep, dou
 {
   const double linear = perStep * motion.linear.norm();
   const double angular = perStep * motion.angular.norm();
+  m_distances += m_meetingCount / kLooksInADistance;
   for (std::size_t n = 0; n < m_meetingCount; ++n)
   {
     Meeting& meeting = m_meetings[n];
@@ -345,7 +355,7 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
   }
   for (std::uint32_t s = 1; s <= steps && !hit.any; ++s)
   {
-    if (s > 1 && m_samples >= mostSamples)
+    if (s > 1 && samples() >= mostSamples)
     {
       best = static_cast<double>(s - 1);
       break;
@@ -424,8 +434,9 @@ void ShellSweep::commit(const Motion& motion, double share) noexcept
   const double angular = share * motion.angular.norm();
   for (std::size_t i = 0; i < m_clearance.size(); ++i)
     m_clearance[i] -= linear + angular * m_arm[i];
-  m_surface->moved(linear, angular);
   m_pose = moved(m_pose, motion, share);
+  m_surface->moved(m_pose);
+  m_inside = 0.0;
   m_maps[0] = mapOf(m_pose);
 }
 

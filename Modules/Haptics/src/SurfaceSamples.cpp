@@ -5,43 +5,62 @@
 #include <limits>
 
 #include "TissueBricks.h"
+#include "petrous/Haptics/ShellSweep.h"
 
 namespace petrous::haptics
 {
 
 namespace
 {
-constexpr std::size_t kMostSamples = 32768; // of a part
-constexpr double kExtra = 1.0;              // voxels that samples are found beyond what is asked
-constexpr double kSagitta = 0.02;     // mm, of a thin tool between two samples of a flat surface
-constexpr float kFlat = 0.2F;         // of the slope: how much a cell's edges may differ
-constexpr int kBulging = 2;           // lines a side of a cell that is not flat
-constexpr int kMostLines = 4;         // a side
-constexpr std::size_t kBrickCost = 3; // in samples of the field
-constexpr int kRenewal = 16;          // ticks, after a cut
-constexpr float kWithin = 1e-5F;      // of f: another tissue goes on there
-constexpr int kHalvings = 10;         // of a line in a union's cell, to a cut
+constexpr double kSagitta = 0.02; // mm, of a thin tool between two samples of a flat surface
+constexpr float kFlat = 0.2F;     // of the slope: how much a cell's edges may differ
+constexpr int kBulging = 2;       // lines a side of a cell that is not flat
+constexpr double kBulge = 0.15;   // mm: lines as near as that need not be more
+constexpr int kMostLines = 4;     // a side
+constexpr int kRenewal = 16;      // ticks, of the handpiece after a cut
+// Voxels, of ball and others: the margin is not made smaller to be cheap. The ball is searched
+// round after each cut, whatever way it makes.
+constexpr std::array<double, SolidParts::kParts> kLeasts{1.0, 3.0, 3.0};
+constexpr double kMost = 32.0;   // voxels
+constexpr double kFirst = 4.0;   // voxels, the first
+constexpr double kShrink = 0.7;  // of the margin, where the samples are too many
+constexpr int kMostShrinks = 20; // and then none are kept
+constexpr double kUsed = 0.75;   // of the margin: the next search begins
+// Units, see SurfaceSamples::kUnit.
+constexpr std::size_t kBoxCost = 4;
+constexpr std::size_t kBrickCost = 24;
+constexpr std::size_t kCellCost = 8;
+constexpr std::size_t kUnionCellCost = 4;
+constexpr std::size_t kCheap = 800; // a search: the next may go farther
+constexpr std::size_t kDear = 3000; // a search: it need not go as far
+constexpr float kWithin = 1e-5F;    // of f: another tissue goes on there
+constexpr int kHalvings = 10;       // of a line in a union's cell, to a cut
 } // namespace
 
 SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
   : m_field(field)
   , m_parts(solid)
-  , m_extra(kExtra * field.voxel())
 {
   if (!any())
     return;
+  // Written, so that no page is missing in a tick.
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
     if (m_parts.has(part))
-      m_lists[part].places.resize(kMostSamples);
+      m_lists[part].places.assign(kMostSamples, Eigen::Vector3d::Zero());
+  m_search.places.assign(kMostSamples, Eigen::Vector3d::Zero());
+  m_search.distances.assign(kMostSamples, 0.0F);
   const core::Index3& dims = field.brickDims();
   const std::size_t bricks = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) *
                              static_cast<std::size_t>(dims[2]);
   m_empty.assign((bricks + 63) / 64, 0);
+  m_full.assign(m_empty.size(), 0);
+  for (List& list : m_lists)
+    list.wish = kFirst * field.voxel();
 }
 
 void SurfaceSamples::look(const volume::MaskState& state) noexcept
 {
-  m_samples = 0;
+  m_work = 0;
   if (!any())
     return;
   const bool raised = m_state && m_raises != state.raises();
@@ -49,13 +68,13 @@ void SurfaceSamples::look(const volume::MaskState& state) noexcept
     std::fill(m_empty.begin(), m_empty.end(), 0);
   if (!m_state || raised)
     forget();
-  // A cut only takes tissue away, where the burr is: what the others meet is renewed later.
-  for (std::size_t part = 0; part < SolidParts::kParts; ++part)
+  // A cut only takes tissue away.
+  const bool cut = m_number != state.number();
+  m_search.cut = m_search.cut || cut;
+  for (List& list : m_lists)
   {
-    List& list = m_lists[part];
-    list.cut = list.cut || m_number != state.number();
-    if (list.cut && (part == SolidParts::kBall || ++list.age >= kRenewal))
-      list.forget();
+    list.cut = list.cut || cut;
+    list.age += list.cut ? 1 : 0;
   }
   m_state = &state;
   m_number = state.number();
@@ -65,33 +84,106 @@ void SurfaceSamples::look(const volume::MaskState& state) noexcept
 void SurfaceSamples::forget() noexcept
 {
   for (List& list : m_lists)
-    list.forget();
+    list.known = false;
+  m_search.active = false;
 }
 
-void SurfaceSamples::moved(double linear, double angular) noexcept
+void SurfaceSamples::moved(const Pose& pose) noexcept
 {
+  const auto way = [&](const Pose& from, std::size_t part, double margin)
+  { return longestWay(motionBetween(from, pose), m_parts.reach(part) + margin); };
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
-    m_lists[part].left -=
-        linear + angular * (m_parts.reach(part) + std::max(m_lists[part].left, 0.0));
+    if (m_lists[part].known)
+      m_lists[part].made = way(m_lists[part].pose, part, m_lists[part].margin);
+  if (!m_search.active)
+    return;
+  m_search.made = way(m_search.pose, m_search.part, m_search.margin);
+  m_search.active = m_search.made < m_search.margin;
 }
 
-void SurfaceSamples::find(const Pose& pose, double linear, double angular, double beyond) noexcept
+double SurfaceSamples::find(const Pose& pose, double linear, double angular, double beyond) noexcept
 {
+  double share = 1.0;
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
   {
-    // A sample turns about the tool on an arm that is longer than the part by its distance.
-    const double near = linear + angular * m_parts.reach(part) + beyond;
-    const double way = near + angular * (near + m_extra);
-    if (m_parts.has(part) && m_lists[part].left < way)
-      gather(part, pose, way + m_extra, false);
+    if (!m_parts.has(part))
+      continue;
+    const List& list = m_lists[part];
+    const auto wayOf = [&] { return linear + angular * arm(part); };
+    const double used = kUsed * list.margin;
+    const bool now =
+        list.left() <= std::min(wayOf() + beyond, used) || (list.cut && part == SolidParts::kBall);
+    const bool renewed = list.cut && (part == 1 || list.age >= kRenewal);
+    if (now || renewed || list.left() <= used)
+      renew(part, pose,
+            kUnit * (kMostWork + (list.cut && part == SolidParts::kBall ? kMostAfterCut : 0)));
+    const double known = std::max(list.left() - beyond, 0.0);
+    if (known < wayOf())
+      share = std::min(share, known / wayOf());
+  }
+  return share;
+}
+
+// One search at a time: what another part began is ended first.
+void SurfaceSamples::renew(std::size_t part, const Pose& pose, std::size_t until) noexcept
+{
+  while (m_work < until)
+  {
+    if (!m_search.active)
+      begin(m_search, part, pose, m_lists[part].wish, false);
+    const bool own = m_search.part == part;
+    run(m_search, until);
+    if (m_search.depth > 0)
+      return;
+    finish();
+    if (own)
+      return;
   }
 }
 
-void SurfaceSamples::findInside(const Pose& pose) noexcept
+// Samples by their distance when they were found.
+void SurfaceSamples::finish() noexcept
 {
-  for (std::size_t part = 0; part < SolidParts::kParts; ++part)
-    if (m_parts.has(part))
-      gather(part, pose, m_extra, true);
+  Search& search = m_search;
+  search.active = false;
+  List& list = m_lists[search.part];
+  const double least = kLeasts[search.part] * m_field.voxel();
+  list.wish = search.work < kCheap
+                  ? std::min(2.0 * search.margin, kMost * m_field.voxel())
+                  : std::max(search.work > kDear ? 0.5 * search.margin : search.margin, least);
+  if (!list.cut && list.left() > search.margin - search.made)
+    return; // the known ones reach farther
+  const double perBin = kBins / std::max(search.margin, 1e-12);
+  const auto binOf = [&](std::size_t n)
+  {
+    const double bin = std::clamp(perBin * search.distances[n], 0.0, kBins - 1.0);
+    return static_cast<std::size_t>(bin);
+  };
+  list.first.fill(0);
+  for (std::size_t n = 0; n < search.count; ++n)
+    ++list.first[binOf(n) + 1];
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    list.first[bin + 1] += list.first[bin];
+  std::array<std::uint32_t, kBins + 1> next = list.first;
+  for (std::size_t n = 0; n < search.count; ++n)
+    list.places[next[binOf(n)]++] = search.places[n];
+  spend(search, search.count);
+  list.pose = search.pose;
+  list.margin = search.margin;
+  list.made = search.made;
+  list.known = true;
+  list.cut = search.cut;
+  list.age = 0;
+}
+
+std::size_t SurfaceSamples::within(std::size_t part, double distance) const noexcept
+{
+  const List& list = m_lists[part];
+  if (!list.known)
+    return 0;
+  const double bin = kBins * (list.made + distance) / std::max(list.margin, 1e-12);
+  // One more for the rounding of distances.
+  return list.first[static_cast<std::size_t>(std::clamp(bin + 2.0, 1.0, double{kBins}))];
 }
 
 double SurfaceSamples::depth(const Pose& pose) const noexcept
@@ -99,27 +191,64 @@ double SurfaceSamples::depth(const Pose& pose) const noexcept
   double least = -kTolerance;
   const Eigen::Matrix3d toTool = pose.rotation.toRotationMatrix().transpose();
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
-    for (std::size_t n = 0; n < m_lists[part].count; ++n)
+  {
+    const std::size_t count = within(part, 0.0);
+    for (std::size_t n = 0; n < count; ++n)
       least = std::min(least,
                        m_parts.distance(part, toTool * (m_lists[part].places[n] - pose.position)));
+  }
   return least < -kTolerance ? -least : 0.0;
 }
 
-bool SurfaceSamples::freeAt(const Pose& pose) noexcept
+std::optional<double> SurfaceSamples::insideAt(const Pose& pose, std::size_t most) noexcept
 {
-  forget();
-  findInside(pose);
-  return !(depth(pose) > 0.0);
+  const std::size_t until = most < SIZE_MAX / kUnit ? m_work + kUnit * most : SIZE_MAX;
+  for (std::size_t part = 0; part < SolidParts::kParts; ++part)
+  {
+    if (!m_parts.has(part))
+      continue;
+    begin(m_query, part, pose, 0.0, true);
+    run(m_query, until);
+    if (m_query.deepest > 0.0)
+      return m_query.deepest;
+    if (m_query.depth > 0)
+      return std::nullopt;
+  }
+  return 0.0;
 }
 
-// Halves a box of bricks until it is far from the part's surface, or from all tissue, or one brick.
-void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, bool inside) noexcept
+// Nearer ones only, where there are too many, or they cost too much.
+void SurfaceSamples::shrink(Search& search, double margin) noexcept
 {
-  List& list = m_lists[part];
-  list.forget();
-  list.left = margin;
+  search.margin = margin;
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < search.count; ++n)
+    if (search.distances[n] <= margin)
+    {
+      search.places[kept] = search.places[n];
+      search.distances[kept++] = search.distances[n];
+    }
+  spend(search, search.count);
+  search.count = kept;
+}
+
+void SurfaceSamples::begin(Search& search, std::size_t part, const Pose& pose, double margin,
+                           bool inside) noexcept
+{
+  search.part = part;
+  search.pose = pose;
+  search.toTool = pose.rotation.toRotationMatrix().transpose();
+  search.margin = margin;
+  search.made = 0.0;
+  search.deepest = 0.0;
+  search.inside = inside;
+  search.active = true;
+  search.cut = false;
+  search.depth = 0;
+  search.work = 0;
+  search.dearAt = kDear;
+  search.count = 0;
   const core::GridGeometry& grid = m_field.geometry();
-  const Search search{part, pose, pose.rotation.toRotationMatrix().transpose(), margin, inside};
   // The part's box, in bricks.
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
@@ -133,10 +262,6 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
   const Eigen::Vector3d half =
       (m_parts.radius(part) + margin) * grid.spacing().cwiseInverse() + Eigen::Vector3d::Ones();
   const core::Index3& dims = m_field.brickDims();
-  struct Box
-  {
-    core::Index3 lower, upper; // half open
-  };
   Box all;
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -150,14 +275,25 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
     all.upper[a] =
         static_cast<int>(std::min(double{kTissueBrick} * dims[a] - 1.0, high)) / kTissueBrick + 1;
   }
-  std::array<Box, 64> stack;
-  std::size_t depth = 0;
-  stack[depth++] = all;
+  search.stack[search.depth++] = all;
+}
+
+// Halves a box of bricks until it is far from the part's surface, or from all tissue, or one brick.
+void SurfaceSamples::run(Search& search, std::size_t until) noexcept
+{
+  const core::GridGeometry& grid = m_field.geometry();
   const Eigen::Vector3d last =
       Eigen::Vector3d(grid.dims()[0], grid.dims()[1], grid.dims()[2]) - Eigen::Vector3d::Ones();
-  while (depth > 0)
+  const double least = kLeasts[search.part] * m_field.voxel();
+  while (search.depth > 0 && m_work < until)
   {
-    const Box box = stack[--depth];
+    if (search.work > search.dearAt && search.margin > least)
+    {
+      shrink(search, std::max(0.5 * search.margin, least));
+      search.dearAt = search.work + kDear;
+    }
+    spend(search, kBoxCost);
+    const Box box = search.stack[--search.depth];
     Eigen::Vector3d lower;
     Eigen::Vector3d upper;
     for (std::size_t a = 0; a < 3; ++a)
@@ -187,6 +323,8 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
     if (most == 0)
     {
       addBrick(search, box.lower);
+      if (search.deepest > 0.0)
+        return;
       continue;
     }
     const auto axis = static_cast<std::size_t>(longest);
@@ -195,8 +333,8 @@ void SurfaceSamples::gather(std::size_t part, const Pose& pose, double margin, b
     Box second = box;
     first.upper[axis] = cut;
     second.lower[axis] = cut;
-    stack[depth++] = second;
-    stack[depth++] = first;
+    search.stack[search.depth++] = second;
+    search.stack[search.depth++] = first;
   }
 }
 
@@ -208,13 +346,23 @@ bool SurfaceSamples::reaches(const Search& search, const Eigen::Vector3d& middle
   return distance <= radius + search.margin && (search.inside || distance >= -radius);
 }
 
-void SurfaceSamples::add(const Search& search, const Eigen::Vector3d& place) noexcept
+void SurfaceSamples::add(Search& search, const Eigen::Vector3d& place) noexcept
 {
-  List& list = m_lists[search.part];
-  if (list.count < kMostSamples &&
-      m_parts.distance(search.part, search.toTool * (place - search.pose.position)) <=
-          search.margin)
-    list.places[list.count++] = place;
+  spend(search, 1);
+  const double distance =
+      m_parts.distance(search.part, search.toTool * (place - search.pose.position));
+  if (search.inside)
+  {
+    if (distance < -kTolerance)
+      search.deepest = std::max(search.deepest, -distance);
+    return;
+  }
+  for (int tries = 0; search.count == kMostSamples; ++tries)
+    shrink(search, tries < kMostShrinks ? kShrink * search.margin : 0.0);
+  if (!(distance <= search.margin))
+    return;
+  search.places[search.count] = place;
+  search.distances[search.count++] = static_cast<float>(distance);
 }
 
 // Two samples of a flat surface are at most a line's distance apart, so the tool sinks in between
@@ -225,7 +373,8 @@ int SurfaceSamples::linesFor(std::size_t part, const core::GridGeometry& grid,
   const double most = 2.0 * std::sqrt(2.0 * kSagitta * m_parts.radius(part));
   const double needed = std::ceil(grid.spacing().maxCoeff() / most);
   const int lines = static_cast<int>(std::clamp(needed, 1.0, double{kMostLines}));
-  return flat ? lines : std::min(kBulging * lines, kMostLines);
+  const bool fine = grid.spacing().maxCoeff() <= kBulge * lines;
+  return flat || fine ? lines : std::min(kBulging * lines, kMostLines);
 }
 
 namespace
@@ -349,10 +498,11 @@ struct SurfaceSamples::Cell
   std::size_t tissues = 0; // those that are above 0 somewhere in it
   Corners mask;
   Corners hull;
+  bool whole = false;  // mask and hull are above 0
   bool others = false; // there may be unions with cells of their own
 };
 
-void SurfaceSamples::addBrick(const Search& search, const core::Index3& brick) noexcept
+void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcept
 {
   const core::Index3& bricks = m_field.brickDims();
   const std::size_t index =
@@ -363,13 +513,16 @@ void SurfaceSamples::addBrick(const Search& search, const core::Index3& brick) n
   const std::uint64_t bit = std::uint64_t{1} << (index % 64);
   if (m_empty[index / 64] & bit)
     return;
-  m_samples += kBrickCost;
+  if ((m_full[index / 64] & bit) && m_field.untouched(brick, *m_state))
+    return;
+  spend(search, kBrickCost);
   HapticField::BrickValues values;
   m_field.brickValues(brick, *m_state, values);
   const core::GridGeometry& grid = m_field.geometry();
   const double halfCell = 0.5 * grid.spacing().norm();
   const core::Index3& dims = grid.dims();
   bool empty = !values.others;
+  bool full = empty;
   for (int c = 0; c < 8; ++c)
   {
     const core::Index3 in{c & 1, (c >> 1) & 1, c >> 2};
@@ -380,24 +533,28 @@ void SurfaceSamples::addBrick(const Search& search, const core::Index3& brick) n
     const auto base = static_cast<std::size_t>(in[0] + 3 * (in[1] + 3 * in[2]));
     Cell corners;
     corners.mask = cornersOf(values.mask, base);
+    const auto isFull = [&](std::size_t n)
+    { return least(cornersOf(values.tissue[n], base)) > 0.0F; };
+    bool all = false;
+    for (std::size_t n = 0; n < values.tissues && !all; ++n)
+      all = isFull(n);
+    full = full && all;
     if (!(most(corners.mask) > 0.0F))
       continue;
     corners.hull = cornersOf(values.hull, base);
-    const bool whole = least(corners.mask) > 0.0F && least(corners.hull) > 0.0F;
-    bool full = false;
+    corners.whole = least(corners.mask) > 0.0F && least(corners.hull) > 0.0F;
     for (std::size_t n = 0; n < values.tissues; ++n)
     {
       Corners& f = corners.tissue[corners.tissues];
       f = cornersOf(values.tissue[n], base);
-      full = full || least(f) > 0.0F;
       if (most(f) > 0.0F)
         ++corners.tissues;
     }
     corners.others = values.others;
-    if (corners.tissues == 0 && (whole || !corners.others))
+    if (corners.tissues == 0 && (corners.whole || !corners.others))
       continue;
     empty = false;
-    if (whole && full)
+    if (corners.whole && all)
       continue;
     const Eigen::Vector3d middle =
         grid.patientFromVoxel(Eigen::Vector3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5));
@@ -406,6 +563,8 @@ void SurfaceSamples::addBrick(const Search& search, const core::Index3& brick) n
   }
   if (empty)
     m_empty[index / 64] |= bit;
+  else if (full)
+    m_full[index / 64] |= bit;
   if (!values.others)
     return;
   const bool whole = *std::min_element(values.mask.begin(), values.mask.end()) > 0.0F &&
@@ -415,8 +574,7 @@ void SurfaceSamples::addBrick(const Search& search, const core::Index3& brick) n
       addUnion(search, brick, n, whole);
 }
 
-void SurfaceSamples::addCell(const Search& search, const core::Index3& cell,
-                             const Cell& values) noexcept
+void SurfaceSamples::addCell(Search& search, const core::Index3& cell, const Cell& values) noexcept
 {
   const core::GridGeometry& grid = m_field.geometry();
   // One operand that crosses 0 and is about flat.
@@ -434,9 +592,11 @@ void SurfaceSamples::addCell(const Search& search, const core::Index3& cell,
   look(values.mask);
   look(values.hull);
   const bool flat = crossings == 1 && crossing && isFlat(*crossing);
+  const int lines = linesFor(search.part, grid, flat);
+  spend(search, kCellCost + static_cast<std::size_t>(3 * lines * lines));
   const auto place = [&](const Line& line, float t)
   { return Eigen::Vector3d(grid.patientFromVoxel(line.at(cell, t))); };
-  forEachLine(linesFor(search.part, grid, flat),
+  forEachLine(lines,
               [&](const Line& line)
               {
                 const std::array<float, 2> mask = line.ends(values.mask);
@@ -502,7 +662,7 @@ bool SurfaceSamples::inOthers(const Eigen::Vector3d& voxel, std::size_t but) con
 }
 
 // The cells of a union with voxels of its own that reach into the brick.
-void SurfaceSamples::addUnion(const Search& search, const core::Index3& brick, std::size_t n,
+void SurfaceSamples::addUnion(Search& search, const core::Index3& brick, std::size_t n,
                               bool whole) noexcept
 {
   const core::Index3& dims = m_field.geometry().dims();
@@ -536,7 +696,7 @@ void SurfaceSamples::addUnion(const Search& search, const core::Index3& brick, s
     for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
       for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0])
       {
-        ++m_samples;
+        spend(search, kUnionCellCost);
         const Corners share = m_field.unionCell(n, cell);
         if (!(most(share) > 0.0F))
           continue;
@@ -553,7 +713,7 @@ void SurfaceSamples::addUnion(const Search& search, const core::Index3& brick, s
 }
 
 // Of each sample the brick in which it lies is asked, so that none is found twice.
-void SurfaceSamples::addUnionCell(const Search& search, const core::Index3& brick, std::size_t n,
+void SurfaceSamples::addUnionCell(Search& search, const core::Index3& brick, std::size_t n,
                                   bool whole, const core::Index3& cell,
                                   const Corners& share) noexcept
 {
@@ -577,7 +737,9 @@ void SurfaceSamples::addUnionCell(const Search& search, const core::Index3& bric
   };
   const auto rest = [&](const Line& line, float t)
   { return m_field.rest(ctVoxel(line, t), *m_state); };
-  forEachLine(linesFor(search.part, own, least(share) <= 0.0F && whole && isFlat(share)),
+  const int lines = linesFor(search.part, own, least(share) <= 0.0F && whole && isFlat(share));
+  spend(search, kCellCost + static_cast<std::size_t>(3 * lines * lines));
+  forEachLine(lines,
               [&](const Line& line)
               {
                 const std::array<float, 2> f = line.ends(share);

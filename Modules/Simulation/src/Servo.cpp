@@ -166,26 +166,28 @@ bool Servo::isFar(const Step& step) const noexcept
   return distanceTo(step.mapped, m_proxy.pose().position, sight) > kFarthest;
 }
 
+// One place a tick: whether a tool is free at one is dear to find out.
 bool Servo::placeAnew(const Step& step) noexcept
 {
   const Eigen::Vector3d sight = sightOf(m_record.input.parameters, step.mapped);
   const bool first = !m_placed || m_inside || m_traverse.stuck();
   const double now = distanceTo(step.mapped, m_proxy.pose().position, sight);
   Pose there = step.mapped;
-  for (double back = 0.0; back <= kLastBack; back = std::max(2.0 * back, kFirstBack))
+  there.position = step.mapped.position - m_back * sight;
+  const bool nearer = first || !(distanceTo(step.mapped, there.position, sight) + kNearer > now);
+  const bool placed = nearer && m_proxy.placeFree(there);
+  m_back = std::max(2.0 * m_back, kFirstBack);
+  if (placed)
   {
-    there.position = step.mapped.position - back * sight;
-    if (!first && distanceTo(step.mapped, there.position, sight) + kNearer > now)
-      break;
-    if (!m_proxy.placeFree(there))
-      continue;
     m_thrust = ConstantThrust(m_setup.stiffness, m_setup.burrPoints);
     m_traverse.forget();
     m_inside = m_touches = false;
-    return true;
   }
-  m_rest = kRest;
-  return false;
+  else if (!nearer || m_back > kLastBack)
+    m_rest = kRest;
+  if (placed || m_rest > 0)
+    m_back = 0.0;
+  return placed;
 }
 
 // A tool that made no way is held, and the hand feels what the coupling is stretched by, also where
@@ -291,7 +293,10 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   m_record.mapped = PoseValues::of(step.mapped);
 
   m_rest = std::max(m_rest - 1, 0);
-  const bool leapt = step.pointer && m_rest == 0 && isFar(step) && placeAnew(step);
+  const bool far = step.pointer && m_rest == 0 && isFar(step);
+  if (!far)
+    m_back = 0.0;
+  const bool leapt = far && placeAnew(step);
   anew = anew || leapt;
   const Eigen::Vector3d before = m_proxy.pose().position;
   const Pose goal = leapt ? m_proxy.pose() : goalOf(step);

@@ -74,6 +74,7 @@ private:
   std::size_t m_hitCount = 0;
   double m_lift = 0.0;              // mm, over the next bump
   bool m_caught = false;            // the last tick made no way
+  bool m_waits = false;             // for samples of the surface, to go on in the next tick
   std::uint64_t m_caughtIn = 0;     // number of the mask's state in which that was
   std::unique_ptr<Refuge> m_refuge; // moves m_sweep
   ProxyTick m_tick;

@@ -101,7 +101,7 @@ public:
 
   /// Operands of f at the 3^3 voxels of a brick of 2^3 cells, first axis fastest, each of them by
   /// itself: they are interpolated before the greater or lower of them is taken. Beyond the grid's
-  /// last voxel all are air.
+  /// last voxel all are air; where nothing is cut and the hull is far, it is just above 0.
   struct BrickValues
   {
     static constexpr std::size_t kMostTissues = 8; ///< of more, the rest are taken at the voxels
@@ -114,6 +114,9 @@ public:
   const core::Index3& brickDims() const noexcept { return m_bricks; }
   void brickValues(const core::Index3& brick, const volume::MaskState& mask,
                    BrickValues& values) const noexcept;
+
+  /// Whether nothing was cut near a brick, and the hull is not there: f is its uncut part.
+  bool untouched(const core::Index3& brick, const volume::MaskState& mask) const noexcept;
 
   /// Of mask - 1/2 and hull the lower; below 0 beyond the hull.
   double rest(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;

@@ -73,8 +73,10 @@ public:
   /// Finds the points within `distance` mm of tissue.
   void findNear(double distance) noexcept;
 
-  /// Adds those that a motion of this length (mm, rad) can bring to tissue.
-  void addNear(double linear, double angular) noexcept;
+  /// Adds those that a motion of this length (mm, rad) can bring to tissue. The share of the
+  /// motion, 0 to 1, that may be made now: the surface's samples that a longer one may meet are
+  /// still searched for.
+  double addNear(double linear, double angular) noexcept;
   const Near* begin() const noexcept { return m_near.data(); }
   const Near* end() const noexcept { return m_near.data() + m_nearCount; }
   std::size_t nearCount() const noexcept { return m_nearCount; }
@@ -87,7 +89,9 @@ public:
   /// Samples of the tissue's surface that were found with the near points.
   const SurfaceSamples& surface() const noexcept { return *m_surface; }
 
-  /// f <= 0 at every point of the shell, and no tissue in the solid.
+  /// f <= 0 at every point of the shell, and no tissue in the solid. False also where the latter
+  /// was not found out at the cost of kMostQuery.
+  static constexpr std::size_t kMostQuery = 1500; ///< samples of the field
   bool freeAt(const Pose& pose) noexcept;
 
   /// Depth of the deepest point where the tool stands, or of the tissue that lies deepest in its
@@ -96,7 +100,10 @@ public:
   /// them after `measure`. In the flat inside of tissue, where nothing tells more, the burr's
   /// radius.
   double penetration() const noexcept;
-  void measure() noexcept;
+
+  /// Looks at all points and the solid where the tool stands. Whether it is free; false also where
+  /// that was not found out at the cost of `most` (samples of the field), beside the points.
+  bool measure(std::size_t most = SIZE_MAX) noexcept;
 
   /// Moves the tool as far as it goes freely, at most `motion` and at most kMostSteps chords, and
   /// not beyond the chord at which `samples` reaches `mostSamples`; near points must have been
@@ -107,11 +114,12 @@ public:
   /// nothing did.
   const Hit& blocker() const noexcept { return m_blocker; }
 
-  /// Samples of the field since the last `look`: what a tick costs, whatever the machine.
-  std::size_t samples() const noexcept { return m_samples; }
+  /// Samples of the field since the last `look`, distances to the solid at their share: what a tick
+  /// costs, whatever the machine.
+  std::size_t samples() const noexcept;
 
-  /// What finding the surface's samples cost, in samples of the field: bounded by the tool and not
-  /// by its way, so a tick's work is not cut short for it.
+  /// What the search for the surface's samples cost, in samples of the field. It has a bound of its
+  /// own in each tick (SurfaceSamples::kMostWork), so that a sweep is not cut short for it.
   std::size_t surfaceSamples() const noexcept;
 
 private:
@@ -167,6 +175,8 @@ private:
   std::vector<bool> m_known;
   std::size_t m_nearCount = 0;
   mutable std::size_t m_samples = 0;
+  mutable std::size_t m_distances = 0; // to the solid
+  double m_inside = 0.0;               // mm, as the last `measure` found the solid
   std::array<VoxelMap, kMostSteps + 1> m_maps;
   std::array<Pose, kMostSteps + 1> m_poses;
   std::unique_ptr<SurfaceSamples> m_surface;

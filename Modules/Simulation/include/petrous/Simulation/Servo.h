@@ -42,6 +42,7 @@ struct ServoSetup
 /// A pointer's tool (ServoParameters::kPointer) that is more than `kFarthest` from its place, that
 /// stands in tissue, or that tissue does not let go, is placed anew: on its line of sight, before
 /// the tissue, at the first place from its own towards the eye (0, 1, 2, 4 mm ...) that is free.
+/// Each tick tries one of them.
 /// There, and where a set thrust presses, the force on the hand is never more than the thrust.
 ///
 /// The same inputs in the same order give the same records to the last bit, as long as the proxy
@@ -99,6 +100,7 @@ private:
   bool m_wasUsable = false;
   bool m_touches = false; ///< at the last tick
   bool m_inside = false;  ///< at the last tick
+  double m_back = 0.0;    ///< mm from its place towards the eye, where it is tried next
   int m_rest = 0;         ///< ticks before it looks for another place again
 };
 

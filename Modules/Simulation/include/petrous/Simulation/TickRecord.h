@@ -47,7 +47,10 @@ struct TickRecord
   TickInput input;
   PoseValues mapped;   ///< the device as mapped to the patient, X_PT
   PoseValues proxy;    ///< the tool, X_PT; origin at the burr's centre
-  WrenchValues wrench; ///< on the hand, about the tool's origin, patient axes, no limits
+  /// On the hand, about the tool's origin, patient axes, no limits. It is the contacts' sum, but for
+  /// a pointer's or a pressed tool: that feels at most the thrust, and where tissue holds it what
+  /// the coupling is stretched by, also where the contacts do not say all of it.
+  WrenchValues wrench;
   WrenchValues output; ///< as sent to the device, frame D
   double thrust = 0.0; ///< N, sum over the burr's contacts
   double burrForce[3] = {0.0, 0.0, 0.0}; ///< N, of the burr's contacts on the tool, patient axes

@@ -522,16 +522,17 @@ TEST_F(WorkstationModelTest, AStructureThatCannotBeReadIsLeftOutAndStaysAsItIs)
   EXPECT_TRUE(model.surfaceAt(line()));
   EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), core::Error) << "not without it";
 
+  model.save();
   std::filesystem::rename(folder / "tumour", objects / value.labels[0].object);
   std::filesystem::rename(folder / "incus", objects / value.meshes[0].object);
-  model.save();
   const auto saved = library.open("block");
   EXPECT_EQ(saved.labels.at(0).object, value.labels[0].object);
   EXPECT_EQ(saved.meshes.at(0).object, value.meshes[0].object);
   EXPECT_EQ(saved.labels[0].labels.get()->segments.size(), 1u);
   model.open("block");
   EXPECT_TRUE(model.leftOut().empty());
-  EXPECT_GT(model.surfaceAt(line())->z(), 0.3 * 33);
+  EXPECT_GT(model.surfaceAt(line())->z(), 0.3 * 33)
+      << "nothing was kept of the case without what was left out";
 }
 
 TEST_F(WorkstationModelTest, NoToolIsTakenUpInACaseThatIsLeft)

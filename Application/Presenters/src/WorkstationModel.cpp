@@ -138,6 +138,8 @@ std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation
         readParts(value.labels, &scene::LabelPart::labels, noLabels(), progress.part(0.0, 0.2));
     done.meshes =
         readParts(value.meshes, &scene::MeshPart::mesh, noMesh(), progress.part(0.2, 0.3));
+    if (!done.labels.empty() || !done.meshes.empty())
+      value.derived.reset(); // whose keys say what the objects hold
     done.assembly = std::move(assembly);
     try
     {
@@ -181,6 +183,8 @@ bool WorkstationModel::prepared(PreparedCase done)
 
 void WorkstationModel::leaveOut(const PreparedCase& done)
 {
+  if (!done.labels.empty() || !done.meshes.empty())
+    m_case->derived.reset();
   for (const PreparedCase::LeftOut& one : done.labels)
   {
     auto& labels = m_case->labels[one.part].labels;

@@ -230,6 +230,8 @@ void WorkstationModel::stored(const StoreTask& done)
     m_library = done.library;
     listen();
   }
+  m_case->derived =
+      m_unreadLabels.empty() && m_unreadMeshes.empty() ? m_library.derived() : nullptr;
   m_unsaved = m_changes != done.changes;
   keepJournal(saved, other); // what was drilled since then goes there at once
   tell(events.stateChanged);

@@ -139,14 +139,15 @@ void DerivedCache::put(const std::string& key, const Bytes& bytes) noexcept
 {
   try
   {
-    const std::string frame = packed(key, bytes);
-    if (frame.empty() || frame.size() > m_limit)
-      return;
     std::error_code error;
-    fs::create_directories(m_folder, error);
+    fs::create_directory(m_folder, error); // of a library that is there
     // Cases need the disk more.
-    if (const fs::space_info space = fs::space(m_folder, error);
-        error || space.available / kShareOfDisk < frame.size())
+    const fs::space_info space = fs::space(m_folder, error);
+    if (error || ::access(m_folder.c_str(), W_OK) != 0 ||
+        bytes.size() + key.size() + kLengthBytes > kMostBytes)
+      return;
+    const std::string frame = packed(key, bytes);
+    if (frame.empty() || frame.size() > std::min(m_limit, space.available / kShareOfDisk))
       return;
     core::writeFile(fileOf(key), frame);
     prune(m_limit);

@@ -35,10 +35,10 @@ namespace
 using Reason = LibraryError::Reason;
 
 // An object that is gone (its last case was deleted meanwhile) is written again where the part is
-// still in memory.
-bool mustStore(const std::string& object, const ObjectStore& store)
+// still in memory; else the case goes on naming it, and who opens it is told.
+bool mustStore(const std::string& object, const ObjectStore& store, bool inMemory)
 {
-  return object.empty() || !store.contains(object);
+  return object.empty() || (inMemory && !store.contains(object));
 }
 
 // Puts the voxels of every part that has no object yet into the store.
@@ -46,7 +46,7 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
 {
   const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
   {
-    if (mustStore(image.object, store))
+    if (mustStore(image.object, store, image.volume.peek() != nullptr))
       image.object = store.add("nrrd", [&](const fs::path& path)
                                { imaging::writeRawNrrd(path, *image.volume.get(), part); });
   };
@@ -54,19 +54,17 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
   for (auto& mr : value.mr)
     storeImage(mr, progress.part(0.7, 0.8));
   for (auto& part : value.labels)
-    if (mustStore(part.object, store))
+    if (mustStore(part.object, store, part.labels.peek() != nullptr))
       part.object = store.add("seg.nrrd", [&](const fs::path& path)
                               { imaging::writeLabelFile(path, *part.labels.get()); });
   progress.report(0.9, "saving");
   for (auto& mesh : value.meshes)
-    if (mustStore(mesh.object, store))
+    if (mustStore(mesh.object, store, mesh.mesh.peek() != nullptr))
       mesh.object = store.add("obj", [&](const fs::path& path)
                               { imaging::writeMesh(path, *mesh.mesh.get()); });
   for (scene::StrokePart& part : value.strokes)
-    if (mustStore(part.object, store))
+    if (mustStore(part.object, store, part.stroke != nullptr))
     {
-      if (!part.stroke)
-        store.path(part.object); // says that it is missing
       part.bytes = part.stroke->packed.size();
       part.object = store.add("stroke", part.stroke->packed);
     }
@@ -146,6 +144,8 @@ void saltFrames(scene::Case& value, const fs::path& folder)
   std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
 
+constexpr int kUnpackedLabelsVersion = 1; // raised with every change of what readLabelFile answers
+
 // Unpacking a file of labels takes longer than all that is asked of it most often.
 std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
                                                        const std::string& object,
@@ -154,7 +154,7 @@ std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
 {
   // Nothing stands in for an object that is damaged, nor is kept of it.
   const fs::path path = store.checkedPath(object, what);
-  const std::string key = "labels 1 " + object;
+  const std::string key = "labels " + std::to_string(kUnpackedLabelsVersion) + " " + object;
   if (const auto bytes = derived.find(key))
     if (auto labels = volume::labelMapFrom(*bytes))
       return labels;
@@ -255,6 +255,11 @@ scene::Case Library::open(const std::string& name) const
   return value;
 }
 
+std::shared_ptr<core::DerivedStore> Library::derived() const
+{
+  return std::make_shared<DerivedCache>(derivedFolder(m_folder));
+}
+
 void Library::attach(scene::Case& value) const
 {
   const ObjectStore store(objectFolder());
@@ -272,7 +277,7 @@ void Library::attach(scene::Case& value) const
   attachImage(value.ct);
   for (auto& mr : value.mr)
     attachImage(mr);
-  value.derived = std::make_shared<DerivedCache>(derivedFolder(m_folder));
+  value.derived = derived();
   for (auto& part : value.labels)
     part.labels = core::Lazy<volume::LabelMap>(
         [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'",

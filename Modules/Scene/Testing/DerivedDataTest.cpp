@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +87,21 @@ scene::Case ear(const std::shared_ptr<Shelf>& shelf)
   return value;
 }
 
+scene::MeshPart spike(const core::GridGeometry& grid)
+{
+  auto surface = std::make_shared<core::TriangleMesh>();
+  for (const Vector3d& corner :
+       {Vector3d(5, 5, 5), Vector3d(12, 5, 5), Vector3d(5, 12, 5), Vector3d(5, 5, 12)}) // voxels
+    surface->vertices.push_back(grid.patientFromVoxel(corner).cast<float>());
+  surface->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  scene::MeshPart part;
+  part.name = "spike";
+  part.object = "cdef.obj";
+  part.triangles = 4;
+  part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(surface));
+  return part;
+}
+
 void expectEqual(const volume::Volume<float>& a, const volume::Volume<float>& b)
 {
   ASSERT_TRUE(core::sameGrid(a.geometry(), b.geometry(), 0.0));
@@ -133,6 +149,55 @@ TEST(DerivedData, AreOthersForOtherStructuresOrLabels)
   scene::tissueField(value);
   EXPECT_EQ(shelf->hits, 0);
   EXPECT_EQ(shelf->missed, missed);
+}
+
+// The servo skips what kept bricks say is empty.
+TEST(DerivedData, TheRigidTissuesKeySaysAllThatItsBricksDependOn)
+{
+  const auto shelf = std::make_shared<Shelf>();
+  const auto keyOf = [](const scene::Case& value)
+  { return scene::touchTissue(value, scene::tissueField(value)).key; };
+  const scene::Case same = ear(shelf);
+  ASSERT_TRUE(keyOf(same));
+  EXPECT_EQ(keyOf(ear(shelf)), keyOf(same));
+  std::set<std::string> keys{*keyOf(same)};
+  const auto isNew = [&](const scene::Case& value) { return keys.insert(*keyOf(value)).second; };
+
+  scene::Case value = same;
+  value.iso += 1.0;
+  EXPECT_TRUE(isNew(value));
+  value = same;
+  value.labels[0].object = "4567.seg.nrrd";
+  EXPECT_TRUE(isNew(value));
+  value = same;
+  value.labels[0].structures[0].look.touchable = false;
+  EXPECT_TRUE(isNew(value));
+  value = same;
+  value.labels[0].structures[0].look.stiffness = 0.5; // it yields, and is not rigid
+  EXPECT_TRUE(isNew(value));
+  value = same;
+  value.meshes = {spike(value.ct.geometry)};
+  EXPECT_TRUE(isNew(value));
+  value.meshes[0].object = "89ab.obj";
+  EXPECT_TRUE(isNew(value));
+  value.meshes[0].object.clear();
+  EXPECT_FALSE(keyOf(value)) << "nobody knows its content";
+
+  // One voxel of the CT, then its type with the same bytes.
+  const auto withCt = [&](auto voxels)
+  {
+    scene::Case other = same;
+    other.ct.volume = std::make_shared<const volume::IntensityVolume>(voxels);
+    return other;
+  };
+  const auto& ct =
+      std::get<std::shared_ptr<const volume::Volume<std::int16_t>>>(same.ct.volume.get()->voxels());
+  auto changed = std::make_shared<volume::Volume<std::int16_t>>(*ct);
+  changed->at(40, 30, 30) += 1;
+  EXPECT_TRUE(isNew(withCt(std::shared_ptr<const volume::Volume<std::int16_t>>(changed))));
+  auto typed = std::make_shared<volume::Volume<std::uint16_t>>(ct->geometry());
+  std::memcpy(typed->data(), ct->data(), ct->bytes());
+  EXPECT_TRUE(isNew(withCt(std::shared_ptr<const volume::Volume<std::uint16_t>>(typed))));
 }
 
 TEST(RegionalField, HasTheNearestSurfacesOfTheWholeToTheBit)

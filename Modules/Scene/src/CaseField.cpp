@@ -86,12 +86,13 @@ struct UnionShare
   std::shared_ptr<volume::RegionalUnion> regional;
 };
 
-std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const UnionShare& united)
+std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const UnionShare& united,
+                                                                     const core::Progress& progress)
 {
   if (!united.regional)
     return {};
-  return [regional = united.regional](const std::vector<core::PatientBox>& boxes)
-  { regional->prepare(boxes); };
+  return [regional = united.regional, progress](const std::vector<core::PatientBox>& boxes)
+  { regional->prepare(boxes, progress); };
 }
 
 // One union of all wanted structures; lumens count as if they were tissue.
@@ -283,7 +284,7 @@ volume::TissueField regionalTissueField(const Case& value, const core::Progress&
   for (MeshSolid& mesh : meshSolids(value, felt, progress.part(0.5, 1.0)))
     solids.push_back(std::move(mesh.share));
   volume::TissueField field = fieldOf(value, std::move(solids));
-  field.onPrepare(preparerOf(united));
+  field.onPrepare(preparerOf(united, progress));
   return field;
 }
 
@@ -360,7 +361,7 @@ dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progr
   for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
     if (auto guard = volume::guardOf(*mesh.share, value.ct.geometry))
       shares.push_back(std::move(guard));
-  return dissection::ProtectedTissue(std::move(shares), preparerOf(united));
+  return dissection::ProtectedTissue(std::move(shares), preparerOf(united, progress));
 }
 
 std::vector<dissection::NamedStructure> drillableStructures(const Case& value)

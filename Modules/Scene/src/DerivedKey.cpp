@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <type_traits>
 
 #include "petrous/Core/Fingerprint.h"
 
@@ -68,7 +69,10 @@ void DerivedKey::add(const volume::IntensityVolume& image)
   image.visit(
       [&print](const auto& volume)
       {
-        print.add(volume.bytes() / volume.size());
+        using Voxel = std::decay_t<decltype(*volume.data())>;
+        print.add(sizeof(Voxel));
+        print.add(std::is_signed_v<Voxel>);
+        print.add(std::is_floating_point_v<Voxel>);
         print.add(volume.data(), volume.bytes());
       });
   char text[20];

@@ -5,6 +5,7 @@
 
 #include "LabelPainting.h"
 #include "petrous/Core/Fingerprint.h"
+#include "petrous/Volume/SmoothedUnion.h"
 #include "petrous/Volume/VolumeBytes.h"
 
 using namespace petrous;
@@ -124,6 +125,15 @@ TEST(VolumeBytes, HaveTheNumbersOfTheirVersion)
   print.add(field->share->data(), field->share->bytes());
   print.add(field->index->data(), field->index->bytes());
   print.add(field->borders->data(), field->borders->bytes());
+  // Structures of two grids, and one by itself.
+  const auto labels = twoSolidsAndALumen();
+  const core::GridGeometry coarse = petrous::testing::cube(24, 0.8, Vector3d(4, -69, 212));
+  const auto both = volume::makeSolidShare(
+      {{labels, 2, 1, true},
+       {petrous::testing::paintBox(coarse, {{3, 3, 3}, {18, 9, 9}}), 1, 1, true}});
+  print.add(both->data(), both->bytes());
+  const auto one = volume::makeSmoothedUnion(*labels, [](std::uint16_t i) { return i == 1; });
+  print.add(one->data(), one->bytes());
   EXPECT_EQ(volume::kLabelFieldVersion, 1);
   EXPECT_EQ(print.value(), 13093753735547341147U);
 }

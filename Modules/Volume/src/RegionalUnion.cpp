@@ -148,10 +148,10 @@ void RegionalUnion::prepareVoxels(const std::vector<core::IndexBox>& boxes,
   if (2 * targets.size() > m_prepared.size())
     return prepareAll(progress);
   SurfaceNet net(*m_inside, targets, progress);
-  m_pointsRelaxed += net.points();
-  if (m_pointsRelaxed > kMostPoints)
+  if (m_pointsRelaxed + net.points() > kMostPoints)
     return prepareAll(progress);
   net.relax(progress);
+  m_pointsRelaxed += net.points();
   tbb::parallel_for(std::size_t{0}, targets.size(),
                     [&](std::size_t n) { net.writeShareIn(targets[n], *m_share); });
   for (const auto& [tile, voxels] : missing)

@@ -85,6 +85,9 @@ public:
   /// Reads the strokes into `value.dissection` where that is not done yet.
   void loadDissection(scene::Case& value) const;
 
+  /// Where what follows from the library's objects is kept (DerivedCache.h).
+  std::shared_ptr<core::DerivedStore> derived() const;
+
   /// Waits until the images of the case that were read from here have been held against their hash.
   /// Throws LibraryError (Damaged) naming those that are damaged, CancelledError.
   void checkVoxels(const scene::Case& value, const core::Progress& progress = {}) const;

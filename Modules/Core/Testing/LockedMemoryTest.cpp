@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -87,6 +89,41 @@ TEST(LockedMemory, AReaderHasNoMajorFaultWhateverIsPagedOut)
   }
   file.pageOut();
   EXPECT_GT(file.faultsOfReading(), 0) << "it is given back";
+}
+
+// What the system says of the process: kB that are locked.
+TEST(LockedMemory, APageIsLockedUntilTheLastThatWantsItEnds)
+{
+  const auto lockedKb = []
+  {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    long value = -1;
+    while (status >> word)
+      if (word == "VmLck:" && status >> value)
+        break;
+    return value;
+  };
+  const MappedFile file;
+  const LockedMemory::Range all = file.range();
+  const auto* bytes = static_cast<const unsigned char*>(all.start);
+  const long before = lockedKb();
+  auto whole = std::make_unique<LockedMemory>(std::vector<LockedMemory::Range>{all});
+  if (!whole->locked() || lockedKb() <= before)
+    GTEST_SKIP() << "nothing may be locked here";
+  const long pageKb = static_cast<long>(kPage / 1024);
+  // Two that share a page in their middle, not on its borders.
+  auto first =
+      std::make_unique<LockedMemory>(std::vector<LockedMemory::Range>{{bytes + 10, 2 * kPage}});
+  auto second = std::make_unique<LockedMemory>(
+      std::vector<LockedMemory::Range>{{bytes + 2 * kPage + 20, kPage}});
+  EXPECT_EQ(lockedKb() - before, static_cast<long>(kBytes / 1024));
+  whole.reset();
+  EXPECT_EQ(lockedKb() - before, 4 * pageKb);
+  first.reset();
+  EXPECT_EQ(lockedKb() - before, 2 * pageKb);
+  second.reset();
+  EXPECT_EQ(lockedKb(), before);
 }
 
 // In a process of a user who may lock nothing.

@@ -61,6 +61,7 @@ SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
 void SurfaceSamples::look(const volume::MaskState& state) noexcept
 {
   m_work = 0;
+  m_cut = false;
   if (!any())
     return;
   const bool raised = m_state && m_raises != state.raises();
@@ -104,6 +105,10 @@ void SurfaceSamples::moved(const Pose& pose) noexcept
 double SurfaceSamples::find(const Pose& pose, double linear, double angular, double beyond) noexcept
 {
   double share = 1.0;
+  const bool burrCuts = m_lists[SolidParts::kBall].cut;
+  m_cut = m_cut || burrCuts;
+  // What the ball leaves of it is for the others: the shaft's root is beside what was cut.
+  const std::size_t most = kMostWork + (m_cut ? kMostAfterCut : 0);
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
   {
     if (!m_parts.has(part))
@@ -115,8 +120,7 @@ double SurfaceSamples::find(const Pose& pose, double linear, double angular, dou
         list.left() <= std::min(wayOf() + beyond, used) || (list.cut && part == SolidParts::kBall);
     const bool renewed = list.cut && (part == 1 || list.age >= kRenewal);
     if (now || renewed || list.left() <= used)
-      renew(part, pose,
-            kUnit * (kMostWork + (list.cut && part == SolidParts::kBall ? kMostAfterCut : 0)));
+      renew(part, pose, kUnit * (!burrCuts || part != SolidParts::kBall ? most : kMostAfterCut));
     const double known = std::max(list.left() - beyond, 0.0);
     if (known < wayOf())
       share = std::min(share, known / wayOf());

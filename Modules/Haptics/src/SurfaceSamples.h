@@ -154,6 +154,7 @@ private:
   std::uint64_t m_number = 0;
   std::uint64_t m_raises = 0;
   std::size_t m_work = 0; // in units
+  bool m_cut = false;     // since the last tick
 };
 
 } // namespace petrous::haptics

@@ -102,16 +102,11 @@ Points balances(const Scope& scope, const core::Progress& progress)
   Points points;
   const std::array<Burr::Kind, 2> kinds{Burr::Kind::Cutting, Burr::Kind::Diamond};
   const double all = static_cast<double>(kinds.size() * scope.ticks.size() * scope.voxels.size());
-  std::map<double, std::shared_ptr<const haptics::PointShell>> shells; // by voxel
   for (const Burr::Kind kind : kinds)
   {
     const auto run = [&](double thrust, double degrees, double voxel, double tick)
     {
-      auto setting = settingOf(kind, kUsualBurr, thrust, degrees, voxel, tick);
-      auto& shell = shells[voxel];
-      if (!shell)
-        shell = testing::shellOf(setting);
-      setting.shell = shell;
+      const auto setting = settingOf(kind, kUsualBurr, thrust, degrees, voxel, tick);
       return runByLaw(setting,
                       std::clamp(scope.volume / lawRate(setting), scope.least, scope.most));
     };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Dissection/Stroke.h"
@@ -28,7 +30,6 @@ struct LawSetting
   double speed = 0.0;           // mm/s, to and fro along y
   double travel = 1.5;          // mm, to either side
   Eigen::Vector3d place{0.013, -0.027, 0.0};
-  std::shared_ptr<const haptics::PointShell> shell; // null: made for the scene
 };
 
 /// N/mm^2.
@@ -38,12 +39,18 @@ inline double resistance(const dissection::Burr& burr, const std::string& materi
   return resistanceOf(catalogues.materials.material(material), catalogues.burrs.model(burr.kind));
 }
 
-/// Of the tool; making it takes longer than drilling for a while.
+/// Of the tool, made once: that takes longer than drilling for a while.
 inline std::shared_ptr<const haptics::PointShell> shellOf(const LawSetting& s)
 {
-  haptics::BurrShape shape;
-  shape.radius = 0.5 * s.burr.diameter;
-  return std::make_shared<haptics::PointShell>(haptics::makeBurrShell(shape, s.voxel));
+  static std::map<std::pair<double, double>, std::shared_ptr<const haptics::PointShell>> shells;
+  auto& shell = shells[{s.burr.diameter, s.voxel}];
+  if (!shell)
+  {
+    haptics::BurrShape shape;
+    shape.radius = 0.5 * s.burr.diameter;
+    shell = std::make_shared<haptics::PointShell>(haptics::makeBurrShell(shape, s.voxel));
+  }
+  return shell;
 }
 
 /// rad/s.

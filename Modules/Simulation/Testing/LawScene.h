@@ -34,7 +34,7 @@ public:
     , search(tissue, meets, {}, 0.5 * setting.burr.diameter)
     , feed(search, setting.burr, setting.voxel)
     , loop(work, *mask, feed, {}, hooks())
-    , m_shell(setting.shell ? setting.shell : shellOf(setting))
+    , m_shell(shellOf(setting))
     , m_tool(std::make_shared<haptics::HapticField>(tissue, mask), *m_shell,
              ConstantThrust::coupling(setting.thrust))
     , session(setupOf(*m_shell, setting.thrust), m_tool)

@@ -1,6 +1,5 @@
 #include "petrous/Simulation/RemovalFeed.h"
 
-#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -162,17 +161,11 @@ class FlatShafts : public ::testing::TestWithParam<Burr::Kind>
 
 TEST_P(FlatShafts, TakeTheSameAtAnyTickAndVoxel)
 {
-  std::map<double, std::shared_ptr<const haptics::PointShell>> shells; // by voxel
-  for (const double degrees : {0.0, 15.0, 30.0})                       // of elevation
+  for (const double degrees : {0.0, 15.0, 30.0}) // of elevation
   {
     const auto removed = [&](double voxel, double tick)
     {
-      auto setting = settingOf(GetParam(), 1.0, degrees, voxel, tick);
-      auto& shell = shells[voxel];
-      if (!shell)
-        shell = shellOf(setting);
-      setting.shell = shell;
-      LawScene scene(setting);
+      LawScene scene(settingOf(GetParam(), 1.0, degrees, voxel, tick));
       scene.drill(0.25);
       return total(scene.feed.balance());
     };

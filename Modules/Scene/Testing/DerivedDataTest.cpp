@@ -173,7 +173,7 @@ TEST(DerivedData, TheRigidTissuesKeySaysAllThatItsBricksDependOn)
   value.labels[0].structures[0].look.touchable = false;
   EXPECT_TRUE(isNew(value));
   value = same;
-  value.labels[0].structures[0].look.stiffness = 0.5; // it yields, and is not rigid
+  value.labels[0].structures[1].look.stiffness = 0.5; // it yields, and is not rigid
   EXPECT_TRUE(isNew(value));
   value = same;
   value.meshes = {spike(value.ct.geometry)};

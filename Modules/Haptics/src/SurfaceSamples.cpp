@@ -18,9 +18,10 @@ constexpr int kBulging = 2;       // lines a side of a cell that is not flat
 constexpr double kBulge = 0.15;   // mm: lines as near as that need not be more
 constexpr int kMostLines = 4;     // a side
 constexpr int kRenewal = 16;      // ticks, of the handpiece after a cut
-// Voxels, of ball and others: the margin is not made smaller to be cheap. The ball is searched
-// round after each cut, whatever way it makes.
-constexpr std::array<double, SolidParts::kParts> kLeasts{1.0, 3.0, 3.0};
+// Voxels: the margin is not made smaller to be cheap. Round the ball there is another search after
+// each cut, whatever way it makes.
+constexpr double kLeast = 3.0;
+constexpr double kLeastAfterCut = 1.0;
 constexpr double kMost = 32.0;   // voxels
 constexpr double kFirst = 4.0;   // voxels, the first
 constexpr double kShrink = 0.7;  // of the margin, where the samples are too many
@@ -134,7 +135,12 @@ void SurfaceSamples::renew(std::size_t part, const Pose& pose, std::size_t until
   while (m_work < until)
   {
     if (!m_search.active)
-      begin(m_search, part, pose, m_lists[part].wish, false);
+    {
+      const List& list = m_lists[part];
+      const bool cut = list.cut && part == SolidParts::kBall;
+      m_search.least = (cut ? kLeastAfterCut : kLeast) * m_field.voxel();
+      begin(m_search, part, pose, cut ? m_search.least : list.wish, false);
+    }
     const bool own = m_search.part == part;
     run(m_search, until);
     if (m_search.depth > 0)
@@ -151,10 +157,10 @@ void SurfaceSamples::finish() noexcept
   Search& search = m_search;
   search.active = false;
   List& list = m_lists[search.part];
-  const double least = kLeasts[search.part] * m_field.voxel();
   list.wish = search.work < kCheap
                   ? std::min(2.0 * search.margin, kMost * m_field.voxel())
-                  : std::max(search.work > kDear ? 0.5 * search.margin : search.margin, least);
+                  : std::max(search.work > kDear ? 0.5 * search.margin : search.margin,
+                             kLeast * m_field.voxel());
   if (!list.cut && list.left() > search.margin - search.made)
     return; // the known ones reach farther
   const double perBin = kBins / std::max(search.margin, 1e-12);
@@ -288,12 +294,11 @@ void SurfaceSamples::run(Search& search, std::size_t until) noexcept
   const core::GridGeometry& grid = m_field.geometry();
   const Eigen::Vector3d last =
       Eigen::Vector3d(grid.dims()[0], grid.dims()[1], grid.dims()[2]) - Eigen::Vector3d::Ones();
-  const double least = kLeasts[search.part] * m_field.voxel();
   while (search.depth > 0 && m_work < until)
   {
-    if (search.work > search.dearAt && search.margin > least)
+    if (search.work > search.dearAt && search.margin > search.least)
     {
-      shrink(search, std::max(0.5 * search.margin, least));
+      shrink(search, std::max(0.5 * search.margin, search.least));
       search.dearAt = search.work + kDear;
     }
     spend(search, kBoxCost);

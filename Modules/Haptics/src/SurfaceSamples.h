@@ -107,6 +107,7 @@ private:
     Pose pose;
     Eigen::Matrix3d toTool = Eigen::Matrix3d::Identity();
     double margin = 0.0;
+    double least = 0.0; // of the margin, mm
     double made = 0.0;
     double deepest = 0.0; // where inside
     bool inside = false;  // only whether anything is in the tool

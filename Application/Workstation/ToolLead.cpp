@@ -53,7 +53,7 @@ void ToolLead::beginHere()
 // With the burr just before the tissue.
 Eigen::Vector3d ToolLead::placeLookedAt()
 {
-  const interaction::SightLine line = m_view.sightLine({-1.0, -1.0}); // the middle
+  const interaction::SightLine line = m_view.sightLine(std::nullopt);
   const auto hit = m_model.tissueAlong(line);
   if (!hit)
     return m_model.crosshair();

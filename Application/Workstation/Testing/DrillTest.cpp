@@ -211,6 +211,56 @@ TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
   EXPECT_TRUE(faults.filter("inside tissue").isEmpty()) << faults.join('/').toStdString();
 }
 
+// Beyond the edge nobody sees where the burr would go: it lifts there, at all four edges alike.
+TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  const auto move = [this](const QPoint& at)
+  {
+    QMouseEvent event(QEvent::MouseMove, at, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&view(), &event);
+    QTest::qWait(60);
+  };
+  const QRect all = view().rect();
+  const QPoint middle = all.center();
+  const auto middleLine = view().sightLine(std::nullopt);
+  int pressed = 0;
+  int atMiddle = 0;
+  QObject::connect(&view(), &ThreeDView::drillPressed, &window(), [&] { ++pressed; });
+  const auto look = [&](const interaction::SightLine& line)
+  { atMiddle += (line.direction - middleLine.direction).norm() < 0.01; };
+  QObject::connect(&view(), &ThreeDView::drillHeld, &window(), look);
+  QObject::connect(&view(), &ThreeDView::pointed, &window(), look);
+  struct Way
+  {
+    QPoint inside, outside;
+  };
+  const Way ways[] = {{{2, middle.y()}, {-1, middle.y()}},
+                      {{middle.x(), 2}, {middle.x(), -1}},
+                      {{all.right() - 2, middle.y()}, {all.right() + 1, middle.y()}},
+                      {{middle.x(), all.bottom() - 2}, {middle.x(), all.bottom() + 1}}};
+  for (const auto& [inside, outside] : ways)
+  {
+    SCOPED_TRACE(outside.x());
+    SCOPED_TRACE(outside.y());
+    QTest::mouseMove(&view(), inside);
+    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, inside);
+    EXPECT_TRUE(view().drilling());
+    pressed = atMiddle = 0;
+    move(outside);
+    EXPECT_FALSE(view().drilling());
+    EXPECT_TRUE(strokeEnds());
+    move(inside); // with the button held still
+    EXPECT_FALSE(view().drilling());
+    EXPECT_EQ(pressed, 0);
+    EXPECT_EQ(atMiddle, 0) << "the burr leapt to the middle";
+    QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, inside);
+  }
+  EXPECT_TRUE(window().model().value().dissection->mask().untouched());
+}
+
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
 {
   saveBall("ball");

@@ -297,8 +297,8 @@ void DrillController::press(const interaction::SightLine& line)
   if (!takeTool())
     return;
   m_model.touch()->setCamera(m_view.picture().camera());
+  m_lead.point(line); // first: from there on no leap in depth is followed
   m_lead.drill(true);
-  m_lead.point(line);
 }
 
 void DrillController::release()

@@ -106,6 +106,7 @@ private:
     if (aim.wanted())
       device.want(*aim.wanted());
     device.setButtons(aim.buttons());
+    parameters.pause = 0;
     aim.apply(parameters);
   }
 
@@ -338,4 +339,28 @@ TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
     ASSERT_EQ(session.fault(), ServoFault::None) << n;
   }
   EXPECT_LT(besideLine(session.tool(), line), 0.2);
+}
+
+// Over an edge of bone, with the button held: it drilled the floor below in the same stroke.
+TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
+{
+  const auto bone = boneOf([](const Vector3d& p) { return (p.x() < 0.0 ? 5.0 : -9.0) - p.z(); });
+  Session session(Mode::Surface, bone);
+  session.aim.point(through({-4.0, 0.0, 0.0}));
+  session.run(100);
+  session.aim.press(PointerAim::Press::Drill);
+  EXPECT_EQ(session.run(300).drill, 1);
+  for (int n = 0; n < 60; ++n)
+  {
+    session.aim.point(through({-4.0 + 0.15 * n, 0.0, 0.0}));
+    session.run(16);
+    EXPECT_GT(session.tool().z(), 2.0) << n;
+  }
+  EXPECT_EQ(session.run(300).drill, 0);
+  EXPECT_EQ(session.force().norm(), 0.0);
+  session.aim.press(PointerAim::Press::None); // anew it goes down
+  session.run(300);
+  session.aim.press(PointerAim::Press::Drill);
+  EXPECT_EQ(session.run(500).drill, 1);
+  EXPECT_LT(session.tool().z(), kRadius - 8.0);
 }

@@ -99,6 +99,7 @@ haptics::Device& ToolLead::prepare(presenters::TouchSession::Setup& setup)
   m_mode = setup.tool.mode;
   setup.tool.coupling = presenters::couplingFor(m_mode, setThrust());
   m_stiffness = setup.tool.coupling.stiffness;
+  m_aim.begin();
   m_aim.apply(setup.parameters);
   interaction::PointerDevice::Limits limits;
   limits.silence = kSilence;

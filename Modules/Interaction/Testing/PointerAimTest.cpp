@@ -278,6 +278,21 @@ TEST(PointerAim, LeavesTheDepthAloneWhileThePointerMoves)
   }
 }
 
+// The depth of the line before would lie in the bone, or beyond it.
+TEST(PointerAim, ATakenUpToolBeginsBeforeTheTissueInDepthToo)
+{
+  double height = -30.0;
+  PointerAim aim([&height](const SightLine& line) { return plane(height)(line); });
+  aim.setCamera(fromAbove());
+  aim.point(through({0.0, 0.0, 0.0}));
+  aim.setSettings(inMode(Mode::Depth));
+  aim.begin();
+  EXPECT_FALSE(aim.wanted());
+  height = 0.0; // another place of the patient
+  aim.point(through({0.0, 0.0, 0.0}));
+  expectNear(place(aim), {0.0, 0.0, 3.0});
+}
+
 TEST(PointerAim, DoesNotTurnTheWheelIntoDepthOnTheSurface)
 {
   PointerAim aim = aimAt(through({0.0, 0.0, 0.0}), Mode::Surface);

@@ -110,6 +110,7 @@ private:
     aim.apply(parameters);
   }
 
+public:
   TickRecord record;
 };
 
@@ -363,4 +364,33 @@ TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
   session.aim.press(PointerAim::Press::Drill);
   EXPECT_EQ(session.run(500).drill, 1);
   EXPECT_LT(session.tool().z(), kRadius - 8.0);
+}
+
+// By the wheel: from a line that grazes the bone, where the ball has no room at its place, and from
+// a place that the pointer has left.
+TEST(PointerDrilling, AWheelsToolBeginsBeforeTheBone)
+{
+  // A slope of 78 degrees, seen from above.
+  const auto bone = boneOf([](const Vector3d& p) { return -0.2 * p.z() - 0.98 * p.x(); });
+  for (const double x : {-1.5, -0.5, 0.5, 1.5})
+  {
+    SCOPED_TRACE(x);
+    Session session(Mode::Depth, bone);
+    session.aim.point(through({x, 0.0, 0.0}));
+    for (int n = 0; n < 300; ++n)
+    {
+      session.run(1);
+      ASSERT_NE(session.fault(), ServoFault::Inside) << n;
+    }
+    EXPECT_EQ(session.force().norm(), 0.0);
+    const Vector3d begun = session.tool();
+    for (int n = 0; n < 40; ++n) // the pointer goes over the bone
+    {
+      session.aim.point(through({x - 0.15 * n, 0.0, 0.0}));
+      session.run(16);
+      ASSERT_NE(session.fault(), ServoFault::Inside) << n;
+      ASSERT_TRUE(session.proxy.placeFree(session.record.proxy.pose())) << n;
+    }
+    EXPECT_GT(session.tool().z(), begun.z() - 1.0);
+  }
 }

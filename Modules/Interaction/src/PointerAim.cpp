@@ -81,6 +81,16 @@ void PointerAim::setCamera(const core::CameraPose& camera)
   m_focal = camera.focalPoint;
 }
 
+void PointerAim::begin()
+{
+  m_line.reset();
+  m_place.reset();
+  m_tool.reset();
+  m_wanted.reset();
+  m_pressedAt.reset();
+  m_meets = m_lifted = false;
+}
+
 void PointerAim::point(const SightLine& line)
 {
   check(line.origin.allFinite() && std::abs(line.direction.norm() - 1.0) < 1e-6,

@@ -79,6 +79,10 @@ public:
   /// Throws InvalidParameter when it looks nowhere.
   void setCamera(const core::CameraPose& camera);
 
+  /// A tool is taken up: nothing is wanted until the next line, and a depth begins there, before
+  /// the tissue.
+  void begin();
+
   void point(const SightLine& line);
   void update(); ///< again by the same line: tissue gives way, settings change
 

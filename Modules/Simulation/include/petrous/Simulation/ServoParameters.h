@@ -19,7 +19,8 @@ struct ServoParameters
   double approachSpeed = 50.0; ///< mm/s before contact, in (0, 1000]
   /// Way from the given place to the nearest surface, patient mm: where a tool that touches nothing
   /// is sent, and how far beyond its place at most; zero: it waits there. For a pointer's tool that
-  /// is not pressed: its line of sight, of any length.
+  /// is not pressed, and for one that a wheel leads (mostLead) as it is taken up: its line of sight,
+  /// of any length.
   double approach[3] = {0.0, 0.0, 0.0};
   std::uint32_t clutchButtons = 0; ///< device buttons that hold the tool still
   std::uint32_t drillButtons = 0;  ///< device buttons that drill, as the pedal does

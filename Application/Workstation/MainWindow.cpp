@@ -19,6 +19,7 @@
 #include "Application.h"
 #include "Banner.h"
 #include "BranchController.h"
+#include "BurrWarnings.h"
 #include "CaseKeeper.h"
 #include "CaseSaver.h"
 #include "DrillBar.h"
@@ -242,7 +243,10 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
   connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
-  connect(m_nearby, &NearbyPanel::warned, &m_view->display(), &SceneDisplay::setWarning);
+  auto* warnings = new BurrWarnings(m_model, this);
+  connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
+  connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
+  connect(warnings, &BurrWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)

@@ -49,6 +49,9 @@ public:
   /// middle of the view.
   interaction::SightLine sightLine(const std::optional<QPointF>& position) const;
 
+  /// Nothing: it is not in the view.
+  const std::optional<QPointF>& pointer() const noexcept { return m_pointer; }
+
 signals:
   void pointed(const petrous::interaction::SightLine& line); ///< moved with no button down
   void pointerLeft();
@@ -87,7 +90,7 @@ private:
   std::unique_ptr<SceneDisplay> m_display;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QTimer m_tick;                    // while drilling
-  std::optional<QPointF> m_pointer; // nothing: it is not in the view
+  std::optional<QPointF> m_pointer;
   QPointF m_dragged;
   bool m_drillMode = false;
   bool m_wheelLeads = false;

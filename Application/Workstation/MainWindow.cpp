@@ -1,5 +1,6 @@
 #include "MainWindow.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QAction>
@@ -18,6 +19,7 @@
 
 #include "Application.h"
 #include "Banner.h"
+#include "BannerStack.h"
 #include "BranchController.h"
 #include "BurrWarnings.h"
 #include "CaseKeeper.h"
@@ -163,12 +165,21 @@ void MainWindow::layOut()
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
   auto* whole = new QWidget;
+  auto* banners = new BannerStack(*whole);
+  for (Banner* banner :
+       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
+    banners->add(banner);
+  const auto hold = [this, banners]
+  { banners->setHeld(m_view->drillMode() || m_view->pointing()); };
+  connect(m_view, &ThreeDView::drillModeSet, banners, hold);
+  connect(m_view, &ThreeDView::pointingSet, banners, hold);
+  connect(banners, &BannerStack::covers, m_view,
+          [this](int pixels)
+          { m_view->display().setCovered(double(pixels) / std::max(m_view->height(), 1)); });
   auto* stack = new QVBoxLayout(whole);
   stack->setContentsMargins(0, 0, 0, 0);
   stack->setSpacing(0);
-  for (Banner* banner :
-       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
-    stack->addWidget(banner);
+  stack->addWidget(banners->room());
   stack->addWidget(m_pages, 1);
   setCentralWidget(whole);
 

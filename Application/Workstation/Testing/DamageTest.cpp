@@ -85,6 +85,8 @@ TEST_F(Damage, APreparationThatWasStoppedIsDoneForATool)
     if (!window().model().ready())
       break;
   }
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_TRUE(waitFor([this] { return window().model().ready(); }));
   drill(600);
   EXPECT_EQ(library().open("ball").strokes.size(), 1u);
 }

@@ -310,6 +310,37 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_TRUE(window().close());
 }
 
+// A picture that is pushed down slips under a mouse that rests, and the burr with it.
+TEST_F(Drill, ABannerMovesNoPictureWhileTheToolIsInTheHandAndWidensNoWindow)
+{
+  saveBall("ball");
+  openWindow();
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  const QSize whole = window().size();
+  const QRect before = view().geometry();
+  const QPoint corner = view().mapTo(&window(), QPoint());
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QString name(64, 'a');
+  banner->setText("Not saved: /home/" + name + "/objects/" + name + ".nrrd is gone.");
+  banner->show();
+  QTest::qWait(100);
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_EQ(view().geometry(), before);
+  EXPECT_EQ(view().mapTo(&window(), QPoint()), corner);
+  EXPECT_EQ(window().size(), whole);
+  EXPECT_LE(window().minimumSizeHint().width(), whole.width());
+  EXPECT_TRUE(banner->text().contains(name));
+  EXPECT_FALSE(banner->shownText().contains(name));
+  EXPECT_TRUE(banner->shownText().endsWith(".nrrd is gone."));
+  EXPECT_EQ(banner->childAt(20, banner->height() / 2)->toolTip(), banner->text());
+  picture();
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_TRUE(waitFor([&] { return view().mapTo(&window(), QPoint()).y() > corner.y(); }))
+      << "it has room of its own once the tool is down";
+  banner->hide();
+  EXPECT_TRUE(waitFor([&] { return view().geometry() == before; }));
+}
+
 // Another program that holds the library's lock, or a slow disk.
 TEST_F(Drill, NoStrokeWaitsForTheDisk)
 {

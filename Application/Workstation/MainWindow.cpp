@@ -268,6 +268,7 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::said, this, say);
   connect(m_hands, &HandKeeper::said, this, say);
   connect(m_hands, &HandKeeper::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_handBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });

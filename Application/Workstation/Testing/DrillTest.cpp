@@ -6,6 +6,7 @@
 
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QWheelEvent>
@@ -181,6 +182,33 @@ TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
   EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
   window().findChild<QDoubleSpinBox*>("thrust")->setValue(2.0);
   EXPECT_FALSE(window().model().touching());
+}
+
+TEST_F(Drill, ReturnInANumberGivesTheKeysBackToTheView)
+{
+  saveBall("ball");
+  openWindow();
+  for (const char* name : {"thrust", "burrDiameter", "spindleSpeed"})
+  {
+    SCOPED_TRACE(name);
+    auto* edit = window().findChild<QAbstractSpinBox*>(name)->findChild<QLineEdit*>();
+    edit->setFocus();
+    QTest::keyClick(edit, Qt::Key_Return);
+    ASSERT_EQ(QApplication::focusWidget(), &view());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+    EXPECT_TRUE(action("Drill")->isChecked());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+  }
+}
+
+TEST_F(Drill, TheButtonShowsWhetherTheWheelLeads)
+{
+  saveBall("ball");
+  openWindow();
+  auto* button = window().findChild<QWidget*>("wheelButton");
+  const QImage off = button->grab().toImage();
+  QTest::keyClick(&view(), Qt::Key_M);
+  EXPECT_GT(differentPixels(off, button->grab().toImage(), 20), off.width() * off.height() / 3);
 }
 
 // The burr lies in a hole of its own size, and the pointer goes on over untouched bone and away.

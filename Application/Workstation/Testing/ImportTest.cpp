@@ -74,7 +74,9 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
   answer.start(20);
   dropPath(folder() / "visit");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
-  EXPECT_EQ(offered.size(), 2);
+  ASSERT_EQ(offered.size(), 2);
+  for (const char* told : {" images, ", "2020-01-01 12:00", "HFS", "in “ct”"})
+    EXPECT_TRUE(offered[0].contains(QString::fromUtf8(told))) << offered[0].toStdString();
   EXPECT_EQ(window().model().value().name, "visit");
   EXPECT_GT(window().model().value().ct.range.max, 1000.0); // HU: the CT, not the MR
 }

@@ -19,6 +19,7 @@
 #include "CaseSaver.h"
 #include "OpenCaseDialog.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Imaging/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
 
@@ -196,7 +197,7 @@ void CaseKeeper::watchForDamage()
 void CaseKeeper::notSaved(const QString& why)
 {
   m_sayWhenSaved = false;
-  m_unsaved.setText(tr("Not saved: %1  The work is still open in this window.").arg(why));
+  m_unsaved.setText(tr("Not saved: %1 The work is still open in this window.").arg(sentence(why)));
   m_unsaved.show();
 }
 

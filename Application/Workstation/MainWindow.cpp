@@ -215,10 +215,16 @@ QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget
   dock->toggleViewAction()->setShortcut(key);
   m_actions->addPanelToggle(dock->toggleViewAction());
   // Asked for, it comes before those on whose tabs it lies.
-  connect(dock->toggleViewAction(), &QAction::triggered, dock,
-          [dock](bool on)
+  // Not as Qt does it: one that lies behind others on whose tabs it is comes before them.
+  QAction* toggle = dock->toggleViewAction();
+  disconnect(toggle, SIGNAL(triggered(bool)), dock, nullptr);
+  connect(toggle, &QAction::triggered, dock,
+          [dock, toggle](bool on)
           {
-            if (on)
+            const bool show = on || dock->visibleRegion().isEmpty();
+            dock->setVisible(show);
+            toggle->setChecked(show);
+            if (show)
               dock->raise();
           });
   dock->hide();
@@ -330,9 +336,9 @@ bool MainWindow::busy() const
 
 void MainWindow::showFault(const QString& why)
 {
-  m_faultBanner->setText(tr("Something failed: %1  Save the case; if this comes again, start "
+  m_faultBanner->setText(tr("Something failed: %1 Save the case; if this comes again, start "
                             "Petrous anew.")
-                             .arg(why));
+                             .arg(sentence(why)));
   m_faultBanner->show();
 }
 
@@ -347,6 +353,7 @@ void MainWindow::caseClosed()
   m_registration->caseChanged();
   m_place->clear();
   m_sum->clear();
+  m_picture->speed()->clear();
   m_notesBanner->hide();
   m_pages->setCurrentIndex(0);
 }

@@ -3,10 +3,21 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QVariant>
 
 namespace petrous::workstation
 {
+
+namespace
+{
+// A line cannot be broken within a word, such as the name of a file in the library.
+QString elided(QString text)
+{
+  static const QRegularExpression longWord("(\\S{16})\\S{9,}(\\S{16})");
+  return text.replace(longWord, QString::fromUtf8("\\1…\\2"));
+}
+} // namespace
 
 Banner::Banner(const QString& name, Kind kind, QWidget* parent)
   : QFrame(parent)
@@ -26,10 +37,18 @@ Banner::Banner(const QString& name, Kind kind, QWidget* parent)
 
 void Banner::setText(const QString& text)
 {
-  m_text->setText(text);
+  m_whole = text;
+  const QString shown = elided(text);
+  m_text->setText(shown);
+  m_text->setToolTip(shown == text ? QString() : text);
 }
 
 QString Banner::text() const
+{
+  return m_whole;
+}
+
+QString Banner::shownText() const
 {
   return m_text->text();
 }

@@ -26,6 +26,7 @@ public:
 
   void setText(const QString& text);
   QString text() const;
+  QString shownText() const; ///< long words without their middle; the tooltip has the whole
 
   /// A button at the right; `name` is the object's. What it does may hide the banner.
   void addButton(const QString& name, const QString& text, const std::function<void()>& act);
@@ -33,6 +34,7 @@ public:
 
 private:
   QLabel* m_text;
+  QString m_whole;
   QBoxLayout* m_layout;
 };
 

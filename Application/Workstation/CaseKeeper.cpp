@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <QApplication>
+#include <QDate>
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QMessageBox>
@@ -18,6 +19,7 @@
 #include "CaseSaver.h"
 #include "OpenCaseDialog.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Imaging/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
 
@@ -47,15 +49,34 @@ QString nameOf(const fs::path& path)
       (plain.has_filename() ? plain : plain.parent_path()).filename().string().c_str());
 }
 
+// "20200131 1205" as "2020-01-31 12:05"; what is written otherwise as it is.
+QString takenIn(const QString& text)
+{
+  const QStringList parts = text.split(' ');
+  const QDate day = QDate::fromString(parts.front(), "yyyyMMdd");
+  if (!day.isValid())
+    return text;
+  const QTime time = parts.size() > 1 ? QTime::fromString(parts[1], "HHmm") : QTime();
+  return day.toString(Qt::ISODate) + (time.isValid() ? time.toString(" HH:mm") : QString());
+}
+
 QString lineOf(const presenters::SeriesContent& series, int number)
 {
   const auto spacing = [&series](Eigen::Index axis)
   { return QString::number(series.spacing[axis], 'g', 3); };
-  return CaseKeeper::tr("%1.  %2  %3  (%4 slices, %5 × %6 × %7 mm)")
+  QStringList more{CaseKeeper::tr("%1 images, %2 × %3 × %4 mm")
+                       .arg(series.slices)
+                       .arg(spacing(0), spacing(1), spacing(2))};
+  if (!series.taken.empty())
+    more += takenIn(words(series.taken));
+  for (const std::string& one : {series.patientPosition, series.kernel})
+    if (!one.empty())
+      more += words(one);
+  if (!series.folder.empty())
+    more += CaseKeeper::tr("in “%1”").arg(QFile::decodeName(series.folder.c_str()));
+  return CaseKeeper::tr("%1.  %2  %3  (%4)")
       .arg(number)
-      .arg(words(series.modality), words(series.description))
-      .arg(series.slices)
-      .arg(spacing(0), spacing(1), spacing(2));
+      .arg(words(series.modality), words(series.description), more.join(", "));
 }
 
 // "MR 't2', structures 'labels.seg.nrrd'"
@@ -176,7 +197,7 @@ void CaseKeeper::watchForDamage()
 void CaseKeeper::notSaved(const QString& why)
 {
   m_sayWhenSaved = false;
-  m_unsaved.setText(tr("Not saved: %1  The work is still open in this window.").arg(why));
+  m_unsaved.setText(tr("Not saved: %1 The work is still open in this window.").arg(sentence(why)));
   m_unsaved.show();
 }
 

@@ -45,6 +45,7 @@ public:
   void setPresses(bool byWheel, bool byThrust);
 
 signals:
+  void entered(); ///< a number was typed: the keys are the view's again
   void burrChanged();
   void pressChanged(); ///< thrust, or how depth is led
 

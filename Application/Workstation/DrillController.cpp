@@ -12,6 +12,7 @@
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/Case.h"
 
 namespace petrous::workstation
 {
@@ -24,6 +25,7 @@ constexpr int kStart = 500;       // ms in which a device that was taken up come
 constexpr int kGone = 1000;       // ms; a server that crashed is back sooner
 constexpr int kAnew = 300;        // ms after the last change of what is in the hand
 constexpr double kStill = 0.02;   // mm
+constexpr double kBeyond = 0.2;   // mm under the tissue's surface
 constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have come back
 
 using haptics::DeviceVerdict;
@@ -174,7 +176,8 @@ void DrillController::setTool(Tool tool)
   applyBar();
   if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
     emit tissueWanted();
-  takeTool();
+  if (takeTool() && m_lead.byMouse() && m_view.pointer())
+    m_lead.point(m_view.sightLine(m_view.pointer()));
 }
 
 void DrillController::handCame()
@@ -275,6 +278,8 @@ void DrillController::putAway()
     emit faulted({});
   m_fault.clear();
   m_sinceGone.invalidate();
+  m_sinceFault.invalidate();
+  m_stall.forget();
   m_tip.reset();
   m_lead.letGo();
   for (const auto& stroke : news.strokes)
@@ -297,8 +302,8 @@ void DrillController::press(const interaction::SightLine& line)
   if (!takeTool())
     return;
   m_model.touch()->setCamera(m_view.picture().camera());
+  m_lead.point(line); // first: from there on no leap in depth is followed
   m_lead.drill(true);
-  m_lead.point(line);
 }
 
 void DrillController::release()
@@ -396,24 +401,58 @@ QString DrillController::whyLost() const
 
 void DrillController::showFault(const presenters::TouchSession::News& news)
 {
-  QString fault = m_fault;
-  // A hand that was just taken up has no reading for some ticks; that is no fault to speak of.
-  if (!news.fault.empty() && m_sinceTaken.elapsed() > kStart)
+  const TickRecord& record = *news.record;
+  m_stall.see(record);
+  QString fault = whyStalled(record);
+  // A hand that was just taken up has no reading for some ticks, and a mouse none before it moves;
+  // that is no fault to speak of.
+  const bool waits = m_lead.byMouse() &&
+                     static_cast<ServoFault>(record.fault) == ServoFault::Device &&
+                     static_cast<DeviceVerdict>(record.verdict) == DeviceVerdict::NotReady;
+  if (!news.fault.empty() && !waits && m_sinceTaken.elapsed() > kStart)
   {
     fault = words(news.fault);
     m_sinceFault.start();
   }
-  else if (news.record && simulation::isHeldOff(*news.record))
-  {
-    fault = words(simulation::holderInWords(news.record->held));
-    fault[0] = fault[0].toUpper();
-    fault = tr("%1 lies on tissue and holds the burr off").arg(fault);
-    m_sinceFault.start();
-  }
-  else if (!m_fault.isEmpty() && m_sinceFault.elapsed() > kFaultShown)
-    fault.clear();
+  else if (fault.isEmpty() && m_sinceFault.isValid() && m_sinceFault.elapsed() <= kFaultShown)
+    fault = m_fault;
   if (fault != m_fault)
     emit faulted(m_fault = fault);
+}
+
+// Why a burr that is to drill takes nothing, for as long as that is so; empty: it does.
+QString DrillController::whyStalled(const TickRecord& record) const
+{
+  if (m_tool != Tool::Burr)
+    return {};
+  if (m_lead.lifted())
+    return tr("The burr has lifted: what lies under the pointer is another surface, far deeper or "
+              "higher. Let go and press again to drill there.");
+  if (const std::uint8_t held = m_stall.heldBy())
+    return held == TickRecord::kShaft ? tr("The shaft lies on tissue and holds the burr off")
+           : held == TickRecord::kHandpiece
+               ? tr("The handpiece lies on tissue and holds the burr off")
+               : tr("Shaft and handpiece lie on tissue and hold the burr off");
+  if (!m_stall.stalls())
+    return {};
+  const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);
+  if (force.norm() > 0.0)
+  {
+    const std::string name = m_model.structureAt(record.proxy.pose().position -
+                                                 (toolRadius() + kBeyond) * force.normalized());
+    const scene::Case& value = m_model.value();
+    const auto* structure = scene::findStructure(value, name);
+    const bool spared = structure
+                            ? !structure->look.drillable
+                            : std::any_of(value.meshes.begin(), value.meshes.end(),
+                                          [&name](const scene::MeshPart& mesh)
+                                          { return mesh.name == name && !mesh.look.drillable; });
+    if (spared)
+      return tr("The burr lies on %1, which is set not to be drilled")
+          .arg(words(name).replace('_', ' '));
+  }
+  return tr("The burr is pressed and makes no way: what holds it is not taken at this thrust and "
+            "speed");
 }
 
 } // namespace petrous::workstation

@@ -8,6 +8,7 @@
 #include <QTimer>
 
 #include "ToolLead.h"
+#include "petrous/Presenters/StallWatch.h"
 
 namespace petrous::workstation
 {
@@ -68,6 +69,7 @@ private:
   void show(const presenters::TouchSession::News& news);
   void read(const simulation::TickRecord& record);
   void showFault(const presenters::TouchSession::News& news);
+  QString whyStalled(const simulation::TickRecord& record) const;
   QString whyLost() const;
   bool isLost(const simulation::TickRecord& record);
   double toolRadius() const;
@@ -84,6 +86,7 @@ private:
   QElapsedTimer m_sinceTaken;
   QElapsedTimer m_sinceGone;
   QElapsedTimer m_sinceRead;
+  presenters::StallWatch m_stall;
   QString m_fault; // as shown
   Tool m_tool = Tool::None;
   bool m_slicesFollow = true;

@@ -1,5 +1,6 @@
 #include "MainWindow.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QAction>
@@ -18,7 +19,9 @@
 
 #include "Application.h"
 #include "Banner.h"
+#include "BannerStack.h"
 #include "BranchController.h"
+#include "BurrWarnings.h"
 #include "CaseKeeper.h"
 #include "CaseSaver.h"
 #include "DrillBar.h"
@@ -162,12 +165,21 @@ void MainWindow::layOut()
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
   auto* whole = new QWidget;
+  auto* banners = new BannerStack(*whole);
+  for (Banner* banner :
+       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
+    banners->add(banner);
+  const auto hold = [this, banners]
+  { banners->setHeld(m_view->drillMode() || m_view->pointing()); };
+  connect(m_view, &ThreeDView::drillModeSet, banners, hold);
+  connect(m_view, &ThreeDView::pointingSet, banners, hold);
+  connect(banners, &BannerStack::covers, m_view,
+          [this](int pixels)
+          { m_view->display().setCovered(double(pixels) / std::max(m_view->height(), 1)); });
   auto* stack = new QVBoxLayout(whole);
   stack->setContentsMargins(0, 0, 0, 0);
   stack->setSpacing(0);
-  for (Banner* banner :
-       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
-    stack->addWidget(banner);
+  stack->addWidget(banners->room());
   stack->addWidget(m_pages, 1);
   setCentralWidget(whole);
 
@@ -203,10 +215,16 @@ QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget
   dock->toggleViewAction()->setShortcut(key);
   m_actions->addPanelToggle(dock->toggleViewAction());
   // Asked for, it comes before those on whose tabs it lies.
-  connect(dock->toggleViewAction(), &QAction::triggered, dock,
-          [dock](bool on)
+  // Not as Qt does it: one that lies behind others on whose tabs it is comes before them.
+  QAction* toggle = dock->toggleViewAction();
+  disconnect(toggle, SIGNAL(triggered(bool)), dock, nullptr);
+  connect(toggle, &QAction::triggered, dock,
+          [dock, toggle](bool on)
           {
-            if (on)
+            const bool show = on || dock->visibleRegion().isEmpty();
+            dock->setVisible(show);
+            toggle->setChecked(show);
+            if (show)
               dock->raise();
           });
   dock->hide();
@@ -242,7 +260,10 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
   connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
-  connect(m_nearby, &NearbyPanel::warned, &m_view->display(), &SceneDisplay::setWarning);
+  auto* warnings = new BurrWarnings(m_model, this);
+  connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
+  connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
+  connect(warnings, &BurrWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)
@@ -253,6 +274,7 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::said, this, say);
   connect(m_hands, &HandKeeper::said, this, say);
   connect(m_hands, &HandKeeper::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_handBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
@@ -314,9 +336,9 @@ bool MainWindow::busy() const
 
 void MainWindow::showFault(const QString& why)
 {
-  m_faultBanner->setText(tr("Something failed: %1  Save the case; if this comes again, start "
+  m_faultBanner->setText(tr("Something failed: %1 Save the case; if this comes again, start "
                             "Petrous anew.")
-                             .arg(why));
+                             .arg(sentence(why)));
   m_faultBanner->show();
 }
 
@@ -331,6 +353,7 @@ void MainWindow::caseClosed()
   m_registration->caseChanged();
   m_place->clear();
   m_sum->clear();
+  m_picture->speed()->clear();
   m_notesBanner->hide();
   m_pages->setCurrentIndex(0);
 }

@@ -62,12 +62,6 @@ void NearbyPanel::caseChanged()
   stateChanged();
 }
 
-void NearbyPanel::warn(const QString& lines)
-{
-  if (lines != m_warned)
-    emit warned(m_warned = lines);
-}
-
 void NearbyPanel::stateChanged()
 {
   if (!m_model.hasCase() || !isVisible())
@@ -95,6 +89,7 @@ void NearbyPanel::showRemoved()
 
 void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
 {
+  m_hasBurr = true;
   if (!isVisible() || (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain))
     return;
   m_sinceAsked.start();
@@ -107,20 +102,18 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
     say(near->empty() ? tr("No structure that is shown lies within %1 mm of the burr")
                             .arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
                       : QString());
-    warn(words(presenters::warningsOf(*near)));
     m_structures->show(std::move(*near));
   }
   catch (const std::exception& error) // no memory, a file that is gone
   {
     m_structures->show({});
-    warn({});
     say(tr("The structures cannot be measured: %1").arg(words(error.what())));
   }
 }
 
 void NearbyPanel::burrGone()
 {
-  warn({});
+  m_hasBurr = false;
   m_structures->show({});
   m_sinceAsked.invalidate();
   say(tr("Take up the burr (D) to see how far the structures are from it"));
@@ -135,8 +128,10 @@ void NearbyPanel::showEvent(QShowEvent* event)
 void NearbyPanel::hideEvent(QHideEvent* event)
 {
   QWidget::hideEvent(event);
+  const bool needed = m_hasBurr; // for its warnings
   burrGone();
-  m_model.forgetNearby();
+  if (!needed)
+    m_model.forgetNearby();
 }
 
 } // namespace petrous::workstation

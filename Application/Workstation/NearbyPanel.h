@@ -29,17 +29,12 @@ public:
 
   const NearbyModel& structures() const { return *m_structures; }
 
-signals:
-  /// What the surgeon must see now (presenters::warningsOf); empty: nothing. When it changes.
-  void warned(const QString& lines);
-
 protected:
   void hideEvent(QHideEvent* event) override;
   void showEvent(QShowEvent* event) override;
 
 private:
   void say(const QString& line);
-  void warn(const QString& lines);
   void showRemoved();
 
   presenters::WorkstationModel& m_model;
@@ -47,7 +42,7 @@ private:
   QLabel* m_removed;
   QLabel* m_line;
   QElapsedTimer m_sinceAsked;
-  QString m_warned;
+  bool m_hasBurr = false; // in the hand
 };
 
 } // namespace petrous::workstation

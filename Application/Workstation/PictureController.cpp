@@ -137,7 +137,7 @@ void PictureController::applyStereo()
 
 void PictureController::showSpeed(double milliseconds, double scale, bool moving)
 {
-  if (milliseconds <= 0.0)
+  if (milliseconds <= 0.0 || !m_model.hasCase())
     return;
   const QString speed = milliseconds < 1000.0 ? tr("%1 Hz").arg(1000.0 / milliseconds, 0, 'f', 0)
                                               : tr("%1 s").arg(0.001 * milliseconds, 0, 'f', 1);

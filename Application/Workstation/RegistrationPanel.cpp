@@ -304,8 +304,9 @@ void RegistrationPanel::refresh()
     m_mr->addItems(names);
   }
   m_mr->setCurrentText(words(m_session.mr()));
-  m_state->setText(m_session.part() ? words(m_session.stateInWords())
-                                    : tr("The case has no MR (petrous add CASE --mr …)"));
+  m_state->setText(m_session.part()
+                       ? words(m_session.stateInWords())
+                       : tr("The case has no MR; add one with File > Open DICOM… or Open files…"));
   m_state->setStyleSheet(stateStyle(m_session.part()));
   m_error->setText(m_session.part() ? errorText(*m_session.part()) : QString());
   m_error->setVisible(!m_error->text().isEmpty());

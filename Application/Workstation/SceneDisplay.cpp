@@ -125,6 +125,7 @@ void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRad
   if (!m_touch || m_touch->burrRadius() != burrRadius || m_touch->handpiece() != handpiece)
   {
     m_touch.reset(new TouchOverlay(*m_renderer, burrRadius, handpiece));
+    m_touch->setCovered(m_covered);
     m_touch->setWarning(bytes(m_warning));
   }
   if (!m_touch->update(record))
@@ -150,6 +151,17 @@ void SceneDisplay::setWarning(const QString& text)
   m_warning = text;
   if (m_touch && m_touch->setWarning(bytes(text)))
     redraw(m_moving);
+}
+
+void SceneDisplay::setCovered(double share)
+{
+  if (share == m_covered)
+    return;
+  m_covered = share;
+  if (!m_touch)
+    return;
+  m_touch->setCovered(share);
+  redraw(m_moving);
 }
 
 void SceneDisplay::endTouch()

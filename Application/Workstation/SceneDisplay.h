@@ -61,6 +61,8 @@ public:
   const QString& reading() const noexcept { return m_reading; }
   /// What the surgeon must see while the tool is in the hand, some lines; empty: nothing.
   void setWarning(const QString& text);
+  /// What share of the picture, from above, lies under something else: warnings stand below.
+  void setCovered(double share);
   const QString& warning() const noexcept { return m_warning; }
   void endTouch(); ///< no tool, no force, no reading, no warning
   void setCamera(const core::CameraPose& pose);
@@ -100,6 +102,7 @@ private:
   std::unique_ptr<TouchOverlay>
       m_touch; // while there is a tool in the hand; ends before m_renderer
   QString m_reading, m_warning;
+  double m_covered = 0.0; // of the height, from above
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
   QElapsedTimer m_clock;

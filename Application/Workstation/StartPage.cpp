@@ -11,7 +11,7 @@ namespace petrous::workstation
 StartPage::StartPage(QWidget* parent)
   : QWidget(parent)
 {
-  auto* title = new QLabel(tr("Drop a folder of DICOM here, or File > Open…"));
+  auto* title = new QLabel(tr("Drop a folder of DICOM here, or choose File > Open DICOM…"));
   title->setObjectName("big");
   title->setAlignment(Qt::AlignCenter);
   auto* more = new QLabel(tr("A CT of the temporal bone becomes a case at once. NRRD, NIfTI and "

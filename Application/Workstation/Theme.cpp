@@ -27,6 +27,8 @@ QToolButton:disabled { color: #5c646e; }
 QToolButton#drillButton { border: 1px solid #4a525c; font-weight: 600; padding: 5px 16px; }
 QToolButton#pointerButton { border: 1px solid #4a525c; padding: 5px 12px; }
 QToolButton#pointerButton:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
+QToolButton#wheelButton { border: 1px solid #4a525c; }
+QToolButton#wheelButton:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
 QToolButton#drillButton:checked { background: #d96b27; border-color: #f08a48; color: #ffffff; }
 QMenuBar { background: #1c2026; }
 QMenuBar::item:selected, QMenu::item:selected { background: #2f6ea3; }

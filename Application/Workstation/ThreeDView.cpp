@@ -136,13 +136,12 @@ void ThreeDView::setCamera(const core::CameraPose& pose)
   emit cameraMoved(pose);
 }
 
-interaction::SightLine ThreeDView::sightLine(const QPointF& position) const
+interaction::SightLine ThreeDView::sightLine(const std::optional<QPointF>& position) const
 {
   core::CameraPose camera = m_display->picture().camera();
   int across = std::max(width(), 1);
-  const bool inside = position.x() >= 0.0 && position.y() >= 0.0;
-  QPointF at = inside ? position : QPointF(0.5 * width(), 0.5 * height());
-  if (m_display->stereo() == rendering::StereoMode::SideBySide && inside)
+  QPointF at = position.value_or(QPointF(0.5 * width(), 0.5 * height()));
+  if (m_display->stereo() == rendering::StereoMode::SideBySide && position)
   {
     const auto eyes =
         rendering::eyesOf(camera, rendering::fittedStereoGeometry(camera, m_display->rig()));
@@ -158,7 +157,7 @@ interaction::SightLine ThreeDView::sightLine(const QPointF& position) const
   return {ray.origin, ray.direction};
 }
 
-void ThreeDView::startDrilling(const QPointF& position)
+void ThreeDView::startDrilling(const std::optional<QPointF>& position)
 {
   if (m_drilling)
     return;
@@ -190,7 +189,14 @@ void ThreeDView::mousePressEvent(QMouseEvent* event)
 
 void ThreeDView::mouseMoveEvent(QMouseEvent* event)
 {
-  m_pointer = event->localPos();
+  const QPointF at = event->localPos();
+  if (!m_turning && !rect().contains(event->pos()))
+  {
+    if (m_buttonDrills)
+      stopDrilling(); // beyond the edge nobody sees where the burr would go
+    return;
+  }
+  m_pointer = at;
   if (m_drilling && m_buttonDrills)
     return; // the tick follows
   if (!m_turning)
@@ -198,8 +204,8 @@ void ThreeDView::mouseMoveEvent(QMouseEvent* event)
     emit pointed(sightLine(m_pointer));
     return;
   }
-  const QPointF step = m_pointer - m_dragged;
-  m_dragged = m_pointer;
+  const QPointF step = at - m_dragged;
+  m_dragged = at;
   const core::CameraPose camera = m_display->picture().camera();
   if (event->modifiers() & Qt::ShiftModifier)
     setCamera(presenters::shifted(camera, step.x() / height(), step.y() / height()));
@@ -211,7 +217,8 @@ void ThreeDView::mouseReleaseEvent(QMouseEvent* event)
 {
   if (m_drilling && m_buttonDrills && event->button() == Qt::LeftButton)
   {
-    m_pointer = event->localPos();
+    if (rect().contains(event->pos()))
+      m_pointer = event->localPos();
     stopDrilling();
   }
   m_turning = m_turning && event->buttons() != Qt::NoButton;
@@ -286,11 +293,10 @@ void ThreeDView::focusOutEvent(QFocusEvent* event)
 
 void ThreeDView::leaveEvent(QEvent* event)
 {
-  if (!m_drilling)
-  {
-    m_pointer = {-1.0, -1.0};
-    emit pointerLeft();
-  }
+  if (m_buttonDrills)
+    stopDrilling(); // by the key
+  m_pointer.reset();
+  emit pointerLeft();
   QVTKOpenGLNativeWidget::leaveEvent(event);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include <QTimer>
 
@@ -21,7 +22,9 @@ namespace petrous::workstation
 ///
 /// Left drag turns, or drills in drill mode where the mouse leads the tool; right and middle drag
 /// turn, with Shift they move. The wheel zooms, or leads the burr in depth where that is set; with
-/// Ctrl it always zooms. Space drills and X is the clutch, while they are held.
+/// Ctrl it always zooms. Space drills and X is the clutch, while they are held. Where the mouse
+/// leads the tool, the drill goes off when the pointer leaves the view, by whatever edge; a button
+/// that is still held when it comes back does not put it on again.
 class ThreeDView : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -42,8 +45,12 @@ public:
   bool drilling() const noexcept { return m_drilling; }
   void setCamera(const core::CameraPose& pose);
 
-  /// Through a pixel; side by side, the ray of the eye whose half it lies in.
-  interaction::SightLine sightLine(const QPointF& position) const;
+  /// Through a pixel; side by side, the ray of the eye whose half it lies in. Nothing: through the
+  /// middle of the view.
+  interaction::SightLine sightLine(const std::optional<QPointF>& position) const;
+
+  /// Nothing: it is not in the view.
+  const std::optional<QPointF>& pointer() const noexcept { return m_pointer; }
 
 signals:
   void pointed(const petrous::interaction::SightLine& line); ///< moved with no button down
@@ -73,7 +80,7 @@ protected:
   void resizeEvent(QResizeEvent* event) override;
 
 private:
-  void startDrilling(const QPointF& position);
+  void startDrilling(const std::optional<QPointF>& position);
   void stopDrilling();
   void holdClutch(bool on);
   void showCursor();
@@ -83,7 +90,7 @@ private:
   std::unique_ptr<SceneDisplay> m_display;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QTimer m_tick;                    // while drilling
-  QPointF m_pointer{-1.0, -1.0};
+  std::optional<QPointF> m_pointer;
   QPointF m_dragged;
   bool m_drillMode = false;
   bool m_wheelLeads = false;

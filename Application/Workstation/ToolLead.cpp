@@ -53,7 +53,7 @@ void ToolLead::beginHere()
 // With the burr just before the tissue.
 Eigen::Vector3d ToolLead::placeLookedAt()
 {
-  const interaction::SightLine line = m_view.sightLine({-1.0, -1.0}); // the middle
+  const interaction::SightLine line = m_view.sightLine(std::nullopt);
   const auto hit = m_model.tissueAlong(line);
   if (!hit)
     return m_model.crosshair();
@@ -99,6 +99,7 @@ haptics::Device& ToolLead::prepare(presenters::TouchSession::Setup& setup)
   m_mode = setup.tool.mode;
   setup.tool.coupling = presenters::couplingFor(m_mode, setThrust());
   m_stiffness = setup.tool.coupling.stiffness;
+  m_aim.begin();
   m_aim.apply(setup.parameters);
   interaction::PointerDevice::Limits limits;
   limits.silence = kSilence;

@@ -43,6 +43,8 @@ public:
   void drill(bool held);
   void clutch(bool held);
   void letGo(); ///< of drill and pedal
+  /// The mouse is pressed, and the burr has lifted (interaction::PointerAim).
+  bool lifted() const noexcept { return m_pointer && m_aim.lifted(); }
 
   void see(const simulation::TickRecord& record); ///< of a touch that runs
   void send();                                    ///< camera, switches and settings as they are now

@@ -91,6 +91,11 @@ bool TouchOverlay::setWarning(const std::string& text)
   return say(*m_warning, m_warningText, text);
 }
 
+void TouchOverlay::setCovered(double share)
+{
+  m_warning->SetPosition(kWarningAcross, kWarningUp - share);
+}
+
 bool TouchOverlay::update(const simulation::TickRecord& record)
 {
   auto tool = m_view.update(record);

@@ -36,6 +36,7 @@ public:
   bool setReading(const std::string& text);
   /// What the surgeon must see now, UTF-8, some lines, at the upper edge; likewise.
   bool setWarning(const std::string& text);
+  void setCovered(double share); ///< of the picture, from above: warnings stand below
 
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;

@@ -31,6 +31,12 @@ QString strokeText(const dissection::Stroke* stroke)
   return text;
 }
 
+QString sentence(const QString& text)
+{
+  static const QString ends(".!?…");
+  return text.isEmpty() || ends.contains(text.back()) ? text : text + '.';
+}
+
 QString aboutText()
 {
   return QObject::tr("<h3>Petrous %1</h3><p>Rehearsal of operations on the temporal bone and the "

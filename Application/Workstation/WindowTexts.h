@@ -13,6 +13,9 @@ QString removedText(const scene::Case& value, bool drilling);
 /// What a stroke took; "Nothing was cut" for none.
 QString strokeText(const dissection::Stroke* stroke);
 
+/// With a full stop, where it has none.
+QString sentence(const QString& text);
+
 /// What this program is, as rich text.
 QString aboutText();
 

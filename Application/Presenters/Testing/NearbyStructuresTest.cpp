@@ -92,6 +92,12 @@ TEST(NearbyStructures, WarnWithinTheDistanceAndTellOfATouch)
   EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Warned);
   EXPECT_EQ(stateAt(kRadius + 1.0 - 0.3), State::Touched);
   EXPECT_EQ(stateAt(0.0), State::Touched);
+  // For the warnings alone nothing farther is asked for.
+  const auto alone = [&](double away)
+  { return nearby.around(value, kNerve + Vector3d(0.0, away, 0.0), 1.0, 0.0).size(); };
+  EXPECT_EQ(alone(kRadius + 1.0 + 2.3), 0U);
+  EXPECT_EQ(alone(kRadius + 1.0 + 1.7), 1U);
+  EXPECT_EQ(alone(kRadius + 1.0 - 0.3), 1U);
   value.labels[0].structures[0].look.warning = 0.0; // the case's present word counts
   EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Clear);
 }

@@ -151,4 +151,8 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
   EXPECT_EQ(found.series[0].content, Content::Ct);
   EXPECT_EQ(found.series[1].content, Content::Mr);
   EXPECT_GT(found.series[0].slices, 10u);
+  EXPECT_EQ(found.series[0].folder, "ct");
+  EXPECT_EQ(found.series[1].folder, "mr");
+  EXPECT_EQ(found.series[0].taken, "20200101 1200"); // as the writer has it
+  EXPECT_EQ(found.series[0].patientPosition, "HFS");
 }

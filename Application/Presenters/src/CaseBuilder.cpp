@@ -274,8 +274,12 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
           liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
         names.push_back(structure.name);
   if (!names.empty())
-    part.notes.push_back(scene::listed(names) + " lies wholly outside the CT, so nothing of it is "
-                                                "seen or felt; check that it is this patient's");
+    part.notes.push_back(scene::listed(names) +
+                         (names.size() == 1
+                              ? " lies wholly outside the CT, so nothing of it is seen or felt; "
+                                "check that it is this patient's"
+                              : " lie wholly outside the CT, so nothing of them is seen or felt; "
+                                "check that they are this patient's"));
 }
 
 void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)

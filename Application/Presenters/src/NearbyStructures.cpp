@@ -142,7 +142,8 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
       continue;
     const auto taken = injured.find(structure.name);
     structure.injured = taken == injured.end() ? 0.0 : taken->second;
-    const double most = structure.injured > 0.0 ? StructureSurfaces::kFar : reach + radius;
+    const double most =
+        structure.injured > 0.0 ? StructureSurfaces::kFar : std::max(reach, look->warning) + radius;
     const double away = surfaces.distance(n, center, most);
     if (!(away < most))
       continue;

@@ -109,9 +109,13 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
   const auto scan = imaging::scanDicom(path, progress);
   for (const imaging::DicomSeries& series : scan.series)
     if (series.geometry.verdict == imaging::Verdict::Ok && series.geometry.grid)
+    {
+      const imaging::SliceHeader& first = series.geometry.slices.front();
       result.series.push_back({series.uid, contentOf(series.modality), series.modality,
                                series.description, series.geometry.slices.size(),
-                               series.geometry.grid->spacing()});
+                               series.geometry.grid->spacing(), first.taken, first.patientPosition,
+                               first.kernel, first.file.parent_path().filename().string()});
+    }
   if (result.series.size() > 1)
     return result;
   // Without one that can be read: the reader of what was meant says what is wrong with it.

@@ -12,16 +12,30 @@
 namespace petrous::presenters
 {
 
+bool WorkstationModel::measureNearby()
+{
+  if (!m_case || !m_loaded)
+    return false;
+  if (!m_nearby)
+    m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  return m_nearby->ready();
+}
+
 std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
                                                                      double radius)
 {
-  if (!m_case || !m_loaded)
-    return std::nullopt;
-  if (!m_nearby)
-    m_nearby = std::make_unique<NearbyStructures>(*m_case);
-  if (!m_nearby->ready())
+  if (!measureNearby())
     return std::nullopt;
   return m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
+}
+
+std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& burr, double radius)
+{
+  if (m_case && m_case->labels.empty() && m_case->meshes.empty())
+    return std::string();
+  if (!measureNearby())
+    return std::nullopt;
+  return warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
 }
 
 const dissection::RemovedVolume& WorkstationModel::strokeSoFar()

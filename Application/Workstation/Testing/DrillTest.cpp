@@ -6,6 +6,7 @@
 
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QWheelEvent>
@@ -136,7 +137,9 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   QTest::keyClick(&view(), Qt::Key_D);
   QTest::keyClick(&view(), Qt::Key_M);
   const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle + QPoint(3, 0)); // the pointer may be there since the last test
   QTest::mouseMove(&view(), middle);
+  ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
   QTest::qWait(200);
   const auto before = view().picture().camera();
   const auto turn = [&](int notches)
@@ -181,6 +184,33 @@ TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
   EXPECT_FALSE(window().model().touching());
 }
 
+TEST_F(Drill, ReturnInANumberGivesTheKeysBackToTheView)
+{
+  saveBall("ball");
+  openWindow();
+  for (const char* name : {"thrust", "burrDiameter", "spindleSpeed"})
+  {
+    SCOPED_TRACE(name);
+    auto* edit = window().findChild<QAbstractSpinBox*>(name)->findChild<QLineEdit*>();
+    edit->setFocus();
+    QTest::keyClick(edit, Qt::Key_Return);
+    ASSERT_EQ(QApplication::focusWidget(), &view());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+    EXPECT_TRUE(action("Drill")->isChecked());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+  }
+}
+
+TEST_F(Drill, TheButtonShowsWhetherTheWheelLeads)
+{
+  saveBall("ball");
+  openWindow();
+  auto* button = window().findChild<QWidget*>("wheelButton");
+  const QImage off = button->grab().toImage();
+  QTest::keyClick(&view(), Qt::Key_M);
+  EXPECT_GT(differentPixels(off, button->grab().toImage(), 20), off.width() * off.height() / 3);
+}
+
 // The burr lies in a hole of its own size, and the pointer goes on over untouched bone and away.
 TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
 {
@@ -209,6 +239,56 @@ TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
         << aside.x() << ' ' << aside.y() << ": " << beside(at) << " mm";
   }
   EXPECT_TRUE(faults.filter("inside tissue").isEmpty()) << faults.join('/').toStdString();
+}
+
+// Beyond the edge nobody sees where the burr would go: it lifts there, at all four edges alike.
+TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  const auto move = [this](const QPoint& at)
+  {
+    QMouseEvent event(QEvent::MouseMove, at, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&view(), &event);
+    QTest::qWait(60);
+  };
+  const QRect all = view().rect();
+  const QPoint middle = all.center();
+  const auto middleLine = view().sightLine(std::nullopt);
+  int pressed = 0;
+  int atMiddle = 0;
+  QObject::connect(&view(), &ThreeDView::drillPressed, &window(), [&] { ++pressed; });
+  const auto look = [&](const interaction::SightLine& line)
+  { atMiddle += (line.direction - middleLine.direction).norm() < 0.01; };
+  QObject::connect(&view(), &ThreeDView::drillHeld, &window(), look);
+  QObject::connect(&view(), &ThreeDView::pointed, &window(), look);
+  struct Way
+  {
+    QPoint inside, outside;
+  };
+  const Way ways[] = {{{2, middle.y()}, {-1, middle.y()}},
+                      {{middle.x(), 2}, {middle.x(), -1}},
+                      {{all.right() - 2, middle.y()}, {all.right() + 1, middle.y()}},
+                      {{middle.x(), all.bottom() - 2}, {middle.x(), all.bottom() + 1}}};
+  for (const auto& [inside, outside] : ways)
+  {
+    SCOPED_TRACE(outside.x());
+    SCOPED_TRACE(outside.y());
+    QTest::mouseMove(&view(), inside);
+    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, inside);
+    EXPECT_TRUE(view().drilling());
+    pressed = atMiddle = 0;
+    move(outside);
+    EXPECT_FALSE(view().drilling());
+    EXPECT_TRUE(strokeEnds());
+    move(inside); // with the button held still
+    EXPECT_FALSE(view().drilling());
+    EXPECT_EQ(pressed, 0);
+    EXPECT_EQ(atMiddle, 0) << "the burr leapt to the middle";
+    QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, inside);
+  }
+  EXPECT_TRUE(window().model().value().dissection->mask().untouched());
 }
 
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
@@ -256,6 +336,37 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_FALSE(banner->isVisible());
   EXPECT_EQ(window().model().value().strokes.size(), library().open("ball 2").strokes.size());
   EXPECT_TRUE(window().close());
+}
+
+// A picture that is pushed down slips under a mouse that rests, and the burr with it.
+TEST_F(Drill, ABannerMovesNoPictureWhileTheToolIsInTheHandAndWidensNoWindow)
+{
+  saveBall("ball");
+  openWindow();
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  const QSize whole = window().size();
+  const QRect before = view().geometry();
+  const QPoint corner = view().mapTo(&window(), QPoint());
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QString name(64, 'a');
+  banner->setText("Not saved: /home/" + name + "/objects/" + name + ".nrrd is gone.");
+  banner->show();
+  QTest::qWait(100);
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_EQ(view().geometry(), before);
+  EXPECT_EQ(view().mapTo(&window(), QPoint()), corner);
+  EXPECT_EQ(window().size(), whole);
+  EXPECT_LE(window().minimumSizeHint().width(), whole.width());
+  EXPECT_TRUE(banner->text().contains(name));
+  EXPECT_FALSE(banner->shownText().contains(name));
+  EXPECT_TRUE(banner->shownText().endsWith(".nrrd is gone."));
+  EXPECT_EQ(banner->childAt(20, banner->height() / 2)->toolTip(), banner->text());
+  picture();
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_TRUE(waitFor([&] { return view().mapTo(&window(), QPoint()).y() > corner.y(); }))
+      << "it has room of its own once the tool is down";
+  banner->hide();
+  EXPECT_TRUE(waitFor([&] { return view().geometry() == before; }));
 }
 
 // Another program that holds the library's lock, or a slow disk.

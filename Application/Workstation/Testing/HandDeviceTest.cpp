@@ -105,7 +105,7 @@ TEST_F(Hand, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
   ASSERT_TRUE(hasTool());
   const Vector3d begin = tool();
   // It begins on the line of sight through the middle, a millimetre before the ball.
-  const auto line = view().sightLine({-1.0, -1.0});
+  const auto line = view().sightLine(std::nullopt);
   EXPECT_LT((begin - line.origin).cross(line.direction).norm(), 0.01);
   EXPECT_NEAR((begin - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.2);
 

@@ -8,6 +8,7 @@
 #include <QPushButton>
 
 #include "Banner.h"
+#include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
 
@@ -74,7 +75,9 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
   answer.start(20);
   dropPath(folder() / "visit");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
-  EXPECT_EQ(offered.size(), 2);
+  ASSERT_EQ(offered.size(), 2);
+  for (const char* told : {" images, ", "2020-01-01 12:00", "HFS", "in “ct”"})
+    EXPECT_TRUE(offered[0].contains(QString::fromUtf8(told))) << offered[0].toStdString();
   EXPECT_EQ(window().model().value().name, "visit");
   EXPECT_GT(window().model().value().ct.range.max, 1000.0); // HU: the CT, not the MR
 }
@@ -213,6 +216,27 @@ TEST_F(Import, LabelsAndMeshesComeToTheOpenCaseAndCanBeDropped)
            [this] { dropPath(folder() / "sample" / "meshes" / "facial_nerve.obj"); });
   EXPECT_TRUE(settled());
   EXPECT_EQ(window().model().value().meshes.size(), parts);
+}
+
+TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
+{
+  saveBall("ball");
+  const core::GridGeometry away({8, 8, 8}, Eigen::Vector3d::Ones(), {500.0, 500.0, 500.0});
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(away, std::uint16_t{1});
+  volume::Segment vein;
+  vein.name = "vein";
+  vein.index = 1;
+  imaging::writeLabelFile(folder() / "other.seg.nrrd", volume::makeLabelMap(voxels, {vein}));
+  openWindow();
+  answered([this](const auto& react) { onMessage(react); }, "Add to",
+           [this] { dropPath(folder() / "other.seg.nrrd"); });
+  ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
+  EXPECT_TRUE(settled());
+  QTest::qWait(100);
+  auto* banner = window().findChild<Banner*>("notesBanner");
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(banner->text().contains("'vein' lies wholly outside the CT"))
+      << banner->text().toStdString();
 }
 
 TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)

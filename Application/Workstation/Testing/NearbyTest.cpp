@@ -40,17 +40,19 @@ protected:
 
 } // namespace
 
-TEST_F(Nearby, AsksNothingWhileItIsHidden)
+TEST_F(Nearby, AsksNothingWhileItIsHiddenAndNoBurrIsInTheHand)
 {
   saveBall("ball");
   openWindow();
   EXPECT_FALSE(dock().isVisible());
-  takeUpBurr();
-  QTest::qWait(500);
+  QTest::mouseMove(&view(), view().rect().center());
+  QTest::qWait(200);
   EXPECT_FALSE(window().model().measuresNearby());
   QTest::keyClick(&window(), Qt::Key_F7);
+  takeUpBurr();
   ASSERT_TRUE(listed());
   EXPECT_TRUE(window().model().measuresNearby());
+  QTest::keyClick(&view(), Qt::Key_D);
   QTest::keyClick(&window(), Qt::Key_F7);
   EXPECT_FALSE(dock().isVisible());
   EXPECT_FALSE(window().model().measuresNearby()) << "the memory is given back";
@@ -116,7 +118,7 @@ TEST_F(Nearby, FollowsAStrokeThatIsStillDrilled)
   QTest::keyClick(&window(), Qt::Key_F7);
   takeUpBurr();
   ASSERT_TRUE(listed());
-  EXPECT_EQ(view().display().warning(), QString());
+  EXPECT_TRUE(waitFor([this] { return view().display().warning().isEmpty(); }));
   warnAt(12.0);
   ASSERT_TRUE(waitFor([this] { return view().display().warning().startsWith("nerve "); }));
   auto* removed = window().findChild<QLabel*>("removed");
@@ -127,6 +129,24 @@ TEST_F(Nearby, FollowsAStrokeThatIsStillDrilled)
   EXPECT_EQ(window().model().value().applied(), 0u) << "the stroke is still open";
   EXPECT_TRUE(removed->text().endsWith(" in 1 stroke")) << removed->text().toStdString();
   QTest::keyRelease(&view(), Qt::Key_Space);
-  QTest::keyClick(&window(), Qt::Key_F7); // hidden: nothing is measured, nothing is told
+  QTest::keyClick(&window(), Qt::Key_F7); // hidden: what must be seen at once stays
+  QTest::qWait(200);
+  EXPECT_TRUE(view().display().warning().startsWith("nerve "));
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_EQ(view().display().warning(), QString());
+}
+
+// The panel was never opened.
+TEST_F(Nearby, WarnsInThePictureWhileTheBurrIsInTheHandWhateverPanelsAreOpen)
+{
+  saveBall("ball");
+  openWindow();
+  EXPECT_FALSE(dock().isVisible());
+  warnAt(25.0);
+  takeUpBurr();
+  EXPECT_TRUE(waitFor([this] { return view().display().warning().startsWith("nerve "); }))
+      << view().display().warning().toStdString();
+  EXPECT_FALSE(dock().isVisible());
+  QTest::keyClick(&view(), Qt::Key_D);
   EXPECT_EQ(view().display().warning(), QString());
 }

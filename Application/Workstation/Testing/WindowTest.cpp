@@ -4,6 +4,7 @@
 #include <thread>
 
 #include <QAbstractItemModelTester>
+#include <QDockWidget>
 #include <QInputDialog>
 #include <QPushButton>
 #include <QSlider>
@@ -17,6 +18,7 @@
 #include "SliceView.h"
 #include "StartPage.h"
 #include "StructuresModel.h"
+#include "WindowTexts.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -32,6 +34,29 @@ TEST_F(Window, WithoutACaseTellsHowToBegin)
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->text(), "Make the sample patient");
   EXPECT_FALSE(action("Save")->isEnabled());
+}
+
+TEST_F(Window, ThePanelsKeyRaisesAPanelThatLiesBehindAnother)
+{
+  saveBall("ball");
+  openWindow();
+  auto* structures = window().findChild<QDockWidget*>("structuresDock");
+  auto* picture = window().findChild<QDockWidget*>("pictureDock");
+  const auto inFront = [](const QDockWidget* dock) { return !dock->visibleRegion().isEmpty(); };
+  EXPECT_TRUE(waitFor([&] { return inFront(structures) && !inFront(picture); }));
+  QTest::keyClick(&window(), Qt::Key_F8);
+  EXPECT_TRUE(waitFor([&] { return inFront(picture) && !inFront(structures); }, 3000));
+  QTest::keyClick(&window(), Qt::Key_F8);
+  EXPECT_TRUE(waitFor([&] { return picture->isHidden() && inFront(structures); }, 3000));
+  QTest::keyClick(&window(), Qt::Key_F8);
+  EXPECT_TRUE(waitFor([&] { return inFront(picture); }, 3000));
+}
+
+TEST_F(Window, ASentenceEndsWithAFullStop)
+{
+  EXPECT_EQ(sentence("the disk is full"), "the disk is full.");
+  EXPECT_EQ(sentence("Is the disk full?"), "Is the disk full?");
+  EXPECT_EQ(sentence(QString()), QString());
 }
 
 TEST_F(Window, OpensTheLatestCaseAndShowsItsBone)

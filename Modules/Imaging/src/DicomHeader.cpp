@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "DicomElements.h"
 
@@ -99,8 +100,24 @@ std::size_t keyOf(std::string text)
   return text.empty() ? 0 : std::max<std::size_t>(std::hash<std::string>{}(text), 1);
 }
 
+// The first date that is there, with the time beside it to the minute.
+std::string takenOf(const DicomElements& elements)
+{
+  constexpr std::pair<Tag, Tag> kDates[] = {
+      {0x00080022, 0x00080032}, {0x00080021, 0x00080031}, {0x00080020, 0x00080030}};
+  for (const auto& [date, time] : kDates)
+    if (const std::string day = elements.text(date); !day.empty())
+    {
+      const std::string minute = elements.text(time).substr(0, 4);
+      return minute.empty() ? day : day + " " + minute;
+    }
+  return {};
+}
+
 void readOrigin(const DicomElements& elements, SliceHeader& slice)
 {
+  slice.taken = takenOf(elements);
+  slice.patientPosition = elements.text(0x00185100);
   slice.patient = {keyOf(elements.text(0x00100020)), keyOf(elements.text(0x00100010)),
                    keyOf(elements.text(0x00100030))};
   slice.studyUid = elements.text(0x0020000d);

@@ -274,3 +274,17 @@ TEST(ForceDisplay, RefusesBadLooks)
   refused(&ForceLook::thickness, 0.0);
   refused(&ForceLook::pixels, 0.0);
 }
+
+// What the tissue's rim pulls at a tool that is led over it is nothing that presses.
+TEST(ForceDisplay, AHoveringToolHasNoForce)
+{
+  using Parameters = simulation::ServoParameters;
+  ForceDisplay display;
+  simulation::TickRecord record = recordOf({0.0, 0.0, 1.2});
+  record.input.parameters.constantThrust = Parameters::kPointer | Parameters::kPressed;
+  display.update(record);
+  EXPECT_EQ(display.force(), 1.2);
+  record.input.parameters.constantThrust = Parameters::kPointer;
+  display.update(record);
+  EXPECT_EQ(display.force(), 0.0);
+}

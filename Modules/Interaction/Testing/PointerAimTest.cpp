@@ -169,6 +169,58 @@ TEST(PointerAim, KeepsItsDepthPastTheEdgeOfTheTissue)
   EXPECT_EQ(parameters.constantThrust, Parameters::kPointer | Parameters::kPressed);
 }
 
+// Bone at 0 for x < 10, and another one far below it.
+TEST(PointerAim, LiftsWhereTheDepthLeapsUnderAPressedPointer)
+{
+  const auto ledge = [](double low)
+  {
+    return [low](const SightLine& line) -> std::optional<double>
+    {
+      const auto hit = plane(0.0)(line);
+      return hit && line.at(*hit).x() < 10.0 ? hit : plane(low)(line);
+    };
+  };
+  for (const Press press : {Press::Drill, Press::Touch})
+  {
+    PointerAim aim = aimAt(through({9.0, 0.0, 0.0}), Mode::Surface, ledge(-60.0));
+    aim.press(press);
+    const double height = place(aim).z();
+    const SightLine beyond = through({14.0, 0.0, 0.0});
+    aim.point(beyond);
+    EXPECT_TRUE(aim.lifted());
+    EXPECT_NEAR(place(aim).z(), height + aim.settings().lift, 1e-9);
+    EXPECT_LT(distanceToLine(place(aim), beyond), 1e-9);
+    EXPECT_EQ(aim.buttons(), 0U);
+    simulation::ServoParameters parameters;
+    aim.apply(parameters);
+    EXPECT_EQ(parameters.constantThrust, Parameters::kPointer);
+    EXPECT_EQ(parameters.pause, 1) << "a pedal would drill";
+    aim.update(); // the next picture
+    EXPECT_NEAR(place(aim).z(), height + aim.settings().lift, 1e-9);
+
+    aim.point(through({5.0, 0.0, 0.0})); // back on the bone
+    EXPECT_FALSE(aim.lifted());
+    EXPECT_NEAR(place(aim).z(), height, 0.01);
+    aim.point(beyond);
+    aim.press(Press::None);
+    EXPECT_FALSE(aim.lifted());
+    EXPECT_LT(place(aim).z(), -50.0); // hovers there
+    aim.press(press);                 // anew
+    EXPECT_FALSE(aim.lifted());
+    EXPECT_LT(place(aim).z(), -50.0);
+    aim.point(through({5.0, 0.0, 0.0})); // the other way
+    EXPECT_TRUE(aim.lifted());
+    EXPECT_LT(place(aim).z(), -50.0);
+  }
+  for (const double low : {-4.0, -6.0}) // an air cell is followed, an edge is not
+  {
+    PointerAim aim = aimAt(through({9.0, 0.0, 0.0}), Mode::Surface, ledge(low));
+    aim.press(Press::Drill);
+    aim.point(through({14.0, 0.0, 0.0}));
+    EXPECT_EQ(aim.lifted(), low < -5.0);
+  }
+}
+
 TEST(PointerAim, StartsInTheFocalPlaneWhereThereIsNoTissue)
 {
   for (const Mode mode : {Mode::Surface, Mode::Depth})
@@ -224,6 +276,21 @@ TEST(PointerAim, LeavesTheDepthAloneWhileThePointerMoves)
     EXPECT_NEAR(place(aim).z(), height, 1e-9);
     EXPECT_LT(distanceToLine(place(aim), line), 1e-9);
   }
+}
+
+// The depth of the line before would lie in the bone, or beyond it.
+TEST(PointerAim, ATakenUpToolBeginsBeforeTheTissueInDepthToo)
+{
+  double height = -30.0;
+  PointerAim aim([&height](const SightLine& line) { return plane(height)(line); });
+  aim.setCamera(fromAbove());
+  aim.point(through({0.0, 0.0, 0.0}));
+  aim.setSettings(inMode(Mode::Depth));
+  aim.begin();
+  EXPECT_FALSE(aim.wanted());
+  height = 0.0; // another place of the patient
+  aim.point(through({0.0, 0.0, 0.0}));
+  expectNear(place(aim), {0.0, 0.0, 3.0});
 }
 
 TEST(PointerAim, DoesNotTurnTheWheelIntoDepthOnTheSurface)

@@ -106,9 +106,11 @@ private:
     if (aim.wanted())
       device.want(*aim.wanted());
     device.setButtons(aim.buttons());
+    parameters.pause = 0;
     aim.apply(parameters);
   }
 
+public:
   TickRecord record;
 };
 
@@ -338,4 +340,57 @@ TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
     ASSERT_EQ(session.fault(), ServoFault::None) << n;
   }
   EXPECT_LT(besideLine(session.tool(), line), 0.2);
+}
+
+// Over an edge of bone, with the button held: it drilled the floor below in the same stroke.
+TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
+{
+  const auto bone = boneOf([](const Vector3d& p) { return (p.x() < 0.0 ? 5.0 : -9.0) - p.z(); });
+  Session session(Mode::Surface, bone);
+  session.aim.point(through({-4.0, 0.0, 0.0}));
+  session.run(100);
+  session.aim.press(PointerAim::Press::Drill);
+  EXPECT_EQ(session.run(300).drill, 1);
+  for (int n = 0; n < 60; ++n)
+  {
+    session.aim.point(through({-4.0 + 0.15 * n, 0.0, 0.0}));
+    session.run(16);
+    EXPECT_GT(session.tool().z(), 2.0) << n;
+  }
+  EXPECT_EQ(session.run(300).drill, 0);
+  EXPECT_EQ(session.force().norm(), 0.0);
+  session.aim.press(PointerAim::Press::None); // anew it goes down
+  session.run(300);
+  session.aim.press(PointerAim::Press::Drill);
+  EXPECT_EQ(session.run(500).drill, 1);
+  EXPECT_LT(session.tool().z(), kRadius - 8.0);
+}
+
+// By the wheel: from a line that grazes the bone, where the ball has no room at its place, and from
+// a place that the pointer has left.
+TEST(PointerDrilling, AWheelsToolBeginsBeforeTheBone)
+{
+  // A slope of 78 degrees, seen from above.
+  const auto bone = boneOf([](const Vector3d& p) { return -0.2 * p.z() - 0.98 * p.x(); });
+  for (const double x : {-1.5, -0.5, 0.5, 1.5})
+  {
+    SCOPED_TRACE(x);
+    Session session(Mode::Depth, bone);
+    session.aim.point(through({x, 0.0, 0.0}));
+    for (int n = 0; n < 300; ++n)
+    {
+      session.run(1);
+      ASSERT_NE(session.fault(), ServoFault::Inside) << n;
+    }
+    EXPECT_EQ(session.force().norm(), 0.0);
+    const Vector3d begun = session.tool();
+    for (int n = 0; n < 40; ++n) // the pointer goes over the bone
+    {
+      session.aim.point(through({x - 0.15 * n, 0.0, 0.0}));
+      session.run(16);
+      ASSERT_NE(session.fault(), ServoFault::Inside) << n;
+      ASSERT_TRUE(session.proxy.placeFree(session.record.proxy.pose())) << n;
+    }
+    EXPECT_GT(session.tool().z(), begun.z() - 1.0);
+  }
 }

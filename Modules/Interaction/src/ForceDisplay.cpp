@@ -56,7 +56,12 @@ Vector3d colorOf(double force)
 
 Vector3d forceIn(const simulation::TickRecord& record)
 {
-  const bool given = record.fault == 0 && !record.input.parameters.pause;
+  using Parameters = simulation::ServoParameters;
+  const auto& set = record.input.parameters;
+  // What pulls a hovering pointer's tool over tissue is no force of the hand.
+  const bool hovers = (set.constantThrust & Parameters::kPointer) != 0 &&
+                      (set.constantThrust & Parameters::kPressed) == 0;
+  const bool given = record.fault == 0 && !set.pause && !hovers;
   const Vector3d force = record.wrench.wrench().linear;
   return given && force.allFinite() ? force : Vector3d(Vector3d::Zero());
 }

@@ -43,6 +43,8 @@ const AimSettings& checked(const AimSettings& s)
   check(within(s.nudgeStep, 0.0, 10.0, true), "a step of the keys must lie within 0 to 10 mm");
   check(within(s.fineShare, 0.0, 1.0, true), "the share of a fine step must lie within 0 to 1");
   check(within(s.mostLead, 0.0, 50.0, true), "the lead must lie within 0 to 50 mm");
+  check(within(s.mostFall, 0.0, 100.0, true), "the deepest fall must lie within 0 to 100 mm");
+  check(within(s.mostRise, 0.0, 100.0, true), "the highest rise must lie within 0 to 100 mm");
   check(within(s.burrRadius, 0.0, 10.0, true), "the burr's radius must lie within 0 to 10 mm");
   check(within(s.lift, 0.0, 20.0), "the lift must lie within 0 to 20 mm");
   check(within(s.thrust, 0.0, 20.0), "the thrust must lie within 0 to 20 N");
@@ -77,6 +79,16 @@ void PointerAim::setCamera(const core::CameraPose& camera)
   const double* q = parameters.camera;
   m_screen = Quaterniond(q[0], q[1], q[2], q[3]);
   m_focal = camera.focalPoint;
+}
+
+void PointerAim::begin()
+{
+  m_line.reset();
+  m_place.reset();
+  m_tool.reset();
+  m_wanted.reset();
+  m_pressedAt.reset();
+  m_meets = m_lifted = false;
 }
 
 void PointerAim::point(const SightLine& line)
@@ -116,6 +128,32 @@ Quaterniond PointerAim::heading(const SightLine& line) const
   return (toEye * tilt).normalized();
 }
 
+// The place for a burr before the tissue, or above the place pressed on last where that is another
+// surface.
+Vector3d PointerAim::onSurface(const SightLine& line, double hit)
+{
+  const bool pressed = m_press != Press::None;
+  const double lift = pressed ? 0.0 : m_settings.lift;
+  const Vector3d place = line.at(std::max(hit - m_settings.burrRadius - lift, 0.0));
+  if (!pressed)
+    return place;
+  const Vector3d forward = m_screen * -Vector3d::UnitZ();
+  const double deeper = m_pressedAt ? forward.dot(place - *m_pressedAt) : 0.0;
+  m_lifted = deeper > m_settings.mostFall || deeper < -m_settings.mostRise;
+  if (!m_lifted)
+  {
+    // Deeper only as far as the tool went itself: a wall seen pixel by pixel is no leap.
+    if (!m_pressedAt || !m_tool || deeper < m_sank)
+      m_pressedAt = place;
+    else
+      *m_pressedAt = place - (deeper - m_sank) * forward;
+    m_sank = 0.0;
+    return place;
+  }
+  m_place = *m_pressedAt - m_settings.lift * forward;
+  return atDepth(line);
+}
+
 void PointerAim::update()
 {
   if (!m_line)
@@ -123,12 +161,10 @@ void PointerAim::update()
   const SightLine line = shifted();
   const std::optional<double> hit = m_surface(line);
   m_meets = hit.has_value();
-  const bool onSurface = m_settings.mode == AimSettings::Mode::Surface || !m_place;
-  if (onSurface && hit)
-  {
-    const double lift = m_press == Press::None ? m_settings.lift : 0.0;
-    m_place = line.at(std::max(*hit - m_settings.burrRadius - lift, 0.0));
-  }
+  const bool surface = m_settings.mode == AimSettings::Mode::Surface || !m_place;
+  m_lifted = false;
+  if (surface && hit)
+    m_place = onSurface(line, *hit);
   else
     m_place = atDepth(line);
   m_wanted = haptics::Pose{*m_place, heading(line)};
@@ -139,6 +175,8 @@ void PointerAim::press(Press press)
   if (press == m_press)
     return;
   m_press = press;
+  m_pressedAt.reset();
+  m_sank = 0.0;
   update();
 }
 
@@ -189,7 +227,12 @@ void PointerAim::see(const simulation::TickRecord& record, bool takenUp)
   if (static_cast<simulation::ServoFault>(record.fault) == simulation::ServoFault::Device)
     m_tool.reset();
   else
-    m_tool = record.proxy.pose().position;
+  {
+    const Vector3d tool = record.proxy.pose().position;
+    if (m_tool)
+      m_sank += std::max((m_screen * -Vector3d::UnitZ()).dot(tool - *m_tool), 0.0);
+    m_tool = tool;
+  }
   if (takenUp && m_tool && m_place && m_settings.mode == AimSettings::Mode::Depth)
   {
     m_place = m_tool;
@@ -199,7 +242,7 @@ void PointerAim::see(const simulation::TickRecord& record, bool takenUp)
 
 std::uint32_t PointerAim::buttons() const noexcept
 {
-  return m_press == Press::Drill ? PointerDevice::kDrill : 0U;
+  return m_press == Press::Drill && !m_lifted ? PointerDevice::kDrill : 0U;
 }
 
 void PointerAim::apply(simulation::ServoParameters& parameters) const
@@ -211,9 +254,10 @@ void PointerAim::apply(simulation::ServoParameters& parameters) const
   parameters.approachSpeed = m_settings.approachSpeed;
   parameters.drillButtons = PointerDevice::kDrill;
   parameters.clutchButtons = PointerDevice::kFreeze;
-  const bool pressing = m_press != Press::None && m_meets;
+  const bool pressing = m_press != Press::None && m_meets && !m_lifted;
   const bool onSurface = m_settings.mode == AimSettings::Mode::Surface;
   using Parameters = simulation::ServoParameters;
+  parameters.pause = m_lifted ? 1 : parameters.pause;
   parameters.constantThrust = 0;
   if (onSurface)
     parameters.constantThrust = Parameters::kPointer | (pressing ? Parameters::kPressed : 0);

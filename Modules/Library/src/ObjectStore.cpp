@@ -57,7 +57,7 @@ bool isObjectName(const std::string& name)
 {
   throw LibraryError(LibraryError::Reason::Damaged,
                      core::printable(object) + ": " + what +
-                         ", is not what was stored there; restore the file from a copy of the "
+                         " is not what was stored there; restore the file from a copy of the "
                          "library, or import it again");
 }
 

@@ -100,8 +100,17 @@ void Servo::map(Step& step, bool anew) noexcept
   if (!m_placed && step.usable)
   {
     step.mapped = m_mapping.map(step.device, step.view);
-    if (!step.pointer || !placeAnew(step))
+    // A wheel's tool begins before the tissue, too, and goes on from there.
+    const bool byWheel = m_record.input.parameters.mostLead > 0.0F &&
+                         Eigen::Map<const Eigen::Vector3d>(m_record.input.parameters.approach) !=
+                             Eigen::Vector3d::Zero();
+    if (!(step.pointer || byWheel) || !placeAnew(step))
       m_proxy.place(step.mapped);
+    else if (byWheel)
+    {
+      step.mapped = m_proxy.pose();
+      m_mapping.hold(step.device, step.view, step.mapped);
+    }
     m_placed = true;
     return;
   }

@@ -67,7 +67,7 @@ public:
   ///
   /// value   the same case, as it is now: looks, strokes
   /// center  of the burr, patient LPS mm; `radius` mm
-  /// reach   mm; what is farther is left out
+  /// reach   mm; what is farther is left out, unless it is within its warning distance
   /// open    what the open stroke has taken so far
   std::vector<NearbyStructure> around(const scene::Case& value, const Eigen::Vector3d& center,
                                       double radius, double reach,

@@ -29,6 +29,11 @@ struct SeriesContent
   std::string description;          ///< may say who the patient is: for the user's own screen only
   std::size_t slices = 0;
   Eigen::Vector3d spacing = Eigen::Vector3d::Zero(); ///< mm
+  // What tells series of the same description apart; likewise for the user's own screen only.
+  std::string taken;           ///< imaging::SliceHeader
+  std::string patientPosition; ///< likewise
+  std::string kernel;          ///< of the reconstruction; may be empty
+  std::string folder;          ///< name of the one that its first slice lies in
 };
 
 /// What somebody opens or drops, and what it is.

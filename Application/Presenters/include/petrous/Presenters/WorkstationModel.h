@@ -199,6 +199,9 @@ public:
   /// first. The first question of a case has them measured, in a thread of its own: nothing until
   /// that is done, and nothing without a case.
   std::optional<std::vector<NearbyStructure>> nearby(const Eigen::Vector3d& burr, double radius);
+  /// What of it the surgeon must see now (warningsOf), and no more is measured than that asks for:
+  /// cheap enough for every picture. Likewise nothing until the structures are measured.
+  std::optional<std::string> warnings(const Eigen::Vector3d& burr, double radius);
   /// What the open stroke has taken so far, see StrokeMeter; nothing while none is open.
   const dissection::RemovedVolume& strokeSoFar();
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }
@@ -224,6 +227,7 @@ public:
 
 private:
   DrillSession& session();
+  bool measureNearby(); ///< true when that is done
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
   void waitForParts();

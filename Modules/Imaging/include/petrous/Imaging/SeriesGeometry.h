@@ -57,6 +57,10 @@ struct SliceHeader
   std::optional<double> declaredTilt;      ///< GantryDetectorTilt, degrees; noted only
   std::optional<double> padding;           ///< PixelPaddingValue, stored value
   std::optional<double> paddingRangeLimit; ///< other end of the padding's range, stored value
+  /// When it was taken, for the user's own screen only: "20200131 1205", else of the series or
+  /// study; empty: not stated. Never stored.
+  std::string taken;
+  std::string patientPosition; ///< (0018,5100), e.g. HFS; likewise
   int instanceNumber = 0;
   bool isImage = true;                ///< has pixel data
   std::vector<std::string> imageType; ///< words, e.g. ORIGINAL PRIMARY AXIAL

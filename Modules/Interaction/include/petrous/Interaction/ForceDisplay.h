@@ -23,7 +23,7 @@ struct ForceLook
 /// corner: for hands that feel it, and for hands that cannot.
 ///
 /// What is shown is the coupling's force before the device's limits, so a mouse has one as well;
-/// where the servo gives none (fault, pause) there is none. The arrow starts at the burr's centre
+/// where the servo gives none (fault, pause), and while a pointer's tool hovers, there is none. The arrow starts at the burr's centre
 /// and points where the hand is pushed. It is drawn over tool and tissue, so that it is always
 /// seen. Main thread only.
 class ForceDisplay

@@ -33,6 +33,13 @@ struct AimSettings
   double fineShare = 0.2;  ///< of a step while Shift is held, in (0, 1]
   double mostLead = 5.0;   ///< mm that the wanted place goes beyond the tool, in (0, 50]: bounds N
 
+  /// mm that the tissue under a pressed pointer may lie deeper, or higher, than where it was
+  /// pressed last, in (0, 100]: beyond that it is another surface, over an edge of bone or through
+  /// a wall, and the tool lifts. Deeper: more than an air cell is wide. Higher: where it would have
+  /// to be placed anew (simulation::Servo::kFarthest), and not pulled up a wall.
+  double mostFall = 5.0;
+  double mostRise = 10.0;
+
   double burrRadius = 2.0;     ///< mm, in (0, 10]
   double lift = 1.0;           ///< mm above the surface while nothing is pressed, in [0, 20]
   double thrust = 1.0;         ///< N, constant thrust, in [0, 20]
@@ -44,7 +51,10 @@ struct AimSettings
 ///
 /// On the surface: while nothing is pressed the burr hovers before the tissue under the pointer;
 /// pressed, the servo leads it along the line of sight against the tissue (ConstantThrust). Where
-/// the line meets nothing the tool keeps its last depth, and no thrust is given.
+/// the line meets nothing the tool keeps its last depth, and no thrust is given. Where the tissue
+/// under a pressed pointer leaps in depth (mostFall, mostRise) the tool lifts from where it was
+/// pressed last, and neither presses nor cuts, until the pointer is back at that depth or is
+/// pressed anew.
 ///
 /// A depth is a plane through the tool, parallel to the screen; the first place is before the
 /// tissue, or in the focal point's plane. A camera that moves does not move the tool: the next
@@ -69,6 +79,10 @@ public:
   /// Throws InvalidParameter when it looks nowhere.
   void setCamera(const core::CameraPose& camera);
 
+  /// A tool is taken up: nothing is wanted until the next line, and a depth begins there, before
+  /// the tissue.
+  void begin();
+
   void point(const SightLine& line);
   void update(); ///< again by the same line: tissue gives way, settings change
 
@@ -88,14 +102,17 @@ public:
   /// X_PT; nothing before the first line.
   const std::optional<haptics::Pose>& wanted() const noexcept { return m_wanted; }
   bool meetsTissue() const noexcept { return m_meets; } ///< the line, at the last look
+  bool lifted() const noexcept { return m_lifted; }     ///< pressed, and lifted: the depth leapt
   std::uint32_t buttons() const noexcept;               ///< for PointerDevice
 
-  /// Camera, scale, approach, thrust and the buttons' meaning; the rest stays.
+  /// Camera, scale, approach, thrust and the buttons' meaning, and a pause where the tool is
+  /// lifted, since a pedal may drill, too; the rest stays.
   void apply(simulation::ServoParameters& parameters) const;
 
 private:
   SightLine shifted() const;
   Eigen::Vector3d atDepth(const SightLine& line) const;
+  Eigen::Vector3d onSurface(const SightLine& line, double hit);
   Eigen::Quaterniond heading(const SightLine& line) const;
 
   TissueQuery m_surface;
@@ -107,8 +124,11 @@ private:
   std::optional<Eigen::Vector3d> m_place;
   std::optional<Eigen::Vector3d> m_tool; // of the last record
   std::optional<haptics::Pose> m_wanted;
+  std::optional<Eigen::Vector3d> m_pressedAt; // pressed on last, no deeper than the tool went
+  double m_sank = 0.0;                        // mm that the tool went deeper since
   Press m_press = Press::None;
   bool m_meets = false;
+  bool m_lifted = false;
 };
 
 } // namespace petrous::interaction

@@ -133,7 +133,7 @@ TEST_F(RegisterCommand, ASignOffStandsAloneAndEndsWithTheTransform)
   EXPECT_EQ(laid["verdict"], "doubtful") << "nothing is known of its error";
   EXPECT_TRUE(laid["error_mm"]["p95"].is_null());
   expectRefused("register ear --mr T2 --sign-off 'A. Surgeon' --init header", 2, "stands alone");
-  expectRefused("register ear --mr T2 --sign-off ' '", 3, "who signs");
+  expectRefused("register ear --mr T2 --sign-off ' '", 2, "value is");
   const auto answer = json("register ear --mr T2 --sign-off 'A. Surgeon'");
   for (const char* nobody : {" ''", "= --quiet", " --quiet"})
     expectRefused(std::string("register ear --mr T2 --sign-off") + nobody, 2, "value is");

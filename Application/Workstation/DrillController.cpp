@@ -124,8 +124,11 @@ void DrillController::connectHands()
   connect(&m_hands, &HandKeeper::pedalCame, this,
           [this]
           {
-            if (!m_model.drilling())
-              takeAnew(); // with the pedal
+            if (m_model.drilling())
+              return;
+            takeAnew(); // with the pedal
+            if (!m_hands.device())
+              takeAtPointer();
           });
 }
 
@@ -176,6 +179,12 @@ void DrillController::setTool(Tool tool)
   applyBar();
   if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
     emit tissueWanted();
+  takeAtPointer();
+}
+
+// Where the mouse's pointer rests, not only when it moves next.
+void DrillController::takeAtPointer()
+{
   if (takeTool() && m_lead.byMouse() && m_view.pointer())
     m_lead.point(m_view.sightLine(m_view.pointer()));
 }

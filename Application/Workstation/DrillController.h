@@ -62,6 +62,7 @@ private:
   bool takeTool(); // into the hand, unless it is there
   void putAway();
   void takeAnew();
+  void takeAtPointer();
   void applyBar();
   void handCame();
   void frame();

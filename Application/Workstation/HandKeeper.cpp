@@ -45,8 +45,8 @@ void HandKeeper::showHands()
   const bool pedal = m_finder.pedal() != nullptr;
   if (std::exchange(m_hadPedal, pedal) == pedal)
     return;
-  emit said(tr("The pedal drills"));
   emit pedalCame();
+  emit said(tr("The pedal drills")); // after what taking up the tool says
 }
 
 // What is plugged in but cannot be used: each advice once.

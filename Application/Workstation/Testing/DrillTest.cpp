@@ -235,7 +235,7 @@ TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
   {
     const QPoint at = middle + aside;
     QTest::mouseMove(&view(), at);
-    EXPECT_TRUE(waitFor([&] { return beside(at) < 0.5; }, 5000))
+    EXPECT_TRUE(waitFor([&] { return beside(at) < 0.5; }))
         << aside.x() << ' ' << aside.y() << ": " << beside(at) << " mm";
   }
   EXPECT_TRUE(faults.filter("inside tissue").isEmpty()) << faults.join('/').toStdString();

@@ -68,7 +68,7 @@ protected:
 
   bool hasTool() // soon
   {
-    const bool has = waitFor([this] { return view().display().tool().has_value(); }, 15000);
+    const bool has = waitFor([this] { return view().display().tool().has_value(); });
     EXPECT_TRUE(has) << message().toStdString();
     return has;
   }

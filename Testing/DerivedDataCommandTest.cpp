@@ -74,7 +74,8 @@ TEST_F(DerivedDataCommand, ProbesTheSameWhetherSomethingIsKeptOrNot)
 TEST_F(DerivedDataCommand, DrillsTheSameWhetherSomethingIsKeptOrNot)
 {
   std::string flags;
-  for (const auto& label : json("info ear")["labels"])
+  const auto info = json("info ear");
+  for (const auto& label : info["labels"])
     flags += " --flags " + label["name"].get<std::string>() + "=none";
   ASSERT_EQ(run("appearance ear" + flags).code, 0);
   const auto path = writePath({-50, 0, 0}, {-40, 1, 2});

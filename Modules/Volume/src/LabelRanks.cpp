@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -63,29 +62,18 @@ RowRanks rankRow(const std::uint16_t* labels, int count, const RankTable& table,
                  LabelRank lastSolid, LabelRank* ranks, std::uint8_t* tiles)
 {
   RowRanks row;
-  constexpr int kWord = 4; // labels that are compared with nothing at once
-  for (int i = 0; i < count;)
-  {
-    std::uint64_t word = 1;
-    if (i + kWord <= count)
-      std::memcpy(&word, labels + i, sizeof(word));
-    if (word == 0)
-    {
-      i += kWord;
-      continue;
-    }
-    for (const int end = std::min(i + kWord, count); i < end; ++i)
-    {
-      const LabelRank rank = table[labels[i]];
-      if (rank == 0)
-        continue;
-      ranks[i] = ranks[i] == 0 ? rank : std::min(ranks[i], rank);
-      tiles[i / LabelTiles::kEdge] = 1;
-      row.first = std::min(row.first, i);
-      row.last = i + 1;
-      (rank <= lastSolid ? row.solid : row.lumen) = true;
-    }
-  }
+  forEachLabel(labels, count,
+               [&](int i, std::uint16_t label)
+               {
+                 const LabelRank rank = table[label];
+                 if (rank == 0)
+                   return;
+                 ranks[i] = ranks[i] == 0 ? rank : std::min(ranks[i], rank);
+                 tiles[i / LabelTiles::kEdge] = 1;
+                 row.first = std::min(row.first, i);
+                 row.last = i + 1;
+                 (rank <= lastSolid ? row.solid : row.lumen) = true;
+               });
   return row;
 }
 

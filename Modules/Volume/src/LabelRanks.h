@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <vector>
@@ -10,6 +12,27 @@
 
 namespace petrous::volume
 {
+
+/// Calls visit(i, label) for the labels of a row that are not 0.
+template <class Visit>
+void forEachLabel(const std::uint16_t* row, int count, const Visit& visit)
+{
+  constexpr int kWord = 4; // labels that are compared with nothing at once
+  for (int i = 0; i < count;)
+  {
+    std::uint64_t word = 1;
+    if (i + kWord <= count)
+      std::memcpy(&word, row + i, sizeof(word));
+    if (word == 0)
+    {
+      i += kWord;
+      continue;
+    }
+    for (const int end = std::min(i + kWord, count); i < end; ++i)
+      if (row[i] != 0)
+        visit(i, row[i]);
+  }
+}
 
 /// Place of a source in the order in which structures take a voxel: 1 the first, 0 none. Solid
 /// sources come before all lumens, each kind in the order of the sources.

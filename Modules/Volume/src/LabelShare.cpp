@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -98,21 +97,12 @@ template <class Visit>
 void forEachWanted(const std::uint16_t* row, int count, const std::vector<std::uint8_t>& table,
                    const Visit& visit)
 {
-  constexpr int kWord = 4; // labels that are compared with nothing at once
-  for (int i = 0; i < count;)
-  {
-    std::uint64_t word = 1;
-    if (i + kWord <= count)
-      std::memcpy(&word, row + i, sizeof(word));
-    if (word == 0)
-    {
-      i += kWord;
-      continue;
-    }
-    for (const int end = std::min(i + kWord, count); i < end; ++i)
-      if (table[row[i]] != 0)
-        visit(i);
-  }
+  forEachLabel(row, count,
+               [&](int i, std::uint16_t label)
+               {
+                 if (table[label] != 0)
+                   visit(i);
+               });
 }
 
 } // namespace

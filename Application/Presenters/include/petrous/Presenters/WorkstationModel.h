@@ -133,9 +133,8 @@ public:
   /// What takes long is still to be done (Events::preparationWanted asks for it) until `prepared`:
   /// loaded   false after another case or parts came: pictures show the CT alone
   /// drawable false after a structure was shown or hidden, too: its label field is of before
-  /// ready    false after a structure became tissue or none, too: there is no surface to be
-  /// touched;
-  ///          and while the CT of the library was not held against its hash
+  /// ready    false after a structure became tissue or none, too: no surface can be touched
+  ///          yet; and while the CT of the library was not held against its hash
   bool loaded() const noexcept { return m_loaded; }
   bool drawable() const noexcept { return m_loaded && m_drawable; }
   bool ready() const noexcept { return m_loaded && m_feelable && m_checked; }

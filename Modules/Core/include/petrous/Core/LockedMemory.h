@@ -9,8 +9,8 @@ namespace petrous::core
 /// Memory that a real-time thread reads, brought in and kept from being paged out (mlock) as long
 /// as this lives: a page fault on a mapped file is disk I/O inside a tick.
 ///
-/// Of several that cover the same page, the last to end unlocks it. Where the system's limit (RLIMIT_MEMLOCK) does not allow a range, its pages are brought in and may be
-/// paged out again when memory is short.
+/// Of several that cover the same page, the last to end unlocks it. All pages are brought in; where
+/// the system's limit (RLIMIT_MEMLOCK) allows no lock they may be paged out again.
 class LockedMemory
 {
 public:

@@ -8,7 +8,7 @@
 #include "CommandRunner.h"
 #include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Library/Library.h"
-#include "petrous/Presenters/HandReplay.h"
+#include "petrous/Presenters/RecordingPlayer.h"
 #include "petrous/Presenters/TouchSession.h"
 
 using namespace petrous;
@@ -108,7 +108,7 @@ protected:
     library.loadDissection(value);
     simulation::RecordingReader reader(file);
     presenters::TouchScene scene(value, {}, reader.setup().scene.firstState);
-    presenters::HandReplay replay(value, scene, reader, "session.ticks");
+    presenters::RecordingPlayer replay(value, scene, reader, "session.ticks");
     const auto& shell = scene.shellOf(presenters::toolOf(reader.setup())).points;
     EXPECT_GT(shell.size(), 100u);
     Felt result;

@@ -16,7 +16,7 @@ namespace petrous::cli
 namespace
 {
 
-using appearance::StructureLook;
+using appearance::StructureAppearance;
 
 struct Options
 {
@@ -37,7 +37,7 @@ struct Options
 struct Part
 {
   std::string name;
-  std::vector<StructureLook*> looks;
+  std::vector<StructureAppearance*> looks;
   bool bone = false;
   bool meshOnly = false;
 };
@@ -127,17 +127,17 @@ std::vector<std::array<float, 3>> otherColors(const scene::Case& value, const st
 void setPreset(scene::Case& value, const std::string& assignment)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
-  const StructureLook preset = appearance::StructurePresets::builtIn().preset(name);
+  const StructureAppearance preset = appearance::StructurePresets::builtIn().preset(name);
   if (part.bone && !preset.solid)
     throw core::InvalidParameter("preset '" + preset.preset +
                                  "' is that of a lumen and cannot be the look of bone");
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::applyPreset(*look, preset);
   // What is no known structure has a colour of its own, as when it came to the case.
   if (preset.preset == appearance::StructurePresets::builtIn().lookFor({}).preset)
   {
     const auto color = appearance::distinctColor(otherColors(value, part.name));
-    for (StructureLook* look : part.looks)
+    for (StructureAppearance* look : part.looks)
       appearance::setColor(*look, color);
   }
 }
@@ -160,7 +160,7 @@ void setTransfer(scene::Case& value, const std::string& assignment)
       throw core::InvalidParameter(what.find(path) == std::string::npos ? path + ": " + what
                                                                         : what);
     }
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
   {
     look->transfer = transfer;
     look->relative = false;
@@ -192,7 +192,7 @@ void setColors(scene::Case& value, const std::string& assignment)
 {
   const auto [part, text] = split(value, assignment, "--color PART=r,g,b");
   const auto color = parseColor(text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setColor(*look, color);
 }
 
@@ -202,7 +202,7 @@ void setOpacity(scene::Case& value, const std::string& assignment)
   const double opacity = parseNumbers(text, 1, "--opacity").front();
   if (opacity < 0.0 || opacity > 1.0)
     throw UsageError("--opacity: goes from 0 to 1, not " + text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     look->opacity = static_cast<float>(opacity);
 }
 
@@ -211,7 +211,7 @@ void setSource(const Context& context, scene::Case& value, const std::string& as
   const auto [part, name] = split(value, assignment, "--source PART=ct|MRNAME");
   if (part.meshOnly)
     throw core::InvalidParameter("'" + part.name + "' is a mesh and reads no image");
-  StructureLook& look = *part.looks.front();
+  StructureAppearance& look = *part.looks.front();
   const scene::ImagePart* mr = scene::findMr(value, name);
   if (name == "ct")
     look.sourceImage.clear();
@@ -241,7 +241,7 @@ void setSource(const Context& context, scene::Case& value, const std::string& as
 void setPartFlags(const Context& context, scene::Case& value, const std::string& assignment)
 {
   const auto [part, flags] = split(value, assignment, "--flags PART=shown,touchable,drillable");
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setFlags(*look, flags);
   if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
     return;
@@ -257,7 +257,7 @@ void setStiffness(const Context& context, scene::Case& value, const std::string&
   const double stiffness = text == "rigid" ? 0.0 : parseNumbers(text, 1, "--stiffness").front();
   if (text != "rigid" && (stiffness < appearance::kSoftest || stiffness > appearance::kStiffest))
     throw UsageError("--stiffness: goes from 0.001 to 100 N/mm, or is 'rigid', not " + text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setStiffness(*look, stiffness);
   if (const auto& look = *part.looks.front(); stiffness > 0.0 && !(look.solid && look.touchable))
     context.remark("'" + part.name + "' is not felt" +
@@ -273,7 +273,7 @@ void setWarning(scene::Case& value, const std::string& assignment)
   const double distance = text == "none" ? 0.0 : parseNumbers(text, 1, "--warn").front();
   if (!(distance >= 0.0 && distance <= appearance::kFarthestWarning))
     throw UsageError("--warn: goes from 0 to 50 mm, or is 'none', not " + text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setWarning(*look, distance);
 }
 
@@ -287,7 +287,7 @@ void setTissue(const Context& context, scene::Case& value, const std::string& as
   const std::string tissue = text == "bone" ? std::string() : text;
   if (!tissue.empty())
     dissection::MaterialCatalogue::builtIn().material(tissue); // refuses what it does not know
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     look->tissue = tissue;
   if (!tissue.empty() && !part.looks.front()->solid)
     context.remark("'" + part.name + "' is a lumen: the drill meets nothing in it");

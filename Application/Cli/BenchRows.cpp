@@ -28,7 +28,7 @@ std::size_t placeOf(std::vector<std::string>& names, const std::string& name)
   return place;
 }
 
-std::string inWords(double seconds)
+std::string toString(double seconds)
 {
   if (seconds < 1e-3)
     return fixed(1e6 * seconds, seconds < 1e-5 ? 1 : 0) + " \u00b5s";
@@ -75,7 +75,7 @@ std::string rowsSvg(const core::BenchmarkReport& report)
     const double x = px(axis.share(point.seconds));
     const double y = kTop + kRow * (static_cast<double>(placeOf(scenes, point.scene)) + 0.5);
     const std::string program = point.peer.empty() ? "petrous" : point.peer;
-    const std::string words = inWords(point.seconds);
+    const std::string words = toString(point.seconds);
     result += svg::dot(x, y, svg::color(placeOf(programs, program)),
                        program + ", " + point.scene + ": " + words);
     if (point.peer.empty())

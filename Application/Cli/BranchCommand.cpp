@@ -33,7 +33,7 @@ std::string strokesInWords(std::size_t count)
   return std::to_string(count) + (count == 1 ? " stroke" : " strokes");
 }
 
-std::string inWords(const scene::Case& value, const Branch& branch)
+std::string toString(const scene::Case& value, const Branch& branch)
 {
   const auto summary = scene::summaryOf(value, branch.position);
   const std::size_t ahead = value.history.lineTo(branch.tip).size() - summary.strokes;
@@ -143,7 +143,7 @@ void compare(const Context& context, const scene::Case& value, const Options& op
 void list(const Context& context, const scene::Case& value)
 {
   for (const Branch& branch : value.history.branches())
-    context.say((&branch == &value.history.branch() ? "* " : "  ") + inWords(value, branch));
+    context.say((&branch == &value.history.branch() ? "* " : "  ") + toString(value, branch));
   context.give(allJson(value));
 }
 
@@ -168,7 +168,7 @@ std::string change(scene::Case& value, const Options& options)
     scene::startBranch(value, name, options.after);
   else
     scene::startBranch(value, name);
-  return std::string(there ? "on branch " : "new branch ") + inWords(value, value.history.branch());
+  return std::string(there ? "on branch " : "new branch ") + toString(value, value.history.branch());
 }
 
 void branch(const Context& context, const Options& options)

@@ -7,7 +7,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/ExposedSurfaces.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 namespace petrous::cli
 {

@@ -4,7 +4,7 @@
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
@@ -34,7 +34,7 @@ json gridJson(const core::GridGeometry& grid)
           {"direction", directionJson(grid.direction())}};
 }
 
-json lookJson(const appearance::StructureLook& look)
+json lookJson(const appearance::StructureAppearance& look)
 {
   json transfer;
   if (look.transfer)

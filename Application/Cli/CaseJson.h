@@ -21,7 +21,7 @@ nlohmann::json gridJson(const core::GridGeometry& grid);
 /// preset, color, opacity, flags, solid, shininess, priority, stiffness_n_per_mm (null: rigid),
 /// source ("ct" or an MR's name) and transfer: null, or {"relative", "points"} as a --tf file has
 /// them.
-nlohmann::json lookJson(const appearance::StructureLook& look);
+nlohmann::json lookJson(const appearance::StructureAppearance& look);
 
 /// Why the hand does not feel a mesh (scene::untouchable), or the mesh's file cannot be read; empty
 /// when it does feel it.

@@ -10,7 +10,7 @@
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Presenters/CasePicture.h"
-#include "petrous/Presenters/HandReplay.h"
+#include "petrous/Presenters/RecordingPlayer.h"
 #include "petrous/Presenters/PathDrill.h"
 
 namespace petrous::cli
@@ -70,7 +70,7 @@ void checkTool(const Options& options, const simulation::RecordingSetup& recorde
   // Only what was asked for by name.
   const auto refuse = [&](const std::string& asked)
   {
-    throw core::InvalidParameter(options.replay + ": was recorded with a " + inWords(recorded) +
+    throw core::InvalidParameter(options.replay + ": was recorded with a " + toString(recorded) +
                                  ", not with " + asked);
   };
   const presenters::PathDrill::Options tool = toolFrom(options);
@@ -238,7 +238,7 @@ void replay(const Context& context, const Options& options)
   const auto camera = presenters::currentCamera(value);
   presenters::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);
-  presenters::HandReplay session(value, touch, reader, options.replay, camera);
+  presenters::RecordingPlayer session(value, touch, reader, options.replay, camera);
   DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
 
   std::size_t ticks = 0;
@@ -264,7 +264,7 @@ void replay(const Context& context, const Options& options)
   nlohmann::json first = nullptr;
   if (outcome.firstDifferent)
     first = *outcome.firstDifferent;
-  answer["replay"] = {{"file", options.replay},         {"tool", inWords(reader.setup())},
+  answer["replay"] = {{"file", options.replay},         {"tool", toString(reader.setup())},
                       {"session", reader.setup().note}, {"equal", outcome.equal()},
                       {"complete", reader.complete()},  {"different_ticks", outcome.different},
                       {"first_different_tick", first},  {"difference", outcome.difference}};

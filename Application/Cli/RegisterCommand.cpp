@@ -7,7 +7,7 @@
 #include "RegistrationFiles.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/DrillSession.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::cli

@@ -7,7 +7,7 @@
 #include "Place.h"
 #include "SlicePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 namespace petrous::cli
 {

@@ -45,7 +45,7 @@ void guarded(const std::function<void()>& work,
     }
     catch (const std::exception& error)
     {
-      tell(inWords(error));
+      tell(toString(error));
     }
     catch (...)
     {
@@ -62,7 +62,7 @@ void guarded(const std::function<void()>& work) noexcept
   guarded(work, tellApplication);
 }
 
-QString inWords(const std::exception& error)
+QString toString(const std::exception& error)
 {
   if (dynamic_cast<const core::Error*>(&error))
     return words(error.what());

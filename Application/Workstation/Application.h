@@ -22,7 +22,7 @@ signals:
 };
 
 /// An exception in words. Texts of other libraries may carry patient data; they are left out.
-QString inWords(const std::exception& error);
+QString toString(const std::exception& error);
 
 /// Runs what must not throw: the whole of a thread, a callback of another library. What it throws
 /// is told by `tell`, in words.

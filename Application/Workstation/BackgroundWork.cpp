@@ -108,11 +108,11 @@ void BackgroundWork::run(const Work& work)
     if (error.fault() == core::Fault::Cancelled)
       end([this] { emit cancelled(); });
     else
-      end([this, why = inWords(error)] { emit failed(why); });
+      end([this, why = toString(error)] { emit failed(why); });
   }
   catch (const std::exception& error)
   {
-    end([this, why = inWords(error)] { emit failed(why); });
+    end([this, why = toString(error)] { emit failed(why); });
   }
   catch (...)
   {

@@ -90,7 +90,7 @@ void CaseSaver::start(const Begin& begin)
   {
     m_model.notStored();
     m_well = false;
-    emit failed(inWords(error));
+    emit failed(toString(error));
   }
 }
 

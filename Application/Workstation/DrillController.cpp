@@ -8,7 +8,7 @@
 #include <QApplication>
 
 #include "DrillBar.h"
-#include "HandKeeper.h"
+#include "ActiveDeviceController.h"
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -42,7 +42,7 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
   lines += reading.surface
                ? DrillController::tr("%1 mm to the surface").arg(*reading.surface, 0, 'f', 1)
                : DrillController::tr("no surface within %1 mm")
-                     .arg(presenters::PlaceReader::kReach, 0, 'f', 0);
+                     .arg(presenters::PointProbe::kReach, 0, 'f', 0);
   if (reading.near)
     lines += DrillController::tr("%1 mm to %2")
                  .arg(reading.near->distance, 0, 'f', 1)
@@ -52,7 +52,7 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
 } // namespace
 
 DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView& view,
-                                 DrillBar& bar, HandKeeper& hands, QObject* parent)
+                                 DrillBar& bar, ActiveDeviceController& hands, QObject* parent)
   : QObject(parent)
   , m_model(model)
   , m_view(view)
@@ -89,7 +89,7 @@ void DrillController::connectBar()
   };
   onTool(m_bar.drillAction(), Tool::Burr);
   onTool(m_bar.pointerAction(), Tool::Pointer);
-  connect(&m_bar, &DrillBar::burrChanged, this, &DrillController::takeAnew);
+  connect(&m_bar, &DrillBar::burrChanged, this, &DrillController::restartTool);
   connect(&m_bar, &DrillBar::pressChanged, this, &DrillController::applyBar);
 }
 
@@ -98,14 +98,14 @@ void DrillController::connectView()
   connect(&m_view, &ThreeDView::pointed, this, &DrillController::hover);
   connect(&m_view, &ThreeDView::pointerLeft, this, &DrillController::pointedNowhere);
   connect(&m_view, &ThreeDView::picked, this,
-          [this](const interaction::SightLine& line)
+          [this](const interaction::PickRay& line)
           {
             if (const auto hit = m_model.surfaceAt(line))
               m_model.setCrosshair(*hit);
           });
   connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);
   connect(&m_view, &ThreeDView::drillHeld, this,
-          [this](const interaction::SightLine& line)
+          [this](const interaction::PickRay& line)
           {
             if (m_model.touching())
               m_lead.point(line);
@@ -118,15 +118,15 @@ void DrillController::connectView()
 
 void DrillController::connectHands()
 {
-  connect(&m_hands, &HandKeeper::leaving, this, &DrillController::putAway);
-  connect(&m_hands, &HandKeeper::came, this, &DrillController::handCame);
-  connect(&m_hands, &HandKeeper::leadChanged, this, &DrillController::takeAnew);
-  connect(&m_hands, &HandKeeper::pedalCame, this,
+  connect(&m_hands, &ActiveDeviceController::leaving, this, &DrillController::putAway);
+  connect(&m_hands, &ActiveDeviceController::came, this, &DrillController::handCame);
+  connect(&m_hands, &ActiveDeviceController::leadChanged, this, &DrillController::restartTool);
+  connect(&m_hands, &ActiveDeviceController::pedalCame, this,
           [this]
           {
             if (m_model.drilling())
               return;
-            takeAnew(); // with the pedal
+            restartTool(); // with the pedal
             if (!m_hands.device())
               takeAtPointer();
           });
@@ -158,7 +158,7 @@ void DrillController::applyBar()
     putAway(); // the pointer's next move takes it up
 }
 
-void DrillController::layDown()
+void DrillController::releaseTool()
 {
   setTool(Tool::None);
 }
@@ -201,7 +201,7 @@ void DrillController::handCame()
 }
 
 // Another burr, scale or limit. The pointer's next move takes it up; a device has none.
-void DrillController::takeAnew()
+void DrillController::restartTool()
 {
   putAway();
   applyBar();
@@ -263,7 +263,7 @@ bool DrillController::takeTool()
   QApplication::restoreOverrideCursor();
   if (!why.isEmpty())
   {
-    layDown();
+    releaseTool();
     emit said(why);
     return false;
   }
@@ -295,7 +295,7 @@ void DrillController::putAway()
     emit strokeEnded(stroke);
 }
 
-void DrillController::hover(const interaction::SightLine& line)
+void DrillController::hover(const interaction::PickRay& line)
 {
   const bool reads = m_tool == Tool::Pointer && m_hands.device();
   if (const auto hit = m_model.surfaceAt(line); hit && !reads)
@@ -306,7 +306,7 @@ void DrillController::hover(const interaction::SightLine& line)
     m_lead.point(line);
 }
 
-void DrillController::press(const interaction::SightLine& line)
+void DrillController::press(const interaction::PickRay& line)
 {
   if (!takeTool())
     return;
@@ -323,7 +323,7 @@ void DrillController::release()
 void DrillController::frame()
 {
   if (!m_model.touching()) // another threshold: the pointer's next move takes the tool up again
-    return takeAnew();
+    return restartTool();
   hear(m_model.advanceTouch());
 }
 
@@ -337,7 +337,7 @@ void DrillController::hear(const presenters::TouchSession::News& news)
     emit said(tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
   if (!news.failure.empty())
   {
-    layDown();
+    releaseTool();
     emit said(words(news.failure));
   }
   if (news.record && m_model.touching() && isLost(*news.record))
@@ -400,7 +400,7 @@ bool DrillController::isLost(const TickRecord& record)
 
 QString DrillController::whyLost() const
 {
-  const presenters::HeldDevice& device = *m_hands.device();
+  const presenters::ActiveDevice& device = *m_hands.device();
   const QString name = words(device.hand().name);
   if (device.hand().kind == presenters::Hand::Kind::SpaceMouse)
     return tr("%1 was unplugged").arg(name);

@@ -7,14 +7,14 @@
 #include <QObject>
 #include <QTimer>
 
-#include "ToolLead.h"
+#include "ToolDriver.h"
 #include "petrous/Presenters/StallWatch.h"
 
 namespace petrous::workstation
 {
 
 class DrillBar;
-class HandKeeper;
+class ActiveDeviceController;
 class ThreeDView;
 
 /// Puts a tool into the hand. The burr drills where it is pressed; the pointer cuts nothing and
@@ -27,10 +27,10 @@ public:
   static constexpr double kPointerRadius = 0.5; ///< mm, of the pointer's ball
 
   DrillController(presenters::WorkstationModel& model, ThreeDView& view, DrillBar& bar,
-                  HandKeeper& hands, QObject* parent = nullptr);
+                  ActiveDeviceController& hands, QObject* parent = nullptr);
 
   void setSlicesFollow(bool follow); ///< the crosshair goes with the burr while it drills
-  void layDown();                    ///< no tool; ends an open stroke
+  void releaseTool();                    ///< no tool; ends an open stroke
   void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< a device's tool before what the view's middle shows
 
@@ -56,12 +56,12 @@ private:
   void connectView();
   void connectHands();
   void setTool(Tool tool);
-  void hover(const interaction::SightLine& line);
-  void press(const interaction::SightLine& line);
+  void hover(const interaction::PickRay& line);
+  void press(const interaction::PickRay& line);
   void release();
   bool takeTool(); // into the hand, unless it is there
   void putAway();
-  void takeAnew();
+  void restartTool();
   void takeAtPointer();
   void applyBar();
   void handCame();
@@ -78,8 +78,8 @@ private:
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
   DrillBar& m_bar;
-  HandKeeper& m_hands;
-  ToolLead m_lead;
+  ActiveDeviceController& m_hands;
+  ToolDriver m_lead;
   std::optional<Eigen::Vector3d> m_tip; // that was read last
   QTimer m_frames;
   QTimer m_anew;

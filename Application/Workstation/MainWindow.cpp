@@ -22,17 +22,17 @@
 #include "BannerStack.h"
 #include "BranchController.h"
 #include "BurrWarnings.h"
-#include "CaseKeeper.h"
+#include "CaseDocumentController.h"
 #include "CaseSaver.h"
 #include "DrillBar.h"
 #include "DrillController.h"
-#include "HandBar.h"
-#include "HandFinder.h"
-#include "HandKeeper.h"
+#include "DeviceToolBar.h"
+#include "DeviceWatcher.h"
+#include "ActiveDeviceController.h"
 #include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
-#include "PlaceLabel.h"
+#include "ProbeLabel.h"
 #include "RegistrationController.h"
 #include "RegistrationPanel.h"
 #include "SliceColumn.h"
@@ -90,7 +90,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   : m_model(std::move(library))
   , m_settings(std::make_unique<WindowSettings>(options.settings))
   , m_bar(new DrillBar)
-  , m_handBar(new HandBar)
+  , m_handBar(new DeviceToolBar)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
   , m_panel(new StructuresPanel(m_model))
@@ -101,15 +101,15 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_faultBanner(new Banner("faultBanner", Banner::Kind::Warning))
   , m_notesBanner(new Banner("notesBanner", Banner::Kind::Notice))
   , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
-  , m_place(new PlaceLabel(m_model))
+  , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_handBar, options.quadBuffer))
   , m_saver(new CaseSaver(m_model))
-  , m_keeper(new CaseKeeper(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner,
+  , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner,
                             *m_damageBanner))
-  , m_finder(new HandFinder(options.hands, options.lookForHandsEvery, this))
-  , m_hands(new HandKeeper(*m_finder, *m_handBar, *m_settings, this))
+  , m_finder(new DeviceWatcher(options.hands, options.lookForHandsEvery, this))
+  , m_hands(new ActiveDeviceController(*m_finder, *m_handBar, *m_settings, this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
@@ -120,7 +120,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
   m_picture->secure = [this] { return secure(); };
-  m_branches->settle = [this] { m_drill->layDown(); };
+  m_branches->settle = [this] { m_drill->releaseTool(); };
   m_keeper->setParent(this);
   m_saver->setParent(this);
   m_saver->camera = [this] { return m_view->picture().camera(); };
@@ -135,7 +135,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
 MainWindow::~MainWindow()
 {
   m_model.events = {};
-  m_drill->layDown();    // before the hands that hold it
+  m_drill->releaseTool();    // before the hands that hold it
   delete m_registration; // its threads end
   delete m_drill;
   delete m_hands;
@@ -149,9 +149,9 @@ MainWindow::~MainWindow()
 void MainWindow::layOut()
 {
   auto* start = new StartPage;
-  connect(start, &StartPage::sampleAsked, m_keeper, &CaseKeeper::makeSample);
-  connect(start, &StartPage::openFolderAsked, m_keeper, &CaseKeeper::openFolder);
-  connect(start, &StartPage::openCaseAsked, m_keeper, &CaseKeeper::chooseCase);
+  connect(start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
+  connect(start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
+  connect(start, &StartPage::openCaseAsked, m_keeper, &CaseDocumentController::chooseCase);
 
   auto* across = new QSplitter(Qt::Horizontal);
   across->setHandleWidth(3);
@@ -255,8 +255,8 @@ void MainWindow::connectModel()
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
-  connect(m_slices, &SliceColumn::pointed, m_place, &PlaceLabel::showPlace);
-  connect(m_drill, &DrillController::pointed, m_place, &PlaceLabel::showPlace);
+  connect(m_slices, &SliceColumn::pointed, m_place, &ProbeLabel::showPlace);
+  connect(m_drill, &DrillController::pointed, m_place, &ProbeLabel::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
   connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
@@ -272,18 +272,18 @@ void MainWindow::connectModel()
     statusBar()->repaint(); // what takes a while is told before it begins
   };
   connect(m_drill, &DrillController::said, this, say);
-  connect(m_hands, &HandKeeper::said, this, say);
-  connect(m_hands, &HandKeeper::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_hands, &ActiveDeviceController::said, this, say);
+  connect(m_hands, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_handBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
   const auto tell = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };
-  connect(m_keeper, &CaseKeeper::said, this, tell);
+  connect(m_keeper, &CaseDocumentController::said, this, tell);
   connect(m_thickness, &ThicknessController::said, this, tell);
   connect(m_registration, &RegistrationController::said, this, tell);
-  connect(m_keeper, &CaseKeeper::ready, m_drill, &DrillController::tissueCame);
-  connect(m_drill, &DrillController::tissueWanted, m_keeper, &CaseKeeper::prepareUnlessUnderWay);
+  connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
+  connect(m_drill, &DrillController::tissueWanted, m_keeper, &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::said, this, tell);
   connect(m_picture, &PictureController::said, this,
@@ -344,7 +344,7 @@ void MainWindow::showFault(const QString& why)
 
 void MainWindow::caseClosed()
 {
-  m_drill->layDown();
+  m_drill->releaseTool();
   m_view->display().setContents({});
   m_slices->clear();
   m_panel->caseChanged();
@@ -361,7 +361,7 @@ void MainWindow::caseClosed()
 // The camera stays, and the tool is put away.
 void MainWindow::partsChanged()
 {
-  m_drill->layDown();
+  m_drill->releaseTool();
   m_picture->appearanceChanged();
   m_slices->appearanceChanged();
   m_panel->caseChanged();
@@ -384,7 +384,7 @@ void MainWindow::caseChanged()
     dock->raise();
     resizeDocks({dock}, {395}, Qt::Horizontal);
   }
-  m_drill->layDown();
+  m_drill->releaseTool();
   offerBurrs();
   m_picture->caseChanged();
   m_view->setCamera(presenters::currentCamera(value));
@@ -491,13 +491,13 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
 bool MainWindow::secure()
 {
   // Ends an open stroke, here and in the surgeon's window.
-  m_drill->layDown();
+  m_drill->releaseTool();
   return m_saver->flush();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  m_drill->layDown(); // ends an open stroke
+  m_drill->releaseTool(); // ends an open stroke
   event->setAccepted(m_keeper->mayLeave());
   if (event->isAccepted())
     m_picture->closeSurgeonWindow();

@@ -5,7 +5,7 @@
 #include <QMainWindow>
 #include <QStringList>
 
-#include "petrous/Presenters/HeldDevice.h"
+#include "petrous/Presenters/ActiveDevice.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Rendering/StandardViews.h"
 
@@ -18,16 +18,16 @@ namespace petrous::workstation
 
 class Banner;
 class BranchController;
-class CaseKeeper;
+class CaseDocumentController;
 class CaseSaver;
 class DrillBar;
 class DrillController;
-class HandBar;
-class HandFinder;
-class HandKeeper;
+class DeviceToolBar;
+class DeviceWatcher;
+class ActiveDeviceController;
 class NearbyPanel;
 class PictureController;
-class PlaceLabel;
+class ProbeLabel;
 class RegistrationController;
 class SliceColumn;
 class StructuresPanel;
@@ -41,7 +41,7 @@ struct WindowOptions
 {
   bool quadBuffer = false;       ///< the driver offers two buffers (see quadBufferOffered)
   QString settings;              ///< an INI file; empty: the user's own
-  presenters::HandSources hands; ///< none: the mouse only
+  presenters::DeviceSources hands; ///< none: the mouse only
   int lookForHandsEvery = 1000;  ///< ms
 };
 
@@ -87,7 +87,7 @@ private:
   presenters::WorkstationModel m_model;
   std::unique_ptr<WindowSettings> m_settings;
   DrillBar* m_bar;
-  HandBar* m_handBar;
+  DeviceToolBar* m_handBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
   StructuresPanel* m_panel;
@@ -99,14 +99,14 @@ private:
   Banner* m_notesBanner;
   Banner* m_damageBanner;
   QStringList m_notesTold;
-  PlaceLabel* m_place;
+  ProbeLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;
   WindowActions* m_actions;
   CaseSaver* m_saver;
-  CaseKeeper* m_keeper;
-  HandFinder* m_finder;
-  HandKeeper* m_hands;
+  CaseDocumentController* m_keeper;
+  DeviceWatcher* m_finder;
+  ActiveDeviceController* m_hands;
   DrillController* m_drill;
   PictureController* m_picture;
   BranchController* m_branches;

@@ -147,7 +147,7 @@ void OpenCaseDialog::attempt(const std::function<void()>& change)
   }
   catch (const std::exception& error)
   {
-    QMessageBox box(QMessageBox::Warning, tr("Petrous"), inWords(error), QMessageBox::Ok, this);
+    QMessageBox box(QMessageBox::Warning, tr("Petrous"), toString(error), QMessageBox::Ok, this);
     box.setTextFormat(Qt::PlainText);
     box.exec();
   }

@@ -179,7 +179,7 @@ void RegistrationController::begin(Way way)
   }
   catch (const std::exception& error)
   {
-    return m_panel->say(inWords(error));
+    return m_panel->say(toString(error));
   }
   if (!request.asIs)
     m_panel->curve().clear();

@@ -262,7 +262,7 @@ void RegistrationPanel::attempt(const std::function<void()>& what)
   }
   catch (const std::exception& error)
   {
-    say(inWords(error));
+    say(toString(error));
   }
 }
 

@@ -13,12 +13,12 @@ namespace petrous::workstation
 
 namespace
 {
-QColor colorOf(const appearance::StructureLook& look)
+QColor colorOf(const appearance::StructureAppearance& look)
 {
   return QColor::fromRgbF(double(look.color[0]), double(look.color[1]), double(look.color[2]));
 }
 
-QPixmap swatch(const appearance::StructureLook& look)
+QPixmap swatch(const appearance::StructureAppearance& look)
 {
   QPixmap pixmap(12, 12);
   pixmap.fill(Qt::transparent);
@@ -30,7 +30,7 @@ QPixmap swatch(const appearance::StructureLook& look)
   return pixmap;
 }
 
-bool flagOf(const appearance::StructureLook& look, int column)
+bool flagOf(const appearance::StructureAppearance& look, int column)
 {
   return column == StructuresModel::Shown       ? look.shown
          : column == StructuresModel::Touchable ? look.touchable
@@ -77,11 +77,11 @@ QModelIndex StructuresModel::rowOf(const std::string& name) const
   return {};
 }
 
-appearance::StructureLook StructuresModel::lookAt(const QModelIndex& index) const
+appearance::StructureAppearance StructuresModel::lookAt(const QModelIndex& index) const
 {
   return index.isValid() && index.row() < rowCount()
              ? m_rows[static_cast<std::size_t>(index.row())].look
-             : appearance::StructureLook();
+             : appearance::StructureAppearance();
 }
 
 void StructuresModel::caseChanged()

@@ -30,7 +30,7 @@ public:
 
   std::string nameAt(const QModelIndex& index) const; ///< of the row; empty: there is none
   QModelIndex rowOf(const std::string& name) const;   ///< not valid: there is none
-  appearance::StructureLook lookAt(const QModelIndex& index) const;
+  appearance::StructureAppearance lookAt(const QModelIndex& index) const;
 
   void caseChanged();
   void appearanceChanged();
@@ -48,7 +48,7 @@ private:
     std::string name;
     double volume = 0.0; ///< mm^3
     bool isMesh = false;
-    appearance::StructureLook look;
+    appearance::StructureAppearance look;
     std::string missing; ///< why it is nowhere on the CT (scene::Placement); mostly empty
   };
   std::vector<Row> rows() const;

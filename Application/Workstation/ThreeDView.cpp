@@ -136,7 +136,7 @@ void ThreeDView::setCamera(const core::CameraPose& pose)
   emit cameraMoved(pose);
 }
 
-interaction::SightLine ThreeDView::sightLine(const std::optional<QPointF>& position) const
+interaction::PickRay ThreeDView::sightLine(const std::optional<QPointF>& position) const
 {
   core::CameraPose camera = m_display->picture().camera();
   int across = std::max(width(), 1);

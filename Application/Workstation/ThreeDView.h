@@ -10,7 +10,7 @@
 #include <vtkNew.h>
 
 #include "SceneDisplay.h"
-#include "petrous/Interaction/SightLine.h"
+#include "petrous/Interaction/PickRay.h"
 
 class vtkGenericOpenGLRenderWindow;
 class QLabel;
@@ -47,17 +47,17 @@ public:
 
   /// Through a pixel; side by side, the ray of the eye whose half it lies in. Nothing: through the
   /// middle of the view.
-  interaction::SightLine sightLine(const std::optional<QPointF>& position) const;
+  interaction::PickRay sightLine(const std::optional<QPointF>& position) const;
 
   /// Nothing: it is not in the view.
   const std::optional<QPointF>& pointer() const noexcept { return m_pointer; }
 
 signals:
-  void pointed(const petrous::interaction::SightLine& line); ///< moved with no button down
+  void pointed(const petrous::interaction::PickRay& line); ///< moved with no button down
   void pointerLeft();
-  void picked(const petrous::interaction::SightLine& line); ///< double click
-  void drillPressed(const petrous::interaction::SightLine& line);
-  void drillHeld(const petrous::interaction::SightLine& line); ///< at each tick while it is on
+  void picked(const petrous::interaction::PickRay& line); ///< double click
+  void drillPressed(const petrous::interaction::PickRay& line);
+  void drillHeld(const petrous::interaction::PickRay& line); ///< at each tick while it is on
   void drillReleased();
   void clutchHeld(bool on);
   void drillModeSet(bool on);

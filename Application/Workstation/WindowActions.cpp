@@ -9,7 +9,7 @@
 #include <QToolButton>
 
 #include "DrillBar.h"
-#include "HandBar.h"
+#include "DeviceToolBar.h"
 #include "petrous/Rendering/Stereo.h"
 
 namespace petrous::workstation
@@ -46,7 +46,7 @@ QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequenc
   return action;
 }
 
-WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, HandBar& handBar,
+WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& handBar,
                              bool quadBuffer)
   : QObject(&window)
 {

@@ -25,9 +25,9 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
   return QFile::encodeName(folder).toStdString();
 }
 
-petrous::presenters::HandSources handSources()
+petrous::presenters::DeviceSources handSources()
 {
-  petrous::presenters::HandSources sources;
+  petrous::presenters::DeviceSources sources;
   try
   {
     sources.hid = std::make_shared<const petrous::devices::HidLibrary>();

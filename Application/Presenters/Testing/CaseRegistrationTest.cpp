@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Imaging/Phantom.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Imaging/Phantom.h"
-#include "petrous/Presenters/PlaceReader.h"
+#include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/StructureSurfaces.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 
 using namespace petrous;
@@ -151,7 +151,7 @@ TEST_F(MrStructures, AreFeltReadAndDrawnWhereTheyLand)
 
   scene::layMr(value, "T2", s_phantom->mrFromCt(), {});
   const volume::TissueField field = scene::tissueField(value);
-  PlaceReader reader(value, field);
+  PointProbe reader(value, field);
   for (const char* name : {"cochlea", "facial_nerve"})
   {
     const std::size_t index = s_phantom->indexOf(name);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -133,7 +133,7 @@ TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
 TEST(NearbyStructures, ALumenIsOpenedAndNotInjured)
 {
   scene::Case value = balls();
-  appearance::StructureLook& look = value.labels[0].structures[1].look;
+  appearance::StructureAppearance& look = value.labels[0].structures[1].look;
   look.solid = false;
   value.strokes = {stroke("carotid", 0.5), stroke("facial_nerve", 0.001)};
   value.history = dissection::History::line(2, 2);
@@ -169,7 +169,7 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   SurfaceUncertainty found = uncertainty();
   EXPECT_TRUE(found.drawnOn.empty());
   EXPECT_FALSE(found.incomplete());
-  EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart");
+  EXPECT_EQ(toString(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart");
 
   scene::ImagePart mr;
   mr.name = "T2";
@@ -182,13 +182,13 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   EXPECT_EQ(found.drawnOn, "T2");
   EXPECT_TRUE(found.incomplete());
   EXPECT_FALSE(found.registration);
-  EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
+  EXPECT_EQ(toString(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
                             "'T2', registered, its error unknown");
   NearbyStructure near;
   near.name = "facial_nerve";
   near.distance = 1.84;
   near.uncertainty = found;
-  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.4; registration's error unknown");
+  EXPECT_EQ(toString(near), "facial nerve 1.8 mm ± 0.4; registration's error unknown");
 
   scene::Registration how;
   how.error = scene::RegistrationError{kNerve + Vector3d(0.0, 0.0, 14.0), "the incus", 0.1, 0.3, 1};
@@ -197,10 +197,10 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   EXPECT_FALSE(found.incomplete());
   EXPECT_NEAR(found.millimetres(), 0.5, 1e-12);
   near.uncertainty = found;
-  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.5");
-  EXPECT_NE(inWords(found).find("'T2', registered to 0.30 mm (p95) at the incus, 14 mm from here"),
+  EXPECT_EQ(toString(near), "facial nerve 1.8 mm ± 0.5");
+  EXPECT_NE(toString(found).find("'T2', registered to 0.30 mm (p95) at the incus, 14 mm from here"),
             std::string::npos)
-      << inWords(found);
+      << toString(found);
 
   value.labels[0].drawnOn = ""; // somebody said that it is the CT's
   EXPECT_TRUE(uncertainty().drawnOn.empty());

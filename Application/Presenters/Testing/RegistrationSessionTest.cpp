@@ -7,7 +7,7 @@
 
 #include "petrous/Presenters/RegistrationSession.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;

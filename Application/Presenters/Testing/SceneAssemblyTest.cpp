@@ -45,7 +45,7 @@ scene::Case slabs()
   return value;
 }
 
-appearance::StructureLook& look(scene::Case& value, const char* name)
+appearance::StructureAppearance& look(scene::Case& value, const char* name)
 {
   return scene::findStructure(value, name)->look;
 }

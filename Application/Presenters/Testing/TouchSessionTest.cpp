@@ -262,7 +262,7 @@ TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)
         fault = session.advance().fault;
         return !fault.empty();
       }));
-  EXPECT_EQ(fault, haptics::inWords(haptics::DeviceVerdict::Disconnected));
+  EXPECT_EQ(fault, haptics::toString(haptics::DeviceVerdict::Disconnected));
 }
 
 TEST(TouchSession, RefusesBadParameters)

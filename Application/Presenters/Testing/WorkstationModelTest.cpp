@@ -10,7 +10,7 @@
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -61,7 +61,7 @@ protected:
     model.stopTouch();
     EXPECT_FALSE(model.touching());
   }
-  static interaction::SightLine line() { return {{6, 6, 30}, {0, 0, -1}}; }
+  static interaction::PickRay line() { return {{6, 6, 30}, {0, 0, -1}}; }
 
   std::filesystem::path folder;
 };
@@ -307,7 +307,7 @@ TEST_F(WorkstationModelTest, BoneCanBeHiddenAndMadeTranslucent)
   model.open("block");
   int changes = 0;
   model.events.appearanceChanged = [&changes] { ++changes; };
-  appearance::StructureLook look = model.value().boneLook;
+  appearance::StructureAppearance look = model.value().boneLook;
   look.opacity = 0.4F;
   model.setBoneLook(look);
   EXPECT_EQ(changes, 1);

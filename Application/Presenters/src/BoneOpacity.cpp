@@ -9,15 +9,15 @@
 namespace petrous::presenters
 {
 
-appearance::StructureLook withOpacity(const appearance::StructureLook& bone, double opacity)
+appearance::StructureAppearance withOpacity(const appearance::StructureAppearance& bone, double opacity)
 {
   opacity = std::clamp(opacity, 0.0, 1.0);
-  appearance::StructureLook look = bone;
+  appearance::StructureAppearance look = bone;
   const bool own = look.transfer && !look.relative;
   if (!own)
   {
     const auto presets = appearance::StructurePresets::builtIn();
-    const appearance::StructureLook preset =
+    const appearance::StructureAppearance preset =
         presets.preset(opacity < 1.0 ? "bone-translucent" : "bone");
     applyPreset(look, preset);
     if (bone.color != look.color)

@@ -2,7 +2,7 @@
 
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 #include "petrous/Volume/DistanceField.h"
 
 namespace petrous::presenters
@@ -25,7 +25,7 @@ std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& va
     if (mesh.name == structure && !mesh.touch.resident())
       mesh.touch.solid(scene::meshOnCt(value, mesh), value.ct.geometry, progress.part(0.0, 0.3));
   }
-  for (const scene::StructureShare& share : scene::structureShares(value))
+  for (const scene::StructureOccupancy& share : scene::structureShares(value))
     if (share.name == structure)
       if (auto field =
               volume::makeDistanceField(*share.make(), kFarthestThickness, progress.part(0.3, 1.0)))

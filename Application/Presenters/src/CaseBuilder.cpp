@@ -229,7 +229,7 @@ std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
 }
 
 // Whether the name of a structure says nothing of its look.
-bool isUnknown(const appearance::StructureLook& look)
+bool isUnknown(const appearance::StructureAppearance& look)
 {
   return look.preset == "other";
 }

@@ -8,7 +8,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Registration/LiveMetric.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 namespace petrous::presenters
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::presenters

@@ -12,7 +12,7 @@ namespace petrous::presenters
 namespace
 {
 
-const appearance::StructureLook* lookOf(const scene::Case& value, const std::string& name)
+const appearance::StructureAppearance* lookOf(const scene::Case& value, const std::string& name)
 {
   if (const auto* structure = scene::findStructure(value, name))
     return &structure->look;
@@ -29,7 +29,7 @@ bool shown(const scene::Case& value, const std::string& name)
 }
 
 // A lumen is opened, not injured, and nearness to it is told only where a distance was asked for.
-bool lumen(const appearance::StructureLook* look)
+bool lumen(const appearance::StructureAppearance* look)
 {
   return look && !look->solid;
 }
@@ -43,7 +43,7 @@ std::string cubicMillimetres(double volume)
   return core::fixedText(volume, 2) + " mm³";
 }
 
-std::string inWords(const NearbyStructure& structure)
+std::string toString(const NearbyStructure& structure)
 {
   std::string text = structure.name;
   std::replace(text.begin(), text.end(), '_', ' ');
@@ -70,7 +70,7 @@ std::string warningsOf(const std::vector<NearbyStructure>& structures)
   std::string text;
   for (std::size_t n = 0; n < std::min(worst.size(), kMostWarnings); ++n)
   {
-    text += (text.empty() ? "" : "\n") + inWords(*worst[n]);
+    text += (text.empty() ? "" : "\n") + toString(*worst[n]);
     if (worst[n]->injured > 0.0)
       text += "; injured, " + cubicMillimetres(worst[n]->injured);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 namespace petrous::presenters
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
@@ -16,7 +16,7 @@ namespace
 
 using appearance::IntensitySource;
 using appearance::Material;
-using appearance::StructureLook;
+using appearance::StructureAppearance;
 
 using Structures = std::vector<const scene::StructurePart*>;
 
@@ -31,7 +31,7 @@ bool sameVoxels(const std::vector<volume::LabelSource>& a,
                     });
 }
 
-bool readsSecond(const StructureLook& look)
+bool readsSecond(const StructureAppearance& look)
 {
   return appearance::materialOf(look).source == IntensitySource::Second;
 }
@@ -40,7 +40,7 @@ const scene::ImagePart* secondImage(const scene::Case& value, const Structures& 
 {
   for (const scene::ImagePart& mr : value.mr)
   {
-    const auto asks = [&mr](const StructureLook& look)
+    const auto asks = [&mr](const StructureAppearance& look)
     { return look.sourceImage == mr.name && readsSecond(look); };
     const auto asksToo = [&asks](const auto* structure)
     { return structure->look.solid && asks(structure->look); };
@@ -52,7 +52,7 @@ const scene::ImagePart* secondImage(const scene::Case& value, const Structures& 
 }
 
 // What asks for an image that is not drawn must not read its values from the CT.
-StructureLook drawn(StructureLook look, const scene::ImagePart* second)
+StructureAppearance drawn(StructureAppearance look, const scene::ImagePart* second)
 {
   if (readsSecond(look) && !(second && look.sourceImage == second->name))
   {
@@ -69,7 +69,7 @@ std::vector<Material> materialsOf(const scene::Case& value, const Structures& st
   std::vector<Material> materials{materialOf(drawn(value.boneLook, second), scale)};
   for (const auto* structure : structures)
   {
-    const StructureLook& look = structure->look;
+    const StructureAppearance& look = structure->look;
     materials.push_back(look.solid ? materialOf(drawn(look, second), scale)
                                    : lumenMaterial(look, materials.front(), scale));
   }

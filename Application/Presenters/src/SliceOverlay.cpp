@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "OverlayPainter.h"
-#include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Appearance/AppearanceMaterial.h"
 
 namespace petrous::presenters
 {

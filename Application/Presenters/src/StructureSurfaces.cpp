@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 #include "petrous/Volume/SurfaceDistance.h"
 
 namespace petrous::presenters
@@ -11,7 +11,7 @@ namespace petrous::presenters
 
 struct StructureSurfaces::Structure
 {
-  Structure(scene::StructureShare known, const SurfaceUncertainty& surface)
+  Structure(scene::StructureOccupancy known, const SurfaceUncertainty& surface)
     : share(std::move(known))
     , uncertainty(surface)
   {
@@ -28,7 +28,7 @@ struct StructureSurfaces::Structure
     return *measured;
   }
 
-  scene::StructureShare share;
+  scene::StructureOccupancy share;
   SurfaceUncertainty uncertainty;
   core::PatientBox box;
   std::unique_ptr<const volume::SurfaceDistance> measured;
@@ -36,7 +36,7 @@ struct StructureSurfaces::Structure
 
 StructureSurfaces::StructureSurfaces(const scene::Case& value)
 {
-  for (scene::StructureShare& share : scene::structureShares(value))
+  for (scene::StructureOccupancy& share : scene::structureShares(value))
   {
     const SurfaceUncertainty uncertainty = uncertaintyOf(value, share);
     m_structures.push_back(std::make_unique<Structure>(std::move(share), uncertainty));

@@ -12,7 +12,7 @@ double SurfaceUncertainty::millimetres() const
   return std::hypot(0.5 * sliceSpacing(), registration.value_or(0.0));
 }
 
-SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureShare& structure)
+SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureOccupancy& structure)
 {
   SurfaceUncertainty result;
   result.voxel = structure.grid.spacing();
@@ -28,7 +28,7 @@ SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::Structur
   return result;
 }
 
-std::string inWords(const SurfaceUncertainty& uncertainty)
+std::string toString(const SurfaceUncertainty& uncertainty)
 {
   using core::fixedText;
   std::string words = "voxels " + fixedText(uncertainty.voxel[0], 2) + " x " +

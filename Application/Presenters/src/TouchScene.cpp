@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "petrous/Haptics/CentreProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Scene/CaseField.h"
@@ -74,7 +74,7 @@ std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const
   {
     haptics::CentreBurr burr;
     burr.radius = 0.5 * tool.burr.diameter;
-    return std::make_unique<haptics::CentreProxy>(m_field, burr, tool.coupling);
+    return std::make_unique<haptics::PointProxy>(m_field, burr, tool.coupling);
   }
   return std::make_unique<haptics::ConstrainedProxy>(m_field, shellOf(tool), tool.coupling);
 }
@@ -95,7 +95,7 @@ simulation::RecordingSetup TouchScene::recordingOf(const TouchTool& tool,
   setup.note = note;
   setup.burr = tool.burr;
   setup.degrees = tool.mode == TouchTool::Mode::ThreeDof ? 3 : 6;
-  setup.tool = inWords(setup);
+  setup.tool = toString(setup);
   setup.proxy = tool.coupling;
   setup.servo = servo;
   setup.scene = fingerprint();

@@ -97,12 +97,12 @@ TouchSession::News TouchSession::advance()
 {
   News news;
   news.failure = m_dissection.takeFailure();
-  simulation::DissectionMail mail = m_dissection.take();
+  simulation::DissectionUpdate mail = m_dissection.take();
   news.bricks = simulation::follow(mail, *m_case.dissection);
   for (const Event& event : mail.events)
     list(event, m_case, news);
   if (mail.fault)
-    news.fault = simulation::inWords(*mail.fault);
+    news.fault = simulation::toString(*mail.fault);
   news.recordingFault = std::move(mail.recordingFault);
   simulation::TickRecord record;
   if (m_thread->latest(record))

@@ -279,7 +279,7 @@ void WorkstationModel::setIso(double hounsfield)
   setUnsaved(true);
 }
 
-void WorkstationModel::setLook(const std::string& structure, const appearance::StructureLook& look)
+void WorkstationModel::setLook(const std::string& structure, const appearance::StructureAppearance& look)
 {
   if (!m_case || drilling())
     return;
@@ -287,7 +287,7 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
   auto* mesh = found ? nullptr : scene::findMesh(*m_case, structure);
   if (!found && !mesh)
     return;
-  appearance::StructureLook& present = found ? found->look : mesh->look;
+  appearance::StructureAppearance& present = found ? found->look : mesh->look;
   const bool picture = present.shown != look.shown;
   const bool tissue = present.touchable != look.touchable || present.drillable != look.drillable ||
                       present.stiffness != look.stiffness || present.tissue != look.tissue;
@@ -302,7 +302,7 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
     tell(events.preparationWanted);
 }
 
-void WorkstationModel::setBoneLook(const appearance::StructureLook& look)
+void WorkstationModel::setBoneLook(const appearance::StructureAppearance& look)
 {
   if (!m_case || drilling())
     return;
@@ -388,14 +388,14 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
     return reading;
   }
   if (!m_reader)
-    m_reader = std::make_unique<PlaceReader>(*m_case, session().field());
+    m_reader = std::make_unique<PointProbe>(*m_case, session().field());
   PlaceReading reading = m_reader->at(patient);
   if (!reading.structure.empty())
     return reading;
   if (!m_nearby) // after the reader, which makes the voxels of the meshes
     m_nearby = std::make_unique<NearbyStructures>(*m_case);
   reading.near =
-      m_nearby->surfaces().nearest(patient, PlaceReader::kReach,
+      m_nearby->surfaces().nearest(patient, PointProbe::kReach,
                                    [this](const std::string& name)
                                    {
                                      const auto* part = scene::findStructure(*m_case, name);
@@ -405,14 +405,14 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
   return reading;
 }
 
-std::optional<double> WorkstationModel::tissueAlong(const interaction::SightLine& line)
+std::optional<double> WorkstationModel::tissueAlong(const interaction::PickRay& line)
 {
   if (!m_case || !ready())
     return std::nullopt;
   return interaction::firstTissue(session().field(), line);
 }
 
-std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::SightLine& line)
+std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::PickRay& line)
 {
   const auto hit = tissueAlong(line);
   return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;

@@ -259,7 +259,7 @@ TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
   int pressed = 0;
   int atMiddle = 0;
   QObject::connect(&view(), &ThreeDView::drillPressed, &window(), [&] { ++pressed; });
-  const auto look = [&](const interaction::SightLine& line)
+  const auto look = [&](const interaction::PickRay& line)
   { atMiddle += (line.direction - middleLine.direction).norm() < 0.01; };
   QObject::connect(&view(), &ThreeDView::drillHeld, &window(), look);
   QObject::connect(&view(), &ThreeDView::pointed, &window(), look);

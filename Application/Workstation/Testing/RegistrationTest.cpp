@@ -15,7 +15,7 @@
 #include "MetricCurve.h"
 #include "SliceView.h"
 #include "petrous/Imaging/Phantom.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::workstation;

@@ -16,9 +16,9 @@ namespace
 
 using nlohmann::json;
 
-StructureLook lookFrom(const json& entry)
+StructureAppearance lookFrom(const json& entry)
 {
-  StructureLook look;
+  StructureAppearance look;
   look.preset = entry.at("name").get<std::string>();
   look.color = entry.at("color").get<std::array<float, 3>>();
   look.opacity = entry.at("opacity").get<float>();
@@ -113,7 +113,7 @@ StructurePresets::StructurePresets(std::string_view text)
     for (const auto& entry : catalogue.value("first", json::array()))
     {
       const auto name = entry.at("preset").get<std::string>();
-      const StructureLook* look = find(name);
+      const StructureAppearance* look = find(name);
       if (!look)
         throw core::InvalidParameter("structure presets: 'first' names no preset '" + name + "'");
       // "other" stands behind the last of the presets.
@@ -130,14 +130,14 @@ StructurePresets::StructurePresets(std::string_view text)
   }
 }
 
-const StructureLook* StructurePresets::find(const std::string& name) const
+const StructureAppearance* StructurePresets::find(const std::string& name) const
 {
   const auto found = std::find_if(m_presets.begin(), m_presets.end(),
                                   [&name](const auto& look) { return look.preset == name; });
   return found != m_presets.end() ? &*found : name == m_other.preset ? &m_other : nullptr;
 }
 
-const StructureLook* StructurePresets::lookByWord(const std::string& structureName) const
+const StructureAppearance* StructurePresets::lookByWord(const std::string& structureName) const
 {
   const std::string name = " " + plainWords(structureName) + " ";
   for (const Words& entry : m_words)
@@ -148,9 +148,9 @@ const StructureLook* StructurePresets::lookByWord(const std::string& structureNa
   return nullptr;
 }
 
-StructureLook StructurePresets::lookFor(const std::string& structureName) const
+StructureAppearance StructurePresets::lookFor(const std::string& structureName) const
 {
-  const StructureLook* look = lookByWord(structureName);
+  const StructureAppearance* look = lookByWord(structureName);
   return look ? *look : m_other;
 }
 
@@ -188,27 +188,27 @@ std::string StructurePresets::knownWords(const std::string& name) const
   return isStructure ? result : std::string();
 }
 
-StructureLook StructurePresets::preset(const std::string& name) const
+StructureAppearance StructurePresets::preset(const std::string& name) const
 {
-  const StructureLook* look = find(name);
+  const StructureAppearance* look = find(name);
   if (!look)
     look = lookByWord(name);
   if (look)
     return *look;
   std::string there;
-  for (const StructureLook& preset : all())
+  for (const StructureAppearance& preset : all())
     there += (there.empty() ? "" : ", ") + preset.preset;
   throw core::InvalidParameter("there is no preset '" + name + "'; there are " + there);
 }
 
-std::vector<StructureLook> StructurePresets::all() const
+std::vector<StructureAppearance> StructurePresets::all() const
 {
-  std::vector<StructureLook> presets = m_presets;
+  std::vector<StructureAppearance> presets = m_presets;
   presets.push_back(m_other);
   return presets;
 }
 
-StructureLook boneLook()
+StructureAppearance boneLook()
 {
   return StructurePresets::builtIn().preset("bone");
 }

@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "CellShares.h"
+#include "CellOccupancy.h"
 #include "petrous/Dissection/TissueResistance.h"
 #include "petrous/Volume/TissueField.h"
 

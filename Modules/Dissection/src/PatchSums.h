@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "petrous/Dissection/BiteSearch.h"
+#include "petrous/Dissection/RemovalDepthSolver.h"
 
 namespace petrous::dissection
 {

@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "BiteSums.h"
+#include "QuadratureSums.h"
 
 namespace petrous::dissection
 {
@@ -91,7 +91,7 @@ private:
   const CutMask& m_before;
   const CutMask& m_after;
   const std::vector<NamedStructure>& m_structures;
-  BiteSums m_sums;
+  QuadratureSums m_sums;
 };
 
 // A changed voxel is seen from its neighbours too: one voxel round each brick belongs to it.

@@ -9,7 +9,7 @@
 #include "SteppedSphere.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
-#include "petrous/Haptics/CentreProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 
 namespace petrous::haptics
 {
@@ -133,7 +133,7 @@ std::vector<core::BenchmarkPoint> touchPlates(bool quick, const core::Progress& 
         const PointShell ball = testing::ballShell(kRadius, 300);
         CentreBurr alone;
         alone.radius = kRadius;
-        CentreProxy centre(scene.field, alone);
+        PointProxy centre(scene.field, alone);
         of[ThreeDof] = walk(centre, ball, false, *scene.tissue, normal, offset, seed, ticks);
         SteppedSphere peer(scene.field, ball);
         of[Stepped] = walk(peer, ball, false, *scene.tissue, normal, offset, seed, ticks);

@@ -81,7 +81,7 @@ TEST(DeviceGuard, NamesEachFaultAndHoldsTheLastGoodPose)
   const auto expect = [](const DeviceReading& reading, DeviceVerdict verdict)
   {
     const Judgement judgement = meet(reading);
-    EXPECT_EQ(judgement.verdict, verdict) << inWords(judgement);
+    EXPECT_EQ(judgement.verdict, verdict) << toString(judgement);
     EXPECT_FALSE(judgement.usable);
     EXPECT_EQ(judgement.pose.position, at(99).pose.position);
     EXPECT_EQ(judgement.pose.rotation.coeffs(), Eigen::Quaterniond::Identity().coeffs());
@@ -258,22 +258,22 @@ TEST(DeviceGuard, SaysInWordsWhatIsWrongWithItsNumber)
   DeviceReading reading = at(99);
   reading.time = 0.1;
   reading.pose.position.y() = 50.0;
-  EXPECT_EQ(inWords(meet(reading)), "The device's handle jumped by 50.0 mm from one reading to the "
+  EXPECT_EQ(toString(meet(reading)), "The device's handle jumped by 50.0 mm from one reading to the "
                                     "next, faster than a hand moves.");
   reading = at(99);
   reading.time = 0.03;
-  EXPECT_EQ(inWords(meet(reading)), "The device has sent nothing new for 70 ms.");
+  EXPECT_EQ(toString(meet(reading)), "The device has sent nothing new for 70 ms.");
   reading.time = 0.09;
-  EXPECT_EQ(inWords(meet(reading)), "The device's clock went back by 9.0 ms.");
+  EXPECT_EQ(toString(meet(reading)), "The device's clock went back by 9.0 ms.");
   reading.time = 0.16;
-  EXPECT_EQ(inWords(meet(reading)), "The device's clock is 60 ms ahead of the computer's.");
+  EXPECT_EQ(toString(meet(reading)), "The device's clock is 60 ms ahead of the computer's.");
   reading = at(100);
   reading.pose.rotation.coeffs() *= 2.0;
-  EXPECT_EQ(inWords(meet(reading)),
+  EXPECT_EQ(toString(meet(reading)),
             "The device sent a rotation that is none: its quaternion's length is 2.");
   for (int verdict = 0; verdict <= static_cast<int>(DeviceVerdict::Faulty); ++verdict)
   {
-    const std::string words = inWords(static_cast<DeviceVerdict>(verdict));
+    const std::string words = toString(static_cast<DeviceVerdict>(verdict));
     EXPECT_EQ(words.find("unknown"), std::string::npos) << verdict;
     EXPECT_EQ(words.back(), '.');
   }

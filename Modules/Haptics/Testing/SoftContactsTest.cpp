@@ -1,4 +1,4 @@
-#include "petrous/Haptics/CentreProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
 #include <gtest/gtest.h>
@@ -438,7 +438,7 @@ TEST(SoftContacts, HoldACentreProxyAsABall)
   {
     SCOPED_TRACE(n);
     ConstrainedProxy six(scenes[n].field, ballShell(radius, 800));
-    CentreProxy three(scenes[n].field, {radius, 1000, 0.0});
+    PointProxy three(scenes[n].field, {radius, 1000, 0.0});
     six.place(poseAt({0.3, 0.2, 4.5}));
     three.place(poseAt({0.3, 0.2, 4.5}));
     double most = 0.0;
@@ -465,7 +465,7 @@ TEST(SoftContacts, LetACentreProxyThroughAThinLayerWithoutAKick)
 {
   const double half = 0.6;
   const Scene scene = softScene({{[&](const Vector3d& p) { return half - std::abs(p.z()); }, 3.0}});
-  CentreProxy proxy(scene.field, {1.0, 1000, 1.0});
+  PointProxy proxy(scene.field, {1.0, 1000, 1.0});
   proxy.place(poseAt({0.0, 0.0, 3.0}));
   double before = 0.0;
   double most = 0.0;

@@ -5,7 +5,7 @@
 
 #include "CheckedParameters.h"
 #include "ContactFinder.h"
-#include "Refuge.h"
+#include "PoseBacktracker.h"
 #include "SoftContacts.h"
 
 namespace petrous::haptics
@@ -58,7 +58,7 @@ ConstrainedProxy::ConstrainedProxy(std::shared_ptr<const HapticField> field, Poi
                  Eigen::Vector3d::Constant(parameters.angularStiffness)),
          !field->soft().empty())
   , m_rows(kMostRows)
-  , m_refuge(std::make_unique<Refuge>(m_sweep))
+  , m_refuge(std::make_unique<PoseBacktracker>(m_sweep))
 {
   if (!field->soft().empty())
     m_soft = std::make_unique<SoftContacts>(*field, m_sweep.shell(), m_parameters, true);

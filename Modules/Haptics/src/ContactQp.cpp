@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "ActiveRows.h"
-#include "SpringObjective.h"
-#include "WhitenedRows.h"
+#include "CompliantContactObjective.h"
+#include "NormalizedConstraints.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::haptics
@@ -62,8 +62,8 @@ struct BasicContactQp<N>::Work
   void refine(double compliance, Vector& y) noexcept;
   double given(const Vector& y) const noexcept;
 
-  WhitenedRows<N> rigid;
-  SpringObjective<N> springs;
+  NormalizedConstraints<N> rigid;
+  CompliantContactObjective<N> springs;
   ActiveRows<N> active;
   double highest = 0.0; ///< largest bound above 0
   double scale = 0.0;   ///< the problem's size: root of 2 F(0), and the largest bound
@@ -105,7 +105,7 @@ bool BasicContactQp<N>::add(const Vector& row, double bound, double compliance) 
   if (soft ? !m_work->springs.add(whitened, bound, compliance, m_count)
            : !m_work->rigid.add(whitened, bound, m_count))
     return false;
-  const WhitenedRows<N>& rows = soft ? m_work->springs.rows() : m_work->rigid;
+  const NormalizedConstraints<N>& rows = soft ? m_work->springs.rows() : m_work->rigid;
   m_work->highest = std::max(m_work->highest, rows.bound[rows.count - 1]);
   m_lambda[m_count] = 0.0;
   ++m_count;
@@ -123,11 +123,11 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::solve(const Vector& uncons
   work.changes = 0;
   m_iterations = 0;
   Vector y = v;
-  if (work.scale < 1.0 / WhitenedRows<N>::kLongest)
+  if (work.scale < 1.0 / NormalizedConstraints<N>::kLongest)
     return Status::Solved;
   // A size that is not a number is no size either.
   const Status status =
-      work.scale < WhitenedRows<N>::kLongest ? work.settle(v, y) : Status::Exhausted;
+      work.scale < NormalizedConstraints<N>::kLongest ? work.settle(v, y) : Status::Exhausted;
   m_iterations = work.changes;
   if (status != Status::Solved)
     return status;
@@ -142,7 +142,7 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::solve(const Vector& uncons
     y += multiplier * work.rigid.normalOf(i);
     m_lambda[work.rigid.row[i]] = multiplier / work.rigid.length[i];
   }
-  const WhitenedRows<N>& soft = work.springs.rows();
+  const NormalizedConstraints<N>& soft = work.springs.rows();
   for (Eigen::Index i = 0; i < soft.count; ++i)
     if (work.springs.force(i) > 0.0)
     {

@@ -126,7 +126,7 @@ DeviceGuard::Judgement DeviceGuard::judge(const DeviceReading& reading, double n
   return result;
 }
 
-const char* inWords(DeviceVerdict verdict) noexcept
+const char* toString(DeviceVerdict verdict) noexcept
 {
   switch (verdict)
   {
@@ -160,12 +160,12 @@ const char* inWords(DeviceVerdict verdict) noexcept
   return "The device is in an unknown state.";
 }
 
-std::string inWords(const DeviceGuard::Judgement& judgement)
+std::string toString(const DeviceGuard::Judgement& judgement)
 {
   // There is none for a turn, nor where the device itself says that it is stale.
   const double value = judgement.value;
   if (value == 0.0)
-    return inWords(judgement.verdict);
+    return toString(judgement.verdict);
   switch (judgement.verdict)
   {
   case DeviceVerdict::Jump:
@@ -185,7 +185,7 @@ std::string inWords(const DeviceGuard::Judgement& judgement)
     return "The device sent a position " + core::generalText(value, 3) +
            " mm away, farther than any hand reaches.";
   default:
-    return inWords(judgement.verdict);
+    return toString(judgement.verdict);
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/DeviceGuard.h"
-#include "petrous/Simulation/HandMapping.h"
+#include "petrous/Simulation/PoseMapping.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
@@ -33,7 +33,7 @@ struct Hand
   {
   }
   PointerDevice& device;
-  simulation::HandMapping mapping{kCenter};
+  simulation::PoseMapping mapping{kCenter};
   double now = 50.0;
   simulation::TickRecord record;
   double fastest = 0.0;  // mm/s

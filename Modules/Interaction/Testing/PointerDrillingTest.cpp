@@ -4,7 +4,7 @@
 
 #include "Tissue.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
-#include "petrous/Interaction/PointerAim.h"
+#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
 #include "petrous/Simulation/Servo.h"
 
@@ -24,7 +24,7 @@ constexpr double kVoxel = 0.5;
 const Vector3d kEye(0.0, 0.0, 150.0);
 const Vector3d kCenter(40.0, -40.0, 40.0); // of the device
 
-SightLine through(const Vector3d& point)
+PickRay through(const Vector3d& point)
 {
   return {kEye, (point - kEye).normalized()};
 }
@@ -38,7 +38,7 @@ public:
     , proxy(haptic(*tissue), haptics::makeBurrShell(shape(), kVoxel, 700))
     , servo(proxy, setup(proxy))
     , device(kCenter)
-    , aim([this](const SightLine& line) { return firstTissue(*tissue, line); }, settings(mode))
+    , aim([this](const PickRay& line) { return firstTissue(*tissue, line); }, settings(mode))
   {
     core::CameraPose camera;
     camera.position = kEye;
@@ -67,7 +67,7 @@ public:
   haptics::ConstrainedProxy proxy;
   simulation::Servo servo;
   PointerDevice device;
-  PointerAim aim;
+  PointerToolController aim;
   simulation::ServoParameters parameters;
   double now = 10.0;
 
@@ -119,13 +119,13 @@ void drillInto(Session& session, const Vector3d& mouth)
 {
   session.aim.point(through(mouth));
   session.run(100);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   session.run(600);
   ASSERT_LT(session.tool().z(), -2.5);
-  session.aim.press(PointerAim::Press::None);
+  session.aim.press(PointerToolController::Press::None);
 }
 
-double besideLine(const Vector3d& point, const SightLine& line)
+double besideLine(const Vector3d& point, const PickRay& line)
 {
   return (point - line.origin).cross(line.direction).norm();
 }
@@ -135,7 +135,7 @@ double besideLine(const Vector3d& point, const SightLine& line)
 TEST(PointerDrilling, HoversOverTheBoneWithoutForce)
 {
   Session session(Mode::Surface);
-  const SightLine line = through({3.0, -2.0, 0.0});
+  const PickRay line = through({3.0, -2.0, 0.0});
   session.aim.point(line);
   const TickRecord& record = session.run(300);
   EXPECT_EQ(session.fault(), ServoFault::None);
@@ -153,10 +153,10 @@ TEST(PointerDrilling, DrillsWithTheSetThrustUnderThePointer)
     AimSettings settings = session.aim.settings();
     settings.thrust = thrust;
     session.aim.setSettings(settings);
-    const SightLine line = through({3.0, -2.0, 0.0});
+    const PickRay line = through({3.0, -2.0, 0.0});
     session.aim.point(line);
     session.run(100);
-    session.aim.press(PointerAim::Press::Drill);
+    session.aim.press(PointerToolController::Press::Drill);
     const TickRecord& record = session.run(500);
     EXPECT_EQ(session.fault(), ServoFault::None);
     EXPECT_EQ(record.drill, 1);
@@ -165,7 +165,7 @@ TEST(PointerDrilling, DrillsWithTheSetThrustUnderThePointer)
     EXPECT_NEAR(session.tool().z(), kRadius, 0.05 * kVoxel);
     EXPECT_LT(besideLine(session.tool(), line), 0.1);
 
-    session.aim.press(PointerAim::Press::None);
+    session.aim.press(PointerToolController::Press::None);
     session.run(300);
     EXPECT_EQ(session.force().norm(), 0.0);
     EXPECT_NEAR(session.tool().z(), kRadius + 1.0, 0.02);
@@ -177,7 +177,7 @@ TEST(PointerDrilling, FollowsThePointerOverTheBoneWhileItDrills)
   Session session(Mode::Surface);
   session.aim.point(through({-5.0, 0.0, 0.0}));
   session.run(100);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   session.run(200);
   for (int n = 0; n <= 50; ++n)
   {
@@ -214,7 +214,7 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   session.now += 0.3; // the machine slept; the tool is taken up where it is, without force
   session.run(1);
   EXPECT_EQ(session.fault(), ServoFault::Stalled);
-  const SightLine line = through({4.0, 3.0, 0.0});
+  const PickRay line = through({4.0, 3.0, 0.0});
   session.aim.point(line);
   session.run(400);
   EXPECT_EQ(session.fault(), ServoFault::None);
@@ -234,7 +234,7 @@ TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
     const Vector3d mouth(-4.0, 0.0, 0.0);
     Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
     drillInto(session, mouth);
-    const SightLine line = through({way - 4.0, 1.0, 0.0});
+    const PickRay line = through({way - 4.0, 1.0, 0.0});
     session.aim.point(line);
     double highest = -10.0;
     for (int n = 0; n < 800; ++n)
@@ -270,7 +270,7 @@ TEST(PointerDrilling, TheForceIsTheThrustWhereverAPressedPointerGoes)
 {
   Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
   drillInto(session, {-4.0, 0.0, 0.0});
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   for (int n = 0; n < 60; ++n)
   {
     session.aim.point(through({-4.0 + 0.2 * n, 0.1 * n, 0.0}));
@@ -303,7 +303,7 @@ TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
     settings.tilt = 80.0 * (n % 3) / 2.0;
     session.aim.setSettings(settings);
     session.aim.point(through({anywhere(random), anywhere(random), 0.0}));
-    session.aim.press(n % 4 == 3 ? PointerAim::Press::Drill : PointerAim::Press::None);
+    session.aim.press(n % 4 == 3 ? PointerToolController::Press::Drill : PointerToolController::Press::None);
     for (int tick = 0; tick < 150; ++tick)
     {
       session.run(1);
@@ -331,7 +331,7 @@ TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
   session.run(50);
   ASSERT_TRUE(session.proxy.placeFree(
       {end, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(-1.0, 0.0, 1.0))}));
-  const SightLine line = through({6.0, 3.0, 0.0});
+  const PickRay line = through({6.0, 3.0, 0.0});
   session.aim.point(line);
   for (int n = 0; n < 4000; ++n)
   {
@@ -349,7 +349,7 @@ TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
   Session session(Mode::Surface, bone);
   session.aim.point(through({-4.0, 0.0, 0.0}));
   session.run(100);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   EXPECT_EQ(session.run(300).drill, 1);
   for (int n = 0; n < 60; ++n)
   {
@@ -359,9 +359,9 @@ TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
   }
   EXPECT_EQ(session.run(300).drill, 0);
   EXPECT_EQ(session.force().norm(), 0.0);
-  session.aim.press(PointerAim::Press::None); // anew it goes down
+  session.aim.press(PointerToolController::Press::None); // anew it goes down
   session.run(300);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   EXPECT_EQ(session.run(500).drill, 1);
   EXPECT_LT(session.tool().z(), kRadius - 8.0);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "petrous/Interaction/SightLine.h"
+#include "petrous/Interaction/PickRay.h"
 #include "petrous/Volume/TissueField.h"
 
 /// Tissue and records for the tests of this module.
@@ -14,7 +14,7 @@ namespace petrous::interaction::testing
 /// Solid below z = height.
 inline TissueQuery plane(double height)
 {
-  return [height](const SightLine& line) -> std::optional<double>
+  return [height](const PickRay& line) -> std::optional<double>
   {
     if (line.origin.z() <= height)
       return 0.0;
@@ -26,7 +26,7 @@ inline TissueQuery plane(double height)
 
 inline TissueQuery nothing()
 {
-  return [](const SightLine&) { return std::optional<double>(); };
+  return [](const PickRay&) { return std::optional<double>(); };
 }
 
 /// Bone where `depth` is above 0, mm, in a grid of 20 x 20 x 20 mm about the origin.

@@ -11,7 +11,7 @@
 #include "Tissue.h"
 #include "Window.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Interaction/PointerAim.h"
+#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
 
 using namespace petrous;
@@ -31,7 +31,7 @@ struct Program
 {
   Window window;
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
-  PointerAim aim{plane(0.0)};
+  PointerToolController aim{plane(0.0)};
   PointerDevice device;
   vtkNew<vtkPetrousToolInteraction> tool;
   int changes = 0;

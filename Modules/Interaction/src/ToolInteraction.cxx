@@ -12,11 +12,11 @@
 
 #include "ToolKeys.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Interaction/PointerAim.h"
+#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Interaction/RendererSight.h"
+#include "petrous/Interaction/RendererPickRay.h"
 
-using petrous::interaction::PointerAim;
+using petrous::interaction::PointerToolController;
 using petrous::interaction::PointerDevice;
 using petrous::interaction::ToolKey;
 
@@ -95,7 +95,7 @@ void vtkPetrousToolInteraction::SetEnabled(int enabling)
   this->SetCurrentRenderer(nullptr);
 }
 
-void vtkPetrousToolInteraction::SetPointer(PointerAim* aim, PointerDevice* device)
+void vtkPetrousToolInteraction::SetPointer(PointerToolController* aim, PointerDevice* device)
 {
   this->Release();
   this->Aim = aim;
@@ -295,13 +295,13 @@ void vtkPetrousToolInteraction::Point()
     return;
   const int* at = this->Interactor->GetEventPosition();
   this->Aim->setCamera(petrous::interaction::cameraOf(*this->CurrentRenderer));
-  this->Aim->point(petrous::interaction::sightThrough(*this->CurrentRenderer, at[0], at[1]));
+  this->Aim->point(petrous::interaction::pickRayThrough(*this->CurrentRenderer, at[0], at[1]));
   this->Send();
 }
 
 void vtkPetrousToolInteraction::Press()
 {
-  using Press = PointerAim::Press;
+  using Press = PointerToolController::Press;
   if (this->Aim && this->PointerHand)
   {
     const bool touching = this->ButtonHeld || this->DrillKeyHeld;

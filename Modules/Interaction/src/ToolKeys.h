@@ -5,7 +5,7 @@
 namespace petrous::interaction
 {
 
-class PointerAim;
+class PointerToolController;
 
 /// What a key does while the pointer holds the tool; none of these states last beyond the key.
 enum class ToolKey
@@ -21,7 +21,7 @@ ToolKey heldKey(const std::string& sym);
 /// Arrows or WASD nudge, page up and down change the depth, q and e turn the shaft about the line
 /// of sight, r and f tilt it, m changes the mode, home takes the nudge back.
 /// False, with nothing done, for any other key.
-bool pressKey(PointerAim& aim, const std::string& sym, bool fine);
+bool pressKey(PointerToolController& aim, const std::string& sym, bool fine);
 
 /// Whether heldKey or pressKey takes it.
 bool isToolKey(const std::string& sym);

@@ -112,7 +112,7 @@ Recovered play(const JournalContent& content, std::size_t saved, dissection::Dis
   return result;
 }
 
-std::string inWords(const Recovered& what, std::size_t leftOver)
+std::string toString(const Recovered& what, std::size_t leftOver)
 {
   std::string text;
   if (what.strokes > 0)
@@ -270,7 +270,7 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   file.remove();
   if (what.strokes == 0 && what.part < 0.0 && !moved)
     return {};
-  return about + "the last session ended without saving; " + inWords(what, content.leftOver) +
+  return about + "the last session ended without saving; " + toString(what, content.leftOver) +
          " came back" +
          (base ? ", on branch '" + value.history.branch().name +
                      "', as another program had changed the case"

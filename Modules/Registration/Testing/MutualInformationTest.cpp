@@ -7,7 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "JointHistogram.h"
-#include "PoseChart.h"
+#include "RigidParametrization.h"
 #include "TestBodies.h"
 
 namespace petrous::registration
@@ -86,7 +86,7 @@ TEST(MutualInformation, GradientIsThatOfTheValue)
   const FixedSamples samples = drawSamples(scene.fixed, inner, 20'000, 3, 32);
   const MutualInformation metric(samples, scene.moving, 32);
   const core::RigidTransform base = motion({0, 0, 0}, 3.0, 2.0) * scene.truth;
-  const PoseChart chart(base, samples.centre, samples.radius);
+  const RigidParametrization chart(base, samples.centre, samples.radius);
   PoseVector at;
   at << 2.0, -1.0, 3.0, 0.5, -0.7, 1.1;
   const auto v = metric.withGradient(chart.pose(at));

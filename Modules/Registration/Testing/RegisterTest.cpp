@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "ErrorModel.h"
-#include "Evidence.h"
+#include "QualityFeatures.h"
 #include "TestBodies.h"
 #include "petrous/Core/Error.h"
 
@@ -212,7 +212,7 @@ TEST(ErrorModel, CountsAFitBesideItsRepeatsAsWrong)
 
 TEST(Judgement, NamesEachReason)
 {
-  Evidence fine;
+  QualityFeatures fine;
   fine.overlap = 0.9;
   fine.information = 0.6;
   fine.strays = 0.0;
@@ -223,29 +223,29 @@ TEST(Judgement, NamesEachReason)
 
   const auto expect = [&](const char* word, Verdict verdict, const auto& spoil)
   {
-    Evidence evidence = fine;
+    QualityFeatures evidence = fine;
     spoil(evidence);
     const Judgement judgement = judge(evidence);
     EXPECT_EQ(judgement.verdict, verdict) << judgement.text;
     EXPECT_NE(judgement.text.find(word), std::string::npos) << judgement.text;
   };
-  expect("share too little", Verdict::Failed, [](Evidence& e) { e.overlap = 0.1; });
-  expect("next to nothing", Verdict::Failed, [](Evidence& e) { e.information = 0.001; });
-  expect("ended elsewhere", Verdict::Failed, [](Evidence& e) { e.strays = 0.8; });
-  expect("ended elsewhere", Verdict::Doubtful, [](Evidence& e) { e.strays = 0.3; });
-  expect("mirrored", Verdict::Doubtful, [](Evidence& e) { e.mirrored = 1.2; });
-  expect("another pose", Verdict::Doubtful, [](Evidence& e) { e.runnerUp = 0.99; });
-  expect("3.0 mm", Verdict::Doubtful, [](Evidence& e) { e.error.p95 = 3.0; });
-  expect("beside", Verdict::Doubtful, [](Evidence& e) { e.aside = 4.0; });
-  expect("outside", Verdict::Doubtful, [](Evidence& e) { e.pointCovered = false; });
+  expect("share too little", Verdict::Failed, [](QualityFeatures& e) { e.overlap = 0.1; });
+  expect("next to nothing", Verdict::Failed, [](QualityFeatures& e) { e.information = 0.001; });
+  expect("ended elsewhere", Verdict::Failed, [](QualityFeatures& e) { e.strays = 0.8; });
+  expect("ended elsewhere", Verdict::Doubtful, [](QualityFeatures& e) { e.strays = 0.3; });
+  expect("mirrored", Verdict::Doubtful, [](QualityFeatures& e) { e.mirrored = 1.2; });
+  expect("another pose", Verdict::Doubtful, [](QualityFeatures& e) { e.runnerUp = 0.99; });
+  expect("3.0 mm", Verdict::Doubtful, [](QualityFeatures& e) { e.error.p95 = 3.0; });
+  expect("beside", Verdict::Doubtful, [](QualityFeatures& e) { e.aside = 4.0; });
+  expect("outside", Verdict::Doubtful, [](QualityFeatures& e) { e.pointCovered = false; });
   expect("3.1 mm beside the rest", Verdict::Doubtful,
-         [](Evidence& e) {
+         [](QualityFeatures& e) {
            e.displaced = LocalFit{10.0, Vector3d(3.1, 0.0, 0.0), 0.1, 0.2, 0.5};
          });
   // far from where it was looked for: only what nothing speaks against
-  expect("agree", Verdict::Good, [](Evidence& e) { e.moved = 118.0; });
+  expect("agree", Verdict::Good, [](QualityFeatures& e) { e.moved = 118.0; });
   expect("ended 118 mm", Verdict::Failed,
-         [](Evidence& e)
+         [](QualityFeatures& e)
          {
            e.moved = 118.0;
            e.runnerUp = 0.99;

@@ -5,9 +5,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "Ascent.h"
+#include "BfgsOptimizer.h"
 #include "MutualInformation.h"
-#include "PoseChart.h"
+#include "RigidParametrization.h"
 
 namespace petrous::registration
 {
@@ -124,14 +124,14 @@ std::vector<Basin> searchBasins(const ImagePair& pair,
   // The starts themselves are always climbed from.
   for (const core::RigidTransform& start : starts)
     basins.push_back({start, 0.0});
-  AscentOptions climb;
+  BfgsOptimizerOptions climb;
   climb.evaluations = 25;
   climb.change = 1e-4;
   climb.firstStep = 0.5 * pair.scales.front();
   tbb::parallel_for(std::size_t{0}, basins.size(),
                     [&](std::size_t n)
                     {
-                      const Ascent top = ascend(metric, basins[n].pose, climb);
+                      const BfgsOptimizer top = ascend(metric, basins[n].pose, climb);
                       basins[n] = {top.pose, scored(top.information, top.overlap, samples.size())};
                     });
   progress.report(1.0, "coarse search");

@@ -1,4 +1,4 @@
-#include "Evidence.h"
+#include "QualityFeatures.h"
 
 #include "petrous/Core/NumberText.h"
 
@@ -42,7 +42,7 @@ const char* nameOf(Verdict verdict)
   return "failed";
 }
 
-Judgement judge(const Evidence& e)
+Judgement judge(const QualityFeatures& e)
 {
   if (e.overlap < kLeastOverlap)
     return {Verdict::Failed,

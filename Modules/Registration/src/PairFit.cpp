@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "Ascent.h"
+#include "BfgsOptimizer.h"
 #include "MutualInformation.h"
-#include "PoseChart.h"
+#include "RigidParametrization.h"
 #include "Repeats.h"
 
 namespace petrous::registration
@@ -15,7 +15,7 @@ namespace
 
 constexpr std::size_t kFewest = 4000; // samples of any level
 
-double scoreOf(const Ascent& top)
+double scoreOf(const BfgsOptimizer& top)
 {
   return poseScore(top.information, top.overlap);
 }
@@ -85,12 +85,12 @@ namespace
 {
 
 // One level's ascents, from each basin, best first.
-std::vector<Ascent> climbLevel(const ImagePair& pair, std::size_t level,
+std::vector<BfgsOptimizer> climbLevel(const ImagePair& pair, std::size_t level,
                                const MutualInformation& metric, const std::vector<Basin>& basins,
                                const FitOptions& options, int& iterations,
                                const core::Progress& progress, const MetricListener& listener)
 {
-  AscentOptions climb;
+  BfgsOptimizerOptions climb;
   climb.evaluations = options.schedule.evaluations;
   climb.firstStep = 0.5 * pair.scales[level];
   climb.longestStep = 4.0 * pair.scales[level];
@@ -108,11 +108,11 @@ std::vector<Ascent> climbLevel(const ImagePair& pair, std::size_t level,
     if (listener)
       listener({iterations, static_cast<int>(level), information}, pair.mrFromCt(best));
   };
-  std::vector<Ascent> tops;
+  std::vector<BfgsOptimizer> tops;
   for (const Basin& basin : basins)
     tops.push_back(ascend(metric, basin.pose, climb, told));
   std::stable_sort(tops.begin(), tops.end(),
-                   [](const Ascent& a, const Ascent& b) { return scoreOf(a) > scoreOf(b); });
+                   [](const BfgsOptimizer& a, const BfgsOptimizer& b) { return scoreOf(a) > scoreOf(b); });
   return tops;
 }
 
@@ -147,9 +147,9 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
                     samplesAt(pair, level, options.schedule),
                     options.seed + 17 * static_cast<std::uint32_t>(level), options.schedule.bins);
     const MutualInformation metric(samples, pair.moving.levels[level], options.schedule.bins);
-    const std::vector<Ascent> tops =
+    const std::vector<BfgsOptimizer> tops =
         climbLevel(pair, level, metric, basins, options, result.fit.iterations, progress, listener);
-    const Ascent& first = tops.front();
+    const BfgsOptimizer& first = tops.front();
     result.fit.mrFromCt = pair.mrFromCt(first.pose);
     result.fit.metric = first.information;
     result.fit.overlap = first.overlap;
@@ -157,7 +157,7 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
     const double apart = 2.0 * pair.scales[level];
     const auto rival = std::find_if(
         tops.begin() + 1, tops.end(),
-        [&](const Ascent& other)
+        [&](const BfgsOptimizer& other)
         { return poseDistance(first.pose, other.pose, samples.centre, samples.radius) > apart; });
     if (tops.size() > 1)
     {

@@ -4,7 +4,7 @@
 
 #include "petrous/Core/Error.h"
 
-#include "Evidence.h"
+#include "QualityFeatures.h"
 
 namespace petrous::registration
 {
@@ -37,7 +37,7 @@ Registration registerRigid(const volume::IntensityVolume& ct, const volume::Inte
     result.fit.seconds = since(begin);
 
     const auto fitted = Clock::now();
-    const Evidence evidence = collectEvidence(pair, fit, options, at, progress.part(0.5, 1.0));
+    const QualityFeatures evidence = collectQualityFeatures(pair, fit, options, at, progress.part(0.5, 1.0));
     const Judgement judgement = judge(evidence);
     result.error = evidence.error;
     result.verdict = judgement.verdict;

@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "Ascent.h"
+#include "BfgsOptimizer.h"
 #include "MutualInformation.h"
 
 namespace petrous::registration
@@ -63,7 +63,7 @@ core::RigidTransform fitAgain(const LevelImage& fixed, const core::IndexBox& box
   if (blocks > 0)
     samples = bootstrap(samples, blocks, seed + 1);
   const MutualInformation metric(samples, moving, options.bins);
-  AscentOptions climb;
+  BfgsOptimizerOptions climb;
   climb.evaluations = 30;
   climb.change = 1e-5;
   climb.firstStep = 0.5 * scale;

@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "Ascent.h"
+#include "BfgsOptimizer.h"
 #include "MutualInformation.h"
 
 namespace petrous::registration
@@ -69,7 +69,7 @@ public:
     const double whole = metric.value(m_pose, &overlap);
     if (overlap < kLeastOverlap)
       return std::nullopt;
-    const std::vector<Ascent> tops = climbs(metric, startsOf(metric));
+    const std::vector<BfgsOptimizer> tops = climbs(metric, startsOf(metric));
     if (tops.empty())
       return std::nullopt;
     const auto best = std::max_element(tops.begin(), tops.end(), lower);
@@ -81,18 +81,18 @@ public:
   }
 
 private:
-  static bool lower(const Ascent& a, const Ascent& b) { return a.information < b.information; }
+  static bool lower(const BfgsOptimizer& a, const BfgsOptimizer& b) { return a.information < b.information; }
 
   core::RigidTransform shifted(const Shift& by) const
   {
     return {m_pose.rotation(), m_pose.translation() + by};
   }
 
-  Shift shiftOf(const Ascent& top) const { return top.pose * m_centre - m_pose * m_centre; }
+  Shift shiftOf(const BfgsOptimizer& top) const { return top.pose * m_centre - m_pose * m_centre; }
 
-  Ascent climb(const MutualInformation& metric, const core::RigidTransform& start) const
+  BfgsOptimizer climb(const MutualInformation& metric, const core::RigidTransform& start) const
   {
-    AscentOptions options;
+    BfgsOptimizerOptions options;
     options.turns = false;
     options.evaluations = 25;
     options.change = 1e-5;
@@ -133,14 +133,14 @@ private:
   }
 
   // Those that end within reach; the information of little that is left may grow without end.
-  std::vector<Ascent> climbs(const MutualInformation& metric,
+  std::vector<BfgsOptimizer> climbs(const MutualInformation& metric,
                              const std::vector<core::RigidTransform>& starts) const
   {
-    std::vector<Ascent> tops(starts.size());
+    std::vector<BfgsOptimizer> tops(starts.size());
     tbb::parallel_for(std::size_t{0}, starts.size(),
                       [&](std::size_t n) { tops[n] = climb(metric, starts[n]); });
     tops.erase(std::remove_if(tops.begin(), tops.end(),
-                              [&](const Ascent& top) {
+                              [&](const BfgsOptimizer& top) {
                                 return top.overlap < kLeastOverlap || shiftOf(top).norm() > kReach;
                               }),
                tops.end());
@@ -157,7 +157,7 @@ private:
                         const FixedSamples drawn = bootstrap(
                             m_samples, kBlocks, m_seed + 31 * static_cast<std::uint32_t>(n + 1));
                         const MutualInformation metric(drawn, *m_mr, kLocalBins);
-                        std::vector<Ascent> tops;
+                        std::vector<BfgsOptimizer> tops;
                         for (const core::RigidTransform& rival : rivals)
                           tops.push_back(climb(metric, rival));
                         ends[n] = shiftOf(*std::max_element(tops.begin(), tops.end(), lower));

@@ -10,7 +10,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "OpaqueShapes.h"
+#include "SurfaceGeometry.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
 #include "TissueRay.h"
@@ -60,7 +60,7 @@ public:
 private:
   GatheredLight gather(const PixelRay& ray, double end) const;
 
-  OpaqueShapes m_shapes;
+  SurfaceGeometry m_shapes;
   std::optional<TissueRay> m_tissue;
 };
 
@@ -74,7 +74,7 @@ ReferenceRayCaster::Implementation::see(const PixelRay& ray) const
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
   double share = 1.0; // of the pixels that no screen door has stopped yet
-  for (const OpaqueShapes::Hit& hit : m_shapes.along(ray))
+  for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
   {
     const GatheredLight light = gather(ray, hit.distance);
     color += share * hit.opacity * (light.color + light.transmittance * hit.color);

@@ -240,7 +240,7 @@ void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
         renderer->AddViewProp(actor->actor.prop());
     }
     ++pattern;
-    appearance::StructureLook look = wanted.look;
+    appearance::StructureAppearance look = wanted.look;
     actor->actor.setLook(look, contents.light);
     next.push_back(std::move(actor));
   }

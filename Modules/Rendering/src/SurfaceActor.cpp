@@ -96,7 +96,7 @@ void SurfaceActor::setSurface(vtkPolyData* surface)
   m_mapper->SetInputData(surface);
 }
 
-void SurfaceActor::setLook(const appearance::StructureLook& look, const LightSettings& light)
+void SurfaceActor::setLook(const appearance::StructureAppearance& look, const LightSettings& light)
 {
   m_actor->SetVisibility(look.shown && look.opacity > 0.0F ? 1 : 0);
   vtkProperty* property = m_actor->GetProperty();

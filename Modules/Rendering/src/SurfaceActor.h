@@ -33,7 +33,7 @@ public:
 
   vtkActor* prop() const;
   void setSurface(vtkPolyData* surface);
-  void setLook(const appearance::StructureLook& look, const LightSettings& light);
+  void setLook(const appearance::StructureAppearance& look, const LightSettings& light);
 
 private:
   int m_pattern;

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "DrawnPart.h"
+#include "ClippedRegion.h"
 #include "TissueOptics.h"
 
 namespace petrous::rendering
@@ -42,7 +42,7 @@ private:
                   const std::optional<Eigen::Vector3d>& face) const;
 
   TissueOptics m_optics;
-  DrawnPart m_drawn;
+  ClippedRegion m_drawn;
   double m_step;      // mm
   double m_tolerance; // mm
 };

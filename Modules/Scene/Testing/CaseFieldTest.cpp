@@ -139,7 +139,7 @@ namespace
 {
 
 // Structures side by side in one map, with volumes that fall with the index.
-scene::Case caseOf(const std::vector<appearance::StructureLook>& looks)
+scene::Case caseOf(const std::vector<appearance::StructureAppearance>& looks)
 {
   const core::GridGeometry grid({static_cast<int>(looks.size()) + 1, 3, 3}, Vector3d::Constant(0.5),
                                 Vector3d::Zero());
@@ -163,7 +163,7 @@ scene::Case caseOf(const std::vector<appearance::StructureLook>& looks)
   return value;
 }
 
-bool all(const appearance::StructureLook&)
+bool all(const appearance::StructureAppearance&)
 {
   return true;
 }
@@ -173,12 +173,12 @@ bool all(const appearance::StructureLook&)
 TEST(CaseField, OrdersStructuresByPresetThenSmallerFirstAndLumensLast)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  std::vector<appearance::StructureLook> looks;
+  std::vector<appearance::StructureAppearance> looks;
   for (const char* name :
        {"air_cells", "skull", "masseter_muscle", "blob", "dura", "cholesteatoma", "schwannoma",
         "cochlea", "incus", "jugular_vein", "carotid_artery", "facial_nerve", "chorda"})
     looks.push_back(presets.lookFor(name));
-  appearance::StructureLook urgentLumen = looks.front();
+  appearance::StructureAppearance urgentLumen = looks.front();
   urgentLumen.priority = 0;
   looks.push_back(urgentLumen);
 
@@ -203,7 +203,7 @@ TEST(CaseField, OrdersStructuresByPresetThenSmallerFirstAndLumensLast)
 
 TEST(CaseField, LeavesOutWhatIsNotWanted)
 {
-  std::vector<appearance::StructureLook> looks(3);
+  std::vector<appearance::StructureAppearance> looks(3);
   looks[1].shown = false;
   const scene::Case value = caseOf(looks);
   const auto labels = scene::labelSources(value, [](const auto& look) { return look.shown; });
@@ -213,13 +213,13 @@ TEST(CaseField, LeavesOutWhatIsNotWanted)
 
 TEST(CaseField, SaysWhenThereAreMoreStructuresThanMaterials)
 {
-  EXPECT_EQ(scene::labelSources(caseOf(std::vector<appearance::StructureLook>(255)), all)
+  EXPECT_EQ(scene::labelSources(caseOf(std::vector<appearance::StructureAppearance>(255)), all)
                 .sources.back()
                 .material,
             255);
   try
   {
-    scene::labelSources(caseOf(std::vector<appearance::StructureLook>(256)), all);
+    scene::labelSources(caseOf(std::vector<appearance::StructureAppearance>(256)), all);
     FAIL() << "256 structures";
   }
   catch (const core::InvalidParameter& error)

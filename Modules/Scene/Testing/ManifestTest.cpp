@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -196,7 +196,7 @@ TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
   EXPECT_FALSE(nerve.transfer.has_value());
   EXPECT_EQ(nerve.shininess, 18.0F);
   EXPECT_EQ(nerve.sourceImage, "");
-  EXPECT_LT(nerve.priority, appearance::StructureLook{}.priority) << "as its preset";
+  EXPECT_LT(nerve.priority, appearance::StructureAppearance{}.priority) << "as its preset";
   EXPECT_EQ(nerve.warning, appearance::StructurePresets::builtIn().preset("nerve").warning);
   EXPECT_GT(nerve.warning, 0.0);
 }

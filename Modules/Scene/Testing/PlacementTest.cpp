@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 
 using namespace petrous;
 using Eigen::Vector3d;

@@ -109,7 +109,7 @@ namespace
 
 void readCtInsteadOf(Case& value, const std::string& image)
 {
-  const auto change = [&image](appearance::StructureLook& look)
+  const auto change = [&image](appearance::StructureAppearance& look)
   {
     if (look.sourceImage == image)
       look.sourceImage.clear();

@@ -18,14 +18,14 @@ namespace petrous::scene
 namespace
 {
 
-using Wanted = std::function<bool(const appearance::StructureLook&)>;
+using Wanted = std::function<bool(const appearance::StructureAppearance&)>;
 
-bool felt(const appearance::StructureLook& look)
+bool felt(const appearance::StructureAppearance& look)
 {
   return look.solid && look.touchable;
 }
 
-bool yields(const appearance::StructureLook& look)
+bool yields(const appearance::StructureAppearance& look)
 {
   return felt(look) && look.stiffness > 0.0;
 }
@@ -246,7 +246,7 @@ std::vector<MeshSolid> meshSolidsAt(const Case& value, const std::vector<Eigen::
 std::string untouchable(const Case& value, const MeshPart& mesh)
 {
   const StructurePart* structure = findStructure(value, mesh.name);
-  const appearance::StructureLook& look = structure ? structure->look : mesh.look;
+  const appearance::StructureAppearance& look = structure ? structure->look : mesh.look;
   if (!look.solid)
     return "it is a space without tissue";
   if (!look.touchable)

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 
 namespace petrous::scene
 {

@@ -63,7 +63,7 @@ ImagePart imageIn(const json& j)
   return image;
 }
 
-json lookOut(const appearance::StructureLook& look)
+json lookOut(const appearance::StructureAppearance& look)
 {
   json j{{"preset", look.preset},     {"color", look.color},
          {"opacity", look.opacity},   {"flags", appearance::flagsOf(look)},
@@ -83,9 +83,9 @@ json lookOut(const appearance::StructureLook& look)
 }
 
 // What came after the first manifests may be missing; such a look is as it was before.
-appearance::StructureLook lookIn(const json& j, const appearance::StructurePresets& presets)
+appearance::StructureAppearance lookIn(const json& j, const appearance::StructurePresets& presets)
 {
-  appearance::StructureLook look;
+  appearance::StructureAppearance look;
   look.preset = j.at("preset").get<std::string>();
   look.color = j.at("color").get<std::array<float, 3>>();
   look.opacity = j.at("opacity").get<float>();

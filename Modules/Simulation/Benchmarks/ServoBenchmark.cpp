@@ -64,7 +64,7 @@ struct Block
   volume::TissueField tissue;
   std::unique_ptr<haptics::ConstrainedProxy> tool;
   dissection::TissueResistance resistance;
-  dissection::BiteSearch search;
+  dissection::RemovalDepthSolver search;
   RemovalFeed feed;
 };
 

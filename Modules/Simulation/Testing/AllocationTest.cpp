@@ -107,7 +107,7 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     LoopScene scene;
     const dissection::SweptSphere first{{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 2.0};
     dissection::Dissection seen = scene.work;
-    DissectionMailbox mailbox;
+    UpdateQueue mailbox;
     DissectionReporter reporter(scene.work, mailbox);
     DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}, {}));
     TickRecord record;
@@ -127,7 +127,7 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     failAllocation(0);
     loop.endStroke();
     reporter.post();
-    DissectionMail mail = mailbox.take();
+    DissectionUpdate mail = mailbox.take();
     follow(mail, seen);
     const auto cut = scene.voxels();
     const auto dense = seen.mask().dense();
@@ -156,8 +156,8 @@ static_assert(noexcept(std::declval<haptics::DeviceGuard&>().judge(
     std::declval<const haptics::DeviceReading&>(), 0.0)));
 static_assert(noexcept(
     std::declval<haptics::ForceLimits&>().apply(std::declval<const haptics::Wrench&>(), 0.0)));
-static_assert(noexcept(std::declval<HandMapping&>().map(std::declval<const haptics::Pose&>(),
-                                                        std::declval<const HandMapping::View&>())));
+static_assert(noexcept(std::declval<PoseMapping&>().map(std::declval<const haptics::Pose&>(),
+                                                        std::declval<const PoseMapping::View&>())));
 static_assert(
     noexcept(std::declval<SpscRing<TickRecord>&>().push(std::declval<const TickRecord&>())));
 static_assert(noexcept(

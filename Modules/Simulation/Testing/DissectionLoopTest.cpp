@@ -189,7 +189,7 @@ TEST(DissectionLoop, UndoInContactPutsTheToolOutAndTheForceBackSlowly)
   const haptics::Pose hand{{0.0, 0.0, -2.0}, Quaterniond::Identity()};
   const TickRecord back = session.tick(hand);
   EXPECT_EQ(faultOf(back), ServoFault::Retreated);
-  EXPECT_GT(inWords(back).size(), 20u);
+  EXPECT_GT(toString(back).size(), 20u);
   EXPECT_FALSE(back.drill);
   EXPECT_NEAR(back.proxy.pose().position.z(), 2.0, 1e-6);
   session.pedal = 0.0;

@@ -129,7 +129,7 @@ public:
   std::shared_ptr<const volume::LabelMap> sides;
   SurfaceApproach approach; // to the bone as it was
   dissection::TissueResistance meets;
-  dissection::BiteSearch search;
+  dissection::RemovalDepthSolver search;
   RemovalFeed feed;
   DissectionLoop loop;
 

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "BoneBlock.h"
-#include "petrous/Haptics/CentreProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Simulation/DissectionThread.h"
@@ -56,7 +56,7 @@ struct Workplace
       proxy = std::make_unique<haptics::ConstrainedProxy>(boneOf(mask), shell);
     }
     else
-      proxy = std::make_unique<haptics::CentreProxy>(boneOf(mask), haptics::CentreBurr{kRadius});
+      proxy = std::make_unique<haptics::PointProxy>(boneOf(mask), haptics::CentreBurr{kRadius});
   }
 
   DissectionLoop::Hooks hooks()

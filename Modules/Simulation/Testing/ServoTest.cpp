@@ -53,7 +53,7 @@ TEST(Servo, FeelsThePlaneAsTheCouplingSays)
   settle(session);
   const TickRecord& record = session.records.back();
   EXPECT_EQ(faultOf(record), ServoFault::None);
-  EXPECT_EQ(inWords(record), "");
+  EXPECT_EQ(toString(record), "");
   EXPECT_NEAR((forceOf(record.wrench) - Vector3d(0.0, 0.0, 1.0)).norm(), 0.0, 1e-12);
   EXPECT_EQ(forceOf(record.output), forceOf(record.wrench));
   EXPECT_NEAR((record.proxy.pose().position - Vector3d(0.0, 0.0, 2.0)).norm(), 0.0, 1e-12);
@@ -142,7 +142,7 @@ TEST(Servo, GivesForceSlowlyAtFirst)
   Session session;
   session.go(kPressing, kPressing, 19);
   EXPECT_EQ(faultOf(session.records.back()), ServoFault::Device);
-  EXPECT_FALSE(inWords(session.records.back()).empty());
+  EXPECT_FALSE(toString(session.records.back()).empty());
   session.go({0.0, 0.0, 2.0}, {0.0, 0.0, 2.0}, 1);
   const std::size_t first = session.records.size();
   session.go({0.0, 0.0, 2.0}, kPressing, 10);
@@ -203,7 +203,7 @@ TEST_P(ServoFaults, EndInASafeForceAndTheSessionGoesOn)
     }
     const TickRecord& record = session.tickAsItIs(hand);
     EXPECT_EQ(faultOf(record), ServoFault::Device);
-    EXPECT_GT(inWords(record).size(), 20u);
+    EXPECT_GT(toString(record).size(), 20u);
     EXPECT_FALSE(record.drill);
     EXPECT_TRUE(record.proxy.pose().finite());
     EXPECT_LT((record.proxy.pose().position - tool).norm(), 1e-9);
@@ -249,7 +249,7 @@ TEST(Servo, TakesTheToolUpAnewAfterAStall)
   const Vector3d deeper = kPressing - Vector3d(0.0, 0.0, 8.0);
   const TickRecord stalled = session.tick({deeper, Eigen::Quaterniond::Identity()}, 0.2);
   EXPECT_EQ(faultOf(stalled), ServoFault::Stalled);
-  EXPECT_GT(inWords(stalled).size(), 20u);
+  EXPECT_GT(toString(stalled).size(), 20u);
   EXPECT_FALSE(stalled.drill);
   EXPECT_LE(forceOf(stalled.output).norm(), 1.0 + 1e-12);
   session.go(deeper, deeper, 50);
@@ -269,7 +269,7 @@ TEST(Servo, GivesNoForceWhileItsOwnClockRunsBack)
     EXPECT_EQ(faultOf(session.tickAsItIs(kHand)), ServoFault::Clock);
   }
   EXPECT_EQ(forceOf(session.records.back().output).norm(), 0.0);
-  EXPECT_GT(inWords(session.records.back()).size(), 20u);
+  EXPECT_GT(toString(session.records.back()).size(), 20u);
   session.go(kPressing, kPressing, 1);
   EXPECT_EQ(faultOf(session.records.back()), ServoFault::None);
 }
@@ -282,7 +282,7 @@ TEST(Servo, GivesNoForceWithASettingOutOfItsRange)
   session.parameters.scale = std::numeric_limits<double>::quiet_NaN();
   session.go(kPressing, kPressing, 60);
   EXPECT_EQ(faultOf(session.records.back()), ServoFault::Parameters);
-  EXPECT_GT(inWords(session.records.back()).size(), 20u);
+  EXPECT_GT(toString(session.records.back()).size(), 20u);
   expectRampToZero(session, first, 25);
   session.parameters.scale = 1.0;
   session.go(kPressing, kPressing, 1);
@@ -320,7 +320,7 @@ TEST(Servo, StartsInsideBoneWithoutForceUntilItIsDrawnOut)
     EXPECT_EQ(forceOf(session.records[n].output).norm(), 0.0);
     EXPECT_FALSE(session.records[n].drill);
   }
-  EXPECT_GT(inWords(session.records.back()).size(), 20u);
+  EXPECT_GT(toString(session.records.back()).size(), 20u);
   session.go({0.0, 0.0, 1.9}, kAbove, 100);
   session.go(kAbove, kPressing, 300);
   EXPECT_NEAR(forceOf(session.records.back().output).z(), 1.0, 1e-9);

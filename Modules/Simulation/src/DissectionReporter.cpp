@@ -7,7 +7,7 @@ namespace petrous::simulation
 {
 
 DissectionReporter::DissectionReporter(const dissection::Dissection& work,
-                                       DissectionMailbox& mailbox)
+                                       UpdateQueue& mailbox)
   : m_work(work)
   , m_mailbox(mailbox)
 {

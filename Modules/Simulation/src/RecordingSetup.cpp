@@ -71,7 +71,7 @@ void eachPassivity(Passivity& p, Field field)
 
 } // namespace
 
-std::string inWords(const RecordingSetup& setup)
+std::string toString(const RecordingSetup& setup)
 {
   return std::string(dissection::nameOf(setup.burr.kind)) + " burr " +
          core::generalText(setup.burr.diameter, 10) + " mm, " + std::to_string(setup.degrees) +

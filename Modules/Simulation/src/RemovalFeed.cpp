@@ -41,7 +41,7 @@ double rimOf(double spread) noexcept
 
 } // namespace
 
-RemovalFeed::RemovalFeed(dissection::BiteSearch& search, const dissection::Burr& burr, double voxel)
+RemovalFeed::RemovalFeed(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel)
   : m_search(search)
   , m_speed(burr.rpm * 2.0 * kPi / 60.0)
   , m_voxel(voxel)

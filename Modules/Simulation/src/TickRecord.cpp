@@ -47,7 +47,7 @@ std::string holderInWords(std::uint8_t held)
   return shaft ? "the shaft" : handpiece ? "the handpiece" : "";
 }
 
-std::string inWords(const TickRecord& record)
+std::string toString(const TickRecord& record)
 {
   switch (static_cast<ServoFault>(record.fault))
   {
@@ -58,7 +58,7 @@ std::string inWords(const TickRecord& record)
     haptics::DeviceGuard::Judgement judgement;
     judgement.verdict = static_cast<haptics::DeviceVerdict>(record.verdict);
     judgement.value = record.verdictValue;
-    return haptics::inWords(judgement);
+    return haptics::toString(judgement);
   }
   case ServoFault::Stalled:
     return "The computer stood still for a moment; the tool stays where it was, and the force "

@@ -6,7 +6,7 @@
 
 #include "ClosestPoints.h"
 #include "DistanceGrid.h"
-#include "ShareSurface.h"
+#include "OccupancySurface.h"
 
 namespace petrous::volume
 {
@@ -23,7 +23,7 @@ std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& shar
     return nullptr;
   // The surface may lie up to a voxel beyond the voxels inside.
   const DistanceGrid grid = gridFor(from, box, reach + from.spacing().maxCoeff(), mostVoxels);
-  const ShareSurface surface(share);
+  const OccupancySurface surface(share);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));
   auto field = std::make_shared<Volume<float>>(geometryOf(grid, from));

@@ -8,7 +8,7 @@
 
 #include "ClosestPoints.h"
 #include "DistanceGrid.h"
-#include "ShareSurface.h"
+#include "OccupancySurface.h"
 
 namespace petrous::volume
 {
@@ -157,7 +157,7 @@ std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
   if (box.empty())
     return nullptr;
   const DistanceGrid grid = gridFor(from, box, kMargin * from.minSpacing(), mostVoxels);
-  const ShareSurface surface(share);
+  const OccupancySurface surface(share);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));
 

@@ -6,7 +6,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 #include "SurfaceNet.h"
 
 namespace petrous::volume

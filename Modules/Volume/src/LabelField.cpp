@@ -203,7 +203,7 @@ private:
 };
 
 // Gives the voxels of solid structures their own index. Returns whether others are left.
-bool fillInside(const LabelRanks& ranks, const core::Index3& offset, const core::IndexBox& tile,
+bool fillInside(const LabelPriority& ranks, const core::Index3& offset, const core::IndexBox& tile,
                 const LabelOrder& order, Volume<std::uint8_t>& index)
 {
   const core::IndexBox source = moved(tile, offset).intersected(ranks.geometry().fullBox());
@@ -225,7 +225,7 @@ bool fillInside(const LabelRanks& ranks, const core::Index3& offset, const core:
 }
 
 // `offset` takes voxels of the share to those of the ranks.
-std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelRanks& ranks, const core::Index3& offset,
+std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, const core::Index3& offset,
                                                 const Volume<float>& share, const LabelOrder& order,
                                                 const core::Progress& progress)
 {
@@ -261,11 +261,11 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
                                                  std::size_t mostVoxels)
 {
   const LabelOrder order(sources);
-  std::vector<LabelRanks> grids = rankLabels(sources, order, progress.part(0.0, 0.3));
+  std::vector<LabelPriority> grids = rankLabels(sources, order, progress.part(0.0, 0.3));
   if (grids.empty())
     return nullptr;
   auto field = std::make_shared<LabelField>();
-  LabelRanks ranks;
+  LabelPriority ranks;
   core::Index3 offset{0, 0, 0};
   if (grids.size() == 1)
   {
@@ -304,7 +304,7 @@ std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& so
     const auto inside = insideOf(solid, progress.part(0.0, 0.2));
     return inside ? smoothedShare(*inside, progress.part(0.2, 1.0)) : nullptr;
   }
-  std::vector<LabelRanks> grids = rankLabels(solid, order, progress.part(0.0, 0.3));
+  std::vector<LabelPriority> grids = rankLabels(solid, order, progress.part(0.0, 0.3));
   if (grids.empty())
     return nullptr;
   if (grids.size() == 1)

@@ -23,26 +23,26 @@ constexpr int kMostSamples = 8;      // per axis, in a common voxel
 
 // ---- the common grid
 
-const core::GridGeometry& finestGrid(const std::vector<LabelRanks>& grids)
+const core::GridGeometry& finestGrid(const std::vector<LabelPriority>& grids)
 {
   // Solids choose, so that the hand, which knows no lumen, has the same lattice as the eye.
   const bool solids =
       std::any_of(grids.begin(), grids.end(), [](const auto& g) { return g.hasSolid; });
   const core::GridGeometry* finest = nullptr;
-  for (const LabelRanks& grid : grids)
+  for (const LabelPriority& grid : grids)
     if (!solids || grid.hasSolid)
       if (!finest || grid.geometry().voxelVolume() < (1.0 - 1e-6) * finest->voxelVolume())
         finest = &grid.geometry();
   return *finest;
 }
 
-core::GridGeometry commonGrid(const std::vector<LabelRanks>& grids, std::size_t mostVoxels,
+core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size_t mostVoxels,
                               std::vector<std::string>& notes)
 {
   const core::GridGeometry& finest = finestGrid(grids);
   Vector3d lower = Vector3d::Constant(1e300);
   Vector3d upper = -lower;
-  for (const LabelRanks& grid : grids)
+  for (const LabelPriority& grid : grids)
   {
     const core::IndexBox box = grown(grid.box, kLabelMargin);
     for (int corner = 0; corner < 8; ++corner)
@@ -77,11 +77,11 @@ core::GridGeometry commonGrid(const std::vector<LabelRanks>& grids, std::size_t 
   if (dims.prod() < wanted)
   {
     const auto rough = [](double value) { return core::generalText(value, 3); };
-    const auto inWords = [&rough](const Vector3d& s)
+    const auto toString = [&rough](const Vector3d& s)
     { return rough(s[0]) + " x " + rough(s[1]) + " x " + rough(s[2]) + " mm"; };
-    notes.push_back("structures: their common grid of " + inWords(finest.spacing()) +
+    notes.push_back("structures: their common grid of " + toString(finest.spacing()) +
                     " would take " + rough(wanted / 1e6) +
-                    " million voxels; drawn and felt on one of " + inWords(spacing));
+                    " million voxels; drawn and felt on one of " + toString(spacing));
   }
   const core::Index3 size{static_cast<int>(dims[0]), static_cast<int>(dims[1]),
                           static_cast<int>(dims[2])};
@@ -125,7 +125,7 @@ struct Tally
 class View
 {
 public:
-  View(const LabelRanks& ranks, const LabelOrder& order, const core::GridGeometry& common,
+  View(const LabelPriority& ranks, const LabelOrder& order, const core::GridGeometry& common,
        const core::Progress& progress)
     : m_ranks(ranks)
     , m_order(order)
@@ -153,7 +153,7 @@ public:
   }
 
   bool aligned() const noexcept { return m_aligned; }
-  const LabelRanks& ranks() const noexcept { return m_ranks; }
+  const LabelPriority& ranks() const noexcept { return m_ranks; }
 
   // Whether anything can be met in a box of common voxels.
   bool reaches(const core::IndexBox& voxels) const
@@ -248,7 +248,7 @@ private:
     return sample;
   }
 
-  const LabelRanks& m_ranks;
+  const LabelPriority& m_ranks;
   const LabelOrder& m_order;
   std::shared_ptr<const Volume<float>> m_share;
   core::IndexBox m_box; // of m_share in voxels of the ranks
@@ -274,7 +274,7 @@ void give(ResampledLabels& labels, const LabelOrder& order, const core::Index3& 
 
 } // namespace
 
-ResampledLabels resampleLabels(const std::vector<LabelRanks>& grids, const LabelOrder& order,
+ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const LabelOrder& order,
                                std::size_t mostVoxels, const core::Progress& progress)
 {
   ResampledLabels result;
@@ -286,7 +286,7 @@ ResampledLabels resampleLabels(const std::vector<LabelRanks>& grids, const Label
   result.ranks.box = common.fullBox();
   std::vector<View> views;
   views.reserve(grids.size());
-  for (const LabelRanks& grid : grids)
+  for (const LabelPriority& grid : grids)
   {
     views.emplace_back(grid, order, common, progress.part(0.0, 0.2));
     result.ranks.hasSolid = result.ranks.hasSolid || grid.hasSolid;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 
 namespace petrous::volume
 {
@@ -11,7 +11,7 @@ namespace petrous::volume
 /// Structures of several grids on one.
 struct ResampledLabels
 {
-  LabelRanks ranks;
+  LabelPriority ranks;
   std::shared_ptr<Volume<float>> share; ///< on the same grid
   std::vector<std::string> notes;
 };
@@ -33,7 +33,7 @@ struct ResampledLabels
 ///
 /// Where the common grid would have more than `mostVoxels`, its finest axes are coarsened until it
 /// has not, which a note says.
-ResampledLabels resampleLabels(const std::vector<LabelRanks>& grids, const LabelOrder& order,
+ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const LabelOrder& order,
                                std::size_t mostVoxels, const core::Progress& progress);
 
 } // namespace petrous::volume

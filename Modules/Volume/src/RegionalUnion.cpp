@@ -4,7 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 #include "SurfaceNet.h"
 
 namespace petrous::volume

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 #include "SurfaceNet.h"
 
 namespace petrous::volume

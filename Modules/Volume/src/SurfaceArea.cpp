@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "ShareSurface.h"
+#include "OccupancySurface.h"
 #include "petrous/Volume/Sampling.h"
 
 namespace petrous::volume
@@ -24,7 +24,7 @@ double surfaceArea(
     const std::function<bool(const Eigen::Vector3d& point, const Eigen::Vector3d& outward)>& counts,
     const core::Progress& progress)
 {
-  const ShareSurface surface(share);
+  const OccupancySurface surface(share);
   const core::GridGeometry& grid = share.geometry();
   const std::vector<core::Index3> cells = surface.crossedCells(progress);
   std::vector<double> areas((cells.size() + kChunk - 1) / kChunk);
@@ -33,7 +33,7 @@ double surfaceArea(
     double area = 0.0;
     surface.forEachCrossing(
         cell, kParts,
-        [&](const ShareSurface::Crossing& crossing)
+        [&](const OccupancySurface::Crossing& crossing)
         {
           if (crossing.shared)
             return;

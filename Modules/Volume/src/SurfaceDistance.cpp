@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_sort.h>
 
-#include "ShareSurface.h"
+#include "OccupancySurface.h"
 
 namespace petrous::volume
 {
@@ -42,7 +42,7 @@ std::size_t boxesFor(std::size_t count)
 
 struct SurfaceDistance::Search
 {
-  ShareSurface surface;
+  OccupancySurface surface;
   Eigen::Vector3d position; // mm along the share's axes
   double best;              // mm
 };
@@ -57,7 +57,7 @@ SurfaceDistance::SurfaceDistance(std::shared_ptr<const Volume<float>> share,
     if (n > std::numeric_limits<std::uint16_t>::max())
       throw core::InvalidParameter("surface distance: a share of more than 65535 voxels along one "
                                    "axis");
-  for (const core::Index3& cell : ShareSurface(*m_share).crossedCells(progress))
+  for (const core::Index3& cell : OccupancySurface(*m_share).crossedCells(progress))
     m_cells.push_back({static_cast<std::uint16_t>(cell[0]), static_cast<std::uint16_t>(cell[1]),
                        static_cast<std::uint16_t>(cell[2])});
   tbb::parallel_sort(m_cells.begin(), m_cells.end(),
@@ -128,7 +128,7 @@ void SurfaceDistance::look(Search& search, const Cell& cell) const
   double best = std::numeric_limits<double>::max();
   Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
   search.surface.forEachCrossing({cell[0], cell[1], cell[2]}, kParts,
-                                 [&](const ShareSurface::Crossing& crossing)
+                                 [&](const OccupancySurface::Crossing& crossing)
                                  {
                                    const double square =
                                        (crossing.point - search.position).squaredNorm();
@@ -180,7 +180,7 @@ void SurfaceDistance::visit(Search& search, std::size_t level, std::size_t box) 
 double SurfaceDistance::at(const Eigen::Vector3d& patient, double most) const
 {
   const Eigen::Vector3d voxel = geometry().voxelFromPatient(patient);
-  Search search{ShareSurface(*m_share), voxel.cwiseProduct(geometry().spacing()), most};
+  Search search{OccupancySurface(*m_share), voxel.cwiseProduct(geometry().spacing()), most};
   if (!m_levels.empty())
     visit(search, m_levels.size() - 1, 0);
   const bool inside =

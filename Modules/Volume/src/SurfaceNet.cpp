@@ -8,7 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 
 namespace petrous::volume
 {

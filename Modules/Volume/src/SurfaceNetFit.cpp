@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 #include "SurfaceNet.h"
 
 namespace petrous::volume

@@ -22,7 +22,7 @@ constexpr double kWhole = 0.52; // share between the points of a thin structure 
 class ThinStructures
 {
 public:
-  ThinStructures(const LabelRanks& source, const LabelOrder& order, const LabelRanks& ranks,
+  ThinStructures(const LabelPriority& source, const LabelOrder& order, const LabelPriority& ranks,
                  const Volume<float>& share)
     : m_source(source)
     , m_order(order)
@@ -186,9 +186,9 @@ private:
       lift(voxel, rank, lifts);
   }
 
-  const LabelRanks& m_source;
+  const LabelPriority& m_source;
   const LabelOrder& m_order;
-  const LabelRanks& m_ranks; // the common grid
+  const LabelPriority& m_ranks; // the common grid
   const Volume<float>& m_share;
   Eigen::Matrix3d m_linear; // common voxels a voxel of the source
   Vector3d m_offset;
@@ -197,7 +197,7 @@ private:
 
 } // namespace
 
-std::vector<ThinVoxel> findThin(const LabelRanks& source, const LabelRanks& common,
+std::vector<ThinVoxel> findThin(const LabelPriority& source, const LabelPriority& common,
                                 const Volume<float>& share, const LabelOrder& order,
                                 const core::Progress& progress)
 {

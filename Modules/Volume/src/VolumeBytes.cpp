@@ -8,7 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "LabelShare.h"
+#include "LabelOccupancy.h"
 
 namespace petrous::volume
 {

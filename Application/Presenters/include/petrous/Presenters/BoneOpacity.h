@@ -1,6 +1,6 @@
 #pragma once
 
-#include "petrous/Appearance/StructureLook.h"
+#include "petrous/Appearance/StructureAppearance.h"
 
 namespace petrous::presenters
 {
@@ -11,6 +11,6 @@ namespace petrous::presenters
 /// The surface gets `opacity`. Below 1 the inside is that of "bone-translucent", as many times
 /// denser or thinner as the surface is than that preset's: 1 - (1 - o)^(opacity / preset's). Values
 /// of a person's own transfer function stay; only the surface changes then. Colour and flags stay.
-appearance::StructureLook withOpacity(const appearance::StructureLook& bone, double opacity);
+appearance::StructureAppearance withOpacity(const appearance::StructureAppearance& bone, double opacity);
 
 } // namespace petrous::presenters

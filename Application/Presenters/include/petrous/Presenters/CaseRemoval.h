@@ -24,7 +24,7 @@ struct CaseRemoval
   CaseRemoval& operator=(const CaseRemoval&) = delete;
 
   const dissection::TissueResistance resistance;
-  dissection::BiteSearch search;
+  dissection::RemovalDepthSolver search;
   simulation::RemovalFeed feed;
 };
 

@@ -34,7 +34,7 @@ struct NearbyStructure
 
 /// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration's error unknown" where
 /// the number leaves something out.
-std::string inWords(const NearbyStructure& structure);
+std::string toString(const NearbyStructure& structure);
 
 /// What the surgeon must see now, a line for each structure that is touched, injured or within its
 /// warning distance, the worst first and at most kMostWarnings of them; empty: nothing.

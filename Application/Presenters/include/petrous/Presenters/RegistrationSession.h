@@ -9,7 +9,7 @@
 #include "petrous/Presenters/MrMotion.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/MrPlaces.h"
+#include "petrous/Scene/ReferenceFrames.h"
 
 namespace petrous::presenters
 {

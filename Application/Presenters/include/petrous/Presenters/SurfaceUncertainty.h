@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 
 namespace petrous::presenters
 {
@@ -31,10 +31,10 @@ struct SurfaceUncertainty
   bool incomplete() const { return !drawnOn.empty() && !registration; }
 };
 
-SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureShare& structure);
+SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureOccupancy& structure);
 
 /// "voxels 0.20 x 0.20 x 0.60 mm, slices 0.60 mm apart", and where it was drawn on an MR: "; drawn
 /// on the MR 'T2', registered to 0.24 mm (p95) at the incus, 14 mm from here".
-std::string inWords(const SurfaceUncertainty& uncertainty);
+std::string toString(const SurfaceUncertainty& uncertainty);
 
 } // namespace petrous::presenters

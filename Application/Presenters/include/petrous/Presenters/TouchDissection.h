@@ -51,7 +51,7 @@ public:
   void undo() { m_thread.undo(); }
   void redo() { m_thread.redo(); }
 
-  simulation::DissectionMail take() { return m_mailbox.take(); }
+  simulation::DissectionUpdate take() { return m_mailbox.take(); }
 
   /// Why it cuts no more, one sentence, once; empty while it does.
   std::string takeFailure() { return m_thread.takeFailure(); }
@@ -75,7 +75,7 @@ private:
   std::uint64_t m_changes = 0; // of the fork, that the journal has
   std::chrono::steady_clock::time_point m_journalled;
   std::unique_ptr<CaseRemoval> m_removal;
-  simulation::DissectionMailbox m_mailbox;
+  simulation::UpdateQueue m_mailbox;
   simulation::DissectionReporter m_reporter;
   simulation::DissectionLoop m_loop;
   simulation::DissectionThread m_thread; // last: uses all the others

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "petrous/Interaction/SightLine.h"
+#include "petrous/Interaction/PickRay.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/JournalThread.h"
 #include "petrous/Presenters/NearbyStructures.h"
-#include "petrous/Presenters/PlaceReader.h"
+#include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SceneAssembly.h"
-#include "petrous/Presenters/StrokeMeter.h"
+#include "petrous/Presenters/RemovedVolumeEstimator.h"
 #include "petrous/Presenters/TouchSession.h"
 #include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
@@ -170,10 +170,10 @@ public:
   void startBranch(const std::string& name); ///< where the case stands
 
   void setIso(double hounsfield);
-  void setLook(const std::string& structure, const appearance::StructureLook& look);
-  void setBoneLook(const appearance::StructureLook& look);
+  void setLook(const std::string& structure, const appearance::StructureAppearance& look);
+  void setBoneLook(const appearance::StructureAppearance& look);
 
-  /// Changes how MRs lie on the CT (Scene/LayMr.h). Where that moves what was drawn on one, a tool
+  /// Changes how MRs lie on the CT (Scene/ApplyRegistration.h). Where that moves what was drawn on one, a tool
   /// that is held is put away. Nothing happens while it drills; what `change` throws goes on.
   void changeMr(const std::function<void(scene::Case&)>& change);
 
@@ -201,15 +201,15 @@ public:
   /// What of it the surgeon must see now (warningsOf), and no more is measured than that asks for:
   /// cheap enough for every picture. Likewise nothing until the structures are measured.
   std::optional<std::string> warnings(const Eigen::Vector3d& burr, double radius);
-  /// What the open stroke has taken so far, see StrokeMeter; nothing while none is open.
+  /// What the open stroke has taken so far, see RemovedVolumeEstimator; nothing while none is open.
   const dissection::RemovedVolume& strokeSoFar();
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }
   void forgetNearby(); ///< nobody looks at it any more: gives its memory back
 
   /// Where the line meets tissue, mm from its origin.
-  std::optional<double> tissueAlong(const interaction::SightLine& line);
+  std::optional<double> tissueAlong(const interaction::PickRay& line);
   /// The same as a place, patient LPS mm.
-  std::optional<Eigen::Vector3d> surfaceAt(const interaction::SightLine& line);
+  std::optional<Eigen::Vector3d> surfaceAt(const interaction::PickRay& line);
 
   /// Takes a tool into the hand; one that is held is put away first. Reads the CT at the first time
   /// (about a second for 512^3). The device must outlive the touch. Throws as TouchSession does.
@@ -249,9 +249,9 @@ private:
   std::optional<library::SavedState> m_saved; ///< nothing before the case is in the library
   std::unique_ptr<TouchScene> m_scene;
   std::unique_ptr<TouchSession> m_touch;      ///< after m_scene, which it uses
-  std::unique_ptr<PlaceReader> m_reader;      ///< when first asked for; likewise
+  std::unique_ptr<PointProbe> m_reader;      ///< when first asked for; likewise
   std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; a cut changes nothing of them
-  StrokeMeter m_meter;
+  RemovedVolumeEstimator m_meter;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_leaving = false; ///< from beginOpen on no tool is taken up: its strokes would be lost

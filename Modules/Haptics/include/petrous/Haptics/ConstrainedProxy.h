@@ -13,7 +13,7 @@ namespace petrous::haptics
 {
 
 class ContactFinder;
-class Refuge;
+class PoseBacktracker;
 class SoftContacts;
 
 /// The tool as it may be, held to the tissue's surface while the hand goes where it likes: six
@@ -76,7 +76,7 @@ private:
   bool m_caught = false;            // the last tick made no way
   bool m_waits = false;             // for samples of the surface, to go on in the next tick
   std::uint64_t m_caughtIn = 0;     // number of the mask's state in which that was
-  std::unique_ptr<Refuge> m_refuge; // moves m_sweep
+  std::unique_ptr<PoseBacktracker> m_refuge; // moves m_sweep
   ProxyTick m_tick;
 };
 

@@ -27,7 +27,7 @@ enum class DeviceVerdict : std::uint8_t
 };
 
 /// One plain sentence for people.
-const char* inWords(DeviceVerdict verdict) noexcept;
+const char* toString(DeviceVerdict verdict) noexcept;
 
 /// Judges a device's readings before anything is computed from them.
 ///
@@ -85,6 +85,6 @@ private:
 
 /// The sentence with its number, where it has one: "The device's handle jumped by 50.0 mm ...".
 /// It allocates; not for the servo.
-std::string inWords(const DeviceGuard::Judgement& judgement);
+std::string toString(const DeviceGuard::Judgement& judgement);
 
 } // namespace petrous::haptics

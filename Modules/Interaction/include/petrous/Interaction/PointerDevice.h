@@ -13,7 +13,7 @@ namespace petrous::interaction
 /// gives no force.
 ///
 /// The window says where the tool shall be, in the patient; the servo reads that as the pose of a
-/// device whose axes are the patient's (parameters as PointerAim::apply sets them: camera 1, scale
+/// device whose axes are the patient's (parameters as PointerToolController::apply sets them: camera 1, scale
 /// 1) and whose origin is `center`. A mouse that rests is no stale device: each reading is of
 /// `now`. Between the window's words, some 60 a second, the hand glides, never faster than
 /// `Limits`, so that no leap of the pointer is one of the hand (haptics::DeviceGuard).
@@ -53,7 +53,7 @@ public:
   void setPedal(double pressure) noexcept; ///< 0 to 1
 
   /// The servo's latest record; to be called with each frame, also as a sign of life. True when
-  /// the servo has taken the tool up anew since the last call: see PointerAim::see.
+  /// the servo has taken the tool up anew since the last call: see PointerToolController::see.
   bool see(const simulation::TickRecord& record) noexcept;
 
   const haptics::DeviceDescription& description() const noexcept override { return m_description; }

@@ -10,7 +10,7 @@
 class vtkCallbackCommand;
 namespace petrous::interaction
 {
-class PointerAim;
+class PointerToolController;
 class PointerDevice;
 enum class ToolKey;
 } // namespace petrous::interaction
@@ -47,7 +47,7 @@ public:
   vtkPetrousToolInteraction(const vtkPetrousToolInteraction&) = delete;
   void operator=(const vtkPetrousToolInteraction&) = delete;
 
-  void SetPointer(petrous::interaction::PointerAim* aim,
+  void SetPointer(petrous::interaction::PointerToolController* aim,
                   petrous::interaction::PointerDevice* device);
 
   /// On unless set; releases what is held.
@@ -95,7 +95,7 @@ private:
   void Send();
   bool PointerHolds() const;
 
-  petrous::interaction::PointerAim* Aim = nullptr;
+  petrous::interaction::PointerToolController* Aim = nullptr;
   petrous::interaction::PointerDevice* Device = nullptr;
   petrous::simulation::ServoParameters Base;
   petrous::simulation::ServoParameters Parameters;

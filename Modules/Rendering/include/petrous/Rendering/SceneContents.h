@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "petrous/Appearance/Material.h"
-#include "petrous/Appearance/StructureLook.h"
+#include "petrous/Appearance/StructureAppearance.h"
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Volume/CutMask.h"
@@ -22,7 +22,7 @@ struct MeshContents
 {
   std::string name;
   std::shared_ptr<const core::TriangleMesh> mesh;
-  appearance::StructureLook look;
+  appearance::StructureAppearance look;
 };
 
 /// The tool in the scene, patient LPS mm.

@@ -14,7 +14,7 @@
 #include "petrous/Dissection/Dissection.h"
 #include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/MeshTouch.h"
-#include "petrous/Scene/MovedPart.h"
+#include "petrous/Scene/TransformedPart.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/LabelMap.h"
 
@@ -28,7 +28,7 @@ struct StructurePart
   std::uint16_t index = 0;
   std::uint64_t voxels = 0;
   double volume = 0.0; ///< mm^3, voxel count times voxel volume
-  appearance::StructureLook look;
+  appearance::StructureAppearance look;
 };
 
 /// A label map with the structures that the case uses of it.
@@ -41,7 +41,7 @@ struct LabelPart
   /// The MR in whose patient space they lie; empty: the CT's. Nothing where an older case does not
   /// say it (placementOf).
   std::optional<std::string> drawnOn;
-  MovedPart<volume::LabelMap> moved;
+  TransformedPart<volume::LabelMap> moved;
 };
 
 struct MeshPart
@@ -51,9 +51,9 @@ struct MeshPart
   std::size_t triangles = 0;
   std::vector<std::string> notes;      ///< what was assumed when the file was read, in words
   core::Lazy<core::TriangleMesh> mesh; ///< as it was drawn; on the CT: meshOnCt (Placement.h)
-  appearance::StructureLook look;
+  appearance::StructureAppearance look;
   std::string drawnOn; ///< the MR in whose patient space it lies; empty: the CT's
-  MovedPart<core::TriangleMesh> moved;
+  TransformedPart<core::TriangleMesh> moved;
   MeshTouch touch; ///< its voxels for hand and drill: see CaseField.h
 };
 
@@ -83,7 +83,7 @@ struct Case
   /// calibrated.
   double denseBone = volume::IntensityScale{}.dense;
   ImagePart ct;
-  appearance::StructureLook boneLook = appearance::boneLook(); ///< of the CT's own tissue
+  appearance::StructureAppearance boneLook = appearance::boneLook(); ///< of the CT's own tissue
   std::vector<ImagePart> mr;
   std::vector<LabelPart> labels;
   std::vector<MeshPart> meshes;

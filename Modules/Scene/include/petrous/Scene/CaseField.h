@@ -35,7 +35,7 @@ struct LabelSources
 /// air cells. Loads the labels that are wanted. Throws InvalidParameter when more than 255
 /// structures are.
 LabelSources labelSources(const Case& value,
-                          const std::function<bool(const appearance::StructureLook&)>& wanted);
+                          const std::function<bool(const appearance::StructureAppearance&)>& wanted);
 
 /// volume::makeLabelField of these; taken from the case's derived data where it is kept there, and
 /// kept there then.
@@ -54,7 +54,7 @@ struct MeshSolid
 /// stands for nothing. Voxels are made when first asked for and kept with the case. Loads these
 /// meshes. Throws CancelledError.
 std::vector<MeshSolid>
-meshSolids(const Case& value, const std::function<bool(const appearance::StructureLook&)>& wanted,
+meshSolids(const Case& value, const std::function<bool(const appearance::StructureAppearance&)>& wanted,
            const core::Progress& progress = {});
 
 /// Those of all the case's meshes in which one of these points (patient LPS mm) may lie.
@@ -82,7 +82,7 @@ struct SoftSolid
 {
   std::string name;
   std::shared_ptr<const volume::DistanceMap> depth;
-  double stiffness = 0.0; ///< N/mm (StructureLook::stiffness)
+  double stiffness = 0.0; ///< N/mm (StructureAppearance::stiffness)
 };
 
 /// The tissue of a case as a tool meets it: soft structures take no part in f.

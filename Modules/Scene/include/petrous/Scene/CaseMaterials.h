@@ -8,7 +8,7 @@ namespace petrous::scene
 {
 
 /// What a burr of that kind meets in the case, place by place. A structure is of its look's tissue
-/// (StructureLook::tissue); where structures overlap, the one with the lowest priority number
+/// (StructureAppearance::tissue); where structures overlap, the one with the lowest priority number
 /// counts. Everything else is bone by its density: the catalogue's ramp, stretched to where bone
 /// lies among the case's intensities. Loads the CT, and the labels and meshes that have a tissue.
 /// Throws InvalidParameter that names the structure whose tissue there is no material for.

@@ -25,7 +25,7 @@ struct ImagePart
   /// registered.
   core::RigidTransform mrFromCt;
   bool registered = false;
-  /// How it came there; set by layMr (LayMr.h). Nothing until registered.
+  /// How it came there; set by layMr (ApplyRegistration.h). Nothing until registered.
   std::optional<Registration> registration;
   /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images that have the same were
   /// taken in one position of the patient, as the scanner holds it. Empty: not known.

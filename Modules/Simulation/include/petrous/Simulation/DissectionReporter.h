@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "petrous/Simulation/DissectionLoop.h"
-#include "petrous/Simulation/DissectionMail.h"
+#include "petrous/Simulation/DissectionUpdate.h"
 
 namespace petrous::simulation
 {
@@ -17,7 +17,7 @@ public:
   using Complete = std::function<void(dissection::Dissection&)>;
 
   /// Both must outlive this; `work` is the loop's dissection.
-  DissectionReporter(const dissection::Dissection& work, DissectionMailbox& mailbox);
+  DissectionReporter(const dissection::Dissection& work, UpdateQueue& mailbox);
 
   /// The loop's hooks, so that this hears of all. Strokes are closed and undone in `work`, and
   /// nowhere else: of the hooks there are only these two to be had beside this one's own.
@@ -38,8 +38,8 @@ private:
   void note(const MaskEdit& edit);
 
   const dissection::Dissection& m_work;
-  DissectionMailbox& m_mailbox;
-  DissectionMail m_mail;
+  UpdateQueue& m_mailbox;
+  DissectionUpdate m_mail;
   std::shared_ptr<const dissection::Stroke> m_closed;
   std::string m_complaint;
 };

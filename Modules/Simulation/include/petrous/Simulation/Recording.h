@@ -37,7 +37,7 @@ struct RecordingSetup
 };
 
 /// "cutting burr 4 mm, 6 degrees of freedom".
-std::string inWords(const RecordingSetup& setup);
+std::string toString(const RecordingSetup& setup);
 
 /// A stretch of a recording: what its ticks felt was made by its edits and those before it.
 struct RecordingBlock

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "petrous/Dissection/BiteSearch.h"
+#include "petrous/Dissection/RemovalDepthSolver.h"
 #include "petrous/Dissection/Stroke.h"
 #include "petrous/Simulation/Feed.h"
 
@@ -21,7 +21,7 @@ struct RemovalBalance
 ///
 ///   dW = F_t r omega dt,
 ///
-/// which takes tissue as far as it reaches (BiteSearch); what is less than a step of the search is
+/// which takes tissue as far as it reaches (RemovalDepthSolver); what is less than a step of the search is
 /// owed and goes into the next bite.
 ///
 /// F_t  N, what the burr's contacts push back together, so that walls between which the burr is
@@ -45,7 +45,7 @@ public:
 
   /// search  for this burr; must outlive this
   /// Throws InvalidParameter when the spindle's speed is below 0.
-  RemovalFeed(dissection::BiteSearch& search, const dissection::Burr& burr, double voxel);
+  RemovalFeed(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel);
 
   void press(const TickRecord& record, double seconds) override;
   std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) override;
@@ -74,11 +74,11 @@ private:
   void account(const dissection::Bite& bite);
   void forfeit(double work);
 
-  dissection::BiteSearch& m_search;
+  dissection::RemovalDepthSolver& m_search;
   double m_speed; // rad/s
   double m_voxel; // mm
   double m_ahead; // mm
-  dissection::BiteSearch::Wish m_wish;
+  dissection::RemovalDepthSolver::Wish m_wish;
   bool m_pressed = false; // since the last bite that said there is nothing more
   double m_thrust = 0.0;
   double m_arm = 0.0;

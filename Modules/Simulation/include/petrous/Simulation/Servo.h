@@ -9,7 +9,7 @@
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
 #include "petrous/Simulation/ConstantThrust.h"
-#include "petrous/Simulation/HandMapping.h"
+#include "petrous/Simulation/PoseMapping.h"
 #include "petrous/Simulation/TickRecord.h"
 #include "petrous/Simulation/Traverse.h"
 
@@ -26,7 +26,7 @@ struct ServoSetup
   double stiffness = 1.0;     ///< of the proxy's coupling, N/mm, > 0
   std::size_t burrPoints = 0; ///< PointShell::burrCount of the proxy's tool
   double handpiece = haptics::BurrShape().shaftLength; ///< mm along the shaft, where it begins
-  Eigen::Vector3d center{0.0, 0.0, 0.0};               ///< patient mm: see HandMapping
+  Eigen::Vector3d center{0.0, 0.0, 0.0};               ///< patient mm: see PoseMapping
   double stallAfter = 0.05; ///< s without a tick: the tool is taken up anew
 };
 
@@ -63,7 +63,7 @@ public:
 private:
   struct Step
   {
-    HandMapping::View view;
+    PoseMapping::View view;
     haptics::Pose device;
     haptics::Pose mapped;
     double dt = 0.0;
@@ -87,7 +87,7 @@ private:
   haptics::DeviceGuard m_guard;
   haptics::ForceLimits m_limits;
   haptics::PassivityGuard m_passivity;
-  HandMapping m_mapping;
+  PoseMapping m_mapping;
   ConstantThrust m_thrust;
   Traverse m_traverse;
   TickRecord m_record;

@@ -14,7 +14,7 @@ struct ServoParameters
   /// R_PD as w, x, y, z: the device's axes (right, up, towards the user) are the camera's.
   double camera[4] = {1.0, 0.0, 0.0, 0.0};
   double scale = 1.0;          ///< mm of the tool for a mm of the hand, in [0.01, 10]
-  double forceGain = 1.0;      ///< of force and torque on the hand, in [0, 100]: see HandMapping
+  double forceGain = 1.0;      ///< of force and torque on the hand, in [0, 100]: see PoseMapping
   double thrust = 1.0;         ///< N, constant-thrust mode, in [0, 20]
   double approachSpeed = 50.0; ///< mm/s before contact, in (0, 1000]
   /// Way from the given place to the nearest surface, patient mm: where a tool that touches nothing

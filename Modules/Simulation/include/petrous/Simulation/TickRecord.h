@@ -78,7 +78,7 @@ static_assert(sizeof(TickInput) == 8 + 8 + 56 + 8 + 8 + 104);
 static_assert(sizeof(TickRecord) == 8 + sizeof(TickInput) + 2 * 56 + 2 * 48 + 8 * 8 + 8 + 8);
 
 /// One plain sentence on the tick's fault; empty when there is none. It allocates.
-std::string inWords(const TickRecord& record);
+std::string toString(const TickRecord& record);
 
 /// "the shaft", "the handpiece", "shaft and handpiece": what of the tool presses on tissue besides
 /// the burr; empty when nothing does. It allocates.

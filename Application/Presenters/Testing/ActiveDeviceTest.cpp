@@ -1,0 +1,98 @@
+#include "petrous/Presenters/ActiveDevice.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "Eventually.h"
+#include "StandIn.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Devices/ServedDevice.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using devices::testing::StandIn;
+
+TEST(FindHands, TheMouseIsAlwaysThereAndThePedalIsNoHand)
+{
+  EXPECT_EQ(findHands({}).hands.size(), 1U);
+  EXPECT_EQ(findHands({}).hands.front().kind, Hand::Kind::Mouse);
+  StandIn hid;
+  hid.playAll("plug foot 05f3 00ff c 3 VEC USB Footpedal\n");
+  const auto found = findHands({hid.library(), {}});
+  EXPECT_EQ(found.hands.size(), 1U);
+  EXPECT_TRUE(found.pedal);
+}
+
+TEST(FindHands, ListsOneSpaceMouseAndTheServers)
+{
+  StandIn hid;
+  // Its keyboard's interface is no cap; a second cap waits until the first is pulled.
+  hid.playAll("plug keys 256f c635 1 6 SpaceMouse Compact\n"
+              "plug cap 256f c635 1 8 SpaceMouse Compact\n"
+              "plug cap2 256f c632 1 8 SpaceMouse Pro Wireless\n");
+  const std::filesystem::path servers = std::filesystem::path(PETROUS_EXAMPLE_SERVER).parent_path();
+  const auto found = findHands({hid.library(), {servers}});
+  ASSERT_GE(found.hands.size(), 3U);
+  EXPECT_EQ(found.hands[1].name, "SpaceMouse Compact");
+  EXPECT_EQ(found.hands[1].id, "spacemouse");
+  EXPECT_EQ(found.hands[1].advice, "");
+  const auto example = std::find_if(found.hands.begin(), found.hands.end(),
+                                    [](const Hand& hand) { return hand.id == "server-example"; });
+  ASSERT_NE(example, found.hands.end());
+  EXPECT_EQ(example->kind, Hand::Kind::Server);
+  EXPECT_EQ(example->name, "example");
+}
+
+TEST(ActiveDevice, ASpaceMouseBeginsWithAShaftThatDoesNotHideTheBurr)
+{
+  StandIn hid;
+  hid.playAll("plug cap 256f c635 1 8 SpaceMouse Compact\n");
+  Hand hand;
+  hand.kind = Hand::Kind::SpaceMouse;
+  ActiveDevice device({hid.library(), {}}, hand);
+  EXPECT_TRUE(device.endless());
+  const Eigen::Vector3d shaft = device.read(1.0).pose.rotation * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(std::acos(shaft.z()) * 180.0 / std::acos(-1.0), 20.0, 1e-9); // from the eye
+  EXPECT_GT(shaft.x(), 0.0);                                               // a right hand,
+  EXPECT_LT(shaft.y(), 0.0);                                               // from below
+}
+
+TEST(ActiveDevice, AServersHandleKeepsItsOwnHeading)
+{
+  Hand hand;
+  hand.kind = Hand::Kind::Server;
+  hand.name = "held-" + std::to_string(::getpid());
+  hand.program = PETROUS_EXAMPLE_SERVER;
+  ActiveDevice device({}, hand);
+  EXPECT_EQ(device.description().name, "Petrous example device");
+  EXPECT_FALSE(device.endless());
+  for (int n = 0; n < 2000 && device.read(devices::testing::steadySeconds()).health !=
+                                  haptics::DeviceHealth::Good;
+       ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  // It turns about its own z.
+  const auto reading = device.read(devices::testing::steadySeconds());
+  ASSERT_EQ(reading.health, haptics::DeviceHealth::Good);
+  EXPECT_NEAR((reading.pose.rotation * Eigen::Vector3d::UnitZ()).z(), 1.0, 1e-9);
+  EXPECT_EQ(device.problem(), "");
+}
+
+TEST(ActiveDevice, RefusesWhatIsNoDevice)
+{
+  EXPECT_THROW(ActiveDevice({}, Hand()), core::InvalidParameter);
+  Hand cap;
+  cap.kind = Hand::Kind::SpaceMouse;
+  EXPECT_THROW(ActiveDevice({}, cap), core::InvalidParameter);
+  Hand server;
+  server.kind = Hand::Kind::Server;
+  server.name = "missing-" + std::to_string(::getpid());
+  server.program = "/nowhere/at/all";
+  EXPECT_THROW(ActiveDevice({}, server), devices::ServerError);
+}

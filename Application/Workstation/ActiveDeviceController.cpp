@@ -1,0 +1,108 @@
+#include "ActiveDeviceController.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "DeviceToolBar.h"
+#include "Theme.h"
+#include "WindowSettings.h"
+
+namespace petrous::workstation
+{
+
+using presenters::DeviceMapping;
+using presenters::Hand;
+
+ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceToolBar& bar, WindowSettings& settings, QObject* parent)
+  : QObject(parent)
+  , m_finder(finder)
+  , m_bar(bar)
+  , m_settings(settings)
+{
+  connect(&finder, &DeviceWatcher::changed, this, &ActiveDeviceController::showHands);
+  connect(&finder, &DeviceWatcher::opened, this, &ActiveDeviceController::take);
+  connect(&finder, &DeviceWatcher::failed, this, &ActiveDeviceController::giveUp);
+  connect(&bar, &DeviceToolBar::chosen, this, &ActiveDeviceController::choose);
+  connect(&bar, &DeviceToolBar::leadChanged, this,
+          [this]
+          {
+            m_settings.keepScale(m_hand.id, m_bar.scale());
+            if (m_device && m_device->description().givesForce)
+              m_settings.keepForceLimit(m_hand.id, m_bar.forceLimit());
+            emit leadChanged();
+          });
+}
+
+ActiveDeviceController::~ActiveDeviceController()
+{
+  m_finder.close(std::move(m_device));
+}
+
+void ActiveDeviceController::showHands()
+{
+  m_bar.showHands(m_finder.found(), m_hand.id);
+  tellAdvice();
+  const bool pedal = m_finder.pedal() != nullptr;
+  if (std::exchange(m_hadPedal, pedal) == pedal)
+    return;
+  emit pedalCame();
+  emit said(tr("The pedal drills")); // after what taking up the tool says
+}
+
+// What is plugged in but cannot be used: each advice once.
+void ActiveDeviceController::tellAdvice()
+{
+  std::set<std::string> advice;
+  for (const Hand& hand : m_finder.found().hands)
+    advice.insert(hand.advice);
+  advice.insert(m_finder.found().pedalAdvice);
+  advice.erase("");
+  for (const std::string& line : advice)
+    if (m_told.count(line) == 0)
+      emit said(words(line));
+  m_told = std::move(advice);
+}
+
+void ActiveDeviceController::choose(const Hand& hand)
+{
+  if (hand.id == m_hand.id)
+    return;
+  emit leaving();
+  m_finder.drop();
+  m_finder.close(std::move(m_device));
+  m_device.reset();
+  m_hand = hand;
+  m_bar.showHands(m_finder.found(), m_hand.id);
+  m_bar.showLead(nullptr, 1.0, 0.0);
+  if (hand.kind == Hand::Kind::Mouse)
+    return emit came();
+  emit said(tr("Taking up %1…").arg(words(hand.name)));
+  m_finder.open(hand);
+}
+
+void ActiveDeviceController::take()
+{
+  m_device = m_finder.take();
+  const haptics::DeviceDescription& device = m_device->description();
+  const double scale = m_settings.scale(m_hand.id).value_or(presenters::usualScale(device));
+  const double limit = m_settings.forceLimit(m_hand.id).value_or(device.maxForce);
+  m_bar.showLead(&device, scale, std::clamp(limit, 0.0, device.maxForce));
+  emit said(tr("%1 is there").arg(words(device.name)));
+  emit came();
+}
+
+void ActiveDeviceController::giveUp(const QString& why)
+{
+  choose(Hand());
+  emit said(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
+}
+
+DeviceMapping ActiveDeviceController::lead() const
+{
+  DeviceMapping lead;
+  lead.scale = m_bar.scale();
+  lead.forceLimit = m_bar.forceLimit();
+  return lead;
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "LabelPriority.h"
+
+namespace petrous::volume
+{
+
+/// Two voxels beyond a structure its share is 0 for certain, and its index has ended.
+constexpr int kLabelMargin = 2;
+
+/// A share above this is what a picture takes for inside (OpticalModel.h, kShareThreshold).
+constexpr double kInsideShare = 0.5 - 1e-3;
+
+core::IndexBox grown(const core::IndexBox& box, int voxels) noexcept;
+core::IndexBox moved(const core::IndexBox& box, const core::Index3& by) noexcept;
+
+Eigen::Vector3d toVector(const core::Index3& index) noexcept;
+core::Index3 nearestVoxel(const Eigen::Vector3d& position) noexcept;
+core::Index3 flooredVoxel(const Eigen::Vector3d& position) noexcept;
+
+/// The grid of a box of voxels that may reach beyond `grid`.
+core::GridGeometry gridOf(const core::GridGeometry& grid, const core::IndexBox& box);
+
+/// The nearest step of 1/65535.
+float quantisedShare(double share) noexcept;
+
+/// Smoothed union (SmoothedUnion.h) of the solid voxels on the box of them, kLabelMargin wider.
+std::shared_ptr<Volume<float>> smoothRanks(const LabelPriority& ranks, const LabelOrder& order,
+                                           const core::Progress& progress);
+
+/// Whether the sources lie on one grid.
+bool onOneGrid(const std::vector<LabelSource>& sources);
+
+/// The voxels of sources on one grid, 1 in any of them and 0 elsewhere, on the box of them
+/// kLabelMargin wider; null when there are none.
+std::shared_ptr<const Volume<std::uint8_t>> insideOf(const std::vector<LabelSource>& sources,
+                                                     const core::Progress& progress);
+
+/// Calls body(tile indices, its voxels) for every tile of LabelTiles' size, in parallel.
+template <class Body>
+void forEachTile(const core::Index3& voxels, const core::Progress& progress,
+                 const std::string& text, const Body& body)
+{
+  const LabelTiles tiles(voxels);
+  const core::Index3 n = tiles.dims();
+  const int count = static_cast<int>(core::IndexBox{{0, 0, 0}, n}.count());
+  constexpr int kReports = 20;
+  const int stride = std::max(1, count / kReports);
+  std::atomic<int> done{0};
+  progress.report(0.0, text);
+  tbb::parallel_for(0, count,
+                    [&](int t)
+                    {
+                      progress.check(text);
+                      const core::Index3 tile{t % n[0], t / n[0] % n[1], t / n[0] / n[1]};
+                      body(tile, tiles.voxelsOf(tile[0], tile[1], tile[2]));
+                      const int now = ++done;
+                      if (now % stride == 0)
+                        progress.report(static_cast<double>(now) / count, text);
+                    });
+}
+
+} // namespace petrous::volume

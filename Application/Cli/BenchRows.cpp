@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr double kPlot = 610.0;  // px
-constexpr double kLeast = 400.0; // px, of the names' column
+constexpr double kMin = 400.0; // px, of the names' column
 constexpr double kLetter = 6.2;  // px, of their letters about
 constexpr double kRight = 30.0;
 constexpr double kTop = 110.0;
@@ -48,7 +48,7 @@ std::string rowsSvg(const core::BenchmarkReport& report)
       placeOf(programs, point.peer.empty() ? "petrous" : point.peer);
       seconds.push_back(point.seconds);
     }
-  double left = kLeast;
+  double left = kMin;
   for (const std::string& scene : scenes)
     left = std::max(left, 20.0 + kLetter * static_cast<double>(scene.size()));
   const double width = left + kPlot + kRight;

@@ -11,38 +11,38 @@ namespace petrous::workstation
 {
 
 using presenters::DeviceMapping;
-using presenters::Hand;
+using presenters::InputDevice;
 
 ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceToolBar& bar, WindowSettings& settings, QObject* parent)
   : QObject(parent)
-  , m_finder(finder)
+  , m_watcher(finder)
   , m_bar(bar)
   , m_settings(settings)
 {
-  connect(&finder, &DeviceWatcher::changed, this, &ActiveDeviceController::showHands);
+  connect(&finder, &DeviceWatcher::changed, this, &ActiveDeviceController::showDevices);
   connect(&finder, &DeviceWatcher::opened, this, &ActiveDeviceController::take);
   connect(&finder, &DeviceWatcher::failed, this, &ActiveDeviceController::giveUp);
   connect(&bar, &DeviceToolBar::chosen, this, &ActiveDeviceController::choose);
   connect(&bar, &DeviceToolBar::leadChanged, this,
           [this]
           {
-            m_settings.keepScale(m_hand.id, m_bar.scale());
+            m_settings.keepScale(m_input.id, m_bar.scale());
             if (m_device && m_device->description().givesForce)
-              m_settings.keepForceLimit(m_hand.id, m_bar.forceLimit());
+              m_settings.keepForceLimit(m_input.id, m_bar.forceLimit());
             emit leadChanged();
           });
 }
 
 ActiveDeviceController::~ActiveDeviceController()
 {
-  m_finder.close(std::move(m_device));
+  m_watcher.close(std::move(m_device));
 }
 
-void ActiveDeviceController::showHands()
+void ActiveDeviceController::showDevices()
 {
-  m_bar.showHands(m_finder.found(), m_hand.id);
+  m_bar.showDevices(m_watcher.found(), m_input.id);
   tellAdvice();
-  const bool pedal = m_finder.pedal() != nullptr;
+  const bool pedal = m_watcher.pedal() != nullptr;
   if (std::exchange(m_hadPedal, pedal) == pedal)
     return;
   emit pedalCame();
@@ -53,9 +53,9 @@ void ActiveDeviceController::showHands()
 void ActiveDeviceController::tellAdvice()
 {
   std::set<std::string> advice;
-  for (const Hand& hand : m_finder.found().hands)
-    advice.insert(hand.advice);
-  advice.insert(m_finder.found().pedalAdvice);
+  for (const InputDevice& input : m_watcher.found().devices)
+    advice.insert(input.advice);
+  advice.insert(m_watcher.found().pedalAdvice);
   advice.erase("");
   for (const std::string& line : advice)
     if (m_told.count(line) == 0)
@@ -63,29 +63,29 @@ void ActiveDeviceController::tellAdvice()
   m_told = std::move(advice);
 }
 
-void ActiveDeviceController::choose(const Hand& hand)
+void ActiveDeviceController::choose(const InputDevice& input)
 {
-  if (hand.id == m_hand.id)
+  if (input.id == m_input.id)
     return;
   emit leaving();
-  m_finder.drop();
-  m_finder.close(std::move(m_device));
+  m_watcher.drop();
+  m_watcher.close(std::move(m_device));
   m_device.reset();
-  m_hand = hand;
-  m_bar.showHands(m_finder.found(), m_hand.id);
+  m_input = input;
+  m_bar.showDevices(m_watcher.found(), m_input.id);
   m_bar.showLead(nullptr, 1.0, 0.0);
-  if (hand.kind == Hand::Kind::Mouse)
+  if (input.kind == InputDevice::Kind::Mouse)
     return emit came();
-  emit said(tr("Taking up %1…").arg(words(hand.name)));
-  m_finder.open(hand);
+  emit said(tr("Taking up %1…").arg(words(input.name)));
+  m_watcher.open(input);
 }
 
 void ActiveDeviceController::take()
 {
-  m_device = m_finder.take();
+  m_device = m_watcher.take();
   const haptics::DeviceDescription& device = m_device->description();
-  const double scale = m_settings.scale(m_hand.id).value_or(presenters::usualScale(device));
-  const double limit = m_settings.forceLimit(m_hand.id).value_or(device.maxForce);
+  const double scale = m_settings.scale(m_input.id).value_or(presenters::usualScale(device));
+  const double limit = m_settings.forceLimit(m_input.id).value_or(device.maxForce);
   m_bar.showLead(&device, scale, std::clamp(limit, 0.0, device.maxForce));
   emit said(tr("%1 is there").arg(words(device.name)));
   emit came();
@@ -93,7 +93,7 @@ void ActiveDeviceController::take()
 
 void ActiveDeviceController::giveUp(const QString& why)
 {
-  choose(Hand());
+  choose(InputDevice());
   emit said(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
 }
 

@@ -27,12 +27,12 @@ public:
   presenters::ActiveDevice* device() const noexcept { return m_device.get(); } ///< null: the mouse
   bool opening() const noexcept
   {
-    return !m_device && m_hand.kind != presenters::Hand::Kind::Mouse;
+    return !m_device && m_input.kind != presenters::InputDevice::Kind::Mouse;
   }
-  const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_finder.pedal(); }
+  const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_watcher.pedal(); }
   presenters::DeviceMapping lead() const; ///< but for the thrust
 
-  void choose(const presenters::Hand& hand);
+  void choose(const presenters::InputDevice& input);
   void giveUp(const QString& why); ///< the mouse takes over
 
 signals:
@@ -45,13 +45,13 @@ signals:
 
 private:
   void take();
-  void showHands();
+  void showDevices();
   void tellAdvice();
 
-  DeviceWatcher& m_finder;
+  DeviceWatcher& m_watcher;
   DeviceToolBar& m_bar;
   WindowSettings& m_settings;
-  presenters::Hand m_hand; // chosen
+  presenters::InputDevice m_input; // chosen
   std::shared_ptr<presenters::ActiveDevice> m_device;
   std::set<std::string> m_told; // advice on what is plugged in
   bool m_hadPedal = false;

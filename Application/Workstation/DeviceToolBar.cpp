@@ -16,14 +16,14 @@ namespace petrous::workstation
 {
 
 using presenters::DeviceMapping;
-using presenters::Hand;
+using presenters::InputDevice;
 
 namespace
 {
 
-QString titleOf(const Hand& hand)
+QString titleOf(const InputDevice& input)
 {
-  return hand.kind == Hand::Kind::Mouse ? DeviceToolBar::tr("Mouse") : words(hand.name);
+  return input.kind == InputDevice::Kind::Mouse ? DeviceToolBar::tr("Mouse") : words(input.name);
 }
 
 QDoubleSpinBox* numberBox(const char* name, const QString& suffix, double least, double most,
@@ -42,16 +42,16 @@ QDoubleSpinBox* numberBox(const char* name, const QString& suffix, double least,
 } // namespace
 
 DeviceToolBar::DeviceToolBar(QWidget* parent)
-  : QToolBar(tr("Hand"), parent)
+  : QToolBar(tr("Device"), parent)
   , m_choice(new QComboBox)
-  , m_scale(numberBox("handScale", tr(" mm/mm"), DeviceMapping::kLeastScale, DeviceMapping::kMostScale,
+  , m_scale(numberBox("deviceScale", tr(" mm/mm"), DeviceMapping::kMinScale, DeviceMapping::kMaxScale,
                       0.05, 2))
   , m_limit(numberBox("forceLimit", tr(" N"), 0.0, 200.0, 0.1, 1))
   , m_here(new QAction(tr("Bring the tool &here"), this))
 {
-  setObjectName("handBar");
+  setObjectName("deviceBar");
   setMovable(false);
-  m_choice->setObjectName("handChoice");
+  m_choice->setObjectName("deviceChoice");
   m_choice->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   m_choice->setToolTip(tr("What leads the tool: the mouse, a SpaceMouse, or a device behind a "
                           "device server. What is plugged in comes up by itself.\n"
@@ -69,41 +69,41 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
     label->setContentsMargins(8, 0, 2, 0);
     return std::vector<QAction*>{addWidget(label), addWidget(widget)};
   };
-  add(tr("Hand"), m_choice);
+  add(tr("Device"), m_choice);
   m_scaleParts = add(tr("Scale"), m_scale);
   m_limitParts = add(tr("At most"), m_limit);
   connect(m_choice, qOverload<int>(&QComboBox::activated), this,
           [this](int row)
           {
-            const Hand hand = m_hands[static_cast<std::size_t>(row)]; // the list may be made anew
-            emit chosen(hand);
+            const InputDevice input = m_devices[static_cast<std::size_t>(row)]; // the list may be made anew
+            emit chosen(input);
           });
   connect(m_scale, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DeviceToolBar::leadChanged);
   connect(m_limit, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DeviceToolBar::leadChanged);
-  showHands({}, Hand().id);
+  showDevices({}, InputDevice().id);
   showLead(nullptr, 1.0, 0.0);
 }
 
-void DeviceToolBar::showHands(const presenters::DeviceList& found, const std::string& held)
+void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::string& held)
 {
-  const auto is = [&held](const Hand& hand) { return hand.id == held; };
-  std::vector<Hand> hands = found.hands;
-  const auto before = std::find_if(m_hands.begin(), m_hands.end(), is);
-  if (std::none_of(hands.begin(), hands.end(), is) && before != m_hands.end())
-    hands.push_back(*before);
-  m_hands = std::move(hands);
+  const auto is = [&held](const InputDevice& input) { return input.id == held; };
+  std::vector<InputDevice> devices = found.devices;
+  const auto before = std::find_if(m_devices.begin(), m_devices.end(), is);
+  if (std::none_of(devices.begin(), devices.end(), is) && before != m_devices.end())
+    devices.push_back(*before);
+  m_devices = std::move(devices);
 
   const QSignalBlocker quiet(m_choice);
   m_choice->clear();
-  for (const Hand& hand : m_hands)
+  for (const InputDevice& input : m_devices)
   {
-    m_choice->addItem(titleOf(hand));
+    m_choice->addItem(titleOf(input));
     const int row = m_choice->count() - 1;
-    if (is(hand))
+    if (is(input))
       m_choice->setCurrentIndex(row);
-    if (hand.advice.empty())
+    if (input.advice.empty())
       continue;
-    m_choice->setItemData(row, words(hand.advice), Qt::ToolTipRole);
+    m_choice->setItemData(row, words(input.advice), Qt::ToolTipRole);
     qobject_cast<QStandardItemModel*>(m_choice->model())->item(row)->setEnabled(false);
   }
 }

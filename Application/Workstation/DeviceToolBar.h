@@ -19,7 +19,7 @@ public:
   explicit DeviceToolBar(QWidget* parent = nullptr);
 
   /// `held`: the id of the hand that is chosen, which may have gone from the list.
-  void showHands(const presenters::DeviceList& found, const std::string& held);
+  void showDevices(const presenters::DeviceList& found, const std::string& held);
 
   /// Null: the mouse. The values are set without a word.
   void showLead(const haptics::DeviceDescription* device, double scale, double forceLimit);
@@ -30,11 +30,11 @@ public:
   QAction* hereAction() const noexcept { return m_here; }
 
 signals:
-  void chosen(const petrous::presenters::Hand& hand); ///< by the user
+  void chosen(const petrous::presenters::InputDevice& input); ///< by the user
   void leadChanged();
 
 private:
-  std::vector<presenters::Hand> m_hands; // as listed
+  std::vector<presenters::InputDevice> m_devices; // as listed
   QComboBox* m_choice;
   QDoubleSpinBox* m_scale;
   QDoubleSpinBox* m_limit;

@@ -10,7 +10,7 @@
 namespace petrous::workstation
 {
 
-using presenters::Hand;
+using presenters::InputDevice;
 using presenters::DeviceList;
 using presenters::ActiveDevice;
 
@@ -64,7 +64,7 @@ void DeviceWatcher::run()
 
 void DeviceWatcher::look()
 {
-  DeviceList found = presenters::findHands(m_sources);
+  DeviceList found = presenters::findDevices(m_sources);
   if (found == m_seen)
     return;
   m_seen = std::move(found);
@@ -81,11 +81,11 @@ void DeviceWatcher::show(const DeviceList& found)
   emit changed();
 }
 
-void DeviceWatcher::open(const Hand& hand)
+void DeviceWatcher::open(const InputDevice& input)
 {
   const std::uint64_t question = ++m_wanted;
   post(
-      [this, hand, question]
+      [this, input, question]
       {
         const auto wanted = [this, question] { return question == m_wanted; };
         if (!wanted())
@@ -94,7 +94,7 @@ void DeviceWatcher::open(const Hand& hand)
         QString why;
         try
         {
-          device = std::make_shared<ActiveDevice>(m_sources, hand, wanted);
+          device = std::make_shared<ActiveDevice>(m_sources, input, wanted);
         }
         catch (const core::Error& error)
         {
@@ -102,7 +102,7 @@ void DeviceWatcher::open(const Hand& hand)
         }
         catch (const std::exception&) // no memory, no thread
         {
-          why = tr("%1 cannot be opened").arg(words(hand.name));
+          why = tr("%1 cannot be opened").arg(words(input.name));
         }
         QMetaObject::invokeMethod(
             this,

@@ -31,7 +31,7 @@ public:
   const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_pedal; }
 
   /// Answered by `opened` or `failed`, unless something else is opened or dropped meanwhile.
-  void open(const presenters::Hand& hand);
+  void open(const presenters::InputDevice& input);
   void drop(); ///< what is being opened is not wanted any more
 
   /// What `opened` told of.

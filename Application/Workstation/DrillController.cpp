@@ -52,13 +52,13 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
 } // namespace
 
 DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView& view,
-                                 DrillBar& bar, ActiveDeviceController& hands, QObject* parent)
+                                 DrillBar& bar, ActiveDeviceController& devices, QObject* parent)
   : QObject(parent)
   , m_model(model)
   , m_view(view)
   , m_bar(bar)
-  , m_hands(hands)
-  , m_lead(model, view, hands)
+  , m_devices(devices)
+  , m_lead(model, view, devices)
 {
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
@@ -72,7 +72,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
           });
   connectBar();
   connectView();
-  connectHands();
+  connectDevices();
   applyBar();
 }
 
@@ -116,18 +116,18 @@ void DrillController::connectView()
           [this](double notches, bool fine) { m_lead.wheel(notches, fine); });
 }
 
-void DrillController::connectHands()
+void DrillController::connectDevices()
 {
-  connect(&m_hands, &ActiveDeviceController::leaving, this, &DrillController::putAway);
-  connect(&m_hands, &ActiveDeviceController::came, this, &DrillController::handCame);
-  connect(&m_hands, &ActiveDeviceController::leadChanged, this, &DrillController::restartTool);
-  connect(&m_hands, &ActiveDeviceController::pedalCame, this,
+  connect(&m_devices, &ActiveDeviceController::leaving, this, &DrillController::putAway);
+  connect(&m_devices, &ActiveDeviceController::came, this, &DrillController::deviceCame);
+  connect(&m_devices, &ActiveDeviceController::leadChanged, this, &DrillController::restartTool);
+  connect(&m_devices, &ActiveDeviceController::pedalCame, this,
           [this]
           {
             if (m_model.drilling())
               return;
             restartTool(); // with the pedal
-            if (!m_hands.device())
+            if (!m_devices.device())
               takeAtPointer();
           });
 }
@@ -145,7 +145,7 @@ double DrillController::toolRadius() const
 void DrillController::applyBar()
 {
   using Mode = interaction::AimSettings::Mode;
-  const bool wheel = m_bar.wheelAction()->isChecked() && !m_hands.device();
+  const bool wheel = m_bar.wheelAction()->isChecked() && !m_devices.device();
   interaction::AimSettings settings;
   settings.burrRadius = toolRadius();
   settings.thrust = m_bar.thrust();
@@ -189,14 +189,14 @@ void DrillController::takeAtPointer()
     m_lead.point(m_view.sightLine(m_view.pointer()));
 }
 
-void DrillController::handCame()
+void DrillController::deviceCame()
 {
   m_lead.beginThere();
-  m_view.setButtonDrills(!m_hands.device());
-  m_bar.setPresses(!m_hands.device(),
-                   !m_hands.device() || !m_hands.device()->description().givesForce);
+  m_view.setButtonDrills(!m_devices.device());
+  m_bar.setPresses(!m_devices.device(),
+                   !m_devices.device() || !m_devices.device()->description().givesForce);
   applyBar();
-  if (m_hands.device())
+  if (m_devices.device())
     takeTool();
 }
 
@@ -205,19 +205,19 @@ void DrillController::restartTool()
 {
   putAway();
   applyBar();
-  if (m_hands.device())
+  if (m_devices.device())
     m_anew.start();
 }
 
 void DrillController::tissueCame()
 {
-  if (m_tool != Tool::None && m_hands.device())
+  if (m_tool != Tool::None && m_devices.device())
     takeTool(); // the pointer's next move takes it up otherwise
 }
 
 void DrillController::bringHere()
 {
-  if (!m_hands.device() || m_tool == Tool::None)
+  if (!m_devices.device() || m_tool == Tool::None)
     return;
   putAway();
   m_lead.beginHere();
@@ -228,7 +228,7 @@ bool DrillController::takeTool()
 {
   if (m_model.touching())
     return true;
-  if (m_tool == Tool::None || !m_model.hasCase() || m_hands.opening())
+  if (m_tool == Tool::None || !m_model.hasCase() || m_devices.opening())
     return false;
   if (!m_model.ready())
   {
@@ -269,7 +269,7 @@ bool DrillController::takeTool()
   }
   emit said(m_lead.byMouse()
                 ? QString()
-                : tr("%1 leads the tool").arg(words(m_hands.device()->description().name)));
+                : tr("%1 leads the tool").arg(words(m_devices.device()->description().name)));
   m_lead.send();
   m_sinceTaken.start();
   m_frames.start();
@@ -297,7 +297,7 @@ void DrillController::putAway()
 
 void DrillController::hover(const interaction::PickRay& line)
 {
-  const bool reads = m_tool == Tool::Pointer && m_hands.device();
+  const bool reads = m_tool == Tool::Pointer && m_devices.device();
   if (const auto hit = m_model.surfaceAt(line); hit && !reads)
     emit pointed(*hit);
   else if (!reads)
@@ -341,7 +341,7 @@ void DrillController::hear(const presenters::TouchSession::News& news)
     emit said(words(news.failure));
   }
   if (news.record && m_model.touching() && isLost(*news.record))
-    m_hands.giveUp(whyLost());
+    m_devices.giveUp(whyLost());
 }
 
 void DrillController::show(const presenters::TouchSession::News& news)
@@ -400,9 +400,9 @@ bool DrillController::isLost(const TickRecord& record)
 
 QString DrillController::whyLost() const
 {
-  const presenters::ActiveDevice& device = *m_hands.device();
-  const QString name = words(device.hand().name);
-  if (device.hand().kind == presenters::Hand::Kind::SpaceMouse)
+  const presenters::ActiveDevice& device = *m_devices.device();
+  const QString name = words(device.input().name);
+  if (device.input().kind == presenters::InputDevice::Kind::SpaceMouse)
     return tr("%1 was unplugged").arg(name);
   const QString why = words(device.problem());
   return why.isEmpty() ? tr("%1 gives no place any more").arg(name) : why;

@@ -27,7 +27,7 @@ public:
   static constexpr double kPointerRadius = 0.5; ///< mm, of the pointer's ball
 
   DrillController(presenters::WorkstationModel& model, ThreeDView& view, DrillBar& bar,
-                  ActiveDeviceController& hands, QObject* parent = nullptr);
+                  ActiveDeviceController& devices, QObject* parent = nullptr);
 
   void setSlicesFollow(bool follow); ///< the crosshair goes with the burr while it drills
   void releaseTool();                    ///< no tool; ends an open stroke
@@ -54,7 +54,7 @@ private:
   };
   void connectBar();
   void connectView();
-  void connectHands();
+  void connectDevices();
   void setTool(Tool tool);
   void hover(const interaction::PickRay& line);
   void press(const interaction::PickRay& line);
@@ -64,7 +64,7 @@ private:
   void restartTool();
   void takeAtPointer();
   void applyBar();
-  void handCame();
+  void deviceCame();
   void frame();
   void hear(const presenters::TouchSession::News& news);
   void show(const presenters::TouchSession::News& news);
@@ -78,7 +78,7 @@ private:
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
   DrillBar& m_bar;
-  ActiveDeviceController& m_hands;
+  ActiveDeviceController& m_devices;
   ToolDriver m_lead;
   std::optional<Eigen::Vector3d> m_tip; // that was read last
   QTimer m_frames;

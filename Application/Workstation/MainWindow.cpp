@@ -90,7 +90,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   : m_model(std::move(library))
   , m_settings(std::make_unique<WindowSettings>(options.settings))
   , m_bar(new DrillBar)
-  , m_handBar(new DeviceToolBar)
+  , m_deviceBar(new DeviceToolBar)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
   , m_panel(new StructuresPanel(m_model))
@@ -104,13 +104,13 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
-  , m_actions(new WindowActions(*this, *m_bar, *m_handBar, options.quadBuffer))
+  , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
   , m_saver(new CaseSaver(m_model))
   , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner,
                             *m_damageBanner))
-  , m_finder(new DeviceWatcher(options.hands, options.lookForHandsEvery, this))
-  , m_hands(new ActiveDeviceController(*m_finder, *m_handBar, *m_settings, this))
-  , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_hands, this))
+  , m_watcher(new DeviceWatcher(options.devices, options.lookForDevicesEvery, this))
+  , m_devices(new ActiveDeviceController(*m_watcher, *m_deviceBar, *m_settings, this))
+  , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_devices, this))
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
@@ -138,9 +138,9 @@ MainWindow::~MainWindow()
   m_drill->releaseTool();    // before the hands that hold it
   delete m_registration; // its threads end
   delete m_drill;
-  delete m_hands;
+  delete m_devices;
   delete m_nearby;  // asks the model when it is hidden
-  delete m_finder;  // a server ends now
+  delete m_watcher;  // a server ends now
   delete m_picture; // the surgeon's window follows the view
   delete m_keeper;  // its threads must not outlive the model
   delete m_saver;
@@ -272,10 +272,10 @@ void MainWindow::connectModel()
     statusBar()->repaint(); // what takes a while is told before it begins
   };
   connect(m_drill, &DrillController::said, this, say);
-  connect(m_hands, &ActiveDeviceController::said, this, say);
-  connect(m_hands, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_devices, &ActiveDeviceController::said, this, say);
+  connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
-  connect(m_handBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
+  connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
   const auto tell = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };

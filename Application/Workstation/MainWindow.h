@@ -41,8 +41,8 @@ struct WindowOptions
 {
   bool quadBuffer = false;       ///< the driver offers two buffers (see quadBufferOffered)
   QString settings;              ///< an INI file; empty: the user's own
-  presenters::DeviceSources hands; ///< none: the mouse only
-  int lookForHandsEvery = 1000;  ///< ms
+  presenters::DeviceSources devices; ///< none: the mouse only
+  int lookForDevicesEvery = 1000;  ///< ms
 };
 
 /// The workstation's window: puts model, views and panels together and passes on what happens.
@@ -87,7 +87,7 @@ private:
   presenters::WorkstationModel m_model;
   std::unique_ptr<WindowSettings> m_settings;
   DrillBar* m_bar;
-  DeviceToolBar* m_handBar;
+  DeviceToolBar* m_deviceBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
   StructuresPanel* m_panel;
@@ -105,8 +105,8 @@ private:
   WindowActions* m_actions;
   CaseSaver* m_saver;
   CaseDocumentController* m_keeper;
-  DeviceWatcher* m_finder;
-  ActiveDeviceController* m_hands;
+  DeviceWatcher* m_watcher;
+  ActiveDeviceController* m_devices;
   DrillController* m_drill;
   PictureController* m_picture;
   BranchController* m_branches;

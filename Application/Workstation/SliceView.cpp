@@ -19,7 +19,7 @@ namespace
 using presenters::SliceOrientation;
 
 constexpr double kHuPerPixel = 8.0;
-constexpr double kLeastHu = 10.0; // of a grey window
+constexpr double kMinHu = 10.0; // of a grey window
 constexpr int kMargin = 8;
 constexpr double kGap = 9.0; // of the crosshair, pixels
 
@@ -279,7 +279,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   else if (event->buttons() & Qt::RightButton)
   {
     const double perPixel = kHuPerPixel * m_display.unit;
-    const double width = std::max(m_window.width + perPixel * step.x(), kLeastHu * m_display.unit);
+    const double width = std::max(m_window.width + perPixel * step.x(), kMinHu * m_display.unit);
     emit greyWindowChanged({width, m_window.level - 0.5 * perPixel * step.y()});
   }
   else if (event->buttons() & Qt::MiddleButton)

@@ -24,10 +24,10 @@ bool isPlaced(const simulation::TickRecord& record)
          fault != ServoFault::Parameters;
 }
 
-ToolDriver::ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& hands)
+ToolDriver::ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& devices)
   : m_model(model)
   , m_view(view)
-  , m_hands(hands)
+  , m_devices(devices)
   , m_aim([&model](const interaction::PickRay& line) { return model.tissueAlong(line); })
 {
 }
@@ -63,7 +63,7 @@ Eigen::Vector3d ToolDriver::placeLookedAt()
 
 presenters::DeviceMapping ToolDriver::lead() const
 {
-  presenters::DeviceMapping lead = m_hands.lead();
+  presenters::DeviceMapping lead = m_devices.lead();
   lead.thrust = m_aim.settings().thrust;
   return lead;
 }
@@ -84,9 +84,9 @@ bool ToolDriver::outgrown() const
 haptics::Device& ToolDriver::prepare(presenters::TouchSession::Setup& setup)
 {
   m_pointer = nullptr;
-  if (presenters::ActiveDevice* device = m_hands.device())
+  if (presenters::ActiveDevice* device = m_devices.device())
   {
-    device->setPedal(m_hands.pedal());
+    device->setPedal(m_devices.pedal());
     const core::CameraPose camera = m_view.picture().camera();
     presenters::fit(setup, device->description(), lead(), device->endless());
     setup.parameters = presenters::parametersFor(device->description(), lead(), camera, {});
@@ -105,8 +105,8 @@ haptics::Device& ToolDriver::prepare(presenters::TouchSession::Setup& setup)
   limits.silence = kSilence;
   auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);
   m_pointer = pointer.get();
-  if (m_hands.pedal())
-    m_mouse = std::make_unique<devices::PedalledDevice>(std::move(pointer), m_hands.pedal());
+  if (m_devices.pedal())
+    m_mouse = std::make_unique<devices::PedalledDevice>(std::move(pointer), m_devices.pedal());
   else
     m_mouse = std::move(pointer);
   return *m_mouse;
@@ -125,7 +125,7 @@ void ToolDriver::send()
     m_aim.apply(parameters);
     parameters.clutch = m_held.clutch ? 1 : 0;
   }
-  else if (const presenters::ActiveDevice* device = m_hands.device())
+  else if (const presenters::ActiveDevice* device = m_devices.device())
     parameters =
         presenters::parametersFor(device->description(), lead(), m_view.picture().camera(), m_held);
   if (!m_cuts)

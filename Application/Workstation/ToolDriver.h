@@ -19,7 +19,7 @@ class ThreeDView;
 class ToolDriver
 {
 public:
-  ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& hands);
+  ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& devices);
 
   /// How the mouse leads a tool of that radius; the thrust is of every hand without force. `cuts`:
   /// false for a pointer, for which no switch is the drill's.
@@ -58,7 +58,7 @@ private:
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
-  ActiveDeviceController& m_hands;
+  ActiveDeviceController& m_devices;
   interaction::PointerToolController m_aim;
   std::unique_ptr<haptics::Device> m_mouse;        // of the touch that runs
   interaction::PointerDevice* m_pointer = nullptr; // in it

@@ -46,7 +46,7 @@ QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequenc
   return action;
 }
 
-WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& handBar,
+WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar,
                              bool quadBuffer)
   : QObject(&window)
 {
@@ -109,7 +109,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   drill->addAction(drillBar.drillAction());
   drill->addAction(drillBar.pointerAction());
   drill->addAction(drillBar.wheelAction());
-  drill->addAction(handBar.hereAction());
+  drill->addAction(deviceBar.hereAction());
   smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft,
                      tr("The next smaller one that is sold"));
   largerBurr =
@@ -149,7 +149,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   window.addToolBar(bar);
   window.addToolBarBreak(); // in one row with the next two a narrow window would hide some
   window.addToolBar(&drillBar);
-  window.addToolBar(&handBar);
+  window.addToolBar(&deviceBar);
 
   m_needCase.insert(m_needCase.end(),
                     {save, saveAs, centerView, boneThickness, boneWindow, softWindow, fitSlices,

@@ -25,7 +25,7 @@ class WindowActions : public QObject
 public:
   /// Fills the window's menu bar and adds a tool bar and the two bars on top.
   /// `quadBuffer`: the driver offers two buffers.
-  WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& handBar, bool quadBuffer);
+  WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar, bool quadBuffer);
 
   void addPanelToggle(QAction* action); ///< to the View menu
   void setCaseOpen(bool open);          ///< greys out what needs a case

@@ -25,7 +25,7 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
   return QFile::encodeName(folder).toStdString();
 }
 
-petrous::presenters::DeviceSources handSources()
+petrous::presenters::DeviceSources deviceSources()
 {
   petrous::presenters::DeviceSources sources;
   try
@@ -68,7 +68,7 @@ int main(int argc, char** argv)
 
   workstation::WindowOptions options;
   options.quadBuffer = workstation::quadBufferOffered();
-  options.hands = handSources();
+  options.devices = deviceSources();
   workstation::MainWindow window(library::Library(libraryFolder(parser)), options);
   window.show();
   workstation::guarded([&] { window.begin(parser.positionalArguments().value(0)); });

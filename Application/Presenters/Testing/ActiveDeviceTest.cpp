@@ -19,18 +19,18 @@ using namespace petrous;
 using namespace petrous::presenters;
 using devices::testing::StandIn;
 
-TEST(FindHands, TheMouseIsAlwaysThereAndThePedalIsNoHand)
+TEST(FindDevices, TheMouseIsAlwaysThereAndThePedalIsNotOne)
 {
-  EXPECT_EQ(findHands({}).hands.size(), 1U);
-  EXPECT_EQ(findHands({}).hands.front().kind, Hand::Kind::Mouse);
+  EXPECT_EQ(findDevices({}).devices.size(), 1U);
+  EXPECT_EQ(findDevices({}).devices.front().kind, InputDevice::Kind::Mouse);
   StandIn hid;
   hid.playAll("plug foot 05f3 00ff c 3 VEC USB Footpedal\n");
-  const auto found = findHands({hid.library(), {}});
-  EXPECT_EQ(found.hands.size(), 1U);
+  const auto found = findDevices({hid.library(), {}});
+  EXPECT_EQ(found.devices.size(), 1U);
   EXPECT_TRUE(found.pedal);
 }
 
-TEST(FindHands, ListsOneSpaceMouseAndTheServers)
+TEST(FindDevices, ListsOneSpaceMouseAndTheServers)
 {
   StandIn hid;
   // Its keyboard's interface is no cap; a second cap waits until the first is pulled.
@@ -38,15 +38,15 @@ TEST(FindHands, ListsOneSpaceMouseAndTheServers)
               "plug cap 256f c635 1 8 SpaceMouse Compact\n"
               "plug cap2 256f c632 1 8 SpaceMouse Pro Wireless\n");
   const std::filesystem::path servers = std::filesystem::path(PETROUS_EXAMPLE_SERVER).parent_path();
-  const auto found = findHands({hid.library(), {servers}});
-  ASSERT_GE(found.hands.size(), 3U);
-  EXPECT_EQ(found.hands[1].name, "SpaceMouse Compact");
-  EXPECT_EQ(found.hands[1].id, "spacemouse");
-  EXPECT_EQ(found.hands[1].advice, "");
-  const auto example = std::find_if(found.hands.begin(), found.hands.end(),
-                                    [](const Hand& hand) { return hand.id == "server-example"; });
-  ASSERT_NE(example, found.hands.end());
-  EXPECT_EQ(example->kind, Hand::Kind::Server);
+  const auto found = findDevices({hid.library(), {servers}});
+  ASSERT_GE(found.devices.size(), 3U);
+  EXPECT_EQ(found.devices[1].name, "SpaceMouse Compact");
+  EXPECT_EQ(found.devices[1].id, "spacemouse");
+  EXPECT_EQ(found.devices[1].advice, "");
+  const auto example = std::find_if(found.devices.begin(), found.devices.end(),
+                                    [](const InputDevice& input) { return input.id == "server-example"; });
+  ASSERT_NE(example, found.devices.end());
+  EXPECT_EQ(example->kind, InputDevice::Kind::Server);
   EXPECT_EQ(example->name, "example");
 }
 
@@ -54,9 +54,9 @@ TEST(ActiveDevice, ASpaceMouseBeginsWithAShaftThatDoesNotHideTheBurr)
 {
   StandIn hid;
   hid.playAll("plug cap 256f c635 1 8 SpaceMouse Compact\n");
-  Hand hand;
-  hand.kind = Hand::Kind::SpaceMouse;
-  ActiveDevice device({hid.library(), {}}, hand);
+  InputDevice input;
+  input.kind = InputDevice::Kind::SpaceMouse;
+  ActiveDevice device({hid.library(), {}}, input);
   EXPECT_TRUE(device.endless());
   const Eigen::Vector3d shaft = device.read(1.0).pose.rotation * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR(std::acos(shaft.z()) * 180.0 / std::acos(-1.0), 20.0, 1e-9); // from the eye
@@ -66,11 +66,11 @@ TEST(ActiveDevice, ASpaceMouseBeginsWithAShaftThatDoesNotHideTheBurr)
 
 TEST(ActiveDevice, AServersHandleKeepsItsOwnHeading)
 {
-  Hand hand;
-  hand.kind = Hand::Kind::Server;
-  hand.name = "held-" + std::to_string(::getpid());
-  hand.program = PETROUS_EXAMPLE_SERVER;
-  ActiveDevice device({}, hand);
+  InputDevice input;
+  input.kind = InputDevice::Kind::Server;
+  input.name = "held-" + std::to_string(::getpid());
+  input.program = PETROUS_EXAMPLE_SERVER;
+  ActiveDevice device({}, input);
   EXPECT_EQ(device.description().name, "Petrous example device");
   EXPECT_FALSE(device.endless());
   for (int n = 0; n < 2000 && device.read(devices::testing::steadySeconds()).health !=
@@ -86,12 +86,12 @@ TEST(ActiveDevice, AServersHandleKeepsItsOwnHeading)
 
 TEST(ActiveDevice, RefusesWhatIsNoDevice)
 {
-  EXPECT_THROW(ActiveDevice({}, Hand()), core::InvalidParameter);
-  Hand cap;
-  cap.kind = Hand::Kind::SpaceMouse;
+  EXPECT_THROW(ActiveDevice({}, InputDevice()), core::InvalidParameter);
+  InputDevice cap;
+  cap.kind = InputDevice::Kind::SpaceMouse;
   EXPECT_THROW(ActiveDevice({}, cap), core::InvalidParameter);
-  Hand server;
-  server.kind = Hand::Kind::Server;
+  InputDevice server;
+  server.kind = InputDevice::Kind::Server;
   server.name = "missing-" + std::to_string(::getpid());
   server.program = "/nowhere/at/all";
   EXPECT_THROW(ActiveDevice({}, server), devices::ServerError);

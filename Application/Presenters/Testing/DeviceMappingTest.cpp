@@ -78,12 +78,12 @@ TEST(DeviceMapping, AHandWithoutMotorsIsOnALeashOfItsThrust)
   TouchSession::Setup setup;
   fit(setup, cap, lead, true);
   EXPECT_NEAR(setup.tool.coupling.stiffness *
-                  static_cast<double>(parametersFor(cap, lead, camera(), {}).mostLead),
+                  static_cast<double>(parametersFor(cap, lead, camera(), {}).maxLead),
               2.5, 1e-6);
   EXPECT_FALSE(setup.passivity);
   EXPECT_EQ(setup.limits.maxForce, 0.0);
   EXPECT_GT(setup.guard.reach, 1e6);
-  EXPECT_EQ(parametersFor(motors(1.0), lead, camera(), {}).mostLead, 0.0F);
+  EXPECT_EQ(parametersFor(motors(1.0), lead, camera(), {}).maxLead, 0.0F);
 }
 
 TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)

@@ -25,14 +25,14 @@ constexpr double kLookEvery = 0.3; // s, for a SpaceMouse that was pulled
 // A way that is led by a speed has no end: 7 hours at full deflection.
 constexpr double kEndless = 1e6; // mm
 
-Hand spaceMouse(const devices::FoundDevice& found)
+InputDevice spaceMouse(const devices::FoundDevice& found)
 {
-  Hand hand;
-  hand.kind = Hand::Kind::SpaceMouse;
-  hand.id = "spacemouse";
-  hand.name = found.device.name;
-  hand.advice = found.advice;
-  return hand;
+  InputDevice input;
+  input.kind = InputDevice::Kind::SpaceMouse;
+  input.id = "spacemouse";
+  input.name = found.device.name;
+  input.advice = found.advice;
+  return input;
 }
 
 // Whether opening it may work; of some nodes only the attempt tells.
@@ -51,13 +51,13 @@ Eigen::Quaterniond mousesHeading()
 
 } // namespace
 
-DeviceList findHands(const DeviceSources& sources)
+DeviceList findDevices(const DeviceSources& sources)
 {
   DeviceList found;
   std::vector<devices::FoundDevice> plugged;
   if (sources.hid)
     plugged = devices::findDevices(*sources.hid);
-  std::optional<Hand> cap; // the first that may be opened, as SpaceMouseDevice takes it
+  std::optional<InputDevice> cap; // the first that may be opened, as SpaceMouseDevice takes it
   for (const devices::FoundDevice& device : plugged)
   {
     const bool open = usable(device);
@@ -73,23 +73,23 @@ DeviceList findHands(const DeviceSources& sources)
       found.pedalAdvice = device.advice;
   }
   if (cap)
-    found.hands.push_back(*cap);
+    found.devices.push_back(*cap);
   for (const devices::FoundServer& server : devices::findServers(sources.serverFolders))
   {
-    Hand hand;
-    hand.kind = Hand::Kind::Server;
-    hand.id = "server-" + server.name;
-    hand.name = server.name;
-    hand.program = server.program;
-    found.hands.push_back(std::move(hand));
+    InputDevice input;
+    input.kind = InputDevice::Kind::Server;
+    input.id = "server-" + server.name;
+    input.name = server.name;
+    input.program = server.program;
+    found.devices.push_back(std::move(input));
   }
   return found;
 }
 
-ActiveDevice::ActiveDevice(const DeviceSources& sources, const Hand& hand, std::function<bool()> wanted)
-  : m_hand(hand)
+ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& input, std::function<bool()> wanted)
+  : m_input(input)
 {
-  if (hand.kind == Hand::Kind::SpaceMouse)
+  if (input.kind == InputDevice::Kind::SpaceMouse)
   {
     if (!sources.hid)
       throw core::InvalidParameter("there is no hidapi to read a SpaceMouse with");
@@ -100,11 +100,11 @@ ActiveDevice::ActiveDevice(const DeviceSources& sources, const Hand& hand, std::
     m_problem = [cap = device.get()] { return cap->problem(); };
     m_device = std::move(device);
   }
-  else if (hand.kind == Hand::Kind::Server)
+  else if (input.kind == InputDevice::Kind::Server)
   {
     devices::ServedDevice::Options options;
-    options.name = hand.name;
-    options.command = {hand.program.string()};
+    options.name = input.name;
+    options.command = {input.program.string()};
     options.wanted = std::move(wanted);
     auto device = std::make_unique<devices::ServedDevice>(options);
     m_problem = [served = device.get()]

@@ -349,11 +349,11 @@ void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
 {
   const core::PatientBox box = grid.patientBounds();
   const double reach = volume::reachBeyond(mesh, box);
-  if (reach <= volume::mostReach(box))
+  if (reach <= volume::maxReach(box))
     return;
   throw core::InvalidParameter(
       path.string() + ": reaches " + core::fixedText(reach, 0) + " mm beyond " + what +
-      ", and a surface of this patient at most " + core::fixedText(volume::mostReach(box), 0) +
+      ", and a surface of this patient at most " + core::fixedText(volume::maxReach(box), 0) +
       " mm; look for a coordinate without its decimal point, and give it in mm");
 }
 

@@ -10,7 +10,7 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr std::size_t kLongest = 90; // bytes; leaves room for a number behind it
+constexpr std::size_t kMaxLength = 90; // bytes; leaves room for a number behind it
 
 bool isContinuation(char c)
 {
@@ -70,9 +70,9 @@ std::string caseNameFrom(const std::filesystem::path& source)
         return u < 0x20 || u == 0x7f || unwanted.find(c) != std::string::npos;
       },
       ' ');
-  if (name.size() > kLongest)
+  if (name.size() > kMaxLength)
   {
-    std::size_t end = kLongest;
+    std::size_t end = kMaxLength;
     while (end > 0 && isContinuation(name[end]))
       --end;
     name.resize(end);

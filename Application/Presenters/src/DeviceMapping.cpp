@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr double kSoft = 0.2;            // N/mm: any device with motors renders it
-constexpr double kLeastStiffness = 0.02; // N/mm: what is softer cannot be worked with
+constexpr double kMinStiffness = 0.02; // N/mm: what is softer cannot be worked with
 constexpr double kEndless = 1e9;         // mm
 
 // N/mm, of the proxy's coupling.
@@ -21,7 +21,7 @@ double stiffnessFor(const haptics::DeviceDescription& device, double scale)
   if (!device.givesForce)
     return usual;
   const double rendered = device.maxStiffness > 0.0 ? device.maxStiffness : kSoft;
-  return std::clamp(rendered / scale, kLeastStiffness, usual);
+  return std::clamp(rendered / scale, kMinStiffness, usual);
 }
 
 double angularStiffnessFor(const haptics::DeviceDescription& device, double scale)
@@ -75,7 +75,7 @@ simulation::ServoParameters parametersFor(const haptics::DeviceDescription& devi
   parameters.clutch = switches.clutch ? 1 : 0;
   parameters.drill = switches.drill ? 1 : 0;
   if (!device.givesForce)
-    parameters.mostLead = static_cast<float>(lead.thrust / stiffnessFor(device, lead.scale));
+    parameters.maxLead = static_cast<float>(lead.thrust / stiffnessFor(device, lead.scale));
   simulation::check(parameters);
   return parameters;
 }

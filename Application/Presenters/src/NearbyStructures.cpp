@@ -68,14 +68,14 @@ std::string warningsOf(const std::vector<NearbyStructure>& structures)
                    [](const NearbyStructure* a, const NearbyStructure* b)
                    { return a->state > b->state; });
   std::string text;
-  for (std::size_t n = 0; n < std::min(worst.size(), kMostWarnings); ++n)
+  for (std::size_t n = 0; n < std::min(worst.size(), kMaxWarnings); ++n)
   {
     text += (text.empty() ? "" : "\n") + toString(*worst[n]);
     if (worst[n]->injured > 0.0)
       text += "; injured, " + cubicMillimetres(worst[n]->injured);
   }
-  if (worst.size() > kMostWarnings)
-    text += "\nand " + std::to_string(worst.size() - kMostWarnings) + " more";
+  if (worst.size() > kMaxWarnings)
+    text += "\nand " + std::to_string(worst.size() - kMaxWarnings) + " more";
   return text;
 }
 

@@ -218,14 +218,14 @@ PlaneSamples samplePlane(const volume::IntensityVolume& image, const SliceGeomet
   return samples;
 }
 
-std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float leastSlope)
+std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float minSlope)
 {
   std::vector<ContourSegment> segments;
   for (int row = 0; row + 1 < samples.height; ++row)
     for (int column = 0; column + 1 < samples.width; ++column)
     {
       const Cell cell(samples, column, row);
-      if (cell.crosses(level) && cell.finite() && cell.slope() >= leastSlope)
+      if (cell.crosses(level) && cell.finite() && cell.slope() >= minSlope)
         cell.march(level, segments);
     }
   return segments;

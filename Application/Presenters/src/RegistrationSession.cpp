@@ -12,7 +12,7 @@ namespace
 {
 using scene::Registration;
 
-constexpr std::size_t kMostSteps = 1000;
+constexpr std::size_t kMaxSteps = 1000;
 
 Registration byHand()
 {
@@ -82,7 +82,7 @@ void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
         m_undo.push_back(before);
         m_redo.clear();
       });
-  if (m_undo.size() > kMostSteps)
+  if (m_undo.size() > kMaxSteps)
     m_undo.erase(m_undo.begin());
 }
 

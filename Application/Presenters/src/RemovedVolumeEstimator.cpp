@@ -18,7 +18,7 @@ const dissection::RemovedVolume& RemovedVolumeEstimator::soFar(const dissection:
     Result result = m_result.get();
     if (work.strokeOpen() && m_pending == m_stroke)
       m_removed = std::move(result.removed);
-    const double pause = std::max(kEvery, kMostShare * result.seconds) - result.seconds;
+    const double pause = std::max(kEvery, kMaxShare * result.seconds) - result.seconds;
     m_next = now + std::chrono::duration_cast<Clock::duration>(
                        std::chrono::duration<double>(std::max(0.0, pause)));
   }

@@ -159,9 +159,9 @@ void paintOverlay(const SliceOverlay& overlay, const SliceGeometry& slice, Slice
 void paintEdges(const PlaneSamples& ct, const EdgeLevels& levels, double mmPerPixel,
                 SlicePixels& pixels)
 {
-  const auto leastSlope = static_cast<float>(levels.slope * mmPerPixel);
-  const auto bone = contours(ct, levels.bone, leastSlope);
-  const auto skin = contours(ct, levels.skin, leastSlope);
+  const auto minSlope = static_cast<float>(levels.slope * mmPerPixel);
+  const auto bone = contours(ct, levels.bone, minSlope);
+  const auto skin = contours(ct, levels.skin, minSlope);
   const auto paint =
       [&pixels](const std::vector<float>& covered, const std::array<float, 3>& color, float most)
   {

@@ -47,7 +47,7 @@ bool isLabelMap(const volume::Volume<T>& image)
     if (!seen[index])
     {
       seen[index] = true;
-      if (++values > kMostLabels)
+      if (++values > kMaxLabels)
         return false;
     }
   }

@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <QInputDialog>
 #include <QLineEdit>
@@ -12,7 +12,7 @@ using namespace petrous::workstation;
 namespace
 {
 
-class Branches : public HandTest
+class Branches : public DeviceTest
 {
 protected:
   QMenu& menu()

@@ -74,8 +74,8 @@ void GuiTest::openWindow(const QString& what)
 {
   WindowOptions options;
   options.settings = m_folder.filePath("settings.conf");
-  options.hands = hands;
-  options.lookForHandsEvery = 50;
+  options.devices = devices;
+  options.lookForDevicesEvery = 50;
   m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
   m_window->show();

@@ -34,7 +34,7 @@ protected:
   static scene::Case ballCase(const std::string& name);
   void saveBall(const std::string& name); ///< into the library
 
-  presenters::DeviceSources hands; ///< of the windows to come; none to begin with
+  presenters::DeviceSources devices; ///< of the windows to come; none to begin with
   void openWindow(const QString& what = {});
   void closeWindow();
   MainWindow& window() { return *m_window; }

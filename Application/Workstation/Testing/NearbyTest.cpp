@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <QDockWidget>
 #include <QLabel>
@@ -13,7 +13,7 @@ using namespace petrous::workstation;
 namespace
 {
 
-class Nearby : public HandTest
+class Nearby : public DeviceTest
 {
 protected:
   QDockWidget& dock() { return *window().findChild<QDockWidget*>("nearbyDock"); }

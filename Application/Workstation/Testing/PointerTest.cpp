@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-class Pointer : public HandTest
+class Pointer : public DeviceTest
 {
 protected:
   void pointAt(const QPoint& pixel)

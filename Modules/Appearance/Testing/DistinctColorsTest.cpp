@@ -56,7 +56,7 @@ Triple labOf(const Color& color, Sight sight)
 }
 
 // Smallest CIE 1976 colour difference of two of them.
-double leastDifference(const std::vector<Color>& colors, Sight sight)
+double minDifference(const std::vector<Color>& colors, Sight sight)
 {
   double least = 1e9;
   for (std::size_t a = 0; a < colors.size(); ++a)
@@ -94,7 +94,7 @@ TEST(DistinctColors, SevenAreAsDistinctToTheColourBlindAsThePublishedPalette)
                          static_cast<float>(rgb[2]) / 255.0F});
   const auto colors = palette(published.size());
   for (const Sight sight : {Sight::Protan, Sight::Deutan})
-    EXPECT_GE(leastDifference(colors, sight), leastDifference(published, sight))
+    EXPECT_GE(minDifference(colors, sight), minDifference(published, sight))
         << static_cast<int>(sight);
 }
 
@@ -102,9 +102,9 @@ TEST(DistinctColors, SixtyDifferByMoreThanTheEyeNeeds)
 {
   const auto colors = palette(60);
   constexpr double kNoticed = 2.3; // just noticeable difference (Mahy et al. 1994)
-  EXPECT_GT(leastDifference(colors, Sight::Normal), 3.0 * kNoticed);
-  EXPECT_GT(leastDifference(colors, Sight::Protan), kNoticed);
-  EXPECT_GT(leastDifference(colors, Sight::Deutan), kNoticed);
+  EXPECT_GT(minDifference(colors, Sight::Normal), 3.0 * kNoticed);
+  EXPECT_GT(minDifference(colors, Sight::Protan), kNoticed);
+  EXPECT_GT(minDifference(colors, Sight::Deutan), kNoticed);
 }
 
 TEST(DistinctColors, NoneIsTakenForANerveOrAVessel)
@@ -112,7 +112,7 @@ TEST(DistinctColors, NoneIsTakenForANerveOrAVessel)
   const auto presets = petrous::appearance::StructurePresets::builtIn();
   for (const Color& color : palette(20))
     for (const char* name : {"nerve", "artery", "vein", "bone"})
-      EXPECT_GT(leastDifference({color, presets.preset(name).color}, Sight::Normal), 10.0) << name;
+      EXPECT_GT(minDifference({color, presets.preset(name).color}, Sight::Normal), 10.0) << name;
 }
 
 TEST(DistinctColors, KeepsClearOfWhatIsTaken)

@@ -44,7 +44,7 @@ void check(const std::vector<ControlPoint>& points)
 using nlohmann::json;
 
 // A file with more is no transfer function; each would cost the renderer.
-constexpr std::size_t kMostPoints = 1024;
+constexpr std::size_t kMaxPoints = 1024;
 
 [[noreturn]] void refuseJson(const std::string& what)
 {
@@ -163,9 +163,9 @@ TransferFunction TransferFunction::fromJson(std::string_view text)
     refuseJson("must be {\"points\": [{\"value\": 300, \"color\": [r, g, b], \"opacity\": 0.2, "
                "\"specular\": 0.5}, ...]}");
   checkKeys(j, {"points"}, "");
-  if (j["points"].size() > kMostPoints)
+  if (j["points"].size() > kMaxPoints)
     refuseJson("has " + std::to_string(j["points"].size()) + " points; at most " +
-               std::to_string(kMostPoints) + " are taken");
+               std::to_string(kMaxPoints) + " are taken");
   std::vector<ControlPoint> points;
   for (const json& point : j["points"])
     points.push_back(pointIn(point, "point " + std::to_string(points.size() + 1) + ": "));

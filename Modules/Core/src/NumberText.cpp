@@ -10,12 +10,12 @@ namespace
 {
 
 // The largest double has 309 digits before the point.
-constexpr std::size_t kLongest = 512;
+constexpr std::size_t kMaxLength = 512;
 
 template <class T, class... Form>
 std::string written(T value, Form... form)
 {
-  std::array<char, kLongest> text{};
+  std::array<char, kMaxLength> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, form...);
   return {text.data(), end.ptr};
 }

@@ -17,8 +17,8 @@ using haptics::DeviceHealth;
 
 constexpr double kFarthest = 2000.0; // mm; no desk device reaches so far
 // A hand moves below 5 m/s. Twice that, and 20 mm for two samples that come close together.
-constexpr double kMostSpeed = 10000.0; // mm/s
-constexpr double kMostStep = 20.0;     // mm
+constexpr double kMaxSpeed = 10000.0; // mm/s
+constexpr double kMaxStep = 20.0;     // mm
 constexpr double kBadFor = 0.1;        // s that one bad pose taints
 
 // s; only differences are used. The servo's own clock may be a simulated one.
@@ -96,7 +96,7 @@ void ServedDevice::takePose(double now) noexcept
   if (good)
   {
     pose.rotation.normalize();
-    const double reach = kMostStep + kMostSpeed * std::max(0.0, now - m_poseTime);
+    const double reach = kMaxStep + kMaxSpeed * std::max(0.0, now - m_poseTime);
     good = !m_hasPose || (pose.position - m_lastPose.position).norm() <= reach;
     m_lastPose = pose;
     m_hasPose = true;

@@ -16,7 +16,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr char kPrefix[] = "petrous-device-";
-constexpr std::size_t kLongest = 48;
+constexpr std::size_t kMaxLength = 48;
 
 // Empty where a server cannot be called so.
 std::string nameOf(const fs::path& program)
@@ -31,7 +31,7 @@ std::string nameOf(const fs::path& program)
                                           (c >= '0' && c <= '9') || c == '.' || c == '-' ||
                                           c == '_';
                                  });
-  return sound && !name.empty() && name.front() != '.' && name.size() <= kLongest ? name
+  return sound && !name.empty() && name.front() != '.' && name.size() <= kMaxLength ? name
                                                                                   : std::string();
 }
 

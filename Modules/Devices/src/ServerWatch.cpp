@@ -21,8 +21,8 @@ using Seconds = std::chrono::duration<double>;
 constexpr auto kPeriod = std::chrono::milliseconds(10);
 constexpr auto kAsk = std::chrono::milliseconds(50);
 // A longer pause was ours (a debugger, a laptop asleep) and says nothing of the server.
-constexpr double kLongestStep = 0.05; // s
-constexpr int kMostFailures = 5;
+constexpr double kMaxStep = 0.05; // s
+constexpr int kMaxFailures = 5;
 constexpr double kSettled = 10.0; // s; a server that ran so long may fail anew
 
 std::string seconds(double value)
@@ -99,7 +99,7 @@ void ServerWatch::run()
   {
     lock.unlock();
     const auto now = Clock::now();
-    attempt([&] { look(std::min(Seconds(now - last).count(), kLongestStep)); });
+    attempt([&] { look(std::min(Seconds(now - last).count(), kMaxStep)); });
     last = now;
     lock.lock();
   }
@@ -144,7 +144,7 @@ void ServerWatch::lookAfterProcess()
     setLink(Link::Gone);
     m_failures = m_sinceBegin > kSettled ? 1 : m_failures + 1;
     m_untilStart = 0.1 * (1 << m_failures);
-    if (m_options.restart && m_failures >= kMostFailures)
+    if (m_options.restart && m_failures >= kMaxFailures)
       fail(Reason::Ended, *end + "; that was the " + std::to_string(m_failures) +
                               "th time in a row, and it is not started again");
   }
@@ -155,7 +155,7 @@ void ServerWatch::lookAfterProcess()
 bool ServerWatch::mayRestart() const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  return m_options.restart && m_description && m_failures < kMostFailures;
+  return m_options.restart && m_description && m_failures < kMaxFailures;
 }
 
 void ServerWatch::lookForProcess()

@@ -71,7 +71,7 @@ TEST(RemovalLaw, CuttingForceClosesTheForceTriangle)
     const double rake = (60.0 * share(random) - 45.0) * kDegree;
     const double friction = 1.5 * share(random);
     const double thrust = 0.1 + 10.0 * share(random);
-    if (friction - std::tan(rake) < OrthogonalCutting::kLeastDifference ||
+    if (friction - std::tan(rake) < OrthogonalCutting::kMinDifference ||
         1.0 + friction * std::tan(rake) <= 0.0)
       continue;
     const double cutting = OrthogonalCutting(3e9, friction, rake).cuttingForce(thrust);

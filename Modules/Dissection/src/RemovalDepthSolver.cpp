@@ -17,8 +17,8 @@ constexpr double kSkin = 0.02;   // voxels: a search begins so far before where 
 constexpr double kBeside = 0.25; // voxels: to the side of the last bite, within which it tells
 constexpr double kAim = 0.96;    // share of the work
 constexpr double kFinest = 1e-4; // voxels; a step of the mask is half of it
-constexpr double kLeastBite = 1e-3; // points' parts: the sums are floats, less is their rounding
-constexpr int kMostTrials = 40;     // bisection alone needs 14
+constexpr double kMinBite = 1e-3; // points' parts: the sums are floats, less is their rounding
+constexpr int kMaxTrials = 40;     // bisection alone needs 14
 constexpr double kAheadOf = 2.0;    // voxels, for the first tissue
 constexpr double kAheadStep = 0.25;
 
@@ -125,7 +125,7 @@ std::optional<Bite> RemovalDepthSolver::find(const volume::CutMask& mask, const 
   {
     if (!p.window.gather(mask, {at(bracket.low), at(bracket.high), p.radius}))
       return Bite{{at(top), at(top), p.radius}, top, 0.0, 0.0, {}, true};
-    for (int trial = 0; trial < kMostTrials && !found; ++trial)
+    for (int trial = 0; trial < kMaxTrials && !found; ++trial)
     {
       if (bracket.high - bracket.low < kFinest * p.h)
         break;
@@ -156,7 +156,7 @@ std::optional<Bite> RemovalDepthSolver::find(const volume::CutMask& mask, const 
     depth = bracket.low;
   RemovalStencil::Taken taken = p.window.taken(at(depth), p.radius, wish.spindle);
   const bool capped = depth >= top;
-  if (!(taken.volume > kLeastBite * p.window.partVolume() && taken.work > 0.0))
+  if (!(taken.volume > kMinBite * p.window.partVolume() && taken.work > 0.0))
   {
     if (!capped)
       return std::nullopt;

@@ -39,8 +39,8 @@ OrthogonalCutting::OrthogonalCutting(double specificEnergy, double friction, dou
           "the friction must lie within 0 to 2, it is " + text(friction));
   require(std::abs(rake) <= kSteepest, "the rake angle must lie within 60 degrees");
   const double slope = std::tan(rake);
-  require(friction - slope >= kLeastDifference,
-          "friction less the rake's tangent must be at least " + text(kLeastDifference) +
+  require(friction - slope >= kMinDifference,
+          "friction less the rake's tangent must be at least " + text(kMinDifference) +
               ", it is " + text(friction - slope) + " (friction " + text(friction) + ", tangent " +
               text(slope) + ")");
   require(1.0 + friction * slope > 0.0,

@@ -12,7 +12,7 @@ namespace petrous::dissection
 namespace
 {
 constexpr double kFarthest = 1e6;  // mm
-constexpr double kMostTicks = 1e8; // more than a day at 1 kHz
+constexpr double kMaxTicks = 1e8; // more than a day at 1 kHz
 constexpr double kSameTick = 1e-6; // share of a tick
 } // namespace
 
@@ -46,7 +46,7 @@ void ToolPath::play(double rate, const std::function<void(const ToolSample&)>& t
     throw core::InvalidParameter("tool path: the tick rate must be above 0 Hz");
   const double start = m_samples.front().time;
   const double end = m_samples.back().time;
-  if (!((end - start) * rate <= kMostTicks))
+  if (!((end - start) * rate <= kMaxTicks))
     throw core::InvalidParameter("tool path: lasts " + core::generalText(end - start) +
                                  " s, which is more than 1e8 ticks; cut it into parts");
 

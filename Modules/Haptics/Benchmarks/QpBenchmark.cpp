@@ -32,7 +32,7 @@ class GaussSeidel
 public:
   void solve(const QpProblem& problem)
   {
-    constexpr int kMostSweeps = 1000;
+    constexpr int kMaxSweeps = 1000;
     constexpr double kSettled = 1e-9;
     const Vector6 root = problem.stiffness.cwiseSqrt();
     const std::size_t count = problem.rows.size();
@@ -48,7 +48,7 @@ public:
     Vector6 y = root.cwiseProduct(problem.unconstrained);
     const double settled = kSettled * y.norm();
     double change = 2.0 * settled;
-    for (m_sweeps = 0; m_sweeps < kMostSweeps && change > settled; ++m_sweeps)
+    for (m_sweeps = 0; m_sweeps < kMaxSweeps && change > settled; ++m_sweeps)
     {
       change = 0.0;
       for (std::size_t i = 0; i < count; ++i)

@@ -46,7 +46,7 @@ Walk walkOnPlate(const Vector3d& toward, double thickness, double offset, unsign
     const ProxyTick& tick = proxy.step(hand.tick());
     walk.touched += tick.contactCount > 0;
     walk.inside += tick.status == ProxyStatus::Inside;
-    if (tick.contactCount < ProxyTick::kMostContacts)
+    if (tick.contactCount < ProxyTick::kMaxContacts)
       walk.worstSum = std::max(walk.worstSum, sumError(tick));
     double lowest = std::numeric_limits<double>::max();
     for (const Vector3d& point : shell.points)

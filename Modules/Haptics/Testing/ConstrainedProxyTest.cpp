@@ -90,7 +90,7 @@ TEST(ConstrainedProxy, GivesTheSumOfItsContactsForcesAndTorques)
     }
     ++pressed;
     several += tick.contactCount > 1;
-    ASSERT_LT(tick.contactCount, ProxyTick::kMostContacts);
+    ASSERT_LT(tick.contactCount, ProxyTick::kMaxContacts);
     ASSERT_LE(sumError(tick), 1e-9);
     double thrust = 0.0;
     for (std::size_t n = 0; n < tick.contactCount; ++n)

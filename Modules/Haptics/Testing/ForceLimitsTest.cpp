@@ -295,9 +295,9 @@ TEST(ForceLimits, RefusesLimitsThatMakeNoSense)
   for (const double bad : {-1.0, kNan, kInfinity})
     for (const auto value :
          {&Limits::maxForce, &Limits::maxTorque, &Limits::forceSlew, &Limits::torqueSlew,
-          &Limits::fadeIn, &Limits::fadeOut, &Limits::longestStep})
+          &Limits::fadeIn, &Limits::fadeOut, &Limits::maxStep})
       refuses(value, bad);
   for (const auto value : {&Limits::forceSlew, &Limits::torqueSlew, &Limits::fadeIn,
-                           &Limits::fadeOut, &Limits::longestStep})
+                           &Limits::fadeOut, &Limits::maxStep})
     refuses(value, 0.0);
 }

@@ -154,7 +154,7 @@ TEST(ProxyQp, FindsTheLeastEnergyOfHandAndSprings)
 TEST(ProxyQp, TakesNoMoreSpringsThanItHas)
 {
   ProxyQp qp(8, kCoupling, true);
-  EXPECT_TRUE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMostSprings - 1, 1.0));
-  EXPECT_FALSE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMostSprings, 1.0));
+  EXPECT_TRUE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMaxSprings - 1, 1.0));
+  EXPECT_FALSE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMaxSprings, 1.0));
   EXPECT_THROW(ProxyQp(0, kCoupling, true), core::InvalidParameter);
 }

@@ -86,7 +86,7 @@ TEST(ShellSweep, GoesNoFartherThanItsChordsReach)
   const Scene scene = sceneOf(scanOf(plane(Vector3d::UnitZ()), kVoxel, 6.0));
   Sweeping one(scene, pointShell());
   one.sweep.moveTo(poseAt({0.0, 0.0, 3.0}));
-  const double reach = ShellSweep::kMostSteps * 0.5 * kVoxel;
+  const double reach = ShellSweep::kMaxSteps * 0.5 * kVoxel;
   const ShellSweep::Hit hit = one.advance({Vector3d(0.0, 0.0, 4.0 * reach), Vector3d::Zero()});
   EXPECT_FALSE(hit.any);
   EXPECT_NEAR(hit.free, 0.25, 1e-12);
@@ -149,7 +149,7 @@ TEST(ShellSweep, AgreesWithAFineLookAtItsWay)
     const Motion motion{1.0 * draw().normalized(), 0.5 * draw().normalized()};
     const ShellSweep::Hit hit = one.advance(motion);
     ASSERT_LE(deepest(*scene.tissue, shell, one.sweep.pose()), 0.0);
-    const double way = longestWay(motion, shell.reach);
+    const double way = maxDisplacement(motion, shell.reach);
     // A graze of h/16 reaches as deep as half of it times the slope of the field (0.4 by the
     // three sines' steepest, 400 HU a mm over 1000 HU of scale), and the path's arc is off its
     // chord by chord^2 / (8 arm).

@@ -29,8 +29,8 @@ Scene cellularBone(double h)
 // sample that the tool may meet a few times.
 std::size_t bound(const PointShell& shell)
 {
-  return static_cast<std::size_t>(ProxyParameters().samples) + SurfaceSamples::kMostWork +
-         2 * shell.points.size() + SurfaceSamples::kMostSamples / SurfaceSamples::kUnit;
+  return static_cast<std::size_t>(ProxyParameters().samples) + SurfaceSamples::kMaxWork +
+         2 * shell.points.size() + SurfaceSamples::kMaxSamples / SurfaceSamples::kUnit;
 }
 
 } // namespace
@@ -67,11 +67,11 @@ TEST(SolidBound, HandpieceOnCellularBoneCostsNoMoreAtAnySpeed)
         way += (tick.pose.position - before).norm();
         if (t % 200 == 199)
         {
-          EXPECT_LE(deepestBone(scene, shape, 1.2, tick.pose, 3.0), kMost);
+          EXPECT_LE(deepestBone(scene, shape, 1.2, tick.pose, 3.0), kMax);
         }
       }
       EXPECT_LE(most, bound(shell));
-      EXPECT_LE(told, kMost);
+      EXPECT_LE(told, kMax);
       EXPECT_GT(way, 2.0) << "it must go on";
     }
   }
@@ -110,9 +110,9 @@ TEST(SolidBound, WaitsForWhatWasNotLookedAt)
   for (int t = 0; t < 400; ++t)
   {
     tick = &proxy.step(pose(4.0)); // at once
-    ASSERT_LE(tick->penetration, kMost);
+    ASSERT_LE(tick->penetration, kMax);
   }
-  EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 3.0), kMost);
+  EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 3.0), kMax);
   EXPECT_EQ(tick->status, ProxyStatus::Contact);
   EXPECT_NEAR((tick->pose * Vector3d(0.0, 0.0, 60.0)).z(), 6.0, 0.3);
 }

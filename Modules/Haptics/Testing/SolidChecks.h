@@ -10,7 +10,7 @@
 namespace petrous::haptics::testing
 {
 
-constexpr double kMost = 0.05; // mm, of bone in the tool
+constexpr double kMax = 0.05; // mm, of bone in the tool
 
 /// How deep a point lies in ball, shaft and handpiece, mm; the shapes as BurrShape says them.
 inline double depthIn(const BurrShape& shape, double shaftRadius, const Eigen::Vector3d& p)
@@ -140,7 +140,7 @@ inline Dragged drag(const Scene& scene, const BurrShape& shape, double radius, d
       result.deepest =
           std::max(result.deepest, deepestIn(truth ? *truth : scene.field->geometry(), scene, shape,
                                              shaftRadius, tick.pose, perVoxel));
-    result.stretch = longestWay(motionBetween(tick.pose, pose(start - 0.01 * t)), at);
+    result.stretch = maxDisplacement(motionBetween(tick.pose, pose(start - 0.01 * t)), at);
   }
   return result;
 }

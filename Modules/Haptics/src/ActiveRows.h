@@ -19,10 +19,10 @@ template <int N>
 class ActiveRows
 {
 public:
-  static constexpr int kMost = N + 6; ///< N, and a few that nearly depend on those
+  static constexpr int kMax = N + 6; ///< N, and a few that nearly depend on those
 
   using Vector = Eigen::Matrix<double, N, 1>;
-  using Coefficients = std::array<double, kMost>; // the first size() count
+  using Coefficients = std::array<double, kMax>; // the first size() count
 
   /// What of a new row is orthogonal to the active ones: head, tail, and sqrt(c) in its own axis.
   struct Rest
@@ -34,7 +34,7 @@ public:
 
   struct Members
   {
-    std::array<Eigen::Index, kMost> row;
+    std::array<Eigen::Index, kMax> row;
     Coefficients multiplier;
   };
 
@@ -173,9 +173,9 @@ private:
 
   double m_compliance;
   int m_size = 0;
-  std::array<Vector, kMost> m_head;
-  std::array<Coefficients, kMost> m_tail;
-  std::array<Coefficients, kMost> m_r; // columns of R
+  std::array<Vector, kMax> m_head;
+  std::array<Coefficients, kMax> m_tail;
+  std::array<Coefficients, kMax> m_r; // columns of R
   Members m_members{};
 };
 

@@ -13,8 +13,8 @@ namespace petrous::haptics
 namespace
 {
 
-constexpr int kMostSteps = 60; // of Newton's method
-constexpr int kMostCuts = 40;  // of a line search
+constexpr int kMaxSteps = 60; // of Newton's method
+constexpr int kMaxCuts = 40;  // of a line search
 constexpr double kFlat = 1e-6; // slope, beside that at the line's start, that ends a search
 
 } // namespace
@@ -131,7 +131,7 @@ double CompliantContactObjective<N>::lineSearch(const Vector& y, const Vector& d
   double low = 0.0;
   double high = 1.0;
   double t = 1.0;
-  for (int n = 0; n < kMostCuts; ++n)
+  for (int n = 0; n < kMaxCuts; ++n)
   {
     const double slope = start + t * square + ((slack + t * rate).min(0.0) * pull).sum();
     if (std::abs(slope) <= kFlat * steepest || (t == 1.0 && slope < 0.0))
@@ -148,7 +148,7 @@ template <int N>
 bool CompliantContactObjective<N>::minimise(Vector& y, double rounding, int& iterations) noexcept
 {
   takePressing(y);
-  for (int n = 0; n < kMostSteps; ++n)
+  for (int n = 0; n < kMaxSteps; ++n)
   {
     ++iterations;
     Vector next = y;

@@ -18,9 +18,9 @@ namespace
 // do not know rarely costs another round.
 constexpr double kSkin = 0.01;
 constexpr double kSkinSlack = 0.3; // of the skin, that need not be given back
-constexpr double kMostLift = 0.05; // voxels, over a bump
-constexpr int kMostStretches = 32; // sweeps of a tick that end freely
-constexpr double kLeastWay = 1e-6; // mm
+constexpr double kMaxLift = 0.05; // voxels, over a bump
+constexpr int kMaxStretches = 32; // sweeps of a tick that end freely
+constexpr double kMinWay = 1e-6; // mm
 
 constexpr ParameterCheck kCheck("constrained proxy");
 
@@ -53,11 +53,11 @@ ConstrainedProxy::ConstrainedProxy(std::shared_ptr<const HapticField> field, Poi
   , m_sweep(kCheck.field(field), checked(std::move(shell)), parameters.sweepStep,
             parameters.bisections)
   , m_finder(std::make_unique<ContactFinder>(m_sweep, parameters.nearGap))
-  , m_qp(kMostRows,
+  , m_qp(kMaxRows,
          vector6(Eigen::Vector3d::Constant(parameters.stiffness),
                  Eigen::Vector3d::Constant(parameters.angularStiffness)),
          !field->soft().empty())
-  , m_rows(kMostRows)
+  , m_rows(kMaxRows)
   , m_refuge(std::make_unique<PoseBacktracker>(m_sweep))
 {
   if (!field->soft().empty())
@@ -90,16 +90,16 @@ bool ConstrainedProxy::placeFree(const Pose& pose) noexcept
 // for that, and then the first one's motion stands.
 Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
 {
-  static_assert(kMostHits <= ContactFinder::kMostHits);
+  static_assert(kMaxHits <= ContactFinder::kMaxHits);
   const double skin = kSkin * m_sweep.field().voxel();
-  m_finder->find(m_hits.data(), std::min(m_hitCount, kMostHits));
+  m_finder->find(m_hits.data(), std::min(m_hitCount, kMaxHits));
   m_found += m_finder->samples();
   m_rowCount = 0;
   bool tight = false;
   m_qp.clear();
   for (const auto& [contact, slope, stopped] : *m_finder)
   {
-    if (m_rowCount == kMostRows)
+    if (m_rowCount == kMaxRows)
       break;
     Row& row = m_rows[m_rowCount];
     row.contact = contact;
@@ -145,7 +145,7 @@ void ConstrainedProxy::report() noexcept
       return;
     if (contact.point < m_sweep.shell().burrCount)
       m_tick.thrust += contact.thrust;
-    if (m_tick.contactCount < ProxyTick::kMostContacts)
+    if (m_tick.contactCount < ProxyTick::kMaxContacts)
       m_tick.contacts[m_tick.contactCount++] = contact;
   };
   for (std::size_t n = 0; n < m_rowCount; ++n)
@@ -167,7 +167,7 @@ ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noex
 {
   // In stretches that grow: what stops a motion is mostly near, and what is far is not looked at.
   const double step = m_parameters.sweepStep * m_sweep.field().voxel();
-  const double farthest = std::min(1.0, ShellSweep::kMostSteps * step / std::max(way, 1e-12));
+  const double farthest = std::min(1.0, ShellSweep::kMaxSteps * step / std::max(way, 1e-12));
   double share = std::min(farthest, 2.0 * step / std::max(way, 1e-12));
   double done = 0.0;
   ShellSweep::Hit hit;
@@ -178,7 +178,7 @@ ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noex
       m_sweep.findNear(0.0);
     const double known =
         m_sweep.addNear(share * motion.linear.norm(), share * motion.angular.norm());
-    m_waits = known * share * way < kLeastWay;
+    m_waits = known * share * way < kMinWay;
     if (m_waits)
       break;
     share *= known;
@@ -210,7 +210,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     m_lift = 2.0 * kSkin * h;
   }
   double made = 0.0; // mm
-  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches &&
+  while (m_tick.rounds < m_parameters.rounds && stretches < kMaxStretches &&
          !(m_soft && m_soft->spent()))
   {
     const Motion wanted = motionBetween(m_sweep.pose(), goal);
@@ -219,7 +219,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     report();
     const double part = m_soft ? m_soft->share(found) : 1.0;
     const Motion motion{part * found.linear, part * found.angular};
-    const double way = longestWay(motion, reach);
+    const double way = maxDisplacement(motion, reach);
     if (way < m_parameters.deadband || (made > 0.0 && spent()))
       break;
     const ShellSweep::Hit hit = advance(motion, way);
@@ -230,7 +230,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
       ++m_tick.rounds;
       for (const ShellSweep::Hit& stop : {hit, m_sweep.blocker()})
         if (stop.any)
-          m_hits[m_hitCount++ % kMostHits] = stop;
+          m_hits[m_hitCount++ % kMaxHits] = stop;
     }
     if ((!hit.any && hit.free >= 1.0 && part >= 1.0) || spent() || m_waits)
       break;
@@ -241,8 +241,8 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
       // It lies on a bump that a smooth normal does not know: up first, then on.
       m_sweep.findNear(ahead);
       const Motion up = solve({}, m_lift);
-      advance(up, longestWay(up, reach));
-      m_lift = std::min(2.0 * m_lift, kMostLift * h);
+      advance(up, maxDisplacement(up, reach));
+      m_lift = std::min(2.0 * m_lift, kMaxLift * h);
     }
   }
   m_caught = made < kSkin * h && m_hitCount > 0;

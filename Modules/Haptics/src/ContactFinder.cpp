@@ -16,18 +16,18 @@ constexpr double kAlong = 0.05;      // cosine: a normal along the way that led 
 constexpr double kLookAhead = 1.5;   // of the near gap: normals up to 48 degrees apart
 constexpr double kClose = 0.002;     // voxels: a gap that needs no better estimate
 constexpr double kExplained = 0.02;  // voxels: as deep as a known contact's plane says
-constexpr std::size_t kMostRefined = 16;
-constexpr std::size_t kMostOnBall = 64; // deepest first; the sweep answers for the others
+constexpr std::size_t kMaxRefined = 16;
+constexpr std::size_t kMaxOnBall = 64; // deepest first; the sweep answers for the others
 constexpr double kFarthest = 0.6;       // rad, from a shell point to the ball's contact
 constexpr double kAligned = 0.01;       // rad, residual of a found contact
 constexpr double kMisaligned = 0.05;    // rad, residual of one that was not found
 constexpr int kTurns = 4;
 constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the surface as it is, ripples too
 constexpr double kDeepest = 0.05;          // voxels: of a gap that is given back in one motion
-constexpr std::size_t kMostOnSolid = 128;  // found as near, besides those that stopped a motion
-constexpr std::size_t kMostLooked = 1024;  // samples, the nearest first; the sweep has all
+constexpr std::size_t kMaxOnSolid = 128;  // found as near, besides those that stopped a motion
+constexpr std::size_t kMaxLooked = 1024;  // samples, the nearest first; the sweep has all
 constexpr std::size_t kLooksInASample = 2; // of the field, at known contacts
-constexpr std::size_t kMostSmooth = 24;    // that have their tissue's normal looked at
+constexpr std::size_t kMaxSmooth = 24;    // that have their tissue's normal looked at
 constexpr double kStretch = 1.0;           // voxels between two contacts of a line of contact
 constexpr double kOnBall = 0.1;  // voxels: a sample as deep as the ball's contacts say, about
 constexpr double kSmooth = 0.9;  // cosine, of the tissue's normal and the tool's
@@ -38,9 +38,9 @@ ContactFinder::ContactFinder(const ShellSweep& sweep, double nearGap)
   : m_sweep(sweep)
   , m_nearGap(nearGap * sweep.field().voxel())
   , m_order(sweep.shell().points.size())
-  , m_found(sweep.shell().points.size() + kMostOnSolid + kMostHits)
+  , m_found(sweep.shell().points.size() + kMaxOnSolid + kMaxHits)
   , m_next(m_found.size())
-  , m_candidates(sweep.surface().any() ? SolidParts::kParts * SurfaceSamples::kMostSamples : 0)
+  , m_candidates(sweep.surface().any() ? SolidParts::kParts * SurfaceSamples::kMaxSamples : 0)
 {
   const PointShell& shell = sweep.shell();
   const auto first = std::find_if(
@@ -323,7 +323,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     m_found[m_count] = found;
     enter(part, m_count++);
   };
-  for (std::size_t n = 0; n < std::min(hitCount, kMostHits); ++n)
+  for (std::size_t n = 0; n < std::min(hitCount, kMaxHits); ++n)
   {
     if (hits[n].point != ShellSweep::kNoPoint)
       continue;
@@ -369,7 +369,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
   std::make_heap(begin, end, after);
   std::size_t added = 0;
   looked = 0;
-  for (; end != begin && added < kMostOnSolid && looked < kMostLooked; ++looked)
+  for (; end != begin && added < kMaxOnSolid && looked < kMaxLooked; ++looked)
   {
     std::pop_heap(begin, end, after);
     const std::size_t n = static_cast<std::size_t>(--end - begin);
@@ -378,7 +378,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     FoundContact found = contactAt(part, place);
     if (explained(part, alongTool(found), found))
       continue;
-    if (added < kMostSmooth)
+    if (added < kMaxSmooth)
       smooth(part, place, found);
     if (part == SolidParts::kBall && explained(part, 0.0, found))
       continue;
@@ -392,7 +392,7 @@ bool ContactFinder::explained(const ShellSweep::Near& near) const noexcept
 {
   const double h = m_sweep.field().voxel();
   const Eigen::Vector3d arm = m_sweep.pose().rotation * m_sweep.shell().points[near.point];
-  for (std::size_t n = 0; n < std::min(m_count, kMostRefined); ++n)
+  for (std::size_t n = 0; n < std::min(m_count, kMaxRefined); ++n)
   {
     const FoundContact& known = m_found[n];
     const double byPlane = known.contact.gap + known.contact.normal.dot(arm - known.contact.arm);
@@ -422,9 +422,9 @@ void ContactFinder::find(const ShellSweep::Hit* hits, std::size_t hitCount) noex
   std::sort(m_order.begin(), m_order.begin() + static_cast<std::ptrdiff_t>(ball),
             [near](std::uint32_t a, std::uint32_t b)
             { return near[a].sample.value > near[b].sample.value; });
-  for (std::size_t n = 0; n < ball && m_count < kMostOnBall; ++n)
+  for (std::size_t n = 0; n < ball && m_count < kMaxOnBall; ++n)
     if (!explained(near[m_order[n]]))
-      add(near[m_order[n]], m_count < kMostRefined, nullptr);
+      add(near[m_order[n]], m_count < kMaxRefined, nullptr);
   const bool solid = m_sweep.surface().any();
   if (solid)
     addSurface(hits, hitCount);

@@ -34,7 +34,7 @@ struct FoundContact
 class ContactFinder
 {
 public:
-  static constexpr std::size_t kMostHits = 64; ///< that `find` may be given
+  static constexpr std::size_t kMaxHits = 64; ///< that `find` may be given
 
   /// `nearGap` in voxels: contacts farther away than that are none.
   ContactFinder(const ShellSweep& sweep, double nearGap);

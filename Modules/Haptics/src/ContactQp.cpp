@@ -29,8 +29,8 @@ constexpr double kRigid = 1e-9;
 // the rigid rows give, which the line search does not see.
 constexpr double kShort = 1e-3;
 constexpr int kNewtonSteps = 12;
-constexpr int kMostPasses = 3;
-constexpr int kMostChanges = 3000; // of the active rows and pressing springs
+constexpr int kMaxPasses = 3;
+constexpr int kMaxChanges = 3000; // of the active rows and pressing springs
 
 template <class Vector>
 const Vector& checked(std::size_t capacity, const Vector& stiffness)
@@ -123,11 +123,11 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::solve(const Vector& uncons
   work.changes = 0;
   m_iterations = 0;
   Vector y = v;
-  if (work.scale < 1.0 / NormalizedConstraints<N>::kLongest)
+  if (work.scale < 1.0 / NormalizedConstraints<N>::kMaxLength)
     return Status::Solved;
   // A size that is not a number is no size either.
   const Status status =
-      work.scale < NormalizedConstraints<N>::kLongest ? work.settle(v, y) : Status::Exhausted;
+      work.scale < NormalizedConstraints<N>::kMaxLength ? work.settle(v, y) : Status::Exhausted;
   m_iterations = work.changes;
   if (status != Status::Solved)
     return status;
@@ -220,7 +220,7 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::takeIn(Eigen::Index 
 {
   const Vector normal = rigid.normalOf(row);
   double multiplier = 0.0;
-  while (++changes < kMostChanges)
+  while (++changes < kMaxChanges)
   {
     typename ActiveRows<N>::Coefficients d;
     const typename ActiveRows<N>::Rest rest = active.split(springs.inverseRoot() * normal, d);
@@ -251,7 +251,7 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::takeIn(Eigen::Index 
       rebuild();
     else if (blocking >= 0)
       active.drop(blocking);
-    else if (active.size() < ActiveRows<N>::kMost)
+    else if (active.size() < ActiveRows<N>::kMax)
     {
       active.push(row, d, rest, multiplier);
       return Status::Solved;
@@ -300,7 +300,7 @@ void BasicContactQp<N>::Work::finish(Vector& y) noexcept
 {
   if (!springs.empty())
     refine(kCompliance, y);
-  for (int n = 0; n < kMostPasses && given(y) > kFeasible * scale; ++n)
+  for (int n = 0; n < kMaxPasses && given(y) > kFeasible * scale; ++n)
   {
     const ActiveRows<N> before = active;
     const Vector start = y;

@@ -72,7 +72,7 @@ ForceLimits::ForceLimits(const Limits& limits)
   check(positive(limits.torqueSlew), "the torque's slew rate must be above 0 N mm/s");
   check(positive(limits.fadeIn), "the force must fade in over more than 0 s");
   check(positive(limits.fadeOut), "the force must fade out over more than 0 s");
-  check(positive(limits.longestStep), "the longest step must be above 0 s");
+  check(positive(limits.maxStep), "the longest step must be above 0 s");
 }
 
 double ForceLimits::elapsed(double now) noexcept
@@ -82,7 +82,7 @@ double ForceLimits::elapsed(double now) noexcept
   const double since = m_hasTime ? now - m_time : 0.0;
   m_time = now;
   m_hasTime = true;
-  return std::clamp(since, 0.0, m_limits.longestStep);
+  return std::clamp(since, 0.0, m_limits.maxStep);
 }
 
 Wrench ForceLimits::apply(const Wrench& wanted, double now) noexcept

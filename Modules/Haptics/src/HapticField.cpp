@@ -14,7 +14,7 @@ namespace
 using volume::CutMask;
 using volume::TissueField;
 
-constexpr std::size_t kMostSolids = 255;
+constexpr std::size_t kMaxSolids = 255;
 constexpr double kHullSlope = 0.25; // of f a voxel, at the border of the grid
 // Of a mask, per voxel along an axis: a cut's ramp rises by 1/2 over a voxel diagonal (adr 6), and
 // what is protected by a smoothed union's 1/2 a voxel.
@@ -62,7 +62,7 @@ HapticField::HapticField(const TissueField& tissue,
 {
   if (!m_mask || !sameGrid(m_mask->geometry(), m_geometry))
     throw core::InvalidParameter("haptic field: the mask does not lie on the CT's grid");
-  if (tissue.solids().size() > kMostSolids)
+  if (tissue.solids().size() > kMaxSolids)
     throw core::InvalidParameter("haptic field: more than 255 unions of structures");
   for (std::size_t a = 0; a < 3; ++a)
     m_last[static_cast<Eigen::Index>(a)] = m_geometry.dims()[a] - 1.0;

@@ -24,7 +24,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kSharpCorner = 0.5; // rad that the angles round a corner lack of (or exceed) 2 pi
 constexpr double kSharpEdge = 0.6;   // rad between the normals of its triangles
 constexpr std::size_t kChoices = 40; // places to choose from for each point
-constexpr std::size_t kMostChoices = 200000;
+constexpr std::size_t kMaxChoices = 200000;
 constexpr int kRelaxations = 16;
 
 struct Places
@@ -279,7 +279,7 @@ PointShell makeMeshShell(const core::TriangleMesh& mesh, const std::string& name
   const double step = std::sqrt(surface.area() / (std::sqrt(0.75) * static_cast<double>(budget)));
 
   Places chosen = surface.corners(budget / 4);
-  const Places choices = surface.spread(std::min(kChoices * budget, kMostChoices));
+  const Places choices = surface.spread(std::min(kChoices * budget, kMaxChoices));
   if (chosen.at.empty())
     chosen.add(choices.at.front(), choices.normal.front());
   addFarthest(chosen, surface.edges(0.25 * step), budget / 2, 0.6 * step, step);

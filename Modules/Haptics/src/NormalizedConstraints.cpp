@@ -21,9 +21,9 @@ template <int N>
 bool NormalizedConstraints<N>::add(const Vector& whitened, double limit, std::size_t callersRow) noexcept
 {
   const double largest = whitened.cwiseAbs().maxCoeff();
-  if (!(largest < kLongest))
+  if (!(largest < kMaxLength))
     return false;
-  const bool zero = largest < 1.0 / kLongest;
+  const bool zero = largest < 1.0 / kMaxLength;
   const double norm = zero ? 1.0 : whitened.norm();
   if (!std::isfinite(limit / norm))
     return false;

@@ -16,7 +16,7 @@ struct NormalizedConstraints
   using Vector = Eigen::Matrix<double, N, 1>;
 
   // Lengths beyond this, or below its inverse, would overflow when squared.
-  static constexpr double kLongest = 1e100;
+  static constexpr double kMaxLength = 1e100;
 
   explicit NormalizedConstraints(std::size_t capacity);
 

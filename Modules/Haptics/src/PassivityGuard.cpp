@@ -13,7 +13,7 @@ namespace petrous::haptics
 namespace
 {
 
-constexpr double kLongestStep = 0.02; // s
+constexpr double kMaxStep = 0.02; // s
 
 void check(bool holds, const char* what)
 {
@@ -55,7 +55,7 @@ PassivityGuard::PassivityGuard(const Parameters& parameters)
   check(positive(parameters.lever), "the lever must be above 0 mm");
 }
 
-double PassivityGuard::mostStored(const Wrench& wanted) const noexcept
+double PassivityGuard::maxStored(const Wrench& wanted) const noexcept
 {
   return storedBy(wanted.linear, m_parameters.stiffness) +
          storedBy(wanted.angular, m_parameters.angularStiffness);
@@ -66,7 +66,7 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
   m_damping = 0.0;
   const double dt = now - m_time;
   const bool observed =
-      m_hasPose && pose.finite() && dt > 0.0 && dt <= kLongestStep; // false where dt is NaN
+      m_hasPose && pose.finite() && dt > 0.0 && dt <= kMaxStep; // false where dt is NaN
   Motion step;
   if (observed)
   {
@@ -86,7 +86,7 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
     return wanted;
 
   const double debt = -m_energy - m_parameters.allowance;
-  m_energy = std::min(m_energy, mostStored(wanted));
+  m_energy = std::min(m_energy, maxStored(wanted));
   const double lever2 = m_parameters.lever * m_parameters.lever;
   const double speed2 =
       (step.linear.squaredNorm() + lever2 * step.angular.squaredNorm()) / (dt * dt);

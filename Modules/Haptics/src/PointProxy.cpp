@@ -17,16 +17,16 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kSkin = 0.01;     // voxels: the centre aims this high above the surface
-constexpr double kMostLift = 0.05; // voxels, over a bump
+constexpr double kMaxLift = 0.05; // voxels, over a bump
 constexpr double kKept = 0.1; // voxels: a plane counts again as near as this to where it is from
-constexpr std::size_t kMostKept = 8;
+constexpr std::size_t kMaxKept = 8;
 constexpr double kReach = 0.1;     // voxels: of what is asked of the surface as it is, ripples too
 constexpr double kWithin = 0.005;  // voxels: beyond where a sweep ended, to see what ended it
 constexpr double kAgainst = 0.02;  // cosine: a normal is at least so much against the way in
 constexpr double kAstray = 0.5;    // cosine: one that is so far along it says nothing
 constexpr double kFlat = 1e-6;     // of f a voxel: no slope to speak of
-constexpr double kLeast = 1e-9;    // N: a smaller push is none
-constexpr int kMostStretches = 32; // sweeps of a tick that end freely
+constexpr double kMin = 1e-9;    // N: a smaller push is none
+constexpr int kMaxStretches = 32; // sweeps of a tick that end freely
 
 constexpr ParameterCheck kCheck("centre proxy");
 
@@ -82,7 +82,7 @@ PointProxy::PointProxy(std::shared_ptr<const HapticField> field, const CentreBur
   , m_radius(burr.radius)
   , m_pointForce(4.0 * burr.superficialShare * parameters.stiffness * burr.radius /
                  static_cast<double>(m_volume->points().size()))
-  , m_qp(field->soft().empty() ? kMostHits + 1 : kMostRows,
+  , m_qp(field->soft().empty() ? kMaxHits + 1 : kMaxRows,
          ContactQp::Vector6::Constant(parameters.stiffness), !field->soft().empty())
   , m_refuge(std::make_unique<PoseBacktracker>(m_sweep))
 {
@@ -203,7 +203,7 @@ Vector3d PointProxy::solve(const Vector3d& wanted, double lift) noexcept
 // A sweep goes no farther than its chords, and neither does the search for tissue.
 ShellSweep::Hit PointProxy::advance(const Vector3d& motion) noexcept
 {
-  const double most = static_cast<double>(ShellSweep::kMostSteps) * m_parameters.sweepStep *
+  const double most = static_cast<double>(ShellSweep::kMaxSteps) * m_parameters.sweepStep *
                       m_sweep.field().voxel();
   m_sweep.addNear(std::min(motion.norm(), most), 0.0);
   return m_sweep.advance({motion, Vector3d::Zero()});
@@ -216,7 +216,7 @@ void PointProxy::keepPlanes() noexcept
   const bool same = m_sweep.state().number() == m_number;
   m_number = m_sweep.state().number();
   m_hitCount = 0;
-  for (std::size_t n = m_firstHit; same && n < m_planes && m_hitCount < kMostKept; ++n)
+  for (std::size_t n = m_firstHit; same && n < m_planes && m_hitCount < kMaxKept; ++n)
     if (m_qp.lambda(n) > 0.0 &&
         (m_rows[n].point - m_sweep.pose().position).norm() < kKept * m_sweep.field().voxel())
       m_hits[m_hitCount++] = m_rows[n];
@@ -229,7 +229,7 @@ void PointProxy::follow(const Vector3d& goal) noexcept
   double lift = 2.0 * kSkin * h;
   int stretches = 0;
   keepPlanes();
-  while (m_tick.rounds < m_parameters.rounds && stretches < kMostStretches &&
+  while (m_tick.rounds < m_parameters.rounds && stretches < kMaxStretches &&
          !(m_soft && m_soft->spent()))
   {
     m_sweep.findNear(ahead);
@@ -254,7 +254,7 @@ void PointProxy::follow(const Vector3d& goal) noexcept
       // It lies on a bump that the smooth normal does not know: up first, then on.
       m_sweep.findNear(ahead);
       advance(solve(Vector3d::Zero(), lift));
-      lift = std::min(2.0 * lift, kMostLift * h);
+      lift = std::min(2.0 * lift, kMaxLift * h);
     }
   }
 }
@@ -276,7 +276,7 @@ Vector3d PointProxy::softPush() noexcept
   for (const SoftContacts::Contact& soft : m_soft->contacts())
   {
     const ProxyContact& contact = soft.contact;
-    if (!(contact.thrust > 0.0) || m_tick.contactCount + 1 >= ProxyTick::kMostContacts)
+    if (!(contact.thrust > 0.0) || m_tick.contactCount + 1 >= ProxyTick::kMaxContacts)
       continue;
     sum += contact.thrust * contact.normal;
     m_tick.thrust += contact.thrust;
@@ -305,7 +305,7 @@ void PointProxy::report() noexcept
   const BurrVolume::Push push = m_volume->push(place, m_sweep.state());
   const Vector3d points = m_pointForce * push.sum;
   const double size = points.norm();
-  if (size > kLeast)
+  if (size > kMin)
   {
     m_tick.thrust +=
         m_tick.contactCount > 0 ? std::max(0.0, points.dot(spring.normalized())) : size;

@@ -8,7 +8,7 @@ namespace petrous::haptics
 namespace
 {
 constexpr double kTrailStep = 0.5;         // voxels
-constexpr std::size_t kMostRetreat = 3000; // samples of the field in a tick
+constexpr std::size_t kMaxRetreat = 3000; // samples of the field in a tick
 } // namespace
 
 PoseBacktracker::PoseBacktracker(ShellSweep& sweep)
@@ -50,13 +50,13 @@ void PoseBacktracker::follow(const Pose& goal) noexcept
   if (m_retreats)
     return;
   m_sweep.moveTo(goal);
-  settle(ShellSweep::kMostQuery);
+  settle(ShellSweep::kMaxQuery);
 }
 
 void PoseBacktracker::remember() noexcept
 {
   const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
-  if (m_trailLength > 0 && longestWay(motionBetween(m_trail[last], m_sweep.pose()),
+  if (m_trailLength > 0 && maxDisplacement(motionBetween(m_trail[last], m_sweep.pose()),
                                       m_sweep.shell().reach) < kTrailStep * m_sweep.field().voxel())
     return;
   m_trail[m_trailEnd] = m_sweep.pose();
@@ -69,7 +69,7 @@ bool PoseBacktracker::retreat() noexcept
 {
   while (m_trailLength > 0)
   {
-    if (m_sweep.samples() + m_sweep.surfaceSamples() > kMostRetreat)
+    if (m_sweep.samples() + m_sweep.surfaceSamples() > kMaxRetreat)
       return false;
     const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
     if (m_sweep.freeAt(m_trail[last]))

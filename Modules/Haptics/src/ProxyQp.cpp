@@ -38,7 +38,7 @@ bool ProxyQp::add(const Vector6& row, double bound) noexcept
 // The unknown is sqrt(k) s, of which 1/2 its square is the spring's energy.
 bool ProxyQp::addSoft(const Vector6& row, double depth, std::size_t spring, double give) noexcept
 {
-  if (!m_shared || spring >= kMostSprings)
+  if (!m_shared || spring >= kMaxSprings)
     return false;
   SharedContactQp::Vector all = extended(row, 0.0);
   all[ContactQp::kSize + static_cast<Eigen::Index>(spring)] = give;

@@ -14,7 +14,7 @@ namespace
 // Stretches of a path shorter than this much of a voxel are not halved further.
 constexpr double kFinest = 1.0 / 16.0;
 constexpr std::size_t kLooksInADistance = 4; // at a sample that sleeps
-constexpr std::size_t kMostMeetings = SolidParts::kParts * SurfaceSamples::kMostSamples;
+constexpr std::size_t kMaxMeetings = SolidParts::kParts * SurfaceSamples::kMaxSamples;
 } // namespace
 
 ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shell, double step,
@@ -38,7 +38,7 @@ ShellSweep::ShellSweep(std::shared_ptr<const HapticField> field, PointShell shel
   m_maps[0] = mapOf(m_pose);
   m_surface = std::make_unique<SurfaceSamples>(*m_field, m_shell.solid);
   if (m_surface->any())
-    m_meetings.assign(kMostMeetings, Meeting{});
+    m_meetings.assign(kMaxMeetings, Meeting{});
 }
 
 ShellSweep::~ShellSweep() = default;
@@ -128,7 +128,7 @@ bool ShellSweep::freeAt(const Pose& pose) noexcept
                    [&](const Eigen::Vector3d& p)
                    { return sampleAt(map.linear * p + map.offset).value <= 0.0; }))
     return false;
-  return m_surface->insideAt(pose, kMostQuery) == 0.0;
+  return m_surface->insideAt(pose, kMaxQuery) == 0.0;
 }
 
 bool ShellSweep::nearFreeAt(const Pose& pose) noexcept
@@ -259,7 +259,7 @@ std::uint32_t ShellSweep::chordsTo(const Meeting& meeting, double distance, doub
   // The place may be beyond the part's reach by as much as it is away from it.
   const double arm = m_surface->parts().reach(meeting.part) + std::max(distance, 0.0);
   const double chords = (distance - meeting.least) / std::max(linear + angular * arm, 1e-12);
-  return static_cast<std::uint32_t>(std::clamp(chords, 1.0, double{kMostSteps}));
+  return static_cast<std::uint32_t>(std::clamp(chords, 1.0, double{kMaxSteps}));
 }
 
 ShellSweep::Hit ShellSweep::hitOf(const Meeting& meeting, const Pose& pose,
@@ -321,12 +321,12 @@ bool ShellSweep::meetingsFreeAt(const Pose& pose) const noexcept
   return !m_deepestMeeting;
 }
 
-ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSamples) noexcept
+ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t maxSamples) noexcept
 {
-  const double way = longestWay(motion, m_shell.reach);
-  const double share = std::min(1.0, kMostSteps * m_step / std::max(way, 1e-12));
+  const double way = maxDisplacement(motion, m_shell.reach);
+  const double share = std::min(1.0, kMaxSteps * m_step / std::max(way, 1e-12));
   const auto steps = static_cast<std::size_t>(
-      std::clamp(std::ceil(share * way / m_step), 1.0, static_cast<double>(kMostSteps)));
+      std::clamp(std::ceil(share * way / m_step), 1.0, static_cast<double>(kMaxSteps)));
   const double perStep = share / static_cast<double>(steps);
   for (std::size_t s = 1; s <= steps; ++s)
   {
@@ -346,7 +346,7 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
   const auto sleep = [&](double clearance, double arm)
   {
     const double chords = clearance / std::max(linear + angular * arm, 1e-12);
-    return static_cast<std::uint32_t>(std::clamp(chords, 0.0, double{kMostSteps}));
+    return static_cast<std::uint32_t>(std::clamp(chords, 0.0, double{kMaxSteps}));
   };
   for (std::size_t n = 0; n < m_nearCount; ++n)
   {
@@ -355,7 +355,7 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t mostSample
   }
   for (std::uint32_t s = 1; s <= steps && !hit.any; ++s)
   {
-    if (s > 1 && samples() >= mostSamples)
+    if (s > 1 && samples() >= maxSamples)
     {
       best = static_cast<double>(s - 1);
       break;

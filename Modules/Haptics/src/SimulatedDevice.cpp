@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMilli = 1000.0;    // N = kg mm/s^2 / 1000
-constexpr double kLongestLeap = 1.0; // s
+constexpr double kMaxLeap = 1.0; // s
 constexpr double kSlowest = 8.0;     // Hz, physiological tremor
 constexpr double kFastest = 12.0;    // Hz
 
@@ -146,7 +146,7 @@ DeviceReading SimulatedDevice::read(double now) noexcept
     m_wrench = {};
   if (now > m_time && std::isfinite(now))
   {
-    advance(std::max(m_time, now - kLongestLeap), now);
+    advance(std::max(m_time, now - kMaxLeap), now);
     m_time = now;
   }
 

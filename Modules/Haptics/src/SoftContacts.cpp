@@ -18,9 +18,9 @@ constexpr double kFastStep = 1.5;    // and how far with a fast hand,
 constexpr double kHandShare = 0.25;  // of whose motion in a tick it is this much
 constexpr float kSteepest = 1.05F;   // of a map's depth, per mm, about
 constexpr double kFar = 1.5;         // mm: structures beyond it are not looked at point by point
-constexpr double kLeastWay = 1e-12;  // mm
+constexpr double kMinWay = 1e-12;  // mm
 constexpr double kRounding = 1e-5;   // mm, of bounds
-constexpr int kMostSteps = 8;        // of a tick
+constexpr int kMaxSteps = 8;        // of a tick
 constexpr double kCreep = 0.02;      // mm a tick beyond the hand's motion
 constexpr double kAhead = 2.0;       // of the hand's motion in a tick, that the tool may make
 constexpr double kWhole = 0.4999;    // of the mask's operand: nothing is cut here
@@ -30,7 +30,7 @@ constexpr double kAligned = 0.005;   // rad, residual of the ball's deepest poin
 constexpr double kMisaligned = 0.05; // rad, of one that was not found
 constexpr double kFarthest = 0.6;    // rad, from a shell point to it
 constexpr int kTurns = 6;
-constexpr std::size_t kMostOfOne = 160; // contacts of a structure
+constexpr std::size_t kMaxOfOne = 160; // contacts of a structure
 
 } // namespace
 
@@ -58,7 +58,7 @@ SoftContacts::SoftContacts(const HapticField& field, const PointShell& shell,
   m_looks.resize(shell.points.size() * m_structures.size());
   m_order.reserve(m_structures.size());
   m_near.reserve(m_structures.size());
-  m_contacts.reserve((kMostOfOne + 1) * kMostSprings);
+  m_contacts.reserve((kMaxOfOne + 1) * kMaxSprings);
 }
 
 void SoftContacts::begin(const Pose& goal) noexcept
@@ -69,7 +69,7 @@ void SoftContacts::begin(const Pose& goal) noexcept
   m_steps = 0;
   const double voxel = m_field.voxel();
   m_step =
-      std::clamp(kHandShare * longestWay(way, m_shell.reach), kStep * voxel, kFastStep * voxel);
+      std::clamp(kHandShare * maxDisplacement(way, m_shell.reach), kStep * voxel, kFastStep * voxel);
   m_left = kAhead * std::hypot(way.linear.norm(), m_lever * way.angular.norm()) + kCreep;
   m_goal = goal;
 }
@@ -77,7 +77,7 @@ void SoftContacts::begin(const Pose& goal) noexcept
 double SoftContacts::shareOf(const Structure& structure, double linear,
                              double angular) const noexcept
 {
-  const auto way = static_cast<float>(linear + kLeastWay) + static_cast<float>(angular) * m_arm;
+  const auto way = static_cast<float>(linear + kMinWay) + static_cast<float>(angular) * m_arm;
   const auto spare = (static_cast<float>(structure.least) - structure.bound).max(0.0F);
   return double{((static_cast<float>(m_step) + spare / kSteepest) / way).minCoeff()};
 }
@@ -86,12 +86,12 @@ double SoftContacts::share(const Motion& motion) noexcept
 {
   const double linear = motion.linear.norm();
   const double angular = motion.angular.norm();
-  double share = std::min(1.0, m_away / std::max(longestWay(motion, m_shell.reach), kLeastWay));
+  double share = std::min(1.0, m_away / std::max(maxDisplacement(motion, m_shell.reach), kMinWay));
   // A point with a contact may go a step. The others may go on until they could need one.
-  if (share * longestWay(motion, m_shell.reach) > m_step)
+  if (share * maxDisplacement(motion, m_shell.reach) > m_step)
     for (const std::size_t n : m_near)
       share = std::min(share, shareOf(m_structures[n], linear, angular));
-  m_spent = ++m_steps >= kMostSteps;
+  m_spent = ++m_steps >= kMaxSteps;
   const auto inside = [](const Contact& contact) { return contact.depth > 0.0; };
   if (m_pressed || m_behind || std::any_of(m_contacts.begin(), m_contacts.end(), inside))
   {
@@ -203,11 +203,11 @@ void SoftContacts::look(Structure& structure) noexcept
   const auto shallow = [&](const Look& look) { return look.at.depth < structure.least; };
   structure.count =
       static_cast<std::size_t>(std::remove_if(looks, looks + structure.count, shallow) - looks);
-  if (structure.count > kMostOfOne)
+  if (structure.count > kMaxOfOne)
   {
-    std::nth_element(looks, looks + kMostOfOne, looks + structure.count,
+    std::nth_element(looks, looks + kMaxOfOne, looks + structure.count,
                      [](const Look& a, const Look& b) { return a.at.depth > b.at.depth; });
-    structure.count = kMostOfOne;
+    structure.count = kMaxOfOne;
   }
 }
 
@@ -240,9 +240,9 @@ void SoftContacts::find(const Pose& pose, const volume::MaskState& state, ProxyQ
   }
   const auto deeper = [this](std::size_t a, std::size_t b)
   { return m_structures[a].depth > m_structures[b].depth; };
-  if (m_order.size() > kMostSprings)
-    std::nth_element(m_order.begin(), m_order.begin() + kMostSprings, m_order.end(), deeper);
-  for (std::size_t n = 0; n < std::min<std::size_t>(m_order.size(), kMostSprings); ++n)
+  if (m_order.size() > kMaxSprings)
+    std::nth_element(m_order.begin(), m_order.begin() + kMaxSprings, m_order.end(), deeper);
+  for (std::size_t n = 0; n < std::min<std::size_t>(m_order.size(), kMaxSprings); ++n)
     addContacts(m_structures[m_order[n]], n);
   addTo(qp);
 }

@@ -37,7 +37,7 @@ public:
     ProxyContact contact;
     ProxyQp::Vector6 row;   ///< by which a motion makes it less deep
     double depth = 0.0;     ///< mm
-    std::size_t spring = 0; ///< below kMostSprings
+    std::size_t spring = 0; ///< below kMaxSprings
     double give = 0.0;      ///< 1 / sqrt(k)
     double slope = 0.0;     ///< |gradient of depth|
   };

@@ -16,16 +16,16 @@ constexpr double kSagitta = 0.02; // mm, of a thin tool between two samples of a
 constexpr float kFlat = 0.2F;     // of the slope: how much a cell's edges may differ
 constexpr int kBulging = 2;       // lines a side of a cell that is not flat
 constexpr double kBulge = 0.15;   // mm: lines as near as that need not be more
-constexpr int kMostLines = 4;     // a side
+constexpr int kMaxLines = 4;     // a side
 constexpr int kRenewal = 16;      // ticks, of the handpiece after a cut
 // Voxels: the margin is not made smaller to be cheap. Round the ball there is another search after
 // each cut, whatever way it makes.
-constexpr double kLeast = 3.0;
-constexpr double kLeastAfterCut = 1.0;
-constexpr double kMost = 32.0;   // voxels
+constexpr double kMin = 3.0;
+constexpr double kMinAfterCut = 1.0;
+constexpr double kMax = 32.0;   // voxels
 constexpr double kFirst = 4.0;   // voxels, the first
 constexpr double kShrink = 0.7;  // of the margin, where the samples are too many
-constexpr int kMostShrinks = 20; // and then none are kept
+constexpr int kMaxShrinks = 20; // and then none are kept
 constexpr double kUsed = 0.75;   // of the margin: the next search begins
 // Units, see SurfaceSamples::kUnit.
 constexpr std::size_t kBoxCost = 4;
@@ -47,9 +47,9 @@ SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
   // Written, so that no page is missing in a tick.
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
     if (m_parts.has(part))
-      m_lists[part].places.assign(kMostSamples, Eigen::Vector3d::Zero());
-  m_search.places.assign(kMostSamples, Eigen::Vector3d::Zero());
-  m_search.distances.assign(kMostSamples, 0.0F);
+      m_lists[part].places.assign(kMaxSamples, Eigen::Vector3d::Zero());
+  m_search.places.assign(kMaxSamples, Eigen::Vector3d::Zero());
+  m_search.distances.assign(kMaxSamples, 0.0F);
   const core::Index3& dims = field.brickDims();
   const std::size_t bricks = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) *
                              static_cast<std::size_t>(dims[2]);
@@ -93,7 +93,7 @@ void SurfaceSamples::forget() noexcept
 void SurfaceSamples::moved(const Pose& pose) noexcept
 {
   const auto way = [&](const Pose& from, std::size_t part, double margin)
-  { return longestWay(motionBetween(from, pose), m_parts.reach(part) + margin); };
+  { return maxDisplacement(motionBetween(from, pose), m_parts.reach(part) + margin); };
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
     if (m_lists[part].known)
       m_lists[part].made = way(m_lists[part].pose, part, m_lists[part].margin);
@@ -109,7 +109,7 @@ double SurfaceSamples::find(const Pose& pose, double linear, double angular, dou
   const bool burrCuts = m_lists[SolidParts::kBall].cut;
   m_cut = m_cut || burrCuts;
   // What the ball leaves of it is for the others: the shaft's root is beside what was cut.
-  const std::size_t most = kMostWork + (m_cut ? kMostAfterCut : 0);
+  const std::size_t most = kMaxWork + (m_cut ? kMaxAfterCut : 0);
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
   {
     if (!m_parts.has(part))
@@ -121,7 +121,7 @@ double SurfaceSamples::find(const Pose& pose, double linear, double angular, dou
         list.left() <= std::min(wayOf() + beyond, used) || (list.cut && part == SolidParts::kBall);
     const bool renewed = list.cut && (part == 1 || list.age >= kRenewal);
     if (now || renewed || list.left() <= used)
-      renew(part, pose, kUnit * (!burrCuts || part != SolidParts::kBall ? most : kMostAfterCut));
+      renew(part, pose, kUnit * (!burrCuts || part != SolidParts::kBall ? most : kMaxAfterCut));
     const double known = std::max(list.left() - beyond, 0.0);
     if (known < wayOf())
       share = std::min(share, known / wayOf());
@@ -138,7 +138,7 @@ void SurfaceSamples::renew(std::size_t part, const Pose& pose, std::size_t until
     {
       const List& list = m_lists[part];
       const bool cut = list.cut && part == SolidParts::kBall;
-      m_search.least = (cut ? kLeastAfterCut : kLeast) * m_field.voxel();
+      m_search.least = (cut ? kMinAfterCut : kMin) * m_field.voxel();
       begin(m_search, part, pose, cut ? m_search.least : list.wish, false);
     }
     const bool own = m_search.part == part;
@@ -158,9 +158,9 @@ void SurfaceSamples::finish() noexcept
   search.active = false;
   List& list = m_lists[search.part];
   list.wish = search.work < kCheap
-                  ? std::min(2.0 * search.margin, kMost * m_field.voxel())
+                  ? std::min(2.0 * search.margin, kMax * m_field.voxel())
                   : std::max(search.work > kDear ? 0.5 * search.margin : search.margin,
-                             kLeast * m_field.voxel());
+                             kMin * m_field.voxel());
   if (!list.cut && list.left() > search.margin - search.made)
     return; // the known ones reach farther
   const double perBin = kBins / std::max(search.margin, 1e-12);
@@ -366,8 +366,8 @@ void SurfaceSamples::add(Search& search, const Eigen::Vector3d& place) noexcept
       search.deepest = std::max(search.deepest, -distance);
     return;
   }
-  for (int tries = 0; search.count == kMostSamples; ++tries)
-    shrink(search, tries < kMostShrinks ? kShrink * search.margin : 0.0);
+  for (int tries = 0; search.count == kMaxSamples; ++tries)
+    shrink(search, tries < kMaxShrinks ? kShrink * search.margin : 0.0);
   if (!(distance <= search.margin))
     return;
   search.places[search.count] = place;
@@ -381,9 +381,9 @@ int SurfaceSamples::linesFor(std::size_t part, const core::GridGeometry& grid,
 {
   const double most = 2.0 * std::sqrt(2.0 * kSagitta * m_parts.radius(part));
   const double needed = std::ceil(grid.spacing().maxCoeff() / most);
-  const int lines = static_cast<int>(std::clamp(needed, 1.0, double{kMostLines}));
+  const int lines = static_cast<int>(std::clamp(needed, 1.0, double{kMaxLines}));
   const bool fine = grid.spacing().maxCoeff() <= kBulge * lines;
-  return flat || fine ? lines : std::min(kBulging * lines, kMostLines);
+  return flat || fine ? lines : std::min(kBulging * lines, kMaxLines);
 }
 
 namespace
@@ -503,7 +503,7 @@ Corners cornersOf(const std::array<float, 27>& values, std::size_t base) noexcep
 
 struct SurfaceSamples::Cell
 {
-  std::array<Corners, HapticField::BrickValues::kMostTissues> tissue;
+  std::array<Corners, HapticField::BrickValues::kMaxTissues> tissue;
   std::size_t tissues = 0; // those that are above 0 somewhere in it
   Corners mask;
   Corners hull;
@@ -616,7 +616,7 @@ void SurfaceSamples::addCell(Search& search, const core::Index3& cell, const Cel
                 // An end may be a crossing itself: on the grid's border f is 0.
                 const bool restFrom = std::min(mask[0], hull[0]) <= 0.0F;
                 const bool restTo = std::min(mask[1], hull[1]) <= 0.0F;
-                std::array<std::array<float, 2>, HapticField::BrickValues::kMostTissues> f;
+                std::array<std::array<float, 2>, HapticField::BrickValues::kMaxTissues> f;
                 for (std::size_t n = 0; n < values.tissues; ++n)
                   f[n] = line.ends(values.tissue[n]);
                 const auto within = [&](std::size_t first, std::size_t last, float t)

@@ -72,13 +72,13 @@ public:
   std::optional<double> insideAt(const Pose& pose, std::size_t most) noexcept;
 
   /// What finding cost since the last `look`, in samples of the field. `find` costs at most
-  /// kMostWork (and kMostAfterCut) and what one brick costs.
+  /// kMaxWork (and kMaxAfterCut) and what one brick costs.
   std::size_t samples() const noexcept { return m_work / kUnit; }
 
-  static constexpr std::size_t kMostSamples = 16384; ///< of a part
-  static constexpr std::size_t kMostWork = 1000;     ///< of `find` in a tick, samples of the field
+  static constexpr std::size_t kMaxSamples = 16384; ///< of a part
+  static constexpr std::size_t kMaxWork = 1000;     ///< of `find` in a tick, samples of the field
   /// As much more after a cut, so that the burr mostly goes on in the tick that feels it.
-  static constexpr std::size_t kMostAfterCut = 3000;
+  static constexpr std::size_t kMaxAfterCut = 3000;
   static constexpr std::size_t kUnit = 8; ///< distances to the tool, for one such sample
 
 private:

@@ -308,7 +308,7 @@ TissueBricks findTissueBricks(const volume::TissueField& tissue)
   result.steepness = std::move(bricks.steepness);
   const core::IndexBox all{{0, 0, 0}, result.dims};
   const volume::DistanceBlock distances = volume::chebyshevDistances(
-      bricks.marks.data(), 1, kTissue, result.dims, all, TissueBricks::kMostDistance);
+      bricks.marks.data(), 1, kTissue, result.dims, all, TissueBricks::kMaxDistance);
   auto brick = result.distance.begin();
   for (int k = 0; k < result.dims[2]; ++k)
     for (int j = 0; j < result.dims[1]; ++j)

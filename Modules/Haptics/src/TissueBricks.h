@@ -19,11 +19,11 @@ constexpr int kTissueBrick = 2; ///< voxels
 struct TissueBricks
 {
   static constexpr std::uint8_t kUnionHere = 0x80; ///< a union's share is above 0 somewhere in it
-  static constexpr int kMostDistance = 31;
+  static constexpr int kMaxDistance = 31;
 
   core::Index3 dims;
 
-  /// Chebyshev, bricks, to the next that may hold tissue, at most kMostDistance; and kUnionHere.
+  /// Chebyshev, bricks, to the next that may hold tissue, at most kMaxDistance; and kUnionHere.
   std::vector<std::uint8_t> distance;
 
   /// Code of |gradient| of interpolated c_CT and unions at most, per mm, in the brick and one voxel

@@ -11,7 +11,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr std::uint32_t kLongestKept = 4096; // bytes; every value of ours is far shorter
+constexpr std::uint32_t kMaxKept = 4096; // bytes; every value of ours is far shorter
 constexpr int kDeepest = 32;                 // nested sequences; hostile files go on for ever
 
 constexpr Tag kItem = 0xfffee000;
@@ -126,7 +126,7 @@ bool DicomElements::keep(const Element& element)
 {
   if (element.length > m_source.size() || element.value > m_source.size() - element.length)
     return false;
-  if (!isWanted(element.tag) || element.length > kLongestKept || element.length == 0)
+  if (!isWanted(element.tag) || element.length > kMaxKept || element.length == 0)
     return true;
   std::string value(element.length, '\0');
   if (!m_source.readNear(element.value, value.data(), value.size()))

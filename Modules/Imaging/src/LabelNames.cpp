@@ -14,7 +14,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr std::size_t kMostSegments = 65535;
+constexpr std::size_t kMaxSegments = 65535;
 constexpr std::uintmax_t kLargestTable = std::uintmax_t{4} << 20;
 
 std::array<float, 3> colorOf(const std::string* text)
@@ -163,7 +163,7 @@ std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers)
 {
   std::vector<std::string> names;
-  for (std::size_t s = 0; s < kMostSegments && hasSegment(header, s); ++s)
+  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
   {
     const std::int64_t layer = layerOf(header, s);
     if (layer >= 0 && layer < static_cast<std::int64_t>(layers))
@@ -178,7 +178,7 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
                                              const NrrdHeader& header, std::size_t layer)
 {
   std::vector<volume::Segment> segments;
-  for (std::size_t s = 0; s < kMostSegments && hasSegment(header, s); ++s)
+  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
   {
     const std::string prefix = prefixOf(s);
     const std::string* name = header.key(prefix + "Name");

@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr std::uintmax_t kLargestHeader = 65536;
-constexpr std::size_t kMostDims = 8;
+constexpr std::size_t kMaxDims = 8;
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
@@ -99,7 +99,7 @@ void readDims(const std::filesystem::path& path, const Fields& fields, MetaHeade
     header.dims.push_back(size >= 1.0 && size < 2147483648.0 ? static_cast<std::uint64_t>(size)
                                                              : 0);
   const std::vector<double> count{static_cast<double>(sizes.size())};
-  if (sizes.empty() || sizes.size() > kMostDims || numbersOf(valueOf(fields, {"NDims"})) != count ||
+  if (sizes.empty() || sizes.size() > kMaxDims || numbersOf(valueOf(fields, {"NDims"})) != count ||
       std::count(header.dims.begin(), header.dims.end(), 0U) > 0)
     fail(FileError::Reason::Unreadable, path,
          "its header gives no valid dimensions (NDims, DimSize); export it again");

@@ -22,7 +22,7 @@ constexpr std::size_t kHeaderBytes = 348;
 constexpr std::size_t kDataOffset = 352;
 constexpr double kLargestOffset = 1e9;
 constexpr const char* kGzipStart = "\x1f\x8b";
-constexpr double kLongestQuaternion = 1.001; // squared; float32 and a few digits round by less
+constexpr double kMaxQuaternion = 1.001; // squared; float32 and a few digits round by less
 constexpr double kPlacementsDiffer = 0.1;    // mm; see "No silent guess"
 // NIfTI counts right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
@@ -113,7 +113,7 @@ std::optional<Eigen::Matrix3d> qformLinear(const Fields& fields, const Eigen::Ve
 {
   const Eigen::Vector3d v(fields.get<float>(kQuaternion, 0), fields.get<float>(kQuaternion, 1),
                           fields.get<float>(kQuaternion, 2));
-  if (!(v.squaredNorm() <= kLongestQuaternion))
+  if (!(v.squaredNorm() <= kMaxQuaternion))
     return std::nullopt;
   // nifti1.h, METHOD 2: a >= 0 follows from the unit length.
   const double rest = 1.0 - v.squaredNorm();

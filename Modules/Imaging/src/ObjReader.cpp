@@ -13,11 +13,11 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr std::size_t kLongestKeyword = 16;
+constexpr std::size_t kMaxKeyword = 16;
 
 bool isKeyword(std::string_view word)
 {
-  return word.size() <= kLongestKeyword &&
+  return word.size() <= kMaxKeyword &&
          std::all_of(word.begin(), word.end(),
                      [](char c)
                      { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });

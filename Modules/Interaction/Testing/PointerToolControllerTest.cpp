@@ -142,7 +142,7 @@ TEST(PointerToolController, GivesTheServoThePatientsAxes)
   EXPECT_EQ(parameters.camera[2], 0.0);
   EXPECT_EQ(parameters.forceGain, 3.0);
   EXPECT_EQ(parameters.constantThrust, 0);
-  EXPECT_EQ(parameters.mostLead, 5.0F); // the pointer's way aside presses no harder than the wheel
+  EXPECT_EQ(parameters.maxLead, 5.0F); // the pointer's way aside presses no harder than the wheel
 }
 
 TEST(PointerToolController, KeepsItsDepthPastTheEdgeOfTheTissue)
@@ -445,7 +445,7 @@ TEST(PointerToolController, RefusesBadSettingsAndLines)
   refused(&AimSettings::depthStep, 0.0);
   refused(&AimSettings::nudgeStep, 11.0);
   refused(&AimSettings::fineShare, 0.0);
-  refused(&AimSettings::mostLead, nan);
+  refused(&AimSettings::maxLead, nan);
   refused(&AimSettings::burrRadius, -1.0);
   refused(&AimSettings::lift, -0.1);
   refused(&AimSettings::thrust, 21.0);

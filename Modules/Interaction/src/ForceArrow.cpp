@@ -20,7 +20,7 @@ namespace
 constexpr double kTipLength = 4.0;
 constexpr double kTipRadius = 1.4;
 // The tip of a short arrow, as a share of its length.
-constexpr double kMostTip = 0.45;
+constexpr double kMaxTip = 0.45;
 } // namespace
 
 ForceArrow::ForceArrow()
@@ -55,7 +55,7 @@ void ForceArrow::show(const Eigen::Vector3d& from, const Eigen::Vector3d& along,
 {
   // The source's arrow is 1 long, along x.
   const double length = along.norm();
-  const double thin = std::min(thickness, kMostTip * length / kTipLength);
+  const double thin = std::min(thickness, kMaxTip * length / kTipLength);
   m_source->SetTipLength(kTipLength * thin / length);
   m_source->SetTipRadius(kTipRadius * thin / length);
   m_source->SetShaftRadius(0.5 * thin / length);

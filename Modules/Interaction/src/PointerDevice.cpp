@@ -17,7 +17,7 @@ using simulation::TickRecord;
 namespace
 {
 
-constexpr double kLongestStep = 0.05; // s of gliding at once, after a pause of the servo
+constexpr double kMaxStep = 0.05; // s of gliding at once, after a pause of the servo
 constexpr double kSamePlace = 1e-6;   // mm
 constexpr double kSameHeading = 1e-6; // rad
 
@@ -125,7 +125,7 @@ haptics::DeviceReading PointerDevice::read(double now) noexcept
     m_placed = true;
   }
   else if (m_placed && dt > 0.0)
-    glide(std::min(dt, kLongestStep));
+    glide(std::min(dt, kMaxStep));
 
   haptics::DeviceReading reading;
   reading.time = now;

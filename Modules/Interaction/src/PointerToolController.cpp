@@ -42,9 +42,9 @@ const AimSettings& checked(const AimSettings& s)
   check(within(s.depthStep, 0.0, 10.0, true), "a step of depth must lie within 0 to 10 mm");
   check(within(s.nudgeStep, 0.0, 10.0, true), "a step of the keys must lie within 0 to 10 mm");
   check(within(s.fineShare, 0.0, 1.0, true), "the share of a fine step must lie within 0 to 1");
-  check(within(s.mostLead, 0.0, 50.0, true), "the lead must lie within 0 to 50 mm");
-  check(within(s.mostFall, 0.0, 100.0, true), "the deepest fall must lie within 0 to 100 mm");
-  check(within(s.mostRise, 0.0, 100.0, true), "the highest rise must lie within 0 to 100 mm");
+  check(within(s.maxLead, 0.0, 50.0, true), "the lead must lie within 0 to 50 mm");
+  check(within(s.maxFall, 0.0, 100.0, true), "the deepest fall must lie within 0 to 100 mm");
+  check(within(s.maxRise, 0.0, 100.0, true), "the highest rise must lie within 0 to 100 mm");
   check(within(s.burrRadius, 0.0, 10.0, true), "the burr's radius must lie within 0 to 10 mm");
   check(within(s.lift, 0.0, 20.0), "the lift must lie within 0 to 20 mm");
   check(within(s.thrust, 0.0, 20.0), "the thrust must lie within 0 to 20 N");
@@ -139,7 +139,7 @@ Vector3d PointerToolController::onSurface(const PickRay& line, double hit)
     return place;
   const Vector3d forward = m_screen * -Vector3d::UnitZ();
   const double deeper = m_pressedAt ? forward.dot(place - *m_pressedAt) : 0.0;
-  m_lifted = deeper > m_settings.mostFall || deeper < -m_settings.mostRise;
+  m_lifted = deeper > m_settings.maxFall || deeper < -m_settings.maxRise;
   if (!m_lifted)
   {
     // Deeper only as far as the tool went itself: a wall seen pixel by pixel is no leap.
@@ -189,7 +189,7 @@ void PointerToolController::wheel(double notches, bool fine)
   if (m_tool && step > 0.0)
   {
     const double lead = direction.dot(*m_place - *m_tool);
-    step = std::clamp(m_settings.mostLead - lead, 0.0, step);
+    step = std::clamp(m_settings.maxLead - lead, 0.0, step);
   }
   *m_place += step * direction;
   update();
@@ -262,7 +262,7 @@ void PointerToolController::apply(simulation::ServoParameters& parameters) const
   if (onSurface)
     parameters.constantThrust = Parameters::kPointer | (pressing ? Parameters::kPressed : 0);
   // The wheel presses by its way: so far, and not by the way that the pointer goes aside.
-  parameters.mostLead = onSurface ? 0.0F : static_cast<float>(m_settings.mostLead);
+  parameters.maxLead = onSurface ? 0.0F : static_cast<float>(m_settings.maxLead);
   // A burr that is pressed is given a place with its ball's end on the tissue.
   Vector3d approach = Vector3d::Zero();
   if (m_line)

@@ -31,7 +31,7 @@ using Bytes = core::DerivedStore::Bytes;
 constexpr const char* kEnding = ".derived";
 constexpr int kLevel = 1;
 constexpr std::size_t kLengthBytes = 4;
-constexpr unsigned long long kMostBytes = 1ULL << 32;
+constexpr unsigned long long kMaxBytes = 1ULL << 32;
 constexpr std::chrono::hours kLeftover{1};
 constexpr std::uintmax_t kShareOfDisk = 10; // a file takes no more than a tenth of what is free
 
@@ -57,7 +57,7 @@ std::string packed(const std::string& key, const Bytes& bytes)
 std::optional<Bytes> unpacked(const std::string& key, const std::string& frame)
 {
   const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > kMostBytes ||
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > kMaxBytes ||
       size < key.size() + kLengthBytes)
     return std::nullopt;
   Bytes raw(static_cast<std::size_t>(size));
@@ -144,7 +144,7 @@ void DerivedCache::put(const std::string& key, const Bytes& bytes) noexcept
     // Cases need the disk more.
     const fs::space_info space = fs::space(m_folder, error);
     if (error || ::access(m_folder.c_str(), W_OK) != 0 ||
-        bytes.size() + key.size() + kLengthBytes > kMostBytes)
+        bytes.size() + key.size() + kLengthBytes > kMaxBytes)
       return;
     const std::string frame = packed(key, bytes);
     if (frame.empty() || frame.size() > std::min(m_limit, space.available / kShareOfDisk))

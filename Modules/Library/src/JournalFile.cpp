@@ -30,9 +30,9 @@ using nlohmann::json;
 // the text, text, bytes. Little endian.
 constexpr std::size_t kHash = 64;
 constexpr std::size_t kBefore = 8 + kHash;
-constexpr std::size_t kLeast = 5;
+constexpr std::size_t kMin = 5;
 constexpr int kFormat = 1;
-constexpr std::uint64_t kLongestHead = 1 << 24;
+constexpr std::uint64_t kMaxHead = 1 << 24;
 
 void putNumber(std::string& to, std::uint64_t value, int bytes)
 {
@@ -58,18 +58,18 @@ std::string hashOf(std::string_view bytes)
 // The frame at the beginning of `bytes`; its length, or 0 where there is no good one.
 std::size_t frameIn(std::string_view bytes, JournalFrame& frame)
 {
-  if (bytes.size() < kBefore + kLeast)
+  if (bytes.size() < kBefore + kMin)
     return 0;
   const std::uint64_t length = numberIn(bytes, 8);
-  if (length < kLeast || length > bytes.size() - kBefore)
+  if (length < kMin || length > bytes.size() - kBefore)
     return 0;
   const std::string_view rest = bytes.substr(kBefore, static_cast<std::size_t>(length));
   const std::size_t text = static_cast<std::size_t>(numberIn(rest.substr(1), 4));
-  if (hashOf(rest) != bytes.substr(8, kHash) || text > rest.size() - kLeast)
+  if (hashOf(rest) != bytes.substr(8, kHash) || text > rest.size() - kMin)
     return 0;
   frame.kind = static_cast<JournalFrame::Kind>(rest[0]);
-  frame.text = rest.substr(kLeast, text);
-  const std::string_view voxels = rest.substr(kLeast + text);
+  frame.text = rest.substr(kMin, text);
+  const std::string_view voxels = rest.substr(kMin + text);
   frame.bytes.assign(voxels.begin(), voxels.end());
   return kBefore + rest.size();
 }
@@ -101,8 +101,8 @@ bool headIn(const JournalFrame& frame, JournalHead& head)
 // Nothing but the beginning of a head.
 bool endsInHead(std::string_view bytes)
 {
-  return bytes.size() < kBefore + kLeast ||
-         (numberIn(bytes, 8) < kLongestHead && numberIn(bytes, 8) > bytes.size() - kBefore);
+  return bytes.size() < kBefore + kMin ||
+         (numberIn(bytes, 8) < kMaxHead && numberIn(bytes, 8) > bytes.size() - kBefore);
 }
 
 // Who drills holds the lock as long as that lasts; who only looks for a moment. A moment's lock is

@@ -49,7 +49,7 @@ public:
         inverse.setIdentity();
         scaled = false;
       }
-      direction *= std::min(1.0, m_options.longestStep / direction.norm());
+      direction *= std::min(1.0, m_options.maxStep / direction.norm());
       Place next;
       if (!step(here, direction, next))
         break;

@@ -13,7 +13,7 @@ struct BfgsOptimizerOptions
   double gradient = 1e-6;    ///< nats a mm: flatter is the top
   double change = 1e-8;      ///< share of the metric that two steps on end must win
   double firstStep = 1.0;    ///< mm, root mean square of the samples
-  double longestStep = 10.0; ///< mm
+  double maxStep = 10.0; ///< mm
   bool turns = true;         ///< false: translations alone
 };
 

@@ -18,7 +18,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kSearchBins = 16; // few samples fill few bins
 constexpr double kReach = 26.0; // mm between the starts' translations
-constexpr double kLeastOverlap = 0.2;
+constexpr double kMinOverlap = 0.2;
 
 // Identity and turns of 22 and 42 degrees about 13 axes, both ways: no pose within 45 degrees is
 // further than about 15 from one of them.
@@ -37,7 +37,7 @@ std::vector<Eigen::Quaterniond> turns()
 
 double scored(double information, double overlap, std::size_t samples)
 {
-  if (overlap < kLeastOverlap)
+  if (overlap < kMinOverlap)
     return 0.0;
   const double bias = informationBias(kSearchBins, overlap * static_cast<double>(samples));
   return poseScore(information - bias, overlap);

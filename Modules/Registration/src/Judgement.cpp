@@ -9,8 +9,8 @@ namespace
 {
 
 // Set on simulated pairs, right and wrong ones: Documentation/adr.
-constexpr double kLeastOverlap = 0.25;
-constexpr double kLeastInformation = 0.05; // nats
+constexpr double kMinOverlap = 0.25;
+constexpr double kMinInformation = 0.05; // nats
 constexpr double kLostStrays = 0.5;
 constexpr double kSomeStrays = 0.15;
 constexpr double kRival = 0.95;
@@ -44,10 +44,10 @@ const char* nameOf(Verdict verdict)
 
 Judgement judge(const QualityFeatures& e)
 {
-  if (e.overlap < kLeastOverlap)
+  if (e.overlap < kMinOverlap)
     return {Verdict::Failed,
             "the images share too little: " + percent(e.overlap) + " of the smaller one's field"};
-  if (e.information < kLeastInformation)
+  if (e.information < kMinInformation)
     return {Verdict::Failed, "the images tell next to nothing about each other (" +
                                  core::fixedText(e.information, 3) + " nats)"};
   if (e.strays > kLostStrays)

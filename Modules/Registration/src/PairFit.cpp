@@ -93,7 +93,7 @@ std::vector<BfgsOptimizer> climbLevel(const ImagePair& pair, std::size_t level,
   BfgsOptimizerOptions climb;
   climb.evaluations = options.schedule.evaluations;
   climb.firstStep = 0.5 * pair.scales[level];
-  climb.longestStep = 4.0 * pair.scales[level];
+  climb.maxStep = 4.0 * pair.scales[level];
   core::RigidTransform best = basins.front().pose;
   double bestInformation = -1.0;
   const auto told = [&](const core::RigidTransform& pose, double information)

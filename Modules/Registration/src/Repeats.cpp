@@ -67,7 +67,7 @@ core::RigidTransform fitAgain(const LevelImage& fixed, const core::IndexBox& box
   climb.evaluations = 30;
   climb.change = 1e-5;
   climb.firstStep = 0.5 * scale;
-  climb.longestStep = 4.0 * scale;
+  climb.maxStep = 4.0 * scale;
   return ascend(metric, perturbed(pose, samples.centre, options, random), climb).pose;
 }
 

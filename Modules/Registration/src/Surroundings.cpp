@@ -18,7 +18,7 @@ constexpr double kRadii[] = {10.0, 18.0, 30.0}; // mm
 constexpr double kReach = 9.0;                  // mm of the shifts that are tried
 constexpr double kStep = 2.0;                   // mm between them
 constexpr std::size_t kClimbs = 6;              // from the best of them
-constexpr double kLeastOverlap = 0.7;           // of a ball with the MR
+constexpr double kMinOverlap = 0.7;           // of a ball with the MR
 constexpr int kLocalBins = 16;                  // a ball of 10 mm has 2,000 voxels
 constexpr std::size_t kDrawn = 9000;            // samples in the box about a ball
 constexpr std::size_t kFewest = 500;            // that have a value
@@ -67,7 +67,7 @@ public:
     const MutualInformation metric(m_samples, *m_mr, kLocalBins);
     double overlap = 0.0;
     const double whole = metric.value(m_pose, &overlap);
-    if (overlap < kLeastOverlap)
+    if (overlap < kMinOverlap)
       return std::nullopt;
     const std::vector<BfgsOptimizer> tops = climbs(metric, startsOf(metric));
     if (tops.empty())
@@ -97,7 +97,7 @@ private:
     options.evaluations = 25;
     options.change = 1e-5;
     options.firstStep = 0.5 * m_voxel;
-    options.longestStep = 2.0 * m_voxel;
+    options.maxStep = 2.0 * m_voxel;
     return ascend(metric, start, options);
   }
 
@@ -117,7 +117,7 @@ private:
                       {
                         double overlap = 0.0;
                         const double information = metric.value(shifted(grid[n]), &overlap);
-                        scores[n] = {overlap < kLeastOverlap ? 0.0 : -information, n};
+                        scores[n] = {overlap < kMinOverlap ? 0.0 : -information, n};
                       });
     std::sort(scores.begin(), scores.end());
     std::vector<Shift> kept{Shift::Zero()};
@@ -141,7 +141,7 @@ private:
                       [&](std::size_t n) { tops[n] = climb(metric, starts[n]); });
     tops.erase(std::remove_if(tops.begin(), tops.end(),
                               [&](const BfgsOptimizer& top) {
-                                return top.overlap < kLeastOverlap || shiftOf(top).norm() > kReach;
+                                return top.overlap < kMinOverlap || shiftOf(top).norm() > kReach;
                               }),
                tops.end());
     return tops;

@@ -20,7 +20,7 @@ namespace petrous::rendering
 namespace
 {
 constexpr double kFill = 0.5; // s
-constexpr std::size_t kMostFrames = 200;
+constexpr std::size_t kMaxFrames = 200;
 
 std::string glText(GLenum name)
 {
@@ -88,7 +88,7 @@ TimedView::Timing TimedView::time(int frames, double enough)
   std::vector<double> seconds;
   double sum = 0.0;
   while ((static_cast<int>(seconds.size()) < frames && sum < enough) ||
-         (frames > 0 && sum < kFill && seconds.size() < kMostFrames))
+         (frames > 0 && sum < kFill && seconds.size() < kMaxFrames))
   {
     seconds.push_back(frame());
     sum += seconds.back();

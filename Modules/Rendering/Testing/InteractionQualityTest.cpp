@@ -100,7 +100,7 @@ TEST(InteractionQuality, NeverLeavesItsLimits)
         EXPECT_LE(quality.imageScale, full.imageScale);
         EXPECT_GE(quality.imageScale, std::min(InteractionQuality::kSmallestScale, scale));
         EXPECT_GE(quality.step, full.step);
-        EXPECT_LE(quality.step, std::max(InteractionQuality::kLongestStep, step));
+        EXPECT_LE(quality.step, std::max(InteractionQuality::kMaxStep, step));
         EXPECT_EQ(quality.bisections, 5);
         interaction.frameTook(std::pow(10.0, power(random)), quality);
       }

@@ -17,7 +17,7 @@ constexpr double kReserve = 0.85;       // of the frame's time, for what is not 
 
 double stepCost(double step)
 {
-  return (1.0 - kStepShare) + kStepShare * InteractionQuality::kLongestStep / step;
+  return (1.0 - kStepShare) + kStepShare * InteractionQuality::kMaxStep / step;
 }
 } // namespace
 
@@ -40,7 +40,7 @@ RenderQuality InteractionQuality::coarser(const RenderQuality& full) const noexc
   double scale = std::sqrt(budget / (m_cost * stepCost(full.step)));
   if (scale < kStepsFromScale)
   {
-    quality.step = std::max(full.step, kLongestStep);
+    quality.step = std::max(full.step, kMaxStep);
     scale = std::min(kStepsFromScale, std::sqrt(budget / (m_cost * stepCost(quality.step))));
   }
   // In steps of a twentieth, so that the picture's size does not change with every frame.

@@ -82,8 +82,8 @@ void RayCaster::setRays(GlProgram& program, const Frame& frame) const
   program.set("parallel", view.parallel ? 1 : 0);
   program.set("opaqueDepth", view.depth);
 
-  std::array<float, 4 * kMostPlanes> planes{};
-  const std::size_t count = std::min(m_contents.clipping.size(), kMostPlanes);
+  std::array<float, 4 * kMaxPlanes> planes{};
+  const std::size_t count = std::min(m_contents.clipping.size(), kMaxPlanes);
   for (std::size_t i = 0; i < count; ++i)
   {
     const ClippingPlane& plane = m_contents.clipping[i];
@@ -95,7 +95,7 @@ void RayCaster::setRays(GlProgram& program, const Frame& frame) const
     planes[4 * i + 3] = static_cast<float>(offset);
   }
   program.set("planeCount", static_cast<int>(count));
-  program.setArray("planes", planes.data(), static_cast<int>(kMostPlanes));
+  program.setArray("planes", planes.data(), static_cast<int>(kMaxPlanes));
 }
 
 void RayCaster::setVolume(GlProgram& program) const

@@ -41,7 +41,7 @@ constexpr Part kParts[] = {
 
 std::string constants()
 {
-  std::string text = "const int kMostPlanes = " + std::to_string(kMostPlanes) + ";\n";
+  std::string text = "const int kMaxPlanes = " + std::to_string(kMaxPlanes) + ";\n";
   const std::pair<const char*, double> reals[] = {{"kInteriorFacing", optics::kInteriorFacing},
                                                   {"kWetShininess", optics::kWetShininess},
                                                   {"kShareThreshold", optics::kShareThreshold},

@@ -7,7 +7,7 @@
 namespace petrous::rendering
 {
 
-constexpr std::size_t kMostPlanes = 6; ///< that a picture can be clipped by
+constexpr std::size_t kMaxPlanes = 6; ///< that a picture can be clipped by
 
 /// What a variant of the ray caster's shader is compiled with.
 struct RayFeatures

@@ -60,7 +60,7 @@ void checkMaterials(const SceneContents& contents)
 
 void checkPlaneCount(const SceneContents& contents)
 {
-  require(contents.clipping.size() <= kMostPlanes, "at most " + std::to_string(kMostPlanes) +
+  require(contents.clipping.size() <= kMaxPlanes, "at most " + std::to_string(kMaxPlanes) +
                                                        " clipping planes can be drawn, not " +
                                                        std::to_string(contents.clipping.size()));
 }

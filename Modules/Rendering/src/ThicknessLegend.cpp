@@ -21,7 +21,7 @@ namespace
 
 using Color = std::array<double, 3>;
 
-constexpr int kLeastWidth = 120;
+constexpr int kMinWidth = 120;
 constexpr int kDots = 72; // an inch: a point of the type is a pixel
 constexpr double kShade = 0.75;
 constexpr Color kGround{0.063, 0.075, 0.090};
@@ -88,7 +88,7 @@ private:
 
 void drawThicknessLegend(Picture& picture, const std::string& structure, double farthest)
 {
-  if (picture.width < kLeastWidth || !(farthest > 0.0))
+  if (picture.width < kMinWidth || !(farthest > 0.0))
     return;
   const int type = std::clamp(picture.height / 40, 9, 28);
   const int width = std::min(picture.width / 2, 18 * type);

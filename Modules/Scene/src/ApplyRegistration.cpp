@@ -48,11 +48,11 @@ void forgetVoxels(Case& value, const std::string& mr)
 void checkMeets(const core::GridGeometry& ct, const ImagePart& mr,
                 const core::RigidTransform& mrFromCt)
 {
-  constexpr double kLeast = 500.0; // mm
+  constexpr double kMin = 500.0; // mm
   const core::PatientBox ctBox = ct.patientBounds();
   const core::PatientBox box = mr.geometry.patientBounds();
   const double most =
-      std::max(kLeast, (ctBox.max() - ctBox.min()).norm() + (box.max() - box.min()).norm());
+      std::max(kMin, (ctBox.max() - ctBox.min()).norm() + (box.max() - box.min()).norm());
   const Eigen::Vector3d at = mrFromCt * ct.center();
   const double apart = (at.cwiseMax(box.min()).cwiseMin(box.max()) - at).norm();
   if (apart <= most)

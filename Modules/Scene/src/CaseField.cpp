@@ -30,7 +30,7 @@ bool yields(const appearance::StructureAppearance& look)
   return felt(look) && look.stiffness > 0.0;
 }
 
-constexpr std::size_t kMostMaterials = std::numeric_limits<std::uint8_t>::max();
+constexpr std::size_t kMaxMaterials = std::numeric_limits<std::uint8_t>::max();
 
 struct Wish
 {
@@ -152,10 +152,10 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
 {
   LabelSources result;
   const std::vector<Wish> all = wishes(value, wanted);
-  if (all.size() > kMostMaterials)
+  if (all.size() > kMaxMaterials)
     throw core::InvalidParameter("case '" + value.name + "': " + std::to_string(all.size()) +
                                  " structures are to be drawn; at most " +
-                                 std::to_string(kMostMaterials) + " can be, hide the others");
+                                 std::to_string(kMaxMaterials) + " can be, hide the others");
   for (const Wish& wish : all)
   {
     result.structures.push_back(wish.structure);

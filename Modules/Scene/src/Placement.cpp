@@ -116,12 +116,12 @@ std::shared_ptr<const core::TriangleMesh> meshOnCt(const Case& value, const Mesh
 
 std::string listed(const std::vector<std::string>& names)
 {
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMax = 6;
   std::string all;
-  for (std::size_t n = 0; n < std::min(kMost, names.size()); ++n)
+  for (std::size_t n = 0; n < std::min(kMax, names.size()); ++n)
     all += (n == 0 ? "'" : ", '") + names[n] + "'";
-  if (names.size() > kMost)
-    all += " and " + std::to_string(names.size() - kMost) + " more";
+  if (names.size() > kMax)
+    all += " and " + std::to_string(names.size() - kMax) + " more";
   return all;
 }
 

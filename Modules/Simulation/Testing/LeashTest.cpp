@@ -19,7 +19,7 @@ const Vector3d kAbove(0.0, 0.0, 5.0);
 TEST(Leash, BoundsTheForceAndForgetsWhatTheHandRanAhead)
 {
   Session session;
-  session.parameters.mostLead = 0.5F;
+  session.parameters.maxLead = 0.5F;
   session.go(kAbove, kAbove, 50);
   const Vector3d deep(0.0, 0.0, -30.0); // 32 mm beyond where the plane holds the ball
   const TickRecord& pressed = session.go(kAbove, deep, 200);
@@ -36,7 +36,7 @@ TEST(Leash, LeavesAFreeHandAlone)
 {
   Session free;
   Session leashed;
-  leashed.parameters.mostLead = 0.5F;
+  leashed.parameters.maxLead = 0.5F;
   for (Session* session : {&free, &leashed})
   {
     session->go(kAbove, kAbove, 50);
@@ -52,10 +52,10 @@ TEST(Leash, RefusesABoundThatIsNone)
 {
   Session session;
   session.go(kAbove, kAbove, 50);
-  session.parameters.mostLead = -1.0F;
+  session.parameters.maxLead = -1.0F;
   EXPECT_EQ(faultOf(session.tick({kAbove, Eigen::Quaterniond::Identity()})),
             ServoFault::Parameters);
-  session.parameters.mostLead = std::numeric_limits<float>::quiet_NaN();
+  session.parameters.maxLead = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(faultOf(session.tick({kAbove, Eigen::Quaterniond::Identity()})),
             ServoFault::Parameters);
 }

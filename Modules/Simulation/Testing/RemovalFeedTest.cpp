@@ -308,7 +308,7 @@ TEST(RemovalFeed, DoesNotBoreOnWhileTheToolIsHeld)
     scene.loop.step(record);
   }
   const auto& grid = scene.work.mask().geometry();
-  const double deepest = RemovalFeed::kLeastAhead + 0.05 * 0.3;
+  const double deepest = RemovalFeed::kMinAhead + 0.05 * 0.3;
   EXPECT_EQ(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -deepest - 0.9})), 1.0);
   EXPECT_GT(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -deepest})), 0.5);
   const RemovalBalance balance = scene.feed.balance();

@@ -27,23 +27,23 @@ constexpr double kPlay = 0.15;
 
 // A place that lies L beyond the tool pulls sideways by k L where the force turns by one, against
 // that turn: followed as fast as anything else, a weak force would swing about from tick to tick.
-constexpr double kMostGain = 0.5;
+constexpr double kMaxGain = 0.5;
 
 constexpr double kArrived = 0.001; // mm
 constexpr double kStill = 1e-4;    // mm in a tick: no way
 
 // A tool that is beyond its approach goes back at once.
-constexpr double kLongestWayBack = 30.0; // mm
+constexpr double kMaxWayBack = 30.0; // mm
 
 // Ripples and the skin between tool and tissue are some hundredths of a millimetre: a tool that
 // presses by less is now on the surface and now off it.
-constexpr double kLeastPress = 0.04; // mm
+constexpr double kMinPress = 0.04; // mm
 constexpr double kStiffest = 10.0;   // N/mm
 constexpr double kAngular = 10.0;    // mm^2/rad, of the stiffness
 
 // Of the force, that may pull sideways on a tool that is held back; one that goes may be led on as
 // fast as this, and what is led too far pulls for one tick.
-constexpr double kMostSideways = 0.7;
+constexpr double kMaxSideways = 0.7;
 constexpr double kFollowSpeed = 200.0; // mm/s
 
 // How much faster a tool in the air may come from tick to tick.
@@ -60,7 +60,7 @@ ConstantThrust::ConstantThrust(double stiffness, std::size_t burrPoints) noexcep
 haptics::ProxyParameters ConstantThrust::coupling(double thrust) noexcept
 {
   haptics::ProxyParameters parameters;
-  const double stiffness = std::min(thrust / kLeastPress, kStiffest);
+  const double stiffness = std::min(thrust / kMinPress, kStiffest);
   if (stiffness > parameters.stiffness)
   {
     parameters.stiffness = stiffness;
@@ -117,7 +117,7 @@ void ConstantThrust::turn(const Vector3d& wanted, const Vector3d& position) noex
   if (!(way > 0.0))
     return;
   m_from += way / aside.norm() * aside;
-  const double share = std::min(1.0 - std::exp(-way / kFollowWay), kMostGain * m_turning);
+  const double share = std::min(1.0 - std::exp(-way / kFollowWay), kMaxGain * m_turning);
   const Vector3d turned = m_direction + share * (wanted - m_direction);
   const double norm = turned.norm();
   m_direction = norm > 0.1 ? Vector3d(turned / norm) : wanted;
@@ -137,15 +137,15 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   const double whole = thrust / m_stiffness;
   m_turning = whole / std::max(whole + std::abs(direction.dot(offset)), kArrived);
   // What pulls sideways is part of the force.
-  const double pull = std::min(m_pull, kMostSideways * whole);
+  const double pull = std::min(m_pull, kMaxSideways * whole);
   m_press = std::sqrt(whole * whole - pull * pull);
   double along = m_falling ? direction.dot(m_goal - proxy.position) : m_press + m_advance;
   if (m_inside)
     along = -speed * dt;
   else if (!m_contact)
     along = std::min({speed * dt, std::max(whole, kArrived) + kHaste * m_sank,
-                      std::max(reach + direction.dot(offset), -kLongestWayBack)});
-  const double most = kMostSideways * whole + std::min(m_glide, kFollowSpeed * dt);
+                      std::max(reach + direction.dot(offset), -kMaxWayBack)});
+  const double most = kMaxSideways * whole + std::min(m_glide, kFollowSpeed * dt);
   const double length = sideways.norm();
   if (m_contact && length > most)
     sideways *= most / length;

@@ -10,7 +10,7 @@ namespace
 {
 
 // A tick after a stall must not bite for the time in which nobody drilled.
-constexpr double kLongestTick = 0.01; // s
+constexpr double kMaxTick = 0.01; // s
 
 bool together(const TickRecord& record, const TickRecord& next)
 {
@@ -36,7 +36,7 @@ double DissectionLoop::secondsOf(const TickRecord& record)
   const double past = m_hasTime ? record.time() - m_time : 0.0;
   m_time = record.time();
   m_hasTime = true;
-  return past > 0.0 ? std::min(past, kLongestTick) : 0.0; // 0 for NaN
+  return past > 0.0 ? std::min(past, kMaxTick) : 0.0; // 0 for NaN
 }
 
 // Opens and closes strokes as the drill goes on and off; whether it is on.

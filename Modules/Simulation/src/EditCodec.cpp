@@ -24,7 +24,7 @@ std::uint64_t predict(const Row& row, const Row& before, std::size_t column)
 
 } // namespace
 
-std::size_t mostEditBytes(std::size_t count)
+std::size_t maxEditBytes(std::size_t count)
 {
   return kColumns * (1 + 8 * count);
 }

@@ -17,6 +17,6 @@ bool decodeEdits(const std::vector<std::uint8_t>& bytes, std::size_t count,
                  std::vector<MaskEdit>& edits);
 
 // Most bytes that `count` edits can take.
-std::size_t mostEditBytes(std::size_t count);
+std::size_t maxEditBytes(std::size_t count);
 
 } // namespace petrous::simulation

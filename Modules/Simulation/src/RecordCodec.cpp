@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr std::size_t kColumns = sizeof(TickRecord) / 8;
-constexpr std::size_t kMostSources = 8;
+constexpr std::size_t kMaxSources = 8;
 
 using Table = std::array<Words, kColumns>;
 
@@ -33,7 +33,7 @@ struct Column
 {
   bool real = true; // doubles; others are predicted by kPrevious only
   std::size_t sourceCount = 0;
-  std::array<std::uint8_t, kMostSources> sources{};
+  std::array<std::uint8_t, kMaxSources> sources{};
 };
 
 class Layout
@@ -120,7 +120,7 @@ std::uint64_t bitsOf(double value)
   return word;
 }
 
-using Gains = std::array<double, kMostSources>;
+using Gains = std::array<double, kMaxSources>;
 
 // The same bits on every machine: one rounding an operation (2 x is exact, fma is one rounding).
 std::uint64_t predict(Rule rule, const Table& table, std::size_t c, std::size_t t,
@@ -194,9 +194,9 @@ std::size_t costOf(const Words& codes)
 
 } // namespace
 
-std::size_t mostBytes(std::size_t count)
+std::size_t maxBytes(std::size_t count)
 {
-  return kColumns * (2 + 8 * kMostSources + 8 * count);
+  return kColumns * (2 + 8 * kMaxSources + 8 * count);
 }
 
 std::vector<std::uint8_t> encodeTicks(const std::vector<TickRecord>& ticks)

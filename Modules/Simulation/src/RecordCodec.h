@@ -19,6 +19,6 @@ bool decodeTicks(const std::vector<std::uint8_t>& bytes, std::size_t count,
                  std::vector<TickRecord>& ticks);
 
 // Most bytes that `count` ticks can take.
-std::size_t mostBytes(std::size_t count);
+std::size_t maxBytes(std::size_t count);
 
 } // namespace petrous::simulation

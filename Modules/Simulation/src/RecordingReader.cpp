@@ -41,10 +41,10 @@ RecordingReader::RecordingReader(const std::filesystem::path& file)
                              "program plays format " +
                              std::to_string(kFormatVersion) + ": record it again");
   const std::uint32_t size = getU32(&head[8]);
-  if (version != kFormatVersion || getU32(&head[4]) != sizeof(TickRecord) || size > 2 * kMostSetup)
+  if (version != kFormatVersion || getU32(&head[4]) != sizeof(TickRecord) || size > 2 * kMaxSetup)
     corrupt("its head is damaged");
   std::vector<std::uint8_t> json;
-  if (!read(head, size) || !unpack(head, kMostSetup, json))
+  if (!read(head, size) || !unpack(head, kMaxSetup, json))
     corrupt("its set-up is damaged");
   try
   {
@@ -106,15 +106,15 @@ bool RecordingReader::next(RecordingBlock& block)
   // Packed, what does not pack is a little longer.
   const auto longest = [](std::size_t raw) { return 2 * raw + 1000; };
   if (getU32(head.data()) != kBlockMark || (tickCount == 0 && editCount == 0) ||
-      tickCount > kMostTicks || editCount > kMostEdits ||
-      tickBytes > longest(mostBytes(tickCount)) || editBytes > longest(mostEditBytes(editCount)))
+      tickCount > kMaxTicks || editCount > kMaxEdits ||
+      tickBytes > longest(maxBytes(tickCount)) || editBytes > longest(maxEditBytes(editCount)))
     corrupt(name + " does not begin as one does");
   if (!read(ticks, tickBytes) || !read(edits, editBytes))
     return false;
   std::vector<std::uint8_t> bytes;
   const bool whole =
-      unpack(ticks, mostBytes(tickCount), bytes) && decodeTicks(bytes, tickCount, block.ticks) &&
-      unpack(edits, mostEditBytes(editCount), bytes) && decodeEdits(bytes, editCount, block.edits);
+      unpack(ticks, maxBytes(tickCount), bytes) && decodeTicks(bytes, tickCount, block.ticks) &&
+      unpack(edits, maxEditBytes(editCount), bytes) && decodeEdits(bytes, editCount, block.edits);
   if (!whole)
   {
     block = {};

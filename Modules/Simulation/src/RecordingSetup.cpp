@@ -54,7 +54,7 @@ void eachNumber(Setup& s, Field field)
   field("torque_slew_nmm_s", s.servo.limits.torqueSlew);
   field("fade_in_s", s.servo.limits.fadeIn);
   field("fade_out_s", s.servo.limits.fadeOut);
-  field("longest_step_s", s.servo.limits.longestStep);
+  field("longest_step_s", s.servo.limits.maxStep);
 }
 
 template <typename Passivity, typename Field>

@@ -17,7 +17,7 @@ namespace
 std::vector<std::uint8_t> headOf(const RecordingSetup& setup)
 {
   const std::string json = toJson(setup);
-  if (json.size() > kMostSetup)
+  if (json.size() > kMaxSetup)
     throw core::InvalidParameter("recording: the set-up's texts are longer than 1 MB");
   const std::vector<std::uint8_t> packed = pack({json.begin(), json.end()});
   std::vector<std::uint8_t> head(kMagic, kMagic + kMagicBytes);

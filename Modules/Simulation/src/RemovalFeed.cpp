@@ -16,7 +16,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 // mm that a burr on a flat surface has sunk in before anything is taken: what two turns of a
 // cutting burr with ten teeth take at a tenth of a micrometre each. It makes the least patch.
-constexpr double kLeastSink = 0.002;
+constexpr double kMinSink = 0.002;
 
 // Quadrature over a patch: within 0.3 % of its mean at the pole, and nearer elsewhere.
 constexpr int kRings = 12;
@@ -45,7 +45,7 @@ RemovalFeed::RemovalFeed(dissection::RemovalDepthSolver& search, const dissectio
   : m_search(search)
   , m_speed(burr.rpm * 2.0 * kPi / 60.0)
   , m_voxel(voxel)
-  , m_ahead(std::max(kVoxelsAhead * voxel, kLeastAhead))
+  , m_ahead(std::max(kVoxelsAhead * voxel, kMinAhead))
 {
   if (!(burr.rpm >= 0.0) || !std::isfinite(burr.rpm))
     throw core::InvalidParameter("drill: the spindle's speed must be at least 0 turns a minute");
@@ -59,7 +59,7 @@ double RemovalFeed::armOf(const Eigen::Vector3d& normal, double spread) const no
 
 double RemovalFeed::armOf(double radius, double elevation, double spread) noexcept
 {
-  const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kLeastSink);
+  const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kMinSink);
   const double rim = rimOf(std::max(spread, least) / radius);
   // Rings of equal area, the places of a half of each evenly spaced.
   const double sine = std::sin(elevation);
@@ -154,8 +154,8 @@ std::optional<dissection::SweptSphere> RemovalFeed::bite(const volume::CutMask& 
     forfeit(m_owed);
     return std::nullopt;
   }
-  const bool little = m_owed * m_search.yielding() < kLeastAdvance * m_voxel;
-  if (little && m_search.yielding() > 0.0 && m_owed < kLongestWait * m_rate)
+  const bool little = m_owed * m_search.yielding() < kMinAdvance * m_voxel;
+  if (little && m_search.yielding() > 0.0 && m_owed < kMaxWait * m_rate)
     return std::nullopt;
   m_wish.work = m_owed;
   const auto bite = m_search.find(mask, m_wish);
@@ -168,7 +168,7 @@ std::optional<dissection::SweptSphere> RemovalFeed::bite(const volume::CutMask& 
   // Within reach nothing may be taken, or the tool is held back: it does not save up for later.
   if (bite)
     forfeit(m_owed);
-  else if (const double most = kLongestOwed * m_rate; m_owed > most)
+  else if (const double most = kMaxOwed * m_rate; m_owed > most)
     forfeit(m_owed - most);
   return std::nullopt;
 }

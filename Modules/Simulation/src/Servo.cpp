@@ -18,7 +18,7 @@ using haptics::ProxyTick;
 namespace
 {
 
-constexpr double kLongestStep = 0.01; // s that a tick may count for
+constexpr double kMaxStep = 0.01; // s that a tick may count for
 constexpr double kPedalDown = 0.5;
 
 // Where a tool may be placed anew, mm from its place towards the eye: at last beyond any scan.
@@ -88,7 +88,7 @@ Servo::Step Servo::judge(const TickInput& input) noexcept
   step.pointer = led && (p.constantThrust & ServoParameters::kPointer) != 0;
   if (std::isfinite(input.now))
   {
-    step.dt = m_hasTime ? std::clamp(past, 0.0, kLongestStep) : 0.0;
+    step.dt = m_hasTime ? std::clamp(past, 0.0, kMaxStep) : 0.0;
     m_time = input.now;
     m_hasTime = true;
   }
@@ -101,7 +101,7 @@ void Servo::map(Step& step, bool anew) noexcept
   {
     step.mapped = m_mapping.map(step.device, step.view);
     // A wheel's tool begins before the tissue, too, and goes on from there.
-    const bool byWheel = m_record.input.parameters.mostLead > 0.0F &&
+    const bool byWheel = m_record.input.parameters.maxLead > 0.0F &&
                          Eigen::Map<const Eigen::Vector3d>(m_record.input.parameters.approach) !=
                              Eigen::Vector3d::Zero();
     bool before = false;
@@ -123,7 +123,7 @@ void Servo::map(Step& step, bool anew) noexcept
   if (step.usable && !step.clutch && (!anew || m_record.input.parameters.constantThrust))
   {
     step.mapped = m_mapping.map(step.device, step.view);
-    if (const double lead = static_cast<double>(m_record.input.parameters.mostLead);
+    if (const double lead = static_cast<double>(m_record.input.parameters.maxLead);
         lead > 0.0 && m_touches)
       boundLead(step, lead);
     return;
@@ -133,18 +133,18 @@ void Servo::map(Step& step, bool anew) noexcept
     m_mapping.hold(step.device, step.view, step.mapped);
 }
 
-void Servo::boundLead(Step& step, double mostLead) noexcept
+void Servo::boundLead(Step& step, double maxLead) noexcept
 {
   const Pose& tool = m_proxy.pose();
   haptics::Motion lead = haptics::motionBetween(tool, step.mapped);
   const double distance = lead.linear.norm();
   const double angle = lead.angular.norm();
-  if (distance <= mostLead && angle <= ServoParameters::kMostTurn)
+  if (distance <= maxLead && angle <= ServoParameters::kMaxTurn)
     return;
-  if (distance > mostLead)
-    lead.linear *= mostLead / distance;
-  if (angle > ServoParameters::kMostTurn)
-    lead.angular *= ServoParameters::kMostTurn / angle;
+  if (distance > maxLead)
+    lead.linear *= maxLead / distance;
+  if (angle > ServoParameters::kMaxTurn)
+    lead.angular *= ServoParameters::kMaxTurn / angle;
   step.mapped = haptics::moved(tool, lead);
   m_mapping.hold(step.device, step.view, step.mapped);
 }

@@ -18,7 +18,7 @@ namespace
 
 // Above ordinary threads, below the kernel's own watchdogs and interrupt threads (50).
 constexpr int kPriority = 40;
-constexpr int kMostTicksToStop = 200;
+constexpr int kMaxTicksToStop = 200;
 
 double secondsOf(clockid_t clock) noexcept
 {
@@ -134,7 +134,7 @@ void ServoThread::run() noexcept
   ServoParameters parameters;
   std::uint64_t seen = 0;
   double due = secondsOf(CLOCK_MONOTONIC);
-  int toStop = kMostTicksToStop;
+  int toStop = kMaxTicksToStop;
   bool resting = false;
   while (toStop > 0 && !(m_stop.load(std::memory_order_relaxed) && resting))
   {

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 namespace
 {
 constexpr double kSameWay = 0.05;  // of the distance
-constexpr double kLeastWay = 1e-3; // mm: a place on the surface has a direction, too
+constexpr double kMinWay = 1e-3; // mm: a place on the surface has a direction, too
 } // namespace
 
 Vector3d SurfaceApproach::at(const Vector3d& place)
@@ -44,7 +44,7 @@ Vector3d SurfaceApproach::at(const Vector3d& place)
       into = -nearest->normal;
     const double length = into.norm();
     if (length > 0.0)
-      m_way = std::max(m_distance, kLeastWay) / length * into;
+      m_way = std::max(m_distance, kMinWay) / length * into;
   }
   return m_way;
 }

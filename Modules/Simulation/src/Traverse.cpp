@@ -14,8 +14,8 @@ namespace
 constexpr double kBeside = 0.1;       // mm across the line of sight: it is over its place
 constexpr double kAnotherPlace = 0.5; // mm
 constexpr double kStill = 1e-4;       // mm in a tick: no way
-constexpr double kLeastThrust = 0.1;  // N: a tool that is not to be pressed at all must go on, too
-constexpr double kMostTurn = 0.05;    // rad in a tick, where tissue holds it
+constexpr double kMinThrust = 0.1;  // N: a tool that is not to be pressed at all must go on, too
+constexpr double kMaxTurn = 0.05;    // rad in a tick, where tissue holds it
 
 Vector3d atMost(const Vector3d& lead, double most) noexcept
 {
@@ -76,7 +76,7 @@ haptics::Pose Traverse::goal(const haptics::Pose& place, const haptics::Pose& pr
     if (!over && m_lift <= 0.0)
       m_lift = kLift;
   }
-  const double held = kShare * std::max(thrust, kLeastThrust) / m_stiffness;
+  const double held = kShare * std::max(thrust, kMinThrust) / m_stiffness;
   const double most = m_touches ? held : kSpeed * dt;
 
   Vector3d lead = offset;
@@ -95,7 +95,7 @@ haptics::Pose Traverse::goal(const haptics::Pose& place, const haptics::Pose& pr
   if (!m_touches)
     return goal;
   haptics::Motion turn = haptics::motionBetween(proxy, goal);
-  turn.angular = atMost(turn.angular, kMostTurn);
+  turn.angular = atMost(turn.angular, kMaxTurn);
   return haptics::moved(proxy, turn);
 }
 

@@ -45,7 +45,7 @@ TEST(DistanceField, IsTheDistanceUpToItsReach)
   const Distance shapes[] = {[](const Vector3d& p) { return p.norm() - 4.0; }, [](const Vector3d& p)
                              { return std::hypot(std::hypot(p.x(), p.y()) - 5.0, p.z()) - 1.0; }};
   for (const Distance& shape : shapes)
-    for (const std::size_t most : {kMostFieldVoxels, std::size_t{200'000}})
+    for (const std::size_t most : {kMaxFieldVoxels, std::size_t{200'000}})
     {
       const auto field = makeDistanceField(*shareOf(shape), reach, {}, most);
       ASSERT_TRUE(field);

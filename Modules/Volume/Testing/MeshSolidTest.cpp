@@ -348,12 +348,12 @@ TEST(MeshSolid, StaysWithinItsMemoryOrSaysThatItCannot)
   const auto free = volume::planMeshSolid(mesh, limits);
   ASSERT_TRUE(free);
   EXPECT_LE(free.grid.minSpacing(), 0.1001);
-  limits.mostBytes = free.grid.voxelCount() * sizeof(float) / 2;
+  limits.maxBytes = free.grid.voxelCount() * sizeof(float) / 2;
   const auto tight = volume::planMeshSolid(mesh, limits);
   ASSERT_TRUE(tight) << tight.refusal;
-  EXPECT_LE(tight.grid.voxelCount() * sizeof(float), limits.mostBytes);
+  EXPECT_LE(tight.grid.voxelCount() * sizeof(float), limits.maxBytes);
   EXPECT_LE(tight.grid.minSpacing(), 0.15);
-  limits.mostBytes /= 4;
+  limits.maxBytes /= 4;
   const auto refused = volume::planMeshSolid(mesh, limits);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.refusal.find("0.3 mm thick"), std::string::npos) << refused.refusal;
@@ -388,9 +388,9 @@ TEST(MeshSolid, RefusesWhatReachesFarBeyondTheRegion)
   }
   EXPECT_EQ(volume::reachBeyond(sphere({0, 0, 0}, 8.0), *limits.region), 0.0);
   EXPECT_NEAR(volume::reachBeyond(sphere({30, 0, 0}, 8.0), *limits.region), 18.0, 0.1);
-  EXPECT_EQ(volume::mostReach(*limits.region), 500.0);
-  EXPECT_NEAR(volume::mostReach({Vector3d::Zero(), Vector3d(300, 400, 0)}), 500.0, 1e-9);
-  EXPECT_NEAR(volume::mostReach({Vector3d::Zero(), Vector3d(600, 800, 0)}), 1000.0, 1e-9);
+  EXPECT_EQ(volume::maxReach(*limits.region), 500.0);
+  EXPECT_NEAR(volume::maxReach({Vector3d::Zero(), Vector3d(300, 400, 0)}), 500.0, 1e-9);
+  EXPECT_NEAR(volume::maxReach({Vector3d::Zero(), Vector3d(600, 800, 0)}), 1000.0, 1e-9);
 }
 
 // What leaves the region is cut off there, and what is left in it is as before.

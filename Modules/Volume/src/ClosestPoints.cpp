@@ -11,7 +11,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr int kMostRounds = 1; // what is left is put right on the surface itself
+constexpr int kMaxRounds = 1; // what is left is put right on the surface itself
 
 } // namespace
 
@@ -29,12 +29,12 @@ ClosestPoints::ClosestPoints(std::vector<Eigen::Vector3f> points, const core::In
   if (m_points.empty())
     return;
   start();
-  for (int round = 0; round < kMostRounds; ++round)
+  for (int round = 0; round < kMaxRounds; ++round)
   {
     bool changed = false;
     for (int n = 0; n < 8; ++n)
     {
-      progress.report((round + n / 8.0) / kMostRounds, "measuring structures");
+      progress.report((round + n / 8.0) / kMaxRounds, "measuring structures");
       progress.check("measuring structures");
       changed |= sweep({n & 1 ? -1 : 1, n & 2 ? -1 : 1, n & 4 ? -1 : 1});
     }

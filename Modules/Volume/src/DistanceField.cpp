@@ -13,7 +13,7 @@ namespace petrous::volume
 
 std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,
                                                        const core::Progress& progress,
-                                                       std::size_t mostVoxels)
+                                                       std::size_t maxVoxels)
 {
   if (!(reach > 0.0))
     throw core::InvalidParameter("distance field: the reach must be above 0 mm");
@@ -22,7 +22,7 @@ std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& shar
   if (box.empty())
     return nullptr;
   // The surface may lie up to a voxel beyond the voxels inside.
-  const DistanceGrid grid = gridFor(from, box, reach + from.spacing().maxCoeff(), mostVoxels);
+  const DistanceGrid grid = gridFor(from, box, reach + from.spacing().maxCoeff(), maxVoxels);
   const OccupancySurface surface(share);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));

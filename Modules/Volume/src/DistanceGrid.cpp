@@ -31,7 +31,7 @@ core::IndexBox insideBox(const Volume<float>& share)
 }
 
 DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box, double beyond,
-                     std::size_t mostVoxels)
+                     std::size_t maxVoxels)
 {
   DistanceGrid grid;
   grid.edge = kFinest * share.minSpacing();
@@ -51,7 +51,7 @@ DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box,
       grid.dims[a] = static_cast<int>(std::ceil(size[axis] / grid.edge)) + 1;
       count *= static_cast<std::size_t>(grid.dims[a]);
     }
-    if (count <= mostVoxels || grid.edge > size.maxCoeff())
+    if (count <= maxVoxels || grid.edge > size.maxCoeff())
       return grid;
   }
 }

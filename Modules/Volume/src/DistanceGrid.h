@@ -21,7 +21,7 @@ core::IndexBox insideBox(const Volume<float>& share);
 /// Reaches `beyond` mm past the voxels of `box`, and a cube more. The cubes are half the share's
 /// least spacing in edge, larger where there would be more than `mostVoxels`.
 DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box, double beyond,
-                     std::size_t mostVoxels);
+                     std::size_t maxVoxels);
 
 core::GridGeometry geometryOf(const DistanceGrid& grid, const core::GridGeometry& share);
 

@@ -150,13 +150,13 @@ double DistanceMap::depth(const Eigen::Vector3d& patient) const noexcept
 std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
                                                    const core::GridGeometry& domain,
                                                    const core::Progress& progress,
-                                                   std::size_t mostVoxels)
+                                                   std::size_t maxVoxels)
 {
   const core::GridGeometry& from = share.geometry();
   const core::IndexBox box = insideBox(share);
   if (box.empty())
     return nullptr;
-  const DistanceGrid grid = gridFor(from, box, kMargin * from.minSpacing(), mostVoxels);
+  const DistanceGrid grid = gridFor(from, box, kMargin * from.minSpacing(), maxVoxels);
   const OccupancySurface surface(share);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));

@@ -258,7 +258,7 @@ std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, cons
 
 std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>& sources,
                                                  const core::Progress& progress,
-                                                 std::size_t mostVoxels)
+                                                 std::size_t maxVoxels)
 {
   const LabelOrder order(sources);
   std::vector<LabelPriority> grids = rankLabels(sources, order, progress.part(0.0, 0.3));
@@ -275,7 +275,7 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
   }
   else
   {
-    ResampledLabels common = resampleLabels(grids, order, mostVoxels, progress.part(0.3, 0.7));
+    ResampledLabels common = resampleLabels(grids, order, maxVoxels, progress.part(0.3, 0.7));
     ranks = std::move(common.ranks);
     field->share = std::move(common.share);
     field->notes = std::move(common.notes);
@@ -293,7 +293,7 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
 
 std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& sources,
                                               const core::Progress& progress,
-                                              std::size_t mostVoxels)
+                                              std::size_t maxVoxels)
 {
   std::vector<LabelSource> solid = sources;
   for (LabelSource& source : solid)
@@ -309,7 +309,7 @@ std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& so
     return nullptr;
   if (grids.size() == 1)
     return smoothRanks(grids.front(), order, progress.part(0.3, 1.0));
-  return resampleLabels(grids, order, mostVoxels, progress.part(0.3, 1.0)).share;
+  return resampleLabels(grids, order, maxVoxels, progress.part(0.3, 1.0)).share;
 }
 
 } // namespace petrous::volume

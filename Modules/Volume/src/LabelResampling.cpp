@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kHalf = 0.5 - 1e-6; // a tie is inside
 constexpr double kAligned = 5e-3;    // voxels
-constexpr int kMostSamples = 8;      // per axis, in a common voxel
+constexpr int kMaxSamples = 8;      // per axis, in a common voxel
 
 // ---- the common grid
 
@@ -36,7 +36,7 @@ const core::GridGeometry& finestGrid(const std::vector<LabelPriority>& grids)
   return *finest;
 }
 
-core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size_t mostVoxels,
+core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size_t maxVoxels,
                               std::vector<std::string>& notes)
 {
   const core::GridGeometry& finest = finestGrid(grids);
@@ -68,7 +68,7 @@ core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size
   Vector3d dims = upper - lower + Vector3d::Ones();
   const double wanted = dims.prod();
   constexpr double kGrowth = 1.01;
-  for (double least = spacing.minCoeff(); dims.prod() > static_cast<double>(mostVoxels);
+  for (double least = spacing.minCoeff(); dims.prod() > static_cast<double>(maxVoxels);
        least *= kGrowth)
   {
     spacing = finest.spacing().cwiseMax(least);
@@ -137,7 +137,7 @@ public:
     for (std::size_t a = 0; a < 3; ++a)
     {
       const double extent = m_linear.col(static_cast<Eigen::Index>(a)).norm();
-      m_samples[a] = std::clamp(static_cast<int>(std::ceil(extent - 1e-3)), 1, kMostSamples);
+      m_samples[a] = std::clamp(static_cast<int>(std::ceil(extent - 1e-3)), 1, kMaxSamples);
     }
     m_shift = nearestVoxel(m_offset);
     m_aligned = true;
@@ -275,10 +275,10 @@ void give(ResampledLabels& labels, const LabelOrder& order, const core::Index3& 
 } // namespace
 
 ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const LabelOrder& order,
-                               std::size_t mostVoxels, const core::Progress& progress)
+                               std::size_t maxVoxels, const core::Progress& progress)
 {
   ResampledLabels result;
-  const core::GridGeometry common = commonGrid(grids, mostVoxels, result.notes);
+  const core::GridGeometry common = commonGrid(grids, maxVoxels, result.notes);
   const core::Index3 dims = common.dims();
   result.share = makeZeroVolume<float>(common);
   result.ranks.voxels = makeZeroVolume<LabelRank>(common);

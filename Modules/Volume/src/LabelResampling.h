@@ -34,6 +34,6 @@ struct ResampledLabels
 /// Where the common grid would have more than `mostVoxels`, its finest axes are coarsened until it
 /// has not, which a note says.
 ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const LabelOrder& order,
-                               std::size_t mostVoxels, const core::Progress& progress);
+                               std::size_t maxVoxels, const core::Progress& progress);
 
 } // namespace petrous::volume

@@ -98,7 +98,7 @@ MeshInside::MeshInside(const core::TriangleMesh& mesh)
 // About as many cells as triangles; fewer where triangles are so long that each lies in many.
 void MeshInside::fillCells()
 {
-  constexpr std::size_t kMostPlaces = 8; // of a triangle, on average
+  constexpr std::size_t kMaxPlaces = 8; // of a triangle, on average
   Lattice last{0, 0};
   for (const auto& triangle : m_lattice)
     for (const Lattice& corner : triangle)
@@ -135,7 +135,7 @@ void MeshInside::fillCells()
   };
   const double along = std::sqrt(static_cast<double>(m_lattice.size()) + 1.0);
   m_shift = std::max(0, static_cast<int>(std::log2(2.0 * kLatticeSteps / along)));
-  while (m_shift < 25 && places() > kMostPlaces * m_lattice.size())
+  while (m_shift < 25 && places() > kMaxPlaces * m_lattice.size())
     ++m_shift;
   m_cells = {(last[0] >> m_shift) + 1, (last[1] >> m_shift) + 1};
 

@@ -25,7 +25,7 @@ constexpr double kFine = 0.002;  // share of the surface that may be thinner tha
 constexpr double kWhole = 0.02;  // the same where memory is short
 constexpr double kSharp = 0.08;  // of thickness times spacing: see MeshSolid.h
 constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, not the edge of something
-constexpr std::size_t kMostSamples = 20000; // triangles at which thickness is measured
+constexpr std::size_t kMaxSamples = 20000; // triangles at which thickness is measured
 constexpr double kGuarded = 0.501;          // above what the mask's 16 bits may round to 0.5
 
 const char* const kTask = "making a mesh touchable";
@@ -43,7 +43,7 @@ std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond
                             const core::Progress& progress)
 {
   const auto& triangles = surface.triangles();
-  const std::size_t stride = 1 + triangles.size() / kMostSamples;
+  const std::size_t stride = 1 + triangles.size() / kMaxSamples;
   std::vector<Chord> chords((triangles.size() + stride - 1) / stride, Chord{0.0, 0.0, false});
   tbb::parallel_for(std::size_t{0}, chords.size(),
                     [&](std::size_t n)
@@ -113,16 +113,16 @@ core::GridGeometry gridAt(const Eigen::Vector3d& lower, const Eigen::Vector3d& s
 }
 
 // The smallest edge in [wanted, coarsest] that memory permits; its bytes fall as it grows.
-double permitted(const Eigen::Vector3d& size, double wanted, double coarsest, double mostBytes)
+double permitted(const Eigen::Vector3d& size, double wanted, double coarsest, double maxBytes)
 {
-  if (bytesAt(size, wanted) <= mostBytes)
+  if (bytesAt(size, wanted) <= maxBytes)
     return wanted;
   double tooFine = wanted;
   double fits = coarsest;
   for (int round = 0; round < 40; ++round)
   {
     const double middle = 0.5 * (tooFine + fits);
-    (bytesAt(size, middle) <= mostBytes ? fits : tooFine) = middle;
+    (bytesAt(size, middle) <= maxBytes ? fits : tooFine) = middle;
   }
   return fits;
 }
@@ -133,12 +133,12 @@ void checkLimits(const MeshSolidLimits& limits)
     throw core::InvalidParameter("mesh: the spacing of its voxels must be above 0 mm");
 }
 
-std::string tooLargeText(double thickness, double bytes, double mostBytes)
+std::string tooLargeText(double thickness, double bytes, double maxBytes)
 {
   return "it is " + core::generalText(thickness, 3) + " mm thick in places and would take " +
          core::fixedText(std::ceil(bytes / (1 << 20)), 0) +
          " MB as voxels to stay whole; a mesh may take " +
-         core::fixedText(std::floor(mostBytes / (1 << 20)), 0) + " MB";
+         core::fixedText(std::floor(maxBytes / (1 << 20)), 0) + " MB";
 }
 
 std::string farText(double reach)
@@ -183,10 +183,10 @@ void limitSteps(Volume<float>& volume, float most)
 
 } // namespace
 
-double mostReach(const core::PatientBox& region)
+double maxReach(const core::PatientBox& region)
 {
-  constexpr double kLeast = 500.0; // mm
-  return std::max(kLeast, (region.max() - region.min()).norm());
+  constexpr double kMin = 500.0; // mm
+  return std::max(kMin, (region.max() - region.min()).norm());
 }
 
 double reachBeyond(const core::TriangleMesh& mesh, const core::PatientBox& region)
@@ -216,7 +216,7 @@ MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimit
     plan.refusal = "it lies outside the CT";
     return plan;
   }
-  if (limits.region && reachBeyond(mesh, *limits.region) > mostReach(*limits.region))
+  if (limits.region && reachBeyond(mesh, *limits.region) > maxReach(*limits.region))
   {
     plan.refusal = farText(reachBeyond(mesh, *limits.region));
     return plan;
@@ -246,11 +246,11 @@ MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimit
   const double wanted = std::min({h, t / 3.0, std::sqrt(kSharp * t * h)});
   const double coarsest = std::max(wanted, 0.5 * quantile(chords, kWhole));
   const Eigen::Vector3d size = upper - lower;
-  const auto mostBytes = static_cast<double>(limits.mostBytes);
-  if (bytesAt(size, coarsest) > mostBytes)
-    plan.refusal = tooLargeText(t, bytesAt(size, coarsest), mostBytes);
+  const auto maxBytes = static_cast<double>(limits.maxBytes);
+  if (bytesAt(size, coarsest) > maxBytes)
+    plan.refusal = tooLargeText(t, bytesAt(size, coarsest), maxBytes);
   else
-    plan.grid = gridAt(lower, size, permitted(size, wanted, coarsest, mostBytes));
+    plan.grid = gridAt(lower, size, permitted(size, wanted, coarsest, maxBytes));
   return plan;
 }
 

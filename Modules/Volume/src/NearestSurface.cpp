@@ -14,7 +14,7 @@ namespace
 
 constexpr int kBlock = 8;        // cells along the edge of a block
 constexpr int kSubdivisions = 3; // of a cell that the surface crosses, at least
-constexpr int kMostSubdivisions = 12;
+constexpr int kMaxSubdivisions = 12;
 constexpr double kFine = 0.9; // of the CT's spacing: a union with finer voxels is looked at itself
 constexpr int kRefinements = 12;
 
@@ -28,7 +28,7 @@ struct Nearest // the best so far
 int subdivisionsOf(const TissueField& field)
 {
   const double ratio = field.geometry().spacing().maxCoeff() / field.finestSpacing();
-  return std::clamp(static_cast<int>(std::ceil(0.7 * ratio)), kSubdivisions, kMostSubdivisions);
+  return std::clamp(static_cast<int>(std::ceil(0.7 * ratio)), kSubdivisions, kMaxSubdivisions);
 }
 
 // Nearest crossing of f on the lines of a finer lattice inside one cell.
@@ -206,14 +206,14 @@ void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) 
 // Where the CT alone is as solid as a union can be, no union is asked for.
 void NearestSurfaceSearch::prepareBlock(const core::IndexBox& corners) const
 {
-  constexpr double kMostOfUnion = 0.5;
+  constexpr double kMaxOfUnion = 0.5;
   const TissueField::Parameters& parameters = m_field.parameters();
   bool alone = true;
   for (int k = corners.lower[2]; k < corners.upper[2] && alone; ++k)
     for (int j = corners.lower[1]; j < corners.upper[1] && alone; ++j)
       for (int i = corners.lower[0]; i < corners.upper[0]; ++i)
         alone = alone && (m_field.ct()->at(i, j, k) - parameters.iso) / parameters.scale >
-                             kMostOfUnion; // not of NaN
+                             kMaxOfUnion; // not of NaN
   if (alone)
     return;
   const core::GridGeometry& grid = m_field.geometry();

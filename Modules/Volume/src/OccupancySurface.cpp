@@ -11,7 +11,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr std::size_t kMostPoints = 20'000'000;
+constexpr std::size_t kMaxPoints = 20'000'000;
 constexpr int kFinestParts = 2; // of a cell's edge, between points
 constexpr int kTurns = 6;
 constexpr double kSettled = 0.002;   // voxels: a step that is none
@@ -92,7 +92,7 @@ std::vector<Eigen::Vector3f> OccupancySurface::points(const core::Progress& prog
   const auto most = [&](int parts)
   { return cells.size() * static_cast<std::size_t>(4 * (parts + 1) * (parts + 1)); };
   int parts = kFinestParts;
-  while (parts > 1 && most(parts) > kMostPoints)
+  while (parts > 1 && most(parts) > kMaxPoints)
     --parts;
   std::vector<Eigen::Vector3f> points;
   for (std::size_t n = 0; n < cells.size(); ++n)

@@ -26,7 +26,7 @@ public:
   /// Cells (by their lowest corner) whose corners lie on both sides. The last axis runs slowest.
   std::vector<core::Index3> crossedCells(const core::Progress& progress) const;
 
-  static constexpr int kMostParts = 3;
+  static constexpr int kMaxParts = 3;
 
   struct Crossing
   {
@@ -37,7 +37,7 @@ public:
 
   /// Calls `visit(const Crossing&)` with the points where the lines of a finer lattice, `parts` to
   /// an edge, meet the surface in the cell. Along the axes shares are linear: these points lie on
-  /// it. Parts: 1 to kMostParts.
+  /// it. Parts: 1 to kMaxParts.
   template <class Visit>
   void forEachCrossing(const core::Index3& cell, int parts, const Visit& visit) const;
 
@@ -60,7 +60,7 @@ template <class Visit>
 void OccupancySurface::forEachCrossing(const core::Index3& cell, int parts, const Visit& visit) const
 {
   const std::array<double, 8> c = corners(cell, {cell[0] + 1, cell[1] + 1, cell[2] + 1});
-  constexpr int most = kMostParts + 1;
+  constexpr int most = kMaxParts + 1;
   std::array<double, most * most * most> lattice{};
   const auto value = [&](int i, int j, int k) -> double&
   { return lattice[static_cast<std::size_t>(i + most * (j + most * k))]; };

@@ -20,7 +20,7 @@ constexpr int kEdge = LabelTiles::kEdge;
 constexpr int kBlock = 4;
 
 // Points of a net: where regions asked for more, the whole of a head's structures is cheaper.
-constexpr std::size_t kMostPoints = 2'000'000;
+constexpr std::size_t kMaxPoints = 2'000'000;
 
 /// The units of `edge` that a box has a part of.
 core::IndexBox inUnits(const core::IndexBox& box, int edge)
@@ -148,7 +148,7 @@ void RegionalUnion::prepareVoxels(const std::vector<core::IndexBox>& boxes,
   if (2 * targets.size() > m_prepared.size())
     return prepareAll(progress);
   SurfaceNet net(*m_inside, targets, progress);
-  if (m_pointsRelaxed + net.points() > kMostPoints)
+  if (m_pointsRelaxed + net.points() > kMaxPoints)
     return prepareAll(progress);
   net.relax(progress);
   m_pointsRelaxed += net.points();

@@ -19,7 +19,7 @@ namespace
 
 constexpr float kReach = 1.9F;     // voxels from which a point counts
 constexpr int kSpan = 2;           // cells that far may hold one
-constexpr float kLeast = 0.05F;    // |distance| of any voxel, voxels
+constexpr float kMin = 0.05F;    // |distance| of any voxel, voxels
 constexpr float kThinDepth = 0.3F; // of voxels that touch others by an edge or a corner
 
 // How far outside a voxel lies beside such, of the sum of their depths (of the numerator of the
@@ -252,7 +252,7 @@ void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
         if (!sums.empty() && sums[n][1] > 1e-9F)
         {
           const float depth = -sums[n][0] / sums[n][1];
-          value = shareOf(in ? std::max(depth, kLeast) : std::min(depth, -kLeast));
+          value = shareOf(in ? std::max(depth, kMin) : std::min(depth, -kMin));
         }
         if (value > 0.0F) // memory is taken where something is written
           row[x] = value;
@@ -328,7 +328,7 @@ void SurfaceNet::joinThin(const ShareView& share, const std::vector<std::size_t>
                 [&](int corner, float to)
                 {
                   if (!has(cell.corners, corner) && to > at(corner))
-                    lifts.emplace_back(voxelOf(cell.cell, corner), shareOf(std::min(to, -kLeast)));
+                    lifts.emplace_back(voxelOf(cell.cell, corner), shareOf(std::min(to, -kMin)));
                 });
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 256),

@@ -16,7 +16,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr int kMostTouchTests = 16; // per axis, in a voxel of the source
+constexpr int kMaxTouchTests = 16; // per axis, in a voxel of the source
 constexpr double kWhole = 0.52; // share between the points of a thin structure that are looked at
 
 class ThinStructures
@@ -35,7 +35,7 @@ public:
     for (std::size_t a = 0; a < 3; ++a)
     {
       const double extent = m_linear.col(static_cast<Eigen::Index>(a)).norm();
-      m_tests[a] = std::clamp(static_cast<int>(std::ceil(2.0 * extent)), 1, kMostTouchTests);
+      m_tests[a] = std::clamp(static_cast<int>(std::ceil(2.0 * extent)), 1, kMaxTouchTests);
     }
   }
 

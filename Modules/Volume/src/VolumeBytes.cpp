@@ -115,9 +115,9 @@ core::GridGeometry gridFrom(Reader& reader)
   Eigen::Matrix3d direction;
   for (Eigen::Index n = 0; n < 9; ++n)
     direction(n % 3, n / 3) = reader.number<double>();
-  constexpr int kMostDims = 1 << 16;
+  constexpr int kMaxDims = 1 << 16;
   for (const int n : dims)
-    if (n < 1 || n > kMostDims)
+    if (n < 1 || n > kMaxDims)
       throw Malformed{};
   return {dims, spacing, origin, direction};
 }
@@ -136,13 +136,13 @@ struct Code<float>
   using Type = std::uint16_t;
   static std::uint16_t of(float share, std::atomic<bool>& lost)
   {
-    constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+    constexpr float kMax = std::numeric_limits<std::uint16_t>::max();
     if (!(share >= 0.0F && share <= 1.0F))
     {
       lost = true;
       return 0;
     }
-    const auto code = static_cast<std::uint16_t>(share * kMost + 0.5F);
+    const auto code = static_cast<std::uint16_t>(share * kMax + 0.5F);
     if (value(code) != share)
       lost = true;
     return code;

@@ -15,7 +15,7 @@ namespace petrous::presenters
 {
 
 /// What may hold the tool.
-struct Hand
+struct InputDevice
 {
   enum class Kind : std::uint8_t
   {
@@ -30,21 +30,21 @@ struct Hand
   std::filesystem::path program; ///< of a server
 };
 
-inline bool operator==(const Hand& a, const Hand& b)
+inline bool operator==(const InputDevice& a, const InputDevice& b)
 {
   return a.id == b.id && a.name == b.name && a.advice == b.advice && a.program == b.program;
 }
 
 struct DeviceList
 {
-  std::vector<Hand> hands{Hand()}; ///< the mouse first
+  std::vector<InputDevice> devices{InputDevice()}; ///< the mouse first
   bool pedal = false;              ///< one is plugged in and may be opened
   std::string pedalAdvice;         ///< what to do about one that is plugged in; mostly empty
 };
 
 inline bool operator==(const DeviceList& a, const DeviceList& b)
 {
-  return a.hands == b.hands && a.pedal == b.pedal && a.pedalAdvice == b.pedalAdvice;
+  return a.devices == b.devices && a.pedal == b.pedal && a.pedalAdvice == b.pedalAdvice;
 }
 
 /// Where hands are looked for.
@@ -55,7 +55,7 @@ struct DeviceSources
 };
 
 /// What is there now. Asks the system, so it may take some tenths of a second; starts no server.
-DeviceList findHands(const DeviceSources& sources);
+DeviceList findDevices(const DeviceSources& sources);
 
 /// A device that was taken into the hand, as the servo sees it. What senses no heading of its own
 /// (a SpaceMouse, a device of three axes) begins with the heading that the mouse's tool has, so
@@ -68,10 +68,10 @@ public:
 
   /// Waits until a server is ready (up to 10 s), or `wanted` says false. Throws
   /// devices::ServerError, InvalidParameter.
-  ActiveDevice(const DeviceSources& sources, const Hand& hand, std::function<bool()> wanted = {});
+  ActiveDevice(const DeviceSources& sources, const InputDevice& input, std::function<bool()> wanted = {});
   ~ActiveDevice() override; ///< a server is ended: up to 0.7 s
 
-  const Hand& hand() const noexcept { return m_hand; }
+  const InputDevice& input() const noexcept { return m_input; }
 
   /// Puts a pedal under it; not while a servo reads it. Again is as once.
   void setPedal(const std::shared_ptr<devices::Pedal>& pedal);
@@ -80,14 +80,14 @@ public:
   std::string problem() const;
 
   /// A speed leads it, so that there is no end to its way.
-  bool endless() const noexcept { return m_hand.kind == Hand::Kind::SpaceMouse; }
+  bool endless() const noexcept { return m_input.kind == InputDevice::Kind::SpaceMouse; }
 
   const haptics::DeviceDescription& description() const noexcept override;
   haptics::DeviceReading read(double now) noexcept override;
   void send(const haptics::Wrench& wrench) noexcept override;
 
 private:
-  Hand m_hand;
+  InputDevice m_input;
   std::function<std::string()> m_problem;
   std::unique_ptr<haptics::Device> m_device;
   Eigen::Quaterniond m_grip = Eigen::Quaterniond::Identity();

@@ -21,8 +21,8 @@ namespace petrous::presenters
 /// presses with `thrust` at most and comes back from the tissue at once.
 struct DeviceMapping
 {
-  static constexpr double kLeastScale = 0.05;
-  static constexpr double kMostScale = 2.0;
+  static constexpr double kMinScale = 0.05;
+  static constexpr double kMaxScale = 2.0;
 
   double scale = 0.5;               ///< mm of the tool for a mm of the hand
   double thrust = 1.0;              ///< N; of hands without motors

@@ -37,9 +37,9 @@ struct NearbyStructure
 std::string toString(const NearbyStructure& structure);
 
 /// What the surgeon must see now, a line for each structure that is touched, injured or within its
-/// warning distance, the worst first and at most kMostWarnings of them; empty: nothing.
+/// warning distance, the worst first and at most kMaxWarnings of them; empty: nothing.
 std::string warningsOf(const std::vector<NearbyStructure>& structures);
-constexpr std::size_t kMostWarnings = 3;
+constexpr std::size_t kMaxWarnings = 3;
 
 /// "0.72 mm³", "under 0.01 mm³".
 std::string cubicMillimetres(double volume);

@@ -43,7 +43,7 @@ struct ContourSegment
 /// Where the samples cross `level`: marching squares, linear between pixel centres. The middle of
 /// four pixels decides where their corners allow two ways. Nothing where a corner is not finite, or
 /// where the samples change by less than `leastSlope` a pixel: there noise would draw a contour.
-std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float leastSlope);
+std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float minSlope);
 
 /// How much of each pixel the contours cover when drawn `width` pixels wide, 0 to 1, with smooth
 /// edges; pixels as in the samples.

@@ -20,7 +20,7 @@ public:
   using Measure = std::function<dissection::RemovedVolume(const dissection::Dissection&)>;
 
   static constexpr double kEvery = 0.25;  ///< s, between the beginnings of two measurements
-  static constexpr double kMostShare = 4; ///< nor more often than so many times what one takes
+  static constexpr double kMaxShare = 4; ///< nor more often than so many times what one takes
 
   /// As it was at most some tenths of a second ago; nothing while no stroke is open. Never waits.
   const dissection::RemovedVolume& soFar(const dissection::Dissection& work,

@@ -55,13 +55,13 @@ SourceContent lookAt(const std::filesystem::path& path, const core::Progress& pr
 
 /// By the voxels alone.
 ///
-/// Labels  whole numbers from 0, at most 16 of them; or at most kMostLabels, in patches: nine in
+/// Labels  whole numbers from 0, at most 16 of them; or at most kMaxLabels, in patches: nine in
 /// ten
 ///         voxels above 0 have a neighbour of their own value. An MR of 8 bits has noise instead.
 /// Ct      in Hounsfield units (volume::suggestScale) with values below -500: air.
 /// Image   all else. Cone beam and MR both count from 0 in units of their own; nobody can tell.
 Content contentOf(const volume::IntensityVolume& image);
-constexpr std::size_t kMostLabels = 1024;
+constexpr std::size_t kMaxLabels = 1024;
 
 /// "CT", "MR", "structures", "mesh", "image": for the user.
 std::string nameOf(Content content);

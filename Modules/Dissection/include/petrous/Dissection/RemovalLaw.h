@@ -22,7 +22,7 @@ namespace petrous::dissection
 class OrthogonalCutting
 {
 public:
-  static constexpr double kLeastDifference = 0.1; ///< of mu - tan alpha
+  static constexpr double kMinDifference = 0.1; ///< of mu - tan alpha
 
   /// specificEnergy  W_c, Pa, > 0
   /// friction        mu of the chip on the tool's face, 0 to 2

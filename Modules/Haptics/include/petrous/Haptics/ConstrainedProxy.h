@@ -51,8 +51,8 @@ private:
     ContactQp::Vector6 jacobian;
     double bound = 0.0;
   };
-  static constexpr std::size_t kMostRows = 1024;
-  static constexpr std::size_t kMostHits = 20;
+  static constexpr std::size_t kMaxRows = 1024;
+  static constexpr std::size_t kMaxHits = 20;
 
   void follow(const Pose& goal) noexcept;
   Motion solve(const Motion& wanted, double lift) noexcept;
@@ -70,7 +70,7 @@ private:
   std::size_t m_rowCount = 0;
   ContactQp::Vector6 m_forced = ContactQp::Vector6::Zero(); // a - u, before the skin
 
-  std::array<ShellSweep::Hit, kMostHits> m_hits; // since the tool last made some way; the latest
+  std::array<ShellSweep::Hit, kMaxHits> m_hits; // since the tool last made some way; the latest
   std::size_t m_hitCount = 0;
   double m_lift = 0.0;              // mm, over the next bump
   bool m_caught = false;            // the last tick made no way

@@ -93,7 +93,7 @@ public:
 /// The same with six more unknowns s, each of stiffness 1: how far a spring that several rows share
 /// is pressed. A row J a + e s >= b of the spring k has e = 1/sqrt(k); then sum lambda over its
 /// rows is k times the largest b - J a, however many rows there are.
-constexpr int kMostSprings = 6;
-using SharedContactQp = BasicContactQp<6 + kMostSprings>;
+constexpr int kMaxSprings = 6;
+using SharedContactQp = BasicContactQp<6 + kMaxSprings>;
 
 } // namespace petrous::haptics

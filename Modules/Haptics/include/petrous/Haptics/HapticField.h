@@ -104,8 +104,8 @@ public:
   /// last voxel all are air; where nothing is cut and the hull is far, it is just above 0.
   struct BrickValues
   {
-    static constexpr std::size_t kMostTissues = 8; ///< of more, the rest are taken at the voxels
-    std::array<std::array<float, 27>, kMostTissues> tissue; ///< CT, then unions above 0 somewhere
+    static constexpr std::size_t kMaxTissues = 8; ///< of more, the rest are taken at the voxels
+    std::array<std::array<float, 27>, kMaxTissues> tissue; ///< CT, then unions above 0 somewhere
     std::size_t tissues = 1;
     bool others = false; ///< unions whose voxels are not the CT's may be here: see unionCell
     std::array<float, 27> mask;

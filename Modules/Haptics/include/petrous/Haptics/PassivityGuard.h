@@ -66,7 +66,7 @@ public:
   double damping() const noexcept { return m_damping; } ///< alpha of the last tick, N s/mm
 
 private:
-  double mostStored(const Wrench& wanted) const noexcept;
+  double maxStored(const Wrench& wanted) const noexcept;
 
   Parameters m_parameters;
   Wrench m_sent;

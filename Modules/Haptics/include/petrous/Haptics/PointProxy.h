@@ -96,8 +96,8 @@ private:
     Eigen::Vector3d normal{0.0, 0.0, 1.0}; // unit, out of the tissue, patient axes
     Eigen::Vector3d point{0.0, 0.0, 0.0};  // of the plane, mm
   };
-  static constexpr std::size_t kMostHits = 28;   // the most rounds, and kMostKept
-  static constexpr std::size_t kMostRows = 1024; // with those of soft structures
+  static constexpr std::size_t kMaxHits = 28;   // the most rounds, and kMaxKept
+  static constexpr std::size_t kMaxRows = 1024; // with those of soft structures
 
   Eigen::Vector3d solve(const Eigen::Vector3d& wanted, double lift) noexcept;
   void addRow(const Plane& plane, double lift, bool tight) noexcept;
@@ -118,9 +118,9 @@ private:
   PointShell m_ball;                    // the burr as soft structures meet it
   std::unique_ptr<SoftContacts> m_soft; // looks at m_ball; null where all is rigid
   ProxyQp m_qp;
-  std::array<Plane, kMostHits> m_hits; // where sweeps of this tick ended, and some before
+  std::array<Plane, kMaxHits> m_hits; // where sweeps of this tick ended, and some before
   std::size_t m_hitCount = 0;
-  std::array<Plane, kMostHits + 1> m_rows; // of the last problem
+  std::array<Plane, kMaxHits + 1> m_rows; // of the last problem
   std::size_t m_firstHit = 0;              // of the rows
   std::size_t m_planes = 0;                // rows that are planes: all but those of soft structures
   std::unique_ptr<PoseBacktracker> m_refuge;        // moves m_sweep

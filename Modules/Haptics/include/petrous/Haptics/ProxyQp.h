@@ -33,7 +33,7 @@ public:
   /// False, and nothing is added, where ContactQp::add says so.
   bool add(const Vector6& row, double bound) noexcept;
 
-  /// spring  which structure, below kMostSprings
+  /// spring  which structure, below kMaxSprings
   /// give    1 / sqrt(k), k in N/mm; the same for every row of a structure
   bool addSoft(const Vector6& row, double depth, std::size_t spring, double give) noexcept;
 

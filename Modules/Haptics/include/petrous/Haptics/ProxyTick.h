@@ -44,13 +44,13 @@ struct ProxyContact
 /// What one tick of a proxy gave.
 struct ProxyTick
 {
-  static constexpr std::size_t kMostContacts = 32;
+  static constexpr std::size_t kMaxContacts = 32;
 
   ProxyStatus status = ProxyStatus::Free;
   Pose pose;     ///< of the proxy, X_PT
   Wrench wrench; ///< on the hand, about the tool's origin, patient axes, before any limit
   std::size_t contactCount = 0; ///< contacts that press
-  std::array<ProxyContact, kMostContacts> contacts;
+  std::array<ProxyContact, kMaxContacts> contacts;
   double thrust = 0.0;      ///< N, sum over the burr's contacts
   double penetration = 0.0; ///< mm, of the deepest shell point in rigid tissue, as it was sampled
   int rounds = 0;

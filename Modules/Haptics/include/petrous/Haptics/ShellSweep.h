@@ -13,7 +13,7 @@ namespace petrous::haptics
 {
 
 /// Largest way of a point of a body, mm: |translation| + arm |rotation|.
-inline double longestWay(const Motion& motion, double arm) noexcept
+inline double maxDisplacement(const Motion& motion, double arm) noexcept
 {
   return motion.linear.norm() + arm * motion.angular.norm();
 }
@@ -35,7 +35,7 @@ class SurfaceSamples;
 class ShellSweep
 {
 public:
-  static constexpr std::size_t kMostSteps = 64; ///< chords of one sweep
+  static constexpr std::size_t kMaxSteps = 64; ///< chords of one sweep
 
   struct Near ///< a shell point that may meet tissue
   {
@@ -90,8 +90,8 @@ public:
   const SurfaceSamples& surface() const noexcept { return *m_surface; }
 
   /// f <= 0 at every point of the shell, and no tissue in the solid. False also where the latter
-  /// was not found out at the cost of kMostQuery.
-  static constexpr std::size_t kMostQuery = 1500; ///< samples of the field
+  /// was not found out at the cost of kMaxQuery.
+  static constexpr std::size_t kMaxQuery = 1500; ///< samples of the field
   bool freeAt(const Pose& pose) noexcept;
 
   /// Depth of the deepest point where the tool stands, or of the tissue that lies deepest in its
@@ -105,10 +105,10 @@ public:
   /// that was not found out at the cost of `most` (samples of the field), beside the points.
   bool measure(std::size_t most = SIZE_MAX) noexcept;
 
-  /// Moves the tool as far as it goes freely, at most `motion` and at most kMostSteps chords, and
+  /// Moves the tool as far as it goes freely, at most `motion` and at most kMaxSteps chords, and
   /// not beyond the chord at which `samples` reaches `mostSamples`; near points must have been
   /// found for it. f <= 0 at every near point where it comes to stand.
-  Hit advance(const Motion& motion, std::size_t mostSamples = SIZE_MAX) noexcept;
+  Hit advance(const Motion& motion, std::size_t maxSamples = SIZE_MAX) noexcept;
 
   /// What else kept the last motion from going on to where its hit was; `any` is false where
   /// nothing did.
@@ -119,7 +119,7 @@ public:
   std::size_t samples() const noexcept;
 
   /// What the search for the surface's samples cost, in samples of the field. It has a bound of its
-  /// own in each tick (SurfaceSamples::kMostWork), so that a sweep is not cut short for it.
+  /// own in each tick (SurfaceSamples::kMaxWork), so that a sweep is not cut short for it.
   std::size_t surfaceSamples() const noexcept;
 
 private:
@@ -177,8 +177,8 @@ private:
   mutable std::size_t m_samples = 0;
   mutable std::size_t m_distances = 0; // to the solid
   double m_inside = 0.0;               // mm, as the last `measure` found the solid
-  std::array<VoxelMap, kMostSteps + 1> m_maps;
-  std::array<Pose, kMostSteps + 1> m_poses;
+  std::array<VoxelMap, kMaxSteps + 1> m_maps;
+  std::array<Pose, kMaxSteps + 1> m_poses;
   std::unique_ptr<SurfaceSamples> m_surface;
   std::vector<Meeting> m_meetings;
   std::size_t m_meetingCount = 0;

@@ -31,14 +31,14 @@ struct AimSettings
   double depthStep = 0.25; ///< mm a notch or key, in (0, 10]: a good half of a CT's usual voxel
   double nudgeStep = 0.25; ///< mm a key, in (0, 10]
   double fineShare = 0.2;  ///< of a step while Shift is held, in (0, 1]
-  double mostLead = 5.0;   ///< mm that the wanted place goes beyond the tool, in (0, 50]: bounds N
+  double maxLead = 5.0;   ///< mm that the wanted place goes beyond the tool, in (0, 50]: bounds N
 
   /// mm that the tissue under a pressed pointer may lie deeper, or higher, than where it was
   /// pressed last, in (0, 100]: beyond that it is another surface, over an edge of bone or through
   /// a wall, and the tool lifts. Deeper: more than an air cell is wide. Higher: where it would have
   /// to be placed anew (simulation::Servo::kFarthest), and not pulled up a wall.
-  double mostFall = 5.0;
-  double mostRise = 10.0;
+  double maxFall = 5.0;
+  double maxRise = 10.0;
 
   double burrRadius = 2.0;     ///< mm, in (0, 10]
   double lift = 1.0;           ///< mm above the surface while nothing is pressed, in [0, 20]

@@ -15,7 +15,7 @@ class InteractionQuality
 {
 public:
   static constexpr double kSmallestScale = 0.15; ///< of the picture's edge
-  static constexpr double kLongestStep = 1.0;    ///< voxels
+  static constexpr double kMaxStep = 1.0;    ///< voxels
 
   /// Throws InvalidParameter unless 1 <= hz <= 240.
   explicit InteractionQuality(double hz = 30.0);
@@ -30,7 +30,7 @@ public:
 
 private:
   double m_hz;
-  double m_cost = 0.0; // ms of a picture of scale 1 at kLongestStep's step, smoothed; 0: unknown
+  double m_cost = 0.0; // ms of a picture of scale 1 at kMaxStep's step, smoothed; 0: unknown
 };
 
 } // namespace petrous::rendering

@@ -34,14 +34,14 @@ class RemovalFeed : public Feed
 public:
   /// Tissue is taken at most this far ahead of where the servo knows the burr to be: a burr that is
   /// held back (by its shaft, by what may not be drilled) does not bore on alone. What is left is
-  /// owed, at most for kLongestOwed.
+  /// owed, at most for kMaxOwed.
   static constexpr double kVoxelsAhead = 0.25; ///< voxels
-  static constexpr double kLeastAhead = 0.1;   ///< mm
-  static constexpr double kLongestOwed = 0.05; ///< s of work at the present rate
+  static constexpr double kMinAhead = 0.1;   ///< mm
+  static constexpr double kMaxOwed = 0.05; ///< s of work at the present rate
 
   /// A bite that would not move the burr by so much waits for more work, but not for long.
-  static constexpr double kLeastAdvance = 0.005; ///< voxels
-  static constexpr double kLongestWait = 0.02;   ///< s of work at the present rate
+  static constexpr double kMinAdvance = 0.005; ///< voxels
+  static constexpr double kMaxWait = 0.02;   ///< s of work at the present rate
 
   /// search  for this burr; must outlive this
   /// Throws InvalidParameter when the spindle's speed is below 0.

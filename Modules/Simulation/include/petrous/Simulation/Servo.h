@@ -74,7 +74,7 @@ private:
   };
   Step judge(const TickInput& input) noexcept;
   void map(Step& step, bool anew) noexcept;
-  void boundLead(Step& step, double mostLead) noexcept;
+  void boundLead(Step& step, double maxLead) noexcept;
   bool isFar(const Step& step) const noexcept;
   bool placeAnew(const Step& step) noexcept;
   haptics::Pose goalOf(const Step& step) noexcept;

@@ -30,10 +30,10 @@ struct ServoParameters
   std::uint8_t pause = 0;          ///< 1: no force, no drilling
   /// mm that the place of a hand without force goes beyond a tool that tissue holds, in [0, 50];
   /// 0: no bound. What is more is forgotten, so that the hand comes back at once; a turn is held
-  /// to `kMostTurn`.
-  float mostLead = 0.0F;
+  /// to `kMaxTurn`.
+  float maxLead = 0.0F;
 
-  static constexpr double kMostTurn = 0.35; ///< rad
+  static constexpr double kMaxTurn = 0.35; ///< rad
 
   /// The hand gives place and heading only; the tool is pressed there with `thrust`.
   static constexpr std::uint8_t kPressed = 1;

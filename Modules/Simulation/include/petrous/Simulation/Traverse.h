@@ -22,7 +22,7 @@ public:
   static constexpr double kLift = 1.0;    ///< mm more, where tissue is in the way
   static constexpr double kSpeed = 500.0; ///< mm/s in the air
   static constexpr int kIdleTicks = 100;  ///< without way: what it tried does not help
-  static constexpr int kMostTicks = 2000;
+  static constexpr int kMaxTicks = 2000;
 
   /// stiffness  k of the proxy's coupling, N/mm, > 0
   explicit Traverse(double stiffness) noexcept
@@ -44,7 +44,7 @@ public:
   /// It does not come out of the tissue that holds it.
   bool stuck() const noexcept
   {
-    return (m_byShaft && m_idle > kIdleTicks) || m_trying > kMostTicks;
+    return (m_byShaft && m_idle > kIdleTicks) || m_trying > kMaxTicks;
   }
 
   /// The tool was put elsewhere.

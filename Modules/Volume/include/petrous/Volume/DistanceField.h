@@ -9,7 +9,7 @@
 namespace petrous::volume
 {
 
-constexpr std::size_t kMostFieldVoxels = 3'000'000; ///< 12 MB
+constexpr std::size_t kMaxFieldVoxels = 3'000'000; ///< 12 MB
 
 /// How far the places round a structure are from its surface, mm, negative within, on a grid of
 /// cubes to be read by trilinear interpolation. The surface is where the trilinear share
@@ -22,6 +22,6 @@ constexpr std::size_t kMostFieldVoxels = 3'000'000; ///< 12 MB
 /// Null where no voxel lies inside. Throws CancelledError, InvalidParameter unless reach > 0.
 std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,
                                                        const core::Progress& progress = {},
-                                                       std::size_t mostVoxels = kMostFieldVoxels);
+                                                       std::size_t maxVoxels = kMaxFieldVoxels);
 
 } // namespace petrous::volume

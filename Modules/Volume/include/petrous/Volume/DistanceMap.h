@@ -46,7 +46,7 @@ private:
   friend std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
                                                             const core::GridGeometry& domain,
                                                             const core::Progress& progress,
-                                                            std::size_t mostVoxels);
+                                                            std::size_t maxVoxels);
   explicit DistanceMap(Volume<float> coefficients);
 
   Volume<float> m_coefficients; // of the splines
@@ -55,7 +55,7 @@ private:
   double m_deepest = 0.0;
 };
 
-constexpr std::size_t kMostDistanceVoxels = 8'000'000; ///< 32 MB
+constexpr std::size_t kMaxDistanceVoxels = 8'000'000; ///< 32 MB
 
 /// Measures a structure from its share. Beyond the hull of `domain` and of the share's own grid
 /// there is no tissue, so these are surfaces where the structure reaches them.
@@ -68,6 +68,6 @@ constexpr std::size_t kMostDistanceVoxels = 8'000'000; ///< 32 MB
 std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
                                                    const core::GridGeometry& domain,
                                                    const core::Progress& progress = {},
-                                                   std::size_t mostVoxels = kMostDistanceVoxels);
+                                                   std::size_t maxVoxels = kMaxDistanceVoxels);
 
 } // namespace petrous::volume

@@ -54,7 +54,7 @@ struct LabelField
 
 /// Above this the common grid of different maps is made coarser along its finest axes: 2.5 GB if
 /// every voxel were used. A single map's own grid is never touched.
-constexpr std::size_t kMostLabelVoxels = 500'000'000;
+constexpr std::size_t kMaxLabelVoxels = 500'000'000;
 
 /// Of what makeLabelField and makeSolidShare return: raised with every change of it, so that
 /// nothing is taken for theirs that an older program kept (core::DerivedStore).
@@ -68,12 +68,12 @@ constexpr int kLabelFieldVersion = 1;
 /// InvalidParameter (no map, segment or material 0, more than 65535 sources), CancelledError.
 std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>& sources,
                                                  const core::Progress& progress = {},
-                                                 std::size_t mostVoxels = kMostLabelVoxels);
+                                                 std::size_t maxVoxels = kMaxLabelVoxels);
 
 /// LabelField::share alone, with all sources taken as solid: what hand and drill ask for, at a part
 /// of the time and memory. Null when no source has a voxel. Throws as makeLabelField.
 std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& sources,
                                               const core::Progress& progress = {},
-                                              std::size_t mostVoxels = kMostLabelVoxels);
+                                              std::size_t maxVoxels = kMaxLabelVoxels);
 
 } // namespace petrous::volume

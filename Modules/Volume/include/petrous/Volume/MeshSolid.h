@@ -14,11 +14,11 @@ namespace petrous::volume
 {
 
 /// Most memory that the voxels of one mesh may take.
-constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxMeshBytes = std::size_t{64} << 20;
 
 /// How far a mesh may reach beyond a region, mm: as far as that is large, and 500, as whole heads
 /// lie beside the CT of one ear. Beyond, a coordinate lost its point or is in another unit.
-double mostReach(const core::PatientBox& region);
+double maxReach(const core::PatientBox& region);
 
 /// How far beyond the region the farthest of the mesh's vertices is, mm; 0 where none is.
 double reachBeyond(const core::TriangleMesh& mesh, const core::PatientBox& region);
@@ -28,7 +28,7 @@ struct MeshSolidLimits
   double spacing = 0.0; ///< mm, > 0; voxels are never larger where memory permits: the CT's finest
   /// Where the solid is needed; everywhere when absent.
   std::optional<core::PatientBox> region;
-  std::size_t mostBytes = kMostMeshBytes;
+  std::size_t maxBytes = kMaxMeshBytes;
 };
 
 /// Whether and how finely a mesh becomes voxels.

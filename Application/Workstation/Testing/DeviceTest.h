@@ -18,20 +18,20 @@ namespace petrous::workstation
 {
 
 /// A window beside a bench of devices that a test plugs in, and a folder for device servers.
-class HandTest : public GuiTest
+class DeviceTest : public GuiTest
 {
 protected:
-  HandTest()
+  DeviceTest()
   {
-    hands.hid = bench.library();
-    hands.serverFolders = {servers()};
+    devices.hid = bench.library();
+    devices.serverFolders = {servers()};
     std::filesystem::create_directories(servers());
   }
 
   void TearDown() override
   {
     closeWindow(); // nothing may be open when the bench goes
-    hands = {};
+    devices = {};
   }
 
   std::filesystem::path servers() const { return folder() / "servers"; }
@@ -52,7 +52,7 @@ protected:
   /// A name that no other run of the tests has: the block is the machine's.
   static std::string serverName() { return "gui-" + std::to_string(::getpid()); }
 
-  QComboBox& choice() { return *window().findChild<QComboBox*>("handChoice"); }
+  QComboBox& choice() { return *window().findChild<QComboBox*>("deviceChoice"); }
   bool offers(const QString& hand)
   {
     return waitFor([&] { return choice().findText(hand) >= 0; });

@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <csignal>
 #include <iterator>
@@ -41,13 +41,13 @@ int processOf(const std::string& name)
   return 0;
 }
 
-class Hand : public HandTest
+class InputDevices : public DeviceTest
 {
 protected:
   void TearDown() override
   {
     served.reset();
-    HandTest::TearDown();
+    DeviceTest::TearDown();
   }
 
   /// The ball is open and the burr in the hand of a server, which is the test itself.
@@ -68,7 +68,7 @@ protected:
 
 } // namespace
 
-TEST_F(Hand, WhatIsPluggedInComesUpInTheListAndGoes)
+TEST_F(InputDevices, WhatIsPluggedInComesUpInTheListAndGoes)
 {
   saveBall("ball");
   openWindow();
@@ -84,7 +84,7 @@ TEST_F(Hand, WhatIsPluggedInComesUpInTheListAndGoes)
   EXPECT_FALSE(started("omega.7"));
 }
 
-TEST_F(Hand, WhatMayNotBeOpenedSaysWhyAndCannotBeChosen)
+TEST_F(InputDevices, WhatMayNotBeOpenedSaysWhyAndCannotBeChosen)
 {
   saveBall("ball");
   openWindow();
@@ -95,7 +95,7 @@ TEST_F(Hand, WhatMayNotBeOpenedSaysWhyAndCannotBeChosen)
   EXPECT_FALSE(items->item(choice().findText("SpaceMouse Compact"))->isEnabled());
 }
 
-TEST_F(Hand, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
+TEST_F(InputDevices, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
 {
   saveBall("ball");
   bench.play(kPlugCap);
@@ -126,7 +126,7 @@ TEST_F(Hand, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
   EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
 }
 
-TEST_F(Hand, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInCharge)
+TEST_F(InputDevices, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInCharge)
 {
   saveBall("ball");
   bench.play(kPlugCap);
@@ -150,14 +150,14 @@ TEST_F(Hand, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInCharge)
   EXPECT_EQ(library().open("ball").strokes.size(), 2u);
 }
 
-TEST_F(Hand, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
+TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
 {
   ASSERT_NO_FATAL_FAILURE(drillByServer());
   FakeServer& server = *served;
   const Vector3d begin = tool();
   EXPECT_NEAR((begin - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.2);
 
-  auto* scale = window().findChild<QDoubleSpinBox*>("handScale");
+  auto* scale = window().findChild<QDoubleSpinBox*>("deviceScale");
   EXPECT_TRUE(scale->isVisible());
   EXPECT_EQ(scale->value(), 0.5);
   const Vector3d hand(6.0, 4.0, 8.0);
@@ -197,7 +197,7 @@ TEST_F(Hand, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
   EXPECT_TRUE(at(Vector3d::Zero()));
 }
 
-TEST_F(Hand, TheForceStaysWithinTheUsersLimit)
+TEST_F(InputDevices, TheForceStaysWithinTheUsersLimit)
 {
   ASSERT_NO_FATAL_FAILURE(drillByServer());
   FakeServer& server = *served;
@@ -228,7 +228,7 @@ TEST_F(Hand, TheForceStaysWithinTheUsersLimit)
   EXPECT_TRUE(feels(0.0));
 }
 
-TEST_F(Hand, AServerWithoutItsDeviceGivesTheToolBackToTheMouse)
+TEST_F(InputDevices, AServerWithoutItsDeviceGivesTheToolBackToTheMouse)
 {
   ASSERT_NO_FATAL_FAILURE(drillByServer());
   FakeServer& server = *served;
@@ -240,7 +240,7 @@ TEST_F(Hand, AServerWithoutItsDeviceGivesTheToolBackToTheMouse)
   EXPECT_TRUE(message().contains("its plug was pulled")) << message().toStdString();
 }
 
-TEST_F(Hand, AServerThatCannotBeUsedIsNamedAndTheWindowGoesOnMeanwhile)
+TEST_F(InputDevices, AServerThatCannotBeUsedIsNamedAndTheWindowGoesOnMeanwhile)
 {
   saveBall("ball");
   const auto broken = servers() / serverName();
@@ -260,7 +260,7 @@ TEST_F(Hand, AServerThatCannotBeUsedIsNamedAndTheWindowGoesOnMeanwhile)
   EXPECT_EQ(window().model().value().strokes.size(), 1u);
 }
 
-TEST_F(Hand, APedalDrillsWithTheMouse)
+TEST_F(InputDevices, APedalDrillsWithTheMouse)
 {
   saveBall("ball");
   bench.play(kPlugFoot);
@@ -279,7 +279,7 @@ TEST_F(Hand, APedalDrillsWithTheMouse)
 }
 
 // It is found a moment after it was plugged in; the mouse need not move for it.
-TEST_F(Hand, APedalThatComesWhileTheBurrIsUpDrills)
+TEST_F(InputDevices, APedalThatComesWhileTheBurrIsUpDrills)
 {
   saveBall("ball");
   openWindow();
@@ -295,7 +295,7 @@ TEST_F(Hand, APedalThatComesWhileTheBurrIsUpDrills)
   EXPECT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
 }
 
-TEST_F(Hand, TheClutchHoldsTheMousesToolWhileThePointerGoes)
+TEST_F(InputDevices, TheClutchHoldsTheMousesToolWhileThePointerGoes)
 {
   saveBall("ball");
   openWindow();
@@ -319,7 +319,7 @@ TEST_F(Hand, TheClutchHoldsTheMousesToolWhileThePointerGoes)
   EXPECT_TRUE(waitFor([&] { return across() > 3.0; })) << "it comes under the pointer";
 }
 
-TEST_F(Hand, AnotherBurrGoesOnFromWhereADevicesToolWas)
+TEST_F(InputDevices, AnotherBurrGoesOnFromWhereADevicesToolWas)
 {
   ASSERT_NO_FATAL_FAILURE(drillByServer());
   FakeServer& server = *served;
@@ -336,7 +336,7 @@ TEST_F(Hand, AnotherBurrGoesOnFromWhereADevicesToolWas)
   EXPECT_TRUE(waitFor(at)) << (axes().transpose() * (tool() - begin)).transpose();
 }
 
-TEST_F(Hand, AServerThatIsKilledComesBackAndEndsWithTheWindow)
+TEST_F(InputDevices, AServerThatIsKilledComesBackAndEndsWithTheWindow)
 {
   saveBall("ball");
   std::filesystem::create_symlink(PETROUS_EXAMPLE_SERVER, servers() / serverName());

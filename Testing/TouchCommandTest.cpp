@@ -6,7 +6,7 @@
 #include "CommandRunner.h"
 #include "petrous/Simulation/RecordingReader.h"
 #include "petrous/Simulation/RecordingWriter.h"
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/BurrRemovalModel.h"
 
 using namespace petrous::testing;
 
@@ -160,7 +160,7 @@ TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
   // r is the mean over the patch, here one of about 1 mm in radius: 2/3 mm from its middle.
   const auto arm = [](double degrees)
   {
-    return petrous::simulation::RemovalFeed::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
+    return petrous::simulation::BurrRemovalModel::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
                                                    2.0 / 3.0);
   };
   EXPECT_NEAR(drilled(75.0) / oblique, arm(75.0) / arm(60.0), 0.04);

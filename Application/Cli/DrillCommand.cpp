@@ -138,7 +138,7 @@ void save(const Context& context, library::Library& library, scene::Case& value,
 double armAt(const presenters::PathDrill& session, const simulation::TickRecord& record)
 {
   return record.drill ? session.removal().arm()
-                      : simulation::RemovalFeed::armOf(session.radius(), record.elevation, 0.0);
+                      : simulation::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
 }
 
 void sayBalance(const Context& context, const presenters::PathDrill& session,

@@ -12,7 +12,7 @@
 #include <QSlider>
 #include <QVBoxLayout>
 
-#include "AimBox.h"
+#include "RegistrationTargetBox.h"
 #include "Application.h"
 #include "FoldBox.h"
 #include "HandlesBox.h"
@@ -76,7 +76,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   , m_state(new QLabel)
   , m_error(new QLabel)
   , m_line(new QLabel)
-  , m_aim(new AimBox(session))
+  , m_aim(new RegistrationTargetBox(session))
   , m_handles(new HandlesBox(session))
   , m_points(new LandmarksBox(session))
 {
@@ -117,7 +117,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   m_handFold->setOther(m_pointsFold);
   connect(m_points, &LandmarksBox::pointAsked, this, &RegistrationPanel::pointAsked);
   connect(m_points, &LandmarksBox::fitAsked, this, &RegistrationPanel::landmarksAsked);
-  connect(m_aim, &AimBox::chosen, this, &RegistrationPanel::aimChosen);
+  connect(m_aim, &RegistrationTargetBox::chosen, this, &RegistrationPanel::aimChosen);
   connect(m_points, &LandmarksBox::changed, this, &RegistrationPanel::landmarksChanged);
   auto* area = new QScrollArea;
   area->setWidgetResizable(true);

@@ -17,7 +17,7 @@ class QVBoxLayout;
 namespace petrous::workstation
 {
 
-class AimBox;
+class RegistrationTargetBox;
 class FoldBox;
 class HandlesBox;
 class LandmarksBox;
@@ -85,7 +85,7 @@ private:
   QProgressBar* m_progress;
   MetricCurve* m_curve;
   QLabel* m_metric;
-  AimBox* m_aim;
+  RegistrationTargetBox* m_aim;
   HandlesBox* m_handles;
   LandmarksBox* m_points;
   FoldBox* m_pointsFold;

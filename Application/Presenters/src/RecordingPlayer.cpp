@@ -85,7 +85,7 @@ RecordingPlayer::RecordingPlayer(scene::Case& value, TouchScene& scene, simulati
                        const std::string& name, std::optional<core::CameraPose> camera)
   : m_proxy(scene.proxyOf(toolOf(fitting(value, scene, reader.setup(), name))))
   , m_servo(*m_proxy, reader.setup().servo)
-  , m_loop(*value.dissection, *scene.mask(), m_feed, scene.drill().protectedTissue(),
+  , m_loop(*value.dissection, *scene.mask(), m_removalModel, scene.drill().protectedTissue(),
            scene.hooksOf(reader.setup().burr, [camera] { return camera; }))
   , m_replay(reader, m_servo, m_loop)
 {

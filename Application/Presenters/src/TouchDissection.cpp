@@ -26,7 +26,7 @@ TouchDissection::TouchDissection(const dissection::Dissection& start, TouchScene
   , m_changes(m_work.changes())
   , m_removal(scene.removalOf(m_setup.burr, m_setup.catalogues))
   , m_reporter(m_work, m_mailbox)
-  , m_loop(m_work, *scene.mask(), m_removal->feed, scene.drill().protectedTissue(), hooks(scene))
+  , m_loop(m_work, *scene.mask(), m_removal->removalModel, scene.drill().protectedTissue(), hooks(scene))
   , m_thread(ring, m_loop,
              {[this](const simulation::TickRecord& record)
               {

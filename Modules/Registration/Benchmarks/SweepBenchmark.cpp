@@ -25,7 +25,7 @@ struct Knob
   std::vector<double> values;
   double (*get)(const Schedule&);
   void (*set)(Schedule&, double);
-  bool displaced; // judged from displaced starts: it is about finding the basin
+  bool displaced; // judged from displaced starts: it is about finding the basin of attraction
 };
 
 const std::vector<Knob>& knobs()
@@ -85,7 +85,7 @@ core::BenchmarkPoint judged(const std::vector<RegistrationPair>& pairs, const Kn
   point.series = knob.name;
   point.setting[knob.name] = words(value);
   point.isDefault = value == knob.get(Schedule{});
-  // The mean counts a lost basin; the median would not see it.
+  // The mean counts a lost basin of attraction; the median would not see it.
   for (const double error : errors)
     point.error += error / static_cast<double>(errors.size());
   point.errorUnit = "mm at the target, mean";

@@ -210,7 +210,7 @@ TEST(ErrorModel, CountsAFitBesideItsRepeatsAsWrong)
   EXPECT_EQ(strayShare({}, repeats, {0, 0, 0}, 0.6), 0.0);
 }
 
-TEST(Judgement, NamesEachReason)
+TEST(QualityVerdict, NamesEachReason)
 {
   QualityFeatures fine;
   fine.overlap = 0.9;
@@ -225,7 +225,7 @@ TEST(Judgement, NamesEachReason)
   {
     QualityFeatures evidence = fine;
     spoil(evidence);
-    const Judgement judgement = judge(evidence);
+    const QualityVerdict judgement = judge(evidence);
     EXPECT_EQ(judgement.verdict, verdict) << judgement.text;
     EXPECT_NE(judgement.text.find(word), std::string::npos) << judgement.text;
   };

@@ -26,7 +26,7 @@ class Climber
 {
 public:
   Climber(const MutualInformation& metric, const core::RigidTransform& start,
-          const BfgsOptimizerOptions& options, const BfgsOptimizerListener& listener)
+          const BfgsOptions& options, const EvaluationListener& listener)
     : m_metric(metric)
     , m_chart(start, metric.fixed().centre, metric.fixed().radius)
     , m_options(options)
@@ -34,7 +34,7 @@ public:
   {
   }
 
-  BfgsOptimizer climb()
+  Optimum climb()
   {
     Place here = evaluate(PoseVector::Zero());
     Eigen::Matrix<double, 6, 6> inverse = Eigen::Matrix<double, 6, 6>::Identity();
@@ -114,15 +114,15 @@ private:
 
   const MutualInformation& m_metric;
   RigidParametrization m_chart;
-  const BfgsOptimizerOptions& m_options;
-  const BfgsOptimizerListener& m_listener;
-  BfgsOptimizer m_best;
+  const BfgsOptions& m_options;
+  const EvaluationListener& m_listener;
+  Optimum m_best;
 };
 
 } // namespace
 
-BfgsOptimizer ascend(const MutualInformation& metric, const core::RigidTransform& start,
-              const BfgsOptimizerOptions& options, const BfgsOptimizerListener& listener)
+Optimum maximize(const MutualInformation& metric, const core::RigidTransform& start,
+              const BfgsOptions& options, const EvaluationListener& listener)
 {
   return Climber(metric, start, options, listener).climb();
 }

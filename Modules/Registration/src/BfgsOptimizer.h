@@ -7,7 +7,7 @@
 namespace petrous::registration
 {
 
-struct BfgsOptimizerOptions
+struct BfgsOptions
 {
   int evaluations = 60;      ///< of the metric with its gradient, at most
   double gradient = 1e-6;    ///< nats a mm: flatter is the top
@@ -17,7 +17,7 @@ struct BfgsOptimizerOptions
   bool turns = true;         ///< false: translations alone
 };
 
-struct BfgsOptimizer
+struct Optimum
 {
   core::RigidTransform pose; ///< the best seen
   double information = 0.0;  ///< nats, there
@@ -26,12 +26,12 @@ struct BfgsOptimizer
 };
 
 /// Told of each evaluation; what it throws ends the ascent and reaches the caller.
-using BfgsOptimizerListener = std::function<void(const core::RigidTransform& pose, double information)>;
+using EvaluationListener = std::function<void(const core::RigidTransform& pose, double information)>;
 
 /// Climbs to the nearest maximum of the metric: BFGS (Nocedal and Wright 2006, 6.1) with steps
 /// shortened until they gain. (Of the two in ITK's libraries one writes to the console, the other
 /// cannot run in two threads.)
-BfgsOptimizer ascend(const MutualInformation& metric, const core::RigidTransform& start,
-              const BfgsOptimizerOptions& options, const BfgsOptimizerListener& listener = {});
+Optimum maximize(const MutualInformation& metric, const core::RigidTransform& start,
+              const BfgsOptions& options, const EvaluationListener& listener = {});
 
 } // namespace petrous::registration

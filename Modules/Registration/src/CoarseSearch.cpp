@@ -83,7 +83,7 @@ std::vector<core::RigidTransform> centredStarts(const ImagePair& pair)
           shift(massCentre(moving, movingBox) - massCentre(fixed, fixedBox))};
 }
 
-std::vector<Basin> searchBasins(const ImagePair& pair,
+std::vector<Candidate> searchCandidates(const ImagePair& pair,
                                 const std::vector<core::RigidTransform>& starts,
                                 const SearchOptions& options, const core::Progress& progress)
 {
@@ -108,7 +108,7 @@ std::vector<Basin> searchBasins(const ImagePair& pair,
         poses.emplace_back(rotation, mapped - rotation * samples.centre);
       }
 
-  std::vector<Basin> grid(poses.size());
+  std::vector<Candidate> grid(poses.size());
   tbb::parallel_for(std::size_t{0}, poses.size(),
                     [&](std::size_t n)
                     {
@@ -118,35 +118,35 @@ std::vector<Basin> searchBasins(const ImagePair& pair,
                     });
   progress.report(0.4, "coarse search");
 
-  const auto better = [](const Basin& a, const Basin& b) { return a.score > b.score; };
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
   std::stable_sort(grid.begin(), grid.end(), better);
-  std::vector<Basin> basins(grid.begin(), grid.begin() + std::min(options.climbs, grid.size()));
+  std::vector<Candidate> candidates(grid.begin(), grid.begin() + std::min(options.climbs, grid.size()));
   // The starts themselves are always climbed from.
   for (const core::RigidTransform& start : starts)
-    basins.push_back({start, 0.0});
-  BfgsOptimizerOptions climb;
+    candidates.push_back({start, 0.0});
+  BfgsOptions climb;
   climb.evaluations = 25;
   climb.change = 1e-4;
   climb.firstStep = 0.5 * pair.scales.front();
-  tbb::parallel_for(std::size_t{0}, basins.size(),
+  tbb::parallel_for(std::size_t{0}, candidates.size(),
                     [&](std::size_t n)
                     {
-                      const BfgsOptimizer top = ascend(metric, basins[n].pose, climb);
-                      basins[n] = {top.pose, scored(top.information, top.overlap, samples.size())};
+                      const Optimum top = maximize(metric, candidates[n].pose, climb);
+                      candidates[n] = {top.pose, scored(top.information, top.overlap, samples.size())};
                     });
   progress.report(1.0, "coarse search");
 
-  std::stable_sort(basins.begin(), basins.end(), better);
-  std::vector<Basin> kept;
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  std::vector<Candidate> kept;
   const double apart = 1.5 * pair.scales.front();
-  for (const Basin& basin : basins)
+  for (const Candidate& candidate : candidates)
     if (kept.size() < options.keep && std::none_of(kept.begin(), kept.end(),
-                                                   [&](const Basin& other) {
-                                                     return poseDistance(basin.pose, other.pose,
+                                                   [&](const Candidate& other) {
+                                                     return poseDistance(candidate.pose, other.pose,
                                                                          samples.centre,
                                                                          samples.radius) < apart;
                                                    }))
-      kept.push_back(basin);
+      kept.push_back(candidate);
   return kept;
 }
 

@@ -11,7 +11,7 @@ namespace petrous::registration
 {
 
 /// A maximum of the coarse metric.
-struct Basin
+struct Candidate
 {
   core::RigidTransform pose; ///< movingFromFixed
   double score = 0.0;        ///< root of the overlap times information without its bias, nats
@@ -23,7 +23,7 @@ struct SearchOptions
   std::size_t samples = 4000;
   std::uint32_t seed = 1;
   std::size_t climbs = 48; ///< of the best poses of the grid
-  std::size_t keep = 6;    ///< basins handed on
+  std::size_t keep = 6;    ///< candidates handed on
 };
 
 /// The distinct maxima near any of the starts, best first: a grid of poses about each, of which the
@@ -31,7 +31,7 @@ struct SearchOptions
 ///
 /// Scored by the root of the overlap times (information less its bias from few samples), so that a
 /// pose that pushes most of the fixed image out of the other does not win by what little is left.
-std::vector<Basin> searchBasins(const ImagePair& pair,
+std::vector<Candidate> searchCandidates(const ImagePair& pair,
                                 const std::vector<core::RigidTransform>& starts,
                                 const SearchOptions& options, const core::Progress& progress);
 

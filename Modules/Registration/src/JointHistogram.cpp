@@ -40,7 +40,7 @@ double JointHistogram::information() const
   return std::max(0.0, sum);
 }
 
-std::vector<float> JointHistogram::earnings() const
+std::vector<float> JointHistogram::gradientWeights() const
 {
   std::vector<float> table(both.size(), 0.0f);
   for (std::size_t f = 0; f < ofFixed.size(); ++f)

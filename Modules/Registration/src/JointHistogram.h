@@ -20,7 +20,7 @@ struct JointHistogram
   double information() const; ///< nats
 
   /// log(p(f, m) / p(m)) of each cell, what a sample that moves there brings; 0 of empty cells.
-  std::vector<float> earnings() const;
+  std::vector<float> gradientWeights() const;
 };
 
 } // namespace petrous::registration

@@ -247,7 +247,7 @@ MutualInformation::withGradient(const core::RigidTransform& movingFromFixed) con
   if (joint.total <= 0.0)
     return result;
 
-  const std::vector<float> earnings = joint.earnings();
+  const std::vector<float> gradientWeights = joint.gradientWeights();
   const int columns = m_bins + 2 * kPad;
   const Eigen::Matrix3f rotation = movingFromFixed.rotation().toRotationMatrix().cast<float>();
   const Eigen::Matrix3f patientFromSlope =
@@ -270,7 +270,7 @@ MutualInformation::withGradient(const core::RigidTransform& movingFromFixed) con
             continue;
           const std::array<float, 4> slope = windowSlope(touch.t);
           const float* earned =
-              &earnings[static_cast<std::size_t>(m_fixed.bins[n]) * columns + touch.column];
+              &gradientWeights[static_cast<std::size_t>(m_fixed.bins[n]) * columns + touch.column];
           float gain = slope[0] * earned[0] + slope[1] * earned[1] + slope[2] * earned[2] +
                        slope[3] * earned[3];
           if (!m_fixed.weights.empty())

@@ -5,7 +5,7 @@
 #include "BfgsOptimizer.h"
 #include "MutualInformation.h"
 #include "RigidParametrization.h"
-#include "Repeats.h"
+#include "PerturbedRepeats.h"
 
 namespace petrous::registration
 {
@@ -15,7 +15,7 @@ namespace
 
 constexpr std::size_t kFewest = 4000; // samples of any level
 
-double scoreOf(const BfgsOptimizer& top)
+double scoreOf(const Optimum& top)
 {
   return poseScore(top.information, top.overlap);
 }
@@ -44,7 +44,7 @@ void polish(const ImagePair& pair, const FitOptions& options, PairFit& result,
   if (options.schedule.polish < 2)
     return;
   const double voxel = pair.scales.back();
-  RepeatOptions repeat;
+  PerturbedRepeatsOptions repeat;
   repeat.count = options.schedule.polish;
   repeat.samples = options.schedule.samples;
   repeat.bins = options.schedule.bins;
@@ -84,17 +84,17 @@ std::size_t samplesAt(const ImagePair& pair, std::size_t level, const Schedule& 
 namespace
 {
 
-// One level's ascents, from each basin, best first.
-std::vector<BfgsOptimizer> climbLevel(const ImagePair& pair, std::size_t level,
-                               const MutualInformation& metric, const std::vector<Basin>& basins,
+// One level's ascents, from each candidate, best first.
+std::vector<Optimum> climbLevel(const ImagePair& pair, std::size_t level,
+                               const MutualInformation& metric, const std::vector<Candidate>& candidates,
                                const FitOptions& options, int& iterations,
                                const core::Progress& progress, const MetricListener& listener)
 {
-  BfgsOptimizerOptions climb;
+  BfgsOptions climb;
   climb.evaluations = options.schedule.evaluations;
   climb.firstStep = 0.5 * pair.scales[level];
   climb.maxStep = 4.0 * pair.scales[level];
-  core::RigidTransform best = basins.front().pose;
+  core::RigidTransform best = candidates.front().pose;
   double bestInformation = -1.0;
   const auto told = [&](const core::RigidTransform& pose, double information)
   {
@@ -108,15 +108,15 @@ std::vector<BfgsOptimizer> climbLevel(const ImagePair& pair, std::size_t level,
     if (listener)
       listener({iterations, static_cast<int>(level), information}, pair.mrFromCt(best));
   };
-  std::vector<BfgsOptimizer> tops;
-  for (const Basin& basin : basins)
-    tops.push_back(ascend(metric, basin.pose, climb, told));
+  std::vector<Optimum> tops;
+  for (const Candidate& candidate : candidates)
+    tops.push_back(maximize(metric, candidate.pose, climb, told));
   std::stable_sort(tops.begin(), tops.end(),
-                   [](const BfgsOptimizer& a, const BfgsOptimizer& b) { return scoreOf(a) > scoreOf(b); });
+                   [](const Optimum& a, const Optimum& b) { return scoreOf(a) > scoreOf(b); });
   return tops;
 }
 
-std::vector<Basin> basinsOf(const ImagePair& pair, const FitOptions& options,
+std::vector<Candidate> candidatesOf(const ImagePair& pair, const FitOptions& options,
                             const std::vector<core::RigidTransform>& starts,
                             const core::Progress& progress)
 {
@@ -125,7 +125,7 @@ std::vector<Basin> basinsOf(const ImagePair& pair, const FitOptions& options,
   SearchOptions search;
   search.samples = options.schedule.searchSamples;
   search.seed = options.seed;
-  return searchBasins(pair, starts, search, progress);
+  return searchCandidates(pair, starts, search, progress);
 }
 
 } // namespace
@@ -137,7 +137,7 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
   const std::vector<core::RigidTransform> starts = startsOf(pair, options);
   for (const core::RigidTransform& start : starts)
     result.starts.push_back(pair.mrFromCt(start));
-  std::vector<Basin> basins = basinsOf(pair, options, starts, progress.part(0.0, 0.3));
+  std::vector<Candidate> candidates = candidatesOf(pair, options, starts, progress.part(0.0, 0.3));
   for (std::size_t level = 0; level < pair.levels(); ++level)
   {
     progress.report(0.3 + 0.6 * static_cast<double>(level) / static_cast<double>(pair.levels()),
@@ -147,9 +147,9 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
                     samplesAt(pair, level, options.schedule),
                     options.seed + 17 * static_cast<std::uint32_t>(level), options.schedule.bins);
     const MutualInformation metric(samples, pair.moving.levels[level], options.schedule.bins);
-    const std::vector<BfgsOptimizer> tops =
-        climbLevel(pair, level, metric, basins, options, result.fit.iterations, progress, listener);
-    const BfgsOptimizer& first = tops.front();
+    const std::vector<Optimum> tops =
+        climbLevel(pair, level, metric, candidates, options, result.fit.iterations, progress, listener);
+    const Optimum& first = tops.front();
     result.fit.mrFromCt = pair.mrFromCt(first.pose);
     result.fit.metric = first.information;
     result.fit.overlap = first.overlap;
@@ -157,16 +157,16 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
     const double apart = 2.0 * pair.scales[level];
     const auto rival = std::find_if(
         tops.begin() + 1, tops.end(),
-        [&](const BfgsOptimizer& other)
+        [&](const Optimum& other)
         { return poseDistance(first.pose, other.pose, samples.centre, samples.radius) > apart; });
     if (tops.size() > 1)
     {
       result.score = scoreOf(first);
       result.runnerUp = rival == tops.end() ? 0.0 : scoreOf(*rival);
     }
-    basins = {{first.pose, scoreOf(first)}};
+    candidates = {{first.pose, scoreOf(first)}};
     if (level == 0 && rival != tops.end() && pair.levels() > 2)
-      basins.push_back({rival->pose, scoreOf(*rival)});
+      candidates.push_back({rival->pose, scoreOf(*rival)});
   }
   progress.report(0.9, "fitting");
   polish(pair, options, result, progress.part(0.9, 1.0));

@@ -14,7 +14,7 @@ namespace petrous::registration
 struct PairFit
 {
   Fit fit;               ///< without its seconds
-  double score = 0.0;    ///< of the best basin at the last level that several were climbed at
+  double score = 0.0;    ///< of the best candidate at the last level that several were climbed at
   double runnerUp = 0.0; ///< of the second best, distinct one; 0 where there was none
   std::vector<core::RigidTransform> starts; ///< X_MC, what was looked about; one at least
 };

@@ -6,7 +6,7 @@
 
 #include "ErrorModel.h"
 #include "MutualInformation.h"
-#include "Repeats.h"
+#include "PerturbedRepeats.h"
 
 namespace petrous::registration
 {
@@ -79,7 +79,7 @@ double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
 }
 
 double asideOf(const ImagePair& pair, const core::RigidTransform& mrFromCt,
-               const Eigen::Vector3d& at, RepeatOptions repeat)
+               const Eigen::Vector3d& at, PerturbedRepeatsOptions repeat)
 {
   repeat.count = kLocalFits;
   const core::GridGeometry& grid = pair.fixed.finest().grid();
@@ -121,7 +121,7 @@ QualityFeatures collectQualityFeatures(const ImagePair& pair, const PairFit& fit
   for (const core::RigidTransform& start : fit.starts)
     evidence.moved = std::min(evidence.moved, (pose * at - start * at).norm());
 
-  RepeatOptions repeat;
+  PerturbedRepeatsOptions repeat;
   repeat.seed = options.seed;
   const std::vector<core::RigidTransform> repeats =
       repeatFit(pair, pose, repeat, progress.part(0.0, 0.6));

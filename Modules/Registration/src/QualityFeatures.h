@@ -26,14 +26,14 @@ struct QualityFeatures
   LocalError error;
 };
 
-struct Judgement
+struct QualityVerdict
 {
   Verdict verdict = Verdict::Failed;
   std::string text;
 };
 
 /// Weighs the evidence; the thresholds and the trials they were set on are in Documentation/adr.
-Judgement judge(const QualityFeatures& evidence);
+QualityVerdict judge(const QualityFeatures& evidence);
 
 /// Collects it: repeated fits, fits about the point, a search with the MR mirrored. The error is
 /// that of the repeats, and where a ball about the point is displaced that of the ball besides.

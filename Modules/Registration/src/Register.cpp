@@ -38,7 +38,7 @@ Registration registerRigid(const volume::IntensityVolume& ct, const volume::Inte
 
     const auto fitted = Clock::now();
     const QualityFeatures evidence = collectQualityFeatures(pair, fit, options, at, progress.part(0.5, 1.0));
-    const Judgement judgement = judge(evidence);
+    const QualityVerdict judgement = judge(evidence);
     result.error = evidence.error;
     result.verdict = judgement.verdict;
     result.text = judgement.text;

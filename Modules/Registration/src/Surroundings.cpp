@@ -69,7 +69,7 @@ public:
     const double whole = metric.value(m_pose, &overlap);
     if (overlap < kMinOverlap)
       return std::nullopt;
-    const std::vector<BfgsOptimizer> tops = climbs(metric, startsOf(metric));
+    const std::vector<Optimum> tops = climbs(metric, startsOf(metric));
     if (tops.empty())
       return std::nullopt;
     const auto best = std::max_element(tops.begin(), tops.end(), lower);
@@ -81,24 +81,24 @@ public:
   }
 
 private:
-  static bool lower(const BfgsOptimizer& a, const BfgsOptimizer& b) { return a.information < b.information; }
+  static bool lower(const Optimum& a, const Optimum& b) { return a.information < b.information; }
 
   core::RigidTransform shifted(const Shift& by) const
   {
     return {m_pose.rotation(), m_pose.translation() + by};
   }
 
-  Shift shiftOf(const BfgsOptimizer& top) const { return top.pose * m_centre - m_pose * m_centre; }
+  Shift shiftOf(const Optimum& top) const { return top.pose * m_centre - m_pose * m_centre; }
 
-  BfgsOptimizer climb(const MutualInformation& metric, const core::RigidTransform& start) const
+  Optimum climb(const MutualInformation& metric, const core::RigidTransform& start) const
   {
-    BfgsOptimizerOptions options;
+    BfgsOptions options;
     options.turns = false;
     options.evaluations = 25;
     options.change = 1e-5;
     options.firstStep = 0.5 * m_voxel;
     options.maxStep = 2.0 * m_voxel;
-    return ascend(metric, start, options);
+    return maximize(metric, start, options);
   }
 
   // The whole's own pose, and the best shifts of a grid that are not neighbours.
@@ -133,14 +133,14 @@ private:
   }
 
   // Those that end within reach; the information of little that is left may grow without end.
-  std::vector<BfgsOptimizer> climbs(const MutualInformation& metric,
+  std::vector<Optimum> climbs(const MutualInformation& metric,
                              const std::vector<core::RigidTransform>& starts) const
   {
-    std::vector<BfgsOptimizer> tops(starts.size());
+    std::vector<Optimum> tops(starts.size());
     tbb::parallel_for(std::size_t{0}, starts.size(),
                       [&](std::size_t n) { tops[n] = climb(metric, starts[n]); });
     tops.erase(std::remove_if(tops.begin(), tops.end(),
-                              [&](const BfgsOptimizer& top) {
+                              [&](const Optimum& top) {
                                 return top.overlap < kMinOverlap || shiftOf(top).norm() > kReach;
                               }),
                tops.end());
@@ -157,7 +157,7 @@ private:
                         const FixedSamples drawn = bootstrap(
                             m_samples, kBlocks, m_seed + 31 * static_cast<std::uint32_t>(n + 1));
                         const MutualInformation metric(drawn, *m_mr, kLocalBins);
-                        std::vector<BfgsOptimizer> tops;
+                        std::vector<Optimum> tops;
                         for (const core::RigidTransform& rival : rivals)
                           tops.push_back(climb(metric, rival));
                         ends[n] = shiftOf(*std::max_element(tops.begin(), tops.end(), lower));

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "AimCamera.h"
+#include "CameraPlacement.h"
 #include "PictureScenes.h"
 #include "RayCaster.h"
 #include "petrous/Rendering/EglRenderWindow.h"

@@ -16,7 +16,7 @@
 #include <vtkVolume.h>
 #include <vtkWeakPointer.h>
 
-#include "AimCamera.h"
+#include "CameraPlacement.h"
 #include "FrameTimer.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"

@@ -15,7 +15,7 @@
 #include <vtkWeakPointer.h>
 #include <vtk_glew.h>
 
-#include "AimCamera.h"
+#include "CameraPlacement.h"
 #include "GlProgram.h"
 #include "GlTexture.h"
 #include "RayCastVertexShader.h"

@@ -20,7 +20,7 @@
 #include <vtkVolumeProperty.h>
 #include <vtkWeakPointer.h>
 
-#include "AimCamera.h"
+#include "CameraPlacement.h"
 #include "OpaqueDepth.h"
 #include "RayCaster.h"
 #include "petrous/Rendering/RenderingError.h"

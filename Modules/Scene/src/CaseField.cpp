@@ -359,7 +359,7 @@ dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progr
     shares.push_back(std::move(united.share));
   // The mask, on the CT's voxels, is what keeps them: it must hold what is thinner than a voxel.
   for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
-    if (auto guard = volume::guardOf(*mesh.share, value.ct.geometry))
+    if (auto guard = volume::protectionMaskOf(*mesh.share, value.ct.geometry))
       shares.push_back(std::move(guard));
   return dissection::ProtectedTissue(std::move(shares), preparerOf(united, progress));
 }

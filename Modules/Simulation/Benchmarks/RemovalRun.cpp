@@ -160,7 +160,7 @@ int deletedPerTick(double diameter)
 
 double lawRate(const LawScene::Setting& setting)
 {
-  const double arm = RemovalFeed::armOf(0.5 * setting.burr.diameter, setting.elevation, 0.0);
+  const double arm = BurrRemovalModel::armOf(0.5 * setting.burr.diameter, setting.elevation, 0.0);
   return setting.thrust * arm * testing::speedOf(setting.burr) / resistanceOf(setting);
 }
 
@@ -178,10 +178,10 @@ RemovalRun runByLaw(const LawScene::Setting& setting, double seconds)
   scene.drill(seconds,
               [&](const TickRecord& record)
               {
-                run.predicted += forceOn(record) * scene.feed.arm() * pace * setting.tick;
+                run.predicted += forceOn(record) * scene.removalModel.arm() * pace * setting.tick;
                 run.contact += setting.tick;
               });
-  const RemovalBalance balance = scene.feed.balance();
+  const RemovalBalance balance = scene.removalModel.balance();
   run.told = balance.removed;
   run.owed = balance.owed;
   run.forfeited = balance.forfeited;
@@ -211,7 +211,7 @@ RemovalRun runByDeletion(const LawScene::Setting& setting, double seconds, doubl
     scene.drill(setting.tick,
                 [&](const TickRecord& record)
                 {
-                  const double arm = RemovalFeed::armOf(radius, record.elevation, 0.0);
+                  const double arm = BurrRemovalModel::armOf(radius, record.elevation, 0.0);
                   run.predicted += forceOn(record) * arm * pace * setting.tick;
                   run.contact += setting.tick;
                 });

@@ -10,7 +10,7 @@
 #include "petrous/Simulation/DissectionLoop.h"
 #include "petrous/Simulation/RecordingReplay.h"
 #include "petrous/Simulation/RecordingWriter.h"
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/BurrRemovalModel.h"
 
 namespace petrous::simulation
 {
@@ -54,7 +54,7 @@ struct Block
           std::make_shared<haptics::HapticField>(tissue, mask), shell))
     , resistance(tissue.ct(), {300.0, 1800.0, 741.0, 2224.0}, {}) // N/mm2, a cutting burr's
     , search(tissue, resistance, {}, 2.0)
-    , feed(search, {}, h)
+    , removalModel(search, {}, h)
   {
   }
 
@@ -65,7 +65,7 @@ struct Block
   std::unique_ptr<haptics::ConstrainedProxy> tool;
   dissection::TissueResistance resistance;
   dissection::RemovalDepthSolver search;
-  RemovalFeed feed;
+  BurrRemovalModel removalModel;
 };
 
 haptics::Pose handAt(double t)
@@ -93,7 +93,7 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
   Servo servo(*block.tool, setup.servo);
   RecordingWriter writer(file, setup);
   core::TickTimes tick, writing;
-  DissectionLoop loop(block.work, *block.mask, block.feed, {}, to(writer, writing));
+  DissectionLoop loop(block.work, *block.mask, block.removalModel, {}, to(writer, writing));
   haptics::SimulatedDevice::Hand hand;
   hand.tremor = 0.05;
   haptics::SimulatedDevice device(handAt, hand, {});
@@ -116,7 +116,7 @@ core::BenchmarkPoint measure(double h, const std::filesystem::path& file, int ti
 
   Block again(h);
   Servo other(*again.tool, setup.servo);
-  DissectionLoop otherLoop(again.work, *again.mask, again.feed);
+  DissectionLoop otherLoop(again.work, *again.mask, again.removalModel);
   RecordingReader reader(file);
   RecordingReplay replay(reader, other, otherLoop);
   while (replay.next())

@@ -32,7 +32,7 @@ haptics::Pose handAt(double t)
 void tickThrough(const std::vector<haptics::SoftStructure>& soft)
 {
   LoopScene scene;
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   const auto field = boneOf(scene.mask, soft);
   const haptics::PointShell shell = haptics::makeBurrShell({}, 0.3, 800);
   ServoSetup setup = Session::plainSetup();
@@ -109,7 +109,7 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     dissection::Dissection seen = scene.work;
     UpdateQueue mailbox;
     DissectionReporter reporter(scene.work, mailbox);
-    DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}, {}));
+    DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, {}, {}));
     TickRecord record;
     record.input.now = 1.0;
     ASSERT_TRUE(loop.sweep(record, first));

@@ -45,7 +45,7 @@ TEST(DissectionLoop, MakesAStrokeOfEachTimeTheDrillIsOn)
     durations.push_back(work.openInfo().duration);
     work.endStroke();
   };
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, hooks);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, hooks);
   double time = 5.0;
   loop.step(pressed(time, {0.0, 0.0, 9.0}, 0.0, false));
   for (int stroke = 0; stroke < 3; ++stroke)
@@ -70,7 +70,7 @@ TEST(DissectionLoop, PublishesEachCutAndSaysWhereTissueCameBack)
   std::vector<std::size_t> changed;
   DissectionLoop::Hooks hooks;
   hooks.changed = [&](const std::vector<std::size_t>& bricks) { changed = bricks; };
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed, {}, hooks);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, hooks);
   EXPECT_FALSE(loop.undo());
   loop.step(pressed(0.000, {0.0, 0.0, 1.0}, 1.0, true));
   EXPECT_TRUE(loop.step(pressed(0.001, {0.0, 0.0, 1.0}, 1.0, true)));
@@ -97,7 +97,7 @@ TEST(DissectionLoop, PublishesEachCutAndSaysWhereTissueCameBack)
 TEST(DissectionLoop, DoesNotBiteForTheTimeInWhichTheServoStoodStill)
 {
   LoopScene scene;
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   loop.step(pressed(0.0, {0.0, 0.0, 2.0}, 1.0, true));
   loop.step(pressed(3.0, {0.0, 0.0, 2.0}, 1.0, true)); // 60 mm at 20 mm/s
   EXPECT_LE(scene.work.openInfo().duration, 0.0101);
@@ -108,7 +108,7 @@ TEST(DissectionLoop, DoesNotBiteForTheTimeInWhichTheServoStoodStill)
 TEST(DissectionLoop, DoesNotCutWhatCameBackByTicksFromBefore)
 {
   LoopScene scene;
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   for (int n = 0; n < 10; ++n)
     loop.step(pressed(0.001 * n, {0.0, 0.0, 1.0}, 1.0, true));
   ASSERT_TRUE(loop.undo());
@@ -123,8 +123,8 @@ TEST(DissectionLoop, DoesNotCutWhatCameBackByTicksFromBefore)
 TEST(DissectionLoop, TakesBitesAtOnePlaceTogether)
 {
   LoopScene one, all;
-  DissectionLoop each(one.work, *one.mask, one.feed);
-  DissectionLoop batch(all.work, *all.mask, all.feed);
+  DissectionLoop each(one.work, *one.mask, one.removalModel);
+  DissectionLoop batch(all.work, *all.mask, all.removalModel);
   std::vector<TickRecord> records;
   for (int n = 0; n < 40; ++n)
   {
@@ -152,10 +152,10 @@ TEST(DissectionLoop, TakesBitesAtOnePlaceTogether)
   EXPECT_EQ(all.work.strokes().size(), 1u);
 }
 
-TEST(DissectionLoop, DrillsAPlaneAtTheRateOfTheFeed)
+TEST(DissectionLoop, DrillsAPlaneAtTheRateOfTheRemovalModel)
 {
   LoopScene scene;
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   Session& session = scene.session;
   session.parameters.constantThrust = 1;
   session.parameters.approach[2] = -2.2;
@@ -177,7 +177,7 @@ TEST(DissectionLoop, DrillsAPlaneAtTheRateOfTheFeed)
 TEST(DissectionLoop, UndoInContactPutsTheToolOutAndTheForceBackSlowly)
 {
   LoopScene scene;
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   Session& session = scene.session;
   session.go({0.0, 0.0, 4.0}, {0.0, 0.0, 1.0}, 100);
   session.pedal = 1.0;

@@ -45,7 +45,7 @@ protected:
   dissection::Dissection seen = scene.work;
   UpdateQueue mailbox;
   DissectionReporter reporter{scene.work, mailbox};
-  DissectionLoop loop{scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, {}, {})};
+  DissectionLoop loop{scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, {}, {})};
   SpscRing<TickRecord> ring{1 << 15};
   std::size_t applied = 0, closed = 0; // as the events say
 
@@ -256,7 +256,7 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
     if (edit.kind == MaskEdit::Kind::Cut && ++cuts > 20)
       throw std::bad_alloc();
   };
-  DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {}, reporter.listen({}, failing, {}));
+  DissectionLoop cutter(scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, failing, {}));
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);
   session.pedal = 1.0;
@@ -285,7 +285,7 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
 
 TEST_F(Following, AStrokeIsClosedAlsoWhereItCannotBeMeasured)
 {
-  DissectionLoop cutter(scene.work, *scene.mask, scene.feed, {},
+  DissectionLoop cutter(scene.work, *scene.mask, scene.removalModel, {},
                         reporter.listen({}, {},
                                         [](dissection::Dissection&)
                                         { throw std::runtime_error("the labels are damaged"); }));

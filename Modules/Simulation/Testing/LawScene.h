@@ -10,7 +10,7 @@
 #include "petrous/Haptics/HapticField.h"
 #include "petrous/Simulation/ConstantThrust.h"
 #include "petrous/Simulation/DissectionLoop.h"
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/BurrRemovalModel.h"
 #include "petrous/Simulation/SurfaceApproach.h"
 
 namespace petrous::simulation::testing
@@ -32,8 +32,8 @@ public:
     , approach(tissue)
     , meets(meetsOf(setting, tissue, sides))
     , search(tissue, meets, {}, 0.5 * setting.burr.diameter)
-    , feed(search, setting.burr, setting.voxel)
-    , loop(work, *mask, feed, {}, hooks())
+    , removalModel(search, setting.burr, setting.voxel)
+    , loop(work, *mask, removalModel, {}, hooks())
     , m_shell(shellOf(setting))
     , m_tool(std::make_shared<haptics::HapticField>(tissue, mask), *m_shell,
              ConstantThrust::coupling(setting.thrust))
@@ -130,7 +130,7 @@ public:
   SurfaceApproach approach; // to the bone as it was
   dissection::TissueResistance meets;
   dissection::RemovalDepthSolver search;
-  RemovalFeed feed;
+  BurrRemovalModel removalModel;
   DissectionLoop loop;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "PlainFeed.h"
+#include "ProportionalRemovalModel.h"
 #include "Session.h"
 #include "petrous/Simulation/DissectionLoop.h"
 
@@ -19,7 +19,7 @@ struct LoopScene
   dissection::Dissection work{grid};
   std::shared_ptr<volume::PublishedMask> mask =
       std::make_shared<volume::PublishedMask>(work.mask());
-  PlainFeed feed{2.0};
+  ProportionalRemovalModel removalModel{2.0};
   Session session;
 
   LoopScene() { session.proxy.mask = mask; }

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "PlainFeed.h"
+#include "ProportionalRemovalModel.h"
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -89,7 +89,7 @@ struct Workplace
   std::shared_ptr<volume::PublishedMask> mask;
   RecordingSetup setup;
   std::unique_ptr<haptics::Proxy> proxy;
-  PlainFeed feed{kRadius};
+  ProportionalRemovalModel removalModel{kRadius};
   SessionRecorder* recorder = nullptr;
   std::vector<MaskEdit> edits;
 };
@@ -138,7 +138,7 @@ protected:
     Servo servo(*place.proxy, place.setup.servo);
     SessionRecorder recorder(file, place.setup);
     place.recorder = &recorder;
-    DissectionLoop loop(place.work, *place.mask, place.feed, {}, place.hooks());
+    DissectionLoop loop(place.work, *place.mask, place.removalModel, {}, place.hooks());
     haptics::SimulatedDevice device{DraggingHand(GetParam() == Tool::Centre ? 1.5 : 0.0)};
     SpscRing<TickRecord> ring(1 << 15);
     ServoParameters parameters;
@@ -178,7 +178,7 @@ protected:
   {
     RecordingReader reader(file);
     Servo servo(*place.proxy, reader.setup().servo);
-    DissectionLoop loop(place.work, *place.mask, place.feed, {}, place.hooks());
+    DissectionLoop loop(place.work, *place.mask, place.removalModel, {}, place.hooks());
     RecordingReplay replay(reader, servo, loop);
     while (replay.next())
       again.push_back(replay.feel());

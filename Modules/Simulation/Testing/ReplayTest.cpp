@@ -49,7 +49,7 @@ TEST(Replay, OfARecordingIsTheRecordingToTheLastBit)
   const auto file = std::filesystem::temp_directory_path() /
                     ("petrous-replay-" + std::to_string(::getpid()) + ".ticks");
   LoopScene first;
-  DissectionLoop firstLoop(first.work, *first.mask, first.feed);
+  DissectionLoop firstLoop(first.work, *first.mask, first.removalModel);
   perform(first.session, firstLoop);
   EXPECT_GT(firstLoop.cuts(), 100u);
   {
@@ -67,7 +67,7 @@ TEST(Replay, OfARecordingIsTheRecordingToTheLastBit)
   while (reader.next(block))
     recorded.insert(recorded.end(), block.ticks.begin(), block.ticks.end());
   LoopScene second;
-  DissectionLoop secondLoop(second.work, *second.mask, second.feed);
+  DissectionLoop secondLoop(second.work, *second.mask, second.removalModel);
   Servo servo(second.session.proxy, reader.setup().servo);
   const auto again =
       replay(recorded, servo, [&](const TickRecord& record) { secondLoop.step(record); });
@@ -83,7 +83,7 @@ TEST(Replay, OfARecordingIsTheRecordingToTheLastBit)
 TEST(Replay, DiffersWhereTheMaskIsNotCut)
 {
   LoopScene first;
-  DissectionLoop loop(first.work, *first.mask, first.feed);
+  DissectionLoop loop(first.work, *first.mask, first.removalModel);
   perform(first.session, loop);
   LoopScene second;
   Servo servo(second.session.proxy, Session::plainSetup());
@@ -102,14 +102,14 @@ TEST(Replay, IsTheSameWithTheConstrainedTool)
   setup.passivity.emplace();
 
   LoopScene first;
-  DissectionLoop firstLoop(first.work, *first.mask, first.feed);
+  DissectionLoop firstLoop(first.work, *first.mask, first.removalModel);
   haptics::ConstrainedProxy firstTool(boneOf(first.mask), shell);
   Session session(setup, firstTool);
   perform(session, firstLoop);
   EXPECT_GT(firstLoop.cuts(), 100u);
 
   LoopScene second;
-  DissectionLoop secondLoop(second.work, *second.mask, second.feed);
+  DissectionLoop secondLoop(second.work, *second.mask, second.removalModel);
   haptics::ConstrainedProxy secondTool(boneOf(second.mask), shell);
   Servo servo(secondTool, setup);
   const auto again =

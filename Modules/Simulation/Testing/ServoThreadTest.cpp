@@ -75,7 +75,7 @@ private:
 // Touch in one thread; cuts, undo and redo in another; a window's questions in this one.
 void touchCutAndUndo(LoopScene& scene, Servo& tool)
 {
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   haptics::SimulatedDevice device(pressing);
   SpscRing<TickRecord> ring(4096);
   ServoParameters parameters;
@@ -218,7 +218,7 @@ TEST(ServoThread, TouchesItWithTheConstrainedTool)
 TEST(DissectionThread, GoesOnCuttingWhenTheRecordingFails)
 {
   LoopScene scene;
-  DissectionLoop loop(scene.work, *scene.mask, scene.feed);
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
   SpscRing<TickRecord> ring(4096);
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);

@@ -22,10 +22,10 @@ bool together(const TickRecord& record, const TickRecord& next)
 } // namespace
 
 DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
-                               Feed& feed, dissection::ProtectedTissue keep, Hooks hooks)
+                               RemovalModel& removalModel, dissection::ProtectedTissue keep, Hooks hooks)
   : m_dissection(dissection)
   , m_mask(mask)
-  , m_feed(feed)
+  , m_removalModel(removalModel)
   , m_keep(std::move(keep))
   , m_hooks(std::move(hooks))
 {
@@ -47,7 +47,7 @@ bool DissectionLoop::follow(const TickRecord& record)
     open();
   else
   {
-    m_feed.release();
+    m_removalModel.release();
     endStroke();
   }
   return drill;
@@ -128,14 +128,14 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
     m_dissection.openInfo().duration += seconds;
     if (!(record.thrust > 0.0))
     {
-      m_feed.release();
+      m_removalModel.release();
       continue;
     }
-    m_feed.press(record, seconds);
+    m_removalModel.press(record, seconds);
     // Where the tool hardly moves on, what the next tick does is bitten off with this one's.
     if (n + 1 < count && together(record, records[n + 1]))
       continue;
-    while (const auto bite = m_feed.bite(m_dissection.mask()))
+    while (const auto bite = m_removalModel.bite(m_dissection.mask()))
       if (cut(*bite))
         any = true;
       else
@@ -150,7 +150,7 @@ bool DissectionLoop::sweep(const TickRecord& record, const dissection::SweptSphe
   if (!(record.time() > m_ignoreUntil))
     return false;
   open();
-  m_feed.release();
+  m_removalModel.release();
   m_dissection.openInfo().duration += seconds;
   return cut(burr);
 }
@@ -170,7 +170,7 @@ void DissectionLoop::endStroke()
 
 bool DissectionLoop::turn(bool back)
 {
-  m_feed.release();
+  m_removalModel.release();
   endStroke();
   const bool done = m_hooks.turn ? m_hooks.turn(back)
                     : back       ? m_dissection.undo()

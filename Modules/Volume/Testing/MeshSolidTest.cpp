@@ -415,7 +415,7 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
   constexpr double length = 12.0;
   const auto share = volume::solidOf(tube(0.15, length), kSpacing);
   const core::GridGeometry ct({40, 30, 30}, Vector3d::Constant(kSpacing), {-1.0, -2.0, -2.0});
-  const auto guard = volume::guardOf(*share, ct);
+  const auto guard = volume::protectionMaskOf(*share, ct);
   ASSERT_TRUE(guard);
   double plain = 1.0;
   for (double along = 0.1; along < length - 0.1; along += 0.01)
@@ -444,7 +444,7 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
              {guard->at(i + 1, j, k), guard->at(i, j + 1, k), guard->at(i, j, k + 1)})
           steepest = std::max(steepest, std::abs(other - guard->at(i, j, k)));
   EXPECT_LE(steepest, 0.5F + 1e-6F);
-  EXPECT_EQ(volume::guardOf(*share, core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
+  EXPECT_EQ(volume::protectionMaskOf(*share, core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
             nullptr);
 }
 

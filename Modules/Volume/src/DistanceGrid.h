@@ -19,7 +19,7 @@ struct DistanceGrid
 core::IndexBox insideBox(const Volume<float>& share);
 
 /// Reaches `beyond` mm past the voxels of `box`, and a cube more. The cubes are half the share's
-/// least spacing in edge, larger where there would be more than `mostVoxels`.
+/// least spacing in edge, larger where there would be more than `maxVoxels`.
 DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box, double beyond,
                      std::size_t maxVoxels);
 

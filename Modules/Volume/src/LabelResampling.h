@@ -31,7 +31,7 @@ struct ResampledLabels
 /// What is too thin to show in any common voxel that it touches is given all of those, at
 /// kInsideFloor.
 ///
-/// Where the common grid would have more than `mostVoxels`, its finest axes are coarsened until it
+/// Where the common grid would have more than `maxVoxels`, its finest axes are coarsened until it
 /// has not, which a note says.
 ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const LabelOrder& order,
                                std::size_t maxVoxels, const core::Progress& progress);

@@ -327,7 +327,7 @@ bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexce
   return solid.geometry().hullContains(voxel) && sampleTrilinear(solid, voxel) > 0.5;
 }
 
-std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,
+std::shared_ptr<const Volume<float>> protectionMaskOf(const Volume<float>& solid,
                                              const core::GridGeometry& grid)
 {
   const core::GridGeometry& from = solid.geometry();

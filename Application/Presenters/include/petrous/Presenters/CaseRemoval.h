@@ -1,7 +1,7 @@
 #pragma once
 
 #include "petrous/Scene/CaseMaterials.h"
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/BurrRemovalModel.h"
 
 namespace petrous::presenters
 {
@@ -17,7 +17,7 @@ struct CaseRemoval
               const dissection::Catalogues& catalogues)
     : resistance(scene::tissueResistance(value, catalogues, burr.kind))
     , search(tissue, resistance, keep, 0.5 * burr.diameter)
-    , feed(search, burr, tissue.geometry().minSpacing())
+    , removalModel(search, burr, tissue.geometry().minSpacing())
   {
   }
   CaseRemoval(const CaseRemoval&) = delete;
@@ -25,7 +25,7 @@ struct CaseRemoval
 
   const dissection::TissueResistance resistance;
   dissection::RemovalDepthSolver search;
-  simulation::RemovalFeed feed;
+  simulation::BurrRemovalModel removalModel;
 };
 
 } // namespace petrous::presenters

@@ -47,7 +47,7 @@ public:
   void end();
 
   /// What the laws say of the drilling, and what went into them at the last tick.
-  const simulation::RemovalFeed& removal() const noexcept { return m_removal->feed; }
+  const simulation::BurrRemovalModel& removal() const noexcept { return m_removal->removalModel; }
 
   double radius() const noexcept { return m_radius; } ///< mm, of the burr
 

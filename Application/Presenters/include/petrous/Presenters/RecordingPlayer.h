@@ -51,7 +51,7 @@ public:
 private:
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
-  simulation::NoFeed m_feed; // cuts are done again as they were
+  simulation::NoRemovalModel m_removalModel; // cuts are done again as they were
   simulation::DissectionLoop m_loop;
   simulation::RecordingReplay m_replay;
 };

@@ -52,7 +52,7 @@ struct AimSettings
 /// On the surface: while nothing is pressed the burr hovers before the tissue under the pointer;
 /// pressed, the servo leads it along the line of sight against the tissue (ConstantThrust). Where
 /// the line meets nothing the tool keeps its last depth, and no thrust is given. Where the tissue
-/// under a pressed pointer leaps in depth (mostFall, mostRise) the tool lifts from where it was
+/// under a pressed pointer leaps in depth (maxFall, maxRise) the tool lifts from where it was
 /// pressed last, and neither presses nor cuts, until the pointer is back at that depth or is
 /// pressed anew.
 ///

@@ -39,7 +39,7 @@ struct FitOptions
   core::RigidTransform given; ///< X_MC for Start::Given
   /// Only CT within counts (CT patient space). None: all that shows something.
   std::optional<core::PatientBox> region;
-  /// Looks for the right basin up to 40 mm and 40 degrees (and further, less surely) from the
+  /// Looks for the right optimum up to 40 mm and 40 degrees (and further, less surely) from the
   /// start.
   bool search = true;
   std::uint32_t seed = 1; ///< equal seeds give equal bits, whatever the number of threads

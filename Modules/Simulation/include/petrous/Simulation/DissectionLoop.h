@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "petrous/Dissection/Dissection.h"
-#include "petrous/Simulation/Feed.h"
+#include "petrous/Simulation/RemovalModel.h"
 #include "petrous/Simulation/MaskEdit.h"
 #include "petrous/Volume/PublishedMask.h"
 
@@ -37,14 +37,14 @@ public:
   };
 
   /// All must outlive this; `mask` must have been published from dissection.mask().
-  DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask, Feed& feed,
+  DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask, RemovalModel& removalModel,
                  dissection::ProtectedTissue keep = {}, Hooks hooks = {});
 
   /// What follows one tick; true when tissue was taken.
   bool step(const TickRecord& record);
 
   /// What follows `count` ticks, oldest first: where the tool hardly moved (`kTogether`) between
-  /// bites only the last is made, which goes on from the others (Feed).
+  /// bites only the last is made, which goes on from the others (RemovalModel).
   bool step(const TickRecord* records, std::size_t count);
   static constexpr double kTogether = 0.05; ///< mm
 
@@ -83,7 +83,7 @@ private:
 
   dissection::Dissection& m_dissection;
   volume::PublishedMask& m_mask;
-  Feed& m_feed;
+  RemovalModel& m_removalModel;
   dissection::ProtectedTissue m_keep;
   Hooks m_hooks;
   double m_time = 0.0;

@@ -37,7 +37,7 @@ struct ServoSetup
 /// came back, the hand may be anywhere: the tool stays where it is and goes on from there, the
 /// force rising anew (in constant-thrust mode it goes to the place that is given). While force may
 /// not be given the tool rests, so that tissue that comes back still moves it out. A hand without
-/// force is kept on a leash (ServoParameters::mostLead), since nothing stops it in the tissue.
+/// force is kept on a leash (ServoParameters::maxLead), since nothing stops it in the tissue.
 ///
 /// A pointer's tool (ServoParameters::kPointer) that is more than `kFarthest` from its place, that
 /// stands in tissue, or that tissue does not let go, is placed anew: on its line of sight, before

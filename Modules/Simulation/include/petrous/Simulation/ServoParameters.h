@@ -19,7 +19,7 @@ struct ServoParameters
   double approachSpeed = 50.0; ///< mm/s before contact, in (0, 1000]
   /// Way from the given place to the nearest surface, patient mm: where a tool that touches nothing
   /// is sent, and how far beyond its place at most; zero: it waits there. For a pointer's tool its
-  /// line of sight: not pressed of any length, nor where a wheel leads it (mostLead) as it is taken
+  /// line of sight: not pressed of any length, nor where a wheel leads it (maxLead) as it is taken
   /// up; pressed as long as the way is.
   double approach[3] = {0.0, 0.0, 0.0};
   std::uint32_t clutchButtons = 0; ///< device buttons that hold the tool still

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxFieldVoxels = 3'000'000; ///< 12 MB
 ///
 /// Values hold up to `reach` mm outside; beyond that, and within deeper than `reach`, they only
 /// tell that it is farther. Beyond the grid's hull it is farther than `reach`. The cubes are half
-/// the share's least spacing in edge, larger where there would be more than `mostVoxels`.
+/// the share's least spacing in edge, larger where there would be more than `maxVoxels`.
 ///
 /// Null where no voxel lies inside. Throws CancelledError, InvalidParameter unless reach > 0.
 std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,

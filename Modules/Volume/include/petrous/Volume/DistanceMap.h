@@ -61,7 +61,7 @@ constexpr std::size_t kMaxDistanceVoxels = 8'000'000; ///< 32 MB
 /// there is no tissue, so these are surfaces where the structure reaches them.
 ///
 /// The map's voxels are cubes of half the share's least spacing; of large structures they are
-/// larger, so that there are at most `mostVoxels`. At the surface the depth is 0 to about 0.02
+/// larger, so that there are at most `maxVoxels`. At the surface the depth is 0 to about 0.02
 /// voxel of the share where the surface is smooth, more at its creases.
 ///
 /// Null when no voxel lies inside. Throws CancelledError.

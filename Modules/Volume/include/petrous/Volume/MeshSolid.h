@@ -89,7 +89,7 @@ bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexce
 /// solid, though parts of it be thinner than a voxel. Neighbours differ by 1/2 at most, as they do
 /// in a smoothed union, so that the mask it is written to has no steeper walls than a cut. Null
 /// where the solid reaches no voxel of the grid.
-std::shared_ptr<const Volume<float>> guardOf(const Volume<float>& solid,
+std::shared_ptr<const Volume<float>> protectionMaskOf(const Volume<float>& solid,
                                              const core::GridGeometry& grid);
 
 } // namespace petrous::volume

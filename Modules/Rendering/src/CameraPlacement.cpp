@@ -1,4 +1,4 @@
-#include "AimCamera.h"
+#include "CameraPlacement.h"
 
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>

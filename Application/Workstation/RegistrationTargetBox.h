@@ -13,11 +13,11 @@ namespace petrous::workstation
 
 /// What a registration begins from, what counts of the CT, to what it goes, and where its error is
 /// stated.
-class AimBox : public QWidget
+class RegistrationTargetBox : public QWidget
 {
   Q_OBJECT
 public:
-  explicit AimBox(presenters::RegistrationSession& session, QWidget* parent = nullptr);
+  explicit RegistrationTargetBox(presenters::RegistrationSession& session, QWidget* parent = nullptr);
 
   void refresh(); ///< what there is to choose from
 

@@ -9,10 +9,10 @@ namespace petrous::simulation
 {
 
 /// How far a drill that is pressed goes into the tissue. One thread.
-class Feed
+class RemovalModel
 {
 public:
-  virtual ~Feed() = default;
+  virtual ~RemovalModel() = default;
 
   /// The drill is on and the burr pressed, for `seconds` of a tick.
   virtual void press(const TickRecord& record, double seconds) = 0;
@@ -25,7 +25,7 @@ public:
 };
 
 /// Takes nothing: for a loop that only does again what was recorded.
-class NoFeed : public Feed
+class NoRemovalModel : public RemovalModel
 {
 public:
   void press(const TickRecord&, double) override {}

@@ -2,7 +2,7 @@
 
 #include "petrous/Dissection/RemovalDepthSolver.h"
 #include "petrous/Dissection/Stroke.h"
-#include "petrous/Simulation/Feed.h"
+#include "petrous/Simulation/RemovalModel.h"
 
 namespace petrous::simulation
 {
@@ -29,7 +29,7 @@ struct RemovalBalance
 /// r    mm, the distance of the contact from the spindle's axis: the mean over the patch where the
 ///      last bite took what it took, weighed by volume. Of a small patch away from the pole that is
 ///      r_b cos(theta) of its middle. A bite counts with the mean of the patch before and after it.
-class RemovalFeed : public Feed
+class BurrRemovalModel : public RemovalModel
 {
 public:
   /// Tissue is taken at most this far ahead of where the servo knows the burr to be: a burr that is
@@ -45,7 +45,7 @@ public:
 
   /// search  for this burr; must outlive this
   /// Throws InvalidParameter when the spindle's speed is below 0.
-  RemovalFeed(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel);
+  BurrRemovalModel(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel);
 
   void press(const TickRecord& record, double seconds) override;
   std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) override;

@@ -9,7 +9,7 @@
 namespace petrous::registration
 {
 
-struct RepeatOptions
+struct PerturbedRepeatsOptions
 {
   int count = 24;               ///< fits in all, every second one with swapped roles
   std::size_t samples = 16'000; ///< of each
@@ -24,7 +24,7 @@ struct RepeatOptions
 /// in an order that does not depend on threads.
 std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
                                             const core::RigidTransform& mrFromCt,
-                                            const RepeatOptions& options,
+                                            const PerturbedRepeatsOptions& options,
                                             const core::Progress& progress);
 
 /// Fits of what lies within `radius` mm of a point of the CT alone, from perturbed starts: X_MC of
@@ -32,6 +32,6 @@ std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
 std::vector<core::RigidTransform> fitAround(const ImagePair& pair,
                                             const core::RigidTransform& mrFromCt,
                                             const Eigen::Vector3d& ctPoint, double radius,
-                                            const RepeatOptions& options);
+                                            const PerturbedRepeatsOptions& options);
 
 } // namespace petrous::registration

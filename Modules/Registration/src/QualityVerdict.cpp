@@ -42,7 +42,7 @@ const char* nameOf(Verdict verdict)
   return "failed";
 }
 
-Judgement judge(const QualityFeatures& e)
+QualityVerdict judge(const QualityFeatures& e)
 {
   if (e.overlap < kMinOverlap)
     return {Verdict::Failed,

@@ -1,4 +1,4 @@
-#include "Repeats.h"
+#include "PerturbedRepeats.h"
 
 #include <cmath>
 #include <random>
@@ -39,7 +39,7 @@ core::IndexBox sharedBox(const Pyramid& here, const Pyramid& other,
 }
 
 core::RigidTransform perturbed(const core::RigidTransform& pose, const Eigen::Vector3d& centre,
-                               const RepeatOptions& options, std::mt19937& random)
+                               const PerturbedRepeatsOptions& options, std::mt19937& random)
 {
   std::normal_distribution<double> normal;
   const auto vector = [&]
@@ -56,26 +56,26 @@ core::RigidTransform perturbed(const core::RigidTransform& pose, const Eigen::Ve
 core::RigidTransform fitAgain(const LevelImage& fixed, const core::IndexBox& box,
                               const LevelImage& moving, const core::RigidTransform& pose,
                               double scale, std::uint32_t seed, int blocks,
-                              const RepeatOptions& options)
+                              const PerturbedRepeatsOptions& options)
 {
   std::mt19937 random(seed);
   FixedSamples samples = drawSamples(fixed, box, options.samples, seed, options.bins);
   if (blocks > 0)
     samples = bootstrap(samples, blocks, seed + 1);
   const MutualInformation metric(samples, moving, options.bins);
-  BfgsOptimizerOptions climb;
+  BfgsOptions climb;
   climb.evaluations = 30;
   climb.change = 1e-5;
   climb.firstStep = 0.5 * scale;
   climb.maxStep = 4.0 * scale;
-  return ascend(metric, perturbed(pose, samples.centre, options, random), climb).pose;
+  return maximize(metric, perturbed(pose, samples.centre, options, random), climb).pose;
 }
 
 } // namespace
 
 std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
                                             const core::RigidTransform& mrFromCt,
-                                            const RepeatOptions& options,
+                                            const PerturbedRepeatsOptions& options,
                                             const core::Progress& progress)
 {
   const core::RigidTransform forward = pair.movingFromFixed(mrFromCt);
@@ -102,7 +102,7 @@ std::vector<core::RigidTransform> repeatFit(const ImagePair& pair,
 std::vector<core::RigidTransform> fitAround(const ImagePair& pair,
                                             const core::RigidTransform& mrFromCt,
                                             const Eigen::Vector3d& ctPoint, double radius,
-                                            const RepeatOptions& options)
+                                            const PerturbedRepeatsOptions& options)
 {
   const core::RigidTransform forward = pair.movingFromFixed(mrFromCt);
   const Eigen::Vector3d centre = pair.fixedIsCt ? ctPoint : mrFromCt * ctPoint;

@@ -1,4 +1,4 @@
-#include "AimBox.h"
+#include "RegistrationTargetBox.h"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ constexpr int kLargestBox = 250;
 constexpr int kFirstStructure = 2; // row of m_place
 } // namespace
 
-AimBox::AimBox(presenters::RegistrationSession& session, QWidget* parent)
+RegistrationTargetBox::RegistrationTargetBox(presenters::RegistrationSession& session, QWidget* parent)
   : QWidget(parent)
   , m_session(session)
   , m_form(new QFormLayout(this))
@@ -36,7 +36,7 @@ AimBox::AimBox(presenters::RegistrationSession& session, QWidget* parent)
   m_showing = false;
 }
 
-QComboBox* AimBox::addChoice(const QString& label, const char* name, const QString& tip)
+QComboBox* RegistrationTargetBox::addChoice(const QString& label, const char* name, const QString& tip)
 {
   auto* box = new QComboBox;
   box->setObjectName(name);
@@ -44,18 +44,18 @@ QComboBox* AimBox::addChoice(const QString& label, const char* name, const QStri
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(12);
   m_form->addRow(label, box);
-  connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &AimBox::choose);
+  connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &RegistrationTargetBox::choose);
   return box;
 }
 
-void AimBox::addOnto()
+void RegistrationTargetBox::addOnto()
 {
   m_onto = addChoice(tr("Fits t&o"), "registrationOnto",
                      tr("A diffusion image finds more to hold on to in the T2 of the same session, "
                         "and comes to the CT through that, once it is registered itself"));
 }
 
-void AimBox::addStart()
+void RegistrationTargetBox::addStart()
 {
   m_start = addChoice(tr("S&tart"), "registrationStart",
                       tr("Register looks around this place, 40 mm and 40° far; images of one frame "
@@ -65,7 +65,7 @@ void AimBox::addStart()
   m_start->addItem(tr("where the MR lies now"));
 }
 
-void AimBox::addBox()
+void RegistrationTargetBox::addBox()
 {
   m_box = new QSpinBox;
   m_box->setObjectName("registrationBox");
@@ -76,10 +76,10 @@ void AimBox::addBox()
   m_box->setToolTip(tr("What of the CT counts: all of it, or a box of this edge about the "
                        "crosshair, as for one ear where the jaw or neck has moved"));
   m_form->addRow(tr("Re&gion"), m_box);
-  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this, &AimBox::choose);
+  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this, &RegistrationTargetBox::choose);
 }
 
-void AimBox::addPlace()
+void RegistrationTargetBox::addPlace()
 {
   m_place = addChoice(tr("Error &at"), "registrationPlace",
                       tr("Where the error is stated. The middle ear: an ossicle, or else the "
@@ -87,7 +87,7 @@ void AimBox::addPlace()
                          "images show"));
 }
 
-void AimBox::fillPlaces()
+void RegistrationTargetBox::fillPlaces()
 {
   QStringList names;
   for (const std::string& name : m_session.placeNames())
@@ -104,7 +104,7 @@ void AimBox::fillPlaces()
     m_place->addItem(QString(name).replace('_', ' '), name);
 }
 
-void AimBox::refresh()
+void RegistrationTargetBox::refresh()
 {
   const QScopedValueRollback<bool> showing(m_showing, true);
   m_session.setAim(m_session.aim());
@@ -125,7 +125,7 @@ void AimBox::refresh()
                                : static_cast<int>(aim.place));
 }
 
-void AimBox::choose()
+void RegistrationTargetBox::choose()
 {
   if (m_showing)
     return;

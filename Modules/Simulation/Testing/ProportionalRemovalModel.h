@@ -2,16 +2,16 @@
 
 #include <cmath>
 
-#include "petrous/Simulation/Feed.h"
+#include "petrous/Simulation/RemovalModel.h"
 
 namespace petrous::simulation::testing
 {
 
 /// Goes into the tissue at a speed in proportion to thrust, whatever the tissue: 20 mm/s per N.
-class PlainFeed : public Feed
+class ProportionalRemovalModel : public RemovalModel
 {
 public:
-  explicit PlainFeed(double radius, double gain = 20.0)
+  explicit ProportionalRemovalModel(double radius, double gain = 20.0)
     : m_radius(radius)
     , m_gain(gain)
   {

@@ -1,4 +1,4 @@
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/BurrRemovalModel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ double rimOf(double spread) noexcept
 
 } // namespace
 
-RemovalFeed::RemovalFeed(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel)
+BurrRemovalModel::BurrRemovalModel(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel)
   : m_search(search)
   , m_speed(burr.rpm * 2.0 * kPi / 60.0)
   , m_voxel(voxel)
@@ -51,13 +51,13 @@ RemovalFeed::RemovalFeed(dissection::RemovalDepthSolver& search, const dissectio
     throw core::InvalidParameter("drill: the spindle's speed must be at least 0 turns a minute");
 }
 
-double RemovalFeed::armOf(const Eigen::Vector3d& normal, double spread) const noexcept
+double BurrRemovalModel::armOf(const Eigen::Vector3d& normal, double spread) const noexcept
 {
   const double sine = std::clamp(normal.dot(m_spindle), -1.0, 1.0);
   return armOf(m_search.radius(), std::asin(sine), spread);
 }
 
-double RemovalFeed::armOf(double radius, double elevation, double spread) noexcept
+double BurrRemovalModel::armOf(double radius, double elevation, double spread) noexcept
 {
   const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kMinSink);
   const double rim = rimOf(std::max(spread, least) / radius);
@@ -79,14 +79,14 @@ double RemovalFeed::armOf(double radius, double elevation, double spread) noexce
   return radius * sum / (kRings * kPlaces);
 }
 
-double RemovalFeed::armOfPatch() const noexcept
+double BurrRemovalModel::armOfPatch() const noexcept
 {
   const double now = armOf(m_patch.middle, m_patch.spread);
   // The spindle may have turned since the bite.
   return m_biteArm > 0.0 ? std::min(m_search.radius(), m_patch.arm * now / m_biteArm) : now;
 }
 
-void RemovalFeed::press(const TickRecord& record, double seconds)
+void BurrRemovalModel::press(const TickRecord& record, double seconds)
 {
   const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);
   const haptics::Pose tool = record.proxy.pose();
@@ -110,7 +110,7 @@ void RemovalFeed::press(const TickRecord& record, double seconds)
 }
 
 // Known from the last bite; at first, from what lies ahead.
-double RemovalFeed::resistance(const volume::CutMask& mask)
+double BurrRemovalModel::resistance(const volume::CutMask& mask)
 {
   if (m_resistance > 0.0)
     return m_resistance;
@@ -120,7 +120,7 @@ double RemovalFeed::resistance(const volume::CutMask& mask)
   return m_resistance;
 }
 
-void RemovalFeed::account(const dissection::Bite& bite)
+void BurrRemovalModel::account(const dissection::Bite& bite)
 {
   m_owed -= bite.work;
   m_balance.removed += bite.volume;
@@ -136,7 +136,7 @@ void RemovalFeed::account(const dissection::Bite& bite)
   m_balance.predicted += more / m_resistance;
 }
 
-void RemovalFeed::forfeit(double work)
+void BurrRemovalModel::forfeit(double work)
 {
   m_owed -= work;
   if (m_resistance > 0.0)
@@ -145,7 +145,7 @@ void RemovalFeed::forfeit(double work)
     m_unpriced -= work; // nothing that could be taken: no volume was promised
 }
 
-std::optional<dissection::SweptSphere> RemovalFeed::bite(const volume::CutMask& mask)
+std::optional<dissection::SweptSphere> BurrRemovalModel::bite(const volume::CutMask& mask)
 {
   if (!std::exchange(m_pressed, false))
     return std::nullopt;
@@ -173,7 +173,7 @@ std::optional<dissection::SweptSphere> RemovalFeed::bite(const volume::CutMask& 
   return std::nullopt;
 }
 
-void RemovalFeed::release()
+void BurrRemovalModel::release()
 {
   forfeit(m_owed);
   m_owed = m_unpriced = 0.0;
@@ -183,7 +183,7 @@ void RemovalFeed::release()
   m_search.forget();
 }
 
-RemovalBalance RemovalFeed::balance() const noexcept
+RemovalBalance BurrRemovalModel::balance() const noexcept
 {
   RemovalBalance balance = m_balance;
   balance.owed = m_resistance > 0.0 ? m_owed / m_resistance : 0.0;

@@ -1,4 +1,4 @@
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Simulation/BurrRemovalModel.h"
 
 #include <random>
 
@@ -93,9 +93,9 @@ TEST_P(RemovalLaws, AreWhatIsRemoved)
       {
         const double force =
             Eigen::Vector3d(record.burrForce[0], record.burrForce[1], record.burrForce[2]).norm();
-        EXPECT_LE(scene.feed.arm(), 2.0);
-        arms += scene.feed.arm() * p.tick;
-        const double rate = force * 1e-3 * scene.feed.arm() * 2000.0 * kPi / pascal; // m3/s
+        EXPECT_LE(scene.removalModel.arm(), 2.0);
+        arms += scene.removalModel.arm() * p.tick;
+        const double rate = force * 1e-3 * scene.removalModel.arm() * 2000.0 * kPi / pascal; // m3/s
         expected += 1e9 * rate * p.tick;
       });
   // r_b cos(theta) of the flat surface, more near the pole, where the patch has spread, and less at
@@ -106,7 +106,7 @@ TEST_P(RemovalLaws, AreWhatIsRemoved)
   {
     EXPECT_LT(arms / p.seconds, 1.03 * plain);
   }
-  const RemovalBalance balance = scene.feed.balance();
+  const RemovalBalance balance = scene.removalModel.balance();
   EXPECT_NEAR(balance.predicted, expected, 0.02 * expected);
   EXPECT_NEAR(total(balance), balance.predicted, 0.02 * balance.predicted);
   EXPECT_LT(balance.owed + balance.forfeited, 0.05 * expected);
@@ -126,13 +126,13 @@ INSTANTIATE_TEST_SUITE_P(OverTheirRange, RemovalLaws,
                                            LawCase{Burr::Kind::Diamond, 5.0, 80.0, 0.2, 5e-4,
                                                    0.1}));
 
-TEST(RemovalFeed, TakesTheSameAtAnyTickAndVoxel)
+TEST(BurrRemovalModel, TakesTheSameAtAnyTickAndVoxel)
 {
   const auto removed = [](double thrust, double degrees, double voxel, double tick, double seconds)
   {
     LawScene scene(settingOf(Burr::Kind::Cutting, thrust, degrees, voxel, tick));
     scene.drill(seconds);
-    return total(scene.feed.balance());
+    return total(scene.removalModel.balance());
   };
   for (const double degrees : {0.0, 40.0, 80.0})
   {
@@ -167,7 +167,7 @@ TEST_P(FlatShafts, TakeTheSameAtAnyTickAndVoxel)
     {
       LawScene scene(settingOf(GetParam(), 1.0, degrees, voxel, tick));
       scene.drill(0.25);
-      return total(scene.feed.balance());
+      return total(scene.removalModel.balance());
     };
     SCOPED_TRACE(degrees);
     const double usual = removed(0.2, 1e-3);
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(OfBothKinds, FlatShafts,
 
 // Its place lies far beyond the tool, so it pulls sideways by more than the thrust where that turns
 // by a little.
-TEST(RemovalFeed, AWeakThrustDoesNotSwing)
+TEST(BurrRemovalModel, AWeakThrustDoesNotSwing)
 {
   LawScene scene(settingOf(Burr::Kind::Cutting, 0.2, 80.0, 0.2, 1e-3));
   double sum = 0.0;
@@ -210,26 +210,26 @@ TEST(RemovalFeed, AWeakThrustDoesNotSwing)
 
 // 0.05 mm3/s: a seventh of a micrometre a second on the whole hemisphere, less than a step of an
 // 8-bit mask in ten ticks.
-TEST(RemovalFeed, ASlowDiamondBurrDoesNotStall)
+TEST(BurrRemovalModel, ASlowDiamondBurrDoesNotStall)
 {
   LawScene scene(settingOf(Burr::Kind::Diamond, 0.05, 0.0, 0.3, 1e-3));
   scene.drill(0.5);
-  const RemovalBalance half = scene.feed.balance();
+  const RemovalBalance half = scene.removalModel.balance();
   scene.drill(0.5);
-  const RemovalBalance all = scene.feed.balance();
+  const RemovalBalance all = scene.removalModel.balance();
   EXPECT_NEAR(all.predicted, 0.05, 0.004);
   EXPECT_NEAR(all.removed - half.removed, 0.025, 0.002);
   EXPECT_NEAR(total(all), all.predicted, 0.02 * all.predicted);
 }
 
-TEST(RemovalFeed, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
+TEST(BurrRemovalModel, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
 {
   LawScene::Setting still;
   still.burr.rpm = 0.0;
   LawScene stands(still);
   stands.drill(0.1);
   EXPECT_TRUE(stands.work.mask().untouched());
-  EXPECT_EQ(stands.feed.balance().predicted, 0.0);
+  EXPECT_EQ(stands.removalModel.balance().predicted, 0.0);
 
   LawScene idle(LawScene::Setting{});
   const haptics::Pose place{{0.0, 0.0, -1.0}, Eigen::Quaterniond::Identity()};
@@ -237,19 +237,19 @@ TEST(RemovalFeed, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
     idle.tick(place);
   EXPECT_GT(idle.session.records.back().thrust, 0.5); // it lies on the bone
   EXPECT_TRUE(idle.work.mask().untouched());
-  EXPECT_EQ(idle.feed.balance().predicted, 0.0);
+  EXPECT_EQ(idle.removalModel.balance().predicted, 0.0);
 }
 
 // Half of the burr meets bone that takes a third of the work: the work done is the work that the
 // volumes take, each in its tissue.
-TEST(RemovalFeed, TissuesShareTheWorkOfABite)
+TEST(BurrRemovalModel, TissuesShareTheWorkOfABite)
 {
   LawScene::Setting setting;
   setting.border = 0.0;
   LawScene scene(setting);
   double work = 0.0; // N mm
   scene.drill(0.3, [&](const TickRecord&)
-              { work += scene.feed.thrust() * scene.feed.arm() * 2000.0 * kPi * setting.tick; });
+              { work += scene.removalModel.thrust() * scene.removalModel.arm() * 2000.0 * kPi * setting.tick; });
   const volume::CutMask before(scene.work.mask().geometry());
   const auto taken =
       dissection::measureRemoved(scene.tissue, before, scene.work.mask(), scene.work.openBricks(),
@@ -259,27 +259,27 @@ TEST(RemovalFeed, TissuesShareTheWorkOfABite)
                        resistance(setting.burr, "cellular-bone") * taken.structures[1].volume;
   EXPECT_GT(taken.structures[1].volume, taken.structures[0].volume);
   EXPECT_NEAR(spent, work, 0.03 * work);
-  const RemovalBalance balance = scene.feed.balance();
+  const RemovalBalance balance = scene.removalModel.balance();
   EXPECT_NEAR(total(balance), balance.predicted, 0.02 * balance.predicted);
 }
 
-TEST(RemovalFeed, WhatIsOwedIsForfeitedWhenContactEnds)
+TEST(BurrRemovalModel, WhatIsOwedIsForfeitedWhenContactEnds)
 {
   LawScene scene(settingOf(Burr::Kind::Diamond, 0.2, 40.0, 0.3, 1e-3));
   scene.drill(0.2);
-  while (!(scene.feed.balance().owed > 1e-6))
+  while (!(scene.removalModel.balance().owed > 1e-6))
     scene.drill(0.001);
-  const RemovalBalance before = scene.feed.balance();
+  const RemovalBalance before = scene.removalModel.balance();
   scene.session.pedal = 0.0;
   scene.tick({{0.0, 0.0, -1.0}, Eigen::Quaterniond::Identity()});
-  const RemovalBalance after = scene.feed.balance();
+  const RemovalBalance after = scene.removalModel.balance();
   EXPECT_EQ(after.owed, 0.0);
   EXPECT_NEAR(after.forfeited, before.forfeited + before.owed, 1e-12);
   EXPECT_EQ(after.removed, before.removed);
 }
 
 // A hole of just the burr's size, which the field holds to a hundredth of a voxel, must not jam it.
-TEST(RemovalFeed, DrillsOnBeyondItsEquator)
+TEST(BurrRemovalModel, DrillsOnBeyondItsEquator)
 {
   for (const double degrees : {90.0, 80.0})
   {
@@ -288,11 +288,11 @@ TEST(RemovalFeed, DrillsOnBeyondItsEquator)
     LawScene scene(setting);
     scene.drill(0.6);
     EXPECT_LT(scene.session.records.back().proxy.pose().position.z(), -0.6) << degrees;
-    EXPECT_LT(scene.feed.balance().forfeited, 0.02 * scene.feed.balance().predicted) << degrees;
+    EXPECT_LT(scene.removalModel.balance().forfeited, 0.02 * scene.removalModel.balance().predicted) << degrees;
   }
 }
 
-TEST(RemovalFeed, DoesNotBoreOnWhileTheToolIsHeld)
+TEST(BurrRemovalModel, DoesNotBoreOnWhileTheToolIsHeld)
 {
   // The servo says that the burr stays where it is, whatever is taken.
   LawScene scene(LawScene::Setting{});
@@ -308,25 +308,25 @@ TEST(RemovalFeed, DoesNotBoreOnWhileTheToolIsHeld)
     scene.loop.step(record);
   }
   const auto& grid = scene.work.mask().geometry();
-  const double deepest = RemovalFeed::kMinAhead + 0.05 * 0.3;
+  const double deepest = BurrRemovalModel::kMinAhead + 0.05 * 0.3;
   EXPECT_EQ(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -deepest - 0.9})), 1.0);
   EXPECT_GT(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -deepest})), 0.5);
-  const RemovalBalance balance = scene.feed.balance();
+  const RemovalBalance balance = scene.removalModel.balance();
   EXPECT_NEAR(total(balance), balance.predicted, 1e-6 * balance.predicted);
   EXPECT_GT(balance.forfeited, 0.5 * balance.predicted);
 }
 
-TEST(RemovalFeed, RefusesASpindleThatTurnsBack)
+TEST(BurrRemovalModel, RefusesASpindleThatTurnsBack)
 {
   LawScene scene(LawScene::Setting{});
   Burr burr;
   burr.rpm = -1.0;
-  EXPECT_THROW(RemovalFeed(scene.search, burr, 0.3), core::InvalidParameter);
+  EXPECT_THROW(BurrRemovalModel(scene.search, burr, 0.3), core::InvalidParameter);
 }
 
 // Places drawn at random on a cap: those within `rim` of the middle, whose own mean distance from
 // the line through the middle is the spread.
-TEST(RemovalFeed, ArmIsTheMeanOverThePatch)
+TEST(BurrRemovalModel, ArmIsTheMeanOverThePatch)
 {
   const double radius = 2.0;
   std::mt19937 random(5);
@@ -349,17 +349,17 @@ TEST(RemovalFeed, ArmIsTheMeanOverThePatch)
         arm += place.cross(spindle).norm() / draws;
         spread += radius * rho / draws;
       }
-      EXPECT_NEAR(RemovalFeed::armOf(radius, degrees * kDegree, spread), arm, 0.01 * arm);
+      EXPECT_NEAR(BurrRemovalModel::armOf(radius, degrees * kDegree, spread), arm, 0.01 * arm);
     }
 }
 
 // Of a point r_b cos(theta), and at the pole the spread.
-TEST(RemovalFeed, ArmIsThatOfTheContact)
+TEST(BurrRemovalModel, ArmIsThatOfTheContact)
 {
-  EXPECT_NEAR(RemovalFeed::armOf(2.0, 0.0, 0.0), 2.0, 0.001);
+  EXPECT_NEAR(BurrRemovalModel::armOf(2.0, 0.0, 0.0), 2.0, 0.001);
   const double contact = 2.0 * std::cos(60.0 * kDegree);
-  EXPECT_NEAR(RemovalFeed::armOf(2.0, 60.0 * kDegree, 0.03), contact, 0.003 * contact);
-  EXPECT_NEAR(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.7), 0.7, 0.003 * 0.7);
-  EXPECT_GT(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.0), 0.01);
-  EXPECT_LT(RemovalFeed::armOf(2.0, 90.0 * kDegree, 0.0), 0.1);
+  EXPECT_NEAR(BurrRemovalModel::armOf(2.0, 60.0 * kDegree, 0.03), contact, 0.003 * contact);
+  EXPECT_NEAR(BurrRemovalModel::armOf(2.0, 90.0 * kDegree, 0.7), 0.7, 0.003 * 0.7);
+  EXPECT_GT(BurrRemovalModel::armOf(2.0, 90.0 * kDegree, 0.0), 0.01);
+  EXPECT_LT(BurrRemovalModel::armOf(2.0, 90.0 * kDegree, 0.0), 0.1);
 }

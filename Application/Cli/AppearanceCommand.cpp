@@ -96,7 +96,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     value.iso = scale.iso;
     value.denseBone = scale.dense;
     if (!scale.calibrated)
-      context.remark("the image is not in Hounsfield units; bone is taken to begin at " +
+      context.warn("the image is not in Hounsfield units; bone is taken to begin at " +
                      fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
     return;
   }
@@ -230,10 +230,10 @@ void setSource(const Context& context, scene::Case& value, const std::string& as
   {
     look.sourceImage = name;
     if (!mr->registered)
-      context.remark("'" + name + "' is not registered with the CT; until it is, '" + part.name +
+      context.warn("'" + name + "' is not registered with the CT; until it is, '" + part.name +
                      "' is drawn in one colour");
     if (!look.transfer || look.relative)
-      context.remark("presets are made for CT; '" + part.name +
+      context.warn("presets are made for CT; '" + part.name +
                      "' is drawn in one colour until --tf gives it values of '" + name + "'");
   }
 }
@@ -246,7 +246,7 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
   if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
     return;
   value.boneLook.touchable = value.boneLook.drillable = true;
-  context.remark("bone stays touchable and drillable; of its flags only 'shown' can be changed");
+  context.warn("bone stays touchable and drillable; of its flags only 'shown' can be changed");
 }
 
 void setStiffness(const Context& context, scene::Case& value, const std::string& assignment)
@@ -260,7 +260,7 @@ void setStiffness(const Context& context, scene::Case& value, const std::string&
   for (StructureAppearance* look : part.looks)
     appearance::setStiffness(*look, stiffness);
   if (const auto& look = *part.looks.front(); stiffness > 0.0 && !(look.solid && look.touchable))
-    context.remark("'" + part.name + "' is not felt" +
+    context.warn("'" + part.name + "' is not felt" +
                    (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
 }
 
@@ -290,7 +290,7 @@ void setTissue(const Context& context, scene::Case& value, const std::string& as
   for (StructureAppearance* look : part.looks)
     look->tissue = tissue;
   if (!tissue.empty() && !part.looks.front()->solid)
-    context.remark("'" + part.name + "' is a lumen: the drill meets nothing in it");
+    context.warn("'" + part.name + "' is a lumen: the drill meets nothing in it");
 }
 
 void run(const Context& context, const Options& options)

@@ -75,12 +75,12 @@ void listAppearance(const Context& context, const scene::Case& value)
     nlohmann::json j = lookJson(look);
     j["name"] = name;
     j["kind"] = kind;
-    context.say("  " + name + " (" + kind + "): " + describe(look, scale));
+    context.print("  " + name + " (" + kind + "): " + describe(look, scale));
     return j;
   };
   presenters::IntensityDisplay display = presenters::displayOf(value);
   display.decimals = std::max(display.decimals, 1);
-  context.say("surface at " + display.text(value.iso) + ", dense bone at " +
+  context.print("surface at " + display.text(value.iso) + ", dense bone at " +
               display.text(value.denseBone) +
               (display.hounsfield ? "" : " (not in Hounsfield units)"));
   nlohmann::json bone = entry("ct", "bone", value.boneLook);
@@ -90,7 +90,7 @@ void listAppearance(const Context& context, const scene::Case& value)
       parts.push_back(entry(structure.name, "structure", structure.look));
   for (const auto& mesh : value.meshes)
     parts.push_back(entry(mesh.name, "mesh", mesh.look));
-  context.give({{"case", value.name},
+  context.printJson({{"case", value.name},
                 {"iso_hu", value.iso},
                 {"dense_bone_hu", value.denseBone},
                 {"hounsfield", display.hounsfield},
@@ -109,11 +109,11 @@ void listPresets(const Context& context)
     j.erase("source");
     j["name"] = look.preset;
     presets.push_back(std::move(j));
-    context.say("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
+    context.print("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
                 (look.solid ? "" : " (a lumen)") + drilledAs(look) + yielding(look) + warned(look) +
                 ", " + valuesOf(look, {}));
   }
-  context.give({{"presets", std::move(presets)}});
+  context.printJson({{"presets", std::move(presets)}});
 }
 
 } // namespace petrous::cli

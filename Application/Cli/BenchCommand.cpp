@@ -210,13 +210,13 @@ void bench(const Context& context, const BenchOptions& options)
       core::writeFile(base.string() + part + (part.find('.') == std::string::npos ? ".svg" : ""),
                       text);
     all.push_back(json);
-    context.say(report.title);
+    context.print(report.title);
     for (const auto& [key, value] : report.machine)
-      context.say("  " + key + ": " + value);
+      context.print("  " + key + ": " + value);
     for (const auto& point : report.points)
-      context.say(lineOf(point));
+      context.print(lineOf(point));
   }
-  context.give(name == "all" ? nlohmann::json{{"benchmarks", all}} : all.front());
+  context.printJson(name == "all" ? nlohmann::json{{"benchmarks", all}} : all.front());
 }
 
 } // namespace

@@ -65,12 +65,12 @@ const Branch& branchOf(const scene::Case& value, const std::string& name)
   return value.history.branch();
 }
 
-void sayRow(const Context& context, const std::string& what, const std::string& a,
+void printRow(const Context& context, const std::string& what, const std::string& a,
             const std::string& b)
 {
   char row[256];
   std::snprintf(row, sizeof row, "%-28s %20s %20s", what.c_str(), a.c_str(), b.c_str());
-  context.say(row);
+  context.print(row);
 }
 
 dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
@@ -98,7 +98,7 @@ exposedBy(const Context& context, const scene::Case& value, const Branch& a, con
 }
 
 // A row for each name that either side has, 0 where one has it not.
-void sayRows(const Context& context, const std::string& before, const std::string& after,
+void printRows(const Context& context, const std::string& before, const std::string& after,
              const std::map<std::string, double>& a, const std::map<std::string, double>& b,
              int digits)
 {
@@ -108,7 +108,7 @@ void sayRows(const Context& context, const std::string& before, const std::strin
   for (const auto& [name, number] : b)
     rows[name].second = number;
   for (const auto& [name, numbers] : rows)
-    sayRow(context, before + name + after, fixed(numbers.first, digits),
+    printRow(context, before + name + after, fixed(numbers.first, digits),
            fixed(numbers.second, digits));
 }
 
@@ -126,25 +126,25 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   const Branch& b = branchOf(value, options.compared[1]);
   const auto ofA = scene::summaryOf(value, a.position);
   const auto ofB = scene::summaryOf(value, b.position);
-  const std::size_t common = ofA.strokes - value.history.way(a.position, b.position).back.size();
-  sayRow(context, "", a.name, b.name);
-  sayRow(context, "strokes (" + std::to_string(common) + " in common)", std::to_string(ofA.strokes),
+  const std::size_t common = ofA.strokes - value.history.path(a.position, b.position).undone.size();
+  printRow(context, "", a.name, b.name);
+  printRow(context, "strokes (" + std::to_string(common) + " in common)", std::to_string(ofA.strokes),
          std::to_string(ofB.strokes));
-  sayRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
-  sayRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
+  printRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
+  printRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
   const auto [openA, openB] = exposedBy(context, value, a, b);
-  sayRows(context, "exposed ", ", mm2", openA, openB, 1);
+  printRows(context, "exposed ", ", mm2", openA, openB, 1);
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   sides[0]["exposed_mm2"] = nlohmann::json(openA);
   sides[1]["exposed_mm2"] = nlohmann::json(openB);
-  context.give({{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
+  context.printJson({{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
 }
 
 void list(const Context& context, const scene::Case& value)
 {
   for (const Branch& branch : value.history.branches())
-    context.say((&branch == &value.history.branch() ? "* " : "  ") + toString(value, branch));
-  context.give(allJson(value));
+    context.print((&branch == &value.history.branch() ? "* " : "  ") + toString(value, branch));
+  context.printJson(allJson(value));
 }
 
 // What is done, in words.
@@ -194,8 +194,8 @@ void branch(const Context& context, const Options& options)
   }
   const std::string done = change(value, options);
   library.save(value);
-  context.say(done);
-  context.give(allJson(value));
+  context.print(done);
+  context.printJson(allJson(value));
 }
 
 } // namespace

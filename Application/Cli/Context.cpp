@@ -107,14 +107,14 @@ std::filesystem::path Context::libraryFolder() const
   throw UsageError("no home folder for the library; give --library DIR");
 }
 
-void Context::say(const std::string& line) const
+void Context::print(const std::string& line) const
 {
   refuseDamaged();
   if (!m_json && !m_quiet)
     std::cout << line << '\n';
 }
 
-void Context::give(const nlohmann::json& object) const
+void Context::printJson(const nlohmann::json& object) const
 {
   refuseDamaged();
   if (!m_json)
@@ -132,7 +132,7 @@ std::string jsonText(nlohmann::json object)
   return object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-void Context::remark(const std::string& line) const
+void Context::warn(const std::string& line) const
 {
   if (!m_quiet)
     std::cerr << line << '\n';

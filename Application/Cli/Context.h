@@ -55,17 +55,17 @@ public:
   void refuseDamaged() const;
 
   /// Words for a person on stdout; nothing with --json or --quiet.
-  void say(const std::string& line) const;
+  void print(const std::string& line) const;
 
   /// The one JSON object on stdout, with "notices" where the library had something to say; nothing
   /// without --json.
-  void give(const nlohmann::json& object) const;
+  void printJson(const nlohmann::json& object) const;
 
   /// Whether the one JSON object was given: a failure after it has no second one.
   bool gave() const noexcept { return m_gave; }
 
   /// A remark on stderr, e.g. what was accepted in a file; nothing with --quiet.
-  void remark(const std::string& line) const;
+  void warn(const std::string& line) const;
 
   /// Bar on stderr when it is a terminal. Ctrl+C asks the work to stop, a second one ends it.
   core::Progress progress() const;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "DrillReport.h"
 #include "Numbers.h"
@@ -102,7 +102,7 @@ void openCase(const Context& context, library::Library& library, const std::stri
   library.loadDissection(value);
   value.ct.volume.get();
   library.checkVoxels(value, progress);
-  remarkMissingPlaces(context, value);
+  warnMissingPlaces(context, value);
 }
 
 void save(const Context& context, library::Library& library, scene::Case& value,
@@ -110,12 +110,12 @@ void save(const Context& context, library::Library& library, scene::Case& value,
           const core::Progress& progress)
 {
   if (!report.changed())
-    return context.remark("nothing was cut; the case is as it was");
+    return context.warn("nothing was cut; the case is as it was");
   try
   {
     const std::string words = library.saveDrilled(value, opened, progress.part(0.9, 1.0));
     if (!words.empty())
-      context.remark(words);
+      context.warn(words);
   }
   catch (const core::CancelledError&)
   {
@@ -141,11 +141,11 @@ double armAt(const presenters::PathDrill& session, const simulation::TickRecord&
                       : simulation::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
 }
 
-void sayBalance(const Context& context, const presenters::PathDrill& session,
+void printBalance(const Context& context, const presenters::PathDrill& session,
                 nlohmann::json& answer)
 {
   const simulation::RemovalBalance balance = session.removal().balance();
-  context.say("the laws predict " + fixed(balance.predicted, 2) +
+  context.print("the laws predict " + fixed(balance.predicted, 2) +
               " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
               " owed, " + fixed(balance.forfeited, 2) + " forfeited");
   answer["predicted_mm3"] = balance.predicted;
@@ -213,15 +213,15 @@ void play(const Context& context, const Options& options)
 
   report.say(context);
   nlohmann::json answer = report.json();
-  sayBalance(context, session, answer);
+  printBalance(context, session, answer);
   if (const simulation::RecordingWriter* recording = session.recording())
   {
-    context.say("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
+    context.print("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
                 " bytes");
     answer["recording"] = {
         {"file", options.record}, {"ticks", recording->ticks()}, {"bytes", recording->bytes()}};
   }
-  context.give(answer);
+  context.printJson(answer);
 }
 
 void replay(const Context& context, const Options& options)
@@ -255,7 +255,7 @@ void replay(const Context& context, const Options& options)
   report.close();
   const simulation::RecordingReplay::Outcome& outcome = session.outcome();
   if (!outcome.warning.empty())
-    context.remark(outcome.warning);
+    context.warn(outcome.warning);
   if (outcome.equal())
     save(context, library, value, report, opened, *journal, progress);
 
@@ -268,7 +268,7 @@ void replay(const Context& context, const Options& options)
                       {"session", reader.setup().note}, {"equal", outcome.equal()},
                       {"complete", reader.complete()},  {"different_ticks", outcome.different},
                       {"first_different_tick", first},  {"difference", outcome.difference}};
-  context.give(answer);
+  context.printJson(answer);
   if (!outcome.equal())
     throw core::Error(
         core::Fault::Internal,
@@ -277,7 +277,7 @@ void replay(const Context& context, const Options& options)
             (outcome.firstDifferent ? ", first tick " + std::to_string(*outcome.firstDifferent)
                                     : std::string()) +
             "): " + outcome.difference + "; the case is as it was");
-  context.say("the replay is the recording, bit for bit");
+  context.print("the replay is the recording, bit for bit");
 }
 
 } // namespace

@@ -73,21 +73,21 @@ DrillReport::Cut DrillReport::cut() const
   return result;
 }
 
-void DrillReport::say(const Context& context) const
+void DrillReport::print(const Context& context) const
 {
   const Cut result = cut();
   if (m_inside > 0)
-    context.remark("the tool stood in tissue for " + std::to_string(m_inside) +
+    context.warn("the tool stood in tissue for " + std::to_string(m_inside) +
                    " ticks: there nothing is felt, and the drill takes what the burr sweeps");
   if (m_heldOff > 0)
-    context.remark(simulation::holderInWords(m_holder) +
+    context.warn(simulation::holderInWords(m_holder) +
                    " lay on tissue and held the burr off for " + std::to_string(m_heldOff) +
                    " ticks of drilling: give the tool another angle or more room");
-  context.say(std::to_string(result.strokes) + (result.strokes == 1 ? " stroke, " : " strokes, ") +
+  context.print(std::to_string(result.strokes) + (result.strokes == 1 ? " stroke, " : " strokes, ") +
               fixed(result.removed, 2) + " mm3 removed in " + std::to_string(m_times.count()) +
               " ticks");
   for (const auto& [name, volume] : result.structures)
-    context.say("  of '" + name + "': " + fixed(volume, 2) + " mm3");
+    context.print("  of '" + name + "': " + fixed(volume, 2) + " mm3");
 }
 
 nlohmann::json DrillReport::json()

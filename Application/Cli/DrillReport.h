@@ -40,7 +40,7 @@ public:
   bool changed() const;
 
   /// The report in words, and its JSON object.
-  void say(const Context& context) const;
+  void print(const Context& context) const;
   nlohmann::json json();
 
 private:

@@ -90,7 +90,7 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
         continue;
       const auto placed = scene::labelsOnCt(value, part);
       if (!placed)
-        context.remark("'" + structure.name + "' is written where its MR has it, not on the CT: " +
+        context.warn("'" + structure.name + "' is written where its MR has it, not on the CT: " +
                        scene::missingPlace(value, structure.name));
       const auto& source = *(placed ? placed : part.labels.get())->voxels;
       if (!voxels)
@@ -155,8 +155,8 @@ void exportCase(const Context& context, const Options& options)
   else
     throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + options.what +
                      "'");
-  context.say(options.out + ": " + options.what + " of '" + value.name + "'");
-  context.give({{"case", value.name}, {"what", options.what}, {"out", options.out}});
+  context.print(options.out + ": " + options.what + " of '" + value.name + "'");
+  context.printJson({{"case", value.name}, {"what", options.what}, {"out", options.out}});
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #include "CaseJson.h"
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "PointsFile.h"
 #include "petrous/Core/NumberText.h"
@@ -57,7 +57,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
-  remarkMissingPlaces(context, value);
+  warnMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
   const auto meshes = scene::meshSolidsAt(value, points, progress.part(0.2, 0.4));
@@ -104,8 +104,8 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   if (!out.empty())
     core::writeFile(out, csv);
   else
-    context.say(csv.substr(0, csv.size() - 1));
-  context.give({{"case", value.name}, {"points", std::move(rows)}});
+    context.print(csv.substr(0, csv.size() - 1));
+  context.printJson({{"case", value.name}, {"points", std::move(rows)}});
 }
 
 } // namespace

@@ -112,10 +112,10 @@ nlohmann::json answerJson(const scene::Case& value, const std::string& mr,
           {"resources", residentResources(value)}};
 }
 
-void sayError(const Context& context, const scene::Registration& how)
+void printError(const Context& context, const scene::Registration& how)
 {
   if (how.error)
-    context.say("  error at " + how.error->place + ": median " + fixed(how.error->median, 2) +
+    context.print("  error at " + how.error->place + ": median " + fixed(how.error->median, 2) +
                 ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) + " mm");
 }
 
@@ -131,30 +131,30 @@ void sign(const Context& context, const Options& options)
   scene::signOff(value, options.mr, options.signOff, presenters::utcNow());
   library.save(value);
   const scene::ImagePart& mr = *scene::findMr(value, options.mr);
-  context.say("MR '" + mr.name + "': " + scene::registrationInWords(mr));
-  context.give(
+  context.print("MR '" + mr.name + "': " + scene::registrationInWords(mr));
+  context.printJson(
       answerJson(value, mr.name, mr.mrFromCt, *mr.registration, nameOf(mr.registration->verdict)));
 }
 
-void sayOutcome(const Context& context, const scene::Case& value, const Options& options,
+void printOutcome(const Context& context, const scene::Case& value, const Options& options,
                 const presenters::RegistrationOutcome& outcome, bool wasSigned)
 {
   const scene::Registration& how = outcome.how;
   if (outcome.failed)
   {
-    context.say("MR '" + options.mr + "': failed. " + how.text);
-    context.say("  the case is as it was");
+    context.print("MR '" + options.mr + "': failed. " + how.text);
+    context.print("  the case is as it was");
     return;
   }
-  context.say("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
+  context.print("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
               nameOf(how.verdict) + ". " + how.text);
-  sayError(context, how);
+  printError(context, how);
   if (!options.asIs)
-    context.say("  " + fixed(outcome.fit.seconds, 1) + " s for the fit, " +
+    context.print("  " + fixed(outcome.fit.seconds, 1) + " s for the fit, " +
                 fixed(outcome.estimateSeconds, 1) + " s for the error");
   if (const auto names = scene::drawnOnMr(value, options.mr); !names.empty())
-    context.say("  now on the CT: " + scene::listed(names));
-  context.say(wasSigned ? "  the sign-off of the registration before is void"
+    context.print("  now on the CT: " + scene::listed(names));
+  context.print(wasSigned ? "  the sign-off of the registration before is void"
                         : "  not signed off: look at it, then register --sign-off NAME");
 }
 
@@ -181,7 +181,7 @@ void registerMr(const Context& context, const Options& options)
     presenters::accept(value, options.mr, outcome);
     library.save(value, progress.part(0.98, 1.0));
   }
-  sayOutcome(context, value, options, outcome, wasSigned);
+  printOutcome(context, value, options, outcome, wasSigned);
   nlohmann::json answer = answerJson(value, options.mr, outcome.mrFromCt, outcome.how,
                                      outcome.failed ? "failed" : nameOf(outcome.how.verdict));
   answer["seconds"] = outcome.fit.seconds;
@@ -189,7 +189,7 @@ void registerMr(const Context& context, const Options& options)
   answer["iterations"] = outcome.fit.iterations;
   answer["overlap"] = orNull(outcome.fit.overlap);
   answer["curve"] = std::move(curve);
-  context.give(answer);
+  context.printJson(answer);
 }
 
 } // namespace

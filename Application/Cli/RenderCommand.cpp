@@ -4,7 +4,7 @@
 
 #include "CameraFile.h"
 #include "CaseJson.h"
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "RenderOptions.h"
@@ -198,7 +198,7 @@ void render(const Context& context, const RenderOptions& options)
               {"convergence_mm", geometry.convergence}};
   }
   library.loadDissection(value);
-  remarkMissingPlaces(context, value);
+  warnMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));
   if (!options.thickness.empty())
@@ -209,7 +209,7 @@ void render(const Context& context, const RenderOptions& options)
   if (result.depth)
     rendering::writeNpy(options.depth, *result.depth);
   for (const auto& note : result.report.at("notes"))
-    context.remark(note.get<std::string>());
+    context.warn(note.get<std::string>());
   for (const auto& [name, bytes] : residentResources(value))
     result.resources.emplace(name, bytes);
   result.report.update({{"case", value.name},
@@ -221,11 +221,11 @@ void render(const Context& context, const RenderOptions& options)
                         {"out", options.out},
                         {"resources", result.resources}});
   if (!options.thickness.empty())
-    context.say("bone is coloured by its thickness over '" + options.thickness +
+    context.print("bone is coloured by its thickness over '" + options.thickness +
                 "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
-  context.say(options.out + ": " + options.size + ", " +
+  context.print(options.out + ": " + options.size + ", " +
               fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
-  context.give(result.report);
+  context.printJson(result.report);
 }
 
 } // namespace

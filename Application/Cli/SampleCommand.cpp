@@ -35,9 +35,9 @@ void addSampleCommand(CLI::App& app, Context& context)
         sample.seed = options->seed;
         imaging::writeSamplePatient(options->out, sample, context.progress());
         const std::filesystem::path out(options->out);
-        context.say("The sample patient is in " + options->out +
+        context.print("The sample patient is in " + options->out +
                     ": ct, mr, labels, meshes, truth.json");
-        context.give({{"out", out.string()},
+        context.printJson({{"out", out.string()},
                       {"ct", (out / "ct").string()},
                       {"mr", (out / "mr").string()},
                       {"labels", (out / "labels.seg.nrrd").string()},

@@ -181,11 +181,11 @@ void slice(const Context& context, const SliceOptions& options)
   context.refuseDamaged();
   rendering::writePng(options.out, labelled(std::move(pixels), geometry, lines));
   if (mr && !mr->registered)
-    context.remark("MR '" + mr->name +
+    context.warn("MR '" + mr->name +
                    "' is not registered with the CT; it is shown where its own file puts it");
-  context.say(options.out + ": " + options.plane + ", " + options.size + ", " +
+  context.print(options.out + ": " + options.plane + ", " + options.size + ", " +
               fixed(geometry.mmPerPixel(), 3) + " mm a pixel, " + fixed(elapsed, 1) + " ms");
-  context.give({{"case", value.name},
+  context.printJson({{"case", value.name},
                 {"out", options.out},
                 {"plane", options.plane},
                 {"size", {width, height}},

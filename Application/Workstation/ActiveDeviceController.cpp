@@ -41,16 +41,16 @@ ActiveDeviceController::~ActiveDeviceController()
 void ActiveDeviceController::showDevices()
 {
   m_bar.showDevices(m_watcher.found(), m_input.id);
-  tellAdvice();
+  notifyAdvice();
   const bool pedal = m_watcher.pedal() != nullptr;
   if (std::exchange(m_hadPedal, pedal) == pedal)
     return;
   emit pedalCame();
-  emit said(tr("The pedal drills")); // after what taking up the tool says
+  emit statusMessage(tr("The pedal drills")); // after what taking up the tool says
 }
 
 // What is plugged in but cannot be used: each advice once.
-void ActiveDeviceController::tellAdvice()
+void ActiveDeviceController::notifyAdvice()
 {
   std::set<std::string> advice;
   for (const InputDevice& input : m_watcher.found().devices)
@@ -59,7 +59,7 @@ void ActiveDeviceController::tellAdvice()
   advice.erase("");
   for (const std::string& line : advice)
     if (m_told.count(line) == 0)
-      emit said(words(line));
+      emit statusMessage(words(line));
   m_told = std::move(advice);
 }
 
@@ -76,7 +76,7 @@ void ActiveDeviceController::choose(const InputDevice& input)
   m_bar.showLead(nullptr, 1.0, 0.0);
   if (input.kind == InputDevice::Kind::Mouse)
     return emit came();
-  emit said(tr("Taking up %1…").arg(words(input.name)));
+  emit statusMessage(tr("Taking up %1…").arg(words(input.name)));
   m_watcher.open(input);
 }
 
@@ -87,14 +87,14 @@ void ActiveDeviceController::take()
   const double scale = m_settings.scale(m_input.id).value_or(presenters::usualScale(device));
   const double limit = m_settings.forceLimit(m_input.id).value_or(device.maxForce);
   m_bar.showLead(&device, scale, std::clamp(limit, 0.0, device.maxForce));
-  emit said(tr("%1 is there").arg(words(device.name)));
+  emit statusMessage(tr("%1 is there").arg(words(device.name)));
   emit came();
 }
 
 void ActiveDeviceController::giveUp(const QString& why)
 {
   choose(InputDevice());
-  emit said(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
+  emit statusMessage(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
 }
 
 DeviceMapping ActiveDeviceController::lead() const

@@ -41,12 +41,12 @@ signals:
   void came(); ///< another hand, which may be used
   void leadChanged();
   void pedalCame();
-  void said(const QString& line);
+  void statusMessage(const QString& line);
 
 private:
   void take();
   void showDevices();
-  void tellAdvice();
+  void notifyAdvice();
 
   DeviceWatcher& m_watcher;
   DeviceToolBar& m_bar;

@@ -12,7 +12,7 @@ namespace
 {
 
 // Queued: the receiver may be half gone.
-void tellApplication(const QString& why)
+void notifyApplication(const QString& why)
 {
   auto* application = qobject_cast<Application*>(QCoreApplication::instance());
   if (application)
@@ -45,11 +45,11 @@ void guarded(const std::function<void()>& work,
     }
     catch (const std::exception& error)
     {
-      tell(toString(error));
+      notify(toString(error));
     }
     catch (...)
     {
-      tell(QObject::tr("An unexpected fault."));
+      notify(QObject::tr("An unexpected fault."));
     }
   }
   catch (...) // no memory even for words
@@ -59,7 +59,7 @@ void guarded(const std::function<void()>& work,
 
 void guarded(const std::function<void()>& work) noexcept
 {
-  guarded(work, tellApplication);
+  guarded(work, notifyApplication);
 }
 
 QString toString(const std::exception& error)

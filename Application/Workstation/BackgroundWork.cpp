@@ -71,7 +71,7 @@ void BackgroundWork::end(Reply what)
 }
 
 // Whoever hears it may be slower than the work.
-void BackgroundWork::tell(const std::shared_ptr<Latest>& latest, double fraction,
+void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fraction,
                           const std::string& text)
 {
   {
@@ -99,7 +99,7 @@ void BackgroundWork::run(const Work& work)
   {
     const auto latest = std::make_shared<Latest>();
     const core::Progress progress([this, latest](double fraction, const std::string& text)
-                                  { tell(latest, fraction, text); },
+                                  { notify(latest, fraction, text); },
                                   m_token);
     end(work(progress));
   }

@@ -48,7 +48,7 @@ private:
     std::string text;
     bool onItsWay = false;
   };
-  void tell(const std::shared_ptr<Latest>& latest, double fraction, const std::string& text);
+  void notify(const std::shared_ptr<Latest>& latest, double fraction, const std::string& text);
   void run(const Work& work);
   void end(Reply what);
 

@@ -88,7 +88,7 @@ void BranchController::goTo(const std::string& name)
   if (!m_model.hasCase() || name == m_model.value().history.branch().name)
     return;
   if (change([this, &name] { m_model.goToBranch(name); }))
-    emit said(tr("Approach %1").arg(lineOf(m_model.value(), m_model.value().history.branch(), 10)));
+    emit statusMessage(tr("Approach %1").arg(lineOf(m_model.value(), m_model.value().history.branch(), 10)));
 }
 
 void BranchController::goOn(int steps)
@@ -112,7 +112,7 @@ void BranchController::start()
                                 .arg(m_model.value().applied()));
   const std::string chosen = bytes(name.trimmed());
   if (!chosen.empty() && change([this, &chosen] { m_model.startBranch(chosen); }))
-    emit said(tr("On the new approach %1").arg(words(chosen)));
+    emit statusMessage(tr("On the new approach %1").arg(words(chosen)));
 }
 
 bool BranchController::change(const std::function<void()>& what)

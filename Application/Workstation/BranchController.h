@@ -28,7 +28,7 @@ public:
 
 signals:
   void changed(); ///< the case is on another approach and is not saved
-  void said(const QString& line);
+  void statusMessage(const QString& line);
 
 private:
   void fill();

@@ -112,7 +112,7 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
           {
             endWork();
             m_model.notOpened();
-            emit said(tr("Stopped; nothing was changed"));
+            emit statusMessage(tr("Stopped; nothing was changed"));
           });
   connectBanners();
   watchForDamage();
@@ -154,7 +154,7 @@ void CaseDocumentController::connectBanners()
             m_unsaved.hide();
             m_unsaved.setButtonVisible("quitUnsaved", false);
             if (std::exchange(m_sayWhenSaved, false))
-              emit said(tr("Saved as %1").arg(name));
+              emit statusMessage(tr("Saved as %1").arg(name));
           });
 
   m_loading.addButton("loadStructures", tr("Prepare them"), [this] { prepare(); });
@@ -214,7 +214,7 @@ void CaseDocumentController::open(const QStringList& what)
   if (what.isEmpty())
     return;
   if (m_work.busy() || m_asking)
-    return emit said(tr("One at a time: something is being read already"));
+    return emit statusMessage(tr("One at a time: something is being read already"));
   try
   {
     std::vector<fs::path> paths;
@@ -293,7 +293,7 @@ bool CaseDocumentController::leaveCase()
   if (m_saver.flush())
     return true;
   m_model.notOpened();
-  emit said(tr("The open case is not saved yet; it stays open"));
+  emit statusMessage(tr("The open case is not saved yet; it stays open"));
   return false;
 }
 
@@ -312,7 +312,7 @@ void CaseDocumentController::openCase(const std::string& name)
          {
            endWork();
            m_model.opened(std::move(*read));
-           emit said(
+           emit statusMessage(
                tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
                    .arg(words(name)));
          };
@@ -514,7 +514,7 @@ void CaseDocumentController::adopt(scene::Case value)
   }
   m_sayWhenSaved = true;
   m_saver.save();
-  emit said(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
+  emit statusMessage(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
 }
 
 void CaseDocumentController::addParts(const presenters::PartSources& parts, const QString& what)
@@ -536,7 +536,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
            const QString name = words(m_model.value().name);
            m_model.takeParts(std::move(*value));
            m_saver.save();
-           emit said(tr("Added to %1: %2").arg(name, what));
+           emit statusMessage(tr("Added to %1: %2").arg(name, what));
          };
        });
 }

@@ -56,7 +56,7 @@ public:
   bool busy() const noexcept { return m_work.busy() || m_preparation.busy(); }
 
 signals:
-  void said(const QString& line); ///< for the status bar
+  void statusMessage(const QString& line); ///< for the status bar
   void ready();                   ///< the case's structures are loaded
 
 private:

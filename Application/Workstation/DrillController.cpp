@@ -232,11 +232,11 @@ bool DrillController::takeTool()
     return false;
   if (!m_model.ready())
   {
-    emit said(tr("The case is still being prepared; then the tool can be taken up"));
+    emit statusMessage(tr("The case is still being prepared; then the tool can be taken up"));
     return false;
   }
   putAway(); // what a change of the tissue has ended
-  emit said(m_tool == Tool::Burr ? tr("Taking up the burr…") : tr("Taking up the pointer…"));
+  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…") : tr("Taking up the pointer…"));
   QApplication::setOverrideCursor(Qt::WaitCursor);
   QString why;
   try
@@ -264,10 +264,10 @@ bool DrillController::takeTool()
   if (!why.isEmpty())
   {
     releaseTool();
-    emit said(why);
+    emit statusMessage(why);
     return false;
   }
-  emit said(m_lead.byMouse()
+  emit statusMessage(m_lead.byMouse()
                 ? QString()
                 : tr("%1 leads the tool").arg(words(m_devices.device()->description().name)));
   m_lead.send();
@@ -334,11 +334,11 @@ void DrillController::hear(const presenters::TouchSession::News& news)
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
   if (!news.journalFault.empty())
-    emit said(tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
+    emit statusMessage(tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
   if (!news.failure.empty())
   {
     releaseTool();
-    emit said(words(news.failure));
+    emit statusMessage(words(news.failure));
   }
   if (news.record && m_model.touching() && isLost(*news.record))
     m_devices.giveUp(whyLost());

@@ -42,7 +42,7 @@ signals:
   void burrGone();                                              ///< out of the hand
   /// Null when nothing was cut.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
-  void said(const QString& line);    ///< what takes a while, or what does not work
+  void statusMessage(const QString& line);    ///< what takes a while, or what does not work
   void faulted(const QString& line); ///< of the touch; empty when it works again
 
 private:

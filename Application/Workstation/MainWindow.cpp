@@ -119,7 +119,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
 {
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
-  m_picture->secure = [this] { return secure(); };
+  m_picture->flush = [this] { return flush(); };
   m_branches->settle = [this] { m_drill->releaseTool(); };
   m_keeper->setParent(this);
   m_saver->setParent(this);
@@ -271,22 +271,22 @@ void MainWindow::connectModel()
     statusBar()->showMessage(line);
     statusBar()->repaint(); // what takes a while is told before it begins
   };
-  connect(m_drill, &DrillController::said, this, say);
-  connect(m_devices, &ActiveDeviceController::said, this, say);
+  connect(m_drill, &DrillController::statusMessage, this, say);
+  connect(m_devices, &ActiveDeviceController::statusMessage, this, say);
   connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
   const auto tell = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };
-  connect(m_keeper, &CaseDocumentController::said, this, tell);
-  connect(m_thickness, &ThicknessController::said, this, tell);
-  connect(m_registration, &RegistrationController::said, this, tell);
+  connect(m_keeper, &CaseDocumentController::statusMessage, this, tell);
+  connect(m_thickness, &ThicknessController::statusMessage, this, tell);
+  connect(m_registration, &RegistrationController::statusMessage, this, tell);
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
   connect(m_drill, &DrillController::tissueWanted, m_keeper, &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
-  connect(m_branches, &BranchController::said, this, tell);
-  connect(m_picture, &PictureController::said, this,
+  connect(m_branches, &BranchController::statusMessage, this, tell);
+  connect(m_picture, &PictureController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
 }
 
@@ -368,7 +368,7 @@ void MainWindow::partsChanged()
   m_nearby->caseChanged();
   m_thickness->caseChanged();
   m_registration->caseChanged();
-  tellNotes();
+  notifyNotes();
 }
 
 void MainWindow::caseChanged()
@@ -396,11 +396,11 @@ void MainWindow::caseChanged()
   m_view->setFocus();
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
-  tellNotes();
+  notifyNotes();
 }
 
 // What was assumed or left out as files were read, until somebody has read it.
-void MainWindow::tellNotes()
+void MainWindow::notifyNotes()
 {
   const QStringList notes = notesOf(m_model.value());
   QStringList fresh;
@@ -488,7 +488,7 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   m_saver->save();
 }
 
-bool MainWindow::secure()
+bool MainWindow::flush()
 {
   // Ends an open stroke, here and in the surgeon's window.
   m_drill->releaseTool();

@@ -72,7 +72,7 @@ private:
   void caseChanged();
   void caseClosed();
   void partsChanged();
-  void tellNotes();
+  void notifyNotes();
   void showFault(const QString& why);
   void offerBurrs();
   void maskChanged(const core::IndexBox& box);
@@ -81,7 +81,7 @@ private:
   void showView(rendering::StandardView view);
   void stepped(bool back); // an undo, or a redo
   QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
-  bool secure(); // what was drilled
+  bool flush(); // what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
 
   presenters::WorkstationModel m_model;

@@ -83,7 +83,7 @@ bool MrOverlay::load(const scene::ImagePart& part)
   catch (const std::exception& error)
   {
     m_overlay.reset();
-    emit said(toString(error));
+    emit statusMessage(toString(error));
   }
   QApplication::restoreOverrideCursor();
   return m_overlay.has_value();

@@ -37,7 +37,7 @@ public:
 
 signals:
   void changed(); ///< mode or opacity
-  void said(const QString& line);
+  void statusMessage(const QString& line);
 
 private:
   bool load(const scene::ImagePart& part);

@@ -87,7 +87,7 @@ void PictureController::showScene()
   catch (const core::Error& error) // too much to draw; the slices still show it
   {
     m_view.display().setContents({});
-    emit said(words(error.what()));
+    emit statusMessage(words(error.what()));
   }
 }
 
@@ -146,7 +146,7 @@ void PictureController::showSpeed(double milliseconds, double scale, bool moving
 
 void PictureController::fail(const QString& why)
 {
-  const bool safe = !secure || secure();
+  const bool safe = !flush || flush();
   QMessageBox box(QMessageBox::Warning, tr("The 3D picture failed"), why, QMessageBox::Ok,
                   &m_window);
   box.setTextFormat(Qt::PlainText);

@@ -33,7 +33,7 @@ public:
   ~PictureController() override;
 
   /// Brings the case's work to safety when the picture fails; false: it could not be saved.
-  std::function<bool()> secure;
+  std::function<bool()> flush;
 
   PicturePanel* panel() const noexcept { return m_panel; } ///< of the window that takes it
   QLabel* speed() const noexcept { return m_speed; }       ///< for the status bar
@@ -43,7 +43,7 @@ public:
   void closeSurgeonWindow();
 
 signals:
-  void said(const QString& line); ///< for the status bar
+  void statusMessage(const QString& line); ///< for the status bar
 
 private:
   void showScene();

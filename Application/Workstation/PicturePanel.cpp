@@ -128,7 +128,7 @@ QSlider* PicturePanel::addShare(QFormLayout* form, const QString& name, const QS
   label->setMinimumWidth(fontMetrics().horizontalAdvance("100 %"));
   label->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   const auto tell = [label](int percent) { label->setText(tr("%1 %").arg(percent)); };
-  tell(0);
+  notify(0);
   connect(slider, &QSlider::valueChanged, label, tell);
   auto* row = new QHBoxLayout;
   row->addWidget(slider, 1);

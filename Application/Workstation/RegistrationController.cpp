@@ -93,7 +93,7 @@ void RegistrationController::connectPanel()
           [this](double opacity) { m_overlay->set(m_overlay->mode(), opacity); });
   connect(m_overlay, &MrOverlay::changed, this,
           [this] { m_panel->setOverlay(m_overlay->mode(), m_overlay->opacity()); });
-  connect(m_overlay, &MrOverlay::said, m_panel, &RegistrationPanel::say);
+  connect(m_overlay, &MrOverlay::statusMessage, m_panel, &RegistrationPanel::say);
   connect(m_panel, &RegistrationPanel::mrChosen, this,
           [this]
           {
@@ -224,14 +224,14 @@ void RegistrationController::finished(const presenters::RegistrationOutcome& out
   if (outcome.failed)
   {
     m_panel->say(tr("Failed, and nothing was changed: %1").arg(words(outcome.how.text)));
-    emit said(tr("The registration failed"));
+    emit statusMessage(tr("The registration failed"));
     return;
   }
   if (!m_session.take(outcome))
     return;
   if (!m_overlay->mode())
     m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // it is to be looked at
-  emit said(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords())));
+  emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords())));
 }
 
 void RegistrationController::waitForTheDrill(const presenters::RegistrationOutcome& outcome)

@@ -42,7 +42,7 @@ public:
 
 signals:
   void sceneStale(); ///< pictures with the MR or what was drawn on it; not at every step of many
-  void said(const QString& line);
+  void statusMessage(const QString& line);
 
 private:
   using Best = std::optional<core::RigidTransform>;

@@ -24,7 +24,7 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
           {
             const QString chosen = m_panel.chosen();
             if (on && chosen.isEmpty())
-              emit said(tr("Choose a structure in the list (F9) first"));
+              emit statusMessage(tr("Choose a structure in the list (F9) first"));
             showOver(on ? chosen : QString());
           });
   connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
@@ -49,7 +49,7 @@ void ThicknessController::showOver(const QString& structure)
   }
   QApplication::restoreOverrideCursor();
   if (!why.isEmpty())
-    emit said(why);
+    emit statusMessage(why);
   bringUpToDate();
 }
 

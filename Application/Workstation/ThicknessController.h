@@ -26,7 +26,7 @@ public:
   void caseChanged(); ///< another one has no colours yet
 
 signals:
-  void said(const QString& line);
+  void statusMessage(const QString& line);
 
 private:
   void showOver(const QString& structure); // empty: none

@@ -47,7 +47,7 @@ struct Task
   Method method = Method::MutualInformation;
   bool fitted = false; ///< the start is the end of a fit already
   registration::FitOptions options;
-  std::string said; ///< of the start, for the surgeon
+  std::string statusMessage; ///< of the start, for the surgeon
 
   core::RigidTransform fromCt(const core::RigidTransform& mrFromFixed) const
   {
@@ -111,7 +111,7 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
     const auto fit = registration::fitLandmarks(request.landmarks);
     begin(task, fit.mrFromCt, Method::Landmarks);
     const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
-    task.said = "The " + std::to_string(fit.residuals.size()) + " landmarks agree to " +
+    task.statusMessage = "The " + std::to_string(fit.residuals.size()) + " landmarks agree to " +
                 millimetres(fit.rms) + " (root mean square; pair " +
                 std::to_string(worst - fit.residuals.begin() + 1) + " least, " +
                 millimetres(*worst) + ").";
@@ -248,7 +248,7 @@ RegistrationOutcome registerMr(const scene::Case& value, const RegistrationReque
   const Task task = taskOf(value, request);
   RegistrationOutcome outcome;
   outcome.how.method = task.method;
-  outcome.how.text = task.said;
+  outcome.how.text = task.statusMessage;
   if (request.asIs)
   {
     layAsIs(task, request, outcome);

@@ -46,11 +46,11 @@ void list(const Event& event, scene::Case& value, TouchSession::News& news)
     news.strokes.push_back(event.stroke);
     break;
   case Event::Kind::Undone:
-    value.history.back();
+    value.history.undo();
     news.steps.push_back(true);
     break;
   case Event::Kind::Redone:
-    value.history.forth();
+    value.history.redo();
     news.steps.push_back(false);
     break;
   }

@@ -16,7 +16,7 @@ void change(T& value, const T& next, const std::function<void()>& tell)
     return;
   value = next;
   if (tell)
-    tell();
+    notify();
 }
 
 double held(double value, double lower, double upper)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "Tell.h"
+#include "Notify.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -42,9 +42,9 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_journal = std::make_shared<JournalThread>();
   m_crosshair = m_case->ct.geometry.center();
   waitForParts();
-  tell(events.caseChanged);
-  tell(events.stateChanged);
-  tell(events.preparationWanted);
+  notify(events.caseChanged);
+  notify(events.stateChanged);
+  notify(events.preparationWanted);
 }
 
 void WorkstationModel::waitForParts()
@@ -57,7 +57,7 @@ void WorkstationModel::setUnsaved(bool unsaved)
 {
   m_unsaved = unsaved;
   m_changes += unsaved;
-  tell(events.stateChanged);
+  notify(events.stateChanged);
 }
 
 scene::Case WorkstationModel::presentable() const
@@ -175,9 +175,9 @@ bool WorkstationModel::prepared(PreparedCase done)
     m_feelable = true;
   if (done.drill && done.tissue == m_tissue && !m_scene && !m_session)
     m_session.emplace(*m_case, *done.drill);
-  tell(events.appearanceChanged);
+  notify(events.appearanceChanged);
   if (!m_feelable) // the threshold was changed meanwhile
-    tell(events.preparationWanted);
+    notify(events.preparationWanted);
   return true;
 }
 
@@ -236,7 +236,7 @@ void WorkstationModel::step(bool back)
   if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
     return;
   followHistory();
-  tell(events.stepped, back);
+  notify(events.stepped, back);
 }
 
 // After the case went to another state by itself.
@@ -247,7 +247,7 @@ void WorkstationModel::followHistory()
     m_scene->publish(bricks);
   if (m_journal)
     m_journal->follow(*m_case->dissection);
-  tellMask(bricks);
+  notifyMask(bricks);
   setUnsaved(true);
 }
 
@@ -275,7 +275,7 @@ void WorkstationModel::setIso(double hounsfield)
   m_case->iso = hounsfield;
   if (before)
     m_session.emplace(*m_case, *before);
-  tell(events.appearanceChanged);
+  notify(events.appearanceChanged);
   setUnsaved(true);
 }
 
@@ -296,10 +296,10 @@ void WorkstationModel::setLook(const std::string& structure, const appearance::S
   m_feelable = m_feelable && !tissue;
   m_drawable = m_drawable && !picture;
   present = look;
-  tell(events.appearanceChanged);
+  notify(events.appearanceChanged);
   setUnsaved(true);
   if (picture || tissue)
-    tell(events.preparationWanted);
+    notify(events.preparationWanted);
 }
 
 void WorkstationModel::setBoneLook(const appearance::StructureAppearance& look)
@@ -307,7 +307,7 @@ void WorkstationModel::setBoneLook(const appearance::StructureAppearance& look)
   if (!m_case || drilling())
     return;
   m_case->boneLook = look;
-  tell(events.appearanceChanged);
+  notify(events.appearanceChanged);
   setUnsaved(true);
 }
 
@@ -320,7 +320,7 @@ void WorkstationModel::setCrosshair(const Eigen::Vector3d& patient)
   for (Eigen::Index a = 0; a < 3; ++a)
     voxel[a] = std::clamp(voxel[a], 0.0, grid.dims()[static_cast<std::size_t>(a)] - 1.0);
   m_crosshair = grid.patientFromVoxel(voxel);
-  tell(events.crosshairMoved);
+  notify(events.crosshairMoved);
 }
 
 std::optional<double> WorkstationModel::hounsfieldAt(const Eigen::Vector3d& patient) const
@@ -449,16 +449,16 @@ TouchSession::News WorkstationModel::hear(TouchSession::News news)
 {
   if (m_journal)
     news.journalFault = m_journal->takeFailure();
-  tellMask(news.bricks);
+  notifyMask(news.bricks);
   bool changed = !news.steps.empty();
   for (const auto& stroke : news.strokes)
     changed = changed || stroke;
   m_unsaved = m_unsaved || changed;
   m_changes += changed;
   if (!news.strokes.empty() || !news.steps.empty())
-    tell(events.stateChanged);
+    notify(events.stateChanged);
   if (!news.steps.empty())
-    tell(events.stepped, static_cast<bool>(news.steps.back()));
+    notify(events.stepped, static_cast<bool>(news.steps.back()));
   return news;
 }
 
@@ -469,7 +469,7 @@ TouchSession::News WorkstationModel::advanceTouch()
   const bool before = drilling();
   TouchSession::News news = hear(m_touch->advance());
   if (drilling() && !before)
-    tell(events.stateChanged);
+    notify(events.stateChanged);
   return news;
 }
 
@@ -488,12 +488,12 @@ TouchSession::News WorkstationModel::stopTouch()
   return hear(std::move(news));
 }
 
-void WorkstationModel::tellMask(const std::vector<std::size_t>& bricks)
+void WorkstationModel::notifyMask(const std::vector<std::size_t>& bricks)
 {
   if (bricks.empty())
     return;
   m_reader.reset();
-  tell(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
+  notify(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
 }
 
 } // namespace petrous::presenters

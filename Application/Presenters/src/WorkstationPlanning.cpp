@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "Tell.h"
+#include "Notify.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/Placement.h"
@@ -131,7 +131,7 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
     const bool held = touching();
     forgetTissue();
     if (held)
-      tell(events.toolPutAway);
+      notify(events.toolPutAway);
     tissueMoved = true;
   };
   try
@@ -144,10 +144,10 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
     throw;
   }
   follow();
-  tell(events.mrMoved);
+  notify(events.mrMoved);
   setUnsaved(true);
   if (tissueMoved) // whoever asks before that waits for it
-    tell(events.preparationWanted);
+    notify(events.preparationWanted);
 }
 
 } // namespace petrous::presenters

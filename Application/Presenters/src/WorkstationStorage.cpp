@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "Tell.h"
+#include "Notify.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 // What of the model has to do with the library.
@@ -10,7 +10,7 @@ namespace petrous::presenters
 
 void WorkstationModel::listen()
 {
-  m_library.onNotice([this](const std::string& words) { tell(events.noticed, words); });
+  m_library.onNotice([this](const std::string& words) { notify(events.noticed, words); });
 }
 
 // From when the case is as it was saved, or goes on from there.
@@ -28,7 +28,7 @@ void WorkstationModel::keepJournal(const library::SavedState& saved, bool anothe
   }
   catch (const std::exception& error)
   {
-    tell(events.noticed, std::string(error.what()));
+    notify(events.noticed, std::string(error.what()));
   }
 }
 
@@ -81,7 +81,7 @@ void WorkstationModel::opened(ReadCase next)
   show(std::move(next.value), false);
   keepJournal(*m_case);
   for (const std::string& words : next.notices)
-    tell(events.noticed, words);
+    notify(events.noticed, words);
 }
 
 void WorkstationModel::notOpened()
@@ -119,9 +119,9 @@ void WorkstationModel::takeParts(scene::Case with)
   append(m_case->labels, with.labels);
   append(m_case->meshes, with.meshes);
   waitForParts();
-  tell(events.partsChanged);
+  notify(events.partsChanged);
   setUnsaved(true);
-  tell(events.preparationWanted);
+  notify(events.preparationWanted);
 }
 
 void WorkstationModel::close()
@@ -140,9 +140,9 @@ void WorkstationModel::close()
   m_unreadMeshes.clear();
   ++m_parts;
   ++m_shown;
-  tell(events.caseClosed);
-  tell(events.stateChanged);
-  tell(events.preparationWanted);
+  notify(events.caseClosed);
+  notify(events.stateChanged);
+  notify(events.preparationWanted);
 }
 
 void StoreTask::run(const core::Progress& progress)
@@ -234,9 +234,9 @@ void WorkstationModel::stored(const StoreTask& done)
       m_unreadLabels.empty() && m_unreadMeshes.empty() ? m_library.derived() : nullptr;
   m_unsaved = m_changes != done.changes;
   keepJournal(saved, other); // what was drilled since then goes there at once
-  tell(events.stateChanged);
+  notify(events.stateChanged);
   for (const std::string& words : done.notices)
-    tell(events.noticed, words);
+    notify(events.noticed, words);
 }
 
 void WorkstationModel::notStored()

@@ -162,7 +162,7 @@ core::BenchmarkReport runHistoryBenchmark(bool quick, const core::Progress& prog
     // All of them back, and all again.
     const volume::CutMask drilled = std::as_const(work).mask();
     History start = work.history();
-    while (start.back())
+    while (start.undo())
     {
     }
     const History end = work.history();

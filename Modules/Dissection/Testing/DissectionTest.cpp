@@ -146,7 +146,7 @@ TEST(Dissection, ADamagedStrokeIsRefusedAndNothingChanges)
   auto strokes = work.strokes();
   strokes[1] = strokes[0]; // takes what is gone already
   History start = work.history();
-  while (start.back())
+  while (start.undo())
   {
   }
   Dissection again(kGrid, strokes, start);

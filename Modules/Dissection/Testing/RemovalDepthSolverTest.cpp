@@ -9,7 +9,7 @@
 #include "petrous/Dissection/RemovedVolume.h"
 
 using namespace petrous;
-using dissection::Bite;
+using dissection::RemovalStep;
 using dissection::RemovalDepthSolver;
 using dissection::TissueResistance;
 using Eigen::Vector3d;
@@ -42,7 +42,7 @@ public:
   }
 
   // Takes the bite, and says what the field lost by another quadrature.
-  double take(const Bite& bite)
+  double take(const RemovalStep& bite)
   {
     const volume::CutMask before = mask;
     const auto bricks = dissection::cut(mask, bite.burr);

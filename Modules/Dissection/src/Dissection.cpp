@@ -50,12 +50,12 @@ void Dissection::follow(const History& next)
     throw core::InvalidParameter("dissection: a stroke is open");
   if (next.size() != m_strokes.size())
     throw core::InvalidParameter("dissection: the history is that of other strokes");
-  const History::Way way = next.way(m_history.position(), next.position());
+  const History::Path path = next.path(m_history.position(), next.position());
   BrickDraft draft(m_mask);
-  for (const std::size_t stroke : way.back)
-    applyDeltas(m_strokes[stroke]->packed, Way::Back, draft);
-  for (const std::size_t stroke : way.forth)
-    applyDeltas(m_strokes[stroke]->packed, Way::Forth, draft);
+  for (const std::size_t stroke : path.undone)
+    applyDeltas(m_strokes[stroke]->packed, Step::Undo, draft);
+  for (const std::size_t stroke : path.redone)
+    applyDeltas(m_strokes[stroke]->packed, Step::Redo, draft);
   History history = next;
   change(draft.take());
   m_history = std::move(history);
@@ -116,7 +116,7 @@ void Dissection::cutAgain(const std::vector<std::uint8_t>& packed)
   if (!m_open)
     throw core::InvalidParameter("dissection: no stroke is open");
   BrickDraft draft(m_mask);
-  applyDeltas(packed, Way::Forth, draft);
+  applyDeltas(packed, Step::Redo, draft);
   auto deltas = draft.take();
   for (const BrickDelta& delta : deltas)
     m_touched.emplace(delta.brick, m_before.brick(delta.brick));
@@ -161,7 +161,7 @@ void Dissection::append(std::shared_ptr<const Stroke> stroke)
   if (m_open)
     throw core::InvalidParameter("dissection: a stroke is open");
   BrickDraft draft(m_mask);
-  applyDeltas(stroke->packed, Way::Forth, draft);
+  applyDeltas(stroke->packed, Step::Redo, draft);
   m_strokes.push_back(std::move(stroke));
   m_history.add();
   ++m_changes;

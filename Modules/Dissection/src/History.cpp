@@ -109,27 +109,27 @@ std::vector<std::size_t> History::lineTo(std::size_t state) const
   return line;
 }
 
-History::Way History::way(std::size_t from, std::size_t to) const
+History::Path History::path(std::size_t from, std::size_t to) const
 {
-  Way way;
+  Path path;
   while (from != to)
   {
     if (depth(from) >= depth(to))
     {
-      way.back.push_back(from);
+      path.undone.push_back(from);
       from = m_parents[from];
     }
     else
     {
-      way.forth.push_back(to);
+      path.redone.push_back(to);
       to = m_parents[to];
     }
   }
-  std::reverse(way.forth.begin(), way.forth.end());
-  return way;
+  std::reverse(path.redone.begin(), path.redone.end());
+  return path;
 }
 
-bool History::back() noexcept
+bool History::undo() noexcept
 {
   if (position() == kStart)
     return false;
@@ -137,7 +137,7 @@ bool History::back() noexcept
   return true;
 }
 
-bool History::forth()
+bool History::redo()
 {
   const std::size_t stroke = next();
   if (stroke == kStart)

@@ -104,7 +104,7 @@ RemovalDepthSolver::RemovalDepthSolver(const volume::TissueField& tissue, const 
 
 RemovalDepthSolver::~RemovalDepthSolver() = default;
 
-std::optional<Bite> RemovalDepthSolver::find(const volume::CutMask& mask, const Wish& wish)
+std::optional<RemovalStep> RemovalDepthSolver::find(const volume::CutMask& mask, const Wish& wish)
 {
   Parts& p = *m_parts;
   const std::optional<double> last = p.lastEnd(wish);
@@ -124,7 +124,7 @@ std::optional<Bite> RemovalDepthSolver::find(const volume::CutMask& mask, const 
   for (double back = kSkin * p.h; !found; back = std::max(4.0 * back, kStep * p.h))
   {
     if (!p.window.gather(mask, {at(bracket.low), at(bracket.high), p.radius}))
-      return Bite{{at(top), at(top), p.radius}, top, 0.0, 0.0, {}, true};
+      return RemovalStep{{at(top), at(top), p.radius}, top, 0.0, 0.0, {}, true};
     for (int trial = 0; trial < kMaxTrials && !found; ++trial)
     {
       if (bracket.high - bracket.low < kFinest * p.h)
@@ -169,7 +169,7 @@ std::optional<Bite> RemovalDepthSolver::find(const volume::CutMask& mask, const 
   p.known = true;
   p.end = at(depth);
   taken.patch.arm *= p.burr / p.radius; // the cut is wider than the burr, whose teeth it is
-  return Bite{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
+  return RemovalStep{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
 }
 
 std::optional<double> RemovalDepthSolver::ahead(const volume::CutMask& mask, const Vector3d& place,

@@ -106,7 +106,7 @@ std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas)
   return packed;
 }
 
-void applyDeltas(const std::vector<std::uint8_t>& packed, Way way, BrickDraft& draft)
+void applyDeltas(const std::vector<std::uint8_t>& packed, Step step, BrickDraft& draft)
 {
   const volume::CutMask& mask = draft.mask();
   const auto raw = decompress(packed, kHeader + mask.brickCount() * (4 + kBrickBytes));
@@ -118,7 +118,7 @@ void applyDeltas(const std::vector<std::uint8_t>& packed, Way way, BrickDraft& d
   if (raw.size() != kHeader + count * (4 + kBrickBytes))
     damaged("it is too short");
 
-  const int sign = way == Way::Back ? 1 : -1;
+  const int sign = step == Step::Undo ? 1 : -1;
   const std::uint8_t* voxels = raw.data() + kHeader + 4 * count;
   std::size_t least = 0;
   for (std::size_t d = 0; d < count; ++d)

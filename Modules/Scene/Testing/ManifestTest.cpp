@@ -84,7 +84,7 @@ scene::Case fullCase()
   value.history.start("zweiter Zugang ü", 0);
   value.history.add();
   value.history.add();
-  value.history.back();
+  value.history.undo();
   return value;
 }
 

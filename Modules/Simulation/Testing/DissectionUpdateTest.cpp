@@ -266,10 +266,10 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
   {
     ring.push(session.tick({{0.0, 0.0, 1.0}, Eigen::Quaterniond::Identity()}));
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (const std::string said = thread.takeFailure(); !said.empty())
+    if (const std::string statusMessage = thread.takeFailure(); !statusMessage.empty())
     {
       EXPECT_EQ(failure, "") << "told twice";
-      failure = said;
+      failure = statusMessage;
     }
   }
   EXPECT_TRUE(thread.failed());

@@ -120,7 +120,7 @@ double BurrRemovalModel::resistance(const volume::CutMask& mask)
   return m_resistance;
 }
 
-void BurrRemovalModel::account(const dissection::Bite& bite)
+void BurrRemovalModel::account(const dissection::RemovalStep& bite)
 {
   m_owed -= bite.work;
   m_balance.removed += bite.volume;

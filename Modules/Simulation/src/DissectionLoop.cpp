@@ -58,11 +58,11 @@ void DissectionLoop::open()
   if (m_dissection.strokeOpen())
     return;
   m_dissection.beginStroke(m_hooks.begin ? m_hooks.begin() : dissection::StrokeInfo());
-  tell({MaskEdit::Kind::Begin});
+  notify({MaskEdit::Kind::Begin});
 }
 
 // The state is known once it is published.
-void DissectionLoop::tell(MaskEdit edit) const
+void DissectionLoop::notify(MaskEdit edit) const
 {
   edit.state = m_mask.number();
   if (m_hooks.edited)
@@ -90,7 +90,7 @@ bool DissectionLoop::cut(const dissection::SweptSphere& burr)
     edit.to[axis] = burr.to[axis];
   }
   edit.radius = burr.radius;
-  tell(edit);
+  notify(edit);
   return true;
 }
 
@@ -165,7 +165,7 @@ void DissectionLoop::endStroke()
     m_hooks.close(m_dissection);
   else
     m_dissection.endStroke();
-  tell(edit);
+  notify(edit);
 }
 
 bool DissectionLoop::turn(bool back)
@@ -178,7 +178,7 @@ bool DissectionLoop::turn(bool back)
   if (!done)
     return false;
   publish(true);
-  tell({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});
+  notify({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});
   return true;
 }
 

@@ -206,7 +206,7 @@ bool Servo::placeAnew(const Step& step) noexcept
 
 // A tool that made no way is held, and the hand feels what the coupling is stretched by, also where
 // the contacts do not say all of it.
-void Servo::tellStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept
+void Servo::notifyStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept
 {
   const double told = m_record.wrench.wrench().linear.norm();
   const double pulls = std::min(m_setup.stiffness * lead.norm(), m_record.input.parameters.thrust);
@@ -327,7 +327,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   const bool bounded = (step.pressed || step.pointer) && force > p.thrust;
   reportContacts(tick, bounded ? p.thrust / force : 1.0);
   if (step.pressed || step.pointer)
-    tellStretch(goal.position - tick.pose.position, before - tick.pose.position);
+    notifyStretch(goal.position - tick.pose.position, before - tick.pose.position);
 
   ServoFault fault = static_cast<ServoFault>(m_record.fault);
   if (tick.status == ProxyStatus::Retreated)

@@ -232,7 +232,7 @@ private:
   void waitForParts();
   void leaveOut(const PreparedCase& done);
   void forgetTissue();
-  void tellMask(const std::vector<std::size_t>& bricks);
+  void notifyMask(const std::vector<std::size_t>& bricks);
   TouchSession::News hear(TouchSession::News news);
   void step(bool back);
   void followHistory();

@@ -57,15 +57,15 @@ public:
 
   /// How one gets from a state to another over their common ancestor: strokes to take back, the
   /// last one first, then strokes to do.
-  struct Way
+  struct Path
   {
-    std::vector<std::size_t> back;
-    std::vector<std::size_t> forth;
+    std::vector<std::size_t> undone;
+    std::vector<std::size_t> redone;
   };
-  Way way(std::size_t from, std::size_t to) const;
+  Path path(std::size_t from, std::size_t to) const;
 
-  bool back() noexcept; ///< one stroke along the branch; false at its start
-  bool forth();         ///< false at its tip
+  bool undo() noexcept; ///< one stroke along the branch; false at its start
+  bool redo();          ///< false at its tip
 
   /// A new stroke at the present state, which is then done; its number.
   std::size_t add();

@@ -22,7 +22,7 @@ struct ContactPatch
 };
 
 /// What a burr takes when it is set down a little further in the tissue.
-struct Bite
+struct RemovalStep
 {
   SweptSphere burr;    ///< at rest there: from = to
   double depth = 0.0;  ///< mm from the place, along the way in; below 0 where it lies before it
@@ -72,7 +72,7 @@ public:
 
   /// Nothing where no bite takes anything: there is no tissue within reach, it is protected, or the
   /// work is too little for a step of the mask.
-  std::optional<Bite> find(const volume::CutMask& mask, const Wish& wish);
+  std::optional<RemovalStep> find(const volume::CutMask& mask, const Wish& wish);
 
   /// Resistance of the first tissue along the way in, N/mm^2; nothing where there is none within
   /// two voxels of the burr.

@@ -36,14 +36,14 @@ private:
 /// voxels give the same bytes.
 std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas);
 
-enum class Way
+enum class Step
 {
-  Back, ///< gives back what the stroke took
-  Forth ///< takes it
+  Undo, ///< gives back what the stroke took
+  Redo  ///< takes it
 };
 
 /// Throws InvalidParameter when the bytes are damaged or do not fit the mask: another grid, or a
 /// voxel that has not what is taken, or would have more than there is. The draft is of no use then.
-void applyDeltas(const std::vector<std::uint8_t>& packed, Way way, BrickDraft& draft);
+void applyDeltas(const std::vector<std::uint8_t>& packed, Step step, BrickDraft& draft);
 
 } // namespace petrous::dissection

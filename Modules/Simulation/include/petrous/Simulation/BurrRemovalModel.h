@@ -71,7 +71,7 @@ private:
   double armOf(const Eigen::Vector3d& normal, double spread) const noexcept;
   double armOfPatch() const noexcept;
   double resistance(const volume::CutMask& mask);
-  void account(const dissection::Bite& bite);
+  void account(const dissection::RemovalStep& bite);
   void forfeit(double work);
 
   dissection::RemovalDepthSolver& m_search;

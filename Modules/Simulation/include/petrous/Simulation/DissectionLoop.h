@@ -79,7 +79,7 @@ private:
   bool turn(bool back);
   void publish(bool raised);
   void putBack();
-  void tell(MaskEdit edit) const;
+  void notify(MaskEdit edit) const;
 
   dissection::Dissection& m_dissection;
   volume::PublishedMask& m_mask;

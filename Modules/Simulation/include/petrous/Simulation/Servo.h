@@ -78,7 +78,7 @@ private:
   bool isFar(const Step& step) const noexcept;
   bool placeAnew(const Step& step) noexcept;
   haptics::Pose goalOf(const Step& step) noexcept;
-  void tellStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept;
+  void notifyStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept;
   void reportContacts(const haptics::ProxyTick& tick, double share) noexcept;
   void giveForce(const Step& step, const haptics::Wrench& wrench, bool anew) noexcept;
 

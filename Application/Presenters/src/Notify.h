@@ -5,7 +5,7 @@ namespace petrous::presenters
 
 /// Calls what somebody may have asked to hear of.
 template <class Event, class... Arguments>
-void tell(const Event& event, const Arguments&... arguments)
+void notify(const Event& event, const Arguments&... arguments)
 {
   if (event)
     event(arguments...);

@@ -13,6 +13,6 @@ namespace petrous::cli
 std::string placeText(const scene::Placement& placement);
 
 /// Tells what of the case has no place on the CT and so takes no part in what is done.
-void remarkMissingPlaces(const Context& context, const scene::Case& value);
+void warnMissingPlaces(const Context& context, const scene::Case& value);
 
 } // namespace petrous::cli

@@ -1,4 +1,4 @@
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 
 namespace petrous::cli
 {
@@ -10,12 +10,12 @@ std::string placeText(const scene::Placement& placement)
   return placement.drawnOn.empty() ? "" : ", drawn on the MR '" + placement.drawnOn + "'";
 }
 
-void remarkMissingPlaces(const Context& context, const scene::Case& value)
+void warnMissingPlaces(const Context& context, const scene::Case& value)
 {
   const auto remark = [&context](const std::string& name, const scene::Placement& placement)
   {
     if (!placement.missing.empty())
-      context.remark("'" + name +
+      context.warn("'" + name +
                      "' is left out, as it is nowhere on the CT: " + placement.missing);
   };
   for (const scene::LabelPart& part : value.labels)

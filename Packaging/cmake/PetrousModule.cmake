@@ -39,7 +39,7 @@ function(petrous_add_tests target)
 endfunction()
 
 # petrous_add_module(<Name>
-#   SOURCES file...            the library's sources
+#   SOURCES file...            the library's sources, src/<Part>/<Name>.cpp
 #   DEPENDS Module...          modules whose public headers it includes
 #   EXTERNAL target...         libraries that its public headers show
 #   PRIVATE_EXTERNAL target... libraries that only its sources use
@@ -55,9 +55,16 @@ function(petrous_add_module name)
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Petrous::${name} ALIAS ${target})
   petrous_target_defaults(${target})
+  # Private headers are included by their names alone, from whichever part they lie in.
+  set(parts src)
+  foreach(source IN LISTS ARG_SOURCES)
+    get_filename_component(part ${source} DIRECTORY)
+    list(APPEND parts ${part})
+  endforeach()
+  list(REMOVE_DUPLICATES parts)
   target_include_directories(${target}
     PUBLIC include
-    PRIVATE src)
+    PRIVATE ${parts})
   list(TRANSFORM ARG_DEPENDS PREPEND Petrous:: OUTPUT_VARIABLE modules)
   target_link_libraries(${target}
     PUBLIC ${modules} ${ARG_EXTERNAL}
@@ -73,7 +80,7 @@ function(petrous_add_module name)
     if(ARG_${files})
       petrous_add_tests(${target}${suffix} SOURCES ${ARG_${files}} LABELS ${label}
         LINK Petrous::${name} ${ARG_PRIVATE_EXTERNAL})
-      target_include_directories(${target}${suffix} PRIVATE src Testing)
+      target_include_directories(${target}${suffix} PRIVATE ${parts} Testing)
     endif()
   endforeach()
   if(ARG_BENCHMARKS)

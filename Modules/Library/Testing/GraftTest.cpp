@@ -1,4 +1,4 @@
-#include "../src/Graft.h"
+#include "../src/Journal/Graft.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "../src/JournalFile.h"
+#include "../src/Journal/JournalFile.h"
 #include "TestCase.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Library/ObjectStore.h"

@@ -25,7 +25,7 @@ class SoftContacts;
 /// field. Then the tool stands where it came to, and the way that is left is made in the ticks that
 /// follow: what a tick costs is bounded, and is the same on every machine. A pose is kept only when
 /// f <= 0 at every shell point, so the tool never enters rigid tissue. Soft structures
-/// (HapticField::soft) are springs in the same problem; see src/SoftContacts.h.
+/// (HapticField::soft) are springs in the same problem; see src/Contact/SoftContacts.h.
 ///
 /// `step` neither allocates, locks nor throws. One thread.
 class ConstrainedProxy : public Proxy

@@ -28,7 +28,7 @@ class SurfaceSamples;
 /// one.
 ///
 /// A tool that is a solid (PointShell::solid) is also tested against samples of the tissue's
-/// surface, so that nothing passes between the points of its shell: see src/SurfaceSamples.h.
+/// surface, so that nothing passes between the points of its shell: see src/Shell/SurfaceSamples.h.
 ///
 /// A point that is far from tissue is not looked at again before the tool has moved that far.
 /// Nothing here allocates, locks or throws but the constructor. One thread.

@@ -19,7 +19,7 @@ struct ReferencePicture
   DepthImage depth;       ///< to the first surface of the tissue, however transparent it is
 };
 
-/// The truth that pictures are held against: the optical model of src/OpticalModel.h followed along
+/// The truth that pictures are held against: the optical model of src/Reference/OpticalModel.h followed along
 /// each pixel's ray in double precision, by constant small steps and bisection, without skipping.
 /// Meshes and the tool end a ray; a translucent mesh, which the GPU draws as a screen door, is the
 /// mean over its pixels. Depth is that of the tissue in front of what is opaque.

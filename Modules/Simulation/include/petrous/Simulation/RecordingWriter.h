@@ -12,7 +12,7 @@ namespace petrous::simulation
 {
 
 /// Writes ticks to a file, block by block: what is on disk can be read up to its last whole block,
-/// also when the program was killed. Layout: src/RecordingFormat.h.
+/// also when the program was killed. Layout: src/Recording/RecordingFormat.h.
 ///
 /// Called by the thread that empties the ring, never by the servo. One thread.
 class RecordingWriter

@@ -23,7 +23,7 @@ constexpr double kMarginPerDepth = 0.5 / kDeepest; ///< a share is twice as deep
 constexpr std::uint8_t kMeeting = 128;
 
 /// Null where no two solids meet. A border is relaxed as the surface of a structure is
-/// (src/SurfaceNet.h), so that every voxel stays with its own structure and nothing shrinks.
+/// (src/Labels/SurfaceNet.h), so that every voxel stays with its own structure and nothing shrinks.
 /// `solid`: which indices are. Share and index must be on one grid.
 std::shared_ptr<const Volume<std::uint8_t>> makeLabelBorders(const Volume<float>& share,
                                                              const Volume<std::uint8_t>& index,

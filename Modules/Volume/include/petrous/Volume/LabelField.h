@@ -28,7 +28,7 @@ struct LabelSource
 /// structures or reaching beyond it, with a margin of two voxels. Otherwise it is the grid of the
 /// finest map (the smallest voxel volume; of maps with a solid structure, where there is one, so
 /// that a lumen does not change what the hand feels), extended over all of them. How the others
-/// come onto it, and what becomes of thin structures, is said in src/LabelResampling.h. Structures
+/// come onto it, and what becomes of thin structures, is said in src/Labels/LabelResampling.h. Structures
 /// of different grids are united by their larger share, so between two that only touch there may
 /// be a crease where their shares are 1/2.
 struct LabelField

@@ -16,7 +16,7 @@ namespace petrous::volume
 /// for: there it is that of makeLabelField to the last bit, elsewhere 0.
 ///
 /// Which voxels are inside is found at once, in one look at the labels. A region costs the
-/// smoothing of the part of the surface that lies within 131 cells along it (src/SurfaceNet.h).
+/// smoothing of the part of the surface that lies within 131 cells along it (src/Labels/SurfaceNet.h).
 /// Where regions have become so many that the whole would have cost less, the whole is made.
 /// Structures of different grids are always made whole.
 ///

@@ -12,6 +12,7 @@ set(allowed_Core)
 set(allowed_Volume Core)
 set(allowed_Appearance Core Volume)
 set(allowed_Imaging Core Volume)
+set(allowed_Phantom Core Volume Imaging)
 set(allowed_Registration Core Volume)
 set(allowed_Haptics Core Volume)
 set(allowed_Devices Core Volume Haptics)
@@ -24,16 +25,17 @@ set(allowed_Interaction
   Core Volume Appearance Haptics Dissection Simulation Scene Rendering)
 # The application's view models: made like a module, and free of Qt (no toolkit below).
 set(allowed_Presenters
-  Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library
-  Rendering Interaction)
+  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Simulation Scene
+  Library Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
-  Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library
-  Rendering Interaction Presenters)
+  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Simulation Scene
+  Library Rendering Interaction Presenters)
 
 # The toolkits whose headers a module may see; a module that is not named here sees none. Qt
 # belongs to the application alone.
 set(toolkits_Imaging ITK GDCM)
+set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
 set(toolkits_Library GDCM)
 set(toolkits_Rendering VTK)

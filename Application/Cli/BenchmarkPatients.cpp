@@ -8,8 +8,8 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/SweptSphereCut.h"
 #include "petrous/Imaging/DicomReader.h"
-#include "petrous/Imaging/Phantom.h"
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Volume/TissueExtent.h"
 #include "petrous/Volume/TissueField.h"
 
@@ -117,29 +117,29 @@ std::shared_ptr<const volume::LabelMap> standInLabels(const BenchmarkPatient& pa
 
 BenchmarkPatient phantomPatient(int edge, const core::Progress& progress)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.dims = core::Index3{edge, edge, edge};
-  const core::GridGeometry grid = imaging::sampleGrid(options);
-  const imaging::Phantom phantom;
+  const core::GridGeometry grid = phantom::sampleGrid(options);
+  const phantom::Phantom phantom;
   BenchmarkPatient patient;
   patient.name = "phantom " + std::to_string(edge) + "^3";
   patient.lateral = {-1.0, 0.0, 0.0}; // a right ear
   patient.ct = std::make_shared<volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(
-          imaging::samplePhantom(phantom, grid, {}, progress.part(0.0, 0.4))));
+          phantom::samplePhantom(phantom, grid, {}, progress.part(0.0, 0.4))));
   const auto labels = std::make_shared<const volume::LabelMap>(
-      imaging::labelPhantom(phantom, grid, progress.part(0.4, 0.7)));
+      phantom::labelPhantom(phantom, grid, progress.part(0.4, 0.7)));
   std::vector<volume::LabelSource> sources;
   for (std::size_t s = 0; s < phantom.structures().size(); ++s)
   {
-    const imaging::PhantomStructure& structure = phantom.structures()[s];
+    const phantom::PhantomStructure& structure = phantom.structures()[s];
     sources.push_back({labels, static_cast<std::uint16_t>(s + 1), static_cast<std::uint8_t>(s + 1),
                        structure.solid});
     patient.structures.push_back(solidMaterial(structure.color));
     patient.structures.back().lumen = !structure.solid;
   }
   patient.labels = volume::makeLabelField(sources, progress.part(0.7, 0.9));
-  openMastoid(patient, imaging::Phantom::center() + Eigen::Vector3d(0.0, 8.0, 5.0));
+  openMastoid(patient, phantom::Phantom::center() + Eigen::Vector3d(0.0, 8.0, 5.0));
   return patient;
 }
 

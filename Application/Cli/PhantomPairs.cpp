@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 
 namespace petrous::cli
 {
@@ -10,7 +10,7 @@ namespace petrous::cli
 namespace
 {
 
-using imaging::Phantom;
+using phantom::Phantom;
 using registration::Vector3d;
 
 constexpr double kMargin = 10.0;   // mm of MR beyond the ear
@@ -33,13 +33,13 @@ std::shared_ptr<const volume::Volume<std::int16_t>>
 scanned(const Phantom& phantom, const core::GridGeometry& grid, Phantom::Modality modality,
         double noise, const core::RigidTransform& patientFromScan, const core::Progress& progress)
 {
-  imaging::ScanSettings settings;
+  phantom::ScanSettings settings;
   settings.modality = modality;
   settings.noise = noise;
   settings.seed = phantom.recipe().seed;
   settings.patientFromScan = patientFromScan;
   return std::make_shared<const volume::Volume<std::int16_t>>(
-      imaging::samplePhantom(phantom, grid, settings, progress));
+      phantom::samplePhantom(phantom, grid, settings, progress));
 }
 
 } // namespace
@@ -73,7 +73,7 @@ registration::SimulationBody phantomBody(bool quick, const core::Progress& progr
 registration::RegistrationPair phantomPair(std::uint64_t seed, bool quick,
                                            const core::Progress& progress)
 {
-  const Phantom phantom(imaging::PhantomRecipe{seed, true});
+  const Phantom phantom(phantom::PhantomRecipe{seed, true});
   const core::RigidTransform motion = phantom.mrFromCt();
   const Vector3d center = Phantom::center();
   const double coarse = quick ? 2.0 : 1.0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 #include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/StructureSurfaces.h"
@@ -32,22 +32,22 @@ class MrStructures : public ::testing::Test
 protected:
   static void SetUpTestSuite()
   {
-    s_phantom = std::make_unique<imaging::Phantom>();
+    s_phantom = std::make_unique<phantom::Phantom>();
     const core::RigidTransform motion = s_phantom->mrFromCt();
     const core::GridGeometry grid =
-        around(motion * imaging::Phantom::center(), {100, 100, 90}, kMrVoxel);
+        around(motion * phantom::Phantom::center(), {100, 100, 90}, kMrVoxel);
     const Eigen::Matrix4d back = motion.matrix().inverse();
     const Eigen::Matrix3d turn = back.topLeftCorner<3, 3>();
     const Eigen::Vector4d first = back * grid.origin().homogeneous();
     const core::GridGeometry seen(grid.dims(), grid.spacing(), first.head<3>(), turn);
-    volume::LabelMap map = imaging::labelPhantom(*s_phantom, seen);
+    volume::LabelMap map = phantom::labelPhantom(*s_phantom, seen);
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
     std::copy_n(map.voxels->data(), map.voxels->size(), voxels->data());
     map.voxels = voxels;
 
     scene::Case value;
     value.name = "ear";
-    value.ct.geometry = around(imaging::Phantom::center(), {100, 100, 90}, 0.4);
+    value.ct.geometry = around(phantom::Phantom::center(), {100, 100, 90}, 0.4);
     value.ct.volume = std::make_shared<const volume::IntensityVolume>(
         std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry,
                                                              std::int16_t{-1000}));
@@ -93,10 +93,10 @@ protected:
     return farthest;
   }
 
-  static std::unique_ptr<imaging::Phantom> s_phantom;
+  static std::unique_ptr<phantom::Phantom> s_phantom;
   static std::unique_ptr<scene::Case> s_case;
 };
-std::unique_ptr<imaging::Phantom> MrStructures::s_phantom;
+std::unique_ptr<phantom::Phantom> MrStructures::s_phantom;
 std::unique_ptr<scene::Case> MrStructures::s_case;
 
 } // namespace

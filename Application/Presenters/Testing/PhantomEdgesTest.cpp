@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 #include "petrous/Presenters/PlaneSamples.h"
 #include "petrous/Presenters/SliceOverlay.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
 using Eigen::Vector3d;
-using imaging::Phantom;
+using phantom::Phantom;
 
 namespace
 {
@@ -29,13 +29,13 @@ struct EarPair
 
   EarPair()
   {
-    const auto scan = [this](const core::GridGeometry& grid, const imaging::ScanSettings& settings)
+    const auto scan = [this](const core::GridGeometry& grid, const phantom::ScanSettings& settings)
     {
       return std::make_unique<const volume::IntensityVolume>(
           std::make_shared<const volume::Volume<std::int16_t>>(
-              imaging::samplePhantom(phantom, grid, settings)));
+              phantom::samplePhantom(phantom, grid, settings)));
     };
-    imaging::ScanSettings settings;
+    phantom::ScanSettings settings;
     ct = scan(centred({130, 130, 5}, 0.35, Phantom::center()), settings);
     settings.modality = Phantom::Modality::Mr;
     settings.noise = 12.0;

@@ -6,7 +6,7 @@
 
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/SourceContent.h"
 
@@ -120,9 +120,9 @@ TEST(Content, FewWholeNumbersInPatchesAreLabels)
 
 TEST_F(SourceContent, IsKnownOfEachKindOfFile)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(m_folder, options);
+  phantom::writeSamplePatient(m_folder, options);
   EXPECT_EQ(at("ct"), Content::Ct);
   EXPECT_EQ(at("mr"), Content::Mr);
   EXPECT_EQ(at("labels.seg.nrrd"), Content::Labels);
@@ -140,9 +140,9 @@ TEST_F(SourceContent, IsKnownOfEachKindOfFile)
 
 TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(m_folder, options);
+  phantom::writeSamplePatient(m_folder, options);
   std::filesystem::create_directory(m_folder / "visit");
   std::filesystem::rename(m_folder / "ct", m_folder / "visit" / "ct");
   std::filesystem::rename(m_folder / "mr", m_folder / "visit" / "mr");

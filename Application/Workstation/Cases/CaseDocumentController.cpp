@@ -20,7 +20,7 @@
 #include "OpenCaseDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
 
 namespace petrous::workstation
@@ -669,7 +669,7 @@ void CaseDocumentController::makeSample()
              [folder](const core::Progress& progress)
              {
                const fs::path out = pathOf(folder->filePath("sample patient"));
-               imaging::writeSamplePatient(out, {}, progress);
+               phantom::writeSamplePatient(out, {}, progress);
                presenters::CaseSources sources;
                sources.ct = out / "ct";
                sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});

@@ -9,7 +9,7 @@
 
 #include "Banner.h"
 #include "petrous/Imaging/LabelFile.h"
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
 
 using namespace petrous;
@@ -37,9 +37,9 @@ TEST_F(Import, ADroppedFileIsOnTheScreenAndInTheLibrary)
 
 TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.0;
-  imaging::writeSamplePatient(folder() / "sample", options);
+  phantom::writeSamplePatient(folder() / "sample", options);
   openWindow();
   dropPath(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
@@ -52,9 +52,9 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
 
 TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(folder() / "visit", options);
+  phantom::writeSamplePatient(folder() / "visit", options);
   fs::remove_all(folder() / "visit" / "labels");
   openWindow();
   QStringList offered;
@@ -150,9 +150,9 @@ namespace
 // The patient at 1.5 mm, in `folder`.
 void writePatient(const fs::path& folder)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(folder, options);
+  phantom::writeSamplePatient(folder, options);
 }
 
 // Clicks the button of the next box whose words contain `button`; what the box says.

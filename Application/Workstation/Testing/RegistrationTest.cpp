@@ -14,13 +14,13 @@
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
 #include "SliceView.h"
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 #include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
 using Eigen::Vector3d;
-using imaging::Phantom;
+using phantom::Phantom;
 
 namespace
 {
@@ -48,14 +48,14 @@ protected:
     const Vector3d center = motion * Phantom::center();
     const core::GridGeometry grid({64, 64, 56}, Vector3d::Constant(spacing),
                                   center - 0.5 * spacing * Vector3d(63, 63, 55));
-    imaging::ScanSettings settings;
+    phantom::ScanSettings settings;
     settings.modality = modality;
     settings.patientFromScan = motion.inverse();
     scene::ImagePart part;
     part.geometry = grid;
     part.volume = std::make_shared<const volume::IntensityVolume>(
         std::make_shared<const volume::Volume<std::int16_t>>(
-            imaging::samplePhantom(phantom, grid, settings)));
+            phantom::samplePhantom(phantom, grid, settings)));
     part.range = part.volume.get()->range();
     return part;
   }

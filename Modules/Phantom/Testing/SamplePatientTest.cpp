@@ -1,4 +1,4 @@
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/SamplePatient.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Imaging/DicomWriter.h"
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -334,22 +334,22 @@ TEST(SamplePatient, CancelLeavesNothing)
 TEST(DicomWriter, RefusesWhatItCannotWriteRight)
 {
   const Folder folder;
-  SeriesDescription series;
-  series.studyUid = deterministicUid(1, "study");
-  series.seriesUid = deterministicUid(1, "series");
+  imaging::SeriesDescription series;
+  series.studyUid = imaging::deterministicUid(1, "study");
+  series.seriesUid = imaging::deterministicUid(1, "series");
   series.frameOfReferenceUid = "not a uid";
   const volume::IntensityVolume image(
       std::make_shared<const volume::Volume<std::int16_t>>(core::GridGeometry(), std::int16_t{0}));
-  EXPECT_THROW(writeDicomSeries(folder.path(), image, series), core::InvalidParameter);
-  series.frameOfReferenceUid = deterministicUid(1, "frame");
-  EXPECT_NE(series.frameOfReferenceUid, deterministicUid(2, "frame"));
+  EXPECT_THROW(imaging::writeDicomSeries(folder.path(), image, series), core::InvalidParameter);
+  series.frameOfReferenceUid = imaging::deterministicUid(1, "frame");
+  EXPECT_NE(series.frameOfReferenceUid, imaging::deterministicUid(2, "frame"));
   const volume::IntensityVolume real(
       std::make_shared<const volume::Volume<float>>(core::GridGeometry(), 0.0F));
-  EXPECT_THROW(writeDicomSeries(folder.path(), real, series), core::InvalidParameter);
+  EXPECT_THROW(imaging::writeDicomSeries(folder.path(), real, series), core::InvalidParameter);
   std::ofstream(folder.path() / "file") << "x";
   try
   {
-    writeDicomSeries(folder.path() / "file/ct", image, series);
+    imaging::writeDicomSeries(folder.path() / "file/ct", image, series);
     FAIL();
   }
   catch (const core::Error& error)
@@ -358,4 +358,4 @@ TEST(DicomWriter, RefusesWhatItCannotWriteRight)
   }
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -8,7 +8,7 @@
 
 #include "PhantomScene.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -270,4 +270,4 @@ core::TriangleMesh Phantom::surface(std::size_t structure, const core::PatientBo
   return Polygoniser(box, step, distance).take();
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

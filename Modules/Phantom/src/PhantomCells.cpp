@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace petrous::imaging::shapes
+namespace petrous::phantom::shapes
 {
 namespace
 {
@@ -133,4 +133,4 @@ Shape honeycomb(const Shape& region, const std::function<double(const Point&)>& 
   return {[cells](const Point& p) { return cells->distance(p); }, region.box};
 }
 
-} // namespace petrous::imaging::shapes
+} // namespace petrous::phantom::shapes

@@ -1,4 +1,4 @@
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/SamplePatient.h"
 
 #include <atomic>
 #include <cmath>
@@ -17,9 +17,9 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -121,7 +121,7 @@ public:
   }
 
 private:
-  std::string uid(const char* role) const { return deterministicUid(m_options.seed, role); }
+  std::string uid(const char* role) const { return imaging::deterministicUid(m_options.seed, role); }
 
   void writeCt(const core::Progress& progress)
   {
@@ -131,7 +131,7 @@ private:
     settings.seed = m_options.seed;
     auto ct = std::make_shared<const volume::Volume<std::int16_t>>(
         samplePhantom(m_phantom, grid, settings, progress.part(0.0, 0.7)));
-    SeriesDescription series;
+    imaging::SeriesDescription series;
     series.description = "Temporal bone right";
     series.studyUid = uid("study");
     series.seriesUid = uid("ct.series");
@@ -140,7 +140,7 @@ private:
     std::optional<Eigen::Vector3d> step;
     if (m_options.tilt != 0.0)
       step = grid.step.col(2);
-    writeDicomSeries(m_folder / "ct", volume::IntensityVolume(ct), series, step,
+    imaging::writeDicomSeries(m_folder / "ct", volume::IntensityVolume(ct), series, step,
                      progress.part(0.7, 1.0));
   }
 
@@ -160,8 +160,8 @@ private:
     settings.patientFromScan = motion.inverse();
     auto mr = std::make_shared<const volume::Volume<std::int16_t>>(
         samplePhantom(m_phantom, m_mrGrid, settings, progress.part(0.0, 0.7)));
-    SeriesDescription series;
-    series.modality = SeriesDescription::Modality::Mr;
+    imaging::SeriesDescription series;
+    series.modality = imaging::SeriesDescription::Modality::Mr;
     series.description = "T2 3D inner ear right";
     series.seriesNumber = 2;
     series.studyUid = uid("study");
@@ -169,7 +169,7 @@ private:
     series.frameOfReferenceUid = uid("mr.frame");
     series.windowCenter = 500.0;
     series.windowWidth = 1000.0;
-    writeDicomSeries(m_folder / "mr", volume::IntensityVolume(mr), series, std::nullopt,
+    imaging::writeDicomSeries(m_folder / "mr", volume::IntensityVolume(mr), series, std::nullopt,
                      progress.part(0.7, 1.0));
   }
 
@@ -178,7 +178,7 @@ private:
     const volume::LabelMap labels = labelPhantom(m_phantom, m_grid, progress.part(0.0, 0.2));
     m_segments = labels.segments;
     makeFolder(m_folder / "labels");
-    writeLabelFile(m_folder / "labels.seg.nrrd", labels);
+    imaging::writeLabelFile(m_folder / "labels.seg.nrrd", labels);
 
     std::atomic<std::size_t> done{0};
     const core::Progress files = progress.part(0.4, 1.0);
@@ -198,7 +198,7 @@ private:
                          [&](std::uint16_t index)
                          { return static_cast<std::uint16_t>(index == segment.index ? 1 : 0); });
           const volume::LabelMap one{voxels, {{segment.name, 1, segment.color, segment.voxels}}};
-          writeLabelFile(m_folder / "labels" / (segment.name + ".nii.gz"), one);
+          imaging::writeLabelFile(m_folder / "labels" / (segment.name + ".nii.gz"), one);
         });
   }
 
@@ -223,7 +223,7 @@ private:
                         if (mesh.triangles.empty())
                           return; // outside a small grid
                         const std::string name = "meshes/" + structures[s].name + ".obj";
-                        writeMesh(m_folder / name, mesh);
+                        imaging::writeMesh(m_folder / name, mesh);
                         m_meshes[s] = {{"file", name},
                                        {"triangles", mesh.triangles.size()},
                                        {"volume_mm3", mesh.signedVolume()}};
@@ -330,4 +330,4 @@ void writeSamplePatient(const fs::path& out, const SampleOptions& options,
   staged.commit();
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 
 /// A folder that appears whole or not at all: written under another name, then renamed.
@@ -35,4 +35,4 @@ private:
   bool m_done = false;
 };
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "PhantomAnatomy.h"
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 
 /// The phantom's layers of paint and how a point looks through them.
@@ -111,4 +111,4 @@ struct Phantom::Scene
   }
 };
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -1,4 +1,4 @@
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 
 #include <cmath>
 #include <numeric>
@@ -10,7 +10,7 @@
 #include "PhantomShapes.h"
 #include "petrous/Core/Error.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -339,4 +339,4 @@ TEST(Phantom, NamesAnUnknownStructure)
   EXPECT_THROW(phantom().indexOf("spleen"), core::InvalidParameter);
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -2,7 +2,7 @@
 
 #include "PhantomAnatomy.h"
 
-namespace petrous::imaging::anatomy
+namespace petrous::phantom::anatomy
 {
 namespace
 {
@@ -134,4 +134,4 @@ Shape cellRegion(const Skull& skull, const Ear& ear)
           extent.box};
 }
 
-} // namespace petrous::imaging::anatomy
+} // namespace petrous::phantom::anatomy

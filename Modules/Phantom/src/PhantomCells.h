@@ -5,7 +5,7 @@
 
 #include "PhantomShapes.h"
 
-namespace petrous::imaging::shapes
+namespace petrous::phantom::shapes
 {
 
 /// A honeycomb of air cells with thin bony septa: the rounded cells of a Voronoi diagram.
@@ -19,4 +19,4 @@ namespace petrous::imaging::shapes
 Shape honeycomb(const Shape& region, const std::function<double(const Point&)>& sizeAt,
                 std::uint64_t seed);
 
-} // namespace petrous::imaging::shapes
+} // namespace petrous::phantom::shapes

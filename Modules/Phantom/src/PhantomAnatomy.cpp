@@ -6,7 +6,7 @@
 
 #include "PhantomCells.h"
 
-namespace petrous::imaging::anatomy
+namespace petrous::phantom::anatomy
 {
 namespace
 {
@@ -147,4 +147,4 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
   return layers;
 }
 
-} // namespace petrous::imaging::anatomy
+} // namespace petrous::phantom::anatomy

@@ -7,7 +7,7 @@
 #include "petrous/Core/GridGeometry.h"
 #include "petrous/Core/Progress.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 
 struct SampleOptions
@@ -36,4 +36,4 @@ core::GridGeometry sampleGrid(const SampleOptions& options);
 void writeSamplePatient(const std::filesystem::path& out, const SampleOptions& options,
                         const core::Progress& progress = {});
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

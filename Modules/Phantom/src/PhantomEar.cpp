@@ -2,7 +2,7 @@
 
 #include "PhantomAnatomy.h"
 
-namespace petrous::imaging::anatomy
+namespace petrous::phantom::anatomy
 {
 namespace
 {
@@ -275,4 +275,4 @@ Ear makeEar(const Skull& skull)
   return ear;
 }
 
-} // namespace petrous::imaging::anatomy
+} // namespace petrous::phantom::anatomy

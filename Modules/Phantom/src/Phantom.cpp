@@ -1,10 +1,10 @@
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 
 #include <cmath>
 
 #include "PhantomScene.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -157,4 +157,4 @@ double Phantom::Scene::distance(std::size_t structure, const shapes::Point& p) c
   return d;
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -16,7 +16,7 @@
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/Volume.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 
 /// What may vary between phantom patients. The gross anatomy is fixed; the seed moves the
@@ -138,4 +138,4 @@ volume::Volume<std::int16_t> samplePhantom(const Phantom& phantom, const ScanGri
 volume::LabelMap labelPhantom(const Phantom& phantom, const core::GridGeometry& geometry,
                               const core::Progress& progress = {});
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -10,7 +10,7 @@
 
 #include "petrous/Core/OutputFile.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -117,4 +117,4 @@ void StagedFolder::commit()
   core::syncFolder(m_inside ? m_target : m_target.parent_path());
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

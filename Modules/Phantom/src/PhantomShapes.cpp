@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace petrous::imaging::shapes
+namespace petrous::phantom::shapes
 {
 namespace
 {
@@ -358,4 +358,4 @@ double mottling(const Point& p) noexcept
   return 2.0 * kContrast * value;
 }
 
-} // namespace petrous::imaging::shapes
+} // namespace petrous::phantom::shapes

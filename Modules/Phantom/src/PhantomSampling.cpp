@@ -10,7 +10,7 @@
 #include "PhantomScene.h"
 #include "petrous/Core/Error.h"
 
-namespace petrous::imaging
+namespace petrous::phantom
 {
 namespace
 {
@@ -328,4 +328,4 @@ volume::LabelMap labelPhantom(const Phantom& phantom, const core::GridGeometry& 
   return volume::makeLabelMap(std::move(voxels), std::move(names));
 }
 
-} // namespace petrous::imaging
+} // namespace petrous::phantom

@@ -11,7 +11,7 @@
 /// The anatomy of the phantom as shapes in patient LPS mm: -x is lateral (a right ear), -y is
 /// anterior, +z superior. Dimensions follow textbooks of otologic anatomy; each builder names
 /// those that matter to the hand.
-namespace petrous::imaging::anatomy
+namespace petrous::phantom::anatomy
 {
 
 /// Skull and what lies in it, without the ear.
@@ -85,4 +85,4 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma);
 /// Distance to the cranial cavity's floor above ear and mastoid, mm (positive in bone).
 constexpr double kTegmenThickness = 1.2;
 
-} // namespace petrous::imaging::anatomy
+} // namespace petrous::phantom::anatomy

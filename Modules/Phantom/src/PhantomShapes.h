@@ -9,7 +9,7 @@
 /// Signed distances (mm; negative inside) to implicit shapes in patient LPS, and how to combine
 /// them. Each is close to the true distance near its surface and never steeper than about 1 mm
 /// a mm outside and 2 inside, so that blocks of space may be left out by their centre's value.
-namespace petrous::imaging::shapes
+namespace petrous::phantom::shapes
 {
 
 using Point = Eigen::Vector3d;
@@ -82,4 +82,4 @@ Shape remembered(const Shape& a);
 /// Smooth noise of mean 0 and standard deviation about 1, grain about 1.2 mm: spongy bone.
 double mottling(const Point& p) noexcept;
 
-} // namespace petrous::imaging::shapes
+} // namespace petrous::phantom::shapes

@@ -19,7 +19,6 @@ void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, histo
 void addBranchCommand(CLI::App& app, Context& context);
 void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
-void addBenchCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
 
 } // namespace petrous::cli

@@ -45,12 +45,11 @@ endfunction()
 #   PRIVATE_EXTERNAL target... libraries that only its sources use
 #   TESTS file...              GoogleTest sources labelled 'unit'
 #   RENDER_TESTS file...       GoogleTest sources labelled 'render' (draw off-screen)
-#   DATA_TESTS file...         GoogleTest sources labelled 'data' (real files beside the project)
-#   BENCHMARKS file...         sources of the module's part of `petrous bench`)
+#   DATA_TESTS file...         GoogleTest sources labelled 'data' (real files beside the project))
 # The declared DEPENDS are what Testing/IncludeDependencies.cmake holds the #includes against.
 function(petrous_add_module name)
   cmake_parse_arguments(ARG "" ""
-    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;RENDER_TESTS;DATA_TESTS;BENCHMARKS" ${ARGN})
+    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;RENDER_TESTS;DATA_TESTS" ${ARGN})
   set(target Petrous${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Petrous::${name} ALIAS ${target})
@@ -83,12 +82,4 @@ function(petrous_add_module name)
       target_include_directories(${target}${suffix} PRIVATE ${parts} Testing)
     endif()
   endforeach()
-  if(ARG_BENCHMARKS)
-    add_library(${target}Benchmarks STATIC ${ARG_BENCHMARKS})
-    add_library(Petrous::${name}Benchmarks ALIAS ${target}Benchmarks)
-    petrous_target_defaults(${target}Benchmarks)
-    target_include_directories(${target}Benchmarks PUBLIC Benchmarks)
-    target_link_libraries(${target}Benchmarks
-      PUBLIC Petrous::${name} PRIVATE ${ARG_PRIVATE_EXTERNAL})
-  endif()
 endfunction()

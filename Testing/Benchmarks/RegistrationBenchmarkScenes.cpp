@@ -13,6 +13,7 @@
 #include "Context.h"
 #include "Numbers.h"
 #include "PhantomPairs.h"
+#include "Program.h"
 #include "RireFolder.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomReader.h"
@@ -183,7 +184,7 @@ std::vector<RegistrationPair> tuningPairs(const std::vector<SimulationBody>& bod
 std::optional<registration::PeerFit> registerInProcess(const RegistrationPair& pair,
                                                        const fs::path& work)
 {
-  const std::string self = fs::read_symlink("/proc/self/exe").string();
+  const std::string self = programBeside("petrous", "../../Application/Cli").string();
   const fs::path library = work / "library";
   fs::remove_all(library);
   registration::writeMetaImage(work / "fixed.mhd", *pair.ct);

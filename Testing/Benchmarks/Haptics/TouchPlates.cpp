@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "../Testing/ProxyChecks.h"
+#include "ProxyChecks.h"
 #include "SteppedSphere.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "../Testing/SurfaceErrors.h"
+#include "SurfaceErrors.h"
 #include "SteppedSphere.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "../Testing/KktError.h"
-#include "../Testing/QpProblems.h"
+#include "KktError.h"
+#include "QpProblems.h"
 
 namespace petrous::haptics
 {

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "BenchPlot.h"
-#include "Commands.h"
+#include "BenchCommand.h"
 #include "CutBenchmark.h"
 #include "DistanceBenchmark.h"
 #include "GrowthPlot.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../Testing/CutBall.h"
+#include "CutBall.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"

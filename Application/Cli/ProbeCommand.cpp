@@ -40,7 +40,7 @@ std::string structureAt(const scene::Case& value, const std::vector<scene::MeshS
         return structure.name;
   }
   for (const scene::MeshSolid& mesh : meshes)
-    if (volume::isInside(*mesh.share, p))
+    if (volume::isInside(*mesh.occupancy, p))
       return mesh.part->name;
   return {};
 }

@@ -13,7 +13,7 @@ constexpr double kAbove = 8.0; // mm, of the burr's centre over the cortex where
 
 haptics::TouchScene touchSceneOf(const BenchmarkPatient& patient)
 {
-  const volume::TissueField tissue(patient.ct, {patient.labels->share}, nullptr,
+  const volume::TissueField tissue(patient.ct, {patient.labels->occupancy}, nullptr,
                                    {kBenchmarkIso, 1000.0});
   haptics::TouchScene scene;
   scene.name = patient.name + ", structures, cavity";

@@ -348,7 +348,7 @@ TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMad
   const auto solid = [this]
   {
     const auto all = scene::meshSolids(model.value(), [](const auto&) { return true; });
-    return all.empty() ? Vector3d(1e9, 0, 0) : all.front().share->geometry().center();
+    return all.empty() ? Vector3d(1e9, 0, 0) : all.front().occupancy->geometry().center();
   };
   session.shift({1, 0, 0});
   const Vector3d tumour = middle("tumour");

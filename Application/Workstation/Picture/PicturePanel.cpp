@@ -39,7 +39,7 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
 {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(10, 10, 10, 10);
-  m_bone = addShare(form, tr("&Bone opacity"),
+  m_bone = addOccupancy(form, tr("&Bone opacity"),
                     tr("Below 100 % the inside of the bone and the structures in it shine through"),
                     "boneOpacity");
   connect(m_bone, &QSlider::valueChanged, this,
@@ -61,7 +61,7 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
             if (!m_showing)
               m_settings.setFalloff(mm);
           });
-  m_wetness = addShare(form, tr("&Wetness"), tr("Gloss of a wet surface"), "wetness");
+  m_wetness = addOccupancy(form, tr("&Wetness"), tr("Gloss of a wet surface"), "wetness");
   connect(m_wetness, &QSlider::valueChanged, this,
           [this](int percent)
           {
@@ -116,7 +116,7 @@ void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)
           });
 }
 
-QSlider* PicturePanel::addShare(QFormLayout* form, const QString& name, const QString& tip,
+QSlider* PicturePanel::addOccupancy(QFormLayout* form, const QString& name, const QString& tip,
                                 const QString& objectName)
 {
   auto* slider = new QSlider(Qt::Horizontal);

@@ -27,7 +27,7 @@ public:
   void settingsChanged(); ///< light or stereo
 
 private:
-  QSlider* addShare(QFormLayout* form, const QString& name, const QString& tip,
+  QSlider* addOccupancy(QFormLayout* form, const QString& name, const QString& tip,
                     const QString& objectName);
   QDoubleSpinBox* addLength(QFormLayout* form, const QString& name, const QString& tip,
                             const QString& objectName, const QString& atZero, double largest);

@@ -243,9 +243,9 @@ TEST(SoftContacts, IsStoppedByTheBoneBehindIt)
 TEST(SoftContacts, LeavesARigidStructureInsideItRigid)
 {
   const auto ct = scanOf(air, kSoftVoxel, 6.0);
-  const auto stone = shareOf(ball(1.0), ct->geometry());
+  const auto stone = occupancyOf(ball(1.0), ct->geometry());
   std::vector<SoftStructure> soft{
-      {volume::makeDistanceMap(*shareOf(ball(3.0), ct->geometry()), ct->geometry()), 0.1}};
+      {volume::makeDistanceMap(*occupancyOf(ball(3.0), ct->geometry()), ct->geometry()), 0.1}};
   const Scene scene = sceneOf(ct, {stone}, soft);
   ConstrainedProxy proxy(scene.field, pointShell());
   proxy.place(poseAt({0.0, 0.0, 4.0}));
@@ -484,7 +484,7 @@ TEST(SoftContacts, LetACentreProxyThroughAThinLayerWithoutAKick)
 TEST(SoftContacts, RefusesAStiffnessOutOfItsDomain)
 {
   const auto ct = scanOf(air, 1.0, 5.0);
-  const auto map = volume::makeDistanceMap(*shareOf(ball(2.0), ct->geometry()), ct->geometry());
+  const auto map = volume::makeDistanceMap(*occupancyOf(ball(2.0), ct->geometry()), ct->geometry());
   EXPECT_NO_THROW(sceneOf(ct, {}, {{map, 1.0}}));
   EXPECT_THROW(sceneOf(ct, {}, {{map, 0.0}}), core::InvalidParameter);
   EXPECT_THROW(sceneOf(ct, {}, {{map, std::nan("")}}), core::InvalidParameter);

@@ -5,7 +5,7 @@
 
 #include "ProxyChecks.h"
 
-// What the tests of tools that are solids share: bone thinner than the points of a shell are apart,
+// What the tests of tools that are solids occupancy: bone thinner than the points of a shell are apart,
 // and the truth of how deep the tool stands in it.
 namespace petrous::haptics::testing
 {

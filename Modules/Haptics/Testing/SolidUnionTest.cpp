@@ -17,17 +17,17 @@ using Solid = volume::TissueField::SolidUnion;
 // A smoothed union as makeSmoothedUnion has it: 1/2 + d / (2 sqrt(3)), d in its voxels.
 Solid unionOn(const core::GridGeometry& grid, const SignedDistance& structure)
 {
-  auto share = std::make_shared<volume::Volume<float>>(grid);
+  auto occupancy = std::make_shared<volume::Volume<float>>(grid);
   const core::Index3& n = grid.dims();
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
       {
         const double d = structure(grid.patientFromVoxel({double(i), double(j), double(k)}));
-        share->at(i, j, k) = static_cast<float>(
+        occupancy->at(i, j, k) = static_cast<float>(
             std::clamp(0.5 + d / (2.0 * std::sqrt(3.0) * grid.minSpacing()), 0.0, 1.0));
       }
-  return share;
+  return occupancy;
 }
 
 double air(const Vector3d&)

@@ -91,7 +91,7 @@ inline volume::LabelField sparseLabels(const core::GridGeometry& grid, Random& r
             });
   }
   volume::LabelField labels;
-  labels.share = share;
+  labels.occupancy = share;
   labels.hasSolid = true;
   return labels;
 }

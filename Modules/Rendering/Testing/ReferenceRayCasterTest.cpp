@@ -105,7 +105,7 @@ TEST(ReferenceRayCaster, HitsWhatTheTissueFieldHits)
   contents.materials.resize(2);
   contents.mask = cut(contents.ct->geometry(),
                       [](const Eigen::Vector3d& p) { return 5.0 - p.dot(kBump.normalized()); });
-  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const volume::TissueField hand = field(contents, {contents.labels->occupancy});
   const DepthImage depth = see(contents, sideCamera()).depth;
   int hits = 0;
   int different = 0; // where a ray grazes the surface, half-voxel steps may leap over it

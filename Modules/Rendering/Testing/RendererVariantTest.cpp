@@ -74,7 +74,7 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
   contents.boneShown = true;
   contents.materials[0].surfaceOpacity = 0.3F;
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "labels", "borders", "interior"}));
-  contents.labels = oneStructure(contents.labels->share);
+  contents.labels = oneStructure(contents.labels->occupancy);
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "labels", "interior"}));
 }
 

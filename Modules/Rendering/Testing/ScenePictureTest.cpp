@@ -40,7 +40,7 @@ TEST(ScenePicture, SeesTheSurfaceWhereTheHandFeelsIt)
 {
   const SceneContents contents = fullScene();
   const double voxel = contents.ct->geometry().minSpacing();
-  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const volume::TissueField hand = field(contents, {contents.labels->occupancy});
   const PixelRays rays(slanting(), kWidth, kHeight);
   ReferencePicture felt;
   felt.rgb.resize(3 * kWidth * kHeight);
@@ -63,7 +63,7 @@ TEST(ScenePicture, SeesTheSurfaceWhereTheHandFeelsIt)
 TEST(ScenePicture, PicksThePointOfTheFieldInPatientMillimetres)
 {
   const SceneContents contents = fullScene();
-  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const volume::TissueField hand = field(contents, {contents.labels->occupancy});
   for (const bool parallel : {false, true})
   {
     core::CameraPose pose = slanting();

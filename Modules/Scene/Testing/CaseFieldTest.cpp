@@ -240,11 +240,11 @@ TEST(CaseField, IsTheSameForHandAndEye)
     for (double y = 2.0; y < 10.0; y += 0.17)
     {
       const Vector3d p(x, y, 4.1);
-      const Vector3d voxel = eye->share->geometry().voxelFromPatient(p);
-      const double share = eye->share->geometry().hullContains(voxel)
-                               ? volume::sampleTrilinear(*eye->share, voxel)
+      const Vector3d voxel = eye->occupancy->geometry().voxelFromPatient(p);
+      const double occupancy = eye->occupancy->geometry().hullContains(voxel)
+                               ? volume::sampleTrilinear(*eye->occupancy, voxel)
                                : 0.0;
-      EXPECT_NEAR(hand.value(p), std::max(share - 0.5, (-1000.0 - 300.0) / scene::kFieldScale),
+      EXPECT_NEAR(hand.value(p), std::max(occupancy - 0.5, (-1000.0 - 300.0) / scene::kFieldScale),
                   1e-9);
     }
 }
@@ -256,7 +256,7 @@ TEST(CaseField, ProtectsWhatMayNotBeDrilledAlsoWhereItIsALumen)
   value.labels[0].structures[0].look.drillable = false;
   const auto keep = scene::protectedTissue(value);
   ASSERT_EQ(keep.size(), 1u);
-  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep.shares()[0],
-                                           keep.shares()[0]->geometry().voxelFromPatient(kInside)),
+  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep.occupancies()[0],
+                                           keep.occupancies()[0]->geometry().voxelFromPatient(kInside)),
                    1.0);
 }

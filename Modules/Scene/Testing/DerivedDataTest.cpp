@@ -125,7 +125,7 @@ TEST(DerivedData, GiveTheSameFieldAndStructuresAsTheFirstTime)
   const auto drawnAgain = scene::labelField(again, shownAgain);
   EXPECT_EQ(shelf->hits, 2);
   expectEqual(*first.solids().at(0), *second.solids().at(0));
-  expectEqual(*drawn->share, *drawnAgain->share);
+  expectEqual(*drawn->occupancy, *drawnAgain->occupancy);
   EXPECT_EQ(std::memcmp(drawn->index->data(), drawnAgain->index->data(), drawn->index->bytes()), 0);
 
   shelf->damage();

@@ -72,7 +72,7 @@ TEST(Placement, WhatWasDrawnOnAnMrThatIsNotRegisteredIsNowhere)
   EXPECT_FALSE(scene::labelsOnCt(value, value.labels[0]));
   const auto all = [](const auto&) { return true; };
   EXPECT_TRUE(scene::labelSources(value, all).sources.empty());
-  EXPECT_TRUE(scene::structureShares(value).empty());
+  EXPECT_TRUE(scene::structureOccupancies(value).empty());
   EXPECT_TRUE(scene::drillableStructures(value).empty());
   EXPECT_TRUE(scene::protectedTissue(value).empty());
   EXPECT_TRUE(scene::tissueField(value).solids().empty());
@@ -154,10 +154,10 @@ TEST(Placement, MeshesComeAlong)
             1e-5);
   value.labels.clear();
   EXPECT_GT(scene::tissueField(value).value(inside), 0.0);
-  ASSERT_EQ(scene::structureShares(value).size(), 1U);
+  ASSERT_EQ(scene::structureOccupancies(value).size(), 1U);
 
   scene::layMr(value, "T2", through(11.0), {});
-  EXPECT_TRUE(scene::structureShares(value).empty()) << "its voxels lay where it was before";
+  EXPECT_TRUE(scene::structureOccupancies(value).empty()) << "its voxels lay where it was before";
   EXPECT_LT(scene::tissueField(value).value(inside), 0.0);
 }
 

@@ -26,7 +26,7 @@ core::GridGeometry grownGrid(const core::GridGeometry& grid, const core::IndexBo
 
 std::optional<std::string> keyOf(const Case& value, const LabelPart& part, std::uint16_t index)
 {
-  DerivedKey key(value, "structure share", volume::kLabelFieldVersion);
+  DerivedKey key(value, "structure occupancy", volume::kLabelFieldVersion);
   key.add(part);
   key.add(index);
   return key.text();
@@ -37,21 +37,21 @@ keptOrMade(const volume::LabelMap& labels, std::uint16_t index, const core::Inde
            core::DerivedStore* derived, const std::optional<std::string>& key)
 {
   if (const auto bytes = key ? derived->find(*key) : std::nullopt)
-    if (auto share = volume::shareFrom(*bytes))
-      return share;
-  auto share = volume::makeSmoothedUnion(
+    if (auto occupancy = volume::occupancyFrom(*bytes))
+      return occupancy;
+  auto occupancy = volume::makeSmoothedUnion(
       labels, [index](std::uint16_t i) { return i == index; }, box);
-  if (share && key)
-    if (const auto bytes = volume::bytesOf(*share))
+  if (occupancy && key)
+    if (const auto bytes = volume::bytesOf(*occupancy))
       derived->put(*key, *bytes);
-  return share;
+  return occupancy;
 }
 
 } // namespace
 
-std::vector<StructureOccupancy> structureShares(const Case& value)
+std::vector<StructureOccupancy> structureOccupancies(const Case& value)
 {
-  std::vector<StructureOccupancy> shares;
+  std::vector<StructureOccupancy> occupancies;
   for (const LabelPart& part : value.labels)
   {
     const Placement placement = placementOf(value, part);
@@ -66,7 +66,7 @@ std::vector<StructureOccupancy> structureShares(const Case& value)
         const std::uint16_t index = labels->segments[n].index;
         if (index != structure.index || boxes[n].empty())
           continue;
-        shares.push_back({structure.name, placement.drawnOn, grid, grownGrid(grid, boxes[n]),
+        occupancies.push_back({structure.name, placement.drawnOn, grid, grownGrid(grid, boxes[n]),
                           [labels, index, box = boxes[n], derived = value.derived,
                            key = keyOf(value, part, index)]
                           { return keptOrMade(*labels, index, box, derived.get(), key); }});
@@ -74,9 +74,9 @@ std::vector<StructureOccupancy> structureShares(const Case& value)
   }
   for (const MeshPart& mesh : value.meshes)
     if (const auto solid = mesh.touch.resident(); solid && placementOf(value, mesh).missing.empty())
-      shares.push_back({mesh.name, mesh.drawnOn, solid->geometry(), solid->geometry(),
+      occupancies.push_back({mesh.name, mesh.drawnOn, solid->geometry(), solid->geometry(),
                         [solid] { return solid; }});
-  return shares;
+  return occupancies;
 }
 
 } // namespace petrous::scene

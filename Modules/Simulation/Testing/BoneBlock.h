@@ -35,16 +35,16 @@ boneOf(const std::shared_ptr<volume::PublishedMask>& mask,
 inline haptics::SoftStructure softLayer()
 {
   const core::GridGeometry grid = gridOfTheBlock();
-  volume::Volume<float> share(grid);
+  volume::Volume<float> occupancy(grid);
   for (int k = 0; k < grid.dims()[2]; ++k)
     for (int j = 0; j < grid.dims()[1]; ++j)
       for (int i = 0; i < grid.dims()[0]; ++i)
       {
         const double z = grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}).z();
-        share.at(i, j, k) =
+        occupancy.at(i, j, k) =
             static_cast<float>(std::clamp(0.5 + std::min(1.5 - z, z + 0.3), 0.0, 1.0));
       }
-  return {volume::makeDistanceMap(share, grid), 0.3};
+  return {volume::makeDistanceMap(occupancy, grid), 0.3};
 }
 
 } // namespace petrous::simulation::testing

@@ -24,7 +24,7 @@ double insideAlong(const volume::LabelField& field, const Vector3d& from, const 
   constexpr int n = 2000;
   int inside = 0;
   for (int s = 0; s < n; ++s)
-    inside += shareAt(field, from + (to - from) * ((s + 0.5) / n)) > 0.5 ? 1 : 0;
+    inside += occupancyAt(field, from + (to - from) * ((s + 0.5) / n)) > 0.5 ? 1 : 0;
   return (to - from).norm() * inside / n;
 }
 
@@ -51,7 +51,7 @@ Radius radiusOf(const volume::LabelField& field, const Vector3d& center, double 
     while (out - in > 1e-4)
     {
       const double middle = 0.5 * (in + out);
-      (shareAt(field, center + middle * u) > 0.5 ? in : out) = middle;
+      (occupancyAt(field, center + middle * u) > 0.5 ? in : out) = middle;
     }
     result.bias += (in - R) / n;
     squares += (in - R) * (in - R) / n;
@@ -151,7 +151,7 @@ TEST(LabelResampling, KeepsWhatIsThinnerThanACommonVoxel)
   const Labels other = paintBox(slices, {{2, 2, 2}, {4, 4, 4}});
   const auto field =
       volume::makeLabelField({{map, 1, 1, true}, {map, 2, 2, true}, {other, 1, 3, true}});
-  ASSERT_NEAR(field->share->geometry().spacing()[2], 1.0, 1e-9);
+  ASSERT_NEAR(field->occupancy->geometry().spacing()[2], 1.0, 1e-9);
   for (double i = 4.0; i < 19.0; i += 0.3)
   {
     const auto through = [&](double j, double k)
@@ -176,14 +176,14 @@ TEST(LabelResampling, TakesTheFinestMapOfASolidForItsGrid)
   const volume::LabelSource lumen{finest, 1, 3, false};
   const auto hand = volume::makeLabelField({a, b});
   const auto eye = volume::makeLabelField({a, lumen, b});
-  EXPECT_DOUBLE_EQ(hand->share->geometry().minSpacing(), 0.2);
+  EXPECT_DOUBLE_EQ(hand->occupancy->geometry().minSpacing(), 0.2);
   // A lumen changes nothing for the hand.
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-6.0, 6.0);
   for (int n = 0; n < 20000; ++n)
   {
     const Vector3d p(uniform(random), uniform(random), uniform(random));
-    ASSERT_NEAR(shareAt(*hand, p), shareAt(*eye, p), 1e-4);
+    ASSERT_NEAR(occupancyAt(*hand, p), occupancyAt(*eye, p), 1e-4);
   }
   EXPECT_EQ(indexAt(*eye, finest->voxels->geometry().patientFromVoxel({7, 7, 7})), 3);
 }
@@ -194,7 +194,7 @@ TEST(LabelResampling, IsCoarserThanTheFinestMapWhereMemoryEndsAndSaysSo)
   const Labels coarse = paintBox(cube(40, 0.5), {{5, 5, 5}, {30, 30, 30}}, 2);
   constexpr std::size_t most = 1'000'000;
   const auto field = volume::makeLabelField({{fine, 1, 1, true}, {coarse, 2, 2, true}}, {}, most);
-  EXPECT_LE(field->share->size(), most);
+  EXPECT_LE(field->occupancy->size(), most);
   ASSERT_EQ(field->notes.size(), 1u);
   EXPECT_NE(field->notes.front().find("million voxels"), std::string::npos);
   // The sheet is a voxel of 0.05 mm thin, a common voxel is 0.2 mm and more.

@@ -34,21 +34,21 @@ public:
         for (int i = 0; i < size; ++i)
           voxels->at(i, j, k) = isIn(inVoxels(i, j, k), distance, touched) ? 1 : 0;
     m_voxels = voxels;
-    m_share = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
+    m_occupancy = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
                                         [](std::uint16_t) { return true; });
   }
 
   /// From here on positions are voxels from the middle.
   bool inside(const Vector3d& p) const
   {
-    const Vector3d voxel = m_share->geometry().voxelFromPatient(0.3 * p);
-    return m_share->geometry().hullContains(voxel) &&
-           volume::sampleTrilinear(*m_share, voxel) > 0.5;
+    const Vector3d voxel = m_occupancy->geometry().voxelFromPatient(0.3 * p);
+    return m_occupancy->geometry().hullContains(voxel) &&
+           volume::sampleTrilinear(*m_occupancy, voxel) > 0.5;
   }
 
   Vector3d outward(const Vector3d& p) const
   {
-    return -volume::sampleGradient(*m_share, m_share->geometry().voxelFromPatient(0.3 * p), 1.0)
+    return -volume::sampleGradient(*m_occupancy, m_occupancy->geometry().voxelFromPatient(0.3 * p), 1.0)
                 .normalized();
   }
 
@@ -107,7 +107,7 @@ private:
 
   core::GridGeometry m_grid;
   std::shared_ptr<const volume::Volume<std::uint16_t>> m_voxels;
-  std::shared_ptr<const volume::Volume<float>> m_share;
+  std::shared_ptr<const volume::Volume<float>> m_occupancy;
 };
 
 struct Error
@@ -296,16 +296,16 @@ TEST(SmoothedUnion, IsTheSameForAnyNumberOfThreads)
     const tbb::global_control most(tbb::global_control::max_allowed_parallelism,
                                    static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    std::shared_ptr<const volume::Volume<float>> share;
+    std::shared_ptr<const volume::Volume<float>> occupancy;
     arena.execute(
-        [&] { share = volume::makeSmoothedUnion(labels, [](std::uint16_t) { return true; }); });
-    return share;
+        [&] { occupancy = volume::makeSmoothedUnion(labels, [](std::uint16_t) { return true; }); });
+    return occupancy;
   };
   const auto alone = smoothed(1);
   for (const int threads : {2, 5})
   {
-    const auto share = smoothed(threads);
-    ASSERT_EQ(share->size(), alone->size());
-    EXPECT_EQ(std::memcmp(share->data(), alone->data(), share->size() * sizeof(float)), 0);
+    const auto occupancy = smoothed(threads);
+    ASSERT_EQ(occupancy->size(), alone->size());
+    EXPECT_EQ(std::memcmp(occupancy->data(), alone->data(), occupancy->size() * sizeof(float)), 0);
   }
 }

@@ -172,13 +172,13 @@ TEST(NearestSurface, SeesAThinMeshBetweenTheVoxelsOfTheCt)
   const Vector3d normal = Vector3d(0.2, -0.3, 1.0).normalized();
   const double at = normal.dot(Vector3d(11.5, 11.5, 11.47));
   const auto depth = [&](const Vector3d& p) { return 0.15 - std::abs(normal.dot(p) - at); };
-  auto share = std::make_shared<volume::Volume<float>>(fine);
+  auto occupancy = std::make_shared<volume::Volume<float>>(fine);
   for (int k = 0; k < 181; ++k)
     for (int j = 0; j < 181; ++j)
       for (int i = 0; i < 181; ++i)
-        share->at(i, j, k) = static_cast<float>(std::clamp(
+        occupancy->at(i, j, k) = static_cast<float>(std::clamp(
             0.5 + depth(fine.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})) / (6.0 * e), 0.0, 1.0));
-  const TissueField field(air, {share}, nullptr, {});
+  const TissueField field(air, {occupancy}, nullptr, {});
   volume::NearestSurfaceSearch search(field, 6.0);
   for (int n = 0; n < 200; ++n)
   {

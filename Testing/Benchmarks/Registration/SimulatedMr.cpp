@@ -234,7 +234,7 @@ double biasAt(const CounterNoise& noise, double strength, const Vector3d& u)
 }
 
 // The share of its shift that a part has at p.
-double shareOf(const LocalShift& part, const Vector3d& p)
+double occupancyOf(const LocalShift& part, const Vector3d& p)
 {
   const double inside =
       std::clamp((part.radius - (p - part.center).norm()) / part.edge + 0.5, 0.0, 1.0);
@@ -323,7 +323,7 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
   const auto source = [field, encode, amount = a.distortion,
                        local = a.local](const Vector3d& p) -> Vector3d
   {
-    return local ? Vector3d(p - shareOf(*local, p) * local->shift)
+    return local ? Vector3d(p - occupancyOf(*local, p) * local->shift)
                  : Vector3d(p + amount * field.at(p) * encode);
   };
 

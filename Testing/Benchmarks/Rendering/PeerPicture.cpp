@@ -88,7 +88,7 @@ vtkSmartPointer<vtkImageData> labelMask(const SceneContents& contents, vtkImageD
   mask->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
   auto* out = static_cast<std::uint8_t*>(mask->GetScalarPointer());
   const auto& index = *contents.labels->index;
-  const auto& share = *contents.labels->share;
+  const auto& share = *contents.labels->occupancy;
   const auto labelAt = [&](int i, int j, int k) -> std::uint8_t
   {
     if (contents.mask && contents.mask->at(i, j, k) < volume::CutMask::kUntouched / 2)
@@ -235,8 +235,8 @@ void PeerPicture::Implementation::addLabels()
 
 void PeerPicture::Implementation::addUnion()
 {
-  const core::GridGeometry& grid = contents.labels->share->geometry();
-  gpu->SetInputDataObject(1, upright(wrap<float>(contents.labels->share)));
+  const core::GridGeometry& grid = contents.labels->occupancy->geometry();
+  gpu->SetInputDataObject(1, upright(wrap<float>(contents.labels->occupancy)));
   vtkNew<vtkVolume> structures;
   structures->SetUserMatrix(poseOf(grid));
   setProperty(structures->GetProperty(), contents.materials.back(), 0.5);

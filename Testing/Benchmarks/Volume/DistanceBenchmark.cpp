@@ -55,8 +55,8 @@ std::vector<Shape> shapes()
   return all;
 }
 
-// A share that is linear across the surface, on those voxels of the CT's grid that it needs.
-std::shared_ptr<const Volume<float>> shareOf(const Shape& shape, double h)
+// An occupancy that is linear across the surface, on those voxels of the CT's grid that it needs.
+std::shared_ptr<const Volume<float>> occupancyOf(const Shape& shape, double h)
 {
   const double reach = shape.radius + shape.tube + 4.0 * h;
   const Eigen::Vector3d half(reach, reach, shape.tube + 4.0 * h);
@@ -68,7 +68,7 @@ std::shared_ptr<const Volume<float>> shareOf(const Shape& shape, double h)
     origin[axis] = h * std::floor((shape.center[axis] - half[axis]) / h);
     dims[a] = static_cast<int>(std::ceil(2.0 * half[axis] / h)) + 2;
   }
-  auto share = std::make_shared<Volume<float>>(
+  auto occupancy = std::make_shared<Volume<float>>(
       core::GridGeometry(dims, Eigen::Vector3d::Constant(h), origin));
   tbb::parallel_for(0, dims[2],
                     [&](int k)
@@ -77,12 +77,12 @@ std::shared_ptr<const Volume<float>> shareOf(const Shape& shape, double h)
                         for (int i = 0; i < dims[0]; ++i)
                         {
                           const double d = shape.distance(
-                              share->geometry().patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
-                          share->at(i, j, k) =
+                              occupancy->geometry().patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
+                          occupancy->at(i, j, k) =
                               static_cast<float>(std::clamp(0.5 - d / (6.0 * h), 0.0, 1.0));
                         }
                     });
-  return share;
+  return occupancy;
 }
 
 struct Asked
@@ -130,11 +130,11 @@ core::BenchmarkPoint pointOf(const Asked& asked, int edge, const std::string& pe
 }
 
 // A field in which there is the structure and nothing else.
-TissueField alone(const std::shared_ptr<const Volume<float>>& share)
+TissueField alone(const std::shared_ptr<const Volume<float>>& occupancy)
 {
-  auto air = std::make_shared<Volume<std::int16_t>>(share->geometry(), std::int16_t{-1000});
+  auto air = std::make_shared<Volume<std::int16_t>>(occupancy->geometry(), std::int16_t{-1000});
   return {std::make_shared<IntensityVolume>(std::shared_ptr<const Volume<std::int16_t>>(air)),
-          {share},
+          {occupancy},
           nullptr,
           {}};
 }
@@ -148,13 +148,13 @@ core::BenchmarkReport runDistanceBenchmark(bool quick, const core::Progress& pro
   for (const int edge : quick ? std::vector<int>{256} : std::vector<int>{256, 512})
   {
     progress.check("measuring distances");
-    std::vector<std::shared_ptr<const Volume<float>>> shares;
+    std::vector<std::shared_ptr<const Volume<float>>> occupancies;
     for (const Shape& shape : all)
-      shares.push_back(shareOf(shape, kSide / edge));
+      occupancies.push_back(occupancyOf(shape, kSide / edge));
     const auto start = Clock::now();
     std::vector<SurfaceDistance> surfaces;
-    for (const auto& share : shares)
-      surfaces.emplace_back(share);
+    for (const auto& occupancy : occupancies)
+      surfaces.emplace_back(occupancy);
     const double made = seconds(start);
     const Asked ours =
         ask(all, quick ? 200 : 5000,
@@ -167,8 +167,8 @@ core::BenchmarkReport runDistanceBenchmark(bool quick, const core::Progress& pro
     report.points.back().extra["megabytes"] = bytes / 1e6;
 
     std::vector<TissueField> fields;
-    for (const auto& share : shares)
-      fields.push_back(alone(share));
+    for (const auto& occupancy : occupancies)
+      fields.push_back(alone(occupancy));
     std::vector<NearestSurfaceSearch> searches;
     for (const TissueField& field : fields)
       searches.emplace_back(field, kFar);

@@ -25,10 +25,10 @@ std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& va
     if (mesh.name == structure && !mesh.touch.resident())
       mesh.touch.solid(scene::meshOnCt(value, mesh), value.ct.geometry, progress.part(0.0, 0.3));
   }
-  for (const scene::StructureOccupancy& share : scene::structureShares(value))
-    if (share.name == structure)
+  for (const scene::StructureOccupancy& occupancy : scene::structureOccupancies(value))
+    if (occupancy.name == structure)
       if (auto field =
-              volume::makeDistanceField(*share.make(), kFarthestThickness, progress.part(0.3, 1.0)))
+              volume::makeDistanceField(*occupancy.make(), kFarthestThickness, progress.part(0.3, 1.0)))
         return field;
   if (there.empty())
     throw core::InvalidParameter("thickness: case '" + value.name + "' has no structures");

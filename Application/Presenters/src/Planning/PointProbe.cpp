@@ -35,7 +35,7 @@ std::string PointProbe::structureAt(const Eigen::Vector3d& patient) const
         return structure.name;
   }
   for (const scene::MeshSolid& mesh : m_meshes)
-    if (volume::isInside(*mesh.share, patient))
+    if (volume::isInside(*mesh.occupancy, patient))
       return mesh.part->name;
   return {};
 }

@@ -12,10 +12,10 @@ namespace petrous::presenters
 struct StructureSurfaces::Structure
 {
   Structure(scene::StructureOccupancy known, const SurfaceUncertainty& surface)
-    : share(std::move(known))
+    : occupancy(std::move(known))
     , uncertainty(surface)
   {
-    box = share.around.patientBounds();
+    box = occupancy.around.patientBounds();
   }
 
   const volume::SurfaceDistance& surface(const core::Progress& progress = {})
@@ -23,12 +23,12 @@ struct StructureSurfaces::Structure
     if (!measured)
     {
       progress.check("measuring structures");
-      measured = std::make_unique<const volume::SurfaceDistance>(share.make(), progress);
+      measured = std::make_unique<const volume::SurfaceDistance>(occupancy.make(), progress);
     }
     return *measured;
   }
 
-  scene::StructureOccupancy share;
+  scene::StructureOccupancy occupancy;
   SurfaceUncertainty uncertainty;
   core::PatientBox box;
   std::unique_ptr<const volume::SurfaceDistance> measured;
@@ -36,10 +36,10 @@ struct StructureSurfaces::Structure
 
 StructureSurfaces::StructureSurfaces(const scene::Case& value)
 {
-  for (scene::StructureOccupancy& share : scene::structureShares(value))
+  for (scene::StructureOccupancy& occupancy : scene::structureOccupancies(value))
   {
-    const SurfaceUncertainty uncertainty = uncertaintyOf(value, share);
-    m_structures.push_back(std::make_unique<Structure>(std::move(share), uncertainty));
+    const SurfaceUncertainty uncertainty = uncertaintyOf(value, occupancy);
+    m_structures.push_back(std::make_unique<Structure>(std::move(occupancy), uncertainty));
   }
 }
 
@@ -47,12 +47,12 @@ StructureSurfaces::~StructureSurfaces() = default;
 
 const std::string& StructureSurfaces::name(std::size_t structure) const
 {
-  return m_structures[structure]->share.name;
+  return m_structures[structure]->occupancy.name;
 }
 
 double StructureSurfaces::spacing(std::size_t structure) const
 {
-  return m_structures[structure]->share.grid.minSpacing();
+  return m_structures[structure]->occupancy.grid.minSpacing();
 }
 
 const SurfaceUncertainty& StructureSurfaces::uncertainty(std::size_t structure) const
@@ -82,13 +82,13 @@ StructureSurfaces::nearest(const Eigen::Vector3d& patient, double reach,
   double best = reach;
   for (std::size_t n = 0; n < m_structures.size(); ++n)
   {
-    if (!wanted(m_structures[n]->share.name))
+    if (!wanted(m_structures[n]->occupancy.name))
       continue;
     const double there = distance(n, patient, best);
     if (!(there < best))
       continue;
     best = std::abs(there);
-    nearest = NearStructure{m_structures[n]->share.name, there};
+    nearest = NearStructure{m_structures[n]->occupancy.name, there};
   }
   return nearest;
 }
@@ -98,7 +98,7 @@ std::map<std::string, std::size_t> StructureSurfaces::resources() const
   std::map<std::string, std::size_t> resources;
   for (const auto& structure : m_structures)
     if (structure->measured)
-      resources["labels.distance." + structure->share.name] = structure->measured->bytes();
+      resources["labels.distance." + structure->occupancy.name] = structure->measured->bytes();
   return resources;
 }
 

@@ -45,7 +45,7 @@ bool mayHoldStructures(const volume::TissueField& tissue, int i, int j, int k)
 
 } // namespace
 
-bool cellShares(const volume::TissueField& tissue, int i, int j, int k, CellValues& shares)
+bool cellOccupancies(const volume::TissueField& tissue, int i, int j, int k, CellValues& shares)
 {
   double least = tissue.ct()->at(i, j, k);
   double most = least;

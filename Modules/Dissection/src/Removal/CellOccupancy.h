@@ -23,6 +23,6 @@ inline Eigen::Vector3d cellPoint(const core::GridGeometry& grid, int i, int j, i
 /// How much of each point's part of a cell is tissue before any cut, 0 to 1: where f is f0 in the
 /// middle of a part over which it changes by g, 1/2 + f0/g of it. False where there is none.
 /// The voxel must have a neighbour above it on each axis.
-bool cellShares(const volume::TissueField& tissue, int i, int j, int k, CellValues& shares);
+bool cellOccupancies(const volume::TissueField& tissue, int i, int j, int k, CellValues& shares);
 
 } // namespace petrous::dissection

@@ -46,14 +46,14 @@ CellContent& CellTissue::at(int i, int j, int k)
 
 void CellTissue::fill(int i, int j, int k, CellContent& content) const
 {
-  content.empty = !cellShares(m_tissue, i, j, k, content.share);
+  content.empty = !cellOccupancies(m_tissue, i, j, k, content.occupancy);
   if (content.empty)
     return;
   std::size_t point = 0;
   for (int c = 0; c < kCellPoints; ++c)
     for (int b = 0; b < kCellPoints; ++b)
       for (int a = 0; a < kCellPoints; ++a, ++point)
-        content.resistance[point] = content.share[point] > 0.0F
+        content.resistance[point] = content.occupancy[point] > 0.0F
                                         ? static_cast<float>(m_resistance.at(
                                               cellPoint(m_tissue.geometry(), i, j, k, a, b, c)))
                                         : 0.0F;

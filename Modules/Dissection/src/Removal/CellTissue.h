@@ -23,7 +23,7 @@ struct CellContent
   float volume = 0.0F;
   bool reckoned = false;
   bool empty = true;
-  alignas(16) CellValues share{};      ///< of a point's part that is tissue, 0 to 1
+  alignas(16) CellValues occupancy{};      ///< of a point's part that is tissue, 0 to 1
   alignas(16) CellValues resistance{}; ///< N/mm^2; 0 where there is no tissue
 };
 

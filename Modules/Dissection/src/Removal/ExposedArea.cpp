@@ -87,13 +87,13 @@ private:
 } // namespace
 
 double exposedArea(const volume::TissueField& tissue, const volume::CutMask& mask,
-                   const volume::Volume<float>& share, const core::Progress& progress)
+                   const volume::Volume<float>& occupancy, const core::Progress& progress)
 {
   if (mask.untouched())
     return 0.0;
   const Cover cover(tissue, mask);
   return volume::surfaceArea(
-      share,
+      occupancy,
       [&cover](const Eigen::Vector3d& point, const Eigen::Vector3d& outward)
       { return cover.laidOpen(point, outward); },
       progress);

@@ -74,7 +74,7 @@ public:
     Eigen::Array4f work = Eigen::Array4f::Zero();
     Eigen::Array4f volume = Eigen::Array4f::Zero();
     const float* resistance = content.resistance.data();
-    const float* tissue = content.share.data();
+    const float* tissue = content.occupancy.data();
     each(corners,
          [&](const Eigen::Array4f& mask)
          {

@@ -235,8 +235,8 @@ void RemovalStencil::addToPatch(const Cell& cell, const Eigen::Vector3d& center,
     return;
   }
   CellValues before, after;
-  m_sums.left(cornersOf(m_now, cell.corner), cell.content->share, before);
-  m_sums.left(cornersOf(m_after, cell.corner), cell.content->share, after);
+  m_sums.left(cornersOf(m_now, cell.corner), cell.content->occupancy, before);
+  m_sums.left(cornersOf(m_after, cell.corner), cell.content->occupancy, after);
   std::size_t point = 0;
   for (int c = 0; c < kCellPoints; ++c)
     for (int b = 0; b < kCellPoints; ++b)

@@ -53,7 +53,7 @@ public:
     CellValues tissue, left, had;
     if (before == after || *std::min_element(after.begin(), after.end()) >= m_sums.high() ||
         *std::max_element(before.begin(), before.end()) <= m_sums.low() ||
-        !cellShares(m_tissue, i, j, k, tissue))
+        !cellOccupancies(m_tissue, i, j, k, tissue))
       return;
     m_sums.left(before, tissue, had);
     m_sums.left(after, tissue, left);

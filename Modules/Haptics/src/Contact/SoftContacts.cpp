@@ -74,7 +74,7 @@ void SoftContacts::begin(const Pose& goal) noexcept
   m_goal = goal;
 }
 
-double SoftContacts::shareOf(const Structure& structure, double linear,
+double SoftContacts::occupancyOf(const Structure& structure, double linear,
                              double angular) const noexcept
 {
   const auto way = static_cast<float>(linear + kMinWay) + static_cast<float>(angular) * m_arm;
@@ -90,7 +90,7 @@ double SoftContacts::share(const Motion& motion) noexcept
   // A point with a contact may go a step. The others may go on until they could need one.
   if (share * maxDisplacement(motion, m_shell.reach) > m_step)
     for (const std::size_t n : m_near)
-      share = std::min(share, shareOf(m_structures[n], linear, angular));
+      share = std::min(share, occupancyOf(m_structures[n], linear, angular));
   m_spent = ++m_steps >= kMaxSteps;
   const auto inside = [](const Contact& contact) { return contact.depth > 0.0; };
   if (m_pressed || m_behind || std::any_of(m_contacts.begin(), m_contacts.end(), inside))

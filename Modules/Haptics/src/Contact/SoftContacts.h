@@ -98,7 +98,7 @@ private:
               float& bound) const noexcept;
   void complete(Look& look) const noexcept;
   void look(Structure& structure) noexcept;
-  double shareOf(const Structure& structure, double linear, double angular) const noexcept;
+  double occupancyOf(const Structure& structure, double linear, double angular) const noexcept;
   void addContacts(const Structure& structure, std::size_t spring) noexcept;
   bool addBall(const Structure& structure, std::size_t spring) noexcept;
   void add(const Structure& structure, std::size_t spring, const Look& look) noexcept;

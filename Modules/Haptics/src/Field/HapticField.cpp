@@ -34,15 +34,15 @@ std::size_t offsetInBrick(int i, int j, int k) noexcept
 }
 
 // Whether it does not end at the hull of its voxels while it is tissue.
-bool endsInAir(const volume::Volume<float>& share) noexcept
+bool endsInAir(const volume::Volume<float>& occupancy) noexcept
 {
-  const core::Index3& n = share.geometry().dims();
+  const core::Index3& n = occupancy.geometry().dims();
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
     {
       const bool face = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
       for (int i = 0; i < n[0]; i += face || i == n[0] - 1 ? 1 : n[0] - 1)
-        if (share.at(i, j, k) > 0.5F)
+        if (occupancy.at(i, j, k) > 0.5F)
           return false;
     }
   return true;
@@ -70,16 +70,16 @@ HapticField::HapticField(const TissueField& tissue,
     if (!structure.depth || !(structure.stiffness >= 1e-3 && structure.stiffness <= 100.0))
       throw core::InvalidParameter("haptic field: a soft structure needs its distance map and a "
                                    "stiffness within 0.001 to 100 N/mm");
-  for (const auto& share : tissue.solids())
+  for (const auto& occupancy : tissue.solids())
   {
-    const core::GridGeometry& grid = share->geometry();
+    const core::GridGeometry& grid = occupancy->geometry();
     const core::Index3& dims = grid.dims();
-    Solid solid{share, grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
+    Solid solid{occupancy, grid.voxelFromPatientLinear() * m_geometry.patientFromVoxelLinear(),
                 grid.voxelFromPatient(m_geometry.origin()),
                 Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)};
     const Eigen::Vector3d whole = solid.offset.array().round();
     solid.onGrid = (solid.fromCt - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kSameGrid &&
-                   (solid.offset - whole).cwiseAbs().maxCoeff() < kSameGrid && endsInAir(*share);
+                   (solid.offset - whole).cwiseAbs().maxCoeff() < kSameGrid && endsInAir(*occupancy);
     m_solids.push_back(std::move(solid));
   }
   TissueBricks bricks = keptBricks(tissue, kept);
@@ -160,8 +160,8 @@ double HapticField::solid(std::size_t n, const Eigen::Vector3d& voxel) const noe
   const Eigen::Vector3d own = solid.fromCt * voxel + solid.offset;
   if ((own.array() < 0.0).any() || (own.array() > solid.last.array()).any())
     return -0.5;
-  const Cell cell = cellAt(own, solid.share->geometry().dims());
-  const float* corner = solid.share->data() + cell.base;
+  const Cell cell = cellAt(own, solid.occupancy->geometry().dims());
+  const float* corner = solid.occupancy->data() + cell.base;
   return cell.interpolate([corner](std::size_t offset) { return double{corner[offset]}; }) - 0.5;
 }
 
@@ -277,7 +277,7 @@ Eigen::Vector3d HapticField::gradient(const Eigen::Vector3d& voxel, const FieldS
   if (sample.decider == Decider::Solid)
   {
     const Solid& solid = m_solids[sample.solid];
-    return volume::sampleGradient(*solid.share, solid.fromCt * voxel + solid.offset, step);
+    return volume::sampleGradient(*solid.occupancy, solid.fromCt * voxel + solid.offset, step);
   }
   return volume::gradientInPatient(
       m_geometry, voxel, step, [&](const Eigen::Vector3d& v) { return operand(sample, v, mask); });
@@ -383,19 +383,19 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
         values.others = true;
         continue;
       }
-      std::array<float, 27> share;
-      share.fill(air);
+      std::array<float, 27> occupancy;
+      occupancy.fill(air);
       forEach([&](std::size_t n, int i, int j, int k)
-              { share[n] = static_cast<float>(solid(s, Eigen::Vector3d(i, j, k))); });
-      if (!(*std::max_element(share.begin(), share.end()) > 0.0F))
+              { occupancy[n] = static_cast<float>(solid(s, Eigen::Vector3d(i, j, k))); });
+      if (!(*std::max_element(occupancy.begin(), occupancy.end()) > 0.0F))
         continue;
       if (values.tissues < values.tissue.size())
       {
-        values.tissue[values.tissues++] = share;
+        values.tissue[values.tissues++] = occupancy;
         continue;
       }
       std::array<float, 27>& last = values.tissue.back();
-      std::transform(last.begin(), last.end(), share.begin(), last.begin(),
+      std::transform(last.begin(), last.end(), occupancy.begin(), last.begin(),
                      [](float a, float b) { return std::max(a, b); });
     }
   if (untouched(brick, mask))
@@ -468,11 +468,11 @@ double HapticField::tissueOf(std::size_t of, const Eigen::Vector3d& voxel) const
 
 std::array<float, 8> HapticField::unionCell(std::size_t n, const core::Index3& cell) const noexcept
 {
-  const volume::Volume<float>& share = *m_solids[n].share;
-  const core::Index3& dims = share.geometry().dims();
+  const volume::Volume<float>& occupancy = *m_solids[n].occupancy;
+  const core::Index3& dims = occupancy.geometry().dims();
   const auto row = static_cast<std::size_t>(dims[0]);
   const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
-  const float* first = share.data() + static_cast<std::size_t>(cell[0]) +
+  const float* first = occupancy.data() + static_cast<std::size_t>(cell[0]) +
                        row * static_cast<std::size_t>(cell[1]) +
                        slice * static_cast<std::size_t>(cell[2]);
   std::array<float, 8> corners;
@@ -486,7 +486,7 @@ std::vector<core::LockedMemory::Range> HapticField::memory() const
   std::vector<core::LockedMemory::Range> ranges;
   m_ct->visit([&](const auto& volume) { ranges.push_back({volume.data(), volume.bytes()}); });
   for (const Solid& solid : m_solids)
-    ranges.push_back({solid.share->data(), solid.share->bytes()});
+    ranges.push_back({solid.occupancy->data(), solid.occupancy->bytes()});
   ranges.push_back({m_distance.data(), m_distance.size() * sizeof(m_distance.front())});
   ranges.push_back({m_steepness.data(), m_steepness.size() * sizeof(m_steepness.front())});
   return ranges;

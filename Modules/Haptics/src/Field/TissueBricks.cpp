@@ -236,14 +236,14 @@ VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
   return result;
 }
 
-// Tells the CT's bricks of a union, where its share is above 0.
-void addUnion(const volume::Volume<float>& share, const core::GridGeometry& ct,
+// Tells the CT's bricks of a union, where its occupancy is above 0.
+void addUnion(const volume::Volume<float>& occupancy, const core::GridGeometry& ct,
               VolumeBricks& bricks, std::vector<std::uint8_t>& here)
 {
-  const VolumeBricks own = bricksOf(share, 0.5F, 1.0F);
+  const VolumeBricks own = bricksOf(occupancy, 0.5F, 1.0F);
   const Eigen::Matrix3d linear =
-      ct.voxelFromPatientLinear() * share.geometry().patientFromVoxelLinear();
-  const Eigen::Vector3d offset = ct.voxelFromPatient(share.geometry().origin());
+      ct.voxelFromPatientLinear() * occupancy.geometry().patientFromVoxelLinear();
+  const Eigen::Vector3d offset = ct.voxelFromPatient(occupancy.geometry().origin());
   // Half a brick and the voxel around it, in voxels of the CT.
   const Eigen::Array3d half = (linear.cwiseAbs() * Eigen::Vector3d::Ones()).array() + 1.0;
   std::size_t n = 0;
@@ -303,8 +303,8 @@ TissueBricks findTissueBricks(const volume::TissueField& tissue)
   TissueBricks result;
   result.dims = bricks.dims;
   result.distance.resize(bricks.marks.size());
-  for (const auto& share : tissue.solids())
-    addUnion(*share, tissue.geometry(), bricks, result.distance);
+  for (const auto& occupancy : tissue.solids())
+    addUnion(*occupancy, tissue.geometry(), bricks, result.distance);
   result.steepness = std::move(bricks.steepness);
   const core::IndexBox all{{0, 0, 0}, result.dims};
   const volume::DistanceBlock distances = volume::chebyshevDistances(

@@ -18,7 +18,7 @@ constexpr int kTissueBrick = 2; ///< voxels
 /// only a quarter below the threshold, next to cortical bone's steep edges.
 struct TissueBricks
 {
-  static constexpr std::uint8_t kUnionHere = 0x80; ///< a union's share is above 0 somewhere in it
+  static constexpr std::uint8_t kUnionHere = 0x80; ///< a union's occupancy is above 0 somewhere in it
   static constexpr int kMaxDistance = 31;
 
   core::Index3 dims;

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kSamePlace = 1e-3; // mm
-constexpr double kSameShare = 0.01; // of the usual gap: closer slices share one place
+constexpr double kSameOccupancy = 0.01; // of the usual gap: closer slices share one place
 constexpr double kWholeGap = 0.05;  // a gap this near to a multiple lacks whole slices
 constexpr std::size_t kPlacesNamed = 3;
 constexpr std::size_t kPitchChange = 3; // so many wide gaps in a row are a pitch, not a loss
@@ -168,7 +168,7 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
     const double gap = m_place[k + 1] - m_place[k];
     double step = 1.0;
     double plainStep = 1.0;
-    if (gap <= std::max(kSamePlace, kSameShare * usual))
+    if (gap <= std::max(kSamePlace, kSameOccupancy * usual))
     {
       firstDoubled = doubled++ == 0 ? k : firstDoubled;
       step = plainStep = 0.0;

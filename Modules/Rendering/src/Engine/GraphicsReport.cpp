@@ -39,7 +39,7 @@ volume::CutMask::Brick cutBrick()
 std::shared_ptr<volume::LabelField> labelField()
 {
   auto labels = std::make_shared<volume::LabelField>();
-  labels->share = filled(0.0F);
+  labels->occupancy = filled(0.0F);
   labels->index = filled<std::uint8_t>(0);
   return labels;
 }

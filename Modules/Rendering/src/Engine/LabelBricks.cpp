@@ -95,23 +95,23 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t> solidBricks(const volume::Volume<float>& share,
+std::vector<std::uint8_t> solidBricks(const volume::Volume<float>& occupancy,
                                       const core::GridGeometry& ct, const core::Index3& bricks,
                                       int edge)
 {
-  const core::Index3& dims = share.geometry().dims();
-  Marker marker(share.geometry(), ct, bricks, edge);
+  const core::Index3& dims = occupancy.geometry().dims();
+  Marker marker(occupancy.geometry(), ct, bricks, edge);
   tbb::parallel_for(tbb::blocked_range<int>(0, dims[2]),
                     [&](const tbb::blocked_range<int>& slices)
                     {
                       for (int k = slices.begin(); k < slices.end(); ++k)
                         for (int j = 0; j < dims[1]; ++j)
                         {
-                          const float* row = &share.at(0, j, k);
+                          const float* row = &occupancy.at(0, j, k);
                           for (int i = 0; i < dims[0]; ++i)
                           {
                             const int first = i;
-                            while (i < dims[0] && row[i] > kSolidShare)
+                            while (i < dims[0] && row[i] > kSolidOccupancy)
                               ++i;
                             if (i > first)
                               marker.mark(first, i, j, k);

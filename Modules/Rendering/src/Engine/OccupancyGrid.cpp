@@ -183,16 +183,16 @@ void OccupancyGrid::readIntensities(const volume::Volume<T>& ct)
 
 void OccupancyGrid::readLabels(const volume::LabelField* labels)
 {
-  if (!labels || !labels->share)
+  if (!labels || !labels->occupancy)
   {
     m_solid.clear();
-    m_share.reset();
+    m_occupancy.reset();
     return;
   }
-  if (m_share.lock() == labels->share)
+  if (m_occupancy.lock() == labels->occupancy)
     return;
-  m_solid = solidBricks(*labels->share, m_grid, m_dims, m_edge);
-  m_share = labels->share;
+  m_solid = solidBricks(*labels->occupancy, m_grid, m_dims, m_edge);
+  m_occupancy = labels->occupancy;
 }
 
 std::uint8_t OccupancyGrid::judge(std::size_t brick, const volume::CutMask* mask,

@@ -25,7 +25,7 @@ public:
   enum Flag : std::uint8_t
   {
     Mixed = 1,  ///< the mask is not 1 throughout
-    Labels = 2, ///< a share of a label above 0.499
+    Labels = 2, ///< an occupancy of a label above 0.499
     Tissue = 4, ///< f may exceed 0
     Inside = 8, ///< a ray inside tissue has something to see: air, a label, or opacity
     Border = 16 ///< a ray inside bone may come to an end of it: air, or a label
@@ -94,7 +94,7 @@ private:
   std::vector<float> m_max;
   std::vector<Texel> m_texels;
   std::vector<std::uint8_t> m_solid;                  // LabelBricks.h; empty: no labels
-  std::weak_ptr<const volume::Volume<float>> m_share; // that m_solid is of
+  std::weak_ptr<const volume::Volume<float>> m_occupancy; // that m_solid is of
   Rules m_rules;
 };
 

@@ -235,7 +235,7 @@ void RayCaster::upload()
   }
   if (!readsSecond(m_contents))
     m_second.texture.release();
-  if (m_contents.labels && (m_newLabels || !m_labels.share))
+  if (m_contents.labels && (m_newLabels || !m_labels.occupancy))
     m_labels.upload(*m_contents.labels, m_quality.largestTexture);
   if (!m_contents.labels)
     m_labels.release();
@@ -283,7 +283,7 @@ void RayCaster::upload()
   m_statistics.notes.clear();
   if (m_ct.reduction != core::Index3{1, 1, 1})
     note("the CT", m_ct.reduction);
-  if (m_labels.share && m_labels.reduction != core::Index3{1, 1, 1})
+  if (m_labels.occupancy && m_labels.reduction != core::Index3{1, 1, 1})
     note("the structures' label field", m_labels.reduction);
   if (m_second.texture && m_second.reduction != core::Index3{1, 1, 1})
     note("the second image", m_second.reduction);
@@ -296,7 +296,7 @@ void RayCaster::upload()
       m_statistics.resources[name] = bytes;
   };
   add("mask.texture", m_mask.texture().bytes());
-  add("labels.texture", m_labels.share.bytes() + m_labels.index.bytes());
+  add("labels.texture", m_labels.occupancy.bytes() + m_labels.index.bytes());
   add("labels.thickness", m_thickness.texture.bytes());
   add("mr.texture", m_second.texture.bytes());
 }

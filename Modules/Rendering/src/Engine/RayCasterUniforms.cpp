@@ -27,7 +27,7 @@ enum Unit : int
   MaterialUnit,
   OpaqueUnit,
   MaskUnit,
-  ShareUnit,
+  OccupancyUnit,
   IndexUnit,
   SecondUnit,
   ThicknessUnit,
@@ -52,7 +52,7 @@ void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
     bind(m_mask.texture(), MaskUnit, "maskTexture");
   if (m_contents.labels)
   {
-    bind(m_labels.share, ShareUnit, "shareTexture");
+    bind(m_labels.occupancy, OccupancyUnit, "occupancyTexture");
     bind(m_labels.index, IndexUnit, "indexTexture");
   }
   if (m_second.texture)
@@ -136,7 +136,7 @@ void RayCaster::setVolume(GlProgram& program) const
   program.set("maskOffset", m_mask.map().offset);
   if (m_contents.labels)
   {
-    const core::GridGeometry& labels = m_contents.labels->share->geometry();
+    const core::GridGeometry& labels = m_contents.labels->occupancy->geometry();
     program.set("labelFromVoxel",
                 Eigen::Matrix3d(labels.voxelFromPatientLinear() * voxelFromMm.inverse()));
     program.set("labelOrigin",

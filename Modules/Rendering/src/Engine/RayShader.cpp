@@ -44,7 +44,7 @@ std::string constants()
   std::string text = "const int kMaxPlanes = " + std::to_string(kMaxPlanes) + ";\n";
   const std::pair<const char*, double> reals[] = {{"kInteriorFacing", optics::kInteriorFacing},
                                                   {"kWetShininess", optics::kWetShininess},
-                                                  {"kShareThreshold", optics::kShareThreshold},
+                                                  {"kOccupancyThreshold", optics::kOccupancyThreshold},
                                                   {"kSmoothOpacity", optics::kSmoothOpacity},
                                                   {"kMarginPerDepth", volume::kMarginPerDepth}};
   for (const auto& [name, value] : reals)

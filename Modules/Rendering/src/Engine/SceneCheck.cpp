@@ -21,9 +21,9 @@ void require(bool holds, const std::string& what)
 
 void checkLabels(const volume::LabelField& labels)
 {
-  require(labels.share && labels.index &&
-              core::sameGrid(labels.share->geometry(), labels.index->geometry()),
-          "the structures need a share and an index on one grid");
+  require(labels.occupancy && labels.index &&
+              core::sameGrid(labels.occupancy->geometry(), labels.index->geometry()),
+          "the structures need an occupancy and an index on one grid");
   require(!labels.borders || core::sameGrid(labels.borders->geometry(), labels.index->geometry()),
           "the structures' borders do not lie on their grid");
 }

@@ -264,9 +264,9 @@ void MaskTexture::release()
 
 void LabelTextures::upload(const volume::LabelField& labels, int largest)
 {
-  const volume::Volume<float>& shares = *labels.share;
-  const core::Index3& dims = shares.geometry().dims();
-  // Sixteen bits hold a share exactly: it comes in steps of 1/65535.
+  const volume::Volume<float>& occupancies = *labels.occupancy;
+  const core::Index3& dims = occupancies.geometry().dims();
+  // Sixteen bits hold an occupancy exactly: it comes in steps of 1/65535.
   const auto inSixteenBits = [](float value)
   { return static_cast<std::uint16_t>(std::lround(65535.0F * std::clamp(value, 0.0F, 1.0F))); };
   reduction = reductionFor(texel::kUnsignedShort, dims, largest);
@@ -276,7 +276,7 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   borders = whole && labels.borders;
   if (whole)
   {
-    std::vector<std::uint16_t> values(shares.size());
+    std::vector<std::uint16_t> values(occupancies.size());
     const auto fill = [&values](const auto& valueAt)
     {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
@@ -286,8 +286,8 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
                             values[i] = valueAt(i);
                         });
     };
-    fill([&](std::size_t i) { return inSixteenBits(shares.data()[i]); });
-    share.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
+    fill([&](std::size_t i) { return inSixteenBits(occupancies.data()[i]); });
+    occupancy.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
     if (!borders)
     {
       index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
@@ -306,11 +306,11 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   }
   const auto means = reduceBox<std::uint16_t>(dims, reduction, wholeBox(texels),
                                               [&](int i, int j, int k)
-                                              { return inSixteenBits(shares.at(i, j, k)); });
-  share.create(texel::kUnsignedShort, texels, means.data(), GL_LINEAR);
+                                              { return inSixteenBits(occupancies.at(i, j, k)); });
+  occupancy.create(texel::kUnsignedShort, texels, means.data(), GL_LINEAR);
   std::vector<std::uint8_t> indices(means.size());
   std::size_t texel = 0;
-  // An index is a name and has no mean: that of the voxel in the block which has most of the share.
+  // An index is a name and has no mean: that of the voxel in the block which has most of the occupancy.
   for (int z = 0; z < texels[2]; ++z)
     for (int y = 0; y < texels[1]; ++y)
       for (int x = 0; x < texels[0]; ++x, ++texel)
@@ -319,9 +319,9 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
         for (int k = z * reduction[2]; k < std::min((z + 1) * reduction[2], dims[2]); ++k)
           for (int j = y * reduction[1]; j < std::min((y + 1) * reduction[1], dims[1]); ++j)
             for (int i = x * reduction[0]; i < std::min((x + 1) * reduction[0], dims[0]); ++i)
-              if (labels.index->at(i, j, k) != 0 && shares.at(i, j, k) > most)
+              if (labels.index->at(i, j, k) != 0 && occupancies.at(i, j, k) > most)
               {
-                most = shares.at(i, j, k);
+                most = occupancies.at(i, j, k);
                 indices[texel] = labels.index->at(i, j, k);
               }
       }
@@ -330,7 +330,7 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
 
 void LabelTextures::release()
 {
-  share.release();
+  occupancy.release();
   index.release();
 }
 

@@ -68,9 +68,9 @@ private:
 
 struct LabelTextures
 {
-  GlTexture share;
+  GlTexture occupancy;
   GlTexture index;
-  TextureMap map; ///< of the share; a texel of the index is voxel / reduction
+  TextureMap map; ///< of the occupancy; a texel of the index is voxel / reduction
   core::Index3 reduction{1, 1, 1};
   bool borders = false; ///< the index has a second channel, LabelField::borders
 

@@ -57,7 +57,7 @@ constexpr double kInteriorFacing = 2.0 / 3.0;
 /// Exponent of the highlight of a wet surface.
 constexpr double kWetShininess = 120.0;
 
-constexpr double kShareThreshold = 0.5 - 1e-3;
+constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 
 /// Surface opacity from which the CT's surface is lit without the steps of its slices. What is seen
 /// through shows them less, and a ray meets many such surfaces.

@@ -73,19 +73,19 @@ ReferenceRayCaster::Implementation::Pixel
 ReferenceRayCaster::Implementation::see(const PixelRay& ray) const
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
-  double share = 1.0; // of the pixels that no screen door has stopped yet
+  double occupancy = 1.0; // of the pixels that no screen door has stopped yet
   for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
   {
     const GatheredLight light = gather(ray, hit.distance);
-    color += share * hit.opacity * (light.color + light.transmittance * hit.color);
-    share *= 1.0 - hit.opacity;
-    if (!(share > 0.0))
+    color += occupancy * hit.opacity * (light.color + light.transmittance * hit.color);
+    occupancy *= 1.0 - hit.opacity;
+    if (!(occupancy > 0.0))
       return {color, light.depth};
   }
   const GatheredLight light = gather(ray, std::numeric_limits<double>::infinity());
   const Eigen::Vector3d background(optics::kBackground[0], optics::kBackground[1],
                                    optics::kBackground[2]);
-  return {color + share * (light.color + light.transmittance * background), light.depth};
+  return {color + occupancy * (light.color + light.transmittance * background), light.depth};
 }
 
 ReferenceRayCaster::ReferenceRayCaster(const SceneContents& contents)

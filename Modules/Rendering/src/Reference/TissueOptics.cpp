@@ -30,7 +30,7 @@ volume::TissueField makeField(const SceneContents& contents)
 {
   std::vector<volume::TissueField::SolidUnion> solids;
   if (contents.labels)
-    solids.push_back(contents.labels->share);
+    solids.push_back(contents.labels->occupancy);
   return {contents.ct,
           std::move(solids),
           contents.mask,
@@ -41,7 +41,7 @@ volume::TissueField makeField(const SceneContents& contents)
 
 TissueOptics::TissueOptics(const SceneContents& contents)
   : m_ct(checked(contents).ct)
-  , m_share(contents.labels ? contents.labels->share : nullptr)
+  , m_occupancy(contents.labels ? contents.labels->occupancy : nullptr)
   , m_index(contents.labels ? contents.labels->index : nullptr)
   , m_borders(contents.labels ? contents.labels->borders : nullptr)
   , m_second(contents.second)
@@ -54,12 +54,12 @@ TissueOptics::TissueOptics(const SceneContents& contents)
     m_materials.emplace_back();
 }
 
-double TissueOptics::shareAt(const Eigen::Vector3d& patient) const
+double TissueOptics::occupancyAt(const Eigen::Vector3d& patient) const
 {
-  if (!m_share)
+  if (!m_occupancy)
     return 0.0;
-  const Eigen::Vector3d voxel = m_share->geometry().voxelFromPatient(patient);
-  return m_share->geometry().hullContains(voxel) ? volume::sampleTrilinear(*m_share, voxel) : 0.0;
+  const Eigen::Vector3d voxel = m_occupancy->geometry().voxelFromPatient(patient);
+  return m_occupancy->geometry().hullContains(voxel) ? volume::sampleTrilinear(*m_occupancy, voxel) : 0.0;
 }
 
 std::size_t TissueOptics::indexAt(const Eigen::Vector3d& patient) const
@@ -108,7 +108,7 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
   const double f = m_field.value(patient);
   if (!(f > 0.0))
     return {kAir, -f};
-  const double inside = shareAt(patient) - 0.5;
+  const double inside = occupancyAt(patient) - 0.5;
   if (inside > 0.0)
   {
     const volume::StructureChoice structure = structureAt(patient);
@@ -130,7 +130,7 @@ const appearance::Material& TissueOptics::materialOf(State state) const
 
 const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d& patient) const
 {
-  if (shareAt(patient) > optics::kShareThreshold)
+  if (occupancyAt(patient) > optics::kOccupancyThreshold)
     return m_materials[structureAt(patient).index];
   const appearance::Material& material = m_materials[indexAt(patient)];
   return material.lumen ? material : m_materials.front();
@@ -145,10 +145,10 @@ double TissueOptics::intensity(const appearance::Material& material,
   return m_ct->sample(m_ct->geometry().voxelFromPatient(patient));
 }
 
-Eigen::Vector3d TissueOptics::shareNormal(const Eigen::Vector3d& patient) const
+Eigen::Vector3d TissueOptics::occupancyNormal(const Eigen::Vector3d& patient) const
 {
-  const Eigen::Vector3d voxel = m_share->geometry().voxelFromPatient(patient);
-  const Eigen::Vector3d slope = volume::sampleGradient(*m_share, voxel, 1.0);
+  const Eigen::Vector3d voxel = m_occupancy->geometry().voxelFromPatient(patient);
+  const Eigen::Vector3d slope = volume::sampleGradient(*m_occupancy, voxel, 1.0);
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }
 
@@ -185,8 +185,8 @@ std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
   if (!grid.hullContains(voxel))
     return std::nullopt;
-  const double share = volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
-  return share < 1.0 ? std::optional(thicknessColor(share)) : std::nullopt;
+  const double occupancy = volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
+  return occupancy < 1.0 ? std::optional(thicknessColor(occupancy)) : std::nullopt;
 }
 
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
@@ -203,7 +203,7 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   {
     const bool smooth = double{material.surfaceOpacity} >= optics::kSmoothOpacity;
     normal = between ? borderNormal(point, static_cast<std::size_t>(to - kBone - 1))
-             : from == kBone && to > kBone ? shareNormal(point)
+             : from == kBone && to > kBone ? occupancyNormal(point)
              : smooth                      ? m_field.smoothNormal(point)
                                            : m_field.normal(point);
     below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;

@@ -26,7 +26,7 @@ public:
   struct Place
   {
     State state = kAir;
-    double margin = 0.0; ///< how far f (and the share) are from another state than this one, >= 0
+    double margin = 0.0; ///< how far f (and the occupancy) are from another state than this one, >= 0
   };
 
   struct Surface
@@ -60,18 +60,18 @@ public:
   const LightSettings& light() const noexcept { return m_light; }
 
 private:
-  double shareAt(const Eigen::Vector3d& patient) const;
+  double occupancyAt(const Eigen::Vector3d& patient) const;
   std::size_t indexAt(const Eigen::Vector3d& patient) const;
   double depthIn(std::size_t index, const Eigen::Vector3d& voxel) const;
   volume::StructureChoice structureAt(const Eigen::Vector3d& patient) const;
   std::size_t indexOfVoxel(const Eigen::Vector3d& voxel) const;
   const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient) const;
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
-  Eigen::Vector3d shareNormal(const Eigen::Vector3d& patient) const;
+  Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;
 
   std::shared_ptr<const volume::IntensityVolume> m_ct;
-  std::shared_ptr<const volume::Volume<float>> m_share;
+  std::shared_ptr<const volume::Volume<float>> m_occupancy;
   std::shared_ptr<const volume::Volume<std::uint8_t>> m_index;
   std::shared_ptr<const volume::Volume<std::uint8_t>> m_borders;
   SecondImage m_second;

@@ -16,7 +16,7 @@ namespace
 {
 constexpr int kDpi = 72;
 constexpr int kBorder = 2; // pixels
-constexpr double kBorderShare = 0.8;
+constexpr double kBorderOccupancy = 0.8;
 
 // How much of each pixel the text covers, 0 to 1, rows from the top.
 struct TextMask
@@ -80,7 +80,7 @@ void writeText(Picture& picture, const std::string& text, const TextPlace& place
       const int y = top + row;
       if (x < 0 || y < 0 || x >= picture.width || y >= picture.height)
         continue;
-      const double dark = kBorderShare * mask.around(column, row);
+      const double dark = kBorderOccupancy * mask.around(column, row);
       const double share = mask.at(column, row);
       std::uint8_t* pixel =
           &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +

@@ -11,19 +11,19 @@
 namespace petrous::volume
 {
 
-std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,
+std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& occupancy, double reach,
                                                        const core::Progress& progress,
                                                        std::size_t maxVoxels)
 {
   if (!(reach > 0.0))
     throw core::InvalidParameter("distance field: the reach must be above 0 mm");
-  const core::GridGeometry& from = share.geometry();
-  const core::IndexBox box = insideBox(share);
+  const core::GridGeometry& from = occupancy.geometry();
+  const core::IndexBox box = insideBox(occupancy);
   if (box.empty())
     return nullptr;
   // The surface may lie up to a voxel beyond the voxels inside.
   const DistanceGrid grid = gridFor(from, box, reach + from.spacing().maxCoeff(), maxVoxels);
-  const OccupancySurface surface(share);
+  const OccupancySurface surface(occupancy);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));
   auto field = std::make_shared<Volume<float>>(geometryOf(grid, from));
@@ -46,7 +46,7 @@ std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& shar
                               grid.origin + grid.edge * Eigen::Vector3d(i, j, k);
                           const std::size_t node = field->geometry().linearIndex(i, j, k);
                           const double distance = distanceAt(position, node);
-                          // A share ends where it is 0 or where the image does.
+                          // An occupancy ends where it is 0 or where the image does.
                           const Eigen::Vector3d voxel = position.cwiseQuotient(from.spacing());
                           const bool inside =
                               from.hullContains(voxel) && surface.at(position).value > 0.0;

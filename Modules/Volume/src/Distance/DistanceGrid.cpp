@@ -8,17 +8,17 @@ namespace petrous::volume
 
 namespace
 {
-constexpr double kFinest = 0.5; // voxels of the share: an edge
+constexpr double kFinest = 0.5; // voxels of the occupancy: an edge
 }
 
-core::IndexBox insideBox(const Volume<float>& share)
+core::IndexBox insideBox(const Volume<float>& occupancy)
 {
-  const core::Index3& dims = share.geometry().dims();
+  const core::Index3& dims = occupancy.geometry().dims();
   core::IndexBox box{dims, {0, 0, 0}};
   for (int k = 0; k < dims[2]; ++k)
     for (int j = 0; j < dims[1]; ++j)
       for (int i = 0; i < dims[0]; ++i)
-        if (share.at(i, j, k) > 0.5F)
+        if (occupancy.at(i, j, k) > 0.5F)
         {
           const core::Index3 at{i, j, k};
           for (std::size_t a = 0; a < 3; ++a)
@@ -30,11 +30,11 @@ core::IndexBox insideBox(const Volume<float>& share)
   return box;
 }
 
-DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box, double beyond,
+DistanceGrid gridFor(const core::GridGeometry& occupancy, const core::IndexBox& box, double beyond,
                      std::size_t maxVoxels)
 {
   DistanceGrid grid;
-  grid.edge = kFinest * share.minSpacing();
+  grid.edge = kFinest * occupancy.minSpacing();
   Eigen::Vector3d size;
   for (;; grid.edge *= 1.25)
   {
@@ -44,7 +44,7 @@ DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box,
     for (std::size_t a = 0; a < 3; ++a)
     {
       const auto axis = static_cast<Eigen::Index>(a);
-      const double h = share.spacing()[axis];
+      const double h = occupancy.spacing()[axis];
       const double past = std::max(margin, h + grid.edge);
       grid.origin[axis] = box.lower[a] * h - past;
       size[axis] = (box.upper[a] - 1) * h + past - grid.origin[axis];
@@ -56,10 +56,10 @@ DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box,
   }
 }
 
-core::GridGeometry geometryOf(const DistanceGrid& grid, const core::GridGeometry& share)
+core::GridGeometry geometryOf(const DistanceGrid& grid, const core::GridGeometry& occupancy)
 {
   return {grid.dims, Eigen::Vector3d::Constant(grid.edge),
-          share.patientFromVoxel(grid.origin.cwiseQuotient(share.spacing())), share.direction()};
+          occupancy.patientFromVoxel(grid.origin.cwiseQuotient(occupancy.spacing())), occupancy.direction()};
 }
 
 } // namespace petrous::volume

@@ -7,22 +7,22 @@
 namespace petrous::volume
 {
 
-/// A grid of cubes round a structure, along the axes of its share.
+/// A grid of cubes round a structure, along the axes of its occupancy.
 struct DistanceGrid
 {
-  Eigen::Vector3d origin; ///< of the first node, mm along the share's axes from its first voxel
+  Eigen::Vector3d origin; ///< of the first node, mm along the occupancy's axes from its first voxel
   double edge;            ///< mm
   core::Index3 dims;
 };
 
 /// The voxels that lie inside; empty where none does.
-core::IndexBox insideBox(const Volume<float>& share);
+core::IndexBox insideBox(const Volume<float>& occupancy);
 
-/// Reaches `beyond` mm past the voxels of `box`, and a cube more. The cubes are half the share's
+/// Reaches `beyond` mm past the voxels of `box`, and a cube more. The cubes are half the occupancy's
 /// least spacing in edge, larger where there would be more than `maxVoxels`.
-DistanceGrid gridFor(const core::GridGeometry& share, const core::IndexBox& box, double beyond,
+DistanceGrid gridFor(const core::GridGeometry& occupancy, const core::IndexBox& box, double beyond,
                      std::size_t maxVoxels);
 
-core::GridGeometry geometryOf(const DistanceGrid& grid, const core::GridGeometry& share);
+core::GridGeometry geometryOf(const DistanceGrid& grid, const core::GridGeometry& occupancy);
 
 } // namespace petrous::volume

@@ -16,7 +16,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr double kMargin = 2.5; // voxels of the share beyond those inside
+constexpr double kMargin = 2.5; // voxels of the occupancy beyond those inside
 constexpr double kSharp = 3.0;  // of the map's voxels: nearer than this the spline is sharpened,
 constexpr double kFullySharp = 1.5; // and fully so up to here
 
@@ -147,17 +147,17 @@ double DistanceMap::depth(const Eigen::Vector3d& patient) const noexcept
   return far > 0.0 ? -far : at(voxel).depth;
 }
 
-std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
+std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& occupancy,
                                                    const core::GridGeometry& domain,
                                                    const core::Progress& progress,
                                                    std::size_t maxVoxels)
 {
-  const core::GridGeometry& from = share.geometry();
-  const core::IndexBox box = insideBox(share);
+  const core::GridGeometry& from = occupancy.geometry();
+  const core::IndexBox box = insideBox(occupancy);
   if (box.empty())
     return nullptr;
   const DistanceGrid grid = gridFor(from, box, kMargin * from.minSpacing(), maxVoxels);
-  const OccupancySurface surface(share);
+  const OccupancySurface surface(occupancy);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));
 

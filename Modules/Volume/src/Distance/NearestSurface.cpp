@@ -76,8 +76,8 @@ void searchCell(const TissueField& field, const Eigen::Vector3d& from, const cor
 double coarsestSpacing(const TissueField& field)
 {
   double spacing = field.geometry().spacing().maxCoeff();
-  for (const TissueField::SolidUnion& share : field.solids())
-    spacing = std::max(spacing, share->geometry().spacing().maxCoeff());
+  for (const TissueField::SolidUnion& occupancy : field.solids())
+    spacing = std::max(spacing, occupancy->geometry().spacing().maxCoeff());
   return spacing;
 }
 
@@ -163,9 +163,9 @@ NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient, double r
 void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) const
 {
   const core::GridGeometry& grid = m_field.geometry();
-  for (const TissueField::SolidUnion& share : m_field.solids())
+  for (const TissueField::SolidUnion& occupancy : m_field.solids())
   {
-    const core::GridGeometry& own = share->geometry();
+    const core::GridGeometry& own = occupancy->geometry();
     if (own.minSpacing() > kFine * grid.minSpacing())
       continue;
     Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
@@ -185,7 +185,7 @@ void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) 
       for (int j = box.lower[1]; j < box.upper[1]; ++j)
         for (int i = box.lower[0]; i < box.upper[0]; ++i)
         {
-          if (!(share->at(i, j, k) > 0.5F))
+          if (!(occupancy->at(i, j, k) > 0.5F))
             continue;
           const Eigen::Vector3d voxel =
               grid.voxelFromPatient(own.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));

@@ -16,16 +16,16 @@ namespace
 {
 constexpr int kParts = 2;               // of a voxel's edge, between lines
 constexpr std::size_t kChunk = 4096;    // cells that one task looks at
-constexpr double kSmallestSlope = 1e-6; // of the share, a mm: less is no surface
+constexpr double kSmallestSlope = 1e-6; // of the occupancy, a mm: less is no surface
 } // namespace
 
 double surfaceArea(
-    const Volume<float>& share,
+    const Volume<float>& occupancy,
     const std::function<bool(const Eigen::Vector3d& point, const Eigen::Vector3d& outward)>& counts,
     const core::Progress& progress)
 {
-  const OccupancySurface surface(share);
-  const core::GridGeometry& grid = share.geometry();
+  const OccupancySurface surface(occupancy);
+  const core::GridGeometry& grid = occupancy.geometry();
   const std::vector<core::Index3> cells = surface.crossedCells(progress);
   std::vector<double> areas((cells.size() + kChunk - 1) / kChunk);
   const auto areaOf = [&](const core::Index3& cell)
@@ -42,7 +42,7 @@ double surfaceArea(
           if (!(steepness > kSmallestSlope))
             return;
           const Eigen::Vector3d voxel = crossing.point.cwiseQuotient(grid.spacing());
-          const Eigen::Vector3d outward = -sampleGradient(share, voxel, 1.0);
+          const Eigen::Vector3d outward = -sampleGradient(occupancy, voxel, 1.0);
           const double length = outward.norm();
           if (!(length > kSmallestSlope) || !counts(grid.patientFromVoxel(voxel), outward / length))
             return;

@@ -43,21 +43,21 @@ std::size_t boxesFor(std::size_t count)
 struct SurfaceDistance::Search
 {
   OccupancySurface surface;
-  Eigen::Vector3d position; // mm along the share's axes
+  Eigen::Vector3d position; // mm along the occupancy's axes
   double best;              // mm
 };
 
-SurfaceDistance::SurfaceDistance(std::shared_ptr<const Volume<float>> share,
+SurfaceDistance::SurfaceDistance(std::shared_ptr<const Volume<float>> occupancy,
                                  const core::Progress& progress)
-  : m_share(std::move(share))
+  : m_occupancy(std::move(occupancy))
 {
-  if (!m_share)
-    throw core::InvalidParameter("surface distance: no share given");
-  for (const int n : m_share->geometry().dims())
+  if (!m_occupancy)
+    throw core::InvalidParameter("surface distance: no occupancy given");
+  for (const int n : m_occupancy->geometry().dims())
     if (n > std::numeric_limits<std::uint16_t>::max())
-      throw core::InvalidParameter("surface distance: a share of more than 65535 voxels along one "
+      throw core::InvalidParameter("surface distance: an occupancy of more than 65535 voxels along one "
                                    "axis");
-  for (const core::Index3& cell : OccupancySurface(*m_share).crossedCells(progress))
+  for (const core::Index3& cell : OccupancySurface(*m_occupancy).crossedCells(progress))
     m_cells.push_back({static_cast<std::uint16_t>(cell[0]), static_cast<std::uint16_t>(cell[1]),
                        static_cast<std::uint16_t>(cell[2])});
   tbb::parallel_sort(m_cells.begin(), m_cells.end(),
@@ -101,7 +101,7 @@ SurfaceDistance::SurfaceDistance(std::shared_ptr<const Volume<float>> share,
 
 std::size_t SurfaceDistance::bytes() const noexcept
 {
-  std::size_t bytes = m_share->bytes() + m_cells.size() * sizeof(Cell);
+  std::size_t bytes = m_occupancy->bytes() + m_cells.size() * sizeof(Cell);
   for (const std::vector<Box>& level : m_levels)
     bytes += level.size() * sizeof(Box);
   return bytes;
@@ -180,7 +180,7 @@ void SurfaceDistance::visit(Search& search, std::size_t level, std::size_t box) 
 double SurfaceDistance::at(const Eigen::Vector3d& patient, double most) const
 {
   const Eigen::Vector3d voxel = geometry().voxelFromPatient(patient);
-  Search search{OccupancySurface(*m_share), voxel.cwiseProduct(geometry().spacing()), most};
+  Search search{OccupancySurface(*m_occupancy), voxel.cwiseProduct(geometry().spacing()), most};
   if (!m_levels.empty())
     visit(search, m_levels.size() - 1, 0);
   const bool inside =

@@ -33,8 +33,8 @@ TissueField::TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<
     throw core::InvalidParameter("tissue field: the mask does not lie on the CT's grid");
   m_solids.erase(std::remove(m_solids.begin(), m_solids.end(), nullptr), m_solids.end());
   m_finest = geometry().minSpacing();
-  for (const SolidUnion& share : m_solids)
-    m_finest = std::min(m_finest, share->geometry().minSpacing());
+  for (const SolidUnion& occupancy : m_solids)
+    m_finest = std::min(m_finest, occupancy->geometry().minSpacing());
 }
 
 double TissueField::ctOperand(const Eigen::Vector3d& voxel) const

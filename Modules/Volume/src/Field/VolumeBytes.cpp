@@ -134,20 +134,20 @@ template <>
 struct Code<float>
 {
   using Type = std::uint16_t;
-  static std::uint16_t of(float share, std::atomic<bool>& lost)
+  static std::uint16_t of(float occupancy, std::atomic<bool>& lost)
   {
     constexpr float kMax = std::numeric_limits<std::uint16_t>::max();
-    if (!(share >= 0.0F && share <= 1.0F))
+    if (!(occupancy >= 0.0F && occupancy <= 1.0F))
     {
       lost = true;
       return 0;
     }
-    const auto code = static_cast<std::uint16_t>(share * kMax + 0.5F);
-    if (value(code) != share)
+    const auto code = static_cast<std::uint16_t>(occupancy * kMax + 0.5F);
+    if (value(code) != occupancy)
       lost = true;
     return code;
   }
-  static float value(std::uint16_t code) { return quantisedShare(code / 65535.0); }
+  static float value(std::uint16_t code) { return quantizedOccupancy(code / 65535.0); }
 };
 
 template <class T>
@@ -298,15 +298,15 @@ std::shared_ptr<T> from(const Bytes& bytes, const Make& make)
 
 } // namespace
 
-std::optional<Bytes> bytesOf(const Volume<float>& share)
+std::optional<Bytes> bytesOf(const Volume<float>& occupancy)
 {
   Bytes bytes;
-  if (!append(bytes, share))
+  if (!append(bytes, occupancy))
     return std::nullopt;
   return bytes;
 }
 
-std::shared_ptr<Volume<float>> shareFrom(const Bytes& bytes)
+std::shared_ptr<Volume<float>> occupancyFrom(const Bytes& bytes)
 {
   return from<Volume<float>>(bytes, [](Reader& reader) { return volumeFrom<float>(reader); });
 }
@@ -319,7 +319,7 @@ std::optional<Bytes> bytesOf(const LabelField& field)
   append(bytes, static_cast<std::uint32_t>(field.notes.size()));
   for (const std::string& note : field.notes)
     append(bytes, note);
-  if (!append(bytes, *field.share))
+  if (!append(bytes, *field.occupancy))
     return std::nullopt;
   append(bytes, *field.index);
   if (field.borders)
@@ -339,7 +339,7 @@ std::shared_ptr<LabelField> labelFieldFrom(const Bytes& bytes)
                             const auto notes = reader.number<std::uint32_t>();
                             for (std::uint32_t n = 0; n < notes; ++n)
                               field->notes.push_back(reader.text());
-                            field->share = volumeFrom<float>(reader);
+                            field->occupancy = volumeFrom<float>(reader);
                             field->index = volumeFrom<std::uint8_t>(reader);
                             if ((has & 4) != 0)
                               field->borders = volumeFrom<std::uint8_t>(reader);

@@ -15,7 +15,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr auto kThreshold = static_cast<float>(kInsideShare);
+constexpr auto kThreshold = static_cast<float>(kInsideOccupancy);
 constexpr int kBlock = 4; // voxels: the blocks round a border's have a say in how it is relaxed
 constexpr int kRound = 2 * kBlock;
 
@@ -23,7 +23,7 @@ using Boxes = std::array<core::IndexBox, 256>;
 
 // Marks the voxels round which two solids meet in tissue, and finds the box of each solid's cells
 // that do.
-Boxes markMeetings(const Volume<float>& share, const Volume<std::uint8_t>& index,
+Boxes markMeetings(const Volume<float>& occupancy, const Volume<std::uint8_t>& index,
                    const std::array<bool, 256>& solid, Volume<std::uint8_t>& borders,
                    const core::Progress& progress)
 {
@@ -46,7 +46,7 @@ Boxes markMeetings(const Volume<float>& share, const Volume<std::uint8_t>& index
     if (!meet)
       return false;
     for (int corner = 0; corner < 8; ++corner)
-      if (share.at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)) > kThreshold)
+      if (occupancy.at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)) > kThreshold)
         return true;
     return false;
   };
@@ -163,7 +163,7 @@ void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core
     }
   const Blocks near(borders, source);
   const core::Index3 offset{source.lower[0] - 1, source.lower[1] - 1, source.lower[2] - 1};
-  const auto share = smoothedShare(
+  const auto occupancy = smoothedOccupancy(
       *inside, progress,
       [&](const core::Index3& cell) {
         return near.hold({cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]});
@@ -176,7 +176,7 @@ void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core
         if (index.at(i, j, k) != own)
           continue;
         const double depth =
-            SurfaceNet::depthOf(share->at(i - source.lower[0] + 1, j - source.lower[1] + 1,
+            SurfaceNet::depthOf(occupancy->at(i - source.lower[0] + 1, j - source.lower[1] + 1,
                                           k - source.lower[2] + 1)) /
             kBorderReach;
         std::uint8_t& border = borders.at(i, j, k);
@@ -188,13 +188,13 @@ void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core
 
 } // namespace
 
-std::shared_ptr<const Volume<std::uint8_t>> makeLabelBorders(const Volume<float>& share,
+std::shared_ptr<const Volume<std::uint8_t>> makeLabelBorders(const Volume<float>& occupancy,
                                                              const Volume<std::uint8_t>& index,
                                                              const std::array<bool, 256>& solid,
                                                              const core::Progress& progress)
 {
   const auto borders = makeZeroVolume<std::uint8_t>(index.geometry());
-  const Boxes boxes = markMeetings(share, index, solid, *borders, progress.part(0.0, 0.2));
+  const Boxes boxes = markMeetings(occupancy, index, solid, *borders, progress.part(0.0, 0.2));
   std::vector<std::uint8_t> meeting;
   for (std::size_t own = 1; own < boxes.size(); ++own)
     if (!boxes[own].empty())

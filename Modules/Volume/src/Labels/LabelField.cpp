@@ -14,7 +14,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr auto kThreshold = static_cast<float>(kInsideShare);
+constexpr auto kThreshold = static_cast<float>(kInsideOccupancy);
 
 // A step to another voxel, and how far that is.
 struct Step
@@ -80,10 +80,10 @@ class IndexTile
 {
 public:
   IndexTile(const Volume<LabelRank>& ranks, const core::IndexBox& ranksTile,
-            const Volume<float>& share, const core::IndexBox& shareTile, const LabelOrder& order,
+            const Volume<float>& occupancy, const core::IndexBox& occupancyTile, const LabelOrder& order,
             const std::vector<Step>& near, const std::vector<Step>& far)
     : m_ranks(ranks, ranksTile)
-    , m_share(share, shareTile)
+    , m_occupancy(occupancy, occupancyTile)
     , m_order(order)
     , m_near(withStrides(near))
     , m_far(withStrides(far))
@@ -170,23 +170,23 @@ private:
     return best;
   }
 
-  // Whether the share exceeds the threshold anywhere nearer to this voxel than to another. Linear
+  // Whether the occupancy exceeds the threshold anywhere nearer to this voxel than to another. Linear
   // along each axis between voxel centres and the planes half-way, it is largest in one of those
   // 27 points.
   bool reachesThreshold(std::ptrdiff_t at) const
   {
-    const float* share = m_share.data();
+    const float* occupancy = m_occupancy.data();
     float largest = 0.0F;
     for (const auto& step : m_near)
-      largest = std::max(largest, share[at + step.first]);
-    if (std::max(largest, share[at]) <= kThreshold)
+      largest = std::max(largest, occupancy[at + step.first]);
+    if (std::max(largest, occupancy[at]) <= kThreshold)
       return false;
     for (int corner = 0; corner < 27; ++corner)
     {
       const core::Index3 to{corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1};
       float sum = 0.0F;
       for (int end = 0; end < 8; ++end)
-        sum += share[at + m_share.stride({(end & 1) != 0 ? to[0] : 0, (end & 2) != 0 ? to[1] : 0,
+        sum += occupancy[at + m_occupancy.stride({(end & 1) != 0 ? to[0] : 0, (end & 2) != 0 ? to[1] : 0,
                                           (end & 4) != 0 ? to[2] : 0})];
       if (sum > 8.0F * kThreshold)
         return true;
@@ -195,7 +195,7 @@ private:
   }
 
   TileCopy<LabelRank> m_ranks;
-  TileCopy<float> m_share;
+  TileCopy<float> m_occupancy;
   const LabelOrder& m_order;
   Strides m_near;
   Strides m_far;
@@ -224,14 +224,14 @@ bool fillInside(const LabelPriority& ranks, const core::Index3& offset, const co
   return filled < tile.count();
 }
 
-// `offset` takes voxels of the share to those of the ranks.
+// `offset` takes voxels of the occupancy to those of the ranks.
 std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, const core::Index3& offset,
-                                                const Volume<float>& share, const LabelOrder& order,
+                                                const Volume<float>& occupancy, const LabelOrder& order,
                                                 const core::Progress& progress)
 {
-  const auto index = makeZeroVolume<std::uint8_t>(share.geometry());
-  const std::vector<Step> near = stepsWithin(1, share.geometry().spacing());
-  const std::vector<Step> far = stepsWithin(kLabelMargin, share.geometry().spacing());
+  const auto index = makeZeroVolume<std::uint8_t>(occupancy.geometry());
+  const std::vector<Step> near = stepsWithin(1, occupancy.geometry().spacing());
+  const std::vector<Step> far = stepsWithin(kLabelMargin, occupancy.geometry().spacing());
   const auto fillTile = [&](const core::Index3&, const core::IndexBox& tile)
   {
     const core::IndexBox ranksTile = moved(tile, offset);
@@ -240,7 +240,7 @@ std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, cons
     const core::Index3 size = tile.size();
     if (!fillInside(ranks, offset, tile, order, *index))
       return;
-    const IndexTile source(*ranks.voxels, ranksTile, share, tile, order, near, far);
+    const IndexTile source(*ranks.voxels, ranksTile, occupancy, tile, order, near, far);
     for (int k = 0; k < size[2]; ++k)
       for (int j = 0; j < size[1]; ++j)
       {
@@ -250,7 +250,7 @@ std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, cons
             row[i] = source.indexOf(i, j, k);
       }
   };
-  forEachTile(share.geometry().dims(), progress, "growing structures", fillTile);
+  forEachTile(occupancy.geometry().dims(), progress, "growing structures", fillTile);
   return index;
 }
 
@@ -271,27 +271,27 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
   {
     ranks = std::move(grids.front());
     offset = grown(ranks.box, kLabelMargin).lower;
-    field->share = smoothRanks(ranks, order, progress.part(0.3, 0.6));
+    field->occupancy = smoothRanks(ranks, order, progress.part(0.3, 0.6));
   }
   else
   {
     ResampledLabels common = resampleLabels(grids, order, maxVoxels, progress.part(0.3, 0.7));
     ranks = std::move(common.ranks);
-    field->share = std::move(common.share);
+    field->occupancy = std::move(common.occupancy);
     field->notes = std::move(common.notes);
   }
-  field->index = makeIndex(ranks, offset, *field->share, order, progress.part(0.7, 0.8));
+  field->index = makeIndex(ranks, offset, *field->occupancy, order, progress.part(0.7, 0.8));
   std::array<bool, 256> solid{};
   for (LabelRank rank = 1; rank <= order.lastSolid; ++rank)
     solid[order.materialOfRank[rank]] = true;
-  field->borders = makeLabelBorders(*field->share, *field->index, solid, progress.part(0.8, 1.0));
+  field->borders = makeLabelBorders(*field->occupancy, *field->index, solid, progress.part(0.8, 1.0));
   field->hasSolid = ranks.hasSolid;
   field->hasLumen = ranks.hasLumen;
   progress.report(1.0, "structures");
   return field;
 }
 
-std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& sources,
+std::shared_ptr<Volume<float>> makeSolidOccupancy(const std::vector<LabelSource>& sources,
                                               const core::Progress& progress,
                                               std::size_t maxVoxels)
 {
@@ -302,14 +302,14 @@ std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& so
   if (onOneGrid(solid))
   {
     const auto inside = insideOf(solid, progress.part(0.0, 0.2));
-    return inside ? smoothedShare(*inside, progress.part(0.2, 1.0)) : nullptr;
+    return inside ? smoothedOccupancy(*inside, progress.part(0.2, 1.0)) : nullptr;
   }
   std::vector<LabelPriority> grids = rankLabels(solid, order, progress.part(0.0, 0.3));
   if (grids.empty())
     return nullptr;
   if (grids.size() == 1)
     return smoothRanks(grids.front(), order, progress.part(0.3, 1.0));
-  return resampleLabels(grids, order, maxVoxels, progress.part(0.3, 1.0)).share;
+  return resampleLabels(grids, order, maxVoxels, progress.part(0.3, 1.0)).occupancy;
 }
 
 } // namespace petrous::volume

@@ -60,9 +60,9 @@ core::GridGeometry gridOf(const core::GridGeometry& grid, const core::IndexBox& 
   return {box.size(), grid.spacing(), grid.patientFromVoxel(toVector(box.lower)), grid.direction()};
 }
 
-float quantisedShare(double share) noexcept
+float quantizedOccupancy(double occupancy) noexcept
 {
-  return static_cast<float>(std::round(share * kSteps) / kSteps);
+  return static_cast<float>(std::round(occupancy * kSteps) / kSteps);
 }
 
 namespace
@@ -193,7 +193,7 @@ std::shared_ptr<Volume<float>> smoothRanks(const LabelPriority& ranks, const Lab
       }
   };
   forEachTile(geometry.dims(), progress.part(0.0, 0.1), "smoothing structures", fillTile);
-  return smoothedShare(*inside, progress.part(0.1, 1.0));
+  return smoothedOccupancy(*inside, progress.part(0.1, 1.0));
 }
 
 } // namespace petrous::volume

@@ -11,11 +11,11 @@
 namespace petrous::volume
 {
 
-/// Two voxels beyond a structure its share is 0 for certain, and its index has ended.
+/// Two voxels beyond a structure its occupancy is 0 for certain, and its index has ended.
 constexpr int kLabelMargin = 2;
 
-/// A share above this is what a picture takes for inside (OpticalModel.h, kShareThreshold).
-constexpr double kInsideShare = 0.5 - 1e-3;
+/// An occupancy above this is what a picture takes for inside (OpticalModel.h, kOccupancyThreshold).
+constexpr double kInsideOccupancy = 0.5 - 1e-3;
 
 core::IndexBox grown(const core::IndexBox& box, int voxels) noexcept;
 core::IndexBox moved(const core::IndexBox& box, const core::Index3& by) noexcept;
@@ -28,7 +28,7 @@ core::Index3 flooredVoxel(const Eigen::Vector3d& position) noexcept;
 core::GridGeometry gridOf(const core::GridGeometry& grid, const core::IndexBox& box);
 
 /// The nearest step of 1/65535.
-float quantisedShare(double share) noexcept;
+float quantizedOccupancy(double occupancy) noexcept;
 
 /// Smoothed union (SmoothedUnion.h) of the solid voxels on the box of them, kLabelMargin wider.
 std::shared_ptr<Volume<float>> smoothRanks(const LabelPriority& ranks, const LabelOrder& order,

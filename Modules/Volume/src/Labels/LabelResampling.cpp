@@ -92,7 +92,7 @@ core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size
 
 struct Sample
 {
-  double share = 0.0;
+  double occupancy = 0.0;
   LabelRank rank = 0;
 };
 
@@ -100,14 +100,14 @@ struct Sample
 // memory.
 struct Tally
 {
-  double share = 0.0;
+  double occupancy = 0.0;
   double solid = 0.0;
   double lumen = 0.0;
   std::vector<std::pair<LabelRank, double>> parts;
 
   void clear()
   {
-    share = solid = lumen = 0.0;
+    occupancy = solid = lumen = 0.0;
     parts.clear();
   }
 
@@ -129,7 +129,7 @@ public:
        const core::Progress& progress)
     : m_ranks(ranks)
     , m_order(order)
-    , m_share(smoothRanks(ranks, order, progress))
+    , m_occupancy(smoothRanks(ranks, order, progress))
     , m_box(grown(ranks.box, kLabelMargin))
     , m_linear(ranks.geometry().voxelFromPatientLinear() * common.patientFromVoxelLinear())
     , m_offset(ranks.geometry().voxelFromPatient(common.origin()))
@@ -174,7 +174,7 @@ public:
     if (m_aligned)
     {
       const core::Index3 own{voxel[0] + m_shift[0], voxel[1] + m_shift[1], voxel[2] + m_shift[2]};
-      return {shareAt(own), rankAt(own)};
+      return {occupancyAt(own), rankAt(own)};
     }
     tally.clear();
     const core::Index3 n = m_samples;
@@ -194,11 +194,11 @@ private:
     return m_ranks.box.contains(own) ? m_ranks.voxels->at(own[0], own[1], own[2]) : LabelRank{0};
   }
 
-  double shareAt(const core::Index3& own) const
+  double occupancyAt(const core::Index3& own) const
   {
     const core::Index3& o = m_box.lower;
     return m_box.contains(own)
-               ? static_cast<double>(m_share->at(own[0] - o[0], own[1] - o[1], own[2] - o[2]))
+               ? static_cast<double>(m_occupancy->at(own[0] - o[0], own[1] - o[1], own[2] - o[2]))
                : 0.0;
   }
 
@@ -220,7 +220,7 @@ private:
         const double along = w[static_cast<Eigen::Index>(a)];
         weight *= up ? along : 1.0 - along;
       }
-      tally.share += weight * shareAt(own);
+      tally.occupancy += weight * occupancyAt(own);
       const LabelRank rank = rankAt(own);
       if (rank == 0)
         continue;
@@ -233,8 +233,8 @@ private:
   {
     const double inside = scale * tally.solid;
     Sample sample;
-    sample.share = scale * tally.share;
-    const bool solid = inside >= kHalf || sample.share > kInsideShare;
+    sample.occupancy = scale * tally.occupancy;
+    const bool solid = inside >= kHalf || sample.occupancy > kInsideOccupancy;
     if (!solid && inside + scale * tally.lumen < kHalf)
       return sample;
     double largest = 0.0;
@@ -250,8 +250,8 @@ private:
 
   const LabelPriority& m_ranks;
   const LabelOrder& m_order;
-  std::shared_ptr<const Volume<float>> m_share;
-  core::IndexBox m_box; // of m_share in voxels of the ranks
+  std::shared_ptr<const Volume<float>> m_occupancy;
+  core::IndexBox m_box; // of m_occupancy in voxels of the ranks
   Eigen::Matrix3d m_linear;
   Vector3d m_offset;
   core::Index3 m_samples{1, 1, 1};
@@ -265,8 +265,8 @@ void give(ResampledLabels& labels, const LabelOrder& order, const core::Index3& 
   own = own == 0 ? rank : std::min(own, rank);
   if (order.isSolid(rank))
   {
-    float& share = labels.share->at(v[0], v[1], v[2]);
-    share = std::max(share, quantisedShare(double{kInsideFloor}));
+    float& occupancy = labels.occupancy->at(v[0], v[1], v[2]);
+    occupancy = std::max(occupancy, quantizedOccupancy(double{kInsideFloor}));
   }
   labels.ranks.tiles.row(v[1] / LabelTiles::kEdge,
                          v[2] / LabelTiles::kEdge)[v[0] / LabelTiles::kEdge] = 1;
@@ -280,7 +280,7 @@ ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const La
   ResampledLabels result;
   const core::GridGeometry common = commonGrid(grids, maxVoxels, result.notes);
   const core::Index3 dims = common.dims();
-  result.share = makeZeroVolume<float>(common);
+  result.occupancy = makeZeroVolume<float>(common);
   result.ranks.voxels = makeZeroVolume<LabelRank>(common);
   result.ranks.tiles = LabelTiles(dims);
   result.ranks.box = common.fullBox();
@@ -311,12 +311,12 @@ ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const La
           for (const View* view : near)
           {
             const Sample sample = view->at({i, j, k}, tally);
-            best.share = std::max(best.share, sample.share);
+            best.occupancy = std::max(best.occupancy, sample.occupancy);
             if (sample.rank != 0 && (best.rank == 0 || sample.rank < best.rank))
               best.rank = sample.rank;
           }
-          if (best.share > 0.0)
-            result.share->at(i, j, k) = quantisedShare(best.share);
+          if (best.occupancy > 0.0)
+            result.occupancy->at(i, j, k) = quantizedOccupancy(best.occupancy);
           if (best.rank != 0)
             result.ranks.voxels->at(i, j, k) = best.rank;
           any = any || best.rank != 0;
@@ -329,7 +329,7 @@ ResampledLabels resampleLabels(const std::vector<LabelPriority>& grids, const La
   for (const View& view : views)
     if (!view.aligned())
       for (const ThinVoxel& lift :
-           findThin(view.ranks(), result.ranks, *result.share, order, progress.part(0.8, 1.0)))
+           findThin(view.ranks(), result.ranks, *result.occupancy, order, progress.part(0.8, 1.0)))
         give(result, order, lift.voxel, lift.rank);
   return result;
 }

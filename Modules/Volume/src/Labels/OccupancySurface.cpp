@@ -19,12 +19,12 @@ constexpr double kOnSurface = 0.005; // voxels: a point that counts as lying on 
 
 } // namespace
 
-OccupancySurface::OccupancySurface(const Volume<float>& share)
-  : m_share(share)
-  , m_spacing(share.geometry().spacing())
+OccupancySurface::OccupancySurface(const Volume<float>& occupancy)
+  : m_occupancy(occupancy)
+  , m_spacing(occupancy.geometry().spacing())
 {
   for (Eigen::Index a = 0; a < 3; ++a)
-    m_last[a] = share.geometry().dims()[static_cast<std::size_t>(a)] - 1.0;
+    m_last[a] = occupancy.geometry().dims()[static_cast<std::size_t>(a)] - 1.0;
 }
 
 // The first axis runs fastest.
@@ -33,14 +33,14 @@ std::array<double, 8> OccupancySurface::corners(const core::Index3& lower,
 {
   std::array<double, 8> values{};
   for (int n = 0; n < 8; ++n)
-    values[static_cast<std::size_t>(n)] = double{m_share.at(
+    values[static_cast<std::size_t>(n)] = double{m_occupancy.at(
         n & 1 ? upper[0] : lower[0], n & 2 ? upper[1] : lower[1], n & 4 ? upper[2] : lower[2])};
   return values;
 }
 
 OccupancySurface::Sample OccupancySurface::at(const Eigen::Vector3d& position) const noexcept
 {
-  const TrilinearCell cell(position.cwiseQuotient(m_spacing), m_share.geometry().dims());
+  const TrilinearCell cell(position.cwiseQuotient(m_spacing), m_occupancy.geometry().dims());
   const std::array<double, 8> c = corners(cell.lower, cell.upper);
   const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
   const double x = cell.weight.x();
@@ -61,7 +61,7 @@ OccupancySurface::Sample OccupancySurface::at(const Eigen::Vector3d& position) c
 std::vector<core::Index3> OccupancySurface::crossedCells(const core::Progress& progress) const
 {
   std::vector<core::Index3> cells;
-  const core::Index3& dims = m_share.geometry().dims();
+  const core::Index3& dims = m_occupancy.geometry().dims();
   for (int k = 0; k + 1 < dims[2]; ++k)
   {
     progress.check("measuring structures");
@@ -70,8 +70,8 @@ std::vector<core::Index3> OccupancySurface::crossedCells(const core::Progress& p
       // How many of the four voxels at each end of a cell are inside.
       const auto insideAt = [&](int i)
       {
-        return int{m_share.at(i, j, k) > 0.5F} + int{m_share.at(i, j + 1, k) > 0.5F} +
-               int{m_share.at(i, j, k + 1) > 0.5F} + int{m_share.at(i, j + 1, k + 1) > 0.5F};
+        return int{m_occupancy.at(i, j, k) > 0.5F} + int{m_occupancy.at(i, j + 1, k) > 0.5F} +
+               int{m_occupancy.at(i, j, k + 1) > 0.5F} + int{m_occupancy.at(i, j + 1, k + 1) > 0.5F};
       };
       int before = insideAt(0);
       for (int i = 0; i + 1 < dims[0]; ++i)

@@ -9,16 +9,16 @@
 namespace petrous::volume
 {
 
-/// The surface share = 1/2 of trilinear cells. Positions are mm along the axes of the share's grid,
+/// The surface occupancy = 1/2 of trilinear cells. Positions are mm along the axes of the occupancy's grid,
 /// (0, 0, 0) its first voxel's centre.
 class OccupancySurface
 {
 public:
-  explicit OccupancySurface(const Volume<float>& share);
+  explicit OccupancySurface(const Volume<float>& occupancy);
 
   struct Sample
   {
-    double value;             ///< share - 1/2, beyond the grid as on its hull
+    double value;             ///< occupancy - 1/2, beyond the grid as on its hull
     Eigen::Vector3d gradient; ///< per mm, of the cell
   };
   Sample at(const Eigen::Vector3d& position) const noexcept;
@@ -36,7 +36,7 @@ public:
   };
 
   /// Calls `visit(const Crossing&)` with the points where the lines of a finer lattice, `parts` to
-  /// an edge, meet the surface in the cell. Along the axes shares are linear: these points lie on
+  /// an edge, meet the surface in the cell. Along the axes occupancies are linear: these points lie on
   /// it. Parts: 1 to kMaxParts.
   template <class Visit>
   void forEachCrossing(const core::Index3& cell, int parts, const Visit& visit) const;
@@ -51,7 +51,7 @@ private:
   std::array<double, 8> corners(const core::Index3& lower,
                                 const core::Index3& upper) const noexcept;
 
-  const Volume<float>& m_share;
+  const Volume<float>& m_occupancy;
   Eigen::Vector3d m_spacing;
   Eigen::Vector3d m_last; // voxel coordinate
 };

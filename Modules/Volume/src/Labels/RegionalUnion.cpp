@@ -71,8 +71,8 @@ std::shared_ptr<RegionalUnion> RegionalUnion::make(const std::vector<LabelSource
   std::shared_ptr<RegionalUnion> result(new RegionalUnion);
   if (!onOneGrid(solid))
   {
-    result->m_share = makeSolidShare(solid, progress);
-    if (!result->m_share)
+    result->m_occupancy = makeSolidOccupancy(solid, progress);
+    if (!result->m_occupancy)
       return nullptr;
   }
   else
@@ -81,12 +81,12 @@ std::shared_ptr<RegionalUnion> RegionalUnion::make(const std::vector<LabelSource
     if (!inside)
       return nullptr;
     result->m_inside = inside;
-    result->m_share = makeZeroVolume<float>(inside->geometry());
+    result->m_occupancy = makeZeroVolume<float>(inside->geometry());
     const LabelTiles tiles(inside->geometry().dims());
     result->m_tileDims = tiles.dims();
     result->m_prepared.resize(core::IndexBox{{0, 0, 0}, tiles.dims()}.count(), false);
   }
-  result->m_readable = result->m_share;
+  result->m_readable = result->m_occupancy;
   return result;
 }
 
@@ -100,7 +100,7 @@ void RegionalUnion::prepare(const std::vector<core::PatientBox>& boxes,
   {
     if (patient.isEmpty())
       continue;
-    const core::IndexBox box = m_share->geometry().boxCovering(patient.min(), patient.max());
+    const core::IndexBox box = m_occupancy->geometry().boxCovering(patient.min(), patient.max());
     if (!box.empty())
       voxels.push_back(grown(box, 1)); // a position on a voxel may come out beside it
   }
@@ -116,7 +116,7 @@ void RegionalUnion::prepare(const core::IndexBox& voxels, const core::Progress& 
 void RegionalUnion::prepareVoxels(const std::vector<core::IndexBox>& boxes,
                                   const core::Progress& progress)
 {
-  const core::IndexBox full = m_share->geometry().fullBox();
+  const core::IndexBox full = m_occupancy->geometry().fullBox();
   const core::IndexBox grid{{0, 0, 0}, m_tileDims};
   std::map<std::size_t, core::IndexBox> missing; // the voxels of tiles
   for (const core::IndexBox& asked : boxes)
@@ -153,7 +153,7 @@ void RegionalUnion::prepareVoxels(const std::vector<core::IndexBox>& boxes,
   net.relax(progress);
   m_pointsRelaxed += net.points();
   tbb::parallel_for(std::size_t{0}, targets.size(),
-                    [&](std::size_t n) { net.writeShareIn(targets[n], *m_share); });
+                    [&](std::size_t n) { net.writeOccupancyIn(targets[n], *m_occupancy); });
   for (const auto& [tile, voxels] : missing)
     m_prepared[tile] = true;
   m_preparedTiles += missing.size();
@@ -163,7 +163,7 @@ void RegionalUnion::prepareAll(const core::Progress& progress)
 {
   if (!m_inside)
     return;
-  const auto whole = smoothedShare(*m_inside, progress);
+  const auto whole = smoothedOccupancy(*m_inside, progress);
   // Into the memory that others read already.
   const core::IndexBox full = whole->geometry().fullBox();
   tbb::parallel_for(0, full.upper[2],
@@ -172,7 +172,7 @@ void RegionalUnion::prepareAll(const core::Progress& progress)
                       for (int j = 0; j < full.upper[1]; ++j)
                       {
                         const float* from = &whole->at(0, j, k);
-                        float* to = &m_share->at(0, j, k);
+                        float* to = &m_occupancy->at(0, j, k);
                         for (int i = 0; i < full.upper[0]; ++i)
                           if (from[i] > 0.0F && to[i] != from[i]) // memory is taken where needed
                             to[i] = from[i];

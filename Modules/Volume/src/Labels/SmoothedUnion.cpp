@@ -75,7 +75,7 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
       for (int i = 0; i < size[0]; ++i)
         row[i] = table[labelRow[i]] ? 1 : 0;
     }
-  return smoothedShare(*inside, {});
+  return smoothedOccupancy(*inside, {});
 }
 
 } // namespace petrous::volume

@@ -25,7 +25,7 @@ constexpr int kNormalRounds = 1;
 constexpr int kNormalReach = 2 + kNormalRounds; // joins to the points that decide over a normal
 // And over a position, by a whole relaxation.
 constexpr int kRelaxationReach = kCurvatureRounds + kStepsEach - 1 + kNormalReach;
-constexpr int kSeedMargin = 3;   // voxels beyond a target whose cells say something of its shares
+constexpr int kSeedMargin = 3;   // voxels beyond a target whose cells say something of its occupancies
 constexpr int kWord = 8;         // voxels that are looked at at once
 constexpr float kCrease = 0.9F;  // cosine between the normals of two points with a crease between
 constexpr float kSmooth = 0.98F; // of two with none
@@ -98,14 +98,14 @@ void forEachPoint(std::size_t count, const Body& body)
 
 } // namespace
 
-float SurfaceNet::shareOf(double depth) noexcept
+float SurfaceNet::occupancyOf(double depth) noexcept
 {
-  return quantisedShare(std::clamp(0.5 + depth / double{kShareReach}, 0.0, 1.0));
+  return quantizedOccupancy(std::clamp(0.5 + depth / double{kShareReach}, 0.0, 1.0));
 }
 
-double SurfaceNet::depthOf(float share) noexcept
+double SurfaceNet::depthOf(float occupancy) noexcept
 {
-  return (double{share} - 0.5) * double{kShareReach};
+  return (double{occupancy} - 0.5) * double{kShareReach};
 }
 
 SurfaceNet::PointTable::PointTable(const core::Index3& dims)
@@ -472,15 +472,15 @@ void SurfaceNet::relax(const core::Progress& progress)
   }
 }
 
-std::shared_ptr<Volume<float>> smoothedShare(const Volume<std::uint8_t>& inside,
+std::shared_ptr<Volume<float>> smoothedOccupancy(const Volume<std::uint8_t>& inside,
                                              const core::Progress& progress,
                                              const SurfaceNet::Wanted& wanted)
 {
-  auto share = makeZeroVolume<float>(inside.geometry());
+  auto occupancy = makeZeroVolume<float>(inside.geometry());
   SurfaceNet net(inside, progress, wanted);
   net.relax(progress.part(0.0, 2.0 / 3.0));
-  net.writeShare(*share, progress.part(2.0 / 3.0, 1.0));
-  return share;
+  net.writeOccupancy(*occupancy, progress.part(2.0 / 3.0, 1.0));
+  return occupancy;
 }
 
 } // namespace petrous::volume

@@ -23,8 +23,8 @@ namespace petrous::volume
 /// ball are at rest, so that nothing shrinks, and since the net has two sides a sheet one voxel
 /// thin is as safe as a thick one.
 ///
-/// What a voxel's share comes to depends on no more than the points that are kJoinReach joins away,
-/// so the net of a region is built and relaxed for itself, and its shares are those of the whole
+/// What a voxel's occupancy comes to depends on no more than the points that are kJoinReach joins away,
+/// so the net of a region is built and relaxed for itself, and its occupancies are those of the whole
 /// net to the last bit.
 class SurfaceNet
 {
@@ -46,25 +46,25 @@ public:
 
   std::size_t points() const noexcept { return m_points.size(); }
 
-  /// Signed distance of voxel centres from the net in voxels, above 0 inside, as a share:
+  /// Signed distance of voxel centres from the net in voxels, above 0 inside, as an occupancy:
   ///   1/2 + distance / kShareReach, from 0 to 1
-  /// A voxel inside stays above 1/2 and one outside below, in steps of 1/65535. `share` must be 0
+  /// A voxel inside stays above 1/2 and one outside below, in steps of 1/65535. `occupancy` must be 0
   /// everywhere.
   ///
   /// Not so where the inside is one voxel thin, which leaves the net too little to go by: there
   /// voxels that touch by an edge or a corner only are joined, which trilinear interpolation of
   /// distances would not do; and where it is a sheet or a rod, the distance is that from the plane
   /// or line fitted to it, a voxel in a gap of which may come to lie inside.
-  void writeShare(Volume<float>& share, const core::Progress& progress) const;
+  void writeOccupancy(Volume<float>& occupancy, const core::Progress& progress) const;
 
   /// The same for the voxels of a box of one of the net's targets; the others are left as they are.
-  void writeShareIn(const core::IndexBox& box, Volume<float>& share) const;
+  void writeOccupancyIn(const core::IndexBox& box, Volume<float>& occupancy) const;
 
-  /// Voxels from a share of nothing to one: 2 sqrt(3), so that on equal voxels the share falls as a
+  /// Voxels from an occupancy of nothing to one: 2 sqrt(3), so that on equal voxels the occupancy falls as a
   /// cut's mask does, and a mask that keeps a structure leaves all of it (SweptSphereCut.h).
   static constexpr float kShareReach = 3.4641016F;
-  static float shareOf(double depth) noexcept; ///< in voxels, > 0 inside; to the nearest step
-  static double depthOf(float share) noexcept;
+  static float occupancyOf(double depth) noexcept; ///< in voxels, > 0 inside; to the nearest step
+  static double depthOf(float occupancy) noexcept;
 
 private:
   static core::Index3 cornerOf(int corner) noexcept
@@ -84,7 +84,7 @@ private:
   using Joined = std::array<std::int32_t, 6>; ///< points by face: 2 * axis, + 1 the upper; -1 none
 
   /// Shares of the voxels of a box.
-  struct ShareView
+  struct OccupancyView
   {
     core::IndexBox box;
     float* data; ///< of its first voxel
@@ -134,10 +134,10 @@ private:
   };
 
   std::vector<std::array<float, 2>> heightsIn(const core::IndexBox& tile) const;
-  void writeDistances(Volume<float>& share, const core::Progress& progress) const;
-  void writeDistancesIn(const core::IndexBox& tile, bool near, const ShareView& share) const;
-  void joinThin(const ShareView& share, const std::vector<std::size_t>& thinPoints) const;
-  void fitThin(const ShareView& share, const core::IndexBox& target,
+  void writeDistances(Volume<float>& occupancy, const core::Progress& progress) const;
+  void writeDistancesIn(const core::IndexBox& tile, bool near, const OccupancyView& occupancy) const;
+  void joinThin(const OccupancyView& occupancy, const std::vector<std::size_t>& thinPoints) const;
+  void fitThin(const OccupancyView& occupancy, const core::IndexBox& target,
                const std::vector<std::size_t>& thinPoints) const;
   std::uint8_t thinCorners(std::size_t point) const noexcept;
   bool isThin(const core::Index3& voxel) const noexcept;
@@ -168,8 +168,8 @@ private:
   std::vector<Joined> m_diagonal;
 };
 
-/// The share that the relaxed net of `inside` writes, on its grid.
-std::shared_ptr<Volume<float>> smoothedShare(const Volume<std::uint8_t>& inside,
+/// The occupancy that the relaxed net of `inside` writes, on its grid.
+std::shared_ptr<Volume<float>> smoothedOccupancy(const Volume<std::uint8_t>& inside,
                                              const core::Progress& progress,
                                              const SurfaceNet::Wanted& wanted = {});
 

@@ -106,8 +106,8 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
 
 } // namespace
 
-// A voxel's fit asks for the inside alone, and changes its own share alone.
-void SurfaceNet::fitThin(const ShareView& share, const core::IndexBox& target,
+// A voxel's fit asks for the inside alone, and changes its own occupancy alone.
+void SurfaceNet::fitThin(const OccupancyView& occupancy, const core::IndexBox& target,
                          const std::vector<std::size_t>& thinPoints) const
 {
   std::vector<core::Index3> voxels;
@@ -126,9 +126,9 @@ void SurfaceNet::fitThin(const ShareView& share, const core::IndexBox& target,
                         const Fit fit = fitAround(m_inside, voxel);
                         if (!(fit.weight > 0.0))
                           continue;
-                        float& value = share.at(voxel);
+                        float& value = occupancy.at(voxel);
                         const double own = depthOf(value);
-                        value = shareOf(own + fit.weight * (fit.depth - own));
+                        value = occupancyOf(own + fit.weight * (fit.depth - own));
                       }
                     });
 }

@@ -98,11 +98,11 @@ void joinCorners(int corners, int thin, const At& at, const Lift& lift)
 
 } // namespace
 
-void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress) const
+void SurfaceNet::writeOccupancy(Volume<float>& occupancy, const core::Progress& progress) const
 {
-  writeDistances(share, progress);
-  const core::IndexBox full = share.geometry().fullBox();
-  const ShareView all{full, share.data(), full.upper[0],
+  writeDistances(occupancy, progress);
+  const core::IndexBox full = occupancy.geometry().fullBox();
+  const OccupancyView all{full, occupancy.data(), full.upper[0],
                       static_cast<std::ptrdiff_t>(full.upper[0]) * full.upper[1]};
   std::vector<std::uint8_t> thin(m_points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, thin.size(), 4096),
@@ -119,17 +119,17 @@ void SurfaceNet::writeShare(Volume<float>& share, const core::Progress& progress
   fitThin(all, full, thinPoints);
 }
 
-// What joins thin voxels asks for the shares one voxel beyond the box.
-void SurfaceNet::writeShareIn(const core::IndexBox& box, Volume<float>& share) const
+// What joins thin voxels asks for the occupancies one voxel beyond the box.
+void SurfaceNet::writeOccupancyIn(const core::IndexBox& box, Volume<float>& occupancy) const
 {
-  const core::IndexBox full = share.geometry().fullBox();
+  const core::IndexBox full = occupancy.geometry().fullBox();
   const core::IndexBox target = box.intersected(full);
   if (target.empty())
     return;
   const core::IndexBox around = grown(target, 1).intersected(full);
   const core::Index3 size = around.size();
   std::vector<float> values(around.count(), 0.0F);
-  const ShareView view{around, values.data(), size[0],
+  const OccupancyView view{around, values.data(), size[0],
                        static_cast<std::ptrdiff_t>(size[0]) * size[1]};
   writeDistancesIn(around, true, view);
   std::vector<std::size_t> thinPoints;
@@ -147,7 +147,7 @@ void SurfaceNet::writeShareIn(const core::IndexBox& box, Volume<float>& share) c
   for (int k = target.lower[2]; k < target.upper[2]; ++k)
     for (int j = target.lower[1]; j < target.upper[1]; ++j)
     {
-      float* row = &share.at(0, j, k);
+      float* row = &occupancy.at(0, j, k);
       for (int i = target.lower[0]; i < target.upper[0]; ++i)
         if (const float value = view.at({i, j, k}); value > 0.0F) // see writeDistancesIn
           row[i] = value;
@@ -213,15 +213,15 @@ std::vector<std::array<float, 2>> SurfaceNet::heightsIn(const core::IndexBox& ti
   return sums;
 }
 
-void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& progress) const
+void SurfaceNet::writeDistances(Volume<float>& occupancy, const core::Progress& progress) const
 {
-  const core::Index3& dims = share.geometry().dims();
+  const core::Index3& dims = occupancy.geometry().dims();
   LabelTiles tiles(dims); // with points
   for (const Point& point : m_points)
     tiles.row(point.cell[1] / LabelTiles::kEdge,
               point.cell[2] / LabelTiles::kEdge)[point.cell[0] / LabelTiles::kEdge] = 1;
-  const core::IndexBox full = share.geometry().fullBox();
-  const ShareView all{full, share.data(), dims[0], static_cast<std::ptrdiff_t>(dims[0]) * dims[1]};
+  const core::IndexBox full = occupancy.geometry().fullBox();
+  const OccupancyView all{full, occupancy.data(), dims[0], static_cast<std::ptrdiff_t>(dims[0]) * dims[1]};
   const auto writeTile = [&](const core::Index3&, const core::IndexBox& tile)
   {
     const bool near = tiles.any(grown(tile, kSpan));
@@ -234,7 +234,7 @@ void SurfaceNet::writeDistances(Volume<float>& share, const core::Progress& prog
 
 // `near`: whether there may be points that say something of the tile.
 void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
-                                  const ShareView& share) const
+                                  const OccupancyView& occupancy) const
 {
   const core::Index3 size = tile.size();
   const auto sums = near ? heightsIn(tile) : std::vector<std::array<float, 2>>();
@@ -243,7 +243,7 @@ void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
     {
       const core::Index3 first{tile.lower[0], tile.lower[1] + y, tile.lower[2] + z};
       const std::uint8_t* inside = &m_inside.at(first[0], first[1], first[2]);
-      float* row = &share.at(first);
+      float* row = &occupancy.at(first);
       for (int x = 0; x < size[0]; ++x)
       {
         const auto n = static_cast<std::size_t>(x + size[0] * (y + size[1] * z));
@@ -252,7 +252,7 @@ void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
         if (!sums.empty() && sums[n][1] > 1e-9F)
         {
           const float depth = -sums[n][0] / sums[n][1];
-          value = shareOf(in ? std::max(depth, kMin) : std::min(depth, -kMin));
+          value = occupancyOf(in ? std::max(depth, kMin) : std::min(depth, -kMin));
         }
         if (value > 0.0F) // memory is taken where something is written
           row[x] = value;
@@ -288,9 +288,9 @@ std::uint8_t SurfaceNet::thinCorners(std::size_t point) const noexcept
 }
 
 // Lifts voxels beside two or three that touch by an edge or a corner: so far that there is inside
-// between them, and that their own voxel stays outside. Of a part of the shares all is lifted but
+// between them, and that their own voxel stays outside. Of a part of the occupancies all is lifted but
 // its outermost voxels.
-void SurfaceNet::joinThin(const ShareView& share, const std::vector<std::size_t>& thinPoints) const
+void SurfaceNet::joinThin(const OccupancyView& occupancy, const std::vector<std::size_t>& thinPoints) const
 {
   struct Corners
   {
@@ -303,16 +303,16 @@ void SurfaceNet::joinThin(const ShareView& share, const std::vector<std::size_t>
   for (const std::size_t n : thinPoints)
     if (askew[m_points[n].corners])
       cells.push_back({m_points[n].cell, m_points[n].corners, thinCorners(n)});
-  const auto valueAt = [&share](const core::Index3& v) -> float& { return share.at(v); };
+  const auto valueAt = [&occupancy](const core::Index3& v) -> float& { return occupancy.at(v); };
   for (const Corners& cell : cells)
     for (int corner = 0; corner < 8; ++corner)
-      if (has(cell.thin, corner) && share.box.contains(voxelOf(cell.cell, corner)))
+      if (has(cell.thin, corner) && occupancy.box.contains(voxelOf(cell.cell, corner)))
       {
         float& value = valueAt(voxelOf(cell.cell, corner));
-        value = std::max(value, shareOf(kThinDepth));
+        value = std::max(value, occupancyOf(kThinDepth));
       }
-  const auto partly = [&share](const Corners& cell)
-  { return !share.box.contains(cell.cell) || !share.box.contains(voxelOf(cell.cell, 7)); };
+  const auto partly = [&occupancy](const Corners& cell)
+  { return !occupancy.box.contains(cell.cell) || !occupancy.box.contains(voxelOf(cell.cell, 7)); };
   cells.erase(std::remove_if(cells.begin(), cells.end(), partly), cells.end());
   // The highest lift of a voxel counts, in whatever order they come.
   using Lifts = std::vector<std::pair<core::Index3, float>>;
@@ -328,7 +328,7 @@ void SurfaceNet::joinThin(const ShareView& share, const std::vector<std::size_t>
                 [&](int corner, float to)
                 {
                   if (!has(cell.corners, corner) && to > at(corner))
-                    lifts.emplace_back(voxelOf(cell.cell, corner), shareOf(std::min(to, -kMin)));
+                    lifts.emplace_back(voxelOf(cell.cell, corner), occupancyOf(std::min(to, -kMin)));
                 });
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 256),

@@ -17,17 +17,17 @@ namespace
 using Eigen::Vector3d;
 
 constexpr int kMaxTouchTests = 16; // per axis, in a voxel of the source
-constexpr double kWhole = 0.52; // share between the points of a thin structure that are looked at
+constexpr double kWhole = 0.52; // occupancy between the points of a thin structure that are looked at
 
 class ThinStructures
 {
 public:
   ThinStructures(const LabelPriority& source, const LabelOrder& order, const LabelPriority& ranks,
-                 const Volume<float>& share)
+                 const Volume<float>& occupancy)
     : m_source(source)
     , m_order(order)
     , m_ranks(ranks)
-    , m_share(share)
+    , m_occupancy(occupancy)
     , m_linear(ranks.geometry().voxelFromPatientLinear() *
                source.geometry().patientFromVoxelLinear())
     , m_offset(ranks.geometry().voxelFromPatient(source.geometry().origin()))
@@ -109,7 +109,7 @@ private:
               return;
           }
           const Vector3d between = toVector(voxel) + 0.5 * toVector(step);
-          whole = whole && sampleTrilinear(m_share, m_linear * between + m_offset) > kWhole;
+          whole = whole && sampleTrilinear(m_occupancy, m_linear * between + m_offset) > kWhole;
         });
     return whole;
   }
@@ -142,7 +142,7 @@ private:
   {
     const LabelRank own = m_ranks.voxels->at(v[0], v[1], v[2]);
     return own != 0 && own <= rank &&
-           (!m_order.isSolid(rank) || m_share.at(v[0], v[1], v[2]) > 0.5F);
+           (!m_order.isSolid(rank) || m_occupancy.at(v[0], v[1], v[2]) > 0.5F);
   }
 
   bool showsAt(const Vector3d& position, LabelRank rank) const
@@ -189,7 +189,7 @@ private:
   const LabelPriority& m_source;
   const LabelOrder& m_order;
   const LabelPriority& m_ranks; // the common grid
-  const Volume<float>& m_share;
+  const Volume<float>& m_occupancy;
   Eigen::Matrix3d m_linear; // common voxels a voxel of the source
   Vector3d m_offset;
   core::Index3 m_tests{1, 1, 1};
@@ -198,10 +198,10 @@ private:
 } // namespace
 
 std::vector<ThinVoxel> findThin(const LabelPriority& source, const LabelPriority& common,
-                                const Volume<float>& share, const LabelOrder& order,
+                                const Volume<float>& occupancy, const LabelOrder& order,
                                 const core::Progress& progress)
 {
-  return ThinStructures(source, order, common, share).find(progress);
+  return ThinStructures(source, order, common, occupancy).find(progress);
 }
 
 } // namespace petrous::volume

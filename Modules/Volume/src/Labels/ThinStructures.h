@@ -16,9 +16,9 @@ struct ThinVoxel
 
 /// Common voxels for what is too thin to show in them: for each voxel of `source` no common voxel
 /// of which shows its structure, all common voxels that it touches. One shows a structure when it
-/// carries its rank or one that goes before it, and for a solid a share above 1/2.
+/// carries its rank or one that goes before it, and for a solid an occupancy above 1/2.
 std::vector<ThinVoxel> findThin(const LabelPriority& source, const LabelPriority& common,
-                                const Volume<float>& share, const LabelOrder& order,
+                                const Volume<float>& occupancy, const LabelOrder& order,
                                 const core::Progress& progress);
 
 } // namespace petrous::volume

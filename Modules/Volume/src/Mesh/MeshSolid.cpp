@@ -18,10 +18,10 @@ namespace petrous::volume
 namespace
 {
 
-constexpr double kBand = 3.0;    // voxels on either side of the surface in which the share changes
+constexpr double kBand = 3.0;    // voxels on either side of the surface in which the occupancy changes
 constexpr int kMargin = 4;       // voxels round the mesh: the band and one more
 constexpr int kRun = 8;          // voxels of a row that are judged together
-constexpr double kFine = 0.002;  // share of the surface that may be thinner than what is resolved
+constexpr double kFine = 0.002;  // occupancy of the surface that may be thinner than what is resolved
 constexpr double kWhole = 0.02;  // the same where memory is short
 constexpr double kSharp = 0.08;  // of thickness times spacing: see MeshSolid.h
 constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, not the edge of something
@@ -77,15 +77,15 @@ std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond
   return chords;
 }
 
-// The length that `share` of the area falls below. `chords` in ascending order, at least one.
-double quantile(const std::vector<Chord>& chords, double share)
+// The length that `occupancy` of the area falls below. `chords` in ascending order, at least one.
+double quantile(const std::vector<Chord>& chords, double occupancy)
 {
   double area = 0.0;
   for (const Chord& chord : chords)
     area += chord.area;
   double sum = 0.0;
   for (const Chord& chord : chords)
-    if ((sum += chord.area) > share * area)
+    if ((sum += chord.area) > occupancy * area)
       return chord.length;
   return chords.back().length;
 }
@@ -263,7 +263,7 @@ solidOf(const core::TriangleMesh& mesh, const MeshSolidPlan& plan, const core::P
   const MeshInside inside(mesh);
   const auto bounds = plan.grid.patientBounds();
   const MeshTree surface(inside.surface(0.5 * edge, roundAbout(bounds.min(), bounds.max())));
-  auto share = std::make_shared<Volume<float>>(plan.grid);
+  auto occupancy = std::make_shared<Volume<float>>(plan.grid);
   const core::Index3& dims = plan.grid.dims();
   const double band = kBand * edge;
 
@@ -282,7 +282,7 @@ solidOf(const core::TriangleMesh& mesh, const MeshSolidPlan& plan, const core::P
               : surface.distance(plan.grid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}), limit);
       limit = std::min(band, d + edge);
       const double side = within[static_cast<std::size_t>(i)] ? 0.5 : -0.5;
-      share->at(i, j, k) = static_cast<float>(0.5 + side * std::min(1.0, d / band));
+      occupancy->at(i, j, k) = static_cast<float>(0.5 + side * std::min(1.0, d / band));
     }
   };
 
@@ -309,7 +309,7 @@ solidOf(const core::TriangleMesh& mesh, const MeshSolidPlan& plan, const core::P
         }
         progress.report(static_cast<double>(++done) / dims[2], kTask);
       });
-  return share;
+  return occupancy;
 }
 
 std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh, double spacing,

@@ -24,9 +24,9 @@ constexpr double kLayer = 2.0;
 ///
 /// tissue  asked for f before any mask
 /// mask    on its grid
-/// share   of the structure; the surface is its 1/2 level (SmoothedUnion.h)
+/// occupancy   of the structure; the surface is its 1/2 level (SmoothedUnion.h)
 /// Throws CancelledError.
 double exposedArea(const volume::TissueField& tissue, const volume::CutMask& mask,
-                   const volume::Volume<float>& share, const core::Progress& progress = {});
+                   const volume::Volume<float>& occupancy, const core::Progress& progress = {});
 
 } // namespace petrous::dissection

@@ -122,7 +122,7 @@ public:
   double rest(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
 
   /// Unions by number, below `unions`. One whose voxels are the CT's is `onGrid`; others have cells
-  /// of their own, between the voxels v and v + 1 of theirs, with corners as share - 1/2, first
+  /// of their own, between the voxels v and v + 1 of theirs, with corners as occupancy - 1/2, first
   /// axis fastest. A union ends at the hull of its voxels, whatever it is there.
   std::size_t unions() const noexcept { return m_solids.size(); }
   bool onGrid(std::size_t n) const noexcept { return m_solids[n].onGrid; }
@@ -133,7 +133,7 @@ public:
   }
   const core::GridGeometry& unionGrid(std::size_t n) const noexcept
   {
-    return m_solids[n].share->geometry();
+    return m_solids[n].occupancy->geometry();
   }
 
   /// f of the CT (kCt) or of a union alone, uncut, at a voxel position of the CT.
@@ -149,7 +149,7 @@ public:
 private:
   struct Solid
   {
-    volume::TissueField::SolidUnion share;
+    volume::TissueField::SolidUnion occupancy;
     Eigen::Matrix3d fromCt; ///< voxel of the union from voxel of the CT: fromCt * v + offset
     Eigen::Vector3d offset;
     Eigen::Vector3d last; ///< greatest voxel coordinate

@@ -30,7 +30,7 @@ struct AimSettings
 
   double depthStep = 0.25; ///< mm a notch or key, in (0, 10]: a good half of a CT's usual voxel
   double nudgeStep = 0.25; ///< mm a key, in (0, 10]
-  double fineShare = 0.2;  ///< of a step while Shift is held, in (0, 1]
+  double fineOccupancy = 0.2;  ///< of a step while Shift is held, in (0, 1]
   double maxLead = 5.0;   ///< mm that the wanted place goes beyond the tool, in (0, 50]: bounds N
 
   /// mm that the tissue under a pressed pointer may lie deeper, or higher, than where it was

@@ -39,7 +39,7 @@ struct ToolPose
 struct LightSettings
 {
   double intensity = 1.0;
-  double ambient = 0.16;   ///< share of the surface's colour that needs no light
+  double ambient = 0.16;   ///< occupancy of the surface's colour that needs no light
   double specular = 0.18;  ///< strength of the highlight, 0 to 1
   double shininess = 18.0; ///< of meshes and tools; the volume's tissues have their own
   double falloff = 0.0; ///< mm from the lamp to where its light is halved; 0: everywhere the same

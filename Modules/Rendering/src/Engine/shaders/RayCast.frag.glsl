@@ -90,14 +90,14 @@ float changePoint(inout Ray ray, const bool plain)
     vec3 here = mix(bracket.atLow, bracket.atHigh, share);
     bracket.hit = mix(bracket.low, bracket.high, share);
     ray.at.ct = here.x;
-    ray.at.share = here.y + 0.5;
+    ray.at.occupancy = here.y + 0.5;
     ray.at.left = here.z + 0.5;
   }
 #if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
   // Just before the surface the operands tell what begins there; it need not go on to `high`.
   if (!plain && bracket.state == ray.state && ray.next != kAir && ray.state <= kBone)
   {
-    bool structure = ray.state == kBone || ray.at.share > kShareThreshold;
+    bool structure = ray.state == kBone || ray.at.occupancy > kOccupancyThreshold;
 #ifdef PETROUS_NESTED
     ray.next =
         structure ? kStructure + structureAtLabel(along(ray.ways.label, bracket.hit)).index : kBone;
@@ -117,7 +117,7 @@ int materialAt(vec3 v, Operands at, int state, int next)
   if (state >= kStructure)
     return next - kStructure;
 #endif
-  if (next >= kStructure || at.share > kShareThreshold)
+  if (next >= kStructure || at.occupancy > kOccupancyThreshold)
     return structureAtLabel(labelPosition(v)).index;
   int index = indexAt(v);
   COUNT(1);
@@ -154,22 +154,22 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   const bool between = false;
 #endif
 #ifdef PETROUS_LABELS
-  bool byLabel = !between && (ray.state == kBone || at.share - 0.5 > at.ct);
+  bool byLabel = !between && (ray.state == kBone || at.occupancy - 0.5 > at.ct);
 #else
   const bool byLabel = false;
 #endif
 #ifdef PETROUS_MASK
-  bool byMask = !between && ray.state != kBone && at.left - 0.5 < max(at.ct, at.share - 0.5);
+  bool byMask = !between && ray.state != kBone && at.left - 0.5 < max(at.ct, at.occupancy - 0.5);
 #else
   const bool byMask = false;
 #endif
 #ifdef PETROUS_LABELS
-  bool ofShare = byLabel && !byMask;
-  vec3 shareSlope = shareGradient(labelPosition(v), ofShare);
-  if (ofShare)
+  bool ofOccupancy = byLabel && !byMask;
+  vec3 occupancySlope = occupancyGradient(labelPosition(v), ofOccupancy);
+  if (ofOccupancy)
   {
-    slopeMm = normalFromLabel * shareSlope;
-    along = dot(shareSlope, labelFromVoxel * ray.direction);
+    slopeMm = normalFromLabel * occupancySlope;
+    along = dot(occupancySlope, labelFromVoxel * ray.direction);
   }
 #endif
 #ifdef PETROUS_MASK

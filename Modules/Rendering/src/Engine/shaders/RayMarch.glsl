@@ -61,7 +61,7 @@ float fieldOf(vec3 at)
 // The operands of f, each so that it crosses 0.
 vec3 operandsOf(Operands at)
 {
-  return vec3(at.ct, at.share - 0.5, at.left - 0.5);
+  return vec3(at.ct, at.occupancy - 0.5, at.left - 0.5);
 }
 
 // Of a place in a state: rises above 0 where another one begins.
@@ -228,7 +228,7 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
     ray.s = changes1 ? s1 : s2;
     ray.at.value = changes1 ? at1.value : at2.value;
     ray.at.ct = changes1 ? at1.ct : at2.ct;
-    ray.at.share = changes1 ? at1.share : at2.share;
+    ray.at.occupancy = changes1 ? at1.occupancy : at2.occupancy;
     ray.at.left = changes1 ? at1.left : at2.left;
     ray.next = changes1 ? next1 : next2;
   } while (outcome == kOn && (ray.number < run.last || ray.summit > 0.0));

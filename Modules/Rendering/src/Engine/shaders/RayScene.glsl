@@ -9,14 +9,14 @@
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
 // Before it stand the numbers that the C++ states (RayShader.cpp): kMostPlanes, kInteriorFacing,
-// kWetShininess, kShareThreshold, kSmoothOpacity (OpticalModel.h), kThicknessColors
+// kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h), kThicknessColors
 // (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting, kDeepest,
 // kMarginPerDepth (LabelBorders.h).
 //
 // Textures (linear unless named otherwise):
 //   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
 //   maskTexture    R8 or R16, 1 untouched, 0 gone, the CT's grid
-//   shareTexture   R16, smoothed union of solid structures, own grid
+//   occupancyTexture   R16, smoothed union of solid structures, own grid
 //   indexTexture   R8UI, nearest, the same grid: row of the material; with BORDERS RG8UI, the second
 //                  as LabelField::borders
 //   secondTexture  as ctTexture, own grid
@@ -71,12 +71,12 @@ uniform sampler3D maskTexture;
 uniform vec3 maskScale, maskOffset;
 #endif
 #ifdef PETROUS_LABELS
-uniform sampler3D shareTexture;
+uniform sampler3D occupancyTexture;
 uniform usampler3D indexTexture;
 uniform mat3 labelFromVoxel;
 uniform vec3 labelOrigin;
 uniform vec3 labelUpper; // dims - 1
-uniform vec3 labelScale, labelOffset; // label voxel -> texture coordinate of the share
+uniform vec3 labelScale, labelOffset; // label voxel -> texture coordinate of the occupancy
 uniform vec3 labelBlock;              // label voxels a texel
 uniform mat3 normalFromLabel;
 #endif
@@ -149,10 +149,10 @@ vec3 labelPosition(vec3 v)
   return labelFromVoxel * v + labelOrigin;
 }
 
-float shareAtLabel(vec3 l)
+float occupancyAtLabel(vec3 l)
 {
   COUNT(1);
-  return texture(shareTexture, l * labelScale + labelOffset).r;
+  return texture(occupancyTexture, l * labelScale + labelOffset).r;
 }
 
 // Index and border of a voxel; 0 beyond the grid.
@@ -169,7 +169,7 @@ int indexAtLabel(vec3 l)
   return int(labelOfVoxel(floor(l + 0.5)).r);
 }
 
-// Which structure, and how far from another one, in shares.
+// Which structure, and how far from another one, in units of occupancy.
 struct Choice
 {
   int index;
@@ -236,7 +236,7 @@ struct Ways
   Way mask; // texture coordinates
 #endif
 #ifdef PETROUS_LABELS
-  Way share; // texture coordinates
+  Way occupancy; // texture coordinates
   Way label; // voxels of the labels
 #endif
 };
@@ -251,7 +251,7 @@ Ways waysOf(Way voxel)
 #endif
 #ifdef PETROUS_LABELS
   ways.label = Way(labelPosition(voxel.from), labelFromVoxel * voxel.by);
-  ways.share = Way(ways.label.from * labelScale + labelOffset, ways.label.by * labelScale);
+  ways.occupancy = Way(ways.label.from * labelScale + labelOffset, ways.label.by * labelScale);
 #endif
   return ways;
 }
@@ -261,9 +261,9 @@ struct Operands
 {
   float value; // intensity of the CT
   float ct;    // c_CT
-  float share;
+  float occupancy;
   float left; // of the mask
-  float margin; // inside a structure: from another one, in shares
+  float margin; // inside a structure: from another one, in units of occupancy
 };
 
 // `plain`: known to be where neither labels nor mask count.
@@ -281,14 +281,14 @@ Operands operandsAt(Ways ways, float s, const bool plain)
 #else
   at.ct = -1.0;
 #endif
-  at.share = 0.0;
+  at.occupancy = 0.0;
   at.left = 1.0;
   at.margin = 0.5;
 #ifdef PETROUS_LABELS
   if (!plain)
   {
     COUNT(1);
-    at.share = texture(shareTexture, along(ways.share, s)).r;
+    at.occupancy = texture(occupancyTexture, along(ways.occupancy, s)).r;
   }
 #endif
 #ifdef PETROUS_MASK
@@ -304,19 +304,19 @@ Operands operandsAt(Ways ways, float s, const bool plain)
 // Also finds the margin.
 int stateOf(inout Operands at, Ways ways, float s, const bool plain)
 {
-  float f = min(max(at.ct, at.share - 0.5), at.left - 0.5);
+  float f = min(max(at.ct, at.occupancy - 0.5), at.left - 0.5);
   // Written so that a value that is no number is air.
   if (!(f > 0.0))
     return kAir;
 #ifdef PETROUS_NESTED
-  if (!plain && at.share > 0.5)
+  if (!plain && at.occupancy > 0.5)
   {
     Choice structure = structureAtLabel(along(ways.label, s));
     at.margin = structure.margin;
     return kStructure + structure.index;
   }
 #elif defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
-  if (!plain && at.share > 0.5)
+  if (!plain && at.occupancy > 0.5)
     return kStructure; // the ray ends on it, whichever it is
 #endif
   return kBone;
@@ -366,7 +366,7 @@ vec3 ctGradient(vec3 v, bool wanted, bool smoothly)
 GRADIENT(maskGradient, maskAt, hullUpper)
 #endif
 #ifdef PETROUS_LABELS
-GRADIENT(shareGradient, shareAtLabel, labelUpper)
+GRADIENT(occupancyGradient, occupancyAtLabel, labelUpper)
 #ifdef PETROUS_NESTED
 // Of how deep in a structure a position lies (without borders, of how much round it belongs to it),
 // voxels weighted by quadratic B-splines.

@@ -46,7 +46,7 @@ std::shared_ptr<const volume::LabelField> labelField(const Case& value, const La
 struct MeshSolid
 {
   const MeshPart* part; ///< points into the case
-  volume::TissueField::SolidUnion share;
+  volume::TissueField::SolidUnion occupancy;
 };
 
 /// The meshes whose looks are wanted, as far as they stand for themselves and can become voxels.

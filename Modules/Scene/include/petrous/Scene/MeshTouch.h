@@ -9,7 +9,7 @@ namespace petrous::scene
 {
 
 /// A mesh as the hand feels it: whether it can be felt, and its voxels, each made when first asked
-/// for and kept. Copies share what is made. Thread-safe.
+/// for and kept. Copies occupancy what is made. Thread-safe.
 ///
 /// Both are for one mesh and one CT grid; asked with another mesh or grid, they are made anew.
 class MeshTouch
@@ -21,7 +21,7 @@ public:
   std::string refusal(const std::shared_ptr<const core::TriangleMesh>& mesh,
                       const core::GridGeometry& ct) const;
 
-  /// Share of "inside" (volume::solidOf) where the CT is; null where `refusal` says why not. Voxels
+  /// Occupancy of "inside" (volume::solidOf) where the CT is; null where `refusal` says why not. Voxels
   /// are as fine as the CT's finest, and finer where the mesh needs it. Throws CancelledError.
   std::shared_ptr<const volume::Volume<float>>
   solid(const std::shared_ptr<const core::TriangleMesh>& mesh, const core::GridGeometry& ct,

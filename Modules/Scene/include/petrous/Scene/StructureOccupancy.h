@@ -10,20 +10,20 @@
 namespace petrous::scene
 {
 
-/// A structure of a case, whole and alone, as the share whose 1/2 level is its surface.
+/// A structure of a case, whole and alone, as the occupancy whose 1/2 level is its surface.
 struct StructureOccupancy
 {
   std::string name;
   std::string mr;            ///< the MR that it was drawn on; empty: the CT, or another grid
   core::GridGeometry grid;   ///< that it was drawn on, as it lies on the CT; of a mesh its voxels'
   core::GridGeometry around; ///< part of that grid: nothing of the structure is outside its hull
-  /// Makes the share: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
+  /// Makes the occupancy: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
   std::function<std::shared_ptr<const volume::Volume<float>>()> make;
 };
 
 /// The structures of all label maps, and those meshes that have voxels for touch already, as far as
 /// they have a place on the CT. Loads the
-/// labels and looks at their voxels once; makes no share yet.
-std::vector<StructureOccupancy> structureShares(const Case& value);
+/// labels and looks at their voxels once; makes no occupancy yet.
+std::vector<StructureOccupancy> structureOccupancies(const Case& value);
 
 } // namespace petrous::scene

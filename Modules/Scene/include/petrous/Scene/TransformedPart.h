@@ -11,7 +11,7 @@ namespace petrous::scene
 
 /// What was drawn on an MR, moved to where it lies on the CT. Kept as long as the same thing is
 /// asked for at the same place, so that who compares pointers sees no change where there is none.
-/// Copies share what is kept. Thread-safe.
+/// Copies occupancy what is kept. Thread-safe.
 template <class T>
 class TransformedPart
 {

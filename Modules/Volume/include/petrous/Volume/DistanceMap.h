@@ -12,7 +12,7 @@ namespace petrous::volume
 /// How deep a point lies in a structure: signed Euclidean distance to its surface, mm, positive
 /// inside, up to the middle of the structure.
 ///
-/// The surface is where the trilinear share (SmoothedUnion.h) is 1/2: what is seen is what is
+/// The surface is where the trilinear occupancy (SmoothedUnion.h) is 1/2: what is seen is what is
 /// measured from. The distances stand on a grid of their own round the structure and are
 /// interpolated by quadratic B-splines, so that depth and gradient are continuous, and the gradient
 /// is the depth's own. Over about a voxel of that grid it turns from one side's direction to the
@@ -43,7 +43,7 @@ public:
   double depth(const Eigen::Vector3d& patient) const noexcept;
 
 private:
-  friend std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
+  friend std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& occupancy,
                                                             const core::GridGeometry& domain,
                                                             const core::Progress& progress,
                                                             std::size_t maxVoxels);
@@ -57,15 +57,15 @@ private:
 
 constexpr std::size_t kMaxDistanceVoxels = 8'000'000; ///< 32 MB
 
-/// Measures a structure from its share. Beyond the hull of `domain` and of the share's own grid
+/// Measures a structure from its occupancy. Beyond the hull of `domain` and of the occupancy's own grid
 /// there is no tissue, so these are surfaces where the structure reaches them.
 ///
-/// The map's voxels are cubes of half the share's least spacing; of large structures they are
+/// The map's voxels are cubes of half the occupancy's least spacing; of large structures they are
 /// larger, so that there are at most `maxVoxels`. At the surface the depth is 0 to about 0.02
-/// voxel of the share where the surface is smooth, more at its creases.
+/// voxel of the occupancy where the surface is smooth, more at its creases.
 ///
 /// Null when no voxel lies inside. Throws CancelledError.
-std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& share,
+std::shared_ptr<const DistanceMap> makeDistanceMap(const Volume<float>& occupancy,
                                                    const core::GridGeometry& domain,
                                                    const core::Progress& progress = {},
                                                    std::size_t maxVoxels = kMaxDistanceVoxels);

@@ -18,14 +18,14 @@ namespace petrous::volume
 /// kDeepest, which is kBorderReach voxels or more; 0 where that is not solid.
 constexpr std::uint8_t kDeepest = 127;
 constexpr double kBorderReach = 1.7320508;
-constexpr double kMarginPerDepth = 0.5 / kDeepest; ///< a share is twice as deep from 0 to 1
+constexpr double kMarginPerDepth = 0.5 / kDeepest; ///< an occupancy is twice as deep from 0 to 1
 /// Added where, round the voxel, two structures meet in tissue. Elsewhere the index alone tells.
 constexpr std::uint8_t kMeeting = 128;
 
 /// Null where no two solids meet. A border is relaxed as the surface of a structure is
 /// (src/Labels/SurfaceNet.h), so that every voxel stays with its own structure and nothing shrinks.
 /// `solid`: which indices are. Share and index must be on one grid.
-std::shared_ptr<const Volume<std::uint8_t>> makeLabelBorders(const Volume<float>& share,
+std::shared_ptr<const Volume<std::uint8_t>> makeLabelBorders(const Volume<float>& occupancy,
                                                              const Volume<std::uint8_t>& index,
                                                              const std::array<bool, 256>& solid,
                                                              const core::Progress& progress = {});
@@ -33,7 +33,7 @@ std::shared_ptr<const Volume<std::uint8_t>> makeLabelBorders(const Volume<float>
 struct StructureChoice
 {
   std::uint8_t index = 0; ///< 0: none, or beyond the grid
-  double margin = 0.5;    ///< >= 0: from another structure, in shares
+  double margin = 0.5;    ///< >= 0: from another structure, in occupancies
 };
 
 /// The structure at a position inside the tissue of structures (voxels of the index' grid).

@@ -18,7 +18,7 @@ struct LabelSource
   std::shared_ptr<const LabelMap> labels;
   std::uint16_t segment = 0; ///< its voxel value in `labels`
   std::uint8_t material = 0; ///< what `LabelField::index` says of it, >= 1; sources may share one
-  bool solid = true;         ///< false: a lumen, which has an index but no share
+  bool solid = true;         ///< false: a lumen, which has an index but no occupancy
 };
 
 /// Many structures, each on the grid of its file, as the two channels that eye and hand sample
@@ -29,16 +29,16 @@ struct LabelSource
 /// finest map (the smallest voxel volume; of maps with a solid structure, where there is one, so
 /// that a lumen does not change what the hand feels), extended over all of them. How the others
 /// come onto it, and what becomes of thin structures, is said in src/Labels/LabelResampling.h. Structures
-/// of different grids are united by their larger share, so between two that only touch there may
-/// be a crease where their shares are 1/2.
+/// of different grids are united by their larger occupancy, so between two that only touch there may
+/// be a crease where their occupancies are 1/2.
 struct LabelField
 {
   /// Smoothed union of the solid sources, 0 to 1, in steps of 1/65535 (so that a 16-bit texture
   /// holds the same numbers); its level 0.5 is their surface. See SmoothedUnion.h.
-  std::shared_ptr<const Volume<float>> share;
+  std::shared_ptr<const Volume<float>> occupancy;
 
   /// Material of each voxel, 0 none; that of the nearest structure where it is grown:
-  ///   every voxel nearest to a point where `share` > 0.5 - 1e-3   a solid, even in a lumen's voxel
+  ///   every voxel nearest to a point where `occupancy` > 0.5 - 1e-3   a solid, even in a lumen's voxel
   ///   a lumen's other voxels                                      the lumen
   ///   nothing, within one voxel of a lumen                        the lumen: the wall around it
   ///   nothing, within two voxels of a solid                       the solid
@@ -56,7 +56,7 @@ struct LabelField
 /// every voxel were used. A single map's own grid is never touched.
 constexpr std::size_t kMaxLabelVoxels = 500'000'000;
 
-/// Of what makeLabelField and makeSolidShare return: raised with every change of it, so that
+/// Of what makeLabelField and makeSolidOccupancy return: raised with every change of it, so that
 /// nothing is taken for theirs that an older program kept (core::DerivedStore).
 constexpr int kLabelFieldVersion = 1;
 
@@ -70,9 +70,9 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
                                                  const core::Progress& progress = {},
                                                  std::size_t maxVoxels = kMaxLabelVoxels);
 
-/// LabelField::share alone, with all sources taken as solid: what hand and drill ask for, at a part
+/// LabelField::occupancy alone, with all sources taken as solid: what hand and drill ask for, at a part
 /// of the time and memory. Null when no source has a voxel. Throws as makeLabelField.
-std::shared_ptr<Volume<float>> makeSolidShare(const std::vector<LabelSource>& sources,
+std::shared_ptr<Volume<float>> makeSolidOccupancy(const std::vector<LabelSource>& sources,
                                               const core::Progress& progress = {},
                                               std::size_t maxVoxels = kMaxLabelVoxels);
 

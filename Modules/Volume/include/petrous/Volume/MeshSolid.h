@@ -63,7 +63,7 @@ struct MeshSolidPlan
 MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimits& limits,
                             const core::Progress& progress = {});
 
-/// Share of "inside" on the plan's grid, as TissueField takes it: 0.5 + d / 6e within 0 to 1, d the
+/// Occupancy of "inside" on the plan's grid, as TissueField takes it: 0.5 + d / 6e within 0 to 1, d the
 /// exact distance to the surface in mm, positive inside, so that value and central differences over
 /// +-e are those of the distance itself at a plane surface. Its 0.5 level is the mesh's surface.
 ///
@@ -84,7 +84,7 @@ std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh, dou
 /// Whether a point (patient LPS mm) lies inside a solid.
 bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexcept;
 
-/// What a structure that must not be drilled needs: a share on the voxels of `grid` (cut to a box
+/// What a structure that must not be drilled needs: an occupancy on the voxels of `grid` (cut to a box
 /// round the solid) which, interpolated between them, does not fall below 0.5 anywhere in the
 /// solid, though parts of it be thinner than a voxel. Neighbours differ by 1/2 at most, as they do
 /// in a smoothed union, so that the mask it is written to has no steeper walls than a cut. Null

@@ -8,7 +8,7 @@
 namespace petrous::volume
 {
 
-/// Share of "inside a wanted structure" round each voxel of a label map, 0 to 1, whose 0.5 level is
+/// Occupancy of "inside a wanted structure" round each voxel of a label map, 0 to 1, whose 0.5 level is
 /// a surface without voxel steps [Chan2013, 2.1]: 1/2 + d / (2 sqrt(3)) at a voxel centre, d the
 /// signed distance in voxels from the union's border, relaxed as src/Labels/SurfaceNet.h says, in steps of
 /// 1/65535.

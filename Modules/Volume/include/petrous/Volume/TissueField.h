@@ -13,7 +13,7 @@
 namespace petrous::volume
 {
 
-/// The one field that eye, hand and drill share (Documentation/equations.md, "One field"):
+/// The one field that eye, hand and drill occupancy (Documentation/equations.md, "One field"):
 ///
 ///   f(x) = min(max(c_CT(x), c_L(x)), m(x)),  solid where f > 0
 ///

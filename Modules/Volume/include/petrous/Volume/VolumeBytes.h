@@ -15,13 +15,13 @@ namespace petrous::volume
 /// they are 0. Bytes hold on machines of the same byte order only.
 using Bytes = std::vector<std::uint8_t>;
 
-/// Nothing where a share is no multiple of 1/65535 (SmoothedUnion.h).
-std::optional<Bytes> bytesOf(const Volume<float>& share);
+/// Nothing where an occupancy is no multiple of 1/65535 (SmoothedUnion.h).
+std::optional<Bytes> bytesOf(const Volume<float>& occupancy);
 std::optional<Bytes> bytesOf(const LabelField& field);
 Bytes bytesOf(const LabelMap& labels);
 
 /// Null where the bytes are none of the kind.
-std::shared_ptr<Volume<float>> shareFrom(const Bytes& bytes);
+std::shared_ptr<Volume<float>> occupancyFrom(const Bytes& bytes);
 std::shared_ptr<LabelField> labelFieldFrom(const Bytes& bytes);
 std::shared_ptr<LabelMap> labelMapFrom(const Bytes& bytes);
 

@@ -33,7 +33,7 @@ struct Options
   }
 };
 
-/// What goes by one name in the case: a structure, a mesh, both, or bone.
+/// Everything of one name in the case: a structure, a mesh, both, or bone.
 struct Part
 {
   std::string name;
@@ -72,8 +72,8 @@ std::string lookedAtParts(const scene::Case& value)
   return there;
 }
 
-/// "PART=VALUE" in its two halves. A name may have an '=' in it, so the first split that names a
-/// part counts.
+/// Splits "PART=VALUE". A name may contain '=', so the first split whose left side names a part is
+/// used.
 std::pair<Part, std::string> split(scene::Case& value, const std::string& assignment,
                                    const std::string& usage)
 {
@@ -110,7 +110,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   value.iso = iso;
 }
 
-// Of all parts but this one.
+// Colours of all other parts.
 std::vector<std::array<float, 3>> otherColors(const scene::Case& value, const std::string& part)
 {
   std::vector<std::array<float, 3>> colors;
@@ -133,7 +133,7 @@ void setPreset(scene::Case& value, const std::string& assignment)
                                  "' is that of a lumen and cannot be the look of bone");
   for (StructureAppearance* look : part.looks)
     appearance::applyPreset(*look, preset);
-  // What is no known structure has a colour of its own, as when it came to the case.
+  // An unknown structure gets a distinct colour, as when it was added to the case.
   if (preset.preset == appearance::StructurePresets::builtIn().lookFor({}).preset)
   {
     const auto color = appearance::distinctColor(otherColors(value, part.name));
@@ -277,7 +277,7 @@ void setWarning(scene::Case& value, const std::string& assignment)
     appearance::setWarning(*look, distance);
 }
 
-// What the drill meets there.
+// Sets the tissue that the drill meets.
 void setTissue(const Context& context, scene::Case& value, const std::string& assignment)
 {
   const auto [part, text] = split(value, assignment, "--tissue PART=MATERIAL|bone");
@@ -286,7 +286,7 @@ void setTissue(const Context& context, scene::Case& value, const std::string& as
                                  "tissue of their own");
   const std::string tissue = text == "bone" ? std::string() : text;
   if (!tissue.empty())
-    dissection::MaterialCatalogue::builtIn().material(tissue); // refuses what it does not know
+    dissection::MaterialCatalogue::builtIn().material(tissue); // throws for unknown materials
   for (StructureAppearance* look : part.looks)
     look->tissue = tissue;
   if (!tissue.empty() && !part.looks.front()->solid)
@@ -310,7 +310,7 @@ void run(const Context& context, const Options& options)
   scene::Case value = library.open(options.name);
   if (!options.iso.empty())
     setIso(context, value, options.iso);
-  // A preset first, then what deviates from it.
+  // A preset first, then deviations from it.
   for (const std::string& assignment : options.set)
     setPreset(value, assignment);
   for (const std::string& assignment : options.tf)

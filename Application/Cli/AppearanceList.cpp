@@ -18,7 +18,7 @@ namespace
 
 using appearance::StructureAppearance;
 
-/// The points as they lie among the intensities of an image.
+/// The control points in the intensities of an image.
 std::string valuesOf(const StructureAppearance& look, const volume::IntensityScale& scale)
 {
   if (!look.transfer)

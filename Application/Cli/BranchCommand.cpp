@@ -61,7 +61,7 @@ const Branch& branchOf(const scene::Case& value, const std::string& name)
   if (const Branch* branch = value.history.find(name))
     return *branch;
   dissection::History history = value.history;
-  history.goTo(name); // says which there are
+  history.goTo(name); // throws, listing the branches
   return value.history.branch();
 }
 
@@ -82,7 +82,7 @@ dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
   return work;
 }
 
-// mm^2 of each structure that each branch has laid open, by name.
+// mm^2 of each structure exposed by each branch, by name.
 std::array<std::map<std::string, double>, 2>
 exposedBy(const Context& context, const scene::Case& value, const Branch& a, const Branch& b)
 {
@@ -97,7 +97,7 @@ exposedBy(const Context& context, const scene::Case& value, const Branch& a, con
   return areas;
 }
 
-// A row for each name that either side has, 0 where one has it not.
+// A row for each name of either side, 0 if one lacks it.
 void printRows(const Context& context, const std::string& before, const std::string& after,
              const std::map<std::string, double>& a, const std::map<std::string, double>& b,
              int digits)
@@ -147,7 +147,7 @@ void list(const Context& context, const scene::Case& value)
   context.printJson(allJson(value));
 }
 
-// What is done, in words.
+// Makes the change; returns its description.
 std::string change(scene::Case& value, const Options& options)
 {
   const std::string& name = options.name;

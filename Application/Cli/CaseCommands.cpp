@@ -144,7 +144,7 @@ void addNew(CLI::App& app, Context& context)
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command->add_option("--roi", options->roi, "Part of the CT to load, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
-  // In the contract, not built yet: refused when asked for, not offered.
+  // Specified, but not implemented yet: refused if used, and hidden.
   command->add_flag("--repair", options->repair)->group("");
   options->parts.addTo(*command);
 }

@@ -62,7 +62,7 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
   {
     return scene::untouchable(value, mesh);
   }
-  catch (const core::Error& error) // the rest of the case can be told all the same
+  catch (const core::Error& error) // the rest of the case can still be reported
   {
     return error.what();
   }
@@ -105,7 +105,7 @@ json registrationJson(const scene::ImagePart& mr)
 namespace
 {
 
-// Only what was drawn on an MR says so.
+// Only for what was drawn on an MR.
 void addPlace(json& part, const scene::Placement& place)
 {
   if (place.drawnOn.empty())

@@ -25,7 +25,7 @@ double memoryMiB(const std::string& key)
   return 0.0;
 }
 
-// The nearest folder that exists: where the library would be made.
+// The nearest existing folder: where the library would be created.
 std::filesystem::path existingFolder(std::filesystem::path path)
 {
   path = std::filesystem::absolute(path);

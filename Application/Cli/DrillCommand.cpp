@@ -67,7 +67,7 @@ presenters::PathDrill::Options toolFrom(const Options& options)
 
 void checkTool(const Options& options, const simulation::RecordingSetup& recorded)
 {
-  // Only what was asked for by name.
+  // Checks only options given explicitly.
   const auto refuse = [&](const std::string& asked)
   {
     throw core::InvalidParameter(options.replay + ": was recorded with a " + toString(recorded) +
@@ -86,7 +86,7 @@ void checkTool(const Options& options, const simulation::RecordingSetup& recorde
     refuse("--mode " + options.mode);
 }
 
-// What is named by an option counts before what lies in the library.
+// Files given by an option override those of the library.
 dissection::Catalogues cataloguesFrom(const Options& options, const std::filesystem::path& folder)
 {
   if (options.materials.empty() && options.burrs.empty())
@@ -128,7 +128,7 @@ void save(const Context& context, library::Library& library, scene::Case& value,
                                          "; what was drilled is kept in the case's journal and "
                                          "comes back when the case is opened next");
   }
-  catch (...) // no memory, say
+  catch (...) // such as out of memory
   {
     journal.leave();
     throw;
@@ -154,7 +154,7 @@ void printBalance(const Context& context, const presenters::PathDrill& session,
   answer["swept_mm3"] = session.swept();
 }
 
-// What is drilled outlives a kill; a command that ends otherwise leaves no journal.
+// What is drilled survives a kill; a command that ends otherwise leaves no journal.
 std::unique_ptr<library::Journal> journalOf(const library::Library& library,
                                             const scene::Case& value, presenters::TouchScene& touch)
 {
@@ -226,7 +226,7 @@ void play(const Context& context, const Options& options)
 
 void replay(const Context& context, const Options& options)
 {
-  core::InputFile(options.replay); // says which file is not there
+  core::InputFile(options.replay); // throws, naming a missing file
   simulation::RecordingReader reader(options.replay);
   checkTool(options, reader.setup());
 

@@ -56,7 +56,7 @@ bool DrillReport::changed() const
   return m_case.history.position() != m_position || m_case.strokes.size() != m_before;
 }
 
-// Of the strokes that were made here and stand.
+// Of the strokes made here that are applied.
 DrillReport::Cut DrillReport::cut() const
 {
   Cut result;

@@ -13,10 +13,10 @@ namespace petrous::cli
 namespace
 {
 
-// How far a surface is looked for, mm.
+// Search distance for a surface, mm.
 constexpr double kReach = 20.0;
 
-// Round a point, mm, where its surface mostly lies: what is there is worked out for all at once.
+// Region around a point, mm, that usually contains its surface: evaluated for all points at once.
 constexpr double kNear = 3.0;
 
 std::string structureAt(const scene::Case& value, const std::vector<scene::MeshSolid>& meshes,

@@ -26,7 +26,7 @@ enum ExitCode
 
 struct Failure
 {
-  const char* kind; ///< as --json names it
+  const char* kind; ///< as named by --json
   int exitCode;
 };
 
@@ -51,7 +51,8 @@ Failure failureOf(core::Fault fault)
   return kInternalFailure;
 }
 
-// With --json the one object on stdout says what failed, unless the answer itself stands there.
+// With --json the single object on stdout describes the failure, unless the result was printed
+// there.
 int complain(const Program& program, const std::string& text, const Failure& failure, bool json)
 {
   std::cerr << program.name << ": " << text << '\n';
@@ -62,7 +63,7 @@ int complain(const Program& program, const std::string& text, const Failure& fai
               << std::flush;
   if (failure.exitCode != kInterruption.exitCode)
     return failure.exitCode;
-  // A shell stops a loop of commands only where the process ended by the signal itself.
+  // A shell stops a loop of commands only if the process was ended by the signal itself.
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
   return failure.exitCode;
@@ -73,8 +74,8 @@ bool isBlank(const std::string& text)
   return text.find_first_not_of(" \t") == std::string::npos;
 }
 
-// Nobody leaves an option out by giving it nothing, as a script does whose variable is not set, nor
-// means the next option by its value. Also of both sides of NAME=VALUE.
+// An empty value is not an omitted option (an unset variable in a script), and the next option is
+// not a value. Also checks both sides of NAME=VALUE.
 std::string emptyValue(const std::string& value, bool pair)
 {
   if (isBlank(value))
@@ -86,7 +87,7 @@ std::string emptyValue(const std::string& value, bool pair)
   return oneSided ? "'" + value + "' is empty on one side of '='" : "";
 }
 
-// Of every option and argument of the program and of every subcommand.
+// For every option and argument of the program and of every subcommand.
 void refuseEmptyValues(CLI::App& app)
 {
   const auto all = [](const auto*) { return true; };
@@ -94,7 +95,7 @@ void refuseEmptyValues(CLI::App& app)
     if (option->get_items_expected_max() > 0)
     {
       const bool pair = option->get_type_name().find('=') != std::string::npos;
-      // first, before other checks speak of a range
+      // before other checks, such as ranges
       option->transform(
           CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
     }
@@ -102,7 +103,7 @@ void refuseEmptyValues(CLI::App& app)
     refuseEmptyValues(*command);
 }
 
-// "--option=" with nothing behind it would take the next word for its value.
+// "--option=" followed by nothing would take the next argument as its value.
 std::string optionWithoutValue(const std::vector<std::string>& words)
 {
   for (const std::string& word : words)
@@ -115,7 +116,7 @@ std::string optionWithoutValue(const std::vector<std::string>& words)
   return {};
 }
 
-// Items that are nothing are dropped from a list before anybody could look at them.
+// Empty list items are dropped by the parser before they can be checked.
 std::string listWithGap(CLI::App& command, const std::vector<std::string>& words)
 {
   for (const CLI::Option* option : command.get_options([](const auto*) { return true; }))
@@ -129,7 +130,7 @@ std::string listWithGap(CLI::App& command, const std::vector<std::string>& words
         list = words[n].substr(name.size() + 1);
       else
         continue;
-      if (isBlank(list)) // told as of any option
+      if (isBlank(list)) // reported as for any option
         continue;
       std::istringstream items(list + option->get_delimiter());
       for (std::string item; std::getline(items, item, option->get_delimiter());)
@@ -160,7 +161,7 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
   refuseEmptyValues(app);
   try
   {
-    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    std::reverse(words.begin(), words.end()); // the order that CLI11 expects
     app.parse(std::move(words));
   }
   catch (const CLI::Success& asked) // --help, --version
@@ -213,7 +214,7 @@ std::filesystem::path programBeside(const std::string& name, const std::string& 
 int run(const Program& program, const std::vector<std::string>& words)
 {
   Context context;
-  // A line that does not parse is answered in JSON too.
+  // Invalid command lines are answered in JSON too.
   const auto fail = [&](const std::string& text, const Failure& failure)
   {
     const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
@@ -243,7 +244,7 @@ int run(const Program& program, const std::vector<std::string>& words)
   }
   catch (const std::exception&)
   {
-    // Texts of other libraries may carry patient data; they stay out.
+    // Messages of other libraries may contain patient data; they are left out.
     return fail("an unexpected fault; the library is as it was before", kInternalFailure);
   }
 }

@@ -81,7 +81,7 @@ nlohmann::json orNull(const std::optional<double>& value)
   return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
 }
 
-// The contract's keys, and what stands beside them.
+// The specified keys, and additional ones.
 nlohmann::json answerJson(const scene::Case& value, const std::string& mr,
                           const core::RigidTransform& transform, const scene::Registration& how,
                           const char* verdict)
@@ -119,7 +119,7 @@ void printError(const Context& context, const scene::Registration& how)
                 ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) + " mm");
 }
 
-// A signature is for what somebody has looked at, so nothing else happens beside it.
+// A sign-off is for a result that was inspected, so it excludes every other action.
 void sign(const Context& context, const Options& options)
 {
   if (!options.init.empty() || !options.transform.empty() || options.asIs || !options.at.empty() ||

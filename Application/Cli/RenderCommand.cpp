@@ -24,11 +24,11 @@ namespace
 
 using rendering::StereoMode;
 
-// What came of it.
+// Output of a rendering.
 struct Result
 {
   rendering::Picture picture;
-  std::optional<rendering::DepthImage> depth; // from the camera in the middle
+  std::optional<rendering::DepthImage> depth; // from the central camera
   std::map<std::string, std::size_t> resources;
   nlohmann::json report;
 };
@@ -55,7 +55,7 @@ rendering::Picture together(std::vector<rendering::Picture> pictures, StereoMode
                               : rendering::composeStereo(pictures[0], pictures[1], mode);
 }
 
-// Nothing of the CT in the scene: no ray was cast.
+// No CT in the scene: no ray was cast.
 rendering::DepthImage depthOf(const rendering::ScenePicture& picture, const Shot& shot)
 {
   rendering::DepthImage depth = picture.depth();
@@ -169,7 +169,7 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
   }
 }
 
-// The scale of the colours, for who reads the picture.
+// The colour scale, for the picture's reader.
 nlohmann::json thicknessJson(const RenderOptions& options)
 {
   if (options.thickness.empty())

@@ -53,7 +53,7 @@ struct Options
   bool strict = false;
 };
 
-// What --strict does not let pass; empty where every series is sound.
+// Why --strict fails; empty if every series is sound.
 std::string complaintOf(const imaging::ScanResult& result)
 {
   std::size_t unsound = 0;
@@ -71,7 +71,7 @@ void scan(const Context& context, const Options& options)
   const std::string& path = options.path;
   const auto result = imaging::scanDicom(path, context.progress());
   if (result.series.empty() && result.unreadable.empty())
-    imaging::chooseSeries(result, path); // says what was found instead
+    imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
   for (const auto& series : result.series)
   {

@@ -84,7 +84,7 @@ SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int
   return {plane, at, *options.fieldOfView / width, width, height};
 }
 
-// Whether any pixel of the slice lies among the CT's voxels.
+// Whether any pixel of the slice is within the CT's voxels.
 bool meets(const SliceGeometry& slice, const core::GridGeometry& grid)
 {
   const Eigen::Array3d last(grid.dims()[0] - 1, grid.dims()[1] - 1, grid.dims()[2] - 1);
@@ -98,7 +98,7 @@ bool meets(const SliceGeometry& slice, const core::GridGeometry& grid)
   return false;
 }
 
-// "covers x -60 to 60, y -40 to 80, z 0 to 75 mm": the box about the CT, patient LPS.
+// "covers x -60 to 60, y -40 to 80, z 0 to 75 mm": the CT's bounding box, patient LPS.
 std::string coverageOf(const core::GridGeometry& grid)
 {
   const core::PatientBox box = grid.patientBounds();

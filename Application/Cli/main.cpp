@@ -12,10 +12,10 @@ namespace
 
 using namespace petrous;
 
-// Named in the contract of the command line; their issues come later.
+// Specified command-line names, not implemented yet.
 constexpr std::array<const char*, 5> kNotBuilt{"archive", "restore", "send", "receive", "nodes"};
 
-// The window is a program of its own: the command starts without Qt.
+// The window is a separate program, so that the command starts without Qt.
 int openWorkstation(char** arguments)
 {
   const auto program = cli::programBeside("petrous-workstation", "../Workstation");
@@ -28,7 +28,7 @@ int openWorkstation(char** arguments)
   return 2;
 }
 
-// So are the benchmarks, which bring their peers along. Returns where there are none.
+// So are the benchmarks, which include their peers. Returns if they are not installed.
 void runBenchmarks(std::vector<std::string> words)
 {
   const std::string program =
@@ -70,7 +70,7 @@ void addCommands(CLI::App& app, cli::Context& context)
         .addCommand(app, name, "Not built yet",
                     [name] { throw cli::UsageError(std::string("'") + name + "' is not built yet"); })
         ->allow_extras()
-        ->group(""); // not in the help
+        ->group(""); // hidden from the help
 }
 
 } // namespace

@@ -20,7 +20,7 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
   QString folder = parser.value("library");
   if (folder.isEmpty())
     folder = qEnvironmentVariable("PETROUS_LIBRARY");
-  if (folder.isEmpty()) // the same place as the petrous command
+  if (folder.isEmpty()) // the same default as the petrous command
     folder = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
   return QFile::encodeName(folder).toStdString();
 }
@@ -32,7 +32,7 @@ petrous::presenters::DeviceSources deviceSources()
   {
     sources.hid = std::make_shared<const petrous::devices::HidLibrary>();
   }
-  catch (const petrous::devices::HidError&) // the mouse is left; 'petrous doctor' says why
+  catch (const petrous::devices::HidError&) // the mouse remains; 'petrous doctor' reports why
   {
   }
   sources.serverFolders = petrous::devices::serverFolders();

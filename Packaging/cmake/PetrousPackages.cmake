@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, and the Debian packages that `Packaging/deb` makes of it:
-# petrous (command, window, guide, device rules) and petrous-bench (`petrous bench`).
+# Install rules of `cmake --install`, and the Debian packages that `Packaging/deb` builds: petrous
+# (command, window, guide, device rules) and petrous-bench (`petrous bench`).
 include(GNUInstallDirs)
 
 install(TARGETS petrous RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT petrous)
@@ -17,7 +17,7 @@ install(FILES LICENSE README.md CHANGELOG.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT petrous)
 install(DIRECTORY Documentation
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT petrous)
-# All that a device server of another vendor needs: one header in C.
+# C headers for third-party device servers.
 install(FILES
   Modules/Devices/include/petrous/Devices/DeviceServerProtocol.h
   Modules/Devices/include/petrous/Devices/DeviceServerExchange.h
@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PETROUS_PACKAGE_NAME petrous)
 set(CPACK_DEBIAN_PETROUS_PACKAGE_SECTION science)
-# Opened at run time, so that no dependency of the program names them.
+# Loaded at run time, so that automatic dependencies do not include them.
 set(CPACK_DEBIAN_PETROUS_PACKAGE_DEPENDS "libegl1, libopengl0, libgl1-mesa-dri | libgl1-nvidia-glvnd-glx")
 set(CPACK_DEBIAN_PETROUS_PACKAGE_RECOMMENDS "libhidapi-hidraw0")
 set(CPACK_DEBIAN_PETROUS_PACKAGE_SUGGESTS petrous-bench)

@@ -120,7 +120,7 @@ std::string processorName()
   return "unknown";
 }
 
-// Volumes of a benchmark, removed when it ends.
+// Temporary folder for benchmark volumes.
 struct WorkFolder
 {
   std::filesystem::path path;

@@ -19,7 +19,7 @@ using Points = std::vector<core::BenchmarkPoint>;
 
 constexpr double kLeft = 90.0;
 constexpr double kTop = 50.0;
-constexpr double kDigit = 7.5; // px, about, of an axis' label
+constexpr double kDigit = 7.5; // px, approximate width of a digit in axis labels
 constexpr std::size_t kPeerColor = 7;
 
 std::string programOf(const core::BenchmarkPoint& point)
@@ -52,7 +52,7 @@ std::vector<double> secondsOf(const Points& points)
   return valuesOf(points, [](const auto& point) { return point.seconds; });
 }
 
-// A rectangle in which time runs to the right and error upwards.
+// A panel with time on the x axis and error on the y axis.
 class Panel
 {
 public:
@@ -75,7 +75,7 @@ public:
   std::string axes() const
   {
     std::string result;
-    double free = -1.0; // where the next label has room
+    double free = -1.0; // where there is space for the next label
     for (const auto& tick : m_x.ticks())
     {
       const double half = 0.5 * kDigit * static_cast<double>(tick.label.size());
@@ -114,13 +114,13 @@ Points chosen(const core::BenchmarkReport& report, const std::string& series)
   return points;
 }
 
-// Of the parameter that is varied.
+// Value of the varied parameter.
 const std::string& valueOf(const core::BenchmarkPoint& point)
 {
   return point.setting.at(point.series.substr(0, point.series.find(',')));
 }
 
-// The values that were varied, joined, of each program for itself.
+// Joins the varied values of each program separately.
 std::string joined(const Points& points, const Panel& panel, const std::string& color)
 {
   const auto colorOf = [&color](const core::BenchmarkPoint& point)
@@ -138,7 +138,7 @@ std::string joined(const Points& points, const Panel& panel, const std::string& 
   svg::Labels labels(panel.px(0), panel.py(1), panel.px(1), panel.py(0));
   for (const auto& point : points)
     labels.keepClear(panel.x(point), panel.y(point), point.isDefault ? 9.0 : 5.0);
-  for (const bool ringed : {true, false}) // the default's value has the first choice
+  for (const bool ringed : {true, false}) // the default's label is placed first
     for (const auto& point : points)
       if (point.isDefault == ringed)
         result += labels.beside(panel.x(point), panel.y(point), valueOf(point));
@@ -148,7 +148,7 @@ std::string joined(const Points& points, const Panel& panel, const std::string& 
   return result;
 }
 
-// Times of other programs beside our default's.
+// Times of other programs compared with our default's.
 std::string strip(const Points& points, double top, double width)
 {
   const svg::LogAxis axis(secondsOf(points));

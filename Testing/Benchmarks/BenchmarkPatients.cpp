@@ -23,11 +23,11 @@ using appearance::Material;
 using appearance::TransferFunction;
 
 constexpr double kBurrRadius = 2.0;           // mm
-constexpr double kWindow = 9.0;               // edge of the cavity's mouth, mm
+constexpr double kWindow = 9.0;               // edge of the cavity's opening, mm
 constexpr double kRow = 1.5;                  // between rows of the burr's path, mm
 constexpr double kLayers[] = {1.5, 3.0, 4.5}; // depth of the burr's tip below the cortex, mm
 
-// Of a structure: its surface hides what is behind.
+// Of a structure: opaque.
 Material solidMaterial(const std::array<float, 3>& color)
 {
   Material material;
@@ -35,7 +35,7 @@ Material solidMaterial(const std::array<float, 3>& color)
   return material;
 }
 
-// The cortex seen from the side at a height and depth; nothing where there is no bone.
+// Point on the cortex seen laterally at the target's height and depth; nullopt if there is no bone.
 std::optional<Eigen::Vector3d> cortexAt(const volume::TissueField& field,
                                         const Eigen::Vector3d& target, const Eigen::Vector3d& out)
 {
@@ -45,13 +45,13 @@ std::optional<Eigen::Vector3d> cortexAt(const volume::TissueField& field,
   start.x() = border;
   Eigen::Vector3d end = target;
   end.x() = field.geometry().center().x();
-  // Along the head's x axis, which is `out`.
+  // Along the head's x axis, i.e. `out`.
   if (const auto hit = field.firstHit(start, end))
     return (start - *hit * out).eval();
   return std::nullopt;
 }
 
-// Cuts a window behind the ear canal in layers; `target` is amid it, at any x.
+// Cuts a window behind the ear canal in layers; `target` is its centre, at any x.
 void openMastoid(BenchmarkPatient& patient, const Eigen::Vector3d& target)
 {
   const volume::TissueField field(patient.ct, {}, nullptr, {kBenchmarkIso, 1000.0});
@@ -81,7 +81,7 @@ double distanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
   return (p - a - share * along).norm();
 }
 
-// Structures of the usual size, 9 mm and more below the cortex, where the data have none.
+// Structures of typical size, at least 9 mm below the cortex, for data without structures.
 std::shared_ptr<const volume::LabelMap> standInLabels(const BenchmarkPatient& patient)
 {
   const core::GridGeometry& grid = patient.ct->geometry();
@@ -173,7 +173,7 @@ std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
   patient.name = "real CT " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
                  std::to_string(n[2]) + " of " + core::generalText(grid.minSpacing(), 2) + " mm";
   const auto extent = volume::tissueExtent(*patient.ct, kBenchmarkIso);
-  // Where the mastoid of a head lies from the middle of its bone.
+  // Typical position of the mastoid relative to the centre of the head's bone.
   openMastoid(patient, extent.center + Eigen::Vector3d(0.0, 18.0, -42.0));
   const auto labels = standInLabels(patient);
   const std::array<float, 3> colors[] = {

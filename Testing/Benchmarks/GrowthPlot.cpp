@@ -47,7 +47,7 @@ std::string panel(const std::vector<Point>& points, const std::vector<std::strin
   for (const auto& tick : x.ticks())
   {
     const double decade = std::log10(tick.value);
-    const bool labelled = std::abs(decade - std::round(decade)) < 1e-9; // there is no room for all
+    const bool labelled = std::abs(decade - std::round(decade)) < 1e-9; // no space for all labels
     result += svg::line(px(tick.value), kTop, px(tick.value), kTop + kHigh) +
               svg::text(px(tick.value), kTop + kHigh + 18, labelled ? fixed(tick.value, 0) : "",
                         "text-anchor=\"middle\"");

@@ -7,9 +7,9 @@
 namespace petrous::cli
 {
 
-/// A benchmark of something that grows, as an SVG: to the right the setting `by` (points whose
-/// value is no number are left out), upwards on the left the time, on the right the further figure
-/// `extra`; all logarithmic, a colour for each program and scene.
+/// SVG of a scaling benchmark: x is the setting `by` (points with a non-numeric value are omitted),
+/// the left y axis the time, the right one the additional figure `extra`; all logarithmic, one
+/// colour per program and scene.
 std::string growthSvg(const core::BenchmarkReport& report, const std::string& by,
                       const std::string& extra);
 

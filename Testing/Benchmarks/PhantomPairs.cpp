@@ -14,7 +14,7 @@ using phantom::Phantom;
 using registration::Vector3d;
 
 constexpr double kMargin = 10.0;   // mm of MR beyond the ear
-constexpr double kMrUnit = 1000.0; // of the phantom's MR, for a contrast of about 1
+constexpr double kMrUnit = 1000.0; // scale of the phantom's MR, for a contrast of about 1
 
 core::GridGeometry around(const Vector3d& center, const Vector3d& extent, const Vector3d& spacing)
 {
@@ -54,7 +54,7 @@ registration::SimulationBody phantomBody(bool quick, const core::Progress& progr
   body.ct = std::make_shared<const volume::IntensityVolume>(
       scanned(phantom, around(Phantom::center(), Phantom::extent(), Vector3d::Constant(spacing)),
               Phantom::Modality::Ct, 20.0, {}, progress.part(0.0, 0.3)));
-  // Wider than the CT: an MR of other axes reaches beyond it.
+  // Larger than the CT: an MR with other axes extends beyond it.
   const core::GridGeometry wide = around(
       Phantom::center(), Phantom::extent() + Vector3d::Constant(40.0), Vector3d::Constant(spacing));
   const auto mr = scanned(phantom, wide, Phantom::Modality::Mr, 0.0, {}, progress.part(0.3, 0.6));

@@ -33,12 +33,12 @@ using registration::RegistrationPair;
 using registration::SimulationBody;
 using registration::Vector3d;
 
-// Where the inner ears of a head lie from the middle of its bone, and how wide and deep a head with
-// its skin is about that, mm.
+// Position of the inner ears relative to the centre of a head's bone, and width and depth of a head
+// including skin around that, mm.
 const Vector3d kEar(33.0, 0.0, -29.0);
 const Eigen::Vector2d kHead(190.0, 250.0);
 
-// The largest CT below the folder, cut to the head.
+// The largest CT below the folder, cropped to the head.
 std::optional<SimulationBody> realBody(const fs::path& data, bool quick,
                                        const core::Progress& progress)
 {
@@ -115,7 +115,7 @@ std::vector<RegistrationPair> filePairs(const fs::path& folder, const core::Prog
   return pairs;
 }
 
-// A NIfTI of four dimensions, as a series of diffusion images comes; zeros in all of them.
+// A 4D NIfTI, as from a diffusion series, with all values zero.
 fs::path writeFourDimensions(const fs::path& work, int volumes)
 {
   std::array<char, 352> header{};
@@ -162,7 +162,7 @@ std::vector<registration::StressTrial> fourDimensions(const fs::path& work,
   return trials;
 }
 
-// What settings are judged on: none of these pairs is compared with other programs.
+// Pairs for judging settings, none of which is used for comparison with other programs.
 std::vector<RegistrationPair> tuningPairs(const std::vector<SimulationBody>& bodies, bool quick,
                                           const core::Progress& progress)
 {
@@ -173,13 +173,13 @@ std::vector<RegistrationPair> tuningPairs(const std::vector<SimulationBody>& bod
     for (std::uint64_t n = 0; n < 3 && body.contrasts.size() > 2; ++n) // the real head
     {
       auto recipe = registration::usualRecipe(body, n, 200 + n);
-      recipe.contrast = 1 + n % 2; // T2 and diffusion: the T1 is like that of ct_mr_sim
+      recipe.contrast = 1 + n % 2; // T2 and diffusion: ct_mr_sim already has a T1
       pairs.push_back(registration::simulatePair(body, n, recipe));
     }
   return pairs;
 }
 
-// `petrous register` on a case of the pair, which another process has made from the same files that
+// Runs `petrous register` on a case of the pair, created by another process from the files that
 // elastix reads.
 std::optional<registration::PeerFit> registerInProcess(const RegistrationPair& pair,
                                                        const fs::path& work)
@@ -256,7 +256,7 @@ BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
           "none: --pairs names no folder of NAME/{fixed,moving}.nii.gz with NAME/truth.json";
     for (RegistrationPair& pair : files)
     {
-      // Averages of many persons: certainly not one of ours.
+      // Averages of many subjects: certainly none of our bodies.
       if (pair.name.find("template") != std::string::npos)
         input.others.push_back(pair);
       input.pairs.push_back(std::move(pair));

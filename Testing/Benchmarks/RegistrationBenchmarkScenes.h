@@ -14,15 +14,15 @@ namespace petrous::cli
 struct RegistrationScenes
 {
   bool quick = false;
-  std::filesystem::path pairs; ///< a folder of PAIR/{fixed,moving}.nii.gz and PAIR/truth.json
-  std::filesystem::path data;  ///< a folder that holds a real CT
-  std::filesystem::path rire;  ///< RIRE's patients
+  std::filesystem::path pairs; ///< folder with PAIR/{fixed,moving}.nii.gz and PAIR/truth.json
+  std::filesystem::path data;  ///< folder with a real CT
+  std::filesystem::path rire;  ///< folder of RIRE patients
   std::set<std::string> parts;
   std::filesystem::path work;
 };
 
-/// The phantom and, where they are there, a real CT, pairs of files, and RIRE. What is absent is
-/// named in `notes`. Throws UsageError for a part that does not exist, Error for damaged files.
+/// The phantom and, if available, a real CT, pairs of files, and RIRE. Missing data are listed in
+/// `notes`. Throws UsageError for an unknown part, Error for damaged files.
 registration::BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
                                                 std::map<std::string, std::string>& notes,
                                                 const core::Progress& progress);

@@ -43,7 +43,7 @@ std::string calibrationSvg(const Points& points)
 {
   const std::vector<std::string> verdicts{"good", "doubtful", "failed"};
   std::vector<double> both;
-  std::map<std::string, std::pair<int, int>> covered; // of how many
+  std::map<std::string, std::pair<int, int>> covered; // and out of how many
   for (const auto& point : points)
   {
     both.push_back(point.extra.at("p95_mm"));
@@ -52,7 +52,7 @@ std::string calibrationSvg(const Points& points)
     count.first += point.extra.at("covered") > 0.5 ? 1 : 0;
     ++count.second;
   }
-  const svg::LogAxis axis(both); // the same for both, so that equal values lie on the diagonal
+  const svg::LogAxis axis(both); // common axis, so that equal values are on the diagonal
   const auto px = [&](double value) { return kLeft + kSize * axis.share(value); };
   const auto py = [&](double value) { return kTop + kSize * (1.0 - axis.share(value)); };
   std::string result = svg::start(kLeft + kSize + 260.0, kTop + kSize + 60.0,
@@ -92,8 +92,8 @@ std::string calibrationSvg(const Points& points)
          upwards(26, kTop + 0.5 * kSize, "true error at the ear, mm") + "</svg>\n";
 }
 
-// One panel: the condition to the right, evenly; upwards the median and the worst true error and
-// the stated p95.
+// One panel: x the condition, equally spaced; y the median and the worst true error and the stated
+// p95.
 std::string conditionPanel(const Points& points, const std::string& name, double left,
                            const svg::LogAxis& axis)
 {
@@ -171,7 +171,7 @@ struct Tally
 {
   int trials = 0, wrong = 0;
   std::map<std::string, int> verdicts;
-  double worst = 0.0; // true error of a good one, mm
+  double worst = 0.0; // true error of those rated good, mm
 
   void add(const core::BenchmarkPoint& point)
   {

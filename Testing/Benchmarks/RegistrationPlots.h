@@ -8,11 +8,11 @@
 namespace petrous::cli
 {
 
-/// What `petrous bench registration` writes beside its JSON, by the parts that were run:
-/// "" time against error of the pairs, beside other programs; "-schedule" the same over each
-/// setting; "-conditions" error against noise, slices and overlap; "-calibration" stated p95
-/// against true error, with the coverage; "-stress.md" and "-stress.json" the stress trials, by
-/// kind and then each that was confidently wrong.
+/// The files that `petrous bench registration` writes beside its JSON, depending on the parts run:
+/// "" error over time of the pairs, with other programs; "-schedule" the same for each setting;
+/// "-conditions" error over noise, slice thickness and overlap; "-calibration" stated p95 against
+/// true error, with the coverage; "-stress.md" and "-stress.json" the stress trials, by kind,
+/// followed by each confidently wrong one.
 std::map<std::string, std::string> registrationPlots(const core::BenchmarkReport& report);
 
 } // namespace petrous::cli

@@ -178,7 +178,7 @@ std::vector<core::BenchmarkPoint> sweepQuality(const rendering::SceneContents& c
       truth.enter(qualities.back(), point);
       points.push_back(point);
     }
-  // In rounds, so that what else the machine does meets every setting alike.
+  // In rounds, so that background load affects all settings alike.
   constexpr int rounds = 3;
   std::vector<std::vector<double>> seconds(points.size());
   for (int round = 0; round < rounds; ++round)
@@ -188,7 +188,7 @@ std::vector<core::BenchmarkPoint> sweepQuality(const rendering::SceneContents& c
                           rounds,
                       scene + ": " + points[n].series);
       own.setQuality(qualities[n]);
-      view.frame(); // makes what the setting needs
+      view.frame(); // warm-up
       for (int frame = 0; frame < std::max(frames / rounds, 1); ++frame)
         seconds[n].push_back(view.frame());
     }
@@ -205,7 +205,7 @@ std::vector<core::BenchmarkPoint> shapeDepths(const PictureSize& size)
   core::CameraPose camera;
   camera.position = {25.0, -90.0, 18.0};
   camera.focalPoint = {0.0, 0.0, 0.0};
-  camera.viewAngle = 12.0; // the picture lies within the faces of the cube
+  camera.viewAngle = 12.0; // the picture is within the faces of the cube
   const Eigen::Vector3d normal = Eigen::Vector3d(0.25, -1.0, 0.35).normalized();
   constexpr double radius = 12.0;
   const auto plane = [&](const rendering::PixelRay& ray)

@@ -19,7 +19,7 @@ struct PictureSize
   int height = 0;
 };
 
-/// One scene as the reference caster sees it, and how far our picture is from that.
+/// A scene's reference picture, and the error of the renderer against it.
 class SceneTruth
 {
 public:
@@ -28,7 +28,7 @@ public:
 
   rendering::PictureError errorOf(const rendering::RenderQuality& quality) const;
 
-  /// Writes the error at a quality into a point: error, unit and further figures.
+  /// Stores the error at a quality in a point: error, unit and further figures.
   void enter(const rendering::RenderQuality& quality, core::BenchmarkPoint& point) const;
 
 private:
@@ -39,15 +39,15 @@ private:
   rendering::DepthImage m_depth;
 };
 
-/// Time (in `view`) against error, one setting of RenderQuality at a time, the others at their
-/// defaults. frames: at least, for each median.
+/// Time (in `view`) and error, varying one setting of RenderQuality at a time. frames: minimum
+/// number for each median.
 std::vector<core::BenchmarkPoint> sweepQuality(const rendering::SceneContents& contents,
                                                const core::CameraPose& camera,
                                                const SceneTruth& truth, const std::string& scene,
                                                rendering::TimedView& view, int frames,
                                                const core::Progress& progress);
 
-/// First hits on a slanting plane and on a ball, against their equations.
+/// First hits on an oblique plane and on a ball, against their equations.
 std::vector<core::BenchmarkPoint> shapeDepths(const PictureSize& size);
 
 } // namespace petrous::cli

@@ -26,11 +26,11 @@ using rendering::Peer;
 using rendering::RenderStatistics;
 using rendering::TimedView;
 
-// After which no further frame is drawn: of a peer, its first one not counted; of both eyes.
+// Time limits for further frames: of a peer, excluding its first one; of both eyes.
 constexpr double kPeerSeconds = 5.0;
 constexpr double kStereoSeconds = 40.0;
 
-// How much is measured.
+// Amount of measurement.
 struct Extent
 {
   std::vector<int> edges{256, 512};
@@ -38,9 +38,9 @@ struct Extent
   PictureSize errorPicture{320, 240};
   PictureSize stereoPicture{1920, 1080};
   int frames = 9;
-  int peerFrames = 3; // fewer where one takes seconds
+  int peerFrames = 3; // fewer if one takes seconds
   int edits = 40;
-  int turns = 80; // of the camera, while it moves
+  int turns = 80; // camera steps during the motion
 };
 
 Extent extentOf(const RendererBenchmarkOptions& options)
@@ -76,7 +76,7 @@ core::BenchmarkPoint pointOf(const std::string& scene, const PictureSize& size,
   return point;
 }
 
-// What the default quality fetches in this scene, from a frame of its own.
+// Adds the fetches at default quality in this scene, from a separate frame.
 void enterCounts(TimedView& view, OwnPicture& own, double pixels, core::BenchmarkPoint& point)
 {
   own.setCounting(true);
@@ -165,7 +165,7 @@ void Run::scene(const BenchmarkPatient& patient, BenchmarkView view, BenchmarkLo
     theirs.push_back(std::move(point));
   }
   {
-    // Again after the peers: the mean of both stands against what else the machine did meanwhile.
+    // Again after the peers: the mean of both compensates for background load in between.
     OwnPicture own(contents, camera);
     m_view.show(own);
     TimedView::Timing late = m_view.time(m_extent.frames);
@@ -196,14 +196,14 @@ void Run::sweep(const BenchmarkPatient& patient, const core::Progress& progress)
   m_report.points.insert(m_report.points.end(), points.begin(), points.end());
 }
 
-// Both eyes of a microscope, 24 mm apart at its working distance.
+// Both eyes of a microscope, 24 mm apart at the working distance.
 void Run::stereo(const BenchmarkPatient& patient)
 {
   const auto contents = contentsOf(patient, BenchmarkLook::Translucent);
   const core::CameraPose middle = cameraOf(patient, BenchmarkView::Near);
   const Eigen::Vector3d right =
       (middle.focalPoint - middle.position).cross(middle.viewUp).normalized();
-  // The working distance of 250 mm is shortened to the camera's; so are the eyes.
+  // The working distance of 250 mm is scaled to the camera's, and so is the eye separation.
   const double apart = 24.0 * (middle.focalPoint - middle.position).norm() / 250.0;
   core::CameraPose eyes[2] = {middle, middle};
   eyes[0].position -= 0.5 * apart * right;
@@ -231,7 +231,7 @@ void Run::stereo(const BenchmarkPatient& patient)
     sum += both;
   }
   if (seconds.size() > 1)
-    seconds.erase(seconds.begin()); // with the uploads
+    seconds.erase(seconds.begin()); // includes the uploads
   std::sort(seconds.begin(), seconds.end());
   timing.median = seconds[seconds.size() / 2];
   timing.frames = static_cast<int>(seconds.size());
@@ -254,7 +254,7 @@ void Run::edits(const BenchmarkPatient& patient)
   OwnPicture own(contents, camera);
   m_view.show(own);
   m_view.frame();
-  // As large in voxels as a burr of 4 mm at 0.3 mm.
+  // In voxels, the size of a 4 mm burr at 0.3 mm.
   const double radius = 0.5 * 4.0 / 0.3 * patient.ct->geometry().minSpacing();
   std::vector<double> cutMs, undoMs;
   const auto show = [&](const std::vector<std::size_t>& bricks, std::vector<double>& milliseconds)
@@ -266,7 +266,7 @@ void Run::edits(const BenchmarkPatient& patient)
   };
   for (int n = 0; n < m_extent.edits; ++n)
   {
-    // Round the floor of the cavity, where there is still something to cut.
+    // Around the floor of the cavity, where there is still bone to remove.
     const double angle = 0.7 * n;
     const Eigen::Vector3d center = patient.entry - (5.0 + 0.05 * n) * patient.lateral +
                                    4.0 * Eigen::Vector3d(0.0, std::cos(angle), std::sin(angle));
@@ -304,12 +304,12 @@ void Run::edits(const BenchmarkPatient& patient)
   }
 }
 
-// The camera swings round its focal point, and the picture is as coarse as the window makes it
-// then. Every frame counts but the first, which is at rest: from it the picture learns how fast the
-// machine is.
+// The camera swings about its focal point, with the picture coarsened as in interactive windows.
+// All frames count except the first, which is at full quality and from which the machine's speed is
+// estimated.
 void Run::interaction(const BenchmarkPatient& patient, const core::Progress& progress)
 {
-  constexpr double swing = 0.5; // rad to each side
+  constexpr double swing = 0.5; // rad to either side
   double done = 0.0;
   for (const BenchmarkView view : {BenchmarkView::Head, BenchmarkView::Near})
     for (const BenchmarkLook look : {BenchmarkLook::Translucent, BenchmarkLook::Opaque})
@@ -323,7 +323,7 @@ void Run::interaction(const BenchmarkPatient& patient, const core::Progress& pro
       scene.setCamera(middle);
       m_view.show(scene);
       TimedView::Timing timing;
-      timing.first = m_view.frame(false); // at rest, in full
+      timing.first = m_view.frame(false); // at full quality
       scene.setInteractive(true);
       timing.frames = m_extent.turns;
       std::vector<double> seconds;

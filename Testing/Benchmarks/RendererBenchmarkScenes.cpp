@@ -31,7 +31,7 @@ rendering::SceneContents contentsOf(const BenchmarkPatient& patient, BenchmarkLo
   contents.ct = patient.ct;
   contents.iso = kBenchmarkIso;
   appearance::Material bone;
-  // Fixed here, not a preset: the figures of two versions are of the same scene.
+  // Defined here, not a preset: figures of different versions refer to the same scene.
   bone.transfer = appearance::TransferFunction({{300.0, {0.86F, 0.70F, 0.52F}, 0.02F, 0.4F},
                                                 {900.0, {0.93F, 0.86F, 0.72F}, 0.08F, 0.7F},
                                                 {1600.0, {0.97F, 0.94F, 0.86F}, 0.25F, 1.0F}});
@@ -56,7 +56,7 @@ core::CameraPose cameraOf(const BenchmarkPatient& patient, BenchmarkView view)
                                                                : rendering::StandardView::Right,
                                      patient.ct->geometry(), extent.center, extent.radius);
   }
-  constexpr double distance = 60.0; // mm: 32 mm high
+  constexpr double distance = 60.0; // mm: 32 mm of visible height
   core::CameraPose pose;
   pose.focalPoint = patient.entry - 4.0 * patient.lateral;
   pose.position = pose.focalPoint +

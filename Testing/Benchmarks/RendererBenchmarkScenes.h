@@ -11,13 +11,13 @@ namespace petrous::cli
 
 enum class BenchmarkLook
 {
-  Translucent, ///< bone's surface lets 65 % through; structures; cut
+  Translucent, ///< bone surface with a transmittance of 65 %; structures; cut
   Opaque,      ///< opaque bone; structures; cut
-  CtAlone      ///< opaque bone as it was scanned
+  CtAlone      ///< opaque bone as scanned
 };
 enum class BenchmarkView
 {
-  Head, ///< all of it, from the side
+  Head, ///< whole head, from the side
   Near  ///< the cavity, as through a microscope
 };
 

@@ -39,7 +39,7 @@ LogAxis::LogAxis(const std::vector<double>& values)
     }
   if (most <= 0.0)
     least = most = 1.0;
-  // A little air, so that no point stands on the frame.
+  // Margin, so that no point is on the frame.
   least *= 0.93;
   most *= 1.07;
   const int first = static_cast<int>(std::floor(std::log10(least)));
@@ -62,7 +62,7 @@ double LogAxis::share(double value) const
 
 std::vector<LogAxis::Tick> LogAxis::ticks() const
 {
-  // Over many decades only the powers of ten have room.
+  // Over many decades there is space for powers of ten only.
   const bool wide = m_marks.size() > 13;
   std::vector<Tick> ticks;
   for (const double mark : m_marks)
@@ -125,11 +125,11 @@ bool Labels::free(const Box& box) const
 
 std::string Labels::beside(double x, double y, const std::string& words)
 {
-  constexpr double digit = 6.5; // wide, as the fonts of the usual viewers draw it
-  constexpr double half = 5.5;  // of the height
+  constexpr double digit = 6.5; // width in the fonts of common viewers
+  constexpr double half = 5.5;  // half height
   constexpr double ring = 14.0;
   constexpr int rings = 5;
-  // Above to the right first: curves of time against error fall.
+  // Upper right first: curves of error over time fall.
   constexpr std::array<std::array<double, 2>, 8> ways{
       {{1, -1}, {-1, 1}, {-1, -1}, {1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}}};
   const double wide = 0.5 * digit * static_cast<double>(words.size());

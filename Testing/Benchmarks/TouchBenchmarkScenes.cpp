@@ -9,7 +9,7 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kAbove = 8.0; // mm, of the burr's centre over the cortex where the cavity is
+constexpr double kAbove = 8.0; // mm, of the burr's centre above the cortex at the cavity
 
 haptics::TouchScene touchSceneOf(const BenchmarkPatient& patient)
 {
@@ -23,8 +23,8 @@ haptics::TouchScene touchSceneOf(const BenchmarkPatient& patient)
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   struct Place
   {
-    double behind, above;    // mm, from the middle of the cavity
-    double tiltBack, tiltUp; // of the way to the tissue
+    double behind, above;    // mm, from the cavity's centre
+    double tiltBack, tiltUp; // of the direction to the tissue
   };
   for (const Place& place :
        {Place{0.0, 0.0, 0.0, 0.0}, Place{2.5, 2.0, 0.3, 0.1}, Place{-3.0, -2.0, -0.2, -0.3},

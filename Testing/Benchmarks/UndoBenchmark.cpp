@@ -19,7 +19,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-// In voxels, as at 0.15 mm.
+// In voxels, from sizes at 0.15 mm.
 constexpr double kRadius = 2.0 / 0.15;
 constexpr double kLength = 15.0 / 0.15;
 
@@ -34,7 +34,7 @@ double medianOf(std::vector<double> values)
   return values[values.size() / 2];
 }
 
-// Along the floor of the cavity, half sunk into it.
+// Along the floor of the cavity, half embedded in it.
 void drill(dissection::Dissection& work, const BenchmarkPatient& patient, double length)
 {
   const double h = patient.ct->geometry().minSpacing();
@@ -51,7 +51,7 @@ void drill(dissection::Dissection& work, const BenchmarkPatient& patient, double
   work.endStroke();
 }
 
-// What a step back or forth took.
+// Times of undo or redo steps.
 struct Steps
 {
   std::vector<double> mask, upload, frame, all; // s
@@ -64,7 +64,7 @@ std::vector<core::BenchmarkPoint> undoWithRedraw(bool quick, const core::Progres
   const int width = quick ? 160 : 640, height = quick ? 120 : 480;
   const int rounds = quick ? 3 : 11;
   const BenchmarkPatient patient = phantomPatient(quick ? 96 : 512, progress.part(0.0, 0.7));
-  // The cavity is the first stroke: what can be taken back is the second.
+  // The cavity is the first stroke; the second one is undone.
   dissection::Dissection work(patient.ct->geometry());
   for (std::size_t n = 0; n < patient.mask->brickCount(); ++n)
     if (const auto& brick = patient.mask->brick(n))

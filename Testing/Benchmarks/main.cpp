@@ -3,7 +3,7 @@
 
 using namespace petrous;
 
-// The words of `petrous bench`, with or without "bench" before them.
+// The arguments of `petrous bench`, with or without a leading "bench".
 int main(int argc, char** argv)
 {
   std::vector<std::string> words = cli::wordsOf(argc, argv);

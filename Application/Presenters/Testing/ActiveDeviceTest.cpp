@@ -33,7 +33,8 @@ TEST(FindDevices, TheMouseIsAlwaysThereAndThePedalIsNotOne)
 TEST(FindDevices, ListsOneSpaceMouseAndTheServers)
 {
   StandIn hid;
-  // Its keyboard's interface is no cap; a second cap waits until the first is pulled.
+  // The keyboard interface is not a SpaceMouse; a second SpaceMouse is ignored until the first is
+  // unplugged.
   hid.playAll("plug keys 256f c635 1 6 SpaceMouse Compact\n"
               "plug cap 256f c635 1 8 SpaceMouse Compact\n"
               "plug cap2 256f c632 1 8 SpaceMouse Pro Wireless\n");
@@ -59,8 +60,8 @@ TEST(ActiveDevice, ASpaceMouseBeginsWithAShaftThatDoesNotHideTheBurr)
   ActiveDevice device({hid.library(), {}}, input);
   EXPECT_TRUE(device.endless());
   const Eigen::Vector3d shaft = device.read(1.0).pose.rotation * Eigen::Vector3d::UnitZ();
-  EXPECT_NEAR(std::acos(shaft.z()) * 180.0 / std::acos(-1.0), 20.0, 1e-9); // from the eye
-  EXPECT_GT(shaft.x(), 0.0);                                               // a right hand,
+  EXPECT_NEAR(std::acos(shaft.z()) * 180.0 / std::acos(-1.0), 20.0, 1e-9); // from the view axis
+  EXPECT_GT(shaft.x(), 0.0);                                               // as in a right hand,
   EXPECT_LT(shaft.y(), 0.0);                                               // from below
 }
 
@@ -77,7 +78,7 @@ TEST(ActiveDevice, AServersHandleKeepsItsOwnHeading)
                                   haptics::DeviceHealth::Good;
        ++n)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  // It turns about its own z.
+  // It rotates about its own z.
   const auto reading = device.read(devices::testing::steadySeconds());
   ASSERT_EQ(reading.health, haptics::DeviceHealth::Good);
   EXPECT_NEAR((reading.pose.rotation * Eigen::Vector3d::UnitZ()).z(), 1.0, 1e-9);

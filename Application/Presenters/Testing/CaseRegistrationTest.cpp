@@ -33,8 +33,8 @@ core::RigidTransform turned(double degrees, const Vector3d& shift)
           shift};
 }
 
-// A CT of the phantom, its T2, and a second MR in the same frame of reference as the T2 that lies
-// on it but for `moved`.
+// A CT of the phantom, its T2, and a second MR in the T2's frame of reference, aligned with it up
+// to `moved`.
 class CaseRegistration : public ::testing::Test
 {
 protected:
@@ -132,7 +132,7 @@ TEST_F(CaseRegistration, StatesItsErrorAtTheMiddleEar)
   EXPECT_EQ(place.words, "the middle of 'incus'");
   EXPECT_LT((place.point - value.ct.geometry.patientFromVoxel({7.0, 8.0, 9.0})).norm(), 1e-9);
 
-  value.labels.back().drawnOn = "T2"; // which is nowhere yet
+  value.labels.back().drawnOn = "T2"; // which is not placed yet
   EXPECT_EQ(defaultPlace(value, request).words, "the middle of 'tympanic_cavity'");
   EXPECT_THROW(placeOf(value, "incus"), core::InvalidParameter);
   EXPECT_THROW(placeOf(value, "zebra"), core::InvalidParameter);
@@ -251,7 +251,7 @@ TEST_F(CaseRegistration, AFailureLeavesTheCase)
   accept(value, "T2", outcome);
   EXPECT_FALSE(value.mr[0].registered);
 
-  request.from = From::Given; // by hand it can be laid all the same
+  request.from = From::Given; // manual registration still works
   request.given = motion();
   request.asIs = true;
   const RegistrationOutcome byHand = registerMr(value, request);
@@ -277,7 +277,7 @@ TEST_F(CaseRegistration, StopsWhenAskedTo)
   EXPECT_TRUE(last) << "the last good state";
 }
 
-// Many fits run at the same time then, each of them in many threads.
+// Many fits then run concurrently, each multithreaded.
 TEST_F(CaseRegistration, StopsWhileItEstimatesTheErrorToo)
 {
   const scene::Case value = makeCase({});
@@ -341,7 +341,7 @@ TEST_F(CaseRegistration, GoesOnFromWhereTheMrLiesAndSaysHowItCameThere)
   EXPECT_NE(outcome.how.text.find("from where the landmarks put it"), std::string::npos)
       << outcome.how.text;
 
-  // The end of that is no place that landmarks put it.
+  // The result is not a placement by landmarks.
   request.given = outcome.mrFromCt;
   request.givenBy = outcome.how;
   request.asIs = true;

@@ -44,12 +44,12 @@ TEST(DeviceMapping, TheHandNeverFeelsAStifferSpringThanTheDeviceRenders)
       lead.scale = scale;
       fit(setup, device, lead, false);
       const auto parameters = parametersFor(device, lead, camera(), {});
-      // As in the hand: k scale^2 gain (ServoSetup).
+      // At the device: k scale^2 gain (ServoSetup).
       const double felt = setup.tool.coupling.stiffness * scale * scale * parameters.forceGain;
       EXPECT_LE(felt, stiffness + 1e-12);
       EXPECT_LE(setup.tool.coupling.stiffness, 1.0);
       EXPECT_NEAR(setup.passivity->stiffness, felt, 1e-12);
-      // Newtons stay newtons: F_D = gain scale F_P (PoseMapping).
+      // Forces are not scaled: F_D = gain scale F_P (PoseMapping).
       EXPECT_NEAR(parameters.forceGain * parameters.scale, 1.0, 1e-12);
     }
 }
@@ -98,7 +98,7 @@ TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)
   simulation::PoseMapping mapping(centerFor(tool, hand, lead.scale, camera()));
   EXPECT_LT((mapping.map({hand, Eigen::Quaterniond::Identity()}, view).position - tool).norm(),
             1e-12);
-  // A hand that goes to the right brings the tool to the picture's right, which is -x here.
+  // Moving the device to the right moves the tool to the picture's right, which is -x here.
   const auto moved =
       mapping.map({hand + Vector3d(10.0, 0.0, 0.0), Eigen::Quaterniond::Identity()}, view);
   EXPECT_LT((moved.position - tool - Vector3d(-3.0, 0.0, 0.0)).norm(), 1e-12);

@@ -68,7 +68,7 @@ TEST(DrillSession, LeavesAStructureThatIsNotDrillable)
   EXPECT_LT(session.field().value({6, 7.2, 6}), 0.0) << "the bone round it is gone";
 }
 
-// A threshold moves bone, not what was drawn: sixty structures are not made again.
+// A threshold changes bone, not segmented structures: sixty structures are not rebuilt.
 TEST(DrillSession, AnotherLikeItSharesWhatWasMadeOfTheStructures)
 {
   scene::Case value = boneCase();

@@ -10,7 +10,7 @@
 namespace petrous::presenters::testing
 {
 
-/// A tool that is pressed down (towards -z) on a place, as a window would do it.
+/// A tool pressed down (towards -z) at a point, as a window would do it.
 class HeldTool
 {
 public:
@@ -26,7 +26,7 @@ public:
     setup.parameters.constantThrust = 1;
     setup.parameters.drillButtons = interaction::PointerDevice::kDrill;
     setup.parameters.approach[2] = -5.0;
-    setup.tool.burr.rpm = 600000.0; // ten times as fast: the tests need not wait
+    setup.tool.burr.rpm = 600000.0; // ten times as fast, to shorten the tests
   }
 
   void drill(bool on) { device.setButtons(on ? interaction::PointerDevice::kDrill : 0U); }
@@ -35,7 +35,7 @@ public:
   TouchSession::Setup setup;
 };
 
-/// Calls `advance` as a window does until it says true; false after a minute.
+/// Calls `advance` repeatedly, as a window does, until it returns true; false after a minute.
 inline bool until(const std::function<bool()>& advance)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);

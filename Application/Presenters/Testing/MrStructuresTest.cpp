@@ -25,8 +25,8 @@ core::GridGeometry around(const Vector3d& center, const core::Index3& dims, doub
   return {dims, Vector3d::Constant(spacing), center - half};
 }
 
-// The phantom as its MR sees it: structures sampled on the MR's own upright grid, each voxel where
-// the known motion takes it.
+// The phantom as seen by its MR: structures sampled on the MR's own axis-aligned grid, each voxel
+// mapped by the known motion.
 class MrStructures : public ::testing::Test
 {
 protected:
@@ -76,7 +76,7 @@ protected:
     s_phantom.reset();
   }
 
-  // The farthest that the centre of a voxel of a structure is outside the phantom's own structure.
+  // The maximum distance of a structure's voxel centre outside the phantom's own structure.
   static double farthestOutside(const scene::Case& value)
   {
     double farthest = 0.0;
@@ -107,7 +107,7 @@ TEST_F(MrStructures, LandOnTheCtWithinAVoxel)
   scene::layMr(value, "T2", s_phantom->mrFromCt(), {});
   EXPECT_LT(farthestOutside(value), 0.1 * kMrVoxel);
 
-  // The other way round: the surface of the phantom's structure is that of the label.
+  // Conversely, the surface of the phantom's structure is that of the label.
   StructureSurfaces surfaces(value);
   const auto bounds = value.ct.geometry.patientBounds();
   std::size_t compared = 0;
@@ -156,7 +156,7 @@ TEST_F(MrStructures, AreFeltReadAndDrawnWhereTheyLand)
   {
     const std::size_t index = s_phantom->indexOf(name);
     const auto& structure = s_phantom->structures()[index];
-    // The deepest point of a coarse search.
+    // Deepest point, by a coarse search.
     Vector3d deepest = structure.lower;
     double depth = 0.0;
     for (double x = structure.lower[0]; x < structure.upper[0]; x += 0.4)

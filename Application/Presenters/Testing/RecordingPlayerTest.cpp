@@ -32,12 +32,12 @@ protected:
   void SetUp() override { std::filesystem::create_directories(folder); }
   void TearDown() override { std::filesystem::remove_all(folder); }
 
-  // As a window has it: drills, slides on, takes it back while it is pressed, brings it back.
+  // As in a window: drills, slides on, undoes while pressed, redoes.
   void liveSession(scene::Case& value, TouchScene& scene)
   {
     HeldTool hand(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
     hand.setup.recording = file;
-    // A burr that sinks into bone takes at once what it overlaps; it must not come out below.
+    // A burr that sinks into bone removes at once what it overlaps; it must not emerge below.
     const bool sinks = GetParam() == TouchTool::Mode::ThreeDof;
     const std::uint64_t states = sinks ? 1 : 8;
     TouchSession session(value, scene, hand.device, hand.setup);
@@ -96,7 +96,7 @@ protected:
     EXPECT_EQ(session.recording()->bytes(), std::filesystem::file_size(file));
   }
 
-  // What is played again on that case; what was felt is compared by the replay itself.
+  // What is replayed on that case; the replay itself compares the forces.
   simulation::RecordingReplay::Outcome replayed(scene::Case& value)
   {
     simulation::RecordingReader reader(file);
@@ -171,7 +171,7 @@ TEST_P(RecordingPlayerTest, GoesOnFromWhereASceneWasThatOthersHadUsed)
   scene::Case second = block();
   TouchScene scene(first);
   {
-    // A session before, which is not recorded: the case and the mask's numbers go on from it.
+    // An earlier session, not recorded: the case and the mask's state numbers continue from it.
     HeldTool hand(Vector3d(5.0, 5.0, kTop + 2.5), GetParam());
     TouchSession session(first, scene, hand.device, hand.setup);
     hand.drill(true);
@@ -234,7 +234,7 @@ TEST_P(RecordingPlayerTest, OfAToolPathIsThePath)
     options.tool.mode = GetParam();
     options.recording = file;
     PathDrill drill(first, scene, options);
-    // It begins inside, where the drill takes what the burr sweeps, comes out and presses again.
+    // It starts inside, where the drill removes what the burr sweeps, comes out and presses again.
     for (int n = 0; n < 600; ++n)
     {
       const double t = 0.001 * n;

@@ -14,7 +14,7 @@ namespace
 
 const core::GridGeometry kGrid({32, 32, 32}, Vector3d::Constant(0.5), Vector3d::Zero());
 
-// As many mm^3 as bricks were changed.
+// One mm^3 per changed brick.
 dissection::RemovedVolume bricksOf(const dissection::Dissection& work)
 {
   return {static_cast<double>(work.openBricks().size()), {}};
@@ -45,7 +45,7 @@ TEST(RemovedVolumeEstimator, FollowsTheOpenStrokeAndForgetsItWhenItIsClosed)
   EXPECT_EQ(wait(meter, work, 2.0), 2.0);
   work.endStroke();
   EXPECT_EQ(meter.soFar(work, bricksOf).total, 0.0);
-  // What was still being measured is not the next stroke's.
+  // A measurement still running does not count for the next stroke.
   work.beginStroke({});
   EXPECT_EQ(meter.soFar(work, bricksOf).total, 0.0);
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
@@ -70,7 +70,7 @@ TEST(RemovedVolumeEstimator, NeitherWaitsNorMeasuresWithoutAStroke)
   EXPECT_EQ(asked, 0);
   work.beginStroke({});
   for (int n = 0; n < 10; ++n)
-    EXPECT_EQ(meter.soFar(work, slow).total, 0.0); // returns though nothing is measured
+    EXPECT_EQ(meter.soFar(work, slow).total, 0.0); // returns although nothing is measured yet
   go.set_value();
   double total = 0.0;
   for (int n = 0; n < 500 && total == 0.0; ++n)

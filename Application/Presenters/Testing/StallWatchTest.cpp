@@ -11,7 +11,8 @@ using simulation::TickRecord;
 namespace
 {
 
-// A tick of a burr that drills at a height, pressed by 1 N, of which the burr has `share`.
+// A tick of a burr that drills at a height, pressed with 1 N, of which the fraction `share` acts on
+// the burr.
 TickRecord tick(double now, double height, double share = 1.0, std::uint8_t held = 0)
 {
   TickRecord record;
@@ -47,7 +48,7 @@ TEST(StallWatch, TellsOfABurrThatMakesNoWayAsLongAsThatIsSo)
   EXPECT_FALSE(watch.stalls());
 }
 
-// Which of the contacts carries the force changes from tick to tick.
+// Which contact carries the force changes from tick to tick.
 TEST(StallWatch, TellsOfTheShaftAsLongAsItHoldsTheBurr)
 {
   StallWatch watch;
@@ -59,7 +60,7 @@ TEST(StallWatch, TellsOfTheShaftAsLongAsItHoldsTheBurr)
     watch.see(tick(now, 0.0));
     EXPECT_EQ(watch.heldBy(), TickRecord::kShaft) << now;
   }
-  watch.see(tick(12.0, -0.5)); // it is free
+  watch.see(tick(12.0, -0.5)); // it moves again
   EXPECT_EQ(watch.heldBy(), 0);
   EXPECT_FALSE(watch.stalls());
 }

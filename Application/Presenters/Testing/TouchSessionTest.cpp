@@ -25,7 +25,7 @@ protected:
   HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), TouchTool::Mode::SixDof};
   TouchSession session{value, scene, hand.device, hand.setup};
 
-  // Cuts, and looks at what comes.
+  // One frame: applies the removal and feeds the device.
   TouchSession::News frame()
   {
     auto news = session.advance();
@@ -33,7 +33,7 @@ protected:
       hand.device.see(*news.record);
     return news;
   }
-  // Half a millimetre deep: the first bites only shave what partial voxels there are.
+  // Half a millimetre deep: the first bites only shave partial voxels.
   bool drillSome()
   {
     hand.drill(true);
@@ -86,7 +86,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   EXPECT_EQ(news.strokes.front()->info.camera->position, camera.position);
   ASSERT_EQ(value.strokes.size(), 1u);
   EXPECT_EQ(value.applied(), 1u);
-  EXPECT_TRUE(session.stop().strokes.empty()); // it is closed already
+  EXPECT_TRUE(session.stop().strokes.empty()); // already closed
 }
 
 TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
@@ -98,7 +98,7 @@ TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
       {
         if (const auto record = frame().record; record && record->drill)
           lowest = std::min(lowest, record->proxy.pose().position.z());
-        return lowest < kTop + 1.0; // a millimetre below where it first touched
+        return lowest < kTop + 1.0; // a millimetre below the first contact
       }));
 }
 
@@ -120,7 +120,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
   };
   step(true);
   EXPECT_EQ(value.applied(), 0u);
-  // The drill is still held: the branch goes on with the next stroke.
+  // The drill is still on: the branch continues with the next stroke.
   ASSERT_TRUE(until(
       [this]
       {
@@ -142,7 +142,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
         const auto record = frame().record;
         return record && record->fault == 0 && std::abs(record->thrust - 1.0) < 0.1;
       }));
-  session.redo(); // there is none
+  session.redo(); // there is nothing to redo
   const auto news = session.stop();
   EXPECT_TRUE(news.steps.empty());
   EXPECT_EQ(value.applied(), 1u);
@@ -164,7 +164,7 @@ TEST_F(TouchSessionTest, StopClosesTheStrokeAndEndsTheServo)
 namespace
 {
 
-// Led at 6 mm/s over the bone, with the drill on from 0.3 s to 0.9 s after the first reading.
+// Moves at 6 mm/s over the bone, with the drill on from 0.3 s to 0.9 s after the first reading.
 class ScriptedDevice final : public haptics::Device
 {
 public:
@@ -190,7 +190,7 @@ private:
 struct Drilled
 {
   double rate = 0.0;        // mm^3/s
-  std::uint64_t states = 0; // of the mask, that the servo felt
+  std::uint64_t states = 0; // mask states seen by the servo
 };
 
 Drilled drilledAt(double picturesPerSecond)
@@ -227,9 +227,9 @@ TEST(TouchSession, DrillsAtTheSameRateHoweverSeldomPicturesAreDrawn)
   for (const double picturesPerSecond : {5.0, 1.5})
   {
     const Drilled seldom = drilledAt(picturesPerSecond);
-    // The way of a burr that slides in its groove is never the same twice.
+    // The path of a burr sliding in its groove is not reproducible.
     EXPECT_NEAR(seldom.rate, often.rate, 0.12 * often.rate) << picturesPerSecond << " Hz";
-    EXPECT_GT(seldom.states, 100u); // 3 pictures, and 1, while it drilled
+    EXPECT_GT(seldom.states, 100u); // 3 frames, and 1, while it drilled
   }
   EXPECT_GT(often.rate, 0.5);
 }

@@ -16,7 +16,7 @@ namespace
 
 using Branch = dissection::History::Branch;
 
-// "main: 3 strokes, 1738.7 mm³"; with `number` and its key before it, up to 9.
+// "main: 3 strokes, 1738.7 mm³"; prefixed by `number` and its shortcut, up to 9.
 QString lineOf(const scene::Case& value, const Branch& branch, int number)
 {
   const auto summary = scene::summaryOf(value, branch.position);

@@ -13,7 +13,7 @@ class QWidget;
 namespace petrous::workstation
 {
 
-/// The case's approaches in a menu: which there are, go to one, begin one where the case stands.
+/// Menu of the case's approaches: list, switch, begin one at the case's current state.
 class BranchController : public QObject
 {
   Q_OBJECT
@@ -21,13 +21,13 @@ public:
   /// `menu` is filled each time it is opened. `window` is the parent of dialogs.
   BranchController(presenters::WorkstationModel& model, QMenu& menu, QWidget& window);
 
-  /// Asked before the approach is left: ends an open stroke and lays down the tool.
+  /// Called before the approach is left: ends an open stroke and puts the tool away.
   std::function<void()> settle;
 
-  void stateChanged(); ///< strokes or approaches, or another case
+  void stateChanged(); ///< strokes, approaches or the case changed
 
 signals:
-  void changed(); ///< the case is on another approach and is not saved
+  void changed(); ///< the case is on another approach and unsaved
   void statusMessage(const QString& line);
 
 private:

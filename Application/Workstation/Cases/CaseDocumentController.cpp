@@ -35,7 +35,7 @@ namespace
 {
 
 constexpr int kShowLoading = 300;   // ms
-constexpr int kLookForDamage = 500; // ms; images are held against their hash in another thread
+constexpr int kLookForDamage = 500; // ms; images are checked against their hash in another thread
 
 fs::path pathOf(const QString& text)
 {
@@ -49,7 +49,7 @@ QString nameOf(const fs::path& path)
       (plain.has_filename() ? plain : plain.parent_path()).filename().string().c_str());
 }
 
-// "20200131 1205" as "2020-01-31 12:05"; what is written otherwise as it is.
+// "20200131 1205" as "2020-01-31 12:05"; other formats unchanged.
 QString takenIn(const QString& text)
 {
   const QStringList parts = text.split(' ');
@@ -233,7 +233,7 @@ void CaseDocumentController::open(const QStringList& what)
   }
 }
 
-// One piece of work with a box that shows how far it is.
+// Runs one task with a progress dialog.
 void CaseDocumentController::work(const QString& title, BackgroundWork::Work work)
 {
   endWork();
@@ -246,7 +246,7 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
   m_progress->setAutoClose(false);
   m_progress->setAutoReset(false);
   m_progress->setValue(0);
-  // The box stays until the work has really stopped.
+  // The dialog stays until the task has really stopped.
   disconnect(m_progress.get(), &QProgressDialog::canceled, m_progress.get(),
              &QProgressDialog::cancel);
   connect(m_progress.get(), &QProgressDialog::canceled, this,
@@ -261,7 +261,7 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
           {
             if (!text.isEmpty())
               m_progress->setLabelText(text.left(1).toUpper() + text.mid(1) + "…");
-            // Goes through the event loop, where the work may end.
+            // Processes events, so the task may end here.
             m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
           });
   try
@@ -275,21 +275,21 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
   }
 }
 
-// Not deleted at once: it may be in the middle of showing how far the work is.
+// Deferred deletion: it may be processing a progress update.
 void CaseDocumentController::endWork()
 {
   if (!m_progress)
     return;
   disconnect(&m_work, nullptr, m_progress.get(), nullptr);
-  m_progress->cancel(); // hides it, and it does not come up after its minimum duration
+  m_progress->cancel(); // hides it, and prevents showing after its minimum duration
   m_progress.release()->deleteLater();
 }
 
-// The open case is safe, and another one may come; until then no tool is taken up.
+// Saves the open case before another one is opened; no tool can be taken up until then.
 bool CaseDocumentController::leaveCase()
 {
-  const QScopedValueRollback<bool> asking(m_asking, true); // nothing else begins meanwhile
-  m_model.beginLeave(); // what was drilled until now is in the case, and nothing more is
+  const QScopedValueRollback<bool> asking(m_asking, true); // no other operation can start meanwhile
+  m_model.beginLeave(); // all removal is in the case, and no more follows
   if (m_saver.flush())
     return true;
   m_model.notOpened();
@@ -476,12 +476,12 @@ void CaseDocumentController::makeCase(const std::string& name,
 {
   if (!leaveCase())
     return;
-  m_model.notOpened(); // it stays in use as long as the other one is made
+  m_model.notOpened(); // it stays usable while the other one is made
   work(tr("Making the case %1").arg(words(name)),
        [this, name,
         sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
        {
-         double reached = 0.0; // what is prepared quickly does not count as half of the work
+         double reached = 0.0; // a quick preparation does not count as half of the work
          const core::Progress first(
              [&](double fraction, const std::string& text)
              {
@@ -521,7 +521,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
 {
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
-  value->dissection.reset();                                         // another thread writes there
+  value->dissection.reset();                                         // another thread writes to it
   work(tr("Adding to %1").arg(words(value->name)),
        [this, value, parts, what,
         shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
@@ -541,7 +541,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
        });
 }
 
-// One at a time. Who asks while one is under way has it done once more, and waits for nothing.
+// One at a time. A request during a run cancels and repeats it, without waiting.
 void CaseDocumentController::prepare()
 {
   m_prepareAgain = m_preparation.busy();
@@ -565,7 +565,7 @@ void CaseDocumentController::prepare()
         const auto done = std::make_shared<presenters::PreparedCase>(make(progress));
         return [this, done]
         {
-          if (m_prepareAgain) // of what the case was
+          if (m_prepareAgain) // the result is of an outdated state
             return prepare();
           m_loading.hide();
           if (m_model.prepared(std::move(*done)))
@@ -617,9 +617,9 @@ void CaseDocumentController::chooseCase()
 {
   if (m_work.busy())
     return;
-  std::string again; // the open case, which was closed for a change and is opened afterwards
+  std::string again; // the open case, closed for a change and reopened afterwards
   std::string chosen;
-  // An open case is saved and closed first: nothing of this window writes in it then.
+  // An open case is saved and closed first, so that this window does not write to it.
   const auto released = [this, &again](const std::string& name, const std::string& after,
                                        const std::function<void(library::Library&)>& change)
   {
@@ -630,7 +630,7 @@ void CaseDocumentController::chooseCase()
         throw core::Error(core::Fault::Refused,
                           "the open case could not be saved; it stays as it is");
       m_model.close();
-      again = name; // where the change fails
+      again = name; // if the change fails
     }
     change(library);
     if (again == name)
@@ -714,10 +714,10 @@ bool CaseDocumentController::mayLeave()
 {
   if (m_giveUp)
     return true;
-  if (m_leaving) // asked again while it saves
+  if (m_leaving) // called again while saving
     return false;
   m_leaving = true;
-  m_work.drop(); // an import leaves nothing behind
+  m_work.drop(); // a cancelled import leaves nothing behind
   endWork();
   m_preparation.drop();
   m_model.stopTouch();

@@ -23,34 +23,33 @@ namespace petrous::workstation
 class Banner;
 class CaseSaver;
 
-/// Opens cases, makes them from files, adds files to the open one, and says in words what went
-/// wrong. Files are read in a thread of its own; what they are is decided by what they hold
-/// (presenters::lookAt), and where that leaves a doubt the user is asked. Nothing that was drilled
-/// is given up without asking.
+/// Opens cases, creates them from files, adds files to the open one, and reports errors. Files are
+/// read in a separate thread; their kind is determined by their content (presenters::lookAt), and
+/// the user is asked if that is ambiguous. Unsaved removal is never discarded without asking.
 class CaseDocumentController : public QObject
 {
   Q_OBJECT
 public:
-  /// `window` is the parent of dialogs; the banners are its own.
+  /// `window` is the parent of dialogs and owns the banners.
   CaseDocumentController(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
              Banner& unsaved, Banner& loading, Banner& damaged);
   ~CaseDocumentController() override;
 
-  /// A case's name; or folders and files: a CT begins a case, all else comes to it, or to the open
-  /// one.
+  /// A case's name; or folders and files: a CT starts a case, anything else is added to it, or to
+  /// the open one.
   void open(const QStringList& what);
-  void openFolder(); ///< asks for one
-  void openFiles();  ///< asks for them
+  void openFolder(); ///< with a dialog
+  void openFiles();  ///< with a dialog
   void chooseCase();
   void makeSample();
 
-  void save(); ///< and says so
+  void save(); ///< and reports it
   void saveAs();
-  void prepare(); ///< what takes long of the open case (WorkstationModel::preparation)
-  void prepareUnlessUnderWay(); ///< the same, where it was stopped or failed
+  void prepare(); ///< the slow part of the open case (WorkstationModel::preparation)
+  void prepareUnlessUnderWay(); ///< as prepare, after it was stopped or failed
 
-  /// Ends imports, saves what is unsaved. False when that failed, which the banner tells: the
-  /// window stays.
+  /// Cancels imports, saves what is unsaved. Returns false if that failed, which the banner shows:
+  /// the window stays open.
   bool mayLeave();
 
   bool busy() const noexcept { return m_work.busy() || m_preparation.busy(); }
@@ -93,9 +92,9 @@ private:
   QString m_damageTold;
   bool m_prepareAgain = false;
   bool m_sayWhenSaved = false;
-  bool m_asking = false; // in a dialog of its own
+  bool m_asking = false; // a modal dialog is open
   bool m_leaving = false;
-  bool m_giveUp = false; // the window may close with unsaved work
+  bool m_giveUp = false; // the window may close with unsaved changes
 };
 
 } // namespace petrous::workstation

@@ -34,8 +34,7 @@ CaseSaver::~CaseSaver()
 
 void CaseSaver::save()
 {
-  // What is queued saves the case as it is then: under another name or elsewhere, if that was
-  // asked.
+  // A queued save takes the case as it is then: under another name or elsewhere, if requested.
   if (!m_next)
     ask([this] { return m_model.beginStore(); });
 }
@@ -86,7 +85,7 @@ void CaseSaver::start(const Begin& begin)
           };
         });
   }
-  catch (const std::exception& error) // no thread, no memory, no such folder
+  catch (const std::exception& error) // no thread, out of memory, no such folder
   {
     m_model.notStored();
     m_well = false;
@@ -110,7 +109,7 @@ bool CaseSaver::flush()
   wait();
   if (!m_model.hasCase() || !m_model.unsaved())
     return true;
-  m_well = false; // as long as it is not
+  m_well = false; // until it succeeds
   save();
   wait();
   return m_well && !m_model.unsaved();

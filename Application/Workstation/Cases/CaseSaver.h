@@ -12,28 +12,28 @@
 namespace petrous::workstation
 {
 
-/// Saves the open case in a thread of its own, so that no stroke and no picture waits for the disk
-/// or for another program's lock. One save at a time, in the order in which they were asked for;
-/// what is asked for while one is under way is one more save of what the case is then.
+/// Saves the open case in a separate thread, so that neither drilling nor rendering waits for the
+/// disk or for another program's lock. One save at a time, in the order requested; requests during
+/// a save are merged into one more save of the case's state at that time.
 ///
-/// Exactly one signal tells how a save ended.
+/// Each save ends with exactly one signal.
 class CaseSaver : public QObject
 {
   Q_OBJECT
 public:
   explicit CaseSaver(presenters::WorkstationModel& model);
-  ~CaseSaver() override; ///< what is under way ends first, and is told to nobody
+  ~CaseSaver() override; ///< waits for a running save, without a signal
 
-  /// Asked before each save for the camera that is kept with the case.
+  /// Returns the camera to be stored with the case; called before each save.
   std::function<core::CameraPose()> camera;
 
   void save();
   void saveAs(const std::string& name);
-  /// Into the library in another folder, by the same name or one that is free there.
+  /// Into the library in another folder, under the same name or a free one.
   void saveElsewhere(const std::filesystem::path& folder);
 
-  /// Saves what is unsaved and waits for it, with the window drawn but deaf. False: it could not be
-  /// saved, and `failed` has said why.
+  /// Saves what is unsaved and waits, with the window painted but not accepting input. Returns
+  /// false if saving failed, as reported by `failed`.
   bool flush();
 
   bool busy() const noexcept { return m_work.busy(); }
@@ -43,7 +43,7 @@ signals:
   void failed(const QString& why);
 
 private:
-  using Begin = std::function<presenters::StoreTask()>; // in the window's thread, before it is read
+  using Begin = std::function<presenters::StoreTask()>; // in the window's thread, before reading
   void ask(Begin begin);
   void start(const Begin& begin);
   void ended();
@@ -51,7 +51,7 @@ private:
   presenters::WorkstationModel& m_model;
   BackgroundWork m_work;
   std::optional<Begin> m_next;
-  bool m_well = true; // the last one
+  bool m_well = true; // the last save succeeded
 };
 
 } // namespace petrous::workstation

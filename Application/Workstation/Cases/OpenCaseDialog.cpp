@@ -31,7 +31,7 @@ void fillLine(QTreeWidgetItem& item, const library::CaseSummary& summary)
   item.setData(0, kStrokes, static_cast<qulonglong>(summary.strokes));
   const auto changed = QDateTime::fromString(words(summary.modified), Qt::ISODate).toLocalTime();
   item.setText(1, changed.toString("yyyy-MM-dd HH:mm"));
-  if (summary.damaged) // it can be renamed and deleted
+  if (summary.damaged) // it can still be renamed and deleted
   {
     item.setText(2, OpenCaseDialog::tr("damaged"));
     for (int column = 0; column < 6; ++column)

@@ -12,12 +12,12 @@ class QTreeWidget;
 namespace petrous::workstation
 {
 
-/// The cases of the library to choose from, to rename (F2) and to delete (Del).
+/// Lists the library's cases to open, rename (F2) and delete (Del).
 class OpenCaseDialog : public QDialog
 {
   Q_OBJECT
 public:
-  /// What changes the library; both throw as it does. None: the dialog only chooses.
+  /// Operations on the library; both throw as it does. If empty, the dialog only selects.
   struct Changes
   {
     std::function<void(const std::string& name, const std::string& to)> rename;
@@ -25,7 +25,7 @@ public:
   };
   OpenCaseDialog(const library::Library& library, Changes changes, QWidget* parent = nullptr);
 
-  std::string chosen() const; ///< that can be opened; empty: none
+  std::string chosen() const; ///< a case that can be opened; empty: none
 
 private:
   void fill(const std::string& current);

@@ -5,7 +5,7 @@
 namespace petrous::workstation
 {
 
-/// What the window shows before there is a case: how to begin.
+/// Shown before a case is open: ways to begin.
 class StartPage : public QWidget
 {
   Q_OBJECT

@@ -46,10 +46,10 @@ void ActiveDeviceController::showDevices()
   if (std::exchange(m_hadPedal, pedal) == pedal)
     return;
   emit pedalCame();
-  emit statusMessage(tr("The pedal drills")); // after what taking up the tool says
+  emit statusMessage(tr("The pedal drills")); // after the messages of taking up the tool
 }
 
-// What is plugged in but cannot be used: each advice once.
+// Connected devices that cannot be used: each advice once.
 void ActiveDeviceController::notifyAdvice()
 {
   std::set<std::string> advice;

@@ -15,8 +15,8 @@ namespace petrous::workstation
 class DeviceToolBar;
 class WindowSettings;
 
-/// Which hand holds the tool: what the user chose in the bar, opened and set as it was kept. The
-/// mouse to begin with, and whenever a device cannot be had.
+/// The device that controls the tool: chosen by the user in the bar, opened and configured as last
+/// stored. The mouse initially, and whenever a device is unavailable.
 class ActiveDeviceController : public QObject
 {
   Q_OBJECT
@@ -30,15 +30,15 @@ public:
     return !m_device && m_input.kind != presenters::InputDevice::Kind::Mouse;
   }
   const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_watcher.pedal(); }
-  presenters::DeviceMapping lead() const; ///< but for the thrust
+  presenters::DeviceMapping lead() const; ///< except the thrust
 
   void choose(const presenters::InputDevice& input);
-  void giveUp(const QString& why); ///< the mouse takes over
+  void giveUp(const QString& why); ///< falls back to the mouse
 
 signals:
-  /// Not to be used any more from here on; comes before `device` goes.
+  /// The device must not be used from here on; emitted before `device` is released.
   void leaving();
-  void came(); ///< another hand, which may be used
+  void came(); ///< another device is ready
   void leadChanged();
   void pedalCame();
   void statusMessage(const QString& line);
@@ -53,7 +53,7 @@ private:
   WindowSettings& m_settings;
   presenters::InputDevice m_input; // chosen
   std::shared_ptr<presenters::ActiveDevice> m_device;
-  std::set<std::string> m_told; // advice on what is plugged in
+  std::set<std::string> m_told; // advice on connected devices already shown
   bool m_hadPedal = false;
 };
 

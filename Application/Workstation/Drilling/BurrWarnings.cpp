@@ -7,7 +7,7 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kAgain = 60; // ms; nobody reads faster
+constexpr int kAgain = 60; // ms; faster than anyone can read
 }
 
 BurrWarnings::BurrWarnings(presenters::WorkstationModel& model, QObject* parent)
@@ -24,10 +24,10 @@ void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
   try
   {
     const auto warnings = m_model.warnings(center, radius);
-    // Who sees none must know that none can come yet.
+    // The user must know that there can be no warnings yet.
     warn(warnings ? words(*warnings) : tr("no warnings yet: structures are being measured"));
   }
-  catch (const std::exception&) // no memory, a file that is gone; the panel says which
+  catch (const std::exception&) // out of memory, a missing file; the panel shows which
   {
     warn(tr("no warnings: the structures cannot be measured"));
   }

@@ -8,20 +8,21 @@
 namespace petrous::workstation
 {
 
-/// What the surgeon must see at once while a burr is in the hand, whatever panels are open:
-/// structures that are touched, injured or within their warning distance.
+/// What the surgeon must see at once while using a burr, whatever panels are open: structures that
+/// are touched, injured or within their warning distance.
 class BurrWarnings : public QObject
 {
   Q_OBJECT
 public:
   explicit BurrWarnings(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
-  /// Where the burr is: its centre, patient LPS mm, and its radius, mm.
+  /// The burr's centre, patient LPS mm, and radius, mm.
   void burrMoved(const Eigen::Vector3d& center, double radius);
-  void burrGone(); ///< it was laid down
+  void burrGone(); ///< it was put away
 
 signals:
-  /// Some lines (presenters::warningsOf), or why there are none; empty: nothing. When it changes.
+  /// Lines of text (presenters::warningsOf), or why there are none; empty: nothing. Emitted on
+  /// change.
   void warned(const QString& lines);
 
 private:

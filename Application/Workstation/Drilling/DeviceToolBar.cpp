@@ -75,7 +75,7 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
   connect(m_choice, qOverload<int>(&QComboBox::activated), this,
           [this](int row)
           {
-            const InputDevice input = m_devices[static_cast<std::size_t>(row)]; // the list may be made anew
+            const InputDevice input = m_devices[static_cast<std::size_t>(row)]; // list may change
             emit chosen(input);
           });
   connect(m_scale, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DeviceToolBar::leadChanged);

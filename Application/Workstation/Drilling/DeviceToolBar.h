@@ -11,20 +11,21 @@ class QDoubleSpinBox;
 namespace petrous::workstation
 {
 
-/// Which hand holds the tool, and how it leads it. What a hand has no use for is not shown.
+/// Selects the device that controls the tool, and its mapping. Settings that a device does not use
+/// are hidden.
 class DeviceToolBar : public QToolBar
 {
   Q_OBJECT
 public:
   explicit DeviceToolBar(QWidget* parent = nullptr);
 
-  /// `held`: the id of the hand that is chosen, which may have gone from the list.
+  /// `held`: id of the chosen device, which may be missing from the list.
   void showDevices(const presenters::DeviceList& found, const std::string& held);
 
-  /// Null: the mouse. The values are set without a word.
+  /// nullptr: the mouse. Sets the values without signals.
   void showLead(const haptics::DeviceDescription* device, double scale, double forceLimit);
 
-  double scale() const;      ///< mm of the tool for a mm of the hand
+  double scale() const;      ///< mm of the tool per mm of the device
   double forceLimit() const; ///< N
 
   QAction* hereAction() const noexcept { return m_here; }

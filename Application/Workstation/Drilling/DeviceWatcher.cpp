@@ -47,11 +47,11 @@ void DeviceWatcher::post(std::function<void()> job)
 void DeviceWatcher::run()
 {
   std::unique_lock<std::mutex> lock(m_mutex);
-  while (!m_stop || !m_jobs.empty()) // what is to be closed is closed
+  while (!m_stop || !m_jobs.empty()) // pending closes are still processed
   {
     std::deque<std::function<void()>> jobs = std::exchange(m_jobs, {});
     lock.unlock();
-    // What one device throws must not end the others.
+    // An exception for one device must not affect the others.
     for (const auto& job : jobs)
       guarded(job);
     guarded([&jobs] { jobs.clear(); });
@@ -75,7 +75,7 @@ void DeviceWatcher::look()
 void DeviceWatcher::show(const DeviceList& found)
 {
   m_found = found;
-  // It stays: one that is pulled is not pressed, and may come back.
+  // It is kept: a disconnected pedal reads as released, and may be reconnected.
   if (found.pedal && !m_pedal)
     m_pedal = std::make_shared<devices::Pedal>(m_sources.hid, devices::Pedal::Options());
   emit changed();
@@ -100,7 +100,7 @@ void DeviceWatcher::open(const InputDevice& input)
         {
           why = words(error.what());
         }
-        catch (const std::exception&) // no memory, no thread
+        catch (const std::exception&) // out of memory, no thread
         {
           why = tr("%1 cannot be opened").arg(words(input.name));
         }

@@ -15,29 +15,30 @@
 namespace petrous::workstation
 {
 
-/// Looks for hands, opens and closes them, in a thread of its own: USB and servers take their time.
-/// Without a place to look in there is no thread.
+/// Detects, opens and closes devices in a separate thread, since USB and servers are slow. No
+/// thread if there are no sources.
 class DeviceWatcher : public QObject
 {
   Q_OBJECT
 public:
   /// `lookEvery`: ms.
   DeviceWatcher(presenters::DeviceSources sources, int lookEvery, QObject* parent = nullptr);
-  ~DeviceWatcher() override; ///< waits for what is being opened
+  ~DeviceWatcher() override; ///< waits for a device being opened
 
   const presenters::DeviceList& found() const noexcept { return m_found; }
 
-  /// The pedal that is, or was, plugged in; null until there was one.
+  /// The pedal that is, or was, connected; nullptr until there was one.
   const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_pedal; }
 
-  /// Answered by `opened` or `failed`, unless something else is opened or dropped meanwhile.
+  /// Answered by `opened` or `failed`, unless another device is opened or `drop` is called
+  /// meanwhile.
   void open(const presenters::InputDevice& input);
-  void drop(); ///< what is being opened is not wanted any more
+  void drop(); ///< cancels opening
 
-  /// What `opened` told of.
+  /// The device announced by `opened`.
   std::shared_ptr<presenters::ActiveDevice> take() { return std::move(m_opened); }
 
-  /// Ends it without waiting for it; it must not be read any more.
+  /// Closes it asynchronously; it must not be read any more.
   void close(std::shared_ptr<presenters::ActiveDevice> device);
 
 signals:
@@ -53,13 +54,13 @@ private:
 
   const presenters::DeviceSources m_sources;
   const int m_lookEvery;
-  presenters::DeviceList m_found; // as told
+  presenters::DeviceList m_found; // as last signalled
   std::shared_ptr<devices::Pedal> m_pedal;
   std::shared_ptr<presenters::ActiveDevice> m_opened;
-  std::atomic<std::uint64_t> m_wanted{0}; // the latest question; older answers are not heard
+  std::atomic<std::uint64_t> m_wanted{0}; // the latest request; older answers are ignored
 
-  presenters::DeviceList m_seen; // of the thread
-  std::mutex m_mutex;            // for what follows
+  presenters::DeviceList m_seen; // used by the thread only
+  std::mutex m_mutex;            // guards what follows
   std::condition_variable m_wake;
   std::deque<std::function<void()>> m_jobs;
   bool m_stop = false;

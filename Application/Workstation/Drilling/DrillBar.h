@@ -15,23 +15,23 @@ namespace petrous::workstation
 
 class DiameterBox;
 
-/// Which tool is in the hand, which burr, and how it is pressed.
+/// Selects the tool, the burr, and how it is pressed.
 class DrillBar : public QToolBar
 {
   Q_OBJECT
 public:
   explicit DrillBar(QWidget* parent = nullptr);
 
-  QAction* drillAction() const noexcept ///< checked: the burr is in the hand
+  QAction* drillAction() const noexcept ///< checked: the burr is in use
   {
     return m_drill;
   }
-  QAction* pointerAction() const noexcept ///< checked: the pointer is, which cuts nothing
+  QAction* pointerAction() const noexcept ///< checked: the pointer is in use; it removes nothing
   {
     return m_pointer;
   }
-  void stepDiameter(int steps); ///< among those that are sold
-  /// Which diameters there are, of each kind.
+  void stepDiameter(int steps); ///< among those available
+  /// The available diameters, per kind.
   void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;
   QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
@@ -41,13 +41,13 @@ public:
   double thrust() const; ///< N
   void setThrust(double newtons);
 
-  /// What the hand has a use for.
+  /// What the device makes use of.
   void setPresses(bool byWheel, bool byThrust);
 
 signals:
-  void entered(); ///< a number was typed: the keys are the view's again
+  void entered(); ///< a number was entered: the view gets the keyboard focus
   void burrChanged();
-  void pressChanged(); ///< thrust, or how depth is led
+  void pressChanged(); ///< thrust, or how depth is controlled
 
 private:
   void offerDiameters();

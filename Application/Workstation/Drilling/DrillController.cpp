@@ -20,13 +20,13 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kFrame = 16;        // ms
-constexpr int kFaultShown = 1500; // ms after the last tick that had one
-constexpr int kStart = 500;       // ms in which a device that was taken up comes to rest
-constexpr int kGone = 1000;       // ms; a server that crashed is back sooner
-constexpr int kAnew = 300;        // ms after the last change of what is in the hand
+constexpr int kFaultShown = 1500; // ms after the last tick with a fault
+constexpr int kStart = 500;       // ms for a device to settle after it was taken up
+constexpr int kGone = 1000;       // ms; a crashed server restarts sooner
+constexpr int kAnew = 300;        // ms after the last change of the tool
 constexpr double kStill = 0.02;   // mm
-constexpr double kBeyond = 0.2;   // mm under the tissue's surface
-constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have come back
+constexpr double kBeyond = 0.2;   // mm below the tissue's surface
+constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have been restored
 
 using haptics::DeviceVerdict;
 using simulation::ServoFault;
@@ -67,7 +67,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   connect(&m_anew, &QTimer::timeout, this,
           [this]
           {
-            // A slider on the move would have it made anew at each step.
+            // A moving slider would remake it at each step.
             QApplication::mouseButtons() == Qt::NoButton ? void(takeTool()) : m_anew.start();
           });
   connectBar();
@@ -167,7 +167,7 @@ void DrillController::setTool(Tool tool)
 {
   if (tool == m_tool)
     return;
-  m_view.setDrillMode(false); // lets go of the drill first
+  m_view.setDrillMode(false); // stops the drill first
   putAway();
   if (m_tool == Tool::None)
     m_lead.beginThere();
@@ -182,7 +182,7 @@ void DrillController::setTool(Tool tool)
   takeAtPointer();
 }
 
-// Where the mouse's pointer rests, not only when it moves next.
+// At the mouse pointer's position, without waiting for its next move.
 void DrillController::takeAtPointer()
 {
   if (takeTool() && m_lead.byMouse() && m_view.pointer())
@@ -200,7 +200,8 @@ void DrillController::deviceCame()
     takeTool();
 }
 
-// Another burr, scale or limit. The pointer's next move takes it up; a device has none.
+// Another burr, scale or limit. The mouse pointer's next move takes the tool up; for a device the
+// timer does.
 void DrillController::restartTool()
 {
   putAway();
@@ -212,7 +213,7 @@ void DrillController::restartTool()
 void DrillController::tissueCame()
 {
   if (m_tool != Tool::None && m_devices.device())
-    takeTool(); // the pointer's next move takes it up otherwise
+    takeTool(); // with the mouse, the pointer's next move takes it up
 }
 
 void DrillController::bringHere()
@@ -235,7 +236,7 @@ bool DrillController::takeTool()
     emit statusMessage(tr("The case is still being prepared; then the tool can be taken up"));
     return false;
   }
-  putAway(); // what a change of the tissue has ended
+  putAway(); // a session ended by a change of the tissue
   emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…") : tr("Taking up the pointer…"));
   QApplication::setOverrideCursor(Qt::WaitCursor);
   QString why;
@@ -247,7 +248,7 @@ bool DrillController::takeTool()
     if (m_tool == Tool::Pointer)
     {
       setup.tool.burr.diameter = 2.0 * kPointerRadius;
-      setup.tool.mode = presenters::TouchTool::Mode::ThreeDof; // its shaft is in nobody's way
+      setup.tool.mode = presenters::TouchTool::Mode::ThreeDof; // its shaft must not collide
     }
     haptics::Device& device = m_lead.prepare(setup);
     m_model.startTouch(device, setup);
@@ -256,7 +257,7 @@ bool DrillController::takeTool()
   {
     why = words(error.what());
   }
-  catch (const std::exception&) // no memory, no thread
+  catch (const std::exception&) // out of memory, no thread
   {
     why = tr("The tool cannot be taken up: the computer has no room for it. Close other programs.");
   }
@@ -311,7 +312,7 @@ void DrillController::press(const interaction::PickRay& line)
   if (!takeTool())
     return;
   m_model.touch()->setCamera(m_view.picture().camera());
-  m_lead.point(line); // first: from there on no leap in depth is followed
+  m_lead.point(line); // first: from here on, depth discontinuities are not followed
   m_lead.drill(true);
 }
 
@@ -322,7 +323,7 @@ void DrillController::release()
 
 void DrillController::frame()
 {
-  if (!m_model.touching()) // another threshold: the pointer's next move takes the tool up again
+  if (!m_model.touching()) // session ended: the pointer's next move takes the tool up
     return restartTool();
   hear(m_model.advanceTouch());
 }
@@ -347,7 +348,7 @@ void DrillController::hear(const presenters::TouchSession::News& news)
 void DrillController::show(const presenters::TouchSession::News& news)
 {
   const TickRecord& record = *news.record;
-  if (!m_model.drilling()) // of the stroke that may begin
+  if (!m_model.drilling()) // for a stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
   m_lead.see(record);
   m_view.display().setTouch(record, toolRadius(), m_tool != Tool::Pointer);
@@ -413,8 +414,8 @@ void DrillController::showFault(const presenters::TouchSession::News& news)
   const TickRecord& record = *news.record;
   m_stall.see(record);
   QString fault = whyStalled(record);
-  // A hand that was just taken up has no reading for some ticks, and a mouse none before it moves;
-  // that is no fault to speak of.
+  // A device just taken up has no reading for some ticks, and the mouse none before it moves; not a
+  // fault.
   const bool waits = m_lead.byMouse() &&
                      static_cast<ServoFault>(record.fault) == ServoFault::Device &&
                      static_cast<DeviceVerdict>(record.verdict) == DeviceVerdict::NotReady;
@@ -429,7 +430,7 @@ void DrillController::showFault(const presenters::TouchSession::News& news)
     emit faulted(m_fault = fault);
 }
 
-// Why a burr that is to drill takes nothing, for as long as that is so; empty: it does.
+// Why a burr that should drill removes nothing, as long as that lasts; empty if it does.
 QString DrillController::whyStalled(const TickRecord& record) const
 {
   if (m_tool != Tool::Burr)

@@ -17,33 +17,33 @@ class DrillBar;
 class ActiveDeviceController;
 class ThreeDView;
 
-/// Puts a tool into the hand. The burr drills where it is pressed; the pointer cuts nothing and
-/// reads what is at its tip. The hand is the mouse, whose pointer leads a device of its own, or a
-/// device that was chosen. What is shown is the tool, which the tissue holds back, not the hand.
+/// Controls the tool. The burr drills where it is pressed; the pointer removes nothing and probes
+/// at its tip. It is moved by the mouse, through a PointerDevice, or by a chosen device. What is
+/// shown is the proxy, which the tissue holds back, not the device pose.
 class DrillController : public QObject
 {
   Q_OBJECT
 public:
-  static constexpr double kPointerRadius = 0.5; ///< mm, of the pointer's ball
+  static constexpr double kPointerRadius = 0.5; ///< mm, of the pointer's spherical tip
 
   DrillController(presenters::WorkstationModel& model, ThreeDView& view, DrillBar& bar,
                   ActiveDeviceController& devices, QObject* parent = nullptr);
 
-  void setSlicesFollow(bool follow); ///< the crosshair goes with the burr while it drills
+  void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
   void releaseTool();                    ///< no tool; ends an open stroke
   void tissueCame();                 ///< the case's structures are loaded
-  void bringHere();                  ///< a device's tool before what the view's middle shows
+  void bringHere();                  ///< moves a device's tool in front of the view's centre
 
 signals:
   void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
   void pointedNowhere();
-  void tissueWanted(); ///< a tool was chosen, and the case is not prepared for it
-  void burrMoved(const Eigen::Vector3d& center, double radius); ///< patient LPS mm; each picture
-  void burrGone();                                              ///< out of the hand
-  /// Null when nothing was cut.
+  void tissueWanted(); ///< a tool was chosen, but the case is not prepared for it
+  void burrMoved(const Eigen::Vector3d& center, double radius); ///< patient LPS mm; each frame
+  void burrGone();                                              ///< put away
+  /// nullptr if nothing was removed.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
-  void statusMessage(const QString& line);    ///< what takes a while, or what does not work
-  void faulted(const QString& line); ///< of the touch; empty when it works again
+  void statusMessage(const QString& line);    ///< progress of slow operations, or errors
+  void faulted(const QString& line); ///< of the touch session; empty when it works again
 
 private:
   enum class Tool
@@ -59,7 +59,7 @@ private:
   void hover(const interaction::PickRay& line);
   void press(const interaction::PickRay& line);
   void release();
-  bool takeTool(); // into the hand, unless it is there
+  bool takeTool(); // into use, unless it is
   void putAway();
   void restartTool();
   void takeAtPointer();
@@ -80,7 +80,7 @@ private:
   DrillBar& m_bar;
   ActiveDeviceController& m_devices;
   ToolDriver m_lead;
-  std::optional<Eigen::Vector3d> m_tip; // that was read last
+  std::optional<Eigen::Vector3d> m_tip; // last one probed
   QTimer m_frames;
   QTimer m_anew;
   QElapsedTimer m_sinceFault;

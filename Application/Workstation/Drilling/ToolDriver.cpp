@@ -12,7 +12,7 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr double kSilence = 3.0; // s; a picture drawn on the processor can take one
+constexpr double kSilence = 3.0; // s; a software-rendered frame can take one
 constexpr double kPedalDown = 0.5;
 } // namespace
 
@@ -50,7 +50,7 @@ void ToolDriver::beginHere()
   m_place = placeLookedAt();
 }
 
-// With the burr just before the tissue.
+// With the burr just in front of the tissue.
 Eigen::Vector3d ToolDriver::placeLookedAt()
 {
   const interaction::PickRay line = m_view.sightLine(std::nullopt);
@@ -68,7 +68,7 @@ presenters::DeviceMapping ToolDriver::lead() const
   return lead;
 }
 
-// The wheel presses by its way.
+// None with the wheel, which presses by displacement.
 std::optional<double> ToolDriver::setThrust() const
 {
   const interaction::AimSettings& aim = m_aim.settings();
@@ -151,7 +151,7 @@ void ToolDriver::wheel(double notches, bool fine)
   send();
 }
 
-// By button or key, and by foot: the mouse presses the burr on the bone with both.
+// By button, key or pedal: each presses the mouse's burr on the bone.
 void ToolDriver::press()
 {
   using Press = interaction::PointerToolController::Press;
@@ -183,7 +183,7 @@ void ToolDriver::see(const simulation::TickRecord& record)
     seeByMouse(record);
   else if (isPlaced(record))
   {
-    // So that another burr goes on from there.
+    // So that another burr continues from there.
     m_place = record.proxy.pose().position;
     m_handPlace = record.input.device.pose().position;
   }

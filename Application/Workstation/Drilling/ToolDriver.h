@@ -14,40 +14,41 @@ namespace petrous::workstation
 class ActiveDeviceController;
 class ThreeDView;
 
-/// What leads the tool, from view and hand to the servo: the mouse, whose pointer leads a device of
-/// its own, or a device that was chosen, whose axes are the view's.
+/// Maps view and device input to the servo: the mouse, through a PointerDevice, or a chosen device,
+/// whose axes are the view's.
 class ToolDriver
 {
 public:
   ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& devices);
 
-  /// How the mouse leads a tool of that radius; the thrust is of every hand without force. `cuts`:
-  /// false for a pointer, for which no switch is the drill's.
+  /// How the mouse controls a tool of that radius; the thrust applies to every device without force
+  /// feedback. `cuts`: false for a pointer, for which no input starts the drill.
   void set(const interaction::AimSettings& settings, bool cuts);
 
-  /// The device for a touch that begins, and what it makes of the setup; the tool is set there.
+  /// The device for a new touch session; adapts the setup, in which the tool is set already.
   haptics::Device& prepare(presenters::TouchSession::Setup& setup);
   bool byMouse() const noexcept { return m_pointer != nullptr; } ///< since `prepare`
 
-  /// The mouse's tool is tied to it otherwise than it would be now.
+  /// The mouse tool's coupling differs from what the current settings require.
   bool outgrown() const;
 
-  /// Where a device's tool begins: a hand that comes, at its origin, before what the middle of the
-  /// view shows; anew there, wherever the hand is; otherwise it goes on from where it was.
+  /// Start position of a device's tool. beginThere: with the device at its origin, in front of what
+  /// the centre of the view shows; beginHere: there again, wherever the device is; otherwise it
+  /// continues from where it was.
   void beginThere() noexcept;
   void beginHere();
 
-  // What the view says; all goes to the servo at once.
+  // Input from the view; forwarded to the servo at once.
   void point(const interaction::PickRay& line);
   void wheel(double notches, bool fine);
   void drill(bool held);
   void clutch(bool held);
   void letGo(); ///< of drill and pedal
-  /// The mouse is pressed, and the burr has lifted (interaction::PointerToolController).
+  /// The mouse button is pressed, and the burr has lifted (interaction::PointerToolController).
   bool lifted() const noexcept { return m_pointer && m_aim.lifted(); }
 
-  void see(const simulation::TickRecord& record); ///< of a touch that runs
-  void send();                                    ///< camera, switches and settings as they are now
+  void see(const simulation::TickRecord& record); ///< of the running touch session
+  void send();                                    ///< current camera, switches and settings
 
 private:
   Eigen::Vector3d placeLookedAt();
@@ -60,18 +61,18 @@ private:
   ThreeDView& m_view;
   ActiveDeviceController& m_devices;
   interaction::PointerToolController m_aim;
-  std::unique_ptr<haptics::Device> m_mouse;        // of the touch that runs
-  interaction::PointerDevice* m_pointer = nullptr; // in it
+  std::unique_ptr<haptics::Device> m_mouse;        // of the running touch session
+  interaction::PointerDevice* m_pointer = nullptr; // part of m_mouse
   presenters::TouchTool::Mode m_mode = presenters::TouchTool::Mode::SixDof; // of the mouse's tool
-  double m_stiffness = 0.0;                                                 // N/mm, of the same
+  double m_stiffness = 0.0;                                                 // N/mm, likewise
   std::optional<Eigen::Vector3d> m_place;     // of a device's tool, patient mm
   Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0}; // frame D, at the same time
   presenters::DeviceSwitches m_held;          // by button and keys
-  bool m_foot = false;                        // the pedal is down
+  bool m_foot = false;                        // the pedal is pressed
   bool m_cuts = true;
 };
 
-/// Whether a record's poses mean something.
+/// Whether a record's poses are valid.
 bool isPlaced(const simulation::TickRecord& record);
 
 } // namespace petrous::workstation

@@ -12,15 +12,15 @@ namespace petrous::workstation
 
 namespace
 {
-// Less is not seen; a tool that rests must let the picture come to rest.
+// Smaller changes are not visible; with a resting tool, rendering must stop.
 constexpr double kPlace = 0.02;   // mm
 constexpr double kHeading = 1e-3; // rad
 constexpr double kForce = 0.03;   // N
-// Pixels: right of the force's bar and its number, above the letter of the lower edge.
+// Pixels: right of the force bar and its number, above the letter at the lower edge.
 constexpr double kReadingLeft = 76.0;
 constexpr double kReadingBottom = 48.0;
 constexpr int kReadingSize = 17;
-// Of the view: below the letter of the upper edge.
+// Fractions of the view: below the letter at the upper edge.
 constexpr double kWarningAcross = 0.5;
 constexpr double kWarningUp = 0.93;
 

@@ -15,8 +15,8 @@ class vtkTextActor;
 namespace petrous::workstation
 {
 
-/// What a renderer shows of a tool in the hand: its force, a line to where the hand would have it,
-/// and what a pointer reads, beside the bar of the force. Goes from the renderer when it ends.
+/// Overlay of a tool in a renderer: its force, a line to the device pose, and what a pointer reads,
+/// beside the force bar. Removed from the renderer on destruction.
 class TouchOverlay
 {
 public:
@@ -30,13 +30,13 @@ public:
   bool handpiece() const noexcept { return m_handpiece; }
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_tool; }
 
-  /// True when the picture looks different now.
+  /// Returns true if the picture changed.
   bool update(const simulation::TickRecord& record);
-  /// UTF-8, some lines; empty: nothing is read. Likewise.
+  /// UTF-8, several lines; empty: no reading. Likewise.
   bool setReading(const std::string& text);
-  /// What the surgeon must see now, UTF-8, some lines, at the upper edge; likewise.
+  /// What the surgeon must see now, UTF-8, several lines, at the upper edge; likewise.
   bool setWarning(const std::string& text);
-  void setCovered(double share); ///< of the picture, from above: warnings stand below
+  void setCovered(double share); ///< fraction of the height, from the top: warnings are below
 
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;
@@ -47,7 +47,7 @@ private:
   vtkNew<vtkTextActor> m_reading;
   vtkNew<vtkTextActor> m_warning;
   std::string m_text, m_warningText;         // as shown
-  std::optional<rendering::ToolPose> m_tool; // as drawn last
+  std::optional<rendering::ToolPose> m_tool; // as last drawn
   double m_shownForce = 0.0;                 // N
   double m_shownLag = 0.0;                   // mm
 };

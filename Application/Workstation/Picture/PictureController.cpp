@@ -79,7 +79,7 @@ void PictureController::appearanceChanged()
 void PictureController::showScene()
 {
   if (m_model.loaded() && !m_model.drawable())
-    return; // the picture stays until what is shown now has been made
+    return; // the old picture stays until the new one is prepared
   try
   {
     m_view.display().setContents(m_model.sceneContents());
@@ -97,7 +97,7 @@ void PictureController::openSurgeonWindow()
     return;
   m_surgeon = new SurgeonWindow(m_view, m_settings.stereo() == StereoMode::QuadBuffer);
   m_surgeon->setAttribute(Qt::WA_DeleteOnClose);
-  m_surgeon->addActions(m_window.findChildren<QAction*>()); // the keys of the window
+  m_surgeon->addActions(m_window.findChildren<QAction*>()); // the window's shortcuts
   connect(&m_surgeon->display(), &SceneDisplay::failed, this, &PictureController::fail);
   connect(m_surgeon, &SurgeonWindow::closed, this,
           [this]
@@ -117,8 +117,8 @@ void PictureController::closeSurgeonWindow()
     m_surgeon->close();
 }
 
-// Stereo is for the surgeon: the main view is for those who stand by while the other window is
-// open. Two buffers exist there only.
+// Stereo is for the surgeon: the main view is mono, for bystanders, while the other window is open.
+// Quad-buffering exists only there.
 void PictureController::applyStereo()
 {
   const StereoMode mode = m_settings.stereo();
@@ -126,7 +126,7 @@ void PictureController::applyStereo()
     action->setChecked(action->data().toInt() == static_cast<int>(mode));
   if (m_surgeon && m_surgeon->quadBuffer() != (mode == StereoMode::QuadBuffer))
   {
-    m_surgeon->close(); // another kind of window
+    m_surgeon->close(); // needs another kind of window
     return openSurgeonWindow();
   }
   if (m_surgeon)

@@ -21,21 +21,21 @@ class ThreeDView;
 class WindowActions;
 class WindowSettings;
 
-/// Lamp, stereo and the surgeon's window; how fast the picture is, and what to do when it fails.
+/// Lamp, stereo and the surgeon's window; frame rate, and handling of rendering failures.
 class PictureController : public QObject
 {
   Q_OBJECT
 public:
-  /// `actions`' stereo and surgeon's window are connected here. Lamp and stereo begin as `kept`,
-  /// and are kept there.
+  /// Connects the stereo and surgeon's window actions of `actions`. Lamp and stereo are restored
+  /// from and stored in `kept`.
   PictureController(presenters::WorkstationModel& model, ThreeDView& view, WindowActions& actions,
                     WindowSettings& kept, QWidget& window, bool quadBuffer);
   ~PictureController() override;
 
-  /// Brings the case's work to safety when the picture fails; false: it could not be saved.
+  /// Saves the case if rendering fails; returns false if it could not be saved.
   std::function<bool()> flush;
 
-  PicturePanel* panel() const noexcept { return m_panel; } ///< of the window that takes it
+  PicturePanel* panel() const noexcept { return m_panel; } ///< owned by the window that takes it
   QLabel* speed() const noexcept { return m_speed; }       ///< for the status bar
 
   void caseChanged();

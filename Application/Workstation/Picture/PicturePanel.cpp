@@ -23,7 +23,7 @@ using rendering::StereoRig;
 
 constexpr int kApplyAfter = 60; // ms
 
-// At its smallest value a box says what is taken instead.
+// At its minimum a box shows the default that applies instead.
 std::optional<double> lengthOf(const QDoubleSpinBox& box)
 {
   return box.value() > 0.0 ? std::optional<double>(box.value()) : std::nullopt;
@@ -39,7 +39,7 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
 {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(10, 10, 10, 10);
-  m_bone = addOccupancy(form, tr("&Bone opacity"),
+  m_bone = addFractionSlider(form, tr("&Bone opacity"),
                     tr("Below 100 % the inside of the bone and the structures in it shine through"),
                     "boneOpacity");
   connect(m_bone, &QSlider::valueChanged, this,
@@ -61,7 +61,7 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
             if (!m_showing)
               m_settings.setFalloff(mm);
           });
-  m_wetness = addOccupancy(form, tr("&Wetness"), tr("Gloss of a wet surface"), "wetness");
+  m_wetness = addFractionSlider(form, tr("&Wetness"), tr("Gloss of a wet surface"), "wetness");
   connect(m_wetness, &QSlider::valueChanged, this,
           [this](int percent)
           {
@@ -116,7 +116,7 @@ void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)
           });
 }
 
-QSlider* PicturePanel::addOccupancy(QFormLayout* form, const QString& name, const QString& tip,
+QSlider* PicturePanel::addFractionSlider(QFormLayout* form, const QString& name, const QString& tip,
                                 const QString& objectName)
 {
   auto* slider = new QSlider(Qt::Horizontal);

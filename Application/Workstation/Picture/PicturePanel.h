@@ -14,20 +14,20 @@ class QSlider;
 namespace petrous::workstation
 {
 
-/// How the picture looks: bone, lamp, stereo. Every number has its unit.
+/// Rendering settings: bone, lamp, stereo. Every number has its unit.
 class PicturePanel : public QWidget
 {
   Q_OBJECT
 public:
-  /// `quadBuffer`: the driver offers two buffers.
+  /// `quadBuffer`: the driver supports quad-buffered stereo.
   PicturePanel(presenters::WorkstationModel& model, presenters::ViewSettings& settings,
                bool quadBuffer, QWidget* parent = nullptr);
 
-  void caseChanged();     ///< or how its parts look
+  void caseChanged();     ///< or its parts' appearance
   void settingsChanged(); ///< light or stereo
 
 private:
-  QSlider* addOccupancy(QFormLayout* form, const QString& name, const QString& tip,
+  QSlider* addFractionSlider(QFormLayout* form, const QString& name, const QString& tip,
                     const QString& objectName);
   QDoubleSpinBox* addLength(QFormLayout* form, const QString& name, const QString& tip,
                             const QString& objectName, const QString& atZero, double largest);
@@ -42,8 +42,8 @@ private:
   QComboBox* m_stereo;
   QDoubleSpinBox* m_separation;
   QDoubleSpinBox* m_convergence;
-  QTimer m_apply;         // a slider on the move makes one change, not fifty
-  bool m_showing = false; // values that come from model or settings
+  QTimer m_apply;         // coalesces the changes of a moving slider
+  bool m_showing = false; // values are being set from model or settings
 };
 
 } // namespace petrous::workstation

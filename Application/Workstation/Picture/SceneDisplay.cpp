@@ -23,9 +23,9 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kSettle = 150;   // ms
-constexpr double kRate = 30.0; // Hz, of the pictures that the user sees
+constexpr double kRate = 30.0; // Hz, target frame rate
 
-// A reset of the card (a driver that was updated, or that hung) loses all textures.
+// A GPU reset (after a driver update or hang) loses all textures.
 bool contextLost()
 {
   QOpenGLContext* context = QOpenGLContext::currentContext();
@@ -78,7 +78,7 @@ void SceneDisplay::release()
   m_picture.attach(nullptr);
 }
 
-// Each eye and each window takes its share of the time.
+// The frame time is divided between eyes and windows.
 void SceneDisplay::setRate()
 {
   const bool both = stereo() != rendering::StereoMode::None;
@@ -105,7 +105,7 @@ void SceneDisplay::setLight(const rendering::LightSettings& light)
 {
   m_light = light;
   if (m_follower)
-    m_follower->m_light = light; // the contents follow
+    m_follower->m_light = light; // setContents passes on the contents
   setContents(m_contents);
 }
 
@@ -267,7 +267,7 @@ void SceneDisplay::frameStarted()
 
 void SceneDisplay::frameEnded()
 {
-  // Giving the orders, or drawing, which the graphics card does meanwhile.
+  // The longer of submitting commands and rendering, which overlap.
   const double milliseconds =
       std::max(1e-6 * static_cast<double>(m_clock.nsecsElapsed()), m_picture.frameMilliseconds());
   QString why;
@@ -281,19 +281,19 @@ void SceneDisplay::frameEnded()
   {
     why = words(error.what());
   }
-  catch (const std::exception&) // texts of other libraries may carry patient data
+  catch (const std::exception&) // messages of other libraries may contain patient data
   {
     why = tr("the picture could not be drawn");
   }
   const bool first = !why.isEmpty() && !m_failing;
   m_failing = !why.isEmpty();
-  // Not within a paint: what hears it may ask the user.
+  // Not during painting: the receiver may ask the user.
   if (first)
     QMetaObject::invokeMethod(
         this, [this, why] { emit failed(why); }, Qt::QueuedConnection);
   else if (!m_failing)
     emit drawn(milliseconds, scaleOfLastFrame(), m_moving);
-  // A large undo comes to the graphics card in several frames.
+  // A large undo is uploaded to the GPU over several frames.
   if (!m_failing && m_picture.statistics().pendingEdits > 0)
     QTimer::singleShot(0, this, [this] { redraw(m_moving); });
 }

@@ -37,7 +37,7 @@ SurgeonWindow::~SurgeonWindow()
   m_stereoView->embeddedOpenGLWindow()->doneCurrent();
 }
 
-// What the hands do here, they do in the main view.
+// Input here is forwarded to the main view.
 void SurgeonWindow::addView()
 {
   m_view = new ThreeDView(this);

@@ -16,12 +16,11 @@ namespace petrous::workstation
 class SceneDisplay;
 class ThreeDView;
 
-/// The scene on a whole screen, for the eyes of the surgeon: on a second screen where there is one.
-/// Esc closes it.
+/// The scene in full screen for the surgeon: on a second screen if there is one. Esc closes it.
 ///
-/// It can be turned and drilled in as the main view can, which it follows; its keys are the main
-/// window's. With two buffers (StereoMode::QuadBuffer) it only shows: the hands stay in the main
-/// window.
+/// Follows the main view and accepts the same rotation and drilling input; its keys are the main
+/// window's. With quad-buffered stereo (StereoMode::QuadBuffer) it is output only: input stays in
+/// the main window.
 class SurgeonWindow : public QWidget
 {
   Q_OBJECT

@@ -33,7 +33,7 @@ ThreeDView::ThreeDView(QWidget* parent)
   setMouseTracking(true);
   setMinimumSize(240, 240);
   setRenderWindow(m_window);
-  // The view turns the camera itself; the interactor only exists because the widget makes one.
+  // The view controls the camera itself; the interactor only exists because the widget creates one.
   m_window->GetInteractor()->SetInteractorStyle(nullptr);
   connect(m_display.get(), &SceneDisplay::aboutToDraw, this, &ThreeDView::placeLetters);
 
@@ -100,7 +100,7 @@ void ThreeDView::setWheelLeads(bool on)
 void ThreeDView::placeLetters()
 {
   constexpr int margin = 10;
-  // In stereo they would float somewhere before or behind the patient.
+  // In stereo they would float in front of or behind the patient.
   const bool mono = m_display->stereo() == rendering::StereoMode::None;
   for (QLabel* letter : m_letters)
     letter->setVisible(mono);
@@ -151,7 +151,7 @@ interaction::PickRay ThreeDView::sightLine(const std::optional<QPointF>& positio
     at.rx() -= right ? half : 0;
     across = std::max(across - half, 1);
   }
-  // A Qt position counts from the corner of the first pixel; a ray from its centre.
+  // A Qt position is relative to the first pixel's corner; a ray's to its centre.
   const auto ray = rendering::PixelRays(camera, across, std::max(height(), 1))
                        .through(at.x() - 0.5, at.y() - 0.5);
   return {ray.origin, ray.direction};
@@ -172,7 +172,7 @@ void ThreeDView::stopDrilling()
   if (!m_drilling)
     return;
   m_tick.stop();
-  emit drillHeld(sightLine(m_pointer)); // the way since the last tick was still drilled
+  emit drillHeld(sightLine(m_pointer)); // the path since the last tick was still drilled
   m_drilling = false;
   emit drillReleased();
 }
@@ -193,12 +193,12 @@ void ThreeDView::mouseMoveEvent(QMouseEvent* event)
   if (!m_turning && !rect().contains(event->pos()))
   {
     if (m_buttonDrills)
-      stopDrilling(); // beyond the edge nobody sees where the burr would go
+      stopDrilling(); // beyond the edge the burr's target is invisible
     return;
   }
   m_pointer = at;
   if (m_drilling && m_buttonDrills)
-    return; // the tick follows
+    return; // handled by the tick
   if (!m_turning)
   {
     emit pointed(sightLine(m_pointer));
@@ -234,7 +234,7 @@ void ThreeDView::mouseDoubleClickEvent(QMouseEvent* event)
 
 void ThreeDView::wheelEvent(QWheelEvent* event)
 {
-  // Shift makes some systems turn the wheel sideways.
+  // With Shift, some systems report horizontal scrolling.
   const QPoint delta = event->angleDelta();
   const double notches = (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
   event->accept();
@@ -286,7 +286,7 @@ void ThreeDView::keyReleaseEvent(QKeyEvent* event)
 
 void ThreeDView::focusOutEvent(QFocusEvent* event)
 {
-  stopDrilling(); // a release that another window gets would leave the drill on
+  stopDrilling(); // a release event sent to another window would leave the drill on
   holdClutch(false);
   QVTKOpenGLNativeWidget::focusOutEvent(event);
 }
@@ -294,7 +294,7 @@ void ThreeDView::focusOutEvent(QFocusEvent* event)
 void ThreeDView::leaveEvent(QEvent* event)
 {
   if (m_buttonDrills)
-    stopDrilling(); // by the key
+    stopDrilling(); // if started by the key
   m_pointer.reset();
   emit pointerLeft();
   QVTKOpenGLNativeWidget::leaveEvent(event);

@@ -18,13 +18,13 @@ class QLabel;
 namespace petrous::workstation
 {
 
-/// The scene in 3D, turned and zoomed by mouse and keys; tells where the pointer looks.
+/// 3D view of the scene with mouse and keyboard camera control; reports pick rays.
 ///
-/// Left drag turns, or drills in drill mode where the mouse leads the tool; right and middle drag
-/// turn, with Shift they move. The wheel zooms, or leads the burr in depth where that is set; with
-/// Ctrl it always zooms. Space drills and X is the clutch, while they are held. Where the mouse
-/// leads the tool, the drill goes off when the pointer leaves the view, by whatever edge; a button
-/// that is still held when it comes back does not put it on again.
+/// Left drag rotates, or drills in drill mode if the mouse controls the tool; right and middle drag
+/// rotate, with Shift they pan. The wheel zooms, or moves the burr in depth if so set; with Ctrl it
+/// always zooms. Space drills and X is the clutch, while held. If the mouse controls the tool, the
+/// drill stops when the pointer leaves the view by any edge; a button still held when it comes back
+/// does not restart it.
 class ThreeDView : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -38,33 +38,33 @@ public:
   bool drillMode() const noexcept { return m_drillMode; }
   void setWheelLeads(bool on); ///< in drill mode
   bool wheelLeads() const noexcept { return m_wheelLeads; }
-  void setButtonDrills(bool on); ///< false: the left button turns in drill mode, too
+  void setButtonDrills(bool on); ///< false: the left button rotates in drill mode, too
   bool buttonDrills() const noexcept { return m_buttonDrills; }
-  void setPointing(bool on); ///< a pointer is in the hand: the mouse shows as a cross
+  void setPointing(bool on); ///< the pointer tool is in use: cross cursor
   bool pointing() const noexcept { return m_pointing; }
   bool drilling() const noexcept { return m_drilling; }
   void setCamera(const core::CameraPose& pose);
 
-  /// Through a pixel; side by side, the ray of the eye whose half it lies in. Nothing: through the
-  /// middle of the view.
+  /// Pick ray through a pixel; side by side, of the eye whose half contains it. None: through the
+  /// centre of the view.
   interaction::PickRay sightLine(const std::optional<QPointF>& position) const;
 
-  /// Nothing: it is not in the view.
+  /// None if it is not in the view.
   const std::optional<QPointF>& pointer() const noexcept { return m_pointer; }
 
 signals:
-  void pointed(const petrous::interaction::PickRay& line); ///< moved with no button down
+  void pointed(const petrous::interaction::PickRay& line); ///< moved with no button pressed
   void pointerLeft();
   void picked(const petrous::interaction::PickRay& line); ///< double click
   void drillPressed(const petrous::interaction::PickRay& line);
-  void drillHeld(const petrous::interaction::PickRay& line); ///< at each tick while it is on
+  void drillHeld(const petrous::interaction::PickRay& line); ///< at each tick while drilling
   void drillReleased();
   void clutchHeld(bool on);
   void drillModeSet(bool on);
   void buttonDrillsSet(bool on);
   void pointingSet(bool on);
   void wheelLeadsSet(bool on);
-  void wheelLed(double notches, bool fine); ///< > 0: away from the eye
+  void wheelLed(double notches, bool fine); ///< > 0: away from the camera
   void cameraMoved(const petrous::core::CameraPose& pose);
 
 protected:

@@ -28,7 +28,7 @@ HandlesBox::HandlesBox(presenters::RegistrationSession& session, QWidget* parent
   grid->setSpacing(4);
   grid->addWidget(new QLabel(tr("Step")), 0, 0);
   grid->addWidget(m_step, 0, 1, 1, 3);
-  // The MR's picture goes where the button says.
+  // The MR overlay moves in the button's direction.
   addHandle(*grid, 1, 0,
             {"◀ R", "L ▶", tr("Moves the MR to the patient's right"),
              tr("Moves the MR to the patient's left"), Eigen::Vector3d::UnitX(), false});

@@ -12,7 +12,7 @@ class QLabel;
 namespace petrous::workstation
 {
 
-/// Six handles: moves an MR over the CT along the patient's axes, and turns it about the crosshair.
+/// Six controls that translate an MR along the patient's axes and rotate it about the crosshair.
 class HandlesBox : public QWidget
 {
   Q_OBJECT

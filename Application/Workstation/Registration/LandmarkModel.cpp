@@ -50,7 +50,7 @@ QVariant LandmarkModel::data(const QModelIndex& index, int role) const
     return {};
   if (role == Qt::TextAlignmentRole && index.column() == Residual)
     return QVariant(Qt::AlignRight | Qt::AlignVCenter);
-  if (role != Qt::DisplayRole && role != Qt::ToolTipRole) // a tip shows what its cell cuts off
+  if (role != Qt::DisplayRole && role != Qt::ToolTipRole) // the tooltip shows elided text
     return {};
   const auto row = static_cast<std::size_t>(index.row());
   const auto& landmark = m_session.landmarks().rows()[row];

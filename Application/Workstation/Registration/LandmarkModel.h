@@ -7,8 +7,7 @@
 namespace petrous::workstation
 {
 
-/// The pairs of points of a registration as rows: number, the two points, and what is left between
-/// them.
+/// The landmark pairs of a registration as rows: number, the two points, and the residual.
 class LandmarkModel : public QAbstractTableModel
 {
   Q_OBJECT
@@ -24,7 +23,7 @@ public:
 
   explicit LandmarkModel(presenters::RegistrationSession& session, QObject* parent = nullptr);
 
-  void refresh(); ///< rows, or only how the MR lies, have changed
+  void refresh(); ///< rows or the MR's registration changed
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;

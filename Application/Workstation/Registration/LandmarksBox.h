@@ -12,7 +12,7 @@ namespace petrous::workstation
 
 class LandmarkModel;
 
-/// Pairs of points, picked in CT and MR.
+/// Landmark pairs, picked in CT and MR.
 class LandmarksBox : public QWidget
 {
   Q_OBJECT

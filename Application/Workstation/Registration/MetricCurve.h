@@ -7,8 +7,8 @@
 namespace petrous::workstation
 {
 
-/// How the metric rises while a registration runs: one line a level of resolution, since levels do
-/// not compare.
+/// Plot of the metric of a running registration: one curve per resolution level, since levels are
+/// not comparable.
 class MetricCurve : public QWidget
 {
   Q_OBJECT

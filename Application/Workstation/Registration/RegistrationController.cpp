@@ -145,7 +145,7 @@ void RegistrationController::caseChanged()
 {
   m_run->drop();
   m_waiting.reset();
-  delete m_question; // of the case before
+  delete m_question; // of the previous case
   m_metricWork->drop();
   m_metric.reset();
   m_firstMetric.reset();
@@ -185,7 +185,7 @@ void RegistrationController::begin(Way way)
     m_panel->curve().clear();
   m_panel->setRunning(true);
   scene::Case value = m_model.value(); // shares voxels
-  value.dissection.reset();            // another thread writes there
+  value.dissection.reset();            // another thread writes to it
   const auto listener =
       [this](const registration::MetricSample& sample, const core::RigidTransform& best)
   { m_run->post([=] { heard(sample, best); }); };
@@ -194,7 +194,7 @@ void RegistrationController::begin(Way way)
        library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         const auto outcome = presenters::registerMr(value, request, progress, listener);
-        library.checkVoxels(value, progress); // that of damaged images is worth nothing
+        library.checkVoxels(value, progress); // the result for damaged images is worthless
         return [this, outcome] { finished(outcome); };
       });
 }
@@ -230,7 +230,7 @@ void RegistrationController::finished(const presenters::RegistrationOutcome& out
   if (!m_session.take(outcome))
     return;
   if (!m_overlay->mode())
-    m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // it is to be looked at
+    m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // for inspection
   emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords())));
 }
 
@@ -296,7 +296,7 @@ void RegistrationController::showMarks()
   {
     const QString number = QString::number(n + 1);
     marks.push_back({rows[n].ct, number, kCtPoint});
-    if (rows[n].mr && m_session.part()) // where it is seen now
+    if (rows[n].mr && m_session.part()) // where it appears now
       marks.push_back({m_session.part()->mrFromCt.inverse() * *rows[n].mr, number, kMrPoint});
   }
   m_slices.setMarks(marks);
@@ -315,7 +315,7 @@ void RegistrationController::addPoint()
     return;
   m_session.addLandmark();
   m_panel->openPoints();
-  m_overlay->showAlone(m_session.landmarks().waitsForMr()); // where the next point is to be found
+  m_overlay->showAlone(m_session.landmarks().waitsForMr()); // where the next point is to be picked
   showMarks();
   m_panel->say(m_session.landmarks().waitsForMr()
                    ? tr("Now the same point in the MR: crosshair there, then K.")

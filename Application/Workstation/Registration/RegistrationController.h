@@ -23,13 +23,13 @@ class MrOverlay;
 class RegistrationPanel;
 class SliceColumn;
 
-/// Has MRs of the open case seen in the slices, and laid on the CT: runs the registration beside
-/// the window, shows how far it is, and what the hand does to the metric.
+/// Shows MRs of the open case in the slices and registers them to the CT: runs the registration in
+/// the background, shows its progress, and the metric during manual motion.
 class RegistrationController : public QObject
 {
   Q_OBJECT
 public:
-  /// `window`: asks beside it. All must outlive this.
+  /// `window`: parent of dialogs. All must outlive this.
   RegistrationController(presenters::WorkstationModel& model, SliceColumn& slices, QWidget& window);
   ~RegistrationController() override;
 
@@ -37,11 +37,11 @@ public:
   QMenu* menu() { return m_menu; }
 
   void caseChanged();
-  void mrMoved(); ///< or was signed
+  void mrMoved(); ///< or was signed off
   bool running() const;
 
 signals:
-  void sceneStale(); ///< pictures with the MR or what was drawn on it; not at every step of many
+  void sceneStale(); ///< views of the MR or of what was drawn on it are outdated; throttled
   void statusMessage(const QString& line);
 
 private:
@@ -73,12 +73,12 @@ private:
   QMenu* m_menu;
   std::unique_ptr<BackgroundWork> m_run;
   std::unique_ptr<BackgroundWork> m_metricWork;
-  std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, when first asked for
+  std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, loaded on demand
   std::string m_metricOf;
   std::optional<double> m_firstMetric;
   Best m_best;                       // of the run
-  QPointer<QMessageBox> m_question;  // whether that is kept
-  std::unique_ptr<QTimer> m_waiting; // with a result, for the drill
+  QPointer<QMessageBox> m_question;  // whether m_best is kept
+  std::unique_ptr<QTimer> m_waiting; // holds a result until the drill stops
   QTimer m_sceneLater;
 };
 

@@ -37,7 +37,7 @@ QLabel* heading(const QString& text)
   return label;
 }
 
-// What the line of its state leaves out.
+// What the status line omits.
 QString errorText(const scene::ImagePart& mr)
 {
   if (!mr.registered || !mr.registration)
@@ -51,7 +51,7 @@ QString errorText(const scene::ImagePart& mr)
   return text.isEmpty() || why.isEmpty() ? text + why : text + "\n" + why;
 }
 
-// What speaks against it is seen before it is read.
+// A doubtful state is highlighted.
 QString stateStyle(const scene::ImagePart* mr)
 {
   const bool good = mr && mr->registered && mr->registration &&
@@ -128,7 +128,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   outer->setContentsMargins(0, 0, 0, 0);
   outer->setSpacing(0);
   outer->addWidget(area, 1);
-  outer->addWidget(signOff()); // always in reach
+  outer->addWidget(signOff()); // always visible
   setMinimumWidth(340);
   setOverlay(std::nullopt, 0.5);
   setRunning(false);
@@ -275,7 +275,7 @@ void RegistrationPanel::sign()
       [&] {
         m_session.signOff(bytes(who), bytes(QDateTime::currentDateTimeUtc().toString(Qt::ISODate)));
       });
-  m_name->clear(); // the next one types their own
+  m_name->clear(); // the next user types their own
 }
 
 void RegistrationPanel::caseChanged()

@@ -23,7 +23,7 @@ class HandlesBox;
 class LandmarksBox;
 class MetricCurve;
 
-/// How an MR of the case lies on the CT: seen, computed, moved by hand, by pairs of points, signed.
+/// Registration of an MR of the case: display, fit, manual motion, landmarks, sign-off.
 class RegistrationPanel : public QWidget
 {
   Q_OBJECT
@@ -31,12 +31,12 @@ public:
   explicit RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent = nullptr);
 
   void caseChanged(); ///< another case, or other MRs in it
-  void refresh();     ///< how the MR lies, its points, what can be undone
+  void refresh();     ///< registration, landmarks, undo state
   void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
   void setRunning(bool running);
   void setProgress(double fraction, const QString& text);
-  void setMetric(const QString& text); ///< of how the MR lies now
-  void say(const QString& line);       ///< what went wrong, or what to do next; empty: nothing
+  void setMetric(const QString& text); ///< at the current registration
+  void say(const QString& line);       ///< an error, or what to do next; empty: nothing
   void openPoints();
   void openHand();
   MetricCurve& curve() { return *m_curve; }
@@ -46,14 +46,14 @@ signals:
   void opacityChosen(double opacity);
   void mrChosen();
   void registerAsked();
-  void refineAsked(); ///< from where the MR lies now
+  void refineAsked(); ///< from the current registration
   void cancelAsked();
   void pointAsked();     ///< of a pair, at the crosshair
-  void landmarksAsked(); ///< the MR laid where they put it
+  void landmarksAsked(); ///< apply the landmark fit
   void landmarksChanged();
   void aimChosen();
   void shown();
-  void hidden(); ///< nobody looks at the metric
+  void hidden(); ///< the metric is no longer needed
 
 protected:
   void showEvent(QShowEvent* event) override;
@@ -64,7 +64,7 @@ private:
   void addSeeing(QVBoxLayout& layout);
   void addRunning(QVBoxLayout& layout);
   QWidget* signOff();
-  void attempt(const std::function<void()>& what); ///< tells what it throws
+  void attempt(const std::function<void()>& what); ///< reports exceptions
   void sign();
   void enable();
 
@@ -93,7 +93,7 @@ private:
   QLineEdit* m_name;
   QPushButton* m_sign;
   bool m_running = false;
-  bool m_showing = false; // what the case says, not what the user wants
+  bool m_showing = false; // values are being set from the case
 };
 
 } // namespace petrous::workstation

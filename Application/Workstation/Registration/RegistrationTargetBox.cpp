@@ -17,7 +17,7 @@ namespace
 {
 using Aim = presenters::RegistrationAim;
 
-constexpr int kWhole = 10; // mm; shown in words
+constexpr int kWhole = 10; // mm; shown as text
 constexpr int kLargestBox = 250;
 constexpr int kFirstStructure = 2; // row of m_place
 } // namespace

@@ -11,15 +11,15 @@ class QSpinBox;
 namespace petrous::workstation
 {
 
-/// What a registration begins from, what counts of the CT, to what it goes, and where its error is
-/// stated.
+/// Settings of a registration: start, region of the CT, target image, and where its error is
+/// estimated.
 class RegistrationTargetBox : public QWidget
 {
   Q_OBJECT
 public:
   explicit RegistrationTargetBox(presenters::RegistrationSession& session, QWidget* parent = nullptr);
 
-  void refresh(); ///< what there is to choose from
+  void refresh(); ///< updates the choices
 
 signals:
   void chosen();
@@ -31,7 +31,7 @@ private:
   void addBox();
   QComboBox* addChoice(const QString& label, const char* name, const QString& tip);
   void fillPlaces();
-  void choose(); // what the boxes show
+  void choose(); // applies what the boxes show
 
   presenters::RegistrationSession& m_session;
   QFormLayout* m_form;
@@ -39,7 +39,7 @@ private:
   QComboBox* m_onto;
   QComboBox* m_place;
   QSpinBox* m_box;
-  bool m_showing = true; // what the session says, not what the user wants
+  bool m_showing = true; // values are being set from the session
 };
 
 } // namespace petrous::workstation

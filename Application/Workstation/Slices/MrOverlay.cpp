@@ -54,7 +54,7 @@ void MrOverlay::next()
   if (!m_session.part())
     return;
   if (m_alone)
-    set(m_mode, m_opacity); // back from one alone
+    set(m_mode, m_opacity); // back from one image alone
   else if (!m_mode)
     set(OverlayMode::Blend, m_opacity);
   else if (*m_mode == OverlayMode::Checker)
@@ -94,7 +94,7 @@ void MrOverlay::refresh()
   const scene::ImagePart* part = m_session.part();
   const bool ctAlone = m_alone && *m_alone == 0.0;
   if (!seen())
-    m_overlay.reset(); // nothing of the MR is kept for it
+    m_overlay.reset(); // frees the MR
   if (!part || ctAlone || !seen())
   {
     m_slices.setOverlay(nullptr);

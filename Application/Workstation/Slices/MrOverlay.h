@@ -12,8 +12,8 @@ namespace petrous::workstation
 
 class SliceColumn;
 
-/// The MR over the CT in the slices: how, how much of it, and where it lies while it is being
-/// registered. Nothing of the MR is loaded until it is seen.
+/// The MR overlay in the slices: mode, opacity, and its pose during a registration. The MR is
+/// loaded only when first shown.
 class MrOverlay : public QObject
 {
   Q_OBJECT
@@ -30,10 +30,10 @@ public:
   void reset(); ///< another case
   void refresh();
   void set(const Mode& mode, double opacity);
-  void next();                                                       ///< way to show it
-  void flick();                                                      ///< MR and CT alone, by turns
+  void next();                                                       ///< next mode
+  void flick();                                                      ///< toggles MR or CT alone
   void showAlone(bool mr);                                           ///< the MR, or the CT
-  void setUnderWay(const std::optional<core::RigidTransform>& best); ///< X_MC, of a run; or none
+  void setUnderWay(const std::optional<core::RigidTransform>& best); ///< X_MC of a run; or none
 
 signals:
   void changed(); ///< mode or opacity
@@ -47,7 +47,7 @@ private:
   Mode m_mode;
   double m_opacity = 0.5;
   std::optional<double> m_alone;                     // 0 the CT, 1 the MR
-  std::optional<presenters::SliceOverlay> m_overlay; // of m_overlayOf, when first shown
+  std::optional<presenters::SliceOverlay> m_overlay; // of m_overlayOf, made on demand
   std::string m_overlayOf;
   std::optional<core::RigidTransform> m_best;
 };

@@ -13,7 +13,7 @@ namespace petrous::workstation
 class SliceView;
 struct SliceMark;
 
-/// The axial, coronal and sagittal view under one another, with one crosshair and grey window.
+/// The axial, coronal and sagittal view stacked vertically, with one crosshair and grey window.
 class SliceColumn : public QSplitter
 {
   Q_OBJECT
@@ -26,11 +26,11 @@ public:
   void crosshairMoved();
   void maskChanged(const core::IndexBox& box); ///< of CT voxels
 
-  void boneWindow(); ///< width 4000, level 700 HU, or what corresponds to it
+  void boneWindow(); ///< width 4000, level 700 HU, or equivalent
   void softWindow(); ///< width 400, level 40 HU
   void fit();
 
-  void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or null
+  void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or nullptr
   void setNotice(const QString& text);
   void setRegion(double edge); ///< as SliceView
   void setMarks(const std::vector<SliceMark>& marks);

@@ -13,7 +13,7 @@ class QPainter;
 namespace petrous::workstation
 {
 
-/// A numbered point that slices show where they pass near it.
+/// A numbered point, shown in slices near it.
 struct SliceMark
 {
   Eigen::Vector3d patient; ///< LPS mm
@@ -21,11 +21,11 @@ struct SliceMark
   QColor color;
 };
 
-/// Those within a millimetre of the slice, which lies at `at` (patient, LPS mm).
+/// Marks within a millimetre of the slice, which contains `at` (patient, LPS mm).
 void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
 
-/// Where a cube of this edge (mm) about `at` meets the slice through it.
+/// Intersection of the slice with a cube of this edge (mm) centred at `at`.
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
                const Eigen::Vector3d& at);
 

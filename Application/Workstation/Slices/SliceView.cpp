@@ -23,7 +23,7 @@ constexpr double kMinHu = 10.0; // of a grey window
 constexpr int kMargin = 8;
 constexpr double kGap = 9.0; // of the crosshair, pixels
 
-// The planes that a view's vertical and horizontal line stand for.
+// The planes represented by a view's vertical and horizontal line.
 std::pair<SliceOrientation, SliceOrientation> linesOf(SliceOrientation view)
 {
   switch (view)
@@ -307,7 +307,7 @@ void SliceView::scroll(int slices)
   if (!m_presenter)
     return;
   const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
-  // One voxel along the grid's axis that runs through the slices.
+  // One voxel along the grid axis closest to the slice normal.
   const double step = 1.0 / (m_grid.voxelFromPatientLinear() * next).cwiseAbs().maxCoeff();
   emit crosshairMoved(m_crosshair + slices * step * next);
 }
@@ -328,7 +328,7 @@ void SliceView::zoom(double factor)
   stale();
 }
 
-// A tenth, or with Shift a whole, of a millimetre or a degree.
+// Steps of 0.1, with Shift 1, millimetre or degree.
 bool SliceView::moveMr(const QKeyEvent& event)
 {
   if (!(event.modifiers() & Qt::AltModifier) || !m_overlay)
@@ -349,7 +349,7 @@ bool SliceView::moveMr(const QKeyEvent& event)
   case Qt::Key_Down:
     emit moveAsked(step * axes.down);
     return true;
-  case Qt::Key_PageUp: // against the clock, as it is seen
+  case Qt::Key_PageUp: // counterclockwise on the screen
     emit turnAsked(axes.right.cross(axes.down), -step);
     return true;
   case Qt::Key_PageDown:

@@ -13,32 +13,31 @@
 namespace petrous::workstation
 {
 
-/// One slice with its crosshair, letters, scale bar and read-out; painted, no OpenGL.
+/// One slice with its crosshair, orientation letters, scale bar and read-out; painted, no OpenGL.
 ///
 /// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
-/// zooms, middle drag moves the picture. Alt+arrow and Alt+Page up or down move and turn an MR that
-/// is laid over it.
+/// zooms, middle drag pans. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
 class SliceView : public QWidget
 {
   Q_OBJECT
 public:
   explicit SliceView(presenters::SliceOrientation orientation, QWidget* parent = nullptr);
 
-  /// Another case, or another look of it. Null: nothing to show.
+  /// Another case, or another appearance of it. nullptr: nothing to show.
   void setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
                     const core::GridGeometry& grid);
   void fit(); ///< the whole slice
   void setCrosshair(const Eigen::Vector3d& patient);
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
-  void setReadout(const QString& text); ///< what is under the crosshair
-  void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< null: CT alone
-  void setNotice(const QString& text); ///< what to know of what is shown
+  void setReadout(const QString& text); ///< values under the crosshair
+  void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< nullptr: CT alone
+  void setNotice(const QString& text); ///< a note on what is shown
   void setMarks(std::vector<SliceMark> marks);
-  void setRegion(double edge); ///< of the cube about the crosshair that counts, mm; 0: everything
+  void setRegion(double edge); ///< edge of the cube about the crosshair to fit in, mm; 0: none
   void maskChanged(const core::PatientBox& box);
 
-  /// Of what is on the screen; only with a presenter.
+  /// The displayed slice; requires a presenter.
   presenters::SliceGeometry slice() const;
 
 signals:
@@ -70,7 +69,7 @@ private:
   std::shared_ptr<const presenters::SlicePresenter> m_presenter;
   core::GridGeometry m_grid;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
-  Eigen::Vector3d m_offset = Eigen::Vector3d::Zero(); // of the picture's middle, in the plane, mm
+  Eigen::Vector3d m_offset = Eigen::Vector3d::Zero(); // of the picture's centre, in the plane, mm
   double m_zoom = 1.0;
   presenters::GreyWindow m_window;
   presenters::IntensityDisplay m_display;

@@ -27,8 +27,8 @@ bool harmed(const NearbyStructure& structure)
   return structure.state == State::Touched || structure.injured > 0.0;
 }
 
-// A dot in the structure's colour; a triangle with a stroke where it is near; an octagon with a
-// cross where it is touched or injured.
+// A dot in the structure's colour; a triangle with a bar if it is near; an octagon with a cross if
+// it is touched or injured.
 QPixmap signOf(const NearbyStructure& structure)
 {
   QPixmap pixmap(kSign, kSign);

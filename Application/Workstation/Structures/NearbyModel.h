@@ -9,8 +9,8 @@
 namespace petrous::workstation
 {
 
-/// The structures near the burr as rows. What is dangerous says so by its sign and in words, not by
-/// its colour alone.
+/// The structures near the burr as rows. Danger is shown by a sign and in words, not by colour
+/// alone.
 class NearbyModel : public QAbstractTableModel
 {
   Q_OBJECT

@@ -13,7 +13,7 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kAgain = 60; // ms; nobody reads faster
+constexpr int kAgain = 60; // ms; faster than anyone can read
 }
 
 NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
@@ -29,7 +29,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   list->setRootIsDecorated(false);
   list->setUniformRowHeights(true);
   list->setSelectionMode(QAbstractItemView::NoSelection);
-  list->setFocusPolicy(Qt::NoFocus); // the keys stay with the view
+  list->setFocusPolicy(Qt::NoFocus); // the view keeps the keyboard focus
   list->header()->setSectionsMovable(false);
   list->header()->setSectionResizeMode(NearbyModel::Name, QHeaderView::ResizeToContents);
   list->header()->setSectionResizeMode(NearbyModel::Distance, QHeaderView::ResizeToContents);
@@ -70,7 +70,7 @@ void NearbyPanel::stateChanged()
   m_sinceAsked.invalidate();
 }
 
-// With the open stroke, which is one more.
+// Includes the open stroke.
 void NearbyPanel::showRemoved()
 {
   const scene::Case& value = m_model.value();
@@ -104,7 +104,7 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
                       : QString());
     m_structures->show(std::move(*near));
   }
-  catch (const std::exception& error) // no memory, a file that is gone
+  catch (const std::exception& error) // out of memory, a missing file
   {
     m_structures->show({});
     say(tr("The structures cannot be measured: %1").arg(words(error.what())));
@@ -128,7 +128,7 @@ void NearbyPanel::showEvent(QShowEvent* event)
 void NearbyPanel::hideEvent(QHideEvent* event)
 {
   QWidget::hideEvent(event);
-  const bool needed = m_hasBurr; // for its warnings
+  const bool needed = m_hasBurr; // for warnings
   burrGone();
   if (!needed)
     m_model.forgetNearby();

@@ -12,8 +12,8 @@ namespace petrous::workstation
 
 class NearbyModel;
 
-/// What a planner wants to know while drilling: structures near the burr, those injured, and what
-/// was removed. Asks the model only while it is seen.
+/// Structures near the burr, injured ones, and the removed volume. Queries the model only while
+/// visible.
 class NearbyPanel : public QWidget
 {
   Q_OBJECT
@@ -23,9 +23,9 @@ public:
   void caseChanged();
   void stateChanged(); ///< strokes
 
-  /// Where the burr is: its centre, patient LPS mm, and its radius, mm.
+  /// The burr's centre, patient LPS mm, and radius, mm.
   void burrMoved(const Eigen::Vector3d& center, double radius);
-  void burrGone(); ///< it was laid down
+  void burrGone(); ///< it was put away
 
   const NearbyModel& structures() const { return *m_structures; }
 
@@ -42,7 +42,7 @@ private:
   QLabel* m_removed;
   QLabel* m_line;
   QElapsedTimer m_sinceAsked;
-  bool m_hasBurr = false; // in the hand
+  bool m_hasBurr = false; // in use
 };
 
 } // namespace petrous::workstation

@@ -11,7 +11,7 @@ namespace petrous::workstation
 namespace
 {
 
-// "R 32.1  P 12.0  S 45.3 mm": the letters of the directions from the scanner's zero.
+// "R 32.1  P 12.0  S 45.3 mm": direction letters relative to the scanner's origin.
 QString positionText(const Eigen::Vector3d& patient)
 {
   constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};

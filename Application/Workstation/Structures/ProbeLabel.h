@@ -7,7 +7,7 @@
 namespace petrous::workstation
 {
 
-/// Says in the status bar what lies at a place.
+/// Shows the values at a point in the status bar.
 class ProbeLabel : public QLabel
 {
   Q_OBJECT

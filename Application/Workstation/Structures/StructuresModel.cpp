@@ -111,8 +111,7 @@ int StructuresModel::columnCount(const QModelIndex& parent) const
   return parent.isValid() ? 0 : static_cast<int>(ColumnCount);
 }
 
-// Why a mesh with the mark is not felt all the same; empty when it is. Asked for under the mouse
-// only, as it takes a moment.
+// Why a mesh marked touchable is not; empty if it is. Evaluated for tooltips only, as it is slow.
 QString StructuresModel::untouchableText(const std::string& name) const
 {
   const auto& value = m_model.value();

@@ -10,7 +10,7 @@
 namespace petrous::workstation
 {
 
-/// The structures and meshes of the open case as rows; the check boxes change the case.
+/// The structures and meshes of the open case as rows; the check boxes modify the case.
 class StructuresModel : public QAbstractTableModel
 {
   Q_OBJECT
@@ -22,14 +22,14 @@ public:
     Shown,
     Touchable,
     Drillable,
-    Warning, ///< mm; can be edited
+    Warning, ///< mm; editable
     ColumnCount
   };
 
   explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
-  std::string nameAt(const QModelIndex& index) const; ///< of the row; empty: there is none
-  QModelIndex rowOf(const std::string& name) const;   ///< not valid: there is none
+  std::string nameAt(const QModelIndex& index) const; ///< of the row; empty if there is none
+  QModelIndex rowOf(const std::string& name) const;   ///< invalid if there is none
   appearance::StructureAppearance lookAt(const QModelIndex& index) const;
 
   void caseChanged();
@@ -49,7 +49,7 @@ private:
     double volume = 0.0; ///< mm^3
     bool isMesh = false;
     appearance::StructureAppearance look;
-    std::string missing; ///< why it is nowhere on the CT (scene::Placement); mostly empty
+    std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
   };
   std::vector<Row> rows() const;
   bool setWarning(const QModelIndex& index, double millimetres);

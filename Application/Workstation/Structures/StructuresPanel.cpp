@@ -90,7 +90,7 @@ QString StructuresPanel::chosen() const
   return words(m_structures->nameAt(m_list->currentIndex()));
 }
 
-// What the drill meets in the structure.
+// Menu of the structure's tissue, which determines the drill's resistance.
 void StructuresPanel::addTissues(QMenu& menu, const QString& name)
 {
   const auto look = m_structures->lookAt(m_structures->rowOf(bytes(name)));
@@ -129,7 +129,7 @@ void StructuresPanel::offer(const QPoint& position)
     emit thicknessAsked(name);
 }
 
-// What the image has, in its unit.
+// The image's range, in its unit.
 void StructuresPanel::showRange()
 {
   const auto display =

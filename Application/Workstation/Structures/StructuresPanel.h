@@ -15,21 +15,21 @@ namespace petrous::workstation
 
 class StructuresModel;
 
-/// The bone's threshold and the list of structures.
+/// Bone threshold and list of structures.
 class StructuresPanel : public QWidget
 {
   Q_OBJECT
 public:
   explicit StructuresPanel(presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
-  /// The structure of the row that is chosen; empty: none.
+  /// The selected structure; empty: none.
   QString chosen() const;
 
   void caseChanged();
   void appearanceChanged();
 
 signals:
-  void thicknessAsked(const QString& structure); ///< again: no longer
+  void thicknessAsked(const QString& structure); ///< a second request turns it off
 
 private:
   void offer(const QPoint& position);
@@ -43,7 +43,7 @@ private:
   QSlider* m_slider;
   QDoubleSpinBox* m_box;
   double m_step = 1.0; // of the slider, in the CT's unit
-  QTimer m_apply;      // a slider on the move makes one change, not fifty
+  QTimer m_apply;      // coalesces the changes of a moving slider
 };
 
 } // namespace petrous::workstation

@@ -13,17 +13,16 @@ class StructuresPanel;
 class ThicknessLegend;
 class ThreeDView;
 
-/// Has bone coloured by its thickness over the structure that is chosen in the panel, and no longer
-/// when asked again.
+/// Toggles colouring bone by its thickness over the structure selected in the panel.
 class ThicknessController : public QObject
 {
   Q_OBJECT
 public:
-  /// `action`: checkable; checked while the colours show.
+  /// `action`: checkable; checked while the colours are shown.
   ThicknessController(presenters::WorkstationModel& model, ThreeDView& view, StructuresPanel& panel,
                       QAction& action);
 
-  void caseChanged(); ///< another one has no colours yet
+  void caseChanged(); ///< another case has no colours yet
 
 signals:
   void statusMessage(const QString& line);

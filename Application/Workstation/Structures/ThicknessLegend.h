@@ -5,13 +5,13 @@
 namespace petrous::workstation
 {
 
-/// The scale of bone's thickness over a structure, in the upper left corner of a view. Lets every
-/// click through.
+/// Colour scale of bone thickness over a structure, in the upper left corner of a view. Transparent
+/// to mouse events.
 class ThicknessLegend : public QWidget
 {
   Q_OBJECT
 public:
-  /// `view` is what it lies over.
+  /// `view`: the widget that it overlays.
   explicit ThicknessLegend(QWidget& view);
 
   void setStructure(const QString& name); ///< empty: hidden

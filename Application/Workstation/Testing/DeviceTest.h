@@ -17,7 +17,7 @@
 namespace petrous::workstation
 {
 
-/// A window beside a bench of devices that a test plugs in, and a folder for device servers.
+/// A window with simulated devices that a test plugs in, and a folder for device servers.
 class DeviceTest : public GuiTest
 {
 protected:
@@ -30,13 +30,13 @@ protected:
 
   void TearDown() override
   {
-    closeWindow(); // nothing may be open when the bench goes
+    closeWindow(); // no device may be open when the bench is destroyed
     devices = {};
   }
 
   std::filesystem::path servers() const { return folder() / "servers"; }
 
-  /// A program that says that it was started and then only waits: the test itself is the server.
+  /// Installs a program that only signals its start and waits: the test itself is the server.
   void installServer(const std::string& name)
   {
     const auto program = servers() / name;
@@ -49,7 +49,7 @@ protected:
     return std::filesystem::exists(folder() / (name + ".started"));
   }
 
-  /// A name that no other run of the tests has: the block is the machine's.
+  /// A name unique to this test run: the shared memory block is system-wide.
   static std::string serverName() { return "gui-" + std::to_string(::getpid()); }
 
   QComboBox& choice() { return *window().findChild<QComboBox*>("deviceChoice"); }
@@ -74,7 +74,7 @@ protected:
   }
   Eigen::Vector3d tool() { return view().display().tool()->center; }
 
-  /// The view's axes: right, up, towards the eye.
+  /// The view's axes: right, up, towards the camera.
   Eigen::Matrix3d axes()
   {
     const auto camera = view().picture().camera();
@@ -85,7 +85,7 @@ protected:
     return result;
   }
 
-  /// As a hand goes, not in a leap.
+  /// Moves continuously, without a jump.
   static void glide(devices::testing::FakeServer& server, const Eigen::Vector3d& from,
                     const Eigen::Vector3d& to)
   {
@@ -98,7 +98,7 @@ protected:
     }
   }
 
-  /// Holds the cap until then.
+  /// Holds the SpaceMouse deflected until then.
   bool holdCapUntil(const std::string& held, const std::function<bool()>& done)
   {
     for (int n = 0; n < 200 && !done(); ++n)
@@ -115,8 +115,8 @@ protected:
 constexpr char kPlugCap[] = "plug cap 256f c635 1 8 SpaceMouse Compact\n";
 constexpr char kPlugFoot[] = "plug foot 05f3 00ff c 3 VEC USB Footpedal\n";
 
-/// The cap held away from its rest for an eighth of a second: 350 is full; x right, y to the user,
-/// z down. `buttons`: the first is 1.
+/// A SpaceMouse held deflected for an eighth of a second: 350 is full; x right, y to the user, z
+/// down. `buttons`: the first is 1.
 inline std::string capHeld(int x, int y, int z, int buttons = 0)
 {
   char line[160];

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A device of 3 N that senses its heading and renders 0.5 N/mm.
+// A device of 3 N that senses its orientation and renders 0.5 N/mm.
 void describe(petrous_device_block& block)
 {
   block.flags = PETROUS_SENSES_ROTATION | PETROUS_GIVES_FORCE;
@@ -28,7 +28,7 @@ Vector3d forceOf(const petrous_device_wrench& wrench)
   return {wrench.force[0], wrench.force[1], wrench.force[2]};
 }
 
-// Of the server of that name; 0 while there is none.
+// Process id of the server of that name; 0 if there is none.
 int processOf(const std::string& name)
 {
   for (const auto& entry : std::filesystem::directory_iterator("/proc"))
@@ -50,7 +50,7 @@ protected:
     DeviceTest::TearDown();
   }
 
-  /// The ball is open and the burr in the hand of a server, which is the test itself.
+  /// Opens the ball with the burr on a server device, which is the test itself.
   void drillByServer()
   {
     saveBall("ball");
@@ -104,7 +104,7 @@ TEST_F(InputDevices, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
   QTest::keyClick(&view(), Qt::Key_D);
   ASSERT_TRUE(hasTool());
   const Vector3d begin = tool();
-  // It begins on the line of sight through the middle, a millimetre before the ball.
+  // It starts on the ray through the view's centre, a millimetre in front of the ball.
   const auto line = view().sightLine(std::nullopt);
   EXPECT_LT((begin - line.origin).cross(line.direction).norm(), 0.01);
   EXPECT_NEAR((begin - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.2);
@@ -114,7 +114,7 @@ TEST_F(InputDevices, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
   const Vector3d way = axes().transpose() * (tool() - begin);
   EXPECT_LT(std::hypot(way.y(), way.z()), 0.05) << way.transpose();
 
-  // Into the bone, with its first button: 1 N presses, whatever the cap says.
+  // Into the bone, with its first button: 1 N presses, whatever the deflection.
   ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0, 1),
                            [this]
                            {
@@ -169,7 +169,7 @@ TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
   };
   EXPECT_TRUE(at(0.5 * hand)) << (axes().transpose() * (tool() - begin)).transpose();
 
-  // Another scale does not move the tool; from there on it holds.
+  // Changing the scale does not move the tool; it applies from there on.
   scale->setValue(1.0);
   ASSERT_TRUE(hasTool());
   EXPECT_TRUE(at(0.5 * hand));
@@ -178,7 +178,7 @@ TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
   glide(server, hand, back);
   EXPECT_TRUE(at(there)) << (axes().transpose() * (tool() - begin)).transpose();
 
-  // While X is held the hand goes alone.
+  // While X is held the device moves without the tool.
   QTest::keyPress(&view(), Qt::Key_X);
   QTest::qWait(100);
   const Vector3d aside = back + Vector3d(10.0, 0.0, 0.0);
@@ -191,7 +191,7 @@ TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
   glide(server, aside, aside + on);
   EXPECT_TRUE(at(there + on));
 
-  // And before what is looked at, wherever the hand is.
+  // In front of the view's centre, wherever the device is.
   QTest::keyClick(&view(), Qt::Key_H);
   ASSERT_TRUE(hasTool());
   EXPECT_TRUE(at(Vector3d::Zero()));
@@ -207,7 +207,7 @@ TEST_F(InputDevices, TheForceStaysWithinTheUsersLimit)
   EXPECT_EQ(limit->maximum(), 3.0);
   EXPECT_FALSE(window().findChild<QDoubleSpinBox*>("thrust")->isEnabled());
 
-  // 1 mm before the bone, then 2 mm of the tool into it: 1 N/mm there, 0.5 N/mm in the hand.
+  // 1 mm in front of the bone, then 2 mm of the tool into it: 1 N/mm there, 0.5 N/mm at the device.
   const auto feels = [&](double newtons)
   {
     return waitFor(
@@ -216,7 +216,7 @@ TEST_F(InputDevices, TheForceStaysWithinTheUsersLimit)
   glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0});
   picture();
   EXPECT_TRUE(feels(2.0)) << forceOf(server.wrench()).transpose();
-  // Another limit takes the tool up where it is, without force until the hand presses on.
+  // Another limit takes the tool up in place, without force until the device presses on.
   limit->setValue(0.7);
   EXPECT_TRUE(feels(0.0));
   ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
@@ -252,7 +252,7 @@ TEST_F(InputDevices, AServerThatCannotBeUsedIsNamedAndTheWindowGoesOnMeanwhile)
   EXPECT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
   EXPECT_TRUE(message().contains("ended by itself with status 3")) << message().toStdString();
 
-  // Nobody answers for this one. The mouse drills as soon as it is wanted again.
+  // This server never answers. The mouse drills as soon as it is chosen again.
   choose(QString::fromStdString("silent-" + serverName()));
   ASSERT_TRUE(waitFor([this] { return started("silent-" + serverName()); }));
   choose("Mouse");
@@ -278,7 +278,7 @@ TEST_F(InputDevices, APedalDrillsWithTheMouse)
   EXPECT_TRUE(library().open("ball").strokes.front().info.camera.has_value());
 }
 
-// It is found a moment after it was plugged in; the mouse need not move for it.
+// It is detected shortly after being plugged in; the mouse need not move for that.
 TEST_F(InputDevices, APedalThatComesWhileTheBurrIsUpDrills)
 {
   saveBall("ball");
@@ -346,7 +346,7 @@ TEST_F(InputDevices, AServerThatIsKilledComesBackAndEndsWithTheWindow)
   ASSERT_TRUE(hasTool());
   const int first = processOf(serverName());
   ASSERT_GT(first, 0);
-  QTest::qWait(700); // beyond the time in which a start is no fault
+  QTest::qWait(700); // longer than the startup time, in which there is no fault
   ASSERT_EQ(::kill(first, SIGKILL), 0);
   auto& fault = *window().findChild<QLabel*>("touchFault");
   EXPECT_TRUE(waitFor([&] { return !fault.text().isEmpty(); }));

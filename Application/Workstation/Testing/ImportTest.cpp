@@ -31,7 +31,7 @@ TEST_F(Import, ADroppedFileIsOnTheScreenAndInTheLibrary)
   const QImage image = picture();
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
 
-  dropPath(file); // once more: a case of its own
+  dropPath(file); // again: a case of its own
   ASSERT_TRUE(waitFor([this] { return library().contains("Left ear  2 2"); }));
 }
 
@@ -119,7 +119,7 @@ TEST_F(Import, AFolderWithoutImagesIsRefusedInOneLine)
 TEST_F(Import, CancelLeavesNoCase)
 {
   openWindow();
-  window().findChild<QPushButton*>("primary")->click(); // the sample patient takes seconds
+  window().findChild<QPushButton*>("primary")->click(); // making the sample patient takes seconds
   QProgressDialog* progress = nullptr;
   ASSERT_TRUE(waitFor(
       [&]
@@ -155,7 +155,7 @@ void writePatient(const fs::path& folder)
   phantom::writeSamplePatient(folder, options);
 }
 
-// Clicks the button of the next box whose words contain `button`; what the box says.
+// Clicks the button of the next message box whose text contains `button`; returns the box's text.
 QString answered(const std::function<void(const std::function<void(QMessageBox&)>&)>& onMessage,
                  const QString& button, const std::function<void()>& act)
 {
@@ -207,7 +207,7 @@ TEST_F(Import, LabelsAndMeshesComeToTheOpenCaseAndCanBeDropped)
   EXPECT_TRUE(window().model().ready());
   EXPECT_EQ(view().picture().camera().position, camera.position);
   EXPECT_FALSE(library().open("ct").labels.empty());
-  // "No" is no.
+  // Cancelling has no effect.
   const auto parts = window().model().value().meshes.size();
   answered([this](const auto& react) { onMessage(react); }, "Cancel",
            [this] { dropPath(folder() / "sample" / "meshes" / "facial_nerve.obj"); });
@@ -251,7 +251,7 @@ TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
   EXPECT_TRUE(library().list().empty());
 }
 
-// An MR or a cone beam as a plain file: nobody can tell.
+// An MR or a cone beam as a plain file: undetermined.
 TEST_F(Import, InDoubtTheUserIsAsked)
 {
   saveBall("ball");
@@ -271,7 +271,7 @@ TEST_F(Import, InDoubtTheUserIsAsked)
   const fs::path file = plain("t2.nrrd");
   openWindow();
   QString text;
-  onMessage( // what it is, and then whether it is to be added
+  onMessage( // what it is, and then whether to add it
       [this, &text](QMessageBox& box)
       {
         text = box.text();
@@ -308,7 +308,7 @@ TEST_F(Import, ACtBeginsACaseAndTheOpenOneIsSafe)
   EXPECT_TRUE(waitFor([this] { return window().model().value().applied() == 0; }));
   EXPECT_TRUE(window().model().unsaved());
   dropPath(file);
-  dropPath(file); // while it is looked at
+  dropPath(file); // while it is being examined
   ASSERT_TRUE(waitFor([this] { return window().model().value().name == "ear"; }));
   EXPECT_TRUE(settled());
   const auto ball = library().open("ball");
@@ -333,7 +333,7 @@ TEST_F(Import, FilesThatAreDroppedTogetherMakeOneCase)
   EXPECT_EQ(saved.meshes.size(), 1u);
 }
 
-// A file's name may be a patient's; nobody else would know what the structure is.
+// A file name may be a patient's; only the user knows what the structure is.
 TEST_F(Import, AStructureWithoutANameIsAskedForOne)
 {
   saveBall("ball");
@@ -362,12 +362,12 @@ TEST_F(Import, AStructureWithoutANameIsAskedForOne)
   EXPECT_TRUE(settled());
 }
 
-// What was assumed of a file stays on the screen until it was read.
+// What was assumed about a file stays visible until acknowledged.
 TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
 {
   const fs::path file = folder() / "beam.nrrd";
   auto image = std::make_shared<volume::Volume<std::int16_t>>(ballCase("x").ct.geometry);
-  for (std::size_t n = 0; n < image->size(); ++n) // counts from 0: no Hounsfield units
+  for (std::size_t n = 0; n < image->size(); ++n) // starts at 0: no Hounsfield units
     image->data()[n] = static_cast<std::int16_t>(n % 64 < 32 ? n % 97 : 2000 + n * 7919 % 3001);
   imaging::writeVolume(file, *image);
   openWindow();

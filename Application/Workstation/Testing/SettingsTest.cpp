@@ -67,7 +67,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
   EXPECT_EQ(view.light().falloff, 0.0);
   EXPECT_EQ(view.light().wetness, 0.0);
   EXPECT_EQ(view.stereo(), rendering::StereoMode::None);
-  EXPECT_EQ(view.rig().eyeSeparation, 0.0); // held within its limits, as a user's number is
+  EXPECT_EQ(view.rig().eyeSeparation, 0.0); // clamped to its limits, as a user's value is
   EXPECT_FALSE(settings.thrust());
   openWindow();
 }

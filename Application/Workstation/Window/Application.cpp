@@ -11,7 +11,7 @@ namespace petrous::workstation
 namespace
 {
 
-// Queued: the receiver may be half gone.
+// Queued: the receiver may be partly destroyed.
 void notifyApplication(const QString& why)
 {
   auto* application = qobject_cast<Application*>(QCoreApplication::instance());
@@ -52,7 +52,7 @@ void guarded(const std::function<void()>& work,
       notify(QObject::tr("An unexpected fault."));
     }
   }
-  catch (...) // no memory even for words
+  catch (...) // no memory even for a message
   {
   }
 }

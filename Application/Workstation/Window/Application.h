@@ -7,8 +7,8 @@
 namespace petrous::workstation
 {
 
-/// The application, out of whose event handlers no exception gets: it is told instead, and the
-/// window goes on. Qt's own loop would end the program, and what was drilled with it.
+/// Reports exceptions of event handlers instead of letting them escape: Qt's own loop would end the
+/// program, and lose unsaved removal.
 class Application : public QApplication
 {
   Q_OBJECT
@@ -18,18 +18,18 @@ public:
   bool notify(QObject* receiver, QEvent* event) override;
 
 signals:
-  void faulted(const QString& why); ///< queued; in the order in which they came
+  void faulted(const QString& why); ///< queued; in order
 };
 
-/// An exception in words. Texts of other libraries may carry patient data; they are left out.
+/// An exception as text. Messages of other libraries may contain patient data; they are left out.
 QString toString(const std::exception& error);
 
-/// Runs what must not throw: the whole of a thread, a callback of another library. What it throws
-/// is told by `tell`, in words.
+/// Runs what must not throw: a thread's function, a callback of another library. Exceptions are
+/// passed to `tell` as text.
 void guarded(const std::function<void()>& work,
              const std::function<void(const QString&)>& tell) noexcept;
 
-/// The same, told where the application tells its own (Application::faulted), from any thread.
+/// As above, reporting via Application::faulted; thread-safe.
 void guarded(const std::function<void()>& work) noexcept;
 
 } // namespace petrous::workstation

@@ -24,7 +24,7 @@ void BackgroundWork::start(Work work)
   drop();
   m_token = std::make_shared<core::CancelToken>();
   m_thread = std::thread([this, work = std::move(work)] { guarded([&] { run(work); }); });
-  m_busy = true; // what it posts is heard later
+  m_busy = true; // what it posts is handled later
 }
 
 void BackgroundWork::cancel()
@@ -43,11 +43,11 @@ void BackgroundWork::wait()
 {
   if (m_thread.joinable())
     m_thread.join();
-  ++m_number; // what is still on its way is of no interest
+  ++m_number; // pending results are ignored
   m_busy = false;
 }
 
-// m_number changes on the window's thread only after the work's thread ended.
+// m_number changes in the window's thread only after the worker thread ended.
 void BackgroundWork::post(Reply what)
 {
   QMetaObject::invokeMethod(
@@ -70,7 +70,7 @@ void BackgroundWork::end(Reply what)
       });
 }
 
-// Whoever hears it may be slower than the work.
+// The receiver may be slower than the task.
 void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fraction,
                           const std::string& text)
 {

@@ -13,35 +13,35 @@
 namespace petrous::workstation
 {
 
-/// One long piece of work at a time on a thread of its own. What comes of it is handled on the
-/// thread of the window, in the order in which it came.
+/// Runs one task at a time in a separate thread. Its results are handled in the window's thread, in
+/// order.
 class BackgroundWork : public QObject
 {
   Q_OBJECT
 public:
-  using Reply = std::function<void()>;                      ///< runs on the window's thread
-  using Work = std::function<Reply(const core::Progress&)>; ///< runs on the work's
+  using Reply = std::function<void()>;                      ///< runs in the window's thread
+  using Work = std::function<Reply(const core::Progress&)>; ///< runs in the worker thread
 
   explicit BackgroundWork(QObject* parent = nullptr);
-  ~BackgroundWork() override; ///< cancels, and waits
+  ~BackgroundWork() override; ///< cancels and waits
 
   bool busy() const noexcept { return m_busy; }
 
-  /// Cancels what runs and waits for it; nothing more is heard of that. Exactly one ends the work:
-  /// the reply that it gave, `failed` or `cancelled`.
+  /// Cancels a running task and waits for it, ignoring its results. A task ends with exactly one
+  /// of: the reply that it returned, `failed` or `cancelled`.
   void start(Work work);
-  void cancel();         ///< asks it to end
-  void drop();           ///< cancels and waits; nothing more is heard of it
-  void wait();           ///< waits; nothing more is heard of it
-  void post(Reply what); ///< from the work's thread, while it is under way
+  void cancel();         ///< requests cancellation
+  void drop();           ///< cancels and waits; its results are ignored
+  void wait();           ///< waits; its results are ignored
+  void post(Reply what); ///< from the worker thread, while the task runs
 
 signals:
-  void progressed(double fraction, const QString& text); ///< the latest, where there were more
+  void progressed(double fraction, const QString& text); ///< only the latest of several
   void failed(const QString& why);
   void cancelled();
 
 private:
-  struct Latest // of the progress
+  struct Latest // progress
   {
     std::mutex mutex;
     double fraction = 0.0;
@@ -55,7 +55,7 @@ private:
   std::shared_ptr<core::CancelToken> m_token;
   std::thread m_thread;
   bool m_busy = false;
-  unsigned m_number = 0; // of the work that is heard
+  unsigned m_number = 0; // of the task whose results are handled
 };
 
 } // namespace petrous::workstation

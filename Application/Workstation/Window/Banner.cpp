@@ -11,7 +11,7 @@ namespace petrous::workstation
 
 namespace
 {
-// A line cannot be broken within a word, such as the name of a file in the library.
+// Lines cannot be broken within a word, such as the name of a library file.
 QString elided(QString text)
 {
   static const QRegularExpression longWord("(\\S{16})\\S{9,}(\\S{16})");

@@ -10,8 +10,7 @@ class QLabel;
 namespace petrous::workstation
 {
 
-/// A line above the pictures that says what must be known, with what can be done about it. It waits
-/// for nobody: the window goes on beneath it.
+/// A non-modal message above the views, with buttons for what can be done about it.
 class Banner : public QFrame
 {
   Q_OBJECT
@@ -21,14 +20,14 @@ public:
     Notice,
     Warning
   };
-  /// `name` is the object's. Hidden to begin with.
+  /// `name` is the object name. Initially hidden.
   Banner(const QString& name, Kind kind, QWidget* parent = nullptr);
 
   void setText(const QString& text);
   QString text() const;
-  QString shownText() const; ///< long words without their middle; the tooltip has the whole
+  QString shownText() const; ///< long words elided in the middle; the tooltip has the full text
 
-  /// A button at the right; `name` is the object's. What it does may hide the banner.
+  /// Adds a button at the right; `name` is the object name. `act` may hide the banner.
   void addButton(const QString& name, const QString& text, const std::function<void()>& act);
   void setButtonVisible(const QString& name, bool visible);
 

@@ -9,22 +9,22 @@ namespace petrous::workstation
 
 class Banner;
 
-/// Banners above the pictures. They have room of their own there; while a tool is in the hand that
-/// room stays as it is, and what comes then lies over the pictures: a picture that is pushed down
-/// would slip under a pointer that rests.
+/// Banners above the views. They have space reserved in the layout; while a tool is in use that
+/// space is fixed, and new banners overlay the views: otherwise a view would move under a resting
+/// pointer.
 class BannerStack : public QWidget
 {
   Q_OBJECT
 public:
-  /// `over`: at whose upper edge it lies.
+  /// `over`: the widget at whose upper edge it is placed.
   explicit BannerStack(QWidget& over);
 
   void add(Banner* banner);
-  QWidget* room() const { return m_room; } ///< for the layout of `over`, above the pictures
-  void setHeld(bool held);                 ///< a tool is in the hand
+  QWidget* room() const { return m_room; } ///< for the layout of `over`, above the views
+  void setHeld(bool held);                 ///< a tool is in use
 
 signals:
-  void covers(int pixels); ///< of the pictures, from above; at each change of sizes
+  void covers(int pixels); ///< height of the views covered, from the top; emitted on each resize
 
 protected:
   bool event(QEvent* event) override;

@@ -7,14 +7,14 @@ class QApplication;
 namespace petrous::workstation
 {
 
-/// Numbers have a decimal point, whatever the session's language: in the window as in the command's
-/// answers, files and the distances beside the burr. Qt takes over the session's locale for the C
-/// library too; this takes LC_NUMERIC back, for the libraries that follow it. A comma that is typed
-/// into a number's box becomes the point.
+/// Numbers use a decimal point whatever the session's locale: in the window as in command output,
+/// files and the distances beside the burr. Qt applies the session's locale to the C library too;
+/// this resets LC_NUMERIC, for the libraries that follow it. A comma typed into a number field
+/// becomes a point.
 class DecimalPoint : public QObject
 {
 public:
-  /// After the application, which owns it, and before the first widget.
+  /// Create after the application, which owns it, and before the first widget.
   explicit DecimalPoint(QApplication& application);
 
 protected:

@@ -10,7 +10,7 @@ DiameterBox::DiameterBox(QWidget* parent)
   : QDoubleSpinBox(parent)
 {
   setDecimals(1);
-  setKeyboardTracking(false); // half of a number is none
+  setKeyboardTracking(false); // no values from partial input
 }
 
 void DiameterBox::setDiameters(std::vector<double> diameters)

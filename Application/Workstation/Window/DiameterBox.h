@@ -7,15 +7,14 @@
 namespace petrous::workstation
 {
 
-/// Diameter of a burr, mm, of those that are sold: steps go from one to the next, and what is typed
-/// becomes the nearest.
+/// Burr diameter, mm: steps through the available ones; typed values are rounded to the nearest.
 class DiameterBox : public QDoubleSpinBox
 {
   Q_OBJECT
 public:
   explicit DiameterBox(QWidget* parent = nullptr);
 
-  /// Not empty. The present one becomes the nearest of them.
+  /// Not empty. The current value becomes the nearest of them.
   void setDiameters(std::vector<double> diameters);
 
   void stepBy(int steps) override;
@@ -24,7 +23,7 @@ public:
 private:
   std::vector<double>::const_iterator nearest(double diameter) const;
 
-  std::vector<double> m_diameters; // rising
+  std::vector<double> m_diameters; // ascending
 };
 
 } // namespace petrous::workstation

@@ -7,17 +7,18 @@ class QToolButton;
 namespace petrous::workstation
 {
 
-/// A heading that shows or hides what is below it.
+/// A collapsible section.
 class FoldBox : public QWidget
 {
   Q_OBJECT
 public:
-  /// Takes `inside`; folded to begin with. `name`: of the heading, for tests and style.
+  /// Takes ownership of `inside`; initially collapsed. `name`: object name of the heading, for
+  /// tests and style.
   FoldBox(const QString& title, const char* name, QWidget* inside, QWidget* parent = nullptr);
 
   bool isOpen() const;
   void setOpen(bool open);
-  void setOther(FoldBox* other) { m_other = other; } ///< which folds when this one opens
+  void setOther(FoldBox* other) { m_other = other; } ///< collapses when this one expands
 
 private:
   QToolButton* m_heading;

@@ -66,7 +66,7 @@ QStringList dropped(const QMimeData& data)
   return what;
 }
 
-// What was assumed or left out as the parts of a case were read, each with its part.
+// What was assumed or left out when the parts of a case were read, by part.
 QStringList notesOf(const scene::Case& value)
 {
   QStringList notes;
@@ -135,12 +135,12 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
 MainWindow::~MainWindow()
 {
   m_model.events = {};
-  m_drill->releaseTool();    // before the hands that hold it
-  delete m_registration; // its threads end
+  m_drill->releaseTool();    // before the devices that control it
+  delete m_registration; // ends its threads
   delete m_drill;
   delete m_devices;
-  delete m_nearby;  // asks the model when it is hidden
-  delete m_watcher;  // a server ends now
+  delete m_nearby;  // queries the model when hidden
+  delete m_watcher;  // stops a server
   delete m_picture; // the surgeon's window follows the view
   delete m_keeper;  // its threads must not outlive the model
   delete m_saver;
@@ -214,8 +214,7 @@ QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget
   addDockWidget(Qt::LeftDockWidgetArea, dock);
   dock->toggleViewAction()->setShortcut(key);
   m_actions->addPanelToggle(dock->toggleViewAction());
-  // Asked for, it comes before those on whose tabs it lies.
-  // Not as Qt does it: one that lies behind others on whose tabs it is comes before them.
+  // Unlike Qt's default, a dock hidden behind others in the same tab group is raised.
   QAction* toggle = dock->toggleViewAction();
   disconnect(toggle, SIGNAL(triggered(bool)), dock, nullptr);
   connect(toggle, &QAction::triggered, dock,
@@ -269,7 +268,7 @@ void MainWindow::connectModel()
   const auto say = [this](const QString& line)
   {
     statusBar()->showMessage(line);
-    statusBar()->repaint(); // what takes a while is told before it begins
+    statusBar()->repaint(); // shown before a slow operation begins
   };
   connect(m_drill, &DrillController::statusMessage, this, say);
   connect(m_devices, &ActiveDeviceController::statusMessage, this, say);
@@ -399,7 +398,7 @@ void MainWindow::caseChanged()
   notifyNotes();
 }
 
-// What was assumed or left out as files were read, until somebody has read it.
+// What was assumed or left out when files were read, until it is acknowledged.
 void MainWindow::notifyNotes()
 {
   const QStringList notes = notesOf(m_model.value());
@@ -414,7 +413,7 @@ void MainWindow::notifyNotes()
   m_notesBanner->show();
 }
 
-// Those of the library.
+// The library's burrs.
 void MainWindow::offerBurrs()
 {
   try
@@ -430,7 +429,7 @@ void MainWindow::offerBurrs()
 void MainWindow::maskChanged(const core::IndexBox& box)
 {
   const auto& value = m_model.value();
-  // Shared with the dissection: one thread writes and draws.
+  // Shared with the dissection: a single thread writes and renders.
   m_view->display().maskChanged({value.dissection, &std::as_const(*value.dissection).mask()}, box);
   m_slices->maskChanged(box);
 }
@@ -452,7 +451,7 @@ void MainWindow::stateChanged()
   m_sum->setText(removedText(value, m_model.drilling()));
 }
 
-// Beside the case, which is shown at once.
+// Non-modal: the case is shown at once.
 void MainWindow::notice(const QString& text)
 {
   auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);
@@ -515,7 +514,7 @@ void MainWindow::dropEvent(QDropEvent* event)
   if (what.isEmpty())
     return;
   event->acceptProposedAction();
-  // The program that it comes from must not wait for us.
+  // The source program must not block on us.
   QMetaObject::invokeMethod(
       this, [this, what] { m_keeper->open(what); }, Qt::QueuedConnection);
 }

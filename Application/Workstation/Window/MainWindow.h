@@ -36,16 +36,16 @@ class ThreeDView;
 class WindowActions;
 class WindowSettings;
 
-/// What a window is made with.
+/// Options of the main window.
 struct WindowOptions
 {
-  bool quadBuffer = false;       ///< the driver offers two buffers (see quadBufferOffered)
-  QString settings;              ///< an INI file; empty: the user's own
-  presenters::DeviceSources devices; ///< none: the mouse only
+  bool quadBuffer = false;       ///< quad-buffered stereo is available (quadBufferOffered)
+  QString settings;              ///< an INI file; empty: the user's default
+  presenters::DeviceSources devices; ///< none: mouse only
   int lookForDevicesEvery = 1000;  ///< ms
 };
 
-/// The workstation's window: puts model, views and panels together and passes on what happens.
+/// The workstation's main window: assembles model, views and panels and connects them.
 class MainWindow : public QMainWindow
 {
   Q_OBJECT
@@ -53,11 +53,11 @@ public:
   explicit MainWindow(library::Library library, const WindowOptions& options = {});
   ~MainWindow() override;
 
-  /// What was asked for on the command line: a case or a path; empty: the latest case, if any.
+  /// Opens what was given on the command line: a case or a path; empty: the latest case, if any.
   void begin(const QString& what);
 
   const presenters::WorkstationModel& model() const noexcept { return m_model; }
-  /// Whether files or cases are being read, or written.
+  /// Whether files or cases are being read or written.
   bool busy() const;
 
 protected:
@@ -79,9 +79,9 @@ private:
   void stateChanged();
   void notice(const QString& text);
   void showView(rendering::StandardView view);
-  void stepped(bool back); // an undo, or a redo
+  void stepped(bool back); // by an undo or a redo
   QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
-  bool flush(); // what was drilled
+  bool flush(); // saves what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
 
   presenters::WorkstationModel m_model;

@@ -11,8 +11,8 @@ namespace petrous::workstation
 
 namespace
 {
-// What the palette cannot say. Colours: background 16191d, panel 1c2026, line 2e343c, text d7dce2,
-// accent 3d8fd1, drill e07b39.
+// What a palette cannot express. Colours: background 16191d, panel 1c2026, line 2e343c, text
+// d7dce2, accent 3d8fd1, drill e07b39.
 constexpr const char* kStyleSheet = R"(
 QMainWindow::separator { background: #101317; width: 5px; height: 5px; }
 QSplitter::handle { background: #101317; }

@@ -10,14 +10,14 @@ class QApplication;
 namespace petrous::workstation
 {
 
-/// Dark and quiet, so that the bone is the brightest thing on the screen; numbers with a decimal
-/// point (DecimalPoint.h). Before the first widget.
+/// A dark theme, so that bone is the brightest thing on the screen; numbers with a decimal point
+/// (DecimalPoint.h). Call before the first widget.
 void applyTheme(QApplication& application);
 
-/// The colour that a slice plane has in every view.
+/// The colour of a slice plane in every view.
 QColor planeColor(presenters::SliceOrientation orientation);
 
-/// UTF-8 to Qt and back.
+/// Conversion between UTF-8 and QString.
 QString words(const std::string& text);
 std::string bytes(const QString& text);
 

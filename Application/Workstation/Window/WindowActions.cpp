@@ -147,7 +147,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   views->setPopupMode(QToolButton::InstantPopup);
   bar->addWidget(views);
   window.addToolBar(bar);
-  window.addToolBarBreak(); // in one row with the next two a narrow window would hide some
+  window.addToolBarBreak(); // in one row with the next two, a narrow window would hide some
   window.addToolBar(&drillBar);
   window.addToolBar(&deviceBar);
 

@@ -17,18 +17,18 @@ namespace petrous::workstation
 class DrillBar;
 class DeviceToolBar;
 
-/// What the window can do, as actions with their keys, in the menus and the tool bar. What they do
-/// is connected by the window.
+/// The window's actions with their shortcuts, in the menus and the tool bar. The window connects
+/// them.
 class WindowActions : public QObject
 {
   Q_OBJECT
 public:
-  /// Fills the window's menu bar and adds a tool bar and the two bars on top.
-  /// `quadBuffer`: the driver offers two buffers.
+  /// Fills the window's menu bar and adds a tool bar and the two given bars at the top.
+  /// `quadBuffer`: the driver supports quad-buffered stereo.
   WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar, bool quadBuffer);
 
   void addPanelToggle(QAction* action); ///< to the View menu
-  void setCaseOpen(bool open);          ///< greys out what needs a case
+  void setCaseOpen(bool open);          ///< disables what needs a case
 
   QAction* openDicom;
   QAction* openImage;

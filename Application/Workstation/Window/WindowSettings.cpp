@@ -12,7 +12,7 @@ namespace
 
 using rendering::StereoMode;
 
-// By name: a number would change its meaning with the enumeration.
+// Stored by name: numbers would change with the enumeration.
 constexpr std::array<std::pair<StereoMode, const char*>, 5> kModes{{
     {StereoMode::None, "off"},
     {StereoMode::SideBySide, "side-by-side"},

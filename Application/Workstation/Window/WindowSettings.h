@@ -9,22 +9,22 @@
 namespace petrous::workstation
 {
 
-/// What the window keeps from run to run: how hand and picture are set, nothing of any patient. A
-/// value that is missing, or that a hand wrote and nobody understands, is the usual one.
+/// Settings kept between runs: devices and rendering, no patient data. A missing or invalid value
+/// is replaced by the default.
 class WindowSettings
 {
 public:
-  /// `file`: an INI file; empty: the user's own (~/.config/petrous/workstation.conf).
+  /// `file`: an INI file; empty: the user's default (~/.config/petrous/workstation.conf).
   explicit WindowSettings(const QString& file = {});
 
-  /// Lamp and stereo. `quadBuffer`: the driver offers it; otherwise that mode is none.
+  /// Lamp and stereo. `quadBuffer`: supported by the driver; otherwise that mode becomes none.
   void restore(presenters::ViewSettings& view, bool quadBuffer) const;
   void keep(const presenters::ViewSettings& view);
 
   std::optional<double> thrust() const; ///< N
   void keepThrust(double newtons);
 
-  /// Of one hand (presenters::Hand::id).
+  /// Per device (presenters::InputDevice::id).
   std::optional<double> scale(const std::string& hand) const;      ///< mm/mm
   std::optional<double> forceLimit(const std::string& hand) const; ///< N
   void keepScale(const std::string& hand, double scale);

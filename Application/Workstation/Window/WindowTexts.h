@@ -10,13 +10,13 @@ namespace petrous::workstation
 /// What was drilled so far. `drilling`: a stroke is open, whose volume is known when it is closed.
 QString removedText(const scene::Case& value, bool drilling);
 
-/// What a stroke took; "Nothing was cut" for none.
+/// What a stroke removed; "Nothing was cut" for nullptr.
 QString strokeText(const dissection::Stroke* stroke);
 
-/// With a full stop, where it has none.
+/// Adds a full stop if there is none.
 QString sentence(const QString& text);
 
-/// What this program is, as rich text.
+/// Description of the program, as rich text.
 QString aboutText();
 
 } // namespace petrous::workstation

@@ -139,7 +139,7 @@ TEST(StructurePresets, WhatMustNotBeHurtWinsOverlapsAndLumensLose)
 TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
 {
   const TransferFunction bone = *boneLook().transfer;
-  // Cellular bone at the surface's 300 HU, cortical bone 1100 HU above.
+  // Cellular bone at the surface's 300 HU, cortical bone 1100 HU higher.
   EXPECT_FLOAT_EQ(float(bone.at(300.0).color[2]), 0.42F);
   EXPECT_FLOAT_EQ(float(bone.at(1400.0).color[2]), 0.74F);
   EXPECT_LT(bone.at(300.0).specular, bone.at(1400.0).specular);
@@ -147,7 +147,7 @@ TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
   EXPECT_EQ(boneLook().opacity, 1.0F);
 }
 
-// None of the values that are known is measured on these structures: nothing yields by itself.
+// No known stiffness was measured on these structures: none is elastic by default.
 TEST(StructurePresets, YieldOnlyWhereTheCatalogueSaysHow)
 {
   for (const StructureAppearance& look : StructurePresets::builtIn().all())

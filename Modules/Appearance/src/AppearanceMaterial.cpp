@@ -43,7 +43,7 @@ Material materialOf(const StructureAppearance& look, const volume::IntensityScal
 Material lumenMaterial(const StructureAppearance& look, const Material& bone,
                        const volume::IntensityScale& scale)
 {
-  // A lumen holds air: what there is to read is the bone of its wall, in the CT.
+  // A lumen holds air: the transfer function reads the bone of its wall, in the CT.
   StructureAppearance onBone = look;
   onBone.sourceImage.clear();
   Material material = materialOf(onBone, scale);

@@ -68,7 +68,7 @@ std::string plainWords(std::string name)
   return name;
 }
 
-// Runs of letters or digits, in lower case; a capital after a small letter begins a new one.
+// Runs of letters or digits, in lower case; split also at camelCase boundaries.
 std::vector<std::string> wordsOf(const std::string& name)
 {
   std::vector<std::string> words(1);
@@ -116,7 +116,7 @@ StructurePresets::StructurePresets(std::string_view text)
       const StructureAppearance* look = find(name);
       if (!look)
         throw core::InvalidParameter("structure presets: 'first' names no preset '" + name + "'");
-      // "other" stands behind the last of the presets.
+      // "other" has the index after the last preset.
       const auto index =
           look == &m_other ? m_presets.size() : static_cast<std::size_t>(look - m_presets.data());
       first.push_back({entry.at("words").get<std::vector<std::string>>(), index});
@@ -142,7 +142,7 @@ const StructureAppearance* StructurePresets::lookByWord(const std::string& struc
   const std::string name = " " + plainWords(structureName) + " ";
   for (const Words& entry : m_words)
     for (const std::string& word : entry.words)
-      // At a word's start: "mastoid", not "sternocleidomastoid".
+      // At the start of a word: "mastoid", not "sternocleidomastoid".
       if (name.find(" " + word) != std::string::npos)
         return entry.preset < m_presets.size() ? &m_presets[entry.preset] : &m_other;
   return nullptr;
@@ -156,7 +156,8 @@ StructureAppearance StructurePresets::lookFor(const std::string& structureName) 
 
 std::string StructurePresets::knownWords(const std::string& name) const
 {
-  // A catalogue's word may be a stem: "cerebell" of "cerebellum". Surnames go on otherwise.
+  // A catalogue word may be a stem ("cerebell" of "cerebellum"), followed by one of these endings
+  // only, so that surnames do not match.
   const auto is = [](const std::string& word, const std::string& known)
   {
     static const char* const kEndings[] = {"s",  "es", "i",   "y",   "al",  "ar",  "ae",  "um",

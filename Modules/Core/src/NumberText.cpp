@@ -35,7 +35,7 @@ std::optional<T> parse(std::string_view text)
     return std::nullopt;
   if (end.ec == std::errc())
     return value;
-  // Too small for the type is zero, as everywhere; too large is no number.
+  // Underflow gives zero, as in strtod; overflow is not a number.
   if (text.front() == '-')
     text.remove_prefix(1);
   const std::size_t exponent = text.find_first_of("eE");

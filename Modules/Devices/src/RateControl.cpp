@@ -71,8 +71,8 @@ void RateControl::rampTo(const haptics::Motion& rate, double now, double duratio
 
 void RateControl::setDeflection(const SpaceMouseState& state, double now) noexcept
 {
-  // The longer of the last two intervals: translation and rotation may come as a pair of reports,
-  // one right behind the other.
+  // The longer of the last two intervals: translation and rotation may arrive as a pair of reports
+  // in immediate succession.
   const double interval = std::clamp(now - m_reportTime, kShortestRamp, kMaxRamp);
   rampTo(rateOf(state), now, std::max(interval, m_interval));
   m_interval = interval;
@@ -99,7 +99,7 @@ const haptics::Pose& RateControl::advance(double now) noexcept
     rampTo({}, now, kMaxRamp);
 
   const haptics::Motion rate = rateAt(now);
-  // The mean of both ends: exact for a straight ramp.
+  // The mean of both ends: exact for a linear ramp.
   const double step = std::clamp(now - m_now, 0.0, kMaxStep);
   if (m_now > -1e9 && step > 0.0)
   {

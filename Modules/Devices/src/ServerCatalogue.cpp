@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr char kPrefix[] = "petrous-device-";
 constexpr std::size_t kMaxLength = 48;
 
-// Empty where a server cannot be called so.
+// Empty if it is not a valid server name.
 std::string nameOf(const fs::path& program)
 {
   std::string name = program.filename().string();

@@ -10,7 +10,7 @@ namespace petrous::devices
 namespace
 {
 
-// What no device for a hand exceeds; the strongest that are sold give about 40 N and 15 N/mm.
+// Limits for hand-held devices; the strongest on the market give about 40 N and 15 N/mm.
 constexpr double kMaxForce = 200.0;          // N
 constexpr double kMaxTorque = 20000.0;       // N mm
 constexpr double kMaxStiffness = 100.0;      // N/mm

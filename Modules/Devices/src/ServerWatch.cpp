@@ -20,10 +20,10 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr auto kPeriod = std::chrono::milliseconds(10);
 constexpr auto kAsk = std::chrono::milliseconds(50);
-// A longer pause was ours (a debugger, a laptop asleep) and says nothing of the server.
+// A longer pause was ours (a debugger, a suspended laptop) and does not count against the server.
 constexpr double kMaxStep = 0.05; // s
 constexpr int kMaxFailures = 5;
-constexpr double kSettled = 10.0; // s; a server that ran so long may fail anew
+constexpr double kSettled = 10.0; // s; a server that ran this long may fail anew
 
 std::string seconds(double value)
 {
@@ -57,7 +57,7 @@ ServerWatch::~ServerWatch()
 
 haptics::DeviceDescription ServerWatch::awaitReady()
 {
-  // A little longer than the watch's own limit, so that its words are the ones that are thrown.
+  // Slightly longer than the watch's own limit, so that its message is the one thrown.
   const auto end = Clock::now() + Seconds(m_options.startTimeout + 1.0);
   std::unique_lock<std::mutex> lock(m_mutex);
   const auto answered = [this] { return m_description || m_reason; };
@@ -80,7 +80,7 @@ ServedDevice::Status ServerWatch::status() const
 
 void ServerWatch::run()
 {
-  // No memory: out of the thread it would end the program, and the next beat tries again.
+  // Out of memory: escaping the thread would terminate the program; the next beat tries again.
   const auto attempt = [](const auto& what)
   {
     try
@@ -132,7 +132,7 @@ void ServerWatch::lookAfterProcess()
 {
   if (const auto end = m_process.ended())
   {
-    // Why it hung or was refused says more than that it was killed for it.
+    // Why it hung or was refused is more informative than that it was killed for it.
     const std::uint32_t version = __atomic_load_n(&m_block->server_version, __ATOMIC_ACQUIRE);
     if (version != 0 && version != PETROUS_DEVICE_VERSION)
       fail(Reason::VersionMismatch, "speaks version " + std::to_string(version) +
@@ -277,7 +277,7 @@ void ServerWatch::giveUpOn(Link link, Reason reason, const std::string& words)
 {
   fail(reason, words);
   setLink(link);
-  // A server that hangs cannot be asked; one of ours is ended, so that it can be started again.
+  // A hung server cannot be asked to end; one of ours is killed so that it can be restarted.
   if (link == Link::Hung && mayRestart())
     m_process.signal(SIGKILL);
 }

@@ -158,8 +158,8 @@ TEST(History, RefusesWhatContradictsItself)
   EXPECT_THROW(History::line(2, 3), core::InvalidParameter);
 }
 
-// Every stroke that was ever made is led to by a branch, and the way between two states is right,
-// whatever one does.
+// Under random operations every stroke remains reachable from a branch, and the path between any
+// two states is correct.
 TEST(History, LosesNoStrokeInRandomUse)
 {
   std::mt19937 random(3);

@@ -21,7 +21,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadius = 2.0;
 constexpr double kResistance = 2000.0; // N/mm^2
 
-// Bone below z = 0, whose surface lies between voxels.
+// Bone below z = 0, with its surface between voxels.
 class BoneBelow
 {
 public:
@@ -41,7 +41,7 @@ public:
     return {{n, n, n}, Vector3d::Constant(h), {-4.0, -4.0, -4.0 - 0.3 * h}};
   }
 
-  // Takes the bite, and says what the field lost by another quadrature.
+  // Applies the step and returns the removed volume by an independent quadrature.
   double take(const RemovalStep& bite)
   {
     const volume::CutMask before = mask;
@@ -83,7 +83,7 @@ private:
 
 } // namespace
 
-// A ball that goes d into a half-space takes the cap pi d^2 (r - d/3).
+// A ball advanced by d into a half-space removes the cap pi d^2 (r - d/3).
 TEST(RemovalDepthSolver, GoesAsDeepAsACapOfTheVolumeIs)
 {
   for (const double h : {0.15, 0.3})
@@ -113,13 +113,13 @@ TEST(RemovalDepthSolver, GoesAsDeepAsACapOfTheVolumeIs)
       }
       EXPECT_LT(left, 0.1 * volume);
       EXPECT_GE(left, 0.0);
-      // Of the volume at most a tenth is left; the depth goes with its root.
+      // At most a tenth of the volume remains; depth goes with its square root.
       EXPECT_NEAR(end + RemovalDepthSolver::kClearance * h, depth, 0.06 * depth + 0.01 * h);
     }
 }
 
-// Of a cap that a ball takes from a half-space: the middle is the surface's normal, the spread the
-// mean of r sin(t) over the cap's volume, between the surface at (r - d)/cos(t) and r.
+// Cap removed by a ball from a half-space: the middle is the surface normal, the spread the mean of
+// r sin(t) over the cap's volume, between the surface at (r - d)/cos(t) and r.
 TEST(RemovalDepthSolver, SaysWhereTheBurrTakesIt)
 {
   for (const double h : {0.1, 0.15, 0.3, 0.4})
@@ -148,7 +148,7 @@ TEST(RemovalDepthSolver, SaysWhereTheBurrTakesIt)
     }
 }
 
-// The same cap, by places drawn at random in what the ball takes.
+// The same cap, by Monte Carlo sampling of the removed volume.
 TEST(RemovalDepthSolver, SaysHowFarFromTheSpindleTheBurrTakesIt)
 {
   const double h = 0.15;
@@ -193,7 +193,7 @@ TEST(RemovalDepthSolver, TakesNothingFromAirNorBeyondItsReach)
   EXPECT_FALSE(bone.search.ahead(bone.mask, {0.0, 0.0, 3.5}, -Vector3d::UnitZ()));
   EXPECT_NEAR(*bone.search.ahead(bone.mask, {0.0, 0.0, 2.1}, -Vector3d::UnitZ()), kResistance,
               1e-9);
-  // Outside the grid, across its border, and far larger than it.
+  // Outside the grid, across its border, and far larger than the grid.
   for (const double x : {-4.0, 30.0})
   {
     auto wish = BoneBelow::down(kRadius, 0.1);
@@ -221,8 +221,8 @@ TEST(RemovalDepthSolver, LeavesWhatIsProtected)
   EXPECT_TRUE(bite->capped);
 }
 
-// A ball that already lies deep in what it should take (as the centre of a burr does that is held
-// at the surface) takes no more than the work allows.
+// A ball that already penetrates the tissue deeply (like the centre of a burr that is held at the
+// surface) removes no more than the work allows.
 TEST(RemovalDepthSolver, DrawsASunkenBurrBack)
 {
   BoneBelow bone(0.3);
@@ -236,7 +236,7 @@ TEST(RemovalDepthSolver, DrawsASunkenBurrBack)
       break;
     taken += bone.take(*bite);
   }
-  // All that the ball overlapped: a cap of 1.7 mm.
+  // Everything that the ball overlapped: a cap of 1.7 mm.
   const double r = kRadius + RemovalDepthSolver::kClearance * 0.3;
   EXPECT_NEAR(taken, kPi * 1.7 * 1.7 * (r - 1.7 / 3.0), 0.5);
 }
@@ -270,8 +270,8 @@ TEST(RemovalDepthSolver, TissuesShareTheWork)
   EXPECT_NEAR(work, spent, 0.01 * spent);
 }
 
-// A burr that only grazes the hollow that it has made takes next to nothing; what it takes costs
-// what the tissue does, and is not a rounding of one sum without the other.
+// A burr that barely touches its own cavity removes almost nothing; its work must match the volume,
+// instead of being the rounding error of one of the sums.
 TEST(RemovalDepthSolver, ABiteOfNextToNothingHasItsWork)
 {
   BoneBelow bone(0.5);
@@ -306,7 +306,7 @@ TEST(RemovalDepthSolver, FindsTheSameWithoutItsMemory)
     const auto first = bone.search.find(bone.mask, wish);
     const auto second = fresh.find(bone.mask, wish);
     ASSERT_TRUE(first && second) << n;
-    // Both within the tenth of the work that may be left.
+    // Both within the tenth of the work that may remain.
     EXPECT_NEAR(first->work, second->work, 0.1 * wish.work) << n;
     EXPECT_NEAR(first->depth, second->depth, 0.02) << n;
     bone.take(*first);

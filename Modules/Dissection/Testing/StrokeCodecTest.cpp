@@ -13,7 +13,7 @@ namespace
 
 const core::GridGeometry kGrid({64, 64, 64}, Vector3d::Constant(0.3), Vector3d::Zero());
 
-// What a stroke of overlapping cuts changed.
+// Deltas of a stroke of overlapping cuts.
 std::vector<dissection::BrickDelta> someDeltas()
 {
   volume::CutMask mask(kGrid);
@@ -57,7 +57,7 @@ TEST(StrokeCodec, GivesEveryVoxelBack)
   EXPECT_TRUE(applied(bytes, dissection::Step::Undo, after).untouched());
 }
 
-// Every 16-bit value, and no likeness from voxel to voxel.
+// Every 16-bit value, without correlation between voxels.
 TEST(StrokeCodec, GivesNoiseBack)
 {
   std::mt19937 random(5);
@@ -142,11 +142,11 @@ TEST(StrokeCodec, RefusesToGiveBackWhatWasNotTaken)
 
 TEST(StrokeCodec, RefusesVoxelsBeyondTheGrid)
 {
-  // Bricks of 16 reach beyond 20 voxels.
+  // Bricks of 16 extend beyond 20 voxels.
   const core::GridGeometry grid({20, 20, 20}, Vector3d::Constant(0.3), Vector3d::Zero());
   const volume::CutMask mask(grid);
   for (int axis = 0; axis < 3; ++axis)
-    for (const int at : {3, 4, 15}) // 19 is the last one
+    for (const int at : {3, 4, 15}) // 19 is the last voxel
     {
       core::Index3 voxel{0, 0, 0};
       voxel[static_cast<std::size_t>(axis)] = at;

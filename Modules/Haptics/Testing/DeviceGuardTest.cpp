@@ -28,7 +28,7 @@ DeviceReading at(int tick)
   return reading;
 }
 
-// Hands the guard sound readings of ticks [from, to) and returns the last judgement.
+// Feeds the guard valid readings of ticks [from, to) and returns the last judgement.
 Judgement feed(DeviceGuard& guard, int from, int to)
 {
   Judgement last;
@@ -37,7 +37,7 @@ Judgement feed(DeviceGuard& guard, int from, int to)
   return last;
 }
 
-// A guard that has been good up to tick 99, then meets this one reading at tick 100.
+// A guard that was good up to tick 99 receives this one reading at tick 100.
 Judgement meet(const DeviceReading& reading)
 {
   DeviceGuard guard;
@@ -143,7 +143,7 @@ TEST(DeviceGuard, TheOtherSignOfAQuaternionIsNoJump)
 TEST(DeviceGuard, TheFastestHandPassesAndAFasterOneDoesNot)
 {
   DeviceReading reading = at(100);
-  reading.pose.position = at(99).pose.position + Vector3d(0, 4.99, 0); // 5 m/s is 5 mm a tick
+  reading.pose.position = at(99).pose.position + Vector3d(0, 4.99, 0); // 5 m/s is 5 mm per tick
   EXPECT_EQ(meet(reading).verdict, DeviceVerdict::Good);
   reading.pose.position = at(99).pose.position + Vector3d(0, 5.01, 0);
   EXPECT_EQ(meet(reading).verdict, DeviceVerdict::Jump);

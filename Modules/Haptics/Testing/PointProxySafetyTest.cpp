@@ -29,7 +29,7 @@ Vector3d randomVector(std::mt19937& random, double size)
   return {x, y, component(random)};
 }
 
-/// Sets the whole mask: 0 takes all tissue away, kUntouched brings it back.
+/// Sets the whole mask: 0 removes all tissue, kUntouched restores it.
 void setAll(const Scene& scene, std::uint16_t value, bool raised)
 {
   auto brick = std::make_shared<volume::CutMask::Brick>();
@@ -45,7 +45,8 @@ void setAll(const Scene& scene, std::uint16_t value, bool raised)
 
 } // namespace
 
-// The centre alone, as a point on plane, ball and torus. Bounds within PHYSICS' first oracle.
+// The centre as a point on plane, ball and torus. Bounds as in ConstrainedProxySurfaceTest or
+// tighter.
 TEST(PointProxy, HoldsTheCentreToTheSurface)
 {
   const double h = 0.2;
@@ -54,7 +55,7 @@ TEST(PointProxy, HoldsTheCentreToTheSurface)
     {
       SCOPED_TRACE(surface.name + (tilted ? " tilted" : ""));
       if (surface.name == "wedge")
-        continue; // in its floor the field is rounded: the test below
+        continue; // at the floor the field is rounded: see the test below
       const Scene scene = sceneOf(scanOf(surface.distance, h, 7.5));
       PointProxy proxy(scene.field, {2.0, 100, 0.0});
       bool placed = false;
@@ -140,7 +141,7 @@ TEST(PointProxy, NeverCrossesAThinPlate)
       const Scene scene = sceneOf(scanOf(plate(normal, thickness * h), h, 9.0));
       PointProxy proxy(scene.field, {2.0, 100, 2.0 / 3.0});
       Vector3d goal = 2.0 * normal;
-      Vector3d velocity = Vector3d::Zero(); // mm a tick; 1 is 1 m/s
+      Vector3d velocity = Vector3d::Zero(); // mm per tick; 1 is 1 m/s
       proxy.place(at(goal));
       for (int t = 0; t < 12500; ++t)
       {

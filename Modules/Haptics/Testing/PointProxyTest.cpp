@@ -41,8 +41,8 @@ std::vector<Vector3d> directions(int count)
   return result;
 }
 
-/// Component along the normal of the unit vectors towards the centre, summed over the points of a
-/// ball's segment: density * integral of cos over the ball beyond a plane at a from the centre.
+/// Normal component of the unit vectors towards the centre, summed over the points of a ball's
+/// segment: density * integral of cos over the ball beyond a plane at a from the centre.
 double segmentSum(double points, double radius, double depth)
 {
   const double a = radius - depth;
@@ -58,7 +58,7 @@ Vector3d randomVector(std::mt19937& random, double size)
   return {x, y, component(random)};
 }
 
-/// Sum of F . dx over a path of the hand that ends where it began, trapezium rule, N mm.
+/// Sum of F . dx over a closed path of the goal, trapezoidal rule, N mm.
 template <typename Path>
 double workOver(PointProxy& proxy, int steps, Path path)
 {
@@ -105,7 +105,8 @@ TEST(PointProxy, FillsTheBallEvenlyWithPoints)
   }
 }
 
-// The superficial force of [Chan2013]: a fixed force for each point of the ball beyond the plane.
+// The superficial force of [Chan2013]: a constant force for each point of the ball beyond the
+// plane.
 TEST(PointProxy, PushesWithTheSegmentOfTheBallThatIsInTissue)
 {
   const double radius = 2.0;
@@ -161,7 +162,7 @@ TEST(PointProxy, AddsTheSpringWhereTheCentreWouldEnter)
   }
 }
 
-// The paper's Figure 4: what goes wrong with points alone, and does not with the proxy.
+// Figure 4 of the paper: what fails with points alone, and does not with the proxy.
 TEST(PointProxy, KeepsItsDirectionInAThinPlateWherePointsAloneTurnRound)
 {
   const double radius = 2.0;
@@ -190,11 +191,11 @@ TEST(PointProxy, KeepsItsDirectionInAThinPlateWherePointsAloneTurnRound)
   EXPECT_GT(turned, 20);
 }
 
-// While the centre is free the force has a potential; beyond a plane or a ball as well.
+// While the centre is free the force has a potential; likewise beyond a plane or a ball.
 TEST(PointProxy, GivesAndTakesTheSameOverClosedPaths)
 {
   const double radius = 2.0;
-  const double stored = kStiffness * radius * radius; // scale of the energies, N mm
+  const double stored = kStiffness * radius * radius; // energy scale, N mm
   const Vector3d normal = Vector3d(0.3, -0.5, 0.8).normalized();
   const Vector3d along = normal.unitOrthogonal();
   const Vector3d across = normal.cross(along);

@@ -12,7 +12,7 @@ inline double air(const Eigen::Vector3d&)
   return -2.0;
 }
 
-/// An occupancy whose 1/2 surface is the solid's, on a grid.
+/// An occupancy on a grid whose 1/2 isosurface is the solid's surface.
 inline volume::TissueField::SolidUnion occupancyOf(const SignedDistance& solid,
                                                const core::GridGeometry& grid)
 {
@@ -35,7 +35,7 @@ struct SoftPart
   double stiffness; ///< N/mm
 };
 
-/// Soft structures in a cube of `half` mm, and bone or air round them.
+/// Soft structures in a cube of `half` mm, surrounded by bone or air.
 inline Scene softScene(const std::vector<SoftPart>& parts, const SignedDistance& rigid = air,
                        double half = 6.0)
 {

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A needle of that width, up to z = 0.
+// A needle of the given width, up to z = 0.
 SignedDistance spike(double width, const Matrix3d& turn = Matrix3d::Identity())
 {
   return [=](const Vector3d& at)
@@ -122,8 +122,8 @@ TEST(SolidTool, HandpiecesFaceDoesNotSinkOverASpike)
   }
 }
 
-// A roof under the shaft, `lever` from the burr's centre. The exact answer is the least energy of
-// the coupling at which the axis is one radius from the ridge.
+// A ridge under the shaft, `lever` from the burr's centre. The exact solution is the minimum energy
+// of the coupling with the axis one radius from the ridge.
 TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
 {
   const double h = 0.3;
@@ -151,7 +151,7 @@ TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
     // Force on the tool `force` along the axis' normal, in equilibrium with the springs.
     double low = 0.0;
     double high = 2.0;
-    double angle = 0.0; // of the tool's far end up
+    double angle = 0.0; // of the tool's far end, upwards
     for (int n = 0; n < 60; ++n)
     {
       const double force = 0.5 * (low + high);
@@ -174,7 +174,7 @@ TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
   }
 }
 
-// What stops the tool pushes it: the wrench of the contacts balances the coupling.
+// Whatever stops the tool is rendered: the wrench of the contacts balances the coupling.
 TEST(SolidTool, WhateverStopsTheToolIsFelt)
 {
   const double h = 0.2;

@@ -14,7 +14,7 @@ namespace
 
 using Solid = volume::TissueField::SolidUnion;
 
-// A smoothed union as makeSmoothedUnion has it: 1/2 + d / (2 sqrt(3)), d in its voxels.
+// A smoothed union as from makeSmoothedUnion: 1/2 + d / (2 sqrt(3)), d in its voxels.
 Solid unionOn(const core::GridGeometry& grid, const SignedDistance& structure)
 {
   auto occupancy = std::make_shared<volume::Volume<float>>(grid);
@@ -43,7 +43,7 @@ core::GridGeometry turnedBox(const Vector3d& half, double h, const Matrix3d& tur
 
 } // namespace
 
-// What lies between the voxels of the CT is felt all the same.
+// Features between the voxels of the CT are felt as well.
 TEST(SolidUnion, ShaftDoesNotSinkIntoAThinStructureOnAFinerGrid)
 {
   const double h = 0.4;
@@ -71,7 +71,7 @@ TEST(SolidUnion, ShaftDoesNotSinkIntoAThinStructureOnAFinerGrid)
     }
 }
 
-// Coarser than the CT, as a structure drawn on an MR.
+// Coarser than the CT, like a structure segmented on MR.
 TEST(SolidUnion, ShaftDoesNotSinkIntoAStructureOnACoarserGrid)
 {
   const Matrix3d turn =
@@ -85,7 +85,7 @@ TEST(SolidUnion, ShaftDoesNotSinkIntoAStructureOnACoarserGrid)
   EXPECT_GT(result.stretch, 1.0) << "the structure must hold it";
 }
 
-// Truth: volume::TissueField, in which each operand is interpolated by itself.
+// Ground truth: volume::TissueField, in which each operand is interpolated separately.
 TEST(SolidUnion, SamplesLieOnTheSurface)
 {
   const double h = 0.3;
@@ -133,7 +133,7 @@ TEST(SolidUnion, SamplesLieOnTheSurface)
         const Vector3d voxel = box.voxelFromPatient(place);
         const double border =
             0.25 * std::min(voxel.minCoeff(), (last - voxel).minCoeff()); // of the scan
-        // On the face of the scan f jumps to air.
+        // On the face of the scan f is discontinuous.
         const Vector3d nearer = voxel.cwiseMax(1e-4).cwiseMin(last - Vector3d::Constant(1e-4));
         const double f = scene.tissue->value(box.patientFromVoxel(nearer));
         EXPECT_NEAR(std::min(f, border), 0.0, 2e-3) << voxel.transpose();
@@ -144,7 +144,7 @@ TEST(SolidUnion, SamplesLieOnTheSurface)
   }
 }
 
-// The surface that is nearest to the tool decides alone at which height it rests.
+// Only the surface nearest to the tool determines the height at which it rests.
 TEST(SolidUnion, RestsOnBoneAsIfNoStructureLayBelow)
 {
   const double h = 0.3;

@@ -29,7 +29,7 @@ PickRay through(const Vector3d& point)
   return {kEye, (point - kEye).normalized()};
 }
 
-/// A pointer, a servo and a block of bone below z = 0: 1000 ticks a second, a frame every 16.
+/// A pointer, a servo and a block of bone below z = 0: 1000 ticks per second, one frame per 16.
 class Session
 {
 public:
@@ -114,7 +114,7 @@ public:
   TickRecord record;
 };
 
-// Into a hole at `mouth`; then the button is let go.
+// Drills a hole at `mouth`, then releases the button.
 void drillInto(Session& session, const Vector3d& mouth)
 {
   session.aim.point(through(mouth));
@@ -211,7 +211,7 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   session.run(100);
   session.aim.wheel(10.0, false);
   session.run(300);
-  session.now += 0.3; // the machine slept; the tool is taken up where it is, without force
+  session.now += 0.3; // after a suspend: the tool is re-anchored where it is, without force
   session.run(1);
   EXPECT_EQ(session.fault(), ServoFault::Stalled);
   const PickRay line = through({4.0, 3.0, 0.0});
@@ -225,7 +225,7 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   EXPECT_NEAR(session.force().z(), 1.0, 0.05);
 }
 
-// The burr lies in a hole of its own size; without the button the pointer goes where it likes.
+// The burr is in a hole of its own size; without the button the pointer is free to leave.
 TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
 {
   for (const double way : {4.0, 7.0, 9.5})
@@ -246,7 +246,7 @@ TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
     }
     EXPECT_LT(besideLine(session.tool(), line), 0.2);
     EXPECT_NEAR(session.tool().z(), kRadius + 1.0, 0.1);
-    EXPECT_LT(highest, kRadius + 3.0); // it lifts, and does not fly about
+    EXPECT_LT(highest, kRadius + 3.0); // lifts without overshooting
     EXPECT_EQ(session.force().norm(), 0.0);
   }
 }
@@ -255,7 +255,7 @@ TEST(PointerDrilling, ThePointerAtTheMenuPullsNoHarderThanTheThrust)
 {
   Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
   drillInto(session, {-4.0, 0.0, 0.0});
-  session.aim.point(through({60.0, 80.0, 0.0})); // there is nothing
+  session.aim.point(through({60.0, 80.0, 0.0})); // no tissue there
   for (int n = 0; n < 1500; ++n)
   {
     session.run(1);
@@ -265,7 +265,7 @@ TEST(PointerDrilling, ThePointerAtTheMenuPullsNoHarderThanTheThrust)
   EXPECT_LT(besideLine(session.tool(), through({60.0, 80.0, 0.0})), simulation::Servo::kFarthest);
 }
 
-// A drag with the button down over the rim of a cavity, in which the tool is held by its shaft.
+// Dragging with the button pressed over the rim of a cavity, in which the shaft holds the tool.
 TEST(PointerDrilling, TheForceIsTheThrustWhereverAPressedPointerGoes)
 {
   Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
@@ -285,18 +285,17 @@ TEST(PointerDrilling, TheForceIsTheThrustWhereverAPressedPointerGoes)
   EXPECT_LT(besideLine(session.tool(), through({-4.0 + 0.2 * 59, 5.9, 0.0})), 0.5);
 }
 
-// Of a tool that is taken up where its place has no room for shaft and handpiece, or is itself in
-// tissue.
+// For a tool placed where shaft and handpiece do not fit, or in tissue.
 TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
 {
   Session session(Mode::Surface);
   AimSettings settings = session.aim.settings();
-  settings.tilt = 80.0; // the shaft lies nearly along the bone, and the handpiece below its surface
+  settings.tilt = 80.0; // the shaft is nearly parallel to the bone, the handpiece below its surface
   session.aim.setSettings(settings);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-9.0, 9.0), angle(-180.0, 180.0);
   session.aim.point(through({9.0, 0.0, 0.0}));
-  session.run(50); // the hand is judged sound
+  session.run(50); // until the device counts as valid
   for (int n = 0; n < 30; ++n)
   {
     settings.turn = angle(random);
@@ -315,8 +314,7 @@ TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
 
 TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
 {
-  // The hole runs under the bone, as seen from the eye: there is no way out along the line of
-  // sight.
+  // The hole runs under the bone, seen from the camera: no way out along the line of sight.
   const auto bone = boneOf(
       [](const Vector3d& p)
       {
@@ -342,7 +340,8 @@ TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
   EXPECT_LT(besideLine(session.tool(), line), 0.2);
 }
 
-// Over an edge of bone, with the button held: it drilled the floor below in the same stroke.
+// Over an edge of bone with the button pressed: it used to drill the floor below in the same
+// stroke.
 TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
 {
   const auto bone = boneOf([](const Vector3d& p) { return (p.x() < 0.0 ? 5.0 : -9.0) - p.z(); });
@@ -359,18 +358,18 @@ TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
   }
   EXPECT_EQ(session.run(300).drill, 0);
   EXPECT_EQ(session.force().norm(), 0.0);
-  session.aim.press(PointerToolController::Press::None); // anew it goes down
+  session.aim.press(PointerToolController::Press::None); // pressed again, it goes down
   session.run(300);
   session.aim.press(PointerToolController::Press::Drill);
   EXPECT_EQ(session.run(500).drill, 1);
   EXPECT_LT(session.tool().z(), kRadius - 8.0);
 }
 
-// By the wheel: from a line that grazes the bone, where the ball has no room at its place, and from
-// a place that the pointer has left.
+// In depth mode: from a ray that grazes the bone, where the ball does not fit at its position, and
+// from a position that the pointer has left.
 TEST(PointerDrilling, AWheelsToolBeginsBeforeTheBone)
 {
-  // A slope of 78 degrees, seen from above.
+  // A slope of 78 degrees, viewed from above.
   const auto bone = boneOf([](const Vector3d& p) { return -0.2 * p.z() - 0.98 * p.x(); });
   for (const double x : {-1.5, -0.5, 0.5, 1.5})
   {
@@ -384,7 +383,7 @@ TEST(PointerDrilling, AWheelsToolBeginsBeforeTheBone)
     }
     EXPECT_EQ(session.force().norm(), 0.0);
     const Vector3d begun = session.tool();
-    for (int n = 0; n < 40; ++n) // the pointer goes over the bone
+    for (int n = 0; n < 40; ++n) // the pointer moves over the bone
     {
       session.aim.point(through({x - 0.15 * n, 0.0, 0.0}));
       session.run(16);

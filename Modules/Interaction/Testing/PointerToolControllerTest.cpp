@@ -24,7 +24,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
-// Looks down at the origin from 200 mm; right is x, up is y.
+// From 200 mm above the origin; right is x, up is y.
 core::CameraPose fromAbove()
 {
   core::CameraPose camera;
@@ -118,7 +118,7 @@ TEST(PointerToolController, PressesAlongTheLineOfSightByConstantThrust)
   aim.apply(parameters);
   EXPECT_EQ(parameters.constantThrust, Parameters::kPointer | Parameters::kPressed);
   EXPECT_EQ(parameters.thrust, 1.0);
-  // From the burr's place to the target, away from the eye.
+  // From the burr's position to the target, away from the camera.
   expectNear(Vector3d(parameters.approach), target - place(aim));
   EXPECT_EQ(aim.buttons() & parameters.drillButtons, PointerDevice::kDrill);
   EXPECT_TRUE(parameters.valid());
@@ -142,7 +142,7 @@ TEST(PointerToolController, GivesTheServoThePatientsAxes)
   EXPECT_EQ(parameters.camera[2], 0.0);
   EXPECT_EQ(parameters.forceGain, 3.0);
   EXPECT_EQ(parameters.constantThrust, 0);
-  EXPECT_EQ(parameters.maxLead, 5.0F); // the pointer's way aside presses no harder than the wheel
+  EXPECT_EQ(parameters.maxLead, 5.0F); // lateral pointer motion presses no harder than the wheel
 }
 
 TEST(PointerToolController, KeepsItsDepthPastTheEdgeOfTheTissue)
@@ -169,7 +169,7 @@ TEST(PointerToolController, KeepsItsDepthPastTheEdgeOfTheTissue)
   EXPECT_EQ(parameters.constantThrust, Parameters::kPointer | Parameters::kPressed);
 }
 
-// Bone at 0 for x < 10, and another one far below it.
+// Bone at 0 for x < 10, and another surface far below it.
 TEST(PointerToolController, LiftsWhereTheDepthLeapsUnderAPressedPointer)
 {
   const auto ledge = [](double low)
@@ -195,7 +195,7 @@ TEST(PointerToolController, LiftsWhereTheDepthLeapsUnderAPressedPointer)
     aim.apply(parameters);
     EXPECT_EQ(parameters.constantThrust, Parameters::kPointer);
     EXPECT_EQ(parameters.pause, 1) << "a pedal would drill";
-    aim.update(); // the next picture
+    aim.update(); // the next frame
     EXPECT_NEAR(place(aim).z(), height + aim.settings().lift, 1e-9);
 
     aim.point(through({5.0, 0.0, 0.0})); // back on the bone
@@ -205,10 +205,10 @@ TEST(PointerToolController, LiftsWhereTheDepthLeapsUnderAPressedPointer)
     aim.press(Press::None);
     EXPECT_FALSE(aim.lifted());
     EXPECT_LT(place(aim).z(), -50.0); // hovers there
-    aim.press(press);                 // anew
+    aim.press(press);                 // pressed again
     EXPECT_FALSE(aim.lifted());
     EXPECT_LT(place(aim).z(), -50.0);
-    aim.point(through({5.0, 0.0, 0.0})); // the other way
+    aim.point(through({5.0, 0.0, 0.0})); // in the other direction
     EXPECT_TRUE(aim.lifted());
     EXPECT_LT(place(aim).z(), -50.0);
   }
@@ -278,7 +278,7 @@ TEST(PointerToolController, LeavesTheDepthAloneWhileThePointerMoves)
   }
 }
 
-// The depth of the line before would lie in the bone, or beyond it.
+// The previous ray's depth would be in the bone, or beyond it.
 TEST(PointerToolController, ATakenUpToolBeginsBeforeTheTissueInDepthToo)
 {
   double height = -30.0;
@@ -288,7 +288,7 @@ TEST(PointerToolController, ATakenUpToolBeginsBeforeTheTissueInDepthToo)
   aim.setSettings(inMode(Mode::Depth));
   aim.begin();
   EXPECT_FALSE(aim.wanted());
-  height = 0.0; // another place of the patient
+  height = 0.0; // another part of the patient
   aim.point(through({0.0, 0.0, 0.0}));
   expectNear(place(aim), {0.0, 0.0, 3.0});
 }
@@ -304,15 +304,15 @@ TEST(PointerToolController, DoesNotTurnTheWheelIntoDepthOnTheSurface)
 TEST(PointerToolController, PressesNoDeeperThanTheLead)
 {
   PointerToolController aim = aimAt(through({0.0, 0.0, 0.0}), Mode::Depth);
-  aim.see(recordAt({0.0, 0.0, 2.0}), false); // the tissue holds the tool there
+  aim.see(recordAt({0.0, 0.0, 2.0}), false); // held there by the tissue
   aim.wheel(1000.0, false);
   expectNear(place(aim), {0.0, 0.0, 2.0 - 5.0});
   aim.wheel(1.0, false);
   expectNear(place(aim), {0.0, 0.0, -3.0});
-  aim.see(recordAt({0.0, 0.0, 1.0}), false); // it gave way
+  aim.see(recordAt({0.0, 0.0, 1.0}), false); // tissue was removed
   aim.wheel(1000.0, false);
   expectNear(place(aim), {0.0, 0.0, -4.0});
-  aim.see(recordAt({0.0, 0.0, 9.0}), false); // deeper than the lead: it is not pulled out
+  aim.see(recordAt({0.0, 0.0, 9.0}), false); // deeper than the lead: not pulled out
   aim.wheel(1.0, false);
   expectNear(place(aim), {0.0, 0.0, -4.0});
   aim.wheel(-2.0, false);
@@ -340,7 +340,7 @@ TEST(PointerToolController, NudgesOnTheScreen)
     aim.nudge(0.0, -1.0, true);
     expectNear(place(aim), before + Vector3d(0.5, -0.05, 0.0));
     aim.point(through({0.0, 0.0, 0.0}));
-    expectNear(place(aim), before + Vector3d(0.5, -0.05, 0.0)); // it stays on
+    expectNear(place(aim), before + Vector3d(0.5, -0.05, 0.0)); // the nudge is kept
     aim.home();
     expectNear(place(aim), before);
   }
@@ -355,7 +355,7 @@ TEST(PointerToolController, DoesNotMoveTheToolWithTheCamera)
   aim.setCamera(other);
   EXPECT_EQ(aim.wanted()->position, before.position);
   EXPECT_EQ(aim.wanted()->rotation.coeffs(), before.rotation.coeffs());
-  // Pointed at again where it is, it stays there.
+  // When pointed at again at its position, it stays there.
   aim.point({other.position, (before.position - other.position).normalized()});
   expectNear(place(aim), before.position);
 }
@@ -396,8 +396,8 @@ TEST(PointerToolController, KeepsTheTiltOnEveryLineOfSight)
 
 TEST(PointerToolController, LeavesTheLargestBurrInSightAsItStands)
 {
-  // The usual handpiece's near rim must not cross the lines of sight to a burr of 7 mm; they are
-  // parallel for the worst case, an eye far away.
+  // The near rim of the default handpiece must not cross the lines of sight to a 7 mm burr;
+  // parallel lines are the worst case, a camera far away.
   const PointerToolController aim = aimAt(through({0.0, 0.0, 0.0}), Mode::Surface);
   const haptics::BurrShape tool;
   const haptics::Pose pose = *aim.wanted();
@@ -468,8 +468,8 @@ TEST(FirstTissue, FindsTheSurfaceFromFarOutsideTheGrid)
   const auto hit = firstTissue(*field, line);
   ASSERT_TRUE(hit);
   EXPECT_NEAR(line.at(*hit).z(), 0.0, 1e-3);
-  EXPECT_FALSE(firstTissue(*field, {{50.0, 0.0, 200.0}, {0.0, 0.0, -1.0}})); // past it
-  EXPECT_FALSE(firstTissue(*field, {{0.0, 0.0, 200.0}, {0.0, 0.0, 1.0}}));   // away from it
+  EXPECT_FALSE(firstTissue(*field, {{50.0, 0.0, 200.0}, {0.0, 0.0, -1.0}})); // misses
+  EXPECT_FALSE(firstTissue(*field, {{0.0, 0.0, 200.0}, {0.0, 0.0, 1.0}}));   // points away
   const auto inside = firstTissue(*field, {{0.0, 0.0, -5.0}, {0.0, 0.0, -1.0}});
   ASSERT_TRUE(inside);
   EXPECT_EQ(*inside, 0.0);

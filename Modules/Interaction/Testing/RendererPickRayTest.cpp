@@ -12,7 +12,7 @@ using petrous::interaction::testing::Window;
 namespace
 {
 
-// By VTK's own way back from the screen; a pixel's centre is half a pixel from its corner.
+// By VTK's own display-to-world transform; a pixel's centre is half a pixel from its corner.
 Vector3d worldAt(vtkRenderer* renderer, double x, double y, double depth)
 {
   renderer->SetDisplayPoint(x + 0.5, y + 0.5, depth);

@@ -34,7 +34,7 @@ TEST(ToolView, ShowsTheProxyNotTheHand)
   const auto tool = view.update(record);
   ASSERT_TRUE(tool);
   EXPECT_EQ(tool->center, Vector3d(1.0, 2.0, 3.0));
-  // +z of the tool, turned by 0.5 about x.
+  // The tool's +z axis, rotated by 0.5 about x.
   EXPECT_LT((tool->axisToHand - Vector3d(0.0, -std::sin(0.5), std::cos(0.5))).norm(), 1e-12);
   EXPECT_EQ(tool->radius, 1.5);
   EXPECT_FALSE(tool->drilling);
@@ -52,7 +52,7 @@ TEST(ToolView, ShowsNothingBeforeTheFirstSoundReading)
   record.fault = 0;
   EXPECT_TRUE(view.update(record));
   record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
-  EXPECT_TRUE(view.update(record)); // it stays where it is
+  EXPECT_TRUE(view.update(record)); // stays placed
 }
 
 TEST(ToolView, DrawsALineToAHandThatIsFarAhead)
@@ -63,7 +63,7 @@ TEST(ToolView, DrawsALineToAHandThatIsFarAhead)
   camera.position = {0.0, 0.0, 200.0};
   camera.focalPoint = {0.0, 0.0, 0.0};
   camera.viewUp = {0.0, 1.0, 0.0};
-  camera.parallelScale = 30.0; // 4 pixels a millimetre
+  camera.parallelScale = 30.0; // 4 pixels per mm
   picture.setContents({});
   picture.setCamera(camera);
   rendering::OffscreenView view(320, 240);

@@ -21,7 +21,7 @@ namespace
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kSteepest = 80.0; // degrees
-constexpr double kGrazing = 0.05;  // cosine: a line so flat to the screen meets no depth
+constexpr double kGrazing = 0.05;  // cosine below which a ray counts as parallel to the depth plane
 
 void check(bool holds, const char* what)
 {
@@ -29,7 +29,7 @@ void check(bool holds, const char* what)
     throw core::InvalidParameter(std::string("pointer: ") + what);
 }
 
-// Least is left out where it is 0 and `open`.
+// `open`: excludes `least`.
 bool within(double value, double least, double most, bool open = false)
 {
   return value >= least && value <= most && !(open && value == least); // false for NaN
@@ -106,7 +106,7 @@ PickRay PointerToolController::shifted() const
   return line;
 }
 
-// Where the line passes the plane through the last place (else the focal point).
+// Intersection of the ray with the plane through the last position (initially the focal point).
 Vector3d PointerToolController::atDepth(const PickRay& line) const
 {
   const Vector3d forward = m_screen * -Vector3d::UnitZ();
@@ -117,7 +117,7 @@ Vector3d PointerToolController::atDepth(const PickRay& line) const
   return line.at(forward.dot(through - line.origin) / along);
 }
 
-// The screen's axes, turned with the line of sight, then tilted from the eye.
+// The screen's axes, rotated to the line of sight, then tilted away from it.
 Quaterniond PointerToolController::heading(const PickRay& line) const
 {
   const Vector3d back = m_screen * Vector3d::UnitZ();
@@ -128,8 +128,8 @@ Quaterniond PointerToolController::heading(const PickRay& line) const
   return (toEye * tilt).normalized();
 }
 
-// The place for a burr before the tissue, or above the place pressed on last where that is another
-// surface.
+// Position of a burr in front of the tissue, or above the last pressed position if the tissue is
+// another surface.
 Vector3d PointerToolController::onSurface(const PickRay& line, double hit)
 {
   const bool pressed = m_press != Press::None;
@@ -142,7 +142,7 @@ Vector3d PointerToolController::onSurface(const PickRay& line, double hit)
   m_lifted = deeper > m_settings.maxFall || deeper < -m_settings.maxRise;
   if (!m_lifted)
   {
-    // Deeper only as far as the tool went itself: a wall seen pixel by pixel is no leap.
+    // Deeper only as far as the tool itself went: a wall scanned pixel by pixel is not a jump.
     if (!m_pressedAt || !m_tool || deeper < m_sank)
       m_pressedAt = place;
     else
@@ -261,9 +261,9 @@ void PointerToolController::apply(simulation::ServoParameters& parameters) const
   parameters.constantThrust = 0;
   if (onSurface)
     parameters.constantThrust = Parameters::kPointer | (pressing ? Parameters::kPressed : 0);
-  // The wheel presses by its way: so far, and not by the way that the pointer goes aside.
+  // In depth mode only the wheel's lead presses, not lateral motion of the pointer.
   parameters.maxLead = onSurface ? 0.0F : static_cast<float>(m_settings.maxLead);
-  // A burr that is pressed is given a place with its ball's end on the tissue.
+  // A pressed burr is placed with its tip on the tissue.
   Vector3d approach = Vector3d::Zero();
   if (m_line)
     approach = m_settings.burrRadius * m_line->direction;

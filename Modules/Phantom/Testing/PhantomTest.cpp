@@ -204,9 +204,10 @@ TEST(Phantom, AnatomyLiesAsInARightEar)
   EXPECT_LT(centroid("carotid_artery", 0.8).y(), cochlea.y());
   EXPECT_LT(centroid("jugular_bulb", 0.8).z(), vestibule.z() - 8.0);
   EXPECT_GT(centroid("tegmen", 0.8).z(), incus.z());
-  // mastoid segment of the facial nerve: behind and below the middle ear, lateral of the labyrinth
+  // mastoid segment of the facial nerve: posterior and inferior to the middle ear, lateral of the
+  // labyrinth
   EXPECT_LT(phantom().signedDistance("facial_nerve", {-46.0, 5.4, -4.0}), 0.0);
-  // tympanic segment: over the oval window, under the lateral canal
+  // tympanic segment: above the oval window, below the lateral canal
   EXPECT_LT(phantom().signedDistance("facial_nerve", {-43.3, 0.7, 3.2}), 0.0);
   EXPECT_GT(stapes.z() + 1.0, 0.0);
   EXPECT_LT(stapes.z(), 3.2 - 1.0);
@@ -287,7 +288,7 @@ TEST(Phantom, VolumesAgreeWithTheLabels)
 
 TEST(Phantom, VolumeOfTheVestibuleIsThatOfItsEllipsoid)
 {
-  // half axes 2, 2.7, 2.4, less what the footplate's rim takes
+  // half axes 2, 2.7, 2.4, minus the volume of the footplate's rim
   const double truth = 4.0 / 3.0 * kPi * 2.0 * 2.7 * 2.4;
   EXPECT_NEAR(phantom().volume(phantom().indexOf("vestibule"), earBox()), truth, 0.003 * truth);
 }

@@ -25,7 +25,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with the test.
+/// A temporary folder that is removed after the test.
 class Folder
 {
 public:
@@ -48,7 +48,7 @@ private:
   fs::path m_path;
 };
 
-/// A small volume round the labyrinth: quick, and it holds most structures.
+/// A small volume around the labyrinth: fast, and it contains most structures.
 SampleOptions small()
 {
   SampleOptions options;
@@ -198,7 +198,7 @@ TEST(SamplePatient, CtIsWhereAndWhatItSays)
     instances.insert(slice.instance);
   }
   EXPECT_EQ(instances.size(), ct.size());
-  // the vestibule is wide enough to hold a voxel without partial volume
+  // the vestibule is wide enough to contain a voxel without partial volume
   const Eigen::Vector3d voxel = grid.voxelFromPatient({-38.4, 1.0, 1.4});
   const auto index = [&](int a) { return static_cast<std::size_t>(std::lround(voxel[a])); };
   EXPECT_NEAR(ct[index(2)].pixels[index(1) * 44 + index(0)] - 1024.0, 12.0, 30.0);
@@ -272,7 +272,7 @@ TEST(SamplePatient, TiltShearsTheSlicesAgainstTheirPlane)
         from = to + 1;
       }
   }
-  // a voxel shows what lies at its own sheared position
+  // a voxel shows the tissue at its own sheared position
   const Phantom phantom;
   int same = 0;
   int all = 0;

@@ -109,7 +109,7 @@ core::RigidTransform Phantom::mrFromCt() const
 Phantom::Scene::Stack Phantom::Scene::stackAround(const shapes::Point& center, double reach,
                                                   const Stack* among) const
 {
-  // Distances may fall short of a border's true distance: never by more than these shares.
+  // Signed distances may exceed the true distance to a border, at most by these factors.
   constexpr double kOutside = 1.3;
   constexpr double kInside = 2.1;
   Stack stack;
@@ -149,7 +149,7 @@ double Phantom::Scene::distance(std::size_t structure, const shapes::Point& p) c
   double d = layers[layerOf[structure]].shape(p);
   for (const std::size_t over : coverers[structure])
   {
-    // farther from a coverer's box than we are outside already, it cannot decide
+    // A cover whose box is farther than our depth cannot decide.
     const double slack = std::max(-d, 0.0);
     if (layers[over].shape.box.squaredExteriorDistance(p) <= slack * slack)
       d = std::max(d, -layers[over].shape(p));

@@ -13,7 +13,7 @@ namespace
 
 using namespace shapes;
 
-// Intensities: CT in HU; MR as of a heavily T2-weighted sequence.
+// Intensities: CT in HU; MR as in a heavily T2-weighted sequence.
 struct Tissue
 {
   double ct;
@@ -63,14 +63,14 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
   coat(grown(skull.skin, -1.8), kFat);
   coat(grown(skull.skin, -3.6), kMuscle);
   coat(skull.bone, kCortical);
-  // inner table, and cortex round everything that the bone borders on
+  // inner table, and cortex around everything adjacent to bone
   const Shape inner = without(grown(skull.bone, -1.9), grown(skull.cranial, 1.3));
   spongy(inner);
   coat(skull.condyle, kCortical);
   spongy(grown(skull.condyle, -1.2));
   coat(without(grown(ear.canal, 1.2), complement(skull.bone)), kCortical);
   coat(skull.cranial, kFluid);
-  // gyri: the fluid over the brain is 0.6 to 2.8 mm deep
+  // gyri: the fluid around the brain is 0.6 to 2.8 mm deep
   coat({[cranial = skull.cranial](const Point& p)
         {
           const double gyrus = std::sin(0.62 * p.x() + 0.9 * std::sin(0.31 * p.y())) *
@@ -116,7 +116,7 @@ std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma)
   structure(ear.canal, kAir, "external_auditory_canal", {0.86F, 0.70F, 0.62F}, 0.3, false);
   coat(ear.annulus, kCortical);
 
-  // the densest bone: one mass round cochlea and canals, bulging as promontory and prominence
+  // the densest bone: one mass around cochlea and canals, bulging as promontory and prominence
   const Shape core = ellipsoid({-38.8, 2.0, 3.4}, {3.6, 3.8, 4.2});
   coat(common({blend({grown(ear.labyrinth, 1.2), grown(ear.cochlea, 1.5), core}, 2.0),
                complement(skull.cranial), complement(skull.carotid), complement(skull.jugular)}),

@@ -9,26 +9,26 @@
 #include "PhantomShapes.h"
 
 /// The anatomy of the phantom as shapes in patient LPS mm: -x is lateral (a right ear), -y is
-/// anterior, +z superior. Dimensions follow textbooks of otologic anatomy; each builder names
-/// those that matter to the hand.
+/// anterior, +z superior. Dimensions follow textbooks of otologic anatomy; each builder lists those
+/// relevant to the surgeon.
 namespace petrous::phantom::anatomy
 {
 
-/// Skull and what lies in it, without the ear.
+/// Skull and its contents, without the ear.
 struct Skull
 {
   shapes::Shape skin;    ///< the head with its soft tissue
-  shapes::Shape bone;    ///< outer surface of bone, cranial cavity not taken out
-  shapes::Shape cranial; ///< inside of the dura
+  shapes::Shape bone;    ///< outer surface of bone, cranial cavity not subtracted
+  shapes::Shape cranial; ///< inner surface of the dura
   shapes::Shape condyle; ///< of the mandible
-  shapes::Shape joint;   ///< soft tissue round it
+  shapes::Shape joint;   ///< its surrounding soft tissue
   shapes::Shape sigmoid;
   shapes::Shape jugular;
   shapes::Shape carotid;
 };
 Skull makeSkull();
 
-/// Hearing and balance, and the nerves.
+/// Ear structures and nerves.
 struct Ear
 {
   shapes::Shape canal;   ///< external auditory canal, lumen to the drum
@@ -49,14 +49,14 @@ struct Ear
   shapes::Shape meatus;    ///< internal auditory canal
   shapes::Shape eighthNerve;
   shapes::Shape facialNerve;
-  shapes::Shape facialCanal; ///< lumen in which the nerve lies
-  shapes::Shape facialWall;  ///< outside of the canal's bone
+  shapes::Shape facialCanal; ///< lumen of the facial nerve
+  shapes::Shape facialWall;  ///< outer surface of the canal's bone
   shapes::Shape chorda;
   shapes::Shape cholesteatoma;
 };
 Ear makeEar(const Skull& skull);
 
-/// Axes and centres that tests hold against the shapes.
+/// Axes and centres against which tests check the shapes.
 struct CanalPlane
 {
   shapes::Point center;
@@ -65,24 +65,24 @@ struct CanalPlane
 };
 std::array<CanalPlane, 3> canalPlanes(); ///< lateral, superior, posterior
 
-/// Where mastoid, perilabyrinthine and zygomatic cells are, cortex and plates left out.
+/// Region of the mastoid, perilabyrinthine and zygomatic cells, without cortex and plates.
 shapes::Shape cellRegion(const Skull& skull, const Ear& ear);
 
-/// One coat of paint: a later layer covers the ones before.
+/// One layer: a later layer covers the ones before.
 struct Layer
 {
   shapes::Shape shape;
   double ct = 0.0;  ///< HU
   double mr = 0.0;  ///< arbitrary units, T2-like
-  std::string name; ///< empty: no structure
+  std::string name; ///< empty: not a structure
   std::array<float, 3> color{};
   bool solid = true;
-  double mesh = 0.0;   ///< mm between the samples of its surface; 0: it has none
-  double mottle = 0.0; ///< share by which trabeculae vary the intensity, standard deviation
+  double mesh = 0.0;   ///< mm, sampling distance of its surface; 0: no surface
+  double mottle = 0.0; ///< relative standard deviation of the intensity due to trabeculae
 };
 std::vector<Layer> paint(std::uint64_t seed, bool cholesteatoma);
 
-/// Distance to the cranial cavity's floor above ear and mastoid, mm (positive in bone).
+/// Distance to the floor of the cranial cavity above ear and mastoid, mm (positive in bone).
 constexpr double kTegmenThickness = 1.2;
 
 } // namespace petrous::phantom::anatomy

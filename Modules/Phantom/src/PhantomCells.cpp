@@ -13,8 +13,8 @@ namespace petrous::phantom::shapes
 namespace
 {
 
-constexpr double kBin = 1.5;      // mm, edge of a look-up bin
-constexpr std::size_t kNear = 24; // seeds that can matter in a bin
+constexpr double kBin = 1.5;      // mm, edge of a lookup bin
+constexpr std::size_t kNear = 24; // seeds relevant in a bin
 constexpr double kRounding = 0.7; // mm, of the cells' edges
 constexpr double kPore = 0.4;     // mm, radius
 constexpr int kDarts = 60000;
@@ -92,7 +92,7 @@ Shape honeycomb(const Shape& region, const std::function<double(const Point&)>& 
   cells->box = region.box;
   const Eigen::Vector3d extent = region.box.sizes();
 
-  // dart throwing: a seed stays when it is far enough from all before it
+  // Poisson-disk sampling by dart throwing: a seed is kept if far enough from all before it
   std::vector<double> sizes;
   for (std::uint64_t dart = 0; dart < kDarts; ++dart)
   {

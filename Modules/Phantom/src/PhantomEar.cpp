@@ -15,7 +15,8 @@ const Point kOvalWindow(-40.62, 0.9, 1.0);
 const Point kStapesHead(-43.6, 0.8, 0.6);
 const Point kUmbo(-46.4, -1.9, -0.2);
 
-/// The drum: a shallow cone, 9 mm wide, whose outside faces laterally, forwards and down.
+/// The drum: a shallow cone, 9 mm wide, whose outer side faces laterally, anteriorly and
+/// inferiorly.
 struct Drum
 {
   Vector3d normal = Vector3d(-0.88, -0.28, -0.38).normalized(); // out of the ear
@@ -23,7 +24,7 @@ struct Drum
   double radius = 4.5;
   Point center = kUmbo + depth * normal;
 
-  /// mm lateral of the membrane's middle.
+  /// mm lateral of the membrane's middle surface.
   double side(const Point& p) const
   {
     const Vector3d q = p - center;
@@ -36,7 +37,7 @@ struct Drum
 
 /// Two and a half turns about the modiolus, a logarithmic spiral that rises to the apex.
 ///   r(theta) = 4.2 exp(-b theta),  tube radius 1.0 exp(-c theta)
-/// From the apex a right cochlea runs anticlockwise from the base.
+/// Seen from the apex, a right cochlea turns anticlockwise from the base.
 std::vector<Knot> cochlearSpiral()
 {
   const Point base(-37.6, -4.4, -0.9);
@@ -61,7 +62,7 @@ std::vector<Knot> cochlearSpiral()
 }
 
 /// A semicircular canal: circle in a plane, from angle `first` to `last` (radians, from u to v),
-/// its ends led into the vestibule, one of them widened to an ampulla.
+/// with both ends extended into the vestibule, one of them widened to an ampulla.
 struct Arc
 {
   CanalPlane plane;
@@ -92,7 +93,7 @@ Shape canalShape(const Arc& arc, const Point& firstEnd, const Point& lastEnd, bo
 
 Arc lateralArc()
 {
-  // tilted by 25 degrees, front end up
+  // tilted by 25 degrees, anterior end up
   const double tilt = 25.0 * 3.14159265358979323846 / 180.0;
   const Vector3d v(0.0, -std::cos(tilt), std::sin(tilt));
   const Vector3d u(-1.0, 0.0, 0.0);
@@ -127,7 +128,7 @@ void addLabyrinth(Ear& ear)
   const Arc lateral = lateralArc();
   const Arc superior = superiorArc();
   const Arc posterior = posteriorArc();
-  const Point crus = kVestibule + Vector3d(1.0, 1.2, 0.9); // where the common crus opens
+  const Point crus = kVestibule + Vector3d(1.0, 1.2, 0.9); // opening of the common crus
   ear.lateral = canalShape(lateral, inner + Vector3d(-0.6, -0.8, 1.0),
                            inner + Vector3d(-0.6, 0.9, 0.5), true);
   ear.superior = canalShape(superior, inner + Vector3d(-0.8, -0.8, 0.8), crus, true);
@@ -174,8 +175,8 @@ void addOssicles(Ear& ear)
 
 void addNerves(Ear& ear)
 {
-  // Labyrinthine segment, geniculate ganglion, tympanic segment over the oval window, second
-  // genu under the lateral canal, mastoid segment, stylomastoid foramen.
+  // Labyrinthine segment, geniculate ganglion, tympanic segment above the oval window, second genu
+  // below the lateral canal, mastoid segment, stylomastoid foramen.
   const std::vector<Knot> meatal{
       {{-20.0, 0.0, 2.6}, 0.6},   {{-27.0, -0.4, 2.3}, 0.6},  {{-33.5, -1.2, 2.5}, 0.6},
       {{-35.4, -2.2, 3.4}, 0.5},  {{-37.3, -4.0, 4.6}, 0.55}, {{-38.6, -5.6, 5.2}, 0.9},
@@ -267,7 +268,7 @@ Ear makeEar(const Skull& skull)
       {disc(kOvalWindow + Vector3d(-0.9, 0.0, 0.0), along, Vector3d::UnitZ(), 1.7, 0.95, 0.85),
        capsule({{-40.9, 0.3, -1.9}, 0.6}, {{-42.6, 0.9, -2.2}, 0.8})});
 
-  // Grows from the posterior epitympanum round the incus into the antrum.
+  // Extends from the posterior epitympanum around the incus into the antrum.
   const Shape sac = blend({ellipsoid({-48.4, 5.8, 7.4}, {2.7, 3.3, 2.7}),
                            ellipsoid({-47.6, 1.2, 7.7}, {1.6, 3.0, 2.2})},
                           1.5);

@@ -15,10 +15,10 @@ namespace petrous::phantom
 namespace
 {
 
-constexpr int kSlab = 8;          // slices that one task samples
-constexpr double kFraction = 8.0; // units a HU while filtering, so that rounding adds < 0.1 HU
+constexpr int kSlab = 8;          // slices per task
+constexpr double kFraction = 8.0; // steps per HU while filtering, so that rounding adds < 0.1 HU
 
-/// Standard normal quantiles, to turn counters into Gaussian noise without a state.
+/// Stateless Gaussian noise: maps counters through the quantiles of the normal distribution.
 class GaussianNoise
 {
 public:
@@ -43,7 +43,7 @@ public:
 private:
   static constexpr std::size_t kSteps = 4096;
 
-  /// Newton on Phi(x) = share.
+  /// Newton's method on Phi(x) = share.
   static double quantile(double share)
   {
     double x = 0.0;
@@ -60,9 +60,9 @@ private:
   std::array<float, kSteps + 1> m_quantile{};
 };
 
-/// Weights of a Gaussian sampled at whole voxels, from -n to n; {1} when it is narrower than a
-/// third of a voxel (partial volume has blurred more than that already). Partial volume is a
-/// twelfth of a voxel squared more than a voxel's box, which comes off here.
+/// Weights of a Gaussian sampled at integer voxels, from -n to n; {1} if it is narrower than a
+/// third of a voxel (less than the blur of partial volume). The variance of the partial-volume
+/// kernel exceeds that of a voxel's box by 1/12 voxel^2, which is subtracted here.
 std::vector<float> gaussianKernel(double width)
 {
   if (width < 1.0 / 3.0)
@@ -78,7 +78,7 @@ std::vector<float> gaussianKernel(double width)
   return kernel;
 }
 
-/// Filters one line in place; samples beyond the ends repeat the last one.
+/// Filters one line in place; the end samples are repeated beyond the ends.
 void filterLine(float* line, int count, std::ptrdiff_t stride, const std::vector<float>& kernel,
                 std::vector<float>& scratch)
 {
@@ -121,8 +121,8 @@ struct Frame
   }
 };
 
-/// Calls each(box, stack) for boxes of voxels that make up slices [first, last): the slab is cut
-/// in halves as long as borders pass and a box is wider than a few voxels.
+/// Calls each(box, stack) for boxes of voxels that cover slices [first, last): the slab is bisected
+/// while it contains borders and a box is wider than a few voxels.
 template <class Each>
 class BlockVisitor
 {
@@ -152,7 +152,7 @@ private:
     const core::Index3 size = box.size();
     const Eigen::Vector3d half(0.5 * (size[0] - 1), 0.5 * (size[1] - 1), 0.5 * (size[2] - 1));
     const Eigen::Vector3d low(box.lower[0], box.lower[1], box.lower[2]);
-    // the farthest corner, for a sheared grid too
+    // the farthest corner, also for a sheared grid
     double reach = 0.0;
     for (int corner = 0; corner < 4; ++corner)
     {
@@ -251,7 +251,7 @@ volume::Volume<std::int16_t> samplePhantom(const Phantom& phantom, const ScanGri
           out[v] = rounded(buffer[v] * static_cast<float>(kFraction));
       });
 
-  // Across the slices, and the noise. A sheared grid is filtered along its own slice axis.
+  // Filter across the slices, and noise. A sheared grid is filtered along its own slice axis.
   const GaussianNoise noise(settings.seed, settings.noise);
   done = 0;
   tbb::parallel_for(

@@ -10,24 +10,24 @@
 namespace petrous::phantom
 {
 
-/// The phantom's layers of paint and how a point looks through them.
+/// The phantom's layers, and the evaluation of a point in them.
 struct Phantom::Scene
 {
   std::vector<anatomy::Layer> layers;
   std::vector<std::size_t> layerOf;               ///< structure -> its layer
-  std::vector<std::vector<std::size_t>> coverers; ///< structure -> later layers that may meet it
+  std::vector<std::vector<std::size_t>> coverers; ///< structure -> later layers that may cover it
   shapes::Shape cranial;
 
-  static constexpr double kFar = 1e3; ///< mm; farther than any neighbourhood is wide
+  static constexpr double kFar = 1e3; ///< mm; larger than any neighbourhood
 
-  /// Layers that decide the tissue within `reach` mm of a point, topmost first. `base` lies under
-  /// all of them and covers the whole neighbourhood; -1 when that is the air round the head.
+  /// Layers that decide the tissue within `reach` mm of a point, topmost first. `base` is below all
+  /// of them and covers the whole neighbourhood; -1 if that is the air around the head.
   struct Stack
   {
     std::vector<std::size_t> layers;
     int base = -1;
   };
-  /// `among`: the stack of a neighbourhood that holds this one, to look at fewer layers.
+  /// `among`: the stack of an enclosing neighbourhood, to test fewer layers.
   Stack stackAround(const shapes::Point& center, double reach, const Stack* among = nullptr) const;
 
   static double intensity(const anatomy::Layer& layer, Modality modality)
@@ -41,22 +41,22 @@ struct Phantom::Scene
     return intensity(layers[static_cast<std::size_t>(stack.base)], modality);
   }
 
-  /// The layer's intensity at a point: marrow spaces of about a millimetre make bone mottled.
+  /// The layer's intensity at a point: marrow spaces of about a millimetre modulate bone.
   static double intensityAt(const anatomy::Layer& layer, Modality modality, const shapes::Point& p)
   {
     const double value = intensity(layer, modality);
     return layer.mottle > 0.0 ? value * (1.0 + layer.mottle * shapes::mottling(p)) : value;
   }
 
-  /// Whether every point that the stack leaves to its base looks the same.
+  /// Whether the intensity is constant wherever the stack's base is visible.
   bool baseIsUniform(const Stack& stack) const
   {
     return stack.base < 0 || layers[static_cast<std::size_t>(stack.base)].mottle <= 0.0;
   }
 
-  /// What a plane border's signed distance leaves of a voxel of `width` mm whose sensitivity falls
-  /// linearly to 0 at its neighbours' centres. A box of one voxel instead would leave edges in what
-  /// is sampled, and with them steps on every surface.
+  /// Coverage of a voxel of `width` mm by a plane border at a signed distance, for a sensitivity
+  /// that falls linearly to 0 at the neighbouring voxel centres. A box of one voxel would leave
+  /// edges in the samples, and with them steps on every surface.
   static double coverage(double distance, double width)
   {
     const double t = std::clamp(distance / width, -1.0, 1.0);
@@ -64,7 +64,7 @@ struct Phantom::Scene
     return t < 0.0 ? 1.0 - tail : tail;
   }
 
-  /// Each layer covers the share of a voxel of `width` mm that its signed distance gives.
+  /// Composites the layers, each with the coverage of a voxel of `width` mm.
   double look(const shapes::Point& p, double width, Modality modality, const Stack& stack) const
   {
     double value = 0.0;
@@ -84,7 +84,7 @@ struct Phantom::Scene
     return value + left * intensityAt(layers[static_cast<std::size_t>(stack.base)], modality, p);
   }
 
-  /// The topmost layer at a point, -1 for air round the head.
+  /// The topmost layer at a point, -1 for the air around the head.
   int topmost(const shapes::Point& p, const Stack& stack) const
   {
     for (const std::size_t l : stack.layers)
@@ -95,14 +95,14 @@ struct Phantom::Scene
 
   double distance(std::size_t structure, const shapes::Point& p) const;
 
-  /// The same inside a neighbourhood; far (of either sign) where it has no border of the layer.
+  /// The same within a neighbourhood; +-kFar if the layer has no border in it.
   double distance(const Stack& stack, std::size_t layer, const shapes::Point& p) const
   {
     double d = -kFar;
     for (const std::size_t l : stack.layers)
     {
       if (l < layer)
-        return kFar; // the layer is not among them
+        return kFar; // the layer is not in the stack
       if (l == layer)
         return std::max(d, layers[l].shape(p));
       d = std::max(d, -layers[l].shape(p));

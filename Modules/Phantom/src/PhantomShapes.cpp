@@ -17,7 +17,7 @@ double square(double x)
   return x * x;
 }
 
-/// A piece of a tube, ready to be asked.
+/// A segment of a tube, prepared for evaluation.
 struct Piece
 {
   Point start;
@@ -43,7 +43,7 @@ struct Piece
   }
 };
 
-/// A run of tube pieces with a sphere round them, so that far runs are left out.
+/// A run of tube segments with a bounding sphere, so that distant runs are skipped.
 struct Run
 {
   std::size_t first;
@@ -77,7 +77,7 @@ Shape ellipsoid(const Point& center, const Eigen::Vector3d& radii, const Eigen::
             if (k1 < 1e-12)
               return -smallest;
             const double first = k0 * (k0 - 1.0) / k1;
-            // deep inside the first-order value overstates the depth
+            // deep inside, the first-order value overestimates the depth
             return k0 < 1.0 ? std::max(first, 2.0 * smallest * (k0 - 1.0)) : first;
           },
           Box(center - half, center + half)};
@@ -111,7 +111,7 @@ Shape tube(const std::vector<Knot>& knots)
     pieces.emplace_back(knots[i], knots[i + 1]);
   return {[pieces, runs](const Point& p)
           {
-            // the run that looks nearest first: it rules out most of the others
+            // the run that seems nearest first: it rules out most others
             std::size_t near = 0;
             double least = std::numeric_limits<double>::max();
             for (std::size_t r = 0; r < runs.size(); ++r)
@@ -152,7 +152,7 @@ std::vector<Knot> spline(const std::vector<Knot>& knots, double step)
     const Knot b = knot(i);
     const Knot c = knot(i + 1);
     const Knot d = knot(i + 2);
-    const double stride = step * std::max(1.0, b.radius / 1.5); // wide tubes bend gently
+    const double stride = step * std::max(1.0, b.radius / 1.5); // wide tubes have low curvature
     const int pieces =
         std::max(1, static_cast<int>(std::lround((c.center - b.center).norm() / stride)));
     for (int s = 0; s < pieces; ++s)
@@ -277,7 +277,7 @@ Shape blend(std::vector<Shape> parts, double k)
             double value = parts.front()(p);
             for (std::size_t i = 1; i < parts.size(); ++i)
             {
-              // beyond its box by more than value + k a part changes nothing
+              // a part has no effect farther than value + k beyond its box
               const double beyond = std::max(value, 0.0) + k;
               if (parts[i].box.squaredExteriorDistance(p) < beyond * beyond)
                 value = smoothMin(value, parts[i](p), k);
@@ -316,7 +316,7 @@ Shape remembered(const Shape& a)
     double value = 0.0;
   };
   static std::atomic<std::uint64_t> count{0};
-  const std::uint64_t id = ++count; // never used twice: a slot of another phantom is no match
+  const std::uint64_t id = ++count; // never reused: a slot of another phantom cannot match
   return {[distance = a.distance, id](const Point& p)
           {
             thread_local std::array<Last, kSlots> memory;
@@ -331,7 +331,7 @@ Shape remembered(const Shape& a)
 double mottling(const Point& p) noexcept
 {
   constexpr double kGrain = 1.2;    // mm between the lattice's random values
-  constexpr double kContrast = 3.0; // brings trilinear mixing back to deviation 1
+  constexpr double kContrast = 3.0; // restores deviation 1 after trilinear interpolation
   std::array<std::int64_t, 3> cell{};
   Eigen::Vector3d part;
   for (int a = 0; a < 3; ++a)

@@ -9,8 +9,8 @@ namespace
 
 using namespace shapes;
 
-/// Floor of the middle fossa: level over ear and mastoid, raised over the superior canal
-/// (arcuate eminence), falling towards the temporal pole.
+/// Floor of the middle fossa: level above ear and mastoid, raised above the superior canal (arcuate
+/// eminence), falling towards the temporal pole.
 Shape middleFossa()
 {
   return {[](const Point& p)
@@ -62,14 +62,14 @@ Skull makeSkull()
   s.condyle = blend({ellipsoid({-53.5, -17.0, -5.5}, {7.0, 3.6, 4.5}),
                      capsule({{-54.0, -17.5, -8.0}, 3.0}, {{-56.0, -19.0, -34.0}, 4.0})},
                     2.0);
-  // the mastoid goes over into the occiput without a step
+  // the mastoid continues smoothly into the occiput
   const Shape angle = capsule({{-49.0, 13.0, 5.0}, 11.5}, {{-40.0, 38.0, 2.0}, 11.0});
   const Shape solid = blend({vault, mastoid, angle, petrous, tympanic, zygoma}, 4.0);
   const Shape carved =
       blendCommon(blendCommon(solid, complement(s.joint), 2.0), complement(digastric), 1.5);
   s.bone = remembered(blend({carved, styloid}, 1.0));
 
-  // Veins: the sigmoid sinus bends from the transverse sinus down and medially to the bulb.
+  // Veins: the sigmoid sinus curves from the transverse sinus inferiorly and medially to the bulb.
   s.sigmoid = tube(spline({{{-41.0, 44.0, 6.0}, 4.4},
                            {{-48.0, 31.0, 6.5}, 4.5},
                            {{-51.5, 21.0, 3.5}, 4.6},
@@ -109,10 +109,10 @@ Shape cellRegion(const Skull& skull, const Ear& ear)
   return {[=](const Point& p)
           {
             double d = extent(p);
-            // cheap borders first; nothing brings a point back in
+            // cheap borders first; once outside, always outside
             if (d > 6.0)
               return d;
-            // at least `gap` mm from a shape, which is asked only where it can decide
+            // at least `gap` mm from a shape, which is evaluated only where it can decide
             const auto keepOff = [&](const Shape& shape, double gap)
             {
               const double near = std::max(gap - d, 0.0);

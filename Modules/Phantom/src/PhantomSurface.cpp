@@ -13,7 +13,7 @@ namespace petrous::phantom
 namespace
 {
 
-// As in Scene::stackAround: how far a distance may be off, outside and inside.
+// As in Scene::stackAround: factors by which a distance may be wrong, outside and inside.
 constexpr double kOutside = 1.3;
 constexpr double kInside = 2.1;
 
@@ -22,7 +22,7 @@ double boxDistance(const shapes::Box& box, const shapes::Point& p)
   return std::max((box.min() - p).maxCoeff(), (p - box.max()).maxCoeff());
 }
 
-/// Volume of a layer in a cell: cut in eight until the border's share is known.
+/// Volume of a layer in a cell: recursively split in eight down to the resolution.
 double cellVolume(const Phantom::Scene& scene, std::size_t layer,
                   const Phantom::Scene::Stack* among, const shapes::Point& center,
                   const Eigen::Vector3d& edge, double resolution)
@@ -48,7 +48,7 @@ double cellVolume(const Phantom::Scene& scene, std::size_t layer,
 }
 
 /// Marching tetrahedra over a lattice of signed distances: closed by construction, since every
-/// cut edge makes one vertex and every cut face one segment.
+/// crossed edge gives one vertex and every crossed face one segment.
 class Polygoniser
 {
 public:
@@ -80,7 +80,7 @@ private:
     return m_origin + m_step * Eigen::Vector3d(i, j, k);
   }
 
-  /// Blocks that no border passes get their centre's value everywhere.
+  /// Blocks without a border get the value of their centre everywhere.
   template <class Distance>
   void sample(const Distance& distance)
   {
@@ -146,7 +146,7 @@ private:
     const auto vertex = [&](int a, int b) { return edgeVertex(distance, i, j, k, a, b); };
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c)
     {
-      // outwards: away from an inside corner
+      // oriented outwards: away from an inside corner
       const auto& v = m_mesh.vertices;
       const Eigen::Vector3d ref = at(i + (in[0] & 1), j + ((in[0] >> 1) & 1), k + (in[0] >> 2));
       const Eigen::Vector3d va = v[a].cast<double>();
@@ -171,7 +171,7 @@ private:
     }
   }
 
-  /// The border's place on an edge, by false position on the signed distance itself.
+  /// Position of the border on an edge, by regula falsi on the signed distance itself.
   template <class Distance>
   std::uint32_t edgeVertex(const Distance& distance, int i, int j, int k, int a, int b)
   {
@@ -205,7 +205,7 @@ private:
         f1 = f;
       }
     }
-    t = std::clamp(t0 + (t1 - t0) * f0 / (f0 - f1), 0.01, 0.99); // no two vertices in one place
+    t = std::clamp(t0 + (t1 - t0) * f0 / (f0 - f1), 0.01, 0.99); // no two coincident vertices
     m_mesh.vertices.push_back((p + t * (q - p)).cast<float>());
     return entry->second;
   }
@@ -235,7 +235,7 @@ double Phantom::volume(std::size_t structure, const core::PatientBox& within) co
 
   const auto measure = [&](double finest)
   {
-    // one sum a layer of cells, added in order: the same result whatever the threads
+    // one sum per layer of cells, added in order: independent of thread scheduling
     std::vector<double> sums(static_cast<std::size_t>(cells[2]), 0.0);
     tbb::parallel_for(0, cells[2],
                       [&](int k)
@@ -251,8 +251,8 @@ double Phantom::volume(std::size_t structure, const core::PatientBox& within) co
                       });
     return std::accumulate(sums.begin(), sums.end(), 0.0);
   };
-  // The share of a border cell is wrong in proportion to the square of its edge where the
-  // border bends: two edges, one twice the other, remove that (Richardson).
+  // The coverage error of a border cell is proportional to the square of its edge where the border
+  // is curved: two edges, one twice the other, cancel it (Richardson extrapolation).
   return (4.0 * measure(resolution) - measure(2.0 * resolution)) / 3.0;
 }
 

@@ -31,7 +31,7 @@ using core::InvalidParameter;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kDefaultSpacing = 0.3;
 const Eigen::Vector3d kMrSpacing(0.6, 0.6, 0.8);
-constexpr double kMrMargin = 10.0; // mm more than the ear, so that the moved ear is inside
+constexpr double kMrMargin = 10.0; // mm larger than the ear, so that the moved ear is inside
 
 std::string shown(double value)
 {
@@ -67,7 +67,7 @@ core::GridGeometry centred(const core::Index3& dims, const Eigen::Vector3d& spac
   return {dims, spacing, center - 0.5 * spacing.cwiseProduct(steps)};
 }
 
-/// The slices of a tilted gantry: planes turned about x, the table moving along z.
+/// Slices of a tilted gantry: planes rotated about x, with the table moving along z.
 ScanGrid tilted(const core::GridGeometry& upright, double tilt)
 {
   ScanGrid grid(upright);
@@ -269,7 +269,7 @@ private:
       one["solid"] = structures[s].solid;
       one["color"] = structures[s].color;
       one["hu"] = structures[s].hounsfield;
-      one["complete"] = inside(structures[s]); // false: cut at the volume's border
+      one["complete"] = inside(structures[s]); // false: cut off at the volume's border
       one["volume_mm3"] = m_volumes[s];
       one["label"] = segment.voxels > 0 ? Json("labels/" + segment.name + ".nii.gz") : Json();
       one["label_voxels"] = segment.voxels;

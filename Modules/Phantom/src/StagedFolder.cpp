@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
                     path.string() + ": cannot be written: " + fault.message());
 }
 
-// What is to be renamed must be on the disk.
+// Files must be synced before the rename.
 void syncFiles(const fs::path& folder, std::error_code& fault)
 {
   for (fs::recursive_directory_iterator entry(folder, fault), end; !fault && entry != end;

@@ -78,7 +78,7 @@ TEST(MutualInformation, ValueAndValueWithGradientAgree)
   EXPECT_GT(overlap, 0.8);
 }
 
-// Against central differences along each of the six numbers, where no sample leaves the image.
+// Against central differences in each of the six parameters, with no sample leaving the image.
 TEST(MutualInformation, GradientIsThatOfTheValue)
 {
   const Scene scene;
@@ -146,7 +146,7 @@ TEST(MutualInformation, IsZeroWithoutOverlap)
   EXPECT_EQ(v.translation, Vector3d::Zero().eval());
 }
 
-// A linear change of the moving image's values, also its inversion, changes nothing.
+// Invariant to linear changes of the moving image's values, including inversion.
 TEST(MutualInformation, DoesNotAskHowBrightTheImageIs)
 {
   const Scene scene;

@@ -59,7 +59,7 @@ TEST(Register, ErrorGrowsAwayFromWhatIsSeen)
   EXPECT_NE(far.text.find("outside"), std::string::npos) << far.text;
 }
 
-// What lies within 16 mm of the ear is displaced, over an edge of 2 mm, in noise.
+// Everything within 16 mm of the ear is displaced, with a transition of 2 mm, in noise.
 TEST(Register, ReachesAnEarThatLiesElsewhereThanTheHead)
 {
   const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 2.0);
@@ -85,7 +85,7 @@ TEST(Register, ReachesAnEarThatLiesElsewhereThanTheHead)
   }
 }
 
-// Turned by half a turn it is beyond the search, and what is found instead is far off.
+// Rotated by 180 degrees it is beyond the search range, and what is found instead is far off.
 TEST(Register, WhatEndsFarOffByChanceHasFailed)
 {
   const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 175.0, {1, 0, 0});
@@ -150,7 +150,7 @@ std::vector<core::RigidTransform> shifts(const Vector3d& deviation, int count)
   return list;
 }
 
-// The percentiles of the chi distribution, of 1, 2 and 3 degrees: tables.
+// Percentiles of the chi distribution with 1, 2 and 3 degrees of freedom, from tables.
 TEST(ErrorModel, KnowsTheNormalDistribution)
 {
   struct Case
@@ -163,7 +163,7 @@ TEST(ErrorModel, KnowsTheNormalDistribution)
   {
     const LocalError unit = localError({}, shifts(c.deviation, 20'000), {0, 0, 0}, 1e-3, 100.0);
     EXPECT_NEAR(unit.p95 / unit.median, c.p95 / c.median, 0.03 * c.p95 / c.median);
-    // scaled by the calibrated inflation, which is that of twice the deviation over this one
+    // scaled by the calibrated inflation, obtained from twice the deviation relative to this one
     const LocalError twice =
         localError({}, shifts(2.0 * c.deviation, 20'000), {0, 0, 0}, 1e-3, 100.0);
     EXPECT_NEAR(twice.p95, 2.0 * unit.p95, 1e-3);
@@ -172,8 +172,8 @@ TEST(ErrorModel, KnowsTheNormalDistribution)
   }
 }
 
-// The largest is the 99.9th percentile (of three degrees 4.0331 deviations, of one 3.2905), or what
-// a repeat went further.
+// The maximum is the 99.9th percentile (with three degrees of freedom 4.0331 deviations, with one
+// 3.2905), or the largest repeat if greater.
 TEST(ErrorModel, LargestIsRarerThanTheP95)
 {
   for (const auto& [deviation, largest] :
@@ -242,7 +242,7 @@ TEST(QualityVerdict, NamesEachReason)
          [](QualityFeatures& e) {
            e.displaced = LocalFit{10.0, Vector3d(3.1, 0.0, 0.0), 0.1, 0.2, 0.5};
          });
-  // far from where it was looked for: only what nothing speaks against
+  // far from the starts: accepted only without any doubt
   expect("agree", Verdict::Good, [](QualityFeatures& e) { e.moved = 118.0; });
   expect("ended 118 mm", Verdict::Failed,
          [](QualityFeatures& e)

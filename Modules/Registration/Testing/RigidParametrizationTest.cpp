@@ -31,7 +31,7 @@ TEST(RigidParametrization, AMillimetreOfRotationMovesThePointsAtItsRadiusByOne)
   EXPECT_NEAR((turned * point - base * point).norm(), 1.0, 1e-4);
 }
 
-// Of f = a . T(p) for a few points, whose slopes for small motions are known.
+// For f = a . T(p) at a few points, whose derivatives for small motions are known.
 TEST(RigidParametrization, GradientFollowsTheChartFarFromItsBase)
 {
   const Vector3d centre(-5, 8, 3);

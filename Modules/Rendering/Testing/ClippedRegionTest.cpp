@@ -1,5 +1,5 @@
-// What clipping planes and crop boxes leave of a ball, against half-spaces cut with the sphere by
-// hand: for both engines.
+// What clipping planes and crop boxes leave of a ball, compared with analytic intersections of
+// half-spaces and a sphere, for both engines.
 
 #include <random>
 #include <sstream>
@@ -16,7 +16,7 @@ namespace
 
 constexpr double kSpacing = 0.5; // mm
 constexpr double kRadius = 9.0;  // mm
-constexpr int kSamples = 48;     // the hull reaches 11.75 mm from the middle
+constexpr int kSamples = 48;     // the hull reaches 11.75 mm from the centre
 constexpr int kColumns = 72;
 constexpr int kRows = 54;
 
@@ -25,13 +25,13 @@ SceneContents ballScene(const Eigen::Matrix3d& direction)
   return boneScene(ball<float>(cube(kSamples, kSpacing, direction), kRadius));
 }
 
-// Where a ray is in what is left of the ball, every face moved out by `grown` mm; first > last:
-// nowhere.
+// Segment of a ray in the remaining ball, with every face offset outwards by `grown` mm; first >
+// last: none.
 struct Span
 {
   double first = 0.0;
   double last = 1e30;
-  bool sphere = false; // it enters through the ball's own surface
+  bool sphere = false; // enters through the ball's surface
 
   void keep(const Vector& inwards, const Vector& point, double grown, const PixelRay& ray)
   {
@@ -92,7 +92,7 @@ struct Tally
   int wrong = 0;
 };
 
-// Rays that pass a face by less than a tenth of a voxel tell nothing.
+// Rays that miss a face by less than a tenth of a voxel are inconclusive.
 Tally judge(const SceneContents& contents, const core::CameraPose& pose, const DepthImage& depth)
 {
   constexpr double sure = 0.1 * kSpacing;
@@ -107,7 +107,7 @@ Tally judge(const SceneContents& contents, const core::CameraPose& pose, const D
       const double drawn = depth.at(column, row);
       if (less.last > less.first)
       {
-        // The ball's surface lies within 0.02 voxel, seen at an angle; a face lies where it is.
+        // The ball's surface is within 0.02 voxel, seen at an angle; faces are exact.
         const Span truth = spanOf(contents, ray, 0.0);
         const double slack = less.first - truth.first + 1e-3;
         ++tally.seen;
@@ -142,7 +142,7 @@ TEST(ClippedRegion, IsNothingWhereClippingPlanesLeaveNothing)
     for (const Vector& normal : {Vector(0.1, 1.0, 0.03), Vector(-0.4, 0.2, 1.0)})
     {
       const Vector unit = normal.normalized();
-      // Not quite the opposite one, as far as the ball reaches.
+      // Not exactly opposite, within the ball's extent.
       const Vector back = -(unit + (gap >= 5.0 ? 0.05 : 0.0) * unit.unitOrthogonal()).normalized();
       contents.clipping = {{0.5 * gap * unit, unit}, {-0.5 * gap * unit, back}};
       for (const float opacity : {1.0F, 0.35F})
@@ -198,7 +198,7 @@ TEST(ClippedRegion, IsWhatRandomPlanesAndBoxesLeaveOfABall)
       contents.crop = box;
       what << ", a crop box";
     }
-    // From far, from near the ball and from inside it.
+    // From far away, near the ball and inside it.
     core::CameraPose pose;
     pose.position = (scene % 4 == 0 ? 6.0 : scene % 4 == 1 ? 14.0 : 60.0) * direction();
     pose.focalPoint = 2.0 * direction();

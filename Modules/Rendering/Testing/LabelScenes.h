@@ -5,11 +5,11 @@
 #include "SyntheticScenes.h"
 #include "petrous/Volume/LabelBorders.h"
 
-/// Label fields whose surfaces are known in closed form.
+/// Label fields with analytic surfaces.
 namespace petrous::rendering::synthetic
 {
 
-/// Labels of which `inside(patient)` is the signed distance into what is solid, mm, and
+/// Labels for which `inside(patient)` is the signed distance into the solid, mm, and
 /// `index(patient)` the material. The occupancy is linear over four voxels across the surface.
 template <class Inside, class Index>
 std::shared_ptr<const volume::LabelField> labelField(const core::GridGeometry& grid,
@@ -28,7 +28,7 @@ std::shared_ptr<const volume::LabelField> labelField(const core::GridGeometry& g
   return labels;
 }
 
-/// The same material wherever there is an occupancy.
+/// One material wherever the occupancy is above 0.
 inline std::shared_ptr<const volume::LabelField>
 oneStructure(std::shared_ptr<const volume::Volume<float>> occupancy)
 {

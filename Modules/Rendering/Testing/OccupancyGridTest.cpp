@@ -46,13 +46,13 @@ bool same(const std::vector<Texel>& a, const std::vector<Texel>& b)
                     });
 }
 
-// Everything that a sample at random points meets must be announced by its brick.
+// Everything found by sampling at random points must be flagged by its brick.
 void expectNothingMissed(const OccupancyGrid& grid, const OccupancyGrid::Rules& rules,
                          const std::shared_ptr<const volume::IntensityVolume>& ct,
                          const volume::LabelField* labels,
                          const std::shared_ptr<const volume::CutMask>& mask, Random& random)
 {
-  // Where bone does not take part, an image without tissue stands for it.
+  // If bone is not part of f, an image without tissue replaces it.
   const auto bone = rules.bone ? ct
                                : image(std::make_shared<volume::Volume<float>>(
                                      ct->geometry(), static_cast<float>(rules.iso - 1e6)));
@@ -105,7 +105,7 @@ void expectNothingMissed(const OccupancyGrid& grid, const OccupancyGrid::Rules& 
   EXPECT_EQ(missed, 0) << "at random places";
   if (!labels)
     return;
-  // Labels are few and small: around each of their voxels too.
+  // Labels are few and small: sample around each of their voxels too.
   const core::GridGeometry& labelGrid = labels->occupancy->geometry();
   forEach(labelGrid.fullBox(),
           [&](int i, int j, int k)
@@ -242,7 +242,7 @@ TEST_P(OccupancyGridShapes, IsAfterEveryCutAndUndoAsAfterARebuild)
     IndexBox touched;
     if (n % 10 == 9)
     {
-      mask = history.front(); // a brick changed anywhere
+      mask = history.front(); // changes bricks anywhere
       history = {mask};
       touched = grid.fullBox();
     }
@@ -343,7 +343,7 @@ TEST(OccupancyGrid, TakesTheMasksHalfValueForTissue)
 
 TEST(OccupancyGrid, SeesAShareThatCarriesIntoTheNextBrick)
 {
-  // Between 0.48 at 7.85 and 1 at 8.85 the occupancy exceeds 0.5 from 7.89 on, which is brick 0's.
+  // Between 0.48 at 7.85 and 1 at 8.85 the occupancy exceeds 0.5 from 7.89 on, inside brick 0.
   const core::GridGeometry grid({17, 17, 17}, Vector3d::Ones(), Vector3d::Zero());
   const auto ct = image(std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{0}));
   for (int axis = 0; axis < 3; ++axis)

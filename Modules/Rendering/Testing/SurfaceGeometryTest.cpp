@@ -13,7 +13,7 @@ using namespace petrous::rendering::synthetic;
 namespace
 {
 
-// A square of 20 mm across x, at x = `at`.
+// A square of 20 mm perpendicular to x, at x = `at`.
 MeshContents wall(double at, const std::array<float, 3>& color)
 {
   auto mesh = std::make_shared<core::TriangleMesh>();
@@ -140,8 +140,8 @@ TEST(SurfaceGeometry, ShowTheToolWhereItIs)
     return hits.empty() ? 0.0 : hits.front().distance;
   };
   EXPECT_NEAR(distance(1.5, 0.0), 200.0 - 2.0, 1e-9);   // burr: 1.5, 2, 2.5
-  EXPECT_NEAR(distance(0.75, 10.0), 200.0 - 1.0, 1e-9); // shaft of half its radius
-  EXPECT_NEAR(distance(3.0, 60.0), 200.0 - 4.0, 1e-9);  // handpiece of 5 mm
+  EXPECT_NEAR(distance(0.75, 10.0), 200.0 - 1.0, 1e-9); // shaft of half the burr's radius
+  EXPECT_NEAR(distance(3.0, 60.0), 200.0 - 4.0, 1e-9);  // handpiece of radius 5 mm
   EXPECT_EQ(distance(1.5, 10.0), 0.0);
   EXPECT_EQ(distance(0.0, 121.0), 0.0); // beyond its end
   const auto end = shapes.along({{1.0, 0.0, 200.0}, {0.0, 0.0, -1.0}});

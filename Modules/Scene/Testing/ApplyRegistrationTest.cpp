@@ -79,11 +79,11 @@ TEST(ApplyRegistration, ASignOffHoldsForTheTransformThatWasSigned)
                 .find("signed off by A. Surgeon on 2026-01-02T03:04:05Z"),
             std::string::npos);
 
-  scene::Case nudged = value; // by somebody who does not know of sign-offs
+  scene::Case nudged = value; // by code unaware of sign-offs
   nudged.mr[0].mrFromCt = {there.rotation(), there.translation() + Vector3d(1e-9, 0.0, 0.0)};
   EXPECT_FALSE(scene::validSignOff(nudged.mr[0]));
 
-  Registration again = *value.mr[0].registration; // with the sign-off in it
+  Registration again = *value.mr[0].registration; // including the sign-off
   scene::layMr(value, "T2", there, again);
   EXPECT_FALSE(scene::validSignOff(value.mr[0])) << "another registration, nobody looked at it";
 }

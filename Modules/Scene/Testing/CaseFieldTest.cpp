@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Air with one cube of a structure.
+// Air with a single cube-shaped structure.
 scene::Case cubeInAir(bool solid, bool touchable)
 {
   const core::GridGeometry grid({24, 24, 24}, Vector3d::Constant(0.5), Vector3d::Zero());
@@ -38,7 +38,7 @@ scene::Case cubeInAir(bool solid, bool touchable)
 }
 
 const Vector3d kInside(5.75, 5.75, 5.75);
-constexpr double kBulge = 0.26 * 0.5; // mm, of the faces of so small a cube (adr/0001)
+constexpr double kBulge = 0.26 * 0.5; // mm, of the faces of such a small cube (adr/0001)
 
 } // namespace
 
@@ -64,8 +64,8 @@ TEST(CaseField, LeavesSoftStructuresOutOfWhatIsRigidAndMeasuresThem)
   ASSERT_EQ(soft.soft.size(), 1U);
   EXPECT_EQ(soft.soft[0].name, "cube");
   EXPECT_EQ(soft.soft[0].stiffness, 0.4);
-  // Eight voxels of 0.5 mm: 2 mm to each face. In the very middle, where six faces are equally
-  // near, quadratic splines on nodes 0.25 mm apart take at most (1 - 0.75^3) of that distance.
+  // Eight voxels of 0.5 mm: 2 mm to each face. At the exact centre, equidistant from six faces,
+  // quadratic splines with nodes 0.25 mm apart reduce that distance by at most (1 - 0.75^3).
   EXPECT_NEAR(soft.soft[0].depth->depth(kInside), 2.0,
               kBulge + 0.25 * (1.0 - 0.75 * 0.75 * 0.75) + 1e-3);
   EXPECT_NEAR(soft.soft[0].depth->depth({3.75, 5.75, 5.75}), 0.0, kBulge);
@@ -78,7 +78,7 @@ TEST(CaseField, LeavesSoftStructuresOutOfWhatIsRigidAndMeasuresThem)
   EXPECT_TRUE(scene::touchTissue(value, scene::tissueField(value)).soft.empty()) << "a lumen";
 }
 
-// What is soft takes nothing from what is hard beside it.
+// A soft structure does not affect an adjacent rigid one.
 TEST(CaseField, KeepsRigidStructuresBesideSoftOnes)
 {
   scene::Case value = cubeInAir(true, true);
@@ -138,7 +138,7 @@ TEST(CaseField, LoadsNoLabelsWhereNoneIsTouchable)
 namespace
 {
 
-// Structures side by side in one map, with volumes that fall with the index.
+// Structures side by side in one map, with volumes decreasing with the index.
 scene::Case caseOf(const std::vector<appearance::StructureAppearance>& looks)
 {
   const core::GridGeometry grid({static_cast<int>(looks.size()) + 1, 3, 3}, Vector3d::Constant(0.5),

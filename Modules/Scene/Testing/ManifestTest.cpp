@@ -124,7 +124,7 @@ TEST(Manifest, KeepsHowAnMrWasRegistered)
   EXPECT_EQ(scene::validSignOff(mr)->who, "A. Chirurgin ü");
 }
 
-// The second format knew that an MR is registered, and nothing of how.
+// The second format stated that an MR is registered, but not how.
 TEST(Manifest, OpensOneWithoutRecordsOfRegistration)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
@@ -175,7 +175,7 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_FALSE(back.meshes[0].look.transfer.has_value());
 }
 
-// Looks as the first manifests had them: no bone, no transfer functions.
+// Appearances as in the first manifests: no bone, no transfer functions.
 TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));

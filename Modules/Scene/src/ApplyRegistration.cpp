@@ -35,7 +35,7 @@ bool same(const core::RigidTransform& a, const core::RigidTransform& b)
   return a.rotation().coeffs() == b.rotation().coeffs() && a.translation() == b.translation();
 }
 
-// The voxels of meshes that were drawn on it lie where it lay.
+// Discards the voxels of meshes drawn on the MR, which are at its old position.
 void forgetVoxels(Case& value, const std::string& mr)
 {
   for (MeshPart& mesh : value.meshes)
@@ -43,8 +43,8 @@ void forgetVoxels(Case& value, const std::string& mr)
       mesh.touch = {};
 }
 
-// A transform in another unit, or without its decimal point, puts the images where they have
-// nothing in common; numbers beyond float would spoil whatever is computed from them.
+// Rejects a transform in another unit, or without its decimal point, which would leave the images
+// without overlap; numbers beyond float range would corrupt everything computed from them.
 void checkMeets(const core::GridGeometry& ct, const ImagePart& mr,
                 const core::RigidTransform& mrFromCt)
 {

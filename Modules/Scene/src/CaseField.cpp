@@ -60,7 +60,7 @@ std::vector<Wish> wishes(const Case& value, const Wanted& wanted)
   return result;
 }
 
-// Of the one union of these structures, among derived data; no labels are loaded for it.
+// Derived-data key of the union of these structures; loads no labels.
 std::optional<std::string> unionKey(const Case& value, const std::vector<Wish>& wished)
 {
   DerivedKey key(value, "solid occupancy", volume::kLabelFieldVersion);
@@ -79,7 +79,7 @@ std::shared_ptr<const volume::Volume<float>> cachedOccupancy(const Case& value,
   return bytes ? volume::occupancyFrom(*bytes) : nullptr;
 }
 
-// An occupancy, and what works it out where that is done region by region.
+// An occupancy, and the object that computes it if done region by region.
 struct UnionOccupancy
 {
   volume::TissueField::SolidUnion occupancy;
@@ -95,7 +95,7 @@ std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const Union
   { regional->prepare(boxes, progress); };
 }
 
-// One union of all wanted structures; lumens count as if they were tissue.
+// Union of all wanted structures; lumens count as solid.
 UnionOccupancy unionOccupancy(const Case& value, const Wanted& wanted, const core::Progress& progress,
                       bool regional)
 {
@@ -123,7 +123,7 @@ UnionOccupancy unionOccupancy(const Case& value, const Wanted& wanted, const cor
   return {occupancy, nullptr};
 }
 
-// What is solid in f: one union of the structures, and each mesh for itself.
+// The solids of f: the union of the structures, and each mesh separately.
 std::vector<volume::TissueField::SolidUnion> solidsOf(const Case& value, const Wanted& wanted,
                                                       const core::Progress& progress)
 {
@@ -135,7 +135,7 @@ std::vector<volume::TissueField::SolidUnion> solidsOf(const Case& value, const W
   return solids;
 }
 
-// The voxels whose centres lie in a solid, as a label map with the one index 1.
+// The voxels whose centres are inside a solid, as a label map with the single index 1.
 std::shared_ptr<const volume::LabelMap> insideOf(const volume::Volume<float>& occupancy)
 {
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(occupancy.geometry());
@@ -232,7 +232,7 @@ std::vector<MeshSolid> meshSolidsAt(const Case& value, const std::vector<Eigen::
   {
     const auto bounds = meshOnCt(value, part)->bounds();
     const core::PatientBox box(bounds[0].cast<double>(), bounds[1].cast<double>());
-    // Its voxels are no larger than the CT's where memory permits, and what lies between two of
+    // The voxels are no larger than the CT's if memory permits, and interpolation between two of
     // them counts.
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(2.0 * value.ct.geometry.minSpacing() +
                                                              0.02 * box.diagonal().norm());
@@ -357,7 +357,7 @@ dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progr
   std::vector<dissection::ProtectedTissue::Occupancy> occupancies;
   if (united.occupancy)
     occupancies.push_back(std::move(united.occupancy));
-  // The mask, on the CT's voxels, is what keeps them: it must hold what is thinner than a voxel.
+  // The mask, on the CT grid, protects them: it must represent structures thinner than a voxel.
   for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
     if (auto guard = volume::protectionMaskOf(*mesh.occupancy, value.ct.geometry))
       occupancies.push_back(std::move(guard));

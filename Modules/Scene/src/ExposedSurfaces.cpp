@@ -18,7 +18,7 @@ exposedSurfaces(const Case& value, const std::vector<const volume::CutMask*>& ma
                   [](const volume::CutMask* mask) { return mask->untouched(); }))
     return exposed;
   const volume::TissueField field = tissueField(value, progress.part(0.0, 0.3));
-  const auto occupancies = structureOccupancies(value); // after the field, which makes those of meshes
+  const auto occupancies = structureOccupancies(value); // after the field, which voxelizes meshes
   for (std::size_t n = 0; n < occupancies.size(); ++n)
   {
     const double done = 0.3 + 0.7 * static_cast<double>(n) / static_cast<double>(occupancies.size());

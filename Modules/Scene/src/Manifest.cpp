@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr int kFirstFormatWithBranches = 2;
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
-constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // of older programs
+constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
 json gridOut(const core::GridGeometry& grid)
 {
@@ -82,7 +82,7 @@ json lookOut(const appearance::StructureAppearance& look)
   return j;
 }
 
-// What came after the first manifests may be missing; such a look is as it was before.
+// Fields added after the first manifests may be missing; such an appearance stays as it was.
 appearance::StructureAppearance lookIn(const json& j, const appearance::StructurePresets& presets)
 {
   appearance::StructureAppearance look;
@@ -160,8 +160,8 @@ bool isFinite(const json& j)
   return !j.is_number_float() || std::isfinite(j.get<double>());
 }
 
-/// JSON has no word for what is not finite: it would be written as null, and the case could not be
-/// read again.
+/// JSON cannot represent non-finite numbers: they would be written as null, and the case could not
+/// be read again.
 void requireFinite(const json& j, const std::string& where)
 {
   if (isFinite(j))

@@ -27,7 +27,7 @@ std::shared_ptr<const volume::LabelMap> moved(const std::shared_ptr<const volume
                                               const core::RigidTransform& ctFromMr)
 {
   using Voxels = volume::Volume<std::uint16_t>;
-  // Voxels are shared, and stay const as they are.
+  // The voxels are shared and remain const.
   const std::shared_ptr<std::uint16_t> memory(drawn->voxels,
                                               const_cast<std::uint16_t*>(drawn->voxels->data()));
   auto map = std::make_shared<volume::LabelMap>(*drawn);

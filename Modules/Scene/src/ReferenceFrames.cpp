@@ -16,7 +16,7 @@ bool same(const std::optional<RegistrationError>& a, const std::optional<Registr
          a->p95 == b->p95 && a->max == b->max;
 }
 
-// But for who signed it.
+// Ignores the sign-off.
 bool same(const std::optional<Registration>& a, const std::optional<Registration>& b)
 {
   if (!a || !b)
@@ -42,7 +42,7 @@ void lay(Case& value, const MrPlace& place)
     unlayMr(value, place.name);
   for (ImagePart& mr : value.mr)
     if (mr.name == place.name && !place.registration)
-      mr.registration.reset(); // of an older case: not said how
+      mr.registration.reset(); // from an older case: method unknown
 }
 
 } // namespace
@@ -57,8 +57,8 @@ std::vector<MrPlace> mrPlaces(const Case& value)
 
 void layAs(Case& value, const std::vector<MrPlace>& places)
 {
-  // An MR takes along those that came through it, which are laid again then: once a link of the
-  // longest chain.
+  // An MR moves those registered through it, which then have to be set again: at most once per link
+  // of the longest chain.
   for (std::size_t pass = 0; pass <= places.size(); ++pass)
   {
     bool changed = false;

@@ -13,7 +13,7 @@ namespace petrous::scene
 namespace
 {
 
-// The voxels of a box and one beyond them to each side.
+// The voxels of a box, extended by one on each side.
 core::GridGeometry grownGrid(const core::GridGeometry& grid, const core::IndexBox& box)
 {
   const core::Index3 size = box.size();

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdlib>
 
-// The C library's own entries: what is defined here takes the place of malloc in every library of
-// the program, operator new among them.
+// The C library's own entry points: these definitions replace malloc in every library of the
+// program, including for operator new.
 extern "C"
 {
   void* __libc_malloc(std::size_t);
@@ -20,7 +20,7 @@ namespace
 
 std::atomic<std::uint64_t> allocations{0};
 std::atomic<std::uint64_t> releases{0};
-thread_local std::uint64_t failing = 0; // in so many calls
+thread_local std::uint64_t failing = 0; // counts down to the failing call; 0: none
 
 bool fails() noexcept
 {

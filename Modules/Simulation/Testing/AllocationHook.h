@@ -6,10 +6,11 @@
 namespace petrous::simulation::testing
 {
 
-/// Calls of malloc, free and their kin so far, from all threads and libraries of the program.
+/// Number of calls of malloc, free and related functions, from all threads and libraries of the
+/// program.
 std::uint64_t allocationCount() noexcept;
 
-/// From now on the calling thread gets no memory by its n-th call, once; 0: it gets all.
+/// Makes the calling thread's n-th allocation from now on fail, once; 0: none.
 void failAllocation(std::uint64_t n) noexcept;
 
 } // namespace petrous::simulation::testing

@@ -146,7 +146,7 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
   FAIL() << "no cut came through";
 }
 
-// What the tick is made of cannot throw.
+// The parts of a tick cannot throw.
 static_assert(noexcept(std::declval<Servo&>().tick(std::declval<const TickInput&>())));
 static_assert(noexcept(std::declval<haptics::Proxy&>().step(std::declval<const haptics::Pose&>())));
 static_assert(noexcept(std::declval<haptics::Device&>().read(0.0)));

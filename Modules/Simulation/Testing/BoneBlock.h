@@ -10,7 +10,7 @@
 namespace petrous::simulation::testing
 {
 
-/// Bone of 1500 HU below z = 0 in air, on the block's grid.
+/// Bone of 1500 HU below z = 0, otherwise air, on the block's grid.
 inline std::shared_ptr<haptics::HapticField>
 boneOf(const std::shared_ptr<volume::PublishedMask>& mask,
        std::vector<haptics::SoftStructure> soft = {})
@@ -31,7 +31,7 @@ boneOf(const std::shared_ptr<volume::PublishedMask>& mask,
   return std::make_shared<haptics::HapticField>(tissue, mask, std::move(soft));
 }
 
-/// A layer of 1.5 mm on that bone that yields with 0.3 N/mm.
+/// A layer of 1.5 mm on that bone with a stiffness of 0.3 N/mm.
 inline haptics::SoftStructure softLayer()
 {
   const core::GridGeometry grid = gridOfTheBlock();

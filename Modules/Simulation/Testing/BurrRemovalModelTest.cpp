@@ -19,7 +19,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
-// By counting points of the fields, 8^3 a voxel, wherever the mask was lowered at all.
+// Counts points of the fields, 8^3 per voxel, wherever the mask was lowered at all.
 double measured(const LawScene& scene)
 {
   const volume::CutMask& mask = scene.work.mask();
@@ -76,8 +76,8 @@ class RemovalLaws : public ::testing::TestWithParam<LawCase>
 {
 };
 
-// What is gone, measured from the mask by another quadrature, is Eq. (8) or (9) summed over the
-// ticks: F_t from the record, r as the feed has it, with the constants of the catalogue.
+// The removed volume, measured from the mask by another quadrature, is Eq. (8) or (9) summed over
+// the ticks: F_t from the record, r from the removal model, constants from the catalogue.
 TEST_P(RemovalLaws, AreWhatIsRemoved)
 {
   const LawCase& p = GetParam();
@@ -98,7 +98,7 @@ TEST_P(RemovalLaws, AreWhatIsRemoved)
         const double rate = force * 1e-3 * scene.removalModel.arm() * 2000.0 * kPi / pascal; // m3/s
         expected += 1e9 * rate * p.tick;
       });
-  // r_b cos(theta) of the flat surface, more near the pole, where the patch has spread, and less at
+  // r_b cos(theta) of the flat surface; more near the pole, where the patch has spread, and less at
   // the equator: the mean of r_b cos(latitude) over a patch of 1 mm is 3 % less than r_b there.
   const double plain = 2.0 * std::cos(p.degrees * kDegree);
   EXPECT_GT(arms / p.seconds, 0.95 * plain);
@@ -153,8 +153,8 @@ TEST(BurrRemovalModel, TakesTheSameAtAnyTickAndVoxel)
   }
 }
 
-// Shafts at 60 to 90 degrees from the normal, to the last of which the surface is parallel: the way
-// to the bone is the surface's normal, not the shaft.
+// Shafts at 60 to 90 degrees from the normal, the last parallel to the surface: the approach to the
+// bone is the surface's normal, not the shaft.
 class FlatShafts : public ::testing::TestWithParam<Burr::Kind>
 {
 };
@@ -172,7 +172,7 @@ TEST_P(FlatShafts, TakeTheSameAtAnyTickAndVoxel)
     SCOPED_TRACE(degrees);
     const double usual = removed(0.2, 1e-3);
     const double law = GetParam() == Burr::Kind::Cutting ? 5.65 : 1.004; // mm3/s at 1 N, 2 mm
-    // The mean over a patch of a millimetre is some per cent less than r_b cos(theta): see above.
+    // The mean over a patch of a millimetre is some per cent below r_b cos(theta): see above.
     const double plain = 0.25 * law * std::cos(degrees * kDegree);
     EXPECT_GT(usual, 0.95 * plain);
     EXPECT_LT(usual, 1.02 * plain);
@@ -186,8 +186,8 @@ TEST_P(FlatShafts, TakeTheSameAtAnyTickAndVoxel)
 INSTANTIATE_TEST_SUITE_P(OfBothKinds, FlatShafts,
                          ::testing::Values(Burr::Kind::Cutting, Burr::Kind::Diamond));
 
-// Its place lies far beyond the tool, so it pulls sideways by more than the thrust where that turns
-// by a little.
+// The target is far beyond the tool, so it pulls sideways by more than the thrust for small
+// rotations.
 TEST(BurrRemovalModel, AWeakThrustDoesNotSwing)
 {
   LawScene scene(settingOf(Burr::Kind::Cutting, 0.2, 80.0, 0.2, 1e-3));
@@ -201,14 +201,14 @@ TEST(BurrRemovalModel, AWeakThrustDoesNotSwing)
                                             record.burrForce[2]);
                 EXPECT_NEAR(force.norm(), 0.2, 0.02);
                 sum += force.norm();
-                // And they hardly push it from its place.
+                // They hardly push it aside.
                 const Eigen::Vector3d at = record.proxy.pose().position;
                 EXPECT_LT(std::hypot(at.x() - 0.013, at.y() + 0.027), 0.02);
               });
   EXPECT_NEAR(sum / 1000.0, 0.2, 0.002);
 }
 
-// 0.05 mm3/s: a seventh of a micrometre a second on the whole hemisphere, less than a step of an
+// 0.05 mm3/s: a seventh of a micrometre per second on the whole hemisphere, less than a step of an
 // 8-bit mask in ten ticks.
 TEST(BurrRemovalModel, ASlowDiamondBurrDoesNotStall)
 {
@@ -235,13 +235,13 @@ TEST(BurrRemovalModel, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
   const haptics::Pose place{{0.0, 0.0, -1.0}, Eigen::Quaterniond::Identity()};
   for (int n = 0; n < 200; ++n)
     idle.tick(place);
-  EXPECT_GT(idle.session.records.back().thrust, 0.5); // it lies on the bone
+  EXPECT_GT(idle.session.records.back().thrust, 0.5); // it rests on the bone
   EXPECT_TRUE(idle.work.mask().untouched());
   EXPECT_EQ(idle.removalModel.balance().predicted, 0.0);
 }
 
-// Half of the burr meets bone that takes a third of the work: the work done is the work that the
-// volumes take, each in its tissue.
+// Half of the burr meets bone that takes a third of the work: the total work is the sum over the
+// volumes, each in its tissue.
 TEST(BurrRemovalModel, TissuesShareTheWorkOfABite)
 {
   LawScene::Setting setting;
@@ -278,7 +278,8 @@ TEST(BurrRemovalModel, WhatIsOwedIsForfeitedWhenContactEnds)
   EXPECT_EQ(after.removed, before.removed);
 }
 
-// A hole of just the burr's size, which the field holds to a hundredth of a voxel, must not jam it.
+// A hole of exactly the burr's size, which the field represents to a hundredth of a voxel, must not
+// jam it.
 TEST(BurrRemovalModel, DrillsOnBeyondItsEquator)
 {
   for (const double degrees : {90.0, 80.0})
@@ -294,7 +295,7 @@ TEST(BurrRemovalModel, DrillsOnBeyondItsEquator)
 
 TEST(BurrRemovalModel, DoesNotBoreOnWhileTheToolIsHeld)
 {
-  // The servo says that the burr stays where it is, whatever is taken.
+  // According to the servo the burr stays in place, whatever is removed.
   LawScene scene(LawScene::Setting{});
   const Eigen::Vector3d at(0.0, 0.0, 2.0);
   for (int n = 0; n < 500; ++n)
@@ -324,8 +325,8 @@ TEST(BurrRemovalModel, RefusesASpindleThatTurnsBack)
   EXPECT_THROW(BurrRemovalModel(scene.search, burr, 0.3), core::InvalidParameter);
 }
 
-// Places drawn at random on a cap: those within `rim` of the middle, whose own mean distance from
-// the line through the middle is the spread.
+// Random points on a cap: those within `rim` of the middle, whose own mean distance from the line
+// through the middle is the spread.
 TEST(BurrRemovalModel, ArmIsTheMeanOverThePatch)
 {
   const double radius = 2.0;
@@ -353,7 +354,7 @@ TEST(BurrRemovalModel, ArmIsTheMeanOverThePatch)
     }
 }
 
-// Of a point r_b cos(theta), and at the pole the spread.
+// r_b cos(theta) for a point, and the spread at the pole.
 TEST(BurrRemovalModel, ArmIsThatOfTheContact)
 {
   EXPECT_NEAR(BurrRemovalModel::armOf(2.0, 0.0, 0.0), 2.0, 0.001);

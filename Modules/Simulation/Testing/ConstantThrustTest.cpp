@@ -16,7 +16,7 @@ namespace
 ServoSetup setupWith(double stiffness)
 {
   ServoSetup setup = Session::plainSetup();
-  setup.guard.goodTicks = 1; // a written path is sound from its first tick
+  setup.guard.goodTicks = 1; // a scripted path is valid from its first tick
   setup.stiffness = stiffness;
   return setup;
 }
@@ -34,7 +34,7 @@ TEST(ConstantThrust, PressesAPlaneWithTheForceThatIsSet)
       session.parameters.constantThrust = 1;
       session.parameters.approach[2] = -10.0;
       session.parameters.thrust = thrust;
-      // The place lies above, then in, then above the surface, and moves along it.
+      // The target is above, then in, then above the surface, and moves along it.
       session.go({0.0, 0.0, 6.0}, {10.0, 4.0, 6.0}, 1000);
       const std::size_t first = 500; // 50 mm/s and at most 10 mm to the plane
       session.go({10.0, 4.0, 6.0}, {0.0, 8.0, -3.0}, 500);
@@ -46,7 +46,7 @@ TEST(ConstantThrust, PressesAPlaneWithTheForceThatIsSet)
                 .norm(),
             0.01 * thrust);
       }
-      // Across the normal the tool is where the hand points.
+      // Perpendicular to the normal the tool is at the device's position.
       const Vector3d place = session.records.back().mapped.pose().position;
       const Vector3d off = session.records.back().proxy.pose().position - place;
       EXPECT_LT(off.cross(session.proxy.normal).norm(), 0.05);
@@ -163,8 +163,8 @@ TEST(ConstantThrust, LeadsOnWhatFollows)
 namespace
 {
 
-// What a tool does that stands still and pushes back with the coupling's whole force, but for the
-// part of its way that it plans and does not make.
+// Result of a tool that stands still and pushes back with the coupling's whole force, except for
+// the planned motion that it does not make.
 haptics::ProxyTick held(const Vector3d& at, const Vector3d& goal, double stiffness,
                         double planned = 0.0)
 {
@@ -202,7 +202,7 @@ ConstantThrust onAPlane(const Vector3d& at, double stiffness)
 
 } // namespace
 
-// A wall holds it off its place: with what pulls there the force is what was asked for, not more.
+// A wall holds it off its target: including the lateral pull, the force is the requested one.
 TEST(ConstantThrust, WhatPullsSidewaysIsPartOfTheForce)
 {
   const Vector3d at(0.0, 0.0, 2.0), place(0.05, 0.0, 2.0);
@@ -217,7 +217,7 @@ TEST(ConstantThrust, WhatPullsSidewaysIsPartOfTheForce)
   EXPECT_NEAR(10.0 * (goal - at).x(), 0.5, 0.01);
 }
 
-// Ripples of its hollow let it slide to and fro, and push it to a side that is theirs.
+// Ripples of the hollow let it slide back and forth, and push it sideways.
 TEST(ConstantThrust, SlidingInAHollowDoesNotTurnIt)
 {
   const Vector3d at(0.0, 0.0, 2.0), place(0.0, 0.0, -3.0);
@@ -231,11 +231,11 @@ TEST(ConstantThrust, SlidingInAHollowDoesNotTurnIt)
     thrust.see(held(slid, goal + ripple, 10.0), kSpeed, kTick);
   }
   const Vector3d last = at + Vector3d(0.05 * std::sin(0.3 * 1999), 0.0, 0.0);
-  // Sideways it pulls to the place, straight above which it was pressed on.
+  // It pulls sideways towards the target, which is straight below the first contact.
   EXPECT_NEAR((goal - last).x(), -last.x(), 1e-6);
 }
 
-// A tick's work is bounded: a tool may plan a way that it does not make, and push the less.
+// A tick's work is bounded: a tool may plan a motion that it does not make, and push less.
 TEST(ConstantThrust, MakesUpForAToolThatPushesLessThanItWasTold)
 {
   const Vector3d at(0.0, 0.0, 2.0);
@@ -254,20 +254,20 @@ TEST(ConstantThrust, ComesBackGentlyToASurfaceThatItLost)
   const Vector3d at(0.0, 0.0, 2.0);
   ConstantThrust thrust = onAPlane(at, 10.0);
   haptics::ProxyTick free;
-  free.pose.position = goalOf(thrust, at, at, 0.1); // arrived, and nothing there
+  free.pose.position = goalOf(thrust, at, at, 0.1); // arrived, with nothing there
   thrust.see(free, kSpeed, kTick);
   const Vector3d next = goalOf(thrust, at, free.pose.position, 0.1);
-  // Were the surface there, it would be met with some newtons' tenths, not with 50 mm/s and 0.5 N.
+  // Meeting the surface there would cost some tenths of a newton, not 50 mm/s and 0.5 N.
   EXPECT_LE(10.0 * (free.pose.position - next).norm(), 3.0 * 0.1 + 1e-9);
   EXPECT_NEAR((at - free.pose.position).norm(), 0.01, 1e-9);
 }
 
-// What it was pressed to gave way, and the tool hangs on something that gives no row.
+// The tissue under it gave way, and the tool hangs on something that gives no row.
 TEST(ConstantThrust, AFallThatMakesNoWayIsOver)
 {
   const Vector3d at(0.0, 0.0, 2.0);
   ConstantThrust thrust = onAPlane(at, 10.0);
-  const Vector3d place(0.0, 0.0, 5.0); // the way to the surface leads along +x
+  const Vector3d place(0.0, 0.0, 5.0); // the approach is along +x
   const auto goal = [&]
   {
     return thrust
@@ -283,10 +283,10 @@ TEST(ConstantThrust, AFallThatMakesNoWayIsOver)
     thrust.see(hangs, kSpeed, kTick);
   }
   EXPECT_GT(goal().x(), 0.0);
-  EXPECT_GT(goal().z(), at.z()); // back to its place
+  EXPECT_GT(goal().z(), at.z()); // back to its target
 }
 
-// The burr touches nothing, and the place is far: what holds it is pulled by the thrust, not more.
+// The burr touches nothing, and the target is far: the obstacle is pulled with at most the thrust.
 TEST(ConstantThrust, AToolThatItsShaftHoldsPullsWithTheThrust)
 {
   ConstantThrust thrust(10.0, 1);
@@ -295,7 +295,7 @@ TEST(ConstantThrust, AToolThatItsShaftHoldsPullsWithTheThrust)
   tick.status = haptics::ProxyStatus::Contact;
   tick.pose.position = at;
   tick.contactCount = 1;
-  tick.contacts[0].point = 7; // not of the burr
+  tick.contacts[0].point = 7; // not on the burr
   tick.contacts[0].thrust = 1.0;
   for (int n = 0; n < 100; ++n)
   {
@@ -308,14 +308,14 @@ TEST(ConstantThrust, AToolThatItsShaftHoldsPullsWithTheThrust)
   }
 }
 
-// The mode is left and entered again in contact: nothing of the time between counts.
+// The mode is left and re-entered in contact: the time in between does not count.
 TEST(ConstantThrust, BeginsAnewWhereItWasNotAskedFor)
 {
   const Vector3d at(0.0, 0.0, 2.0);
   ConstantThrust thrust = onAPlane(at, 10.0);
   goalOf(thrust, at, at, 1.0);
   thrust.see(held(at, at - Vector3d(0.0, 0.0, 0.1), 10.0), kSpeed, kTick);
-  for (int n = 0; n < 100; ++n) // by hand, lightly
+  for (int n = 0; n < 100; ++n) // manually, lightly
     thrust.see(held(at, at - Vector3d(0.0, 0.0, 0.001), 10.0), kSpeed, kTick);
   EXPECT_NEAR(10.0 * (goalOf(thrust, at, at, 1.0) - at).norm(), 1.0, 1e-6);
 }

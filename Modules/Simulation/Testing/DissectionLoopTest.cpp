@@ -58,7 +58,7 @@ TEST(DissectionLoop, MakesAStrokeOfEachTimeTheDrillIsOn)
   EXPECT_EQ(begun, 3);
   ASSERT_EQ(durations.size(), 3u);
   EXPECT_NEAR(durations[1], 0.1, 1e-9);
-  // The second and third stroke find nothing to take where the first one was.
+  // The second and third strokes find nothing to remove where the first one was.
   ASSERT_EQ(scene.work.strokes().size(), 1u);
   EXPECT_EQ(scene.work.strokes()[0]->info.burr.diameter, 4.0);
   EXPECT_FALSE(scene.work.strokeOpen());
@@ -81,7 +81,7 @@ TEST(DissectionLoop, PublishesEachCutAndSaysWhereTissueCameBack)
   for (const std::size_t brick : std::exchange(changed, {}))
     EXPECT_EQ(scene.mask->acquire()->brick(brick), scene.work.mask().brick(brick).get());
 
-  EXPECT_TRUE(loop.undo()); // closes the stroke that is open
+  EXPECT_TRUE(loop.undo()); // closes the open stroke
   EXPECT_EQ(scene.mask->acquire()->raises(), 1u);
   EXPECT_TRUE(scene.work.mask().untouched());
   EXPECT_FALSE(changed.empty());
@@ -116,7 +116,7 @@ TEST(DissectionLoop, DoesNotCutWhatCameBackByTicksFromBefore)
   EXPECT_FALSE(loop.step(pressed(0.011, {0.0, 0.0, 0.0}, 1.0, true)));
   EXPECT_FALSE(loop.step(pressed(0.012, {0.0, 0.0, 0.0}, 1.0, true)));
   EXPECT_TRUE(scene.work.mask().untouched());
-  EXPECT_TRUE(loop.redo()); // it was not given up for a stroke of its own
+  EXPECT_TRUE(loop.redo()); // not discarded by a new stroke
   EXPECT_TRUE(loop.step(pressed(0.013, {0.0, 0.0, 0.0}, 1.0, true)));
 }
 
@@ -136,7 +136,7 @@ TEST(DissectionLoop, TakesBitesAtOnePlaceTogether)
     each.step(record);
   batch.step(records.data(), records.size());
   EXPECT_EQ(batch.cuts(), 1u);
-  // Together they go as deep as one after the other at places that follow each bite.
+  // Combined they go as deep as one after the other at positions that follow each bite.
   LoopScene deep;
   deep.work.beginStroke({});
   deep.work.cut({{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0 - 39 * 0.001}, 2.0});
@@ -147,7 +147,7 @@ TEST(DissectionLoop, TakesBitesAtOnePlaceTogether)
     int worst = 0;
     for (std::size_t n = 0; n < got.size(); ++n)
       worst = std::max(worst, std::abs(int(got[n]) - int(expected[n])));
-    EXPECT_LE(worst, 1); // of 65535: the sums round apart
+    EXPECT_LE(worst, 1); // of 65535: rounding of the sums
   }
   EXPECT_EQ(all.work.strokes().size(), 1u);
 }
@@ -165,8 +165,8 @@ TEST(DissectionLoop, DrillsAPlaneAtTheRateOfTheRemovalModel)
     loop.step(session.tick(place));
   const double depth0 = session.records[200].proxy.pose().position.z();
   const double depth1 = session.records[399].proxy.pose().position.z();
-  // 1 N at 20 mm/s per N. The ball's pole feels the interpolated mask, which lies within a
-  // hundredth of a voxel of the ball that cut it; at 0.02 mm a bite that is up to a sixth.
+  // 1 N at 20 mm/s per N. The ball's pole feels the interpolated mask, which is within a hundredth
+  // of a voxel of the ball that cut it; at 0.02 mm per bite that is up to a sixth.
   EXPECT_NEAR((depth0 - depth1) / 0.199, 20.0, 3.4);
   EXPECT_EQ(scene.work.strokes().size(), 0u);
   session.pedal = 0.0;
@@ -199,7 +199,7 @@ TEST(DissectionLoop, UndoInContactPutsTheToolOutAndTheForceBackSlowly)
   for (std::size_t n = before + 1; n < session.records.size(); ++n)
     EXPECT_LE(forceOf(session.records[n].output).norm(), most + 1e-12);
   EXPECT_LT(forceOf(session.records.back().output).norm(), 1e-6);
-  // The session goes on from there.
+  // The session continues from there.
   const TickRecord& pressing = session.go({0.0, 0.0, -2.0}, {0.0, 0.0, -3.0}, 100);
   EXPECT_NEAR(forceOf(pressing.output).z(), 1.0, 1e-6);
 }

@@ -37,7 +37,7 @@ volume::CutMask::BrickVersion version(std::uint16_t value)
   return brick;
 }
 
-// Servo, cutting thread and a follower, as a window has them.
+// Servo, cutting thread and a follower, as in a window.
 class Following : public ::testing::Test
 {
 protected:
@@ -47,7 +47,7 @@ protected:
   DissectionReporter reporter{scene.work, mailbox};
   DissectionLoop loop{scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, {}, {})};
   SpscRing<TickRecord> ring{1 << 15};
-  std::size_t applied = 0, closed = 0; // as the events say
+  std::size_t applied = 0, closed = 0; // according to the events
 
   DissectionThread::Hooks hooks()
   {
@@ -55,7 +55,7 @@ protected:
             [this] { reporter.post(); }};
   }
 
-  // A picture: what it changes, and that each change was told.
+  // One frame: applies changes and checks that each was reported.
   void follow()
   {
     const auto before = seen.mask();
@@ -98,7 +98,7 @@ TEST(DissectionUpdate, HoldsTheLatestVersionOfABrickHoweverLongNobodyAsks)
   EXPECT_EQ(mail.bricks.at(1), made[997]);
   EXPECT_EQ(mail.bricks.at(2), made[998]);
   EXPECT_TRUE(mailbox.take().empty());
-  // The versions in between are held by nobody else.
+  // The intermediate versions are not held elsewhere.
   EXPECT_EQ(made[0].use_count(), 1);
   EXPECT_EQ(made[999].use_count(), 2);
 }
@@ -155,8 +155,8 @@ TEST_F(Following, AStrokeThatIsOpenIsSeenAsTheThreadHasIt)
   EXPECT_EQ(closed, 1u);
 }
 
-// Hundreds of pictures of live sessions that are stopped at any moment: the follower has what the
-// thread has to the last bit, and misses nothing in between.
+// Hundreds of frames of live sessions stopped at random times: the follower is bit-identical to the
+// thread and misses nothing in between.
 TEST_F(Following, RandomSessionsWithUndoAndRedoAreFollowedToTheLastBit)
 {
   std::mt19937 random(5);
@@ -203,7 +203,7 @@ TEST_F(Following, RandomSessionsWithUndoAndRedoAreFollowedToTheLastBit)
     ASSERT_EQ(seen.strokes(), scene.work.strokes());
     ASSERT_EQ(seen.applied(), scene.work.applied());
     ASSERT_FALSE(seen.strokeOpen());
-    // And it is the history's: back and forth again on the copy leads to the same bits.
+    // It is also the history's: undo and redo on the copy lead to the same bits.
     dissection::Dissection again = seen;
     while (again.undo())
     {
@@ -213,7 +213,7 @@ TEST_F(Following, RandomSessionsWithUndoAndRedoAreFollowedToTheLastBit)
     {
     }
     ASSERT_EQ(voxelsOf(again), scene.voxels());
-    EXPECT_LE(scene.mask->statesHeld(), 2u); // the present one, and the reader's last
+    EXPECT_LE(scene.mask->statesHeld(), 2u); // the current one, and the reader's last
   }
   EXPECT_GT(closed, 5u);
   EXPECT_GT(open, 5u);
@@ -225,7 +225,7 @@ TEST_F(Following, StopLosesNoStrokeAndNoRequest)
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);
   session.pedal = 1.0;
-  // All that the servo did, and what was asked, before the thread looks for the first time.
+  // All of the servo's ticks and the requests, before the thread first looks.
   for (int n = 0; n < 50; ++n)
     ring.push(session.tick({{0.0, 0.0, 1.0}, Eigen::Quaterniond::Identity()}));
   {
@@ -250,7 +250,7 @@ TEST_F(Following, StopLosesNoStrokeAndNoRequest)
 
 TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
 {
-  int cuts = 0; // and no memory after the 21st
+  int cuts = 0; // out of memory after the 21st
   const auto failing = [&cuts](const MaskEdit& edit)
   {
     if (edit.kind == MaskEdit::Kind::Cut && ++cuts > 20)

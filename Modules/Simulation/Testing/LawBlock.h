@@ -18,7 +18,7 @@
 namespace petrous::simulation::testing
 {
 
-/// How a burr is pressed on the block.
+/// How a burr is pressed onto the block.
 struct LawSetting
 {
   dissection::Burr burr;
@@ -27,7 +27,7 @@ struct LawSetting
   double voxel = 0.3;           // mm
   double tick = 0.001;          // s
   std::optional<double> border; // x, mm
-  double speed = 0.0;           // mm/s, to and fro along y
+  double speed = 0.0;           // mm/s, back and forth along y
   double travel = 1.5;          // mm, to either side
   Eigen::Vector3d place{0.013, -0.027, 0.0};
 };
@@ -39,7 +39,7 @@ inline double resistance(const dissection::Burr& burr, const std::string& materi
   return resistanceOf(catalogues.materials.material(material), catalogues.burrs.model(burr.kind));
 }
 
-/// Of the tool, made once: that takes longer than drilling for a while.
+/// Of the tool, built once: building takes longer than some time of drilling.
 inline std::shared_ptr<const haptics::PointShell> shellOf(const LawSetting& s)
 {
   static std::map<std::pair<double, double>, std::shared_ptr<const haptics::PointShell>> shells;

@@ -16,7 +16,7 @@
 namespace petrous::simulation::testing
 {
 
-/// A flat block of bone, its surface at z = 0, and a burr that drills it by the laws with a set
+/// A flat block of bone with its surface at z = 0, and a burr that drills it by the laws with a set
 /// thrust: everything but the thread. Cortical bone; with a `border`, cellular bone beyond it.
 class LawScene
 {
@@ -43,13 +43,14 @@ public:
     session.parameters.thrust = setting.thrust;
   }
 
-  /// What follows a tick; the loop, unless another rule is measured.
+  /// Called after each tick; the loop, unless another rule is tested.
   std::function<void(const TickRecord&)> follow = [this](const TickRecord& record)
   { loop.step(record); };
 
-  std::vector<dissection::SweptSphere> bites; // in the order in which they were cut
+  std::vector<dissection::SweptSphere> bites; // in chronological order
 
-  /// Pressed, with the drill on, for so many seconds of contact; each such tick is told.
+  /// Presses, with the drill on, for a number of seconds of contact; `told` is called for each such
+  /// tick.
   void drill(double seconds, const std::function<void(const TickRecord&)>& told = {})
   {
     const double angle = 0.5 * 3.14159265358979323846 - m_setting.elevation;
@@ -65,7 +66,7 @@ public:
       session.pedal = 1.0;
     }
     const auto wanted = static_cast<int>(std::lround(seconds / m_setting.tick));
-    const int most = 5 * wanted + 2000; // it may come out below
+    const int most = 5 * wanted + 2000; // it may break through at the bottom
     for (int n = 0, done = 0; done < wanted && n < most; ++n)
     {
       haptics::Pose there = place;
@@ -89,7 +90,7 @@ public:
   }
 
 private:
-  // mm along y: a triangle wave of the session's time.
+  // mm along y: a triangle wave over the session's time.
   double aside() const
   {
     const double way = m_setting.speed * (session.now - kStart) / m_setting.travel;
@@ -127,7 +128,7 @@ public:
   std::shared_ptr<volume::PublishedMask> mask;
   volume::TissueField tissue;
   std::shared_ptr<const volume::LabelMap> sides;
-  SurfaceApproach approach; // to the bone as it was
+  SurfaceApproach approach; // to the original bone
   dissection::TissueResistance meets;
   dissection::RemovalDepthSolver search;
   BurrRemovalModel removalModel;

@@ -25,7 +25,7 @@ TEST(Leash, BoundsTheForceAndForgetsWhatTheHandRanAhead)
   const TickRecord& pressed = session.go(kAbove, deep, 200);
   EXPECT_NEAR(forceOf(pressed.wrench).z(), 0.5, 1e-9); // 1 N/mm
   EXPECT_NEAR((pressed.mapped.pose().position - Vector3d(0.0, 0.0, 1.5)).norm(), 0.0, 1e-9);
-  // A millimetre back of 32 is as a millimetre above where the leash held the hand.
+  // Moving back by 1 of 32 mm puts the goal 1 mm above the drift limit.
   const TickRecord& back = session.go(deep, deep + Vector3d(0.0, 0.0, 1.0), 50);
   EXPECT_NEAR(back.mapped.pose().position.z(), 2.5, 1e-9);
   EXPECT_NEAR(back.proxy.pose().position.z(), 2.5, 1e-9);

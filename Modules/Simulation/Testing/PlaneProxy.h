@@ -12,8 +12,8 @@
 namespace petrous::simulation::testing
 {
 
-/// A ball on a half-space, worked out by hand: solid where normal . p < offset and, with a mask,
-/// where the mask is above a half. The ball touches with its pole towards the plane. No rotation is
+/// A ball on a half-space, in closed form: solid where normal . p < offset and, with a mask, where
+/// the mask is above 1/2. The ball touches with its pole towards the plane. Rotation is not
 /// resisted.
 class PlaneProxy : public haptics::Proxy
 {
@@ -97,7 +97,7 @@ private:
             });
   }
 
-  // Least way along the normal that takes the ball out, in steps of 0.02 mm, then bisected.
+  // Smallest distance along the normal that frees the ball, in steps of 0.02 mm, then bisected.
   double wayOut(const Eigen::Vector3d& center, const volume::MaskState* state) const
   {
     if (!solid(pole(center), state))

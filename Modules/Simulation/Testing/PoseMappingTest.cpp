@@ -50,7 +50,7 @@ void expectSame(const Pose& a, const Pose& b, double tolerance = 1e-11)
   EXPECT_LT(angle(a.rotation, b.rotation), tolerance);
 }
 
-// A camera as the eye knows it: its axes on the screen.
+// The camera's axes on the screen.
 struct Screen
 {
   core::CameraPose camera;
@@ -63,7 +63,7 @@ Screen screenOf(Random& random)
   screen.camera.focalPoint = random.vector(50.0);
   screen.camera.position = screen.camera.focalPoint + random.vector(200.0);
   screen.camera.viewUp = random.vector(1.0);
-  // By projection: up is what is left of viewUp across the line of sight.
+  // By projection: up is the component of viewUp perpendicular to the line of sight.
   screen.toEye = (screen.camera.position - screen.camera.focalPoint).normalized();
   screen.up =
       (screen.camera.viewUp - screen.camera.viewUp.dot(screen.toEye) * screen.toEye).normalized();
@@ -110,7 +110,7 @@ TEST(PoseMapping, TurnsAboutTheScreensAxes)
     PoseMapping mapping;
     Pose hand = random.pose();
     const Quaterniond start = mapping.map(hand, view).rotation;
-    // A hand that leans to the right on the screen: a turn about the axis towards the eye.
+    // The device tilts right on the screen: a rotation about the axis towards the camera.
     hand.rotation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d::UnitZ())) * hand.rotation;
     const Quaterniond expected = Eigen::AngleAxisd(0.7, screen.toEye) * start;
     EXPECT_LT(angle(mapping.map(hand, view).rotation, expected), 1e-12);
@@ -189,7 +189,7 @@ TEST(PoseMapping, ClutchMovesTheHandAndNotTheTool)
     for (int tick = 0; tick < 20; ++tick)
       mapping.hold(hand = random.pose(), view, tool);
     expectSame(mapping.map(hand, view), tool);
-    // From here on it is the hand's own motion that counts.
+    // From here on only the device's own motion counts.
     const Vector3d step = random.vector(5.0);
     const Quaterniond turn(Eigen::AngleAxisd(0.4, random.vector(1.0).normalized()));
     const Pose moved = mapping.map({hand.position + step, turn * hand.rotation}, view);

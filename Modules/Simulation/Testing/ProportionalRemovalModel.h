@@ -7,7 +7,7 @@
 namespace petrous::simulation::testing
 {
 
-/// Goes into the tissue at a speed in proportion to thrust, whatever the tissue: 20 mm/s per N.
+/// Advances at a speed proportional to thrust, for any tissue: 20 mm/s per N.
 class ProportionalRemovalModel : public RemovalModel
 {
 public:

@@ -40,7 +40,7 @@ enum class Tool
   Centre // three
 };
 
-// A block of bone that can be cut, and a tool in it, as they are before a session.
+// A block of bone that can be cut, and a tool in it, before a session.
 struct Workplace
 {
   Workplace(Tool tool, std::uint64_t firstState = 0)
@@ -94,8 +94,8 @@ struct Workplace
   std::vector<MaskEdit> edits;
 };
 
-// Comes down on the block, presses at a height of 1 mm (or `lower`) and slides, so that drilling
-// sinks in and what comes back meets it.
+// Descends onto the block, presses at a height of 1 mm (or `lower`) and slides, so that drilling
+// sinks in and restored tissue meets it.
 class DraggingHand
 {
 public:
@@ -123,7 +123,7 @@ class RecordingReplayTest : public ::testing::TestWithParam<Tool>
 protected:
   void TearDown() override { std::filesystem::remove(file); }
 
-  // Nothing else may be said of the time that a test takes: it waits for ticks.
+  // Waits for ticks, as nothing else is known about the time that a test takes.
   static void wait(const ServoThread& servo, std::uint64_t ticks)
   {
     const std::uint64_t until = servo.state().ticks + ticks;
@@ -132,7 +132,7 @@ protected:
     ASSERT_GE(servo.state().ticks, until);
   }
 
-  // The servo in one thread, cutting, undo and redo in another.
+  // The servo in one thread; cutting, undo and redo in another.
   void liveSession(Workplace& place, int rounds)
   {
     Servo servo(*place.proxy, place.setup.servo);
@@ -152,14 +152,14 @@ protected:
            retreats += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Retreated);
          },
          {}});
-    // A slow machine has fewer ticks for the same way of the hand: on until tissue that came back
-    // has met the tool.
+    // A slow machine has fewer ticks for the same motion of the device: continue until restored
+    // tissue has met the tool.
     for (int n = 0; n < rounds || (retreats == 0 && n < 10 * rounds); ++n)
     {
       parameters.drill = 1;
       thread.setParameters(parameters);
       wait(thread, 150);
-      parameters.drill = n % 2 ? 1 : 0; // also undone while it still drills
+      parameters.drill = n % 2 ? 1 : 0; // also undone while still drilling
       thread.setParameters(parameters);
       wait(thread, 20);
       n % 4 == 3 ? dissection.redo() : dissection.undo();
@@ -204,7 +204,7 @@ TEST_P(RecordingReplayTest, OfASessionThatAnotherThreadCutIsTheSessionToTheLastB
 {
   Workplace first(GetParam());
   liveSession(first, 8);
-  // A session worth the name: several states felt in contact, tissue that came back round the tool.
+  // A meaningful session: several states felt in contact, tissue restored around the tool.
   EXPECT_GT(count(first, MaskEdit::Kind::Cut), 20u);
   EXPECT_GT(count(first, MaskEdit::Kind::Undo), 1u);
   std::size_t states = 0, pressed = 0;
@@ -264,7 +264,7 @@ TEST_P(RecordingReplayTest, SaysWhereItDiffersWithAnotherDissection)
   Workplace first(GetParam());
   liveSession(first, 3);
   Workplace other(GetParam());
-  // Another tissue under the hand: what is at fault is said, and where it begins.
+  // Different tissue under the device: the difference is reported, and where it begins.
   other.drillBefore({live[100].proxy.position[0], live[100].proxy.position[1], 0.0});
   other.mask->publish(other.work.mask(), other.work.mask().takeDirty(), false);
   const auto outcome = replayed(other);
@@ -315,7 +315,7 @@ TEST(SessionRecorder, GivesUpAloneWhenTheDiskIsFull)
   std::vector<TickRecord> ticks(5000);
   for (std::size_t n = 0; n < ticks.size(); ++n)
     ticks[n].number = n;
-  // As a full disk: no file may grow beyond what it has, and a little.
+  // Like a full disk: no file may grow much beyond its size.
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto old = std::signal(SIGXFSZ, SIG_IGN);

@@ -61,13 +61,13 @@ protected:
   }
   void setBytes(const std::string& text) const { std::ofstream(file(), std::ios::binary) << text; }
 
-  std::vector<MaskEdit> m_edits; // of all that was read
+  std::vector<MaskEdit> m_edits; // all read so far
 
 private:
   fs::path m_folder;
 };
 
-// Cuts as a session makes them, between ticks.
+// Cuts as in a session, between ticks.
 MaskEdit cutAt(std::uint64_t n)
 {
   MaskEdit edit{MaskEdit::Kind::Cut};
@@ -81,7 +81,7 @@ MaskEdit cutAt(std::uint64_t n)
   return edit;
 }
 
-// Every bit pattern may come: random words, and every kind of special double.
+// Every bit pattern may occur: random words, and every kind of special double.
 std::vector<TickRecord> anything(std::size_t count)
 {
   std::mt19937_64 random(3);
@@ -104,7 +104,7 @@ std::vector<TickRecord> anything(std::size_t count)
       case 0:
         std::memcpy(&value, &special[random() % 9], 8);
         break;
-      case 1: // a NaN with a payload, quiet or signalling, of either sign
+      case 1: // a NaN with payload, quiet or signalling, of either sign
         value = (value & 0x800FFFFFFFFFFFFFULL) | 0x7FF0000000000001ULL;
         break;
       default:
@@ -273,7 +273,7 @@ TEST_F(Recording, ReadsUpToTheLastWholeBlockOfAFileThatWasCutShort)
   write(ticks);
   const std::string whole = bytes();
   write({});
-  const std::size_t head = bytes().size() - 20; // less the end's mark
+  const std::size_t head = bytes().size() - 20; // without the end mark
   int lengths[3] = {0, 0, 0};
   for (std::size_t size = head; size < whole.size(); size += 37)
   {
@@ -356,8 +356,8 @@ TEST_F(Recording, NeverGivesATickThatWasNotWrittenWhateverByteIsChanged)
         const MaskEdit written = cutAt(e);
         ASSERT_EQ(std::memcmp(&m_edits[e], &written, sizeof written), 0) << at;
       }
-      // A changed length can look like a file that was cut short, and zstd's frames have bits that
-      // mean nothing; what was read must be right.
+      // A changed length can look like a truncated file, and zstd's frames have unused bits; what
+      // was read must be correct.
       EXPECT_TRUE(!reader.complete() || got.size() == ticks.size()) << at;
       for (std::size_t t = 0; t < got.size(); ++t)
         ASSERT_TRUE(identical(got[t], ticks[t])) << at;

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A hand that drills a groove, loses its device, clutches, and turns the camera.
+// A device that drills a groove, is disconnected, clutches, and turns the camera.
 void perform(Session& session, DissectionLoop& loop)
 {
   for (int n = 0; n < 1500; ++n)

@@ -27,7 +27,7 @@ void settle(Session& session)
   session.go(kPressing, kPressing, 150);
 }
 
-// The records from `first` on: the force falls to zero without a leap, and stays there.
+// The records from `first` on: the force falls to zero without a jump, and stays there.
 void expectRampToZero(const Session& session, std::size_t first, std::size_t zeroAfter)
 {
   double before = forceOf(session.records[first - 1].output).norm();
@@ -68,7 +68,7 @@ TEST(Servo, ReportsRadiusAndElevationOfTheContact)
   for (const double elevation : {0.2, 0.7, 1.2})
   {
     Session session;
-    // The spindle leans from the normal by pi/2 - elevation.
+    // The spindle is tilted from the normal by pi/2 - elevation.
     const Eigen::Quaterniond heading(
         Eigen::AngleAxisd(std::acos(0.0) - elevation, Vector3d(0.6, 0.8, 0.0)));
     session.go(kAbove, kPressing, 50, heading);
@@ -81,7 +81,7 @@ TEST(Servo, ReportsRadiusAndElevationOfTheContact)
 TEST(Servo, TurnsTheForceToTheHandsAxes)
 {
   Session session;
-  // The camera looks along patient x: the hand's right is patient y, its up is z.
+  // The camera looks along patient x: the device's right is patient y, its up is z.
   petrous::core::CameraPose camera;
   camera.position = {100.0, 0.0, 0.0};
   camera.focalPoint = {0.0, 0.0, 0.0};
@@ -160,7 +160,7 @@ class ServoFaults : public ::testing::TestWithParam<int>
 {
 };
 
-// Each way in which a device can go wrong in contact, for 60 ticks; then it is back, elsewhere.
+// Each fault of a device in contact, for 60 ticks; then it is back, elsewhere.
 TEST_P(ServoFaults, EndInASafeForceAndTheSessionGoesOn)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -183,22 +183,22 @@ TEST_P(ServoFaults, EndInASafeForceAndTheSessionGoesOn)
       session.deviceTime += 0.001;
       hand.rotation.w() = std::numeric_limits<double>::infinity();
       break;
-    case 2: // jumps of 50 mm to and fro
+    case 2: // jumps of 50 mm back and forth
       session.deviceTime += 0.001;
       hand.position.x() += n % 2 ? 50.0 : 0.0;
       hand.position.x() += n == 0 ? 50.0 : 0.0;
       break;
-    case 3: // time runs back
+    case 3: // time runs backward
       session.deviceTime -= 0.001;
       break;
-    case 4: // unplugged
+    case 4: // disconnected
       session.health = petrous::haptics::DeviceHealth::Disconnected;
       break;
-    case 5: // a rotation that is none
+    case 5: // an invalid rotation
       session.deviceTime += 0.001;
       hand.rotation.coeffs() *= 3.0;
       break;
-    default: // a time that is no number
+    default: // a time that is NaN
       session.deviceTime = nan;
     }
     const TickRecord& record = session.tickAsItIs(hand);
@@ -245,7 +245,7 @@ TEST(Servo, TakesTheToolUpAnewAfterAStall)
   session.pedal = 1.0;
   settle(session);
   const Vector3d tool = session.records.back().proxy.pose().position;
-  // The hand went 8 mm deeper while the machine slept.
+  // The device moved 8 mm deeper while the machine was suspended.
   const Vector3d deeper = kPressing - Vector3d(0.0, 0.0, 8.0);
   const TickRecord stalled = session.tick({deeper, Eigen::Quaterniond::Identity()}, 0.2);
   EXPECT_EQ(faultOf(stalled), ServoFault::Stalled);

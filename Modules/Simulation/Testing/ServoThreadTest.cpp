@@ -35,7 +35,7 @@ bool eventually(Condition condition)
   return true;
 }
 
-// A hand that presses into the plane and comes out again, some two times a second.
+// A device that presses into the plane and retracts, about twice a second.
 haptics::Pose pressing(double t)
 {
   return {{3.0 * std::sin(9.0 * t), 3.0 * std::cos(7.0 * t), 1.0 + 2.0 * std::sin(15.0 * t)},
@@ -49,7 +49,7 @@ std::vector<TickRecord> drained(SpscRing<TickRecord>& ring)
   return records;
 }
 
-// Sleeps in one of its readings, as a machine does that is suspended.
+// Sleeps in one of its readings, like a suspended machine.
 class SleepyDevice : public haptics::SimulatedDevice
 {
 public:
@@ -72,7 +72,7 @@ private:
   int m_reads = 0;
 };
 
-// Touch in one thread; cuts, undo and redo in another; a window's questions in this one.
+// Touch in one thread; cuts, undo and redo in another; a window's queries in this one.
 void touchCutAndUndo(LoopScene& scene, Servo& tool)
 {
   DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
@@ -158,7 +158,7 @@ TEST(ServoThread, TakesNewParameters)
   EXPECT_TRUE(eventually([&] { return thread.latest(latest) && latest.drill; }));
   parameters.scale = -1.0;
   EXPECT_THROW(thread.setParameters(parameters), core::InvalidParameter);
-  EXPECT_TRUE(eventually([&] { return thread.state().dropped > 0; })); // nobody empties the ring
+  EXPECT_TRUE(eventually([&] { return thread.state().dropped > 0; })); // the ring is not emptied
 }
 
 TEST(ServoThread, DoesNotMakeUpForTheTicksOfAStall)
@@ -178,7 +178,7 @@ TEST(ServoThread, DoesNotMakeUpForTheTicksOfAStall)
   ASSERT_GT(records.size(), 300u);
   ASSERT_GE(records[151].time() - records[150].time(), 0.2);
   EXPECT_EQ(faultOf(records[151]), ServoFault::Stalled);
-  // Made up for, 200 ticks would come at once. On the grid there is at most one a millisecond.
+  // Made up for, 200 ticks would come at once. On the grid there is at most one per millisecond.
   const double end = records[151].time() + 0.05;
   std::size_t soon = 0;
   for (std::size_t n = 151; n < records.size() && records[n].time() <= end; ++n)

@@ -8,7 +8,7 @@
 namespace petrous::simulation::testing
 {
 
-/// A hand, a servo and a plane at z = 0, ticked by hand at 1 kHz.
+/// A device, a servo and a plane at z = 0, ticked manually at 1 kHz.
 struct Session
 {
   PlaneProxy proxy;
@@ -37,7 +37,7 @@ struct Session
   {
   }
 
-  /// With another tool instead of the plane.
+  /// With another tool in place of the plane.
   Session(const ServoSetup& setup, haptics::Proxy& tool)
     : servo(tool, setup)
   {
@@ -50,7 +50,7 @@ struct Session
     return tickAsItIs(hand);
   }
 
-  /// Without the clocks going on.
+  /// Without advancing the clocks.
   const TickRecord& tickAsItIs(const haptics::Pose& hand)
   {
     haptics::DeviceReading reading;
@@ -63,7 +63,7 @@ struct Session
     return records.back();
   }
 
-  /// The hand goes in a straight line in `count` ticks.
+  /// Moves the device in a straight line in `count` ticks.
   const TickRecord& go(const Eigen::Vector3d& from, const Eigen::Vector3d& to, int count,
                        const Eigen::Quaterniond& heading = Eigen::Quaterniond::Identity())
   {

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A ball of bone of 6 mm about the origin, in a scan whose face at x = 4 mm cuts it.
+// A ball of bone of 6 mm about the origin, cut by the scan's face at x = 4 mm.
 volume::TissueField ballCut()
 {
   const core::GridGeometry grid({55, 73, 73}, Vector3d::Constant(0.25), {-9.5, -9.0, -9.0});
@@ -43,12 +43,12 @@ TEST(SurfaceApproach, IsTheWayToTheNearestPointOfTheSurface)
       approach.forget();
       const Vector3d way = approach.at((6.0 + height) * out);
       EXPECT_NEAR(way.norm(), std::abs(height), 0.03) << height;
-      EXPECT_GT(way.normalized().dot(-out), 0.98) << height; // into the bone, from within as well
+      EXPECT_GT(way.normalized().dot(-out), 0.98) << height; // into the bone, also from inside
     }
   }
 }
 
-// Where the scan ends there may be more bone: its face is no surface to be pressed on.
+// There may be more bone beyond the scan: its face is not a surface to press on.
 TEST(SurfaceApproach, DoesNotKnowTheFacesOfTheScan)
 {
   const auto field = ballCut();

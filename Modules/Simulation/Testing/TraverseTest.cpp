@@ -13,7 +13,7 @@ namespace
 constexpr double kTick = 0.001;
 const Vector3d kSight(0.0, 0.0, -1.0);
 
-// A tool in a world of one thin wall at x = 0, up to z = `rim`.
+// A tool in a world with one thin wall at x = 0, up to z = `rim`.
 struct Wall
 {
   double rim = 0.0;
@@ -42,8 +42,8 @@ TEST(Traverse, RetractsTraversesAndComesDown)
 {
   Wall wall;
   wall.tool.position = {0.0, 0.0, -5.0};
-  const Vector3d place(6.0, 0.0, -2.0); // lower than the rim: the height of the place is not enough
-  double across = -10.0;                // least height at which it was beyond the wall
+  const Vector3d place(6.0, 0.0, -2.0); // below the rim: the height of the target is not enough
+  double across = -10.0;                // minimum height beyond the wall
   for (int n = 0; n < 1000; ++n)
   {
     const bool touched = wall.force > 0.0;
@@ -84,7 +84,7 @@ TEST(Traverse, StaysWhereItComesDownOnTissue)
   haptics::Pose tool;
   tool.position = {0.0, 0.0, 1.0};
   const haptics::Pose place{{0.0, 0.0, 0.0}, Quaterniond::Identity()};
-  // Bone below z = 0.5 pushes it aside as well, as a slope does.
+  // Bone below z = 0.5 pushes it sideways as well, like a slope.
   for (int n = 0; n < 3000; ++n)
   {
     const auto goal = traverse.goal(place, tool, kSight, 1.0, kTick);
@@ -95,7 +95,7 @@ TEST(Traverse, StaysWhereItComesDownOnTissue)
     traverse.see(tick);
     if (n > 10)
     {
-      ASSERT_LT(tool.position.z(), 0.6) << n; // it does not go up and down
+      ASSERT_LT(tool.position.z(), 0.6) << n; // it does not oscillate
     }
   }
   EXPECT_FALSE(traverse.stuck());
@@ -115,7 +115,7 @@ TEST(Traverse, TriesTheShaftWhereTheLineOfSightIsClosedAndThenSaysSo)
     const auto goal =
         traverse.goal({{5.0, 0.0, 0.0}, tool.rotation}, tool, kSight, 1.0, kTick).position;
     byShaft = byShaft || goal.y() > 0.9 * goal.norm();
-    if (n > 0) // it was free
+    if (n > 0) // was free
     {
       EXPECT_LE(10.0 * goal.norm(), Traverse::kShare + 1e-12);
     }

@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 namespace
 {
 
-using Distance = std::function<double(const Vector3d&)>; // mm, negative within
+using Distance = std::function<double(const Vector3d&)>; // mm, negative inside
 
-// An occupancy that is linear across the surface, on a turned grid with long voxels.
+// Occupancy linear across the surface, on a rotated anisotropic grid.
 std::shared_ptr<const Volume<float>> occupancyOf(const Distance& distance)
 {
   const Eigen::Matrix3d turn =
@@ -70,7 +70,7 @@ TEST(DistanceField, IsTheDistanceUpToItsReach)
           ASSERT_GT(found, reach - 0.05) << p.transpose();
         else if (truth > 0.0)
         {
-          // Over the ring's middle the distance has a crease, which an edge rounds off.
+          // Above the ring's centre the distance has a crease, which one voxel edge rounds.
           const double edge = field->geometry().minSpacing();
           ASSERT_NEAR(found, truth, p.head<2>().norm() < edge ? edge : 0.1) << p.transpose();
           ++seen;

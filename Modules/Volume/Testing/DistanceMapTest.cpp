@@ -27,7 +27,7 @@ core::GridGeometry turnedGrid(int edge, const Vector3d& spacing)
   return {{edge, edge, edge}, spacing, -(turn * half), turn};
 }
 
-// An occupancy that is linear across the surface.
+// Occupancy linear across the surface.
 Volume<float> occupancyOf(const Distance& distance, const core::GridGeometry& grid)
 {
   Volume<float> occupancy(grid);
@@ -55,7 +55,7 @@ double ball(const Vector3d& p, double radius)
   return radius - p.norm();
 }
 
-// The smoothed union of a labelled shape, as a case has it.
+// The smoothed union of a labelled shape, as in a case.
 std::shared_ptr<const Volume<float>> labelled(const Distance& distance,
                                               const core::GridGeometry& grid)
 {
@@ -92,7 +92,7 @@ TEST(DistanceMap, IsTheDistanceInsideAndOutsideABall)
     EXPECT_EQ(sample.depth, map->depth(p));
     if (p.norm() < h)
     {
-      // The ridge in the middle is rounded off.
+      // The ridge in the middle is rounded.
       EXPECT_NEAR(sample.depth, truth, h);
       ++deep;
       continue;
@@ -126,7 +126,7 @@ TEST(DistanceMap, IsTheDistanceOfAPlaneInLongVoxels)
   EXPECT_GT(seen, 500);
 }
 
-// What is seen is the level 1/2 of the labels' smoothed union, ripples and all.
+// The rendered surface is the 1/2 level of the labels' smoothed union, including its ripples.
 TEST(DistanceMap, IsZeroOnTheSurfaceThatIsSeen)
 {
   const double h = 0.4;

@@ -62,7 +62,7 @@ TEST(LabelField, HasTheSmoothedUnionOfASingleMap)
 {
   std::mt19937 random(5);
   const auto grid = cube(40, 0.3, {1, 2, 3}, turned());
-  // Lumps and single voxels, some at the border.
+  // Blobs and single voxels, some at the border.
   const Labels map = paint(grid,
                            [&](const Vector3d& p) -> std::uint16_t
                            {

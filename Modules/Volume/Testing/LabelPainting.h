@@ -9,7 +9,7 @@
 #include "petrous/Volume/LabelField.h"
 #include "petrous/Volume/Sampling.h"
 
-/// Label maps for tests, and what their label field says at a patient point.
+/// Label maps for tests, and queries of their label field at a patient point.
 namespace petrous::testing
 {
 

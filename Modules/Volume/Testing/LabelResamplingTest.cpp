@@ -12,13 +12,13 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A speck on a grid of its own, which only makes the others be resampled onto that grid.
+// A speck on its own grid, only to force resampling of the others to that grid.
 volume::LabelSource speck(double spacing, const Vector3d& at, const Matrix3d& direction)
 {
   return {paintBox(cube(5, spacing, at, direction), {{2, 2, 2}, {3, 3, 3}}), 1, 255, true};
 }
 
-// Length of the segment that lies inside.
+// Length of the segment inside.
 double insideAlong(const volume::LabelField& field, const Vector3d& from, const Vector3d& to)
 {
   constexpr int n = 2000;
@@ -32,10 +32,10 @@ struct Radius
 {
   double bias = 0.0;
   double deviation = 0.0;
-  double cubed = 0.0; // mean of r^3, the volume but for 4/3 pi
+  double cubed = 0.0; // mean of r^3: the volume up to 4/3 pi
 };
 
-// Of a ball of radius R round `center`, by its surface along random directions.
+// Radius of a ball of radius R around `center`, from its surface along random directions.
 Radius radiusOf(const volume::LabelField& field, const Vector3d& center, double R)
 {
   std::mt19937 random(3);
@@ -106,7 +106,7 @@ TEST(LabelResampling, KeepsATubeOfACoarserMapAtItsWidth)
 
 TEST(LabelResampling, KeepsASheetOneVoxelThin)
 {
-  // The sheet's own plane, its thickness, and how the common grid lies to it.
+  // Plane and thickness of the sheet, and orientation of the common grid to it.
   const double h = 0.4;
   for (const double spacing : {0.4, 0.39, 0.3, 0.2, 0.15})
     for (const bool turn : {false, true})
@@ -136,8 +136,8 @@ TEST(LabelResampling, KeepsASheetOneVoxelThin)
 
 TEST(LabelResampling, KeepsWhatIsThinnerThanACommonVoxel)
 {
-  // The common grid is finer in volume, but has slices of 1 mm; the sheet and the thread are half
-  // of that, and lie in none of its planes.
+  // The common grid has smaller voxels, but slices of 1 mm; the sheet and the thread have half that
+  // thickness, and lie in none of its planes.
   const core::GridGeometry slices({60, 60, 20}, {0.2, 0.2, 1.0}, {-6.0, -6.0, -10.0});
   const auto grid = cube(24, 0.5, {0.13, 0.11, 0.5});
   auto thin = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
@@ -177,7 +177,7 @@ TEST(LabelResampling, TakesTheFinestMapOfASolidForItsGrid)
   const auto hand = volume::makeLabelField({a, b});
   const auto eye = volume::makeLabelField({a, lumen, b});
   EXPECT_DOUBLE_EQ(hand->occupancy->geometry().minSpacing(), 0.2);
-  // A lumen changes nothing for the hand.
+  // A lumen has no effect on haptics.
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-6.0, 6.0);
   for (int n = 0; n < 20000; ++n)
@@ -197,7 +197,7 @@ TEST(LabelResampling, IsCoarserThanTheFinestMapWhereMemoryEndsAndSaysSo)
   EXPECT_LE(field->occupancy->size(), most);
   ASSERT_EQ(field->notes.size(), 1u);
   EXPECT_NE(field->notes.front().find("million voxels"), std::string::npos);
-  // The sheet is a voxel of 0.05 mm thin, a common voxel is 0.2 mm and more.
+  // The sheet is one voxel of 0.05 mm thick, a common voxel is 0.2 mm or more.
   const core::GridGeometry& grid = fine->voxels->geometry();
   for (double i = 7; i < 33; i += 1.3)
     EXPECT_GT(insideAlong(*field, grid.patientFromVoxel({i, 19.0, 0.0}),

@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSpacing = 0.4; // mm, that of a clinical CT
+constexpr double kSpacing = 0.4; // mm, of a clinical CT
 
 // A surface over a grid of (u, v) in [0, 1), closed in v; closed in u too, or by a fan at each end.
 core::TriangleMesh sweep(int nu, int nv, bool closedInU,
@@ -93,7 +93,7 @@ core::TriangleMesh box(const Vector3d& lower, const Vector3d& upper)
   return mesh;
 }
 
-// A tube of radius r along a slanted axis.
+// A tube of radius r along an oblique axis.
 const Vector3d kAxis = Vector3d(0.9, 0.37, 0.24).normalized();
 core::TriangleMesh tube(double radius, double length)
 {
@@ -116,8 +116,8 @@ double valueAt(const volume::Volume<float>& occupancy, const Vector3d& patient)
   return occupancy.geometry().hullContains(voxel) ? volume::sampleTrilinear(occupancy, voxel) : 0.0;
 }
 
-// Where the occupancy falls through 0.5 on the way from inside to outside, mm from `from`; negative
-// when it does not start inside.
+// Where the occupancy falls below 0.5 along the direction, mm from `from`; negative if it does not
+// start inside.
 double crossing(const volume::Volume<float>& occupancy, const Vector3d& from, const Vector3d& direction,
                 double reach)
 {
@@ -204,7 +204,7 @@ TEST(MeshSolid, KeepsATubeWholeThatIsThinnerThanAVoxel)
 
 TEST(MeshSolid, IsTheDistanceItselfNearAPlane)
 {
-  // A cuboid turned against the grid: far from its edges its faces are planes.
+  // A rotated cuboid: far from its edges its faces are planes.
   const Eigen::Matrix3d turn =
       (Eigen::AngleAxisd(0.6, Vector3d(1, 2, 3).normalized())).toRotationMatrix();
   auto mesh = box(Vector3d::Constant(-4.0), Vector3d::Constant(4.0));
@@ -238,7 +238,7 @@ TEST(MeshSolid, HasTheVolumeOfATorus)
                       return Vector3d(r * std::cos(a), r * std::sin(a), radius * std::sin(b));
                     });
   const double truth = 2.0 * kPi * kPi * ring * radius * radius;
-  for (const auto& either : {mesh, turned(mesh)}) // whichever way it faces
+  for (const auto& either : {mesh, turned(mesh)}) // either orientation
   {
     const auto occupancy = volume::solidOf(either, kSpacing);
     ASSERT_TRUE(occupancy);
@@ -278,7 +278,7 @@ TEST(MeshSolid, UnitesShellsThatTouchOrOverlap)
       EXPECT_GT(valueAt(*occupancy, {x, 1.0, 1.0}), 0.75) << "x = " << x << ", from " << start;
     EXPECT_NEAR(crossing(*occupancy, {2.9, 1.0, 1.0}, {0, 0, 1}, 2.0), 1.0, 0.02);
   }
-  // Two that share only an edge of which both are made: four triangles meet there.
+  // Two boxes that share only an edge: four triangles meet there.
   auto corner = joined(left, box({3, 2, 0}, {6, 4, 2}));
   const auto occupancy = volume::solidOf(corner, kSpacing);
   ASSERT_TRUE(occupancy) << planned(corner).refusal;
@@ -303,7 +303,7 @@ TEST(MeshSolid, DoesNotCareWhichWaySingleTrianglesFace)
 TEST(MeshSolid, CountsCornersAtOnePlaceAsOne)
 {
   const auto shared = sphere({0, 0, 0}, 2.0, 16);
-  core::TriangleMesh loose; // three corners of its own for each triangle
+  core::TriangleMesh loose; // three vertices of its own for each triangle
   for (const auto& t : shared.triangles)
   {
     const auto n = static_cast<std::uint32_t>(loose.vertices.size());
@@ -373,7 +373,7 @@ TEST(MeshSolid, IsMadeOnlyInTheRegion)
   EXPECT_NEAR(crossing(*occupancy, {8.0, 0.0, 0.0}, {1, 0, 0}, 4.0), 10.0 - 8.0, 0.05 * kSpacing);
 }
 
-// A vertex 5 m off took minutes: its spike was cut into triangles of half a voxel.
+// A vertex 5 m away took minutes: its spike was subdivided into triangles of half a voxel.
 TEST(MeshSolid, RefusesWhatReachesFarBeyondTheRegion)
 {
   MeshSolidLimits limits;
@@ -393,7 +393,7 @@ TEST(MeshSolid, RefusesWhatReachesFarBeyondTheRegion)
   EXPECT_NEAR(volume::maxReach({Vector3d::Zero(), Vector3d(600, 800, 0)}), 1000.0, 1e-9);
 }
 
-// What leaves the region is cut off there, and what is left in it is as before.
+// Parts outside the region are cut off there, without effect inside it.
 TEST(MeshSolid, IsTheSameInTheRegionWhereTheMeshGoesFarBeyond)
 {
   MeshSolidLimits limits;
@@ -431,7 +431,7 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
                          }));
   }
   EXPECT_LT(plain, 0.5) << "voxels alone do not hold it";
-  // What lies more than a voxel's diagonal away stays free to be drilled.
+  // Tissue farther away than a voxel diagonal remains drillable.
   const Vector3d out = kAxis.unitOrthogonal();
   for (double along = 0.5; along < length - 0.5; along += 0.1)
     EXPECT_LT(valueAt(*guard, along * kAxis + 0.9 * out), 0.5);

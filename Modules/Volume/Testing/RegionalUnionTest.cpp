@@ -1,4 +1,4 @@
-// What is smoothed region by region against the whole, to the last bit.
+// Smoothing by region against the whole, bit by bit.
 
 #include <cmath>
 #include <cstring>
@@ -17,8 +17,8 @@ namespace
 
 const core::GridGeometry kLong({330, 44, 44}, Vector3d(0.3, 0.3, 0.4), Vector3d(-40, 10, 5));
 
-// A tube that winds along the grid, longer than what decides over a voxel reaches; a sheet one
-// voxel thin and tilted; a rod of one voxel askew; grains that touch by edges and corners; a ball.
+// A tube that winds along the grid, longer than the support of a voxel; a tilted sheet one voxel
+// thin; an oblique rod of one voxel; grains that touch by edges and corners; a ball.
 petrous::testing::Labels windingLabels()
 {
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(kLong, std::uint16_t{0});
@@ -53,7 +53,7 @@ std::vector<volume::LabelSource> sourcesOf(const petrous::testing::Labels& label
   return sources;
 }
 
-// Voxels of the box whose bits differ.
+// Number of voxels in the box that differ in any bit.
 int different(const volume::Volume<float>& a, const volume::Volume<float>& b,
               const core::IndexBox& box)
 {

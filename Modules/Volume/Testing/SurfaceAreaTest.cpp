@@ -42,7 +42,7 @@ TEST(SurfaceArea, IsThatOfABallAndOfItsCap)
                                    EXPECT_LT((outward - point.normalized()).norm(), 0.1);
                                    return point.dot(pole) > 2.5;
                                  });
-  // Trilinear interpolation draws the ball in by some 0.01 mm, which is 0.01 of the cap.
+  // Trilinear interpolation shrinks the ball by some 0.01 mm, which is 0.01 of the cap.
   EXPECT_NEAR(cap / (2.0 * kPi * 4.0 * 1.5), 1.0, 0.02);
 }
 

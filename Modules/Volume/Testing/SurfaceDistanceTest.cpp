@@ -20,11 +20,11 @@ using petrous::volume::testing::turnedGrid;
 namespace
 {
 
-using Distance = std::function<double(const Vector3d&)>; // mm, negative within
+using Distance = std::function<double(const Vector3d&)>; // mm, negative inside
 
 constexpr double kFar = 1000.0;
 
-// An occupancy that is linear across the surface.
+// Occupancy linear across the surface.
 std::shared_ptr<const Volume<float>> occupancyOf(const Distance& distance,
                                              const core::GridGeometry& grid)
 {
@@ -34,7 +34,7 @@ std::shared_ptr<const Volume<float>> occupancyOf(const Distance& distance,
                        });
 }
 
-// The smoothed union of a labelled shape, as a case has it.
+// The smoothed union of a labelled shape, as in a case.
 std::shared_ptr<const Volume<float>> labelled(const Distance& distance,
                                               const core::GridGeometry& grid)
 {
@@ -53,8 +53,8 @@ Vector3d randomIn(std::mt19937& random, double half)
   return {x, y, uniform(random)};
 }
 
-// Many points on the surface occupancy = 1/2, where the lines of a lattice of `parts` to a voxel meet
-// it. None of the surface is farther than half a lattice cell's diagonal from one.
+// Dense points on the surface occupancy = 1/2, where the lines of a lattice of `parts` per voxel
+// meet it. No part of the surface is farther from one than half the diagonal of a lattice cell.
 std::vector<Vector3d> pointsOf(const Volume<float>& occupancy, int parts)
 {
   std::vector<Vector3d> points;
@@ -112,7 +112,7 @@ TEST(SurfaceDistance, IsThatOfAPlaneInLongVoxels)
   EXPECT_GT(seen, 3000);
 }
 
-// From the middle of the hole every side is as near as the others, and a tree can leave out none.
+// From the centre of the hole all sides are equally near, and the tree cannot be pruned.
 TEST(SurfaceDistance, IsThatOfARing)
 {
   const Distance ring = [](const Vector3d& p)
@@ -128,8 +128,8 @@ TEST(SurfaceDistance, IsThatOfARing)
   EXPECT_NEAR(surface.at({0.0, 0.0, 0.0}, kFar), 4.0, 0.02);
 }
 
-// What counts: the surface that a label has, whatever shape it was drawn for. Slices are three
-// times as far apart as pixels.
+// The reference is the surface of the label, whatever shape it was drawn from. The slice spacing is
+// three times the pixel spacing.
 TEST(SurfaceDistance, IsThatToTheSurfaceOfALabel)
 {
   const core::GridGeometry grid = turnedGrid({40, 40, 16}, {0.3, 0.3, 0.9});
@@ -157,7 +157,7 @@ TEST(SurfaceDistance, IsThatToTheSurfaceOfALabel)
           occupancy->geometry().hullContains(voxel) && sampleTrilinear(*occupancy, voxel) > 0.5;
       const double found = surface.at(p, kFar);
       ASSERT_EQ(found < 0.0, inside) << p.transpose();
-      // Points are on the surface: it is no farther, and nearer by no more than their gap.
+      // The points are on the surface: it is no farther, and nearer by at most their gap.
       ASSERT_LE(std::abs(found), nearest + 0.02) << p.transpose();
       ASSERT_GE(std::abs(found), nearest - std::min(gap, gap * gap / nearest + 0.02))
           << p.transpose();

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A ball, a box in it that goes first, and a lumen; turned against the patient.
+// A ball, a box in it with higher priority, and a lumen; rotated against the patient.
 petrous::testing::Labels twoSolidsAndALumen()
 {
   const auto grid =
@@ -117,7 +117,7 @@ TEST(VolumeBytes, ThatAreMalformedGiveNothing)
   EXPECT_FALSE(volume::labelMapFrom({1, 2, 3}));
 }
 
-// Whoever changes these numbers raises kLabelFieldVersion, or libraries answer with the old ones.
+// If these numbers change, kLabelFieldVersion must be incremented, or caches return the old ones.
 TEST(VolumeBytes, HaveTheNumbersOfTheirVersion)
 {
   const auto field = fieldOf(twoSolidsAndALumen());
@@ -125,7 +125,7 @@ TEST(VolumeBytes, HaveTheNumbersOfTheirVersion)
   print.add(field->occupancy->data(), field->occupancy->bytes());
   print.add(field->index->data(), field->index->bytes());
   print.add(field->borders->data(), field->borders->bytes());
-  // Structures of two grids, and one by itself.
+  // Structures of two grids, and one alone.
   const auto labels = twoSolidsAndALumen();
   const core::GridGeometry coarse = petrous::testing::cube(24, 0.8, Vector3d(4, -69, 212));
   const auto both = volume::makeSolidOccupancy(

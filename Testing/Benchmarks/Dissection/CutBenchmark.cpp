@@ -41,7 +41,7 @@ struct Outcome
   }
 };
 
-// Whole voxels whose centre lies in the sphere, as voxel-deleting simulators do.
+// Deletes whole voxels whose centre is inside the sphere, as voxel-deleting simulators do.
 double deleteVoxels(volume::Volume<std::uint8_t>& bone, const Eigen::Vector3d& center)
 {
   const auto& grid = bone.geometry();

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr double kVoxel = 0.15;    // mm
 constexpr double kLength = 15.0;   // mm, of a stroke
 constexpr double kRadius = 2.0;    // mm
-constexpr std::size_t kTimed = 21; // undone of each number of strokes
+constexpr std::size_t kTimed = 21; // undos per number of strokes
 
 double secondsOf(const std::function<void()>& work)
 {
@@ -35,12 +35,12 @@ double median(std::vector<double> values)
   return values[values.size() / 2];
 }
 
-// Strokes side by side, `across` mm apart, in layers `down` mm apart, somewhat bent.
+// Strokes side by side, `across` mm apart, in layers `down` mm apart, slightly curved.
 struct Field
 {
   const char* scene;
   double across, down;
-  std::size_t most; // strokes that have a place of their own
+  std::size_t most; // strokes with a separate position
   bool isDefault;
 
   Vector3d start(std::size_t stroke, double edge) const
@@ -82,7 +82,7 @@ std::size_t packedBytes(const Dissection& work)
   return sum;
 }
 
-// Undo and redo of the latest strokes, and the voxels that are not as they were then.
+// Undo and redo of the latest strokes, and the number of voxels that then differ.
 core::BenchmarkPoint measure(Dissection& work, const Field& field, double drillOff)
 {
   const volume::CutMask before = std::as_const(work).mask();
@@ -121,7 +121,7 @@ core::BenchmarkReport runHistoryBenchmark(bool quick, const core::Progress& prog
   core::BenchmarkReport report{
       "history", "Undo of a stroke, mask of " + std::to_string(n) + "^3 voxels of 0.15 mm", {}};
 
-  // The peer: the mask as it was is copied back. One copy stands for all.
+  // The peer copies back the mask as it was. One copy is used for all.
   const volume::Volume<std::uint16_t> copy(grid, volume::CutMask::kUntouched);
   volume::Volume<std::uint16_t> whole(grid, std::uint16_t{0});
   std::vector<double> copying;
@@ -159,7 +159,7 @@ core::BenchmarkReport runHistoryBenchmark(bool quick, const core::Progress& prog
       peer.extra["disk_mb"] = peer.extra["memory_mb"];
       report.points.push_back(peer);
     }
-    // All of them back, and all again.
+    // Undo all, then redo all.
     const volume::CutMask drilled = std::as_const(work).mask();
     History start = work.history();
     while (start.undo())

@@ -6,8 +6,8 @@
 namespace petrous::dissection
 {
 
-/// Bytes of the history and time of an undo against the number of strokes, beside a copy of the
-/// whole mask for each stroke. Its error: voxels that differ after undo and redo.
+/// Memory of the history and time of an undo over the number of strokes, compared with a full mask
+/// copy per stroke. Error: voxels that differ after undo and redo.
 core::BenchmarkReport runHistoryBenchmark(bool quick, const core::Progress& progress);
 
 } // namespace petrous::dissection

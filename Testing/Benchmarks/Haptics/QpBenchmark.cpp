@@ -21,12 +21,13 @@ using Vector6 = QpProblem::Vector6;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kAllowed = 1e-9;       // KKT error, relative
-constexpr double kAllowedNearly = 1e-7; // where rows nearly depend on each other
-constexpr int kRepeats = 3;             // of each problem, ours and the peer's
+constexpr double kAllowedNearly = 1e-7; // for nearly linearly dependent rows
+constexpr int kRepeats = 3;             // of each problem, for ours and the peer
 constexpr std::size_t kCapacity = 1024;
 const char* const kErrorUnit = "worst KKT error, of the problem's size";
 
-// Textbook projected Gauss-Seidel on the dual: each multiplier in turn to where its row holds.
+// Textbook projected Gauss-Seidel on the dual: each multiplier in turn is set so that its row
+// holds.
 class GaussSeidel
 {
 public:
@@ -82,7 +83,7 @@ struct Outcome
 {
   std::vector<double> seconds;
   double worst = 0.0; // KKT error
-  double work = 0.0;  // iterations, summed
+  double work = 0.0;  // iterations, total
   int failures = 0;
 
   void add(double time, double error, double iterations, bool failed)
@@ -103,7 +104,7 @@ struct Outcome
   }
 };
 
-// Least of kRepeats: another process may have had the core. One rule for both solvers.
+// Minimum of kRepeats, against interference by other processes; the same for both solvers.
 template <class Work>
 double timed(const Work& work)
 {
@@ -126,7 +127,7 @@ void solveOurs(const QpProblem& problem, double allowed, ContactQp& qp, Outcome&
         problem.fill(qp);
         status = qp.solve(problem.unconstrained);
       });
-  // A problem given up has no solution to judge: it counts as failed.
+  // A problem given up has no solution to check: it counts as failed.
   const bool solved = status == ContactQp::Status::Solved;
   const double error = solved ? testing::kktError(problem, qp).worst() : 0.0;
   outcome.add(time, error, qp.iterations(), !solved || error > allowed);
@@ -168,7 +169,7 @@ void measureRows(QpFamily family, int rows, bool quick, core::BenchmarkReport& r
     const QpProblem problem = source.make(family, rows);
     ContactQp qp(kCapacity, problem.stiffness);
     if (n == 0)
-      solvePeer(problem, peer, theirs), theirs = {}; // warm
+      solvePeer(problem, peer, theirs), theirs = {}; // warm-up
     solveOurs(problem, kAllowed, qp, ours);
     if (n < peerProblems)
       solvePeer(problem, peer, theirs);
@@ -184,7 +185,7 @@ void measureRows(QpFamily family, int rows, bool quick, core::BenchmarkReport& r
   }
 }
 
-// Every family in turn, up to 60 rows, now and then up to 800, stiffnesses up to 100 apart.
+// All families in turn, up to 60 rows, occasionally up to 800, stiffness ratios up to 100.
 void measureAll(bool quick, const core::Progress& progress, core::BenchmarkReport& report)
 {
   const int problems = quick ? 10000 : 1000000;

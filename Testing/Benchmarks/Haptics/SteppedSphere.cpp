@@ -13,7 +13,7 @@ SteppedSphere::SteppedSphere(std::shared_ptr<const HapticField> field, PointShel
 {
 }
 
-// `normal`: of the deepest point, where one is in tissue.
+// `normal`: at the deepest point, if any point is in tissue.
 bool SteppedSphere::freeAt(const Eigen::Vector3d& position, Eigen::Vector3d& normal) const noexcept
 {
   const core::GridGeometry& grid = m_field->geometry();

@@ -9,10 +9,10 @@
 namespace petrous::haptics
 {
 
-/// The peer of these benchmarks: a god object as point renderers have it (Zilles and Salisbury
-/// 1995), a ball without rotation. It goes towards the goal a voxel at a time and stops where one
-/// of its points is in tissue at the end of a step; then what is left of the way goes along the
-/// tangent plane there, twice. Nothing is looked at between two steps.
+/// Peer for these benchmarks: a god object as in point-based haptic rendering (Zilles and Salisbury
+/// 1995), a ball without rotation. It moves towards the goal one voxel at a time and stops where
+/// one of its points is in tissue at the end of a step; the rest of the motion then follows the
+/// tangent plane there, twice. Nothing is tested between two steps.
 class SteppedSphere : public Proxy
 {
 public:

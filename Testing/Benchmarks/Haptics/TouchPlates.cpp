@@ -22,9 +22,9 @@ using Eigen::Vector3d;
 constexpr double kVoxel = 0.3;     // mm
 constexpr double kRadius = 1.0;    // mm, of the burr
 constexpr double kReach = 3.5;     // mm, of the tool
-constexpr double kWithin = 3.0;    // mm, of the hand
-constexpr double kSlope = 0.4;     // of f a mm: 400 HU a mm over 1000 HU
-constexpr std::size_t kPhases = 4; // of the plate between the voxels, for each thickness
+constexpr double kWithin = 3.0;    // mm, range of the device
+constexpr double kSlope = 0.4;     // slope of f per mm: 400 HU/mm over 1000 HU
+constexpr std::size_t kPhases = 4; // sub-voxel positions of the plate, for each thickness
 enum Program : std::size_t
 {
   SixDof,
@@ -35,7 +35,7 @@ enum Program : std::size_t
 
 struct Walk
 {
-  long crossings = 0; ///< of the plate, in either direction
+  long crossings = 0; ///< of the plate, in both directions
   long crossed = 0;   ///< ticks spent beyond it
   long touched = 0;
   double deepest = -1.0; ///< mm
@@ -51,7 +51,7 @@ struct Walk
   }
 };
 
-// The side is told by the ball's centre, and by every point of the shell in six degrees of freedom.
+// The side is determined by the ball's centre, and by every shell point in six degrees of freedom.
 Walk walk(Proxy& proxy, const PointShell& shell, bool anyPoint, const volume::TissueField& tissue,
           const Vector3d& normal, double offset, unsigned seed, long ticks)
 {

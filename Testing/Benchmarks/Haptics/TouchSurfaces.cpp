@@ -174,7 +174,7 @@ std::vector<core::BenchmarkPoint> touchParameters(bool quick, const core::Progre
 {
   const double h = 0.3;
   const int ticks = quick ? 500 : 4000;
-  // About 0.1 m/s: the rows of a tick do not see where it ends.
+  // About 0.1 m/s: the rows of a tick do not depend on where it ends.
   const double pace = 0.05;
   const std::vector<AnalyticSurface> surfaces = testing::analyticSurfaces(true);
   std::vector<core::BenchmarkPoint> points;

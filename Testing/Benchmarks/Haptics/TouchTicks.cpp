@@ -16,8 +16,8 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kCircle = 2.0;    // mm, radius of the hand's way
-constexpr double kDescent = 0.1;   // mm a tick
+constexpr double kCircle = 2.0;    // mm, radius of the device's path
+constexpr double kDescent = 0.1;   // mm per tick
 constexpr double kFarthest = 30.0; // mm, to the tissue
 constexpr double kTwoPi = 6.283185307179586;
 
@@ -26,7 +26,7 @@ double bumps(const Vector3d& p)
   return 0.4 * std::sin(1.3 * p.x()) * std::cos(1.1 * p.y()) + 0.2 * std::sin(2.9 * p.y() + p.x());
 }
 
-// A structure that stands out of the bone, as a smoothed union has it.
+// A structure protruding from the bone, as in a smoothed union.
 std::shared_ptr<const volume::Volume<float>> structureOn(const core::GridGeometry& grid)
 {
   auto share = std::make_shared<volume::Volume<float>>(grid);
@@ -43,7 +43,7 @@ std::shared_ptr<const volume::Volume<float>> structureOn(const core::GridGeometr
   return share;
 }
 
-// Pushes the tool on until it touches; the way that the goal went, below 0 when it met nothing.
+// Moves the tool until contact; returns the distance moved, < 0 without contact.
 double descend(ConstrainedProxy& proxy, const Pose& from, const Vector3d& toward)
 {
   proxy.place(from);
@@ -63,7 +63,7 @@ struct Slide
   long touched = 0;
   long rounds = 0;
   double force = 0.0;          // N, mean
-  std::vector<double> samples; // of the field, in each tick
+  std::vector<double> samples; // of the field, per tick
 
   double samplesAt(double share)
   {
@@ -76,7 +76,7 @@ struct Slide
   }
 };
 
-// The hand goes round in a circle across `toward`, 1 to 2 mm deeper than the tool.
+// The device moves on a circle perpendicular to `toward`, 1 to 2 mm deeper than the tool.
 void slide(ConstrainedProxy& proxy, const TouchScene::Start& start, double speed, int ticks,
            Slide& result)
 {
@@ -133,9 +133,9 @@ std::vector<core::BenchmarkPoint> touchTicks(const TouchScene& scene, bool quick
                                              const core::Progress& progress)
 {
   const PointShell shell = makeBurrShell({}, scene.field->voxel());
-  const int ticks = quick ? 500 : 10000; // at each place
+  const int ticks = quick ? 500 : 10000; // per start position
   std::vector<core::BenchmarkPoint> points;
-  for (const double speed : {0.05, 0.1, 0.2}) // m/s, mm a tick
+  for (const double speed : {0.05, 0.1, 0.2}) // m/s, i.e. mm/tick
   {
     progress.report(static_cast<double>(points.size()) / 3.0, "sliding over " + scene.name);
     Slide all;

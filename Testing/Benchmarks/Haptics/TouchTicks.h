@@ -7,11 +7,11 @@
 namespace petrous::haptics
 {
 
-/// Bumpy bone with a structure's union in it and a groove cut into it, and places above it.
+/// Bumpy bone containing a union of structures and a cut groove, with start positions above it.
 TouchScene bumpyBone();
 
-/// Times of ticks of a burr of 2000 points that is pressed on with 1 to 2 N and slides over the
-/// tissue, at each speed of the hand.
+/// Tick times of a burr of 2000 points pressed with 1 to 2 N and sliding over the tissue, for each
+/// device speed.
 std::vector<core::BenchmarkPoint> touchTicks(const TouchScene& scene, bool quick,
                                              const core::Progress& progress);
 

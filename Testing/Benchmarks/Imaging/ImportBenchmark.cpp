@@ -37,7 +37,7 @@ double median(std::vector<double> values)
   return values[values.size() / 2];
 }
 
-/// A figure of /proc/self/status in MB (1e6 bytes); 0 where there is none.
+/// A value from /proc/self/status in MB (1e6 bytes); 0 if unavailable.
 double memoryMb(const std::string& name)
 {
   std::ifstream status("/proc/self/status");
@@ -52,7 +52,7 @@ void resetPeakMemory()
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-/// Smooth shapes and noise over the whole range of a CT: nothing that a reader could shorten.
+/// Smooth shapes and noise over the full CT range, so that readers cannot take shortcuts.
 std::shared_ptr<const Voxels> makeImage(int size, int slices)
 {
   const core::GridGeometry grid({size, size, slices}, {0.3, 0.3, 0.4}, {-70.0, -60.0, 1200.0});
@@ -69,7 +69,7 @@ std::shared_ptr<const Voxels> makeImage(int size, int slices)
   return voxels;
 }
 
-/// A folder that is gone afterwards.
+/// A temporary folder.
 class SeriesFolder
 {
 public:
@@ -138,7 +138,7 @@ double cornerDifference(const core::GridGeometry& truth,
   return largest;
 }
 
-/// What one way of importing took, and how far its result is from what was written.
+/// Cost of one import method, and deviation of its result from the written data.
 struct Trial
 {
   std::vector<double> seconds;
@@ -149,7 +149,7 @@ struct Trial
 struct OwnTrial : Trial
 {
   std::vector<double> scanSeconds;
-  double peakMb = 0.0;   ///< above the volume
+  double peakMb = 0.0;   ///< beyond the volume
   double fromPeer = 0.0; ///< HU
 };
 
@@ -217,7 +217,7 @@ core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
 
   OwnTrial own;
   Trial peer;
-  for (int round = -1; round < rounds; ++round) // the first fills the disk cache
+  for (int round = -1; round < rounds; ++round) // the first fills the page cache
   {
     progress.report(0.2 + 0.8 * (round + 1.0) / (rounds + 1.0), "importing");
     if (round == 0)
@@ -225,7 +225,7 @@ core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
       own = {};
       peer = {};
     }
-    // The last round holds the peer's image beside ours, to compare them.
+    // The last round keeps the peer's image beside ours for comparison.
     PeerImage::Pointer image = runPeer(folder.path(), *truth, peer);
     const bool last = round == rounds - 1;
     if (!last)

@@ -12,7 +12,8 @@ namespace
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-// A pair from all that is met in practice: contrast, noise, slices, tilt, fields of view, motion.
+// A random pair over the range met in practice: contrast, noise, slices, tilt, fields of view,
+// motion.
 RegistrationPair drawn(const SimulationBody& body, std::uint64_t seed)
 {
   const CounterNoise draw(seed * 13 + 4);
@@ -31,13 +32,13 @@ RegistrationPair drawn(const SimulationBody& body, std::uint64_t seed)
                .toRotationMatrix();
   a.mrFromCt = randomMotion(body.ears[ear], draw.uniform(7, 0.0, 20.0), draw.uniform(8, 0.0, 15.0),
                             seed * 13 + 5);
-  // A slab over the ears, in every other pair.
+  // A slab over the ears, in every second pair.
   if (draw.uniform(9) < 0.5)
   {
     a.center[2] = body.ears[ear][2] + draw.uniform(10, -10.0, 10.0);
     a.extent[2] = std::min(a.extent[2], draw.uniform(11, 35.0, 80.0));
   }
-  // A CT of the temporal bone alone, in every third.
+  // A CT of the temporal bone only, in every third pair.
   if (draw.uniform(12) < 0.33)
   {
     recipe.ctExtent = size.cwiseMin(draw.uniform(13, 0.8, 1.4) * Vector3d(70.0, 80.0, 55.0));

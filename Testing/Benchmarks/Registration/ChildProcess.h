@@ -7,20 +7,20 @@
 namespace petrous::registration
 {
 
-/// What a process took, from its start to its end.
+/// Resource usage of a process over its lifetime.
 struct ProcessTimes
 {
-  int status = -1;               ///< its exit status; 127 where it could not be started
+  int status = -1;               ///< exit status; 127 if it could not be started
   double seconds = 0.0;          ///< wall time
-  double processorSeconds = 0.0; ///< user and system time of all its threads
+  double processorSeconds = 0.0; ///< user and system time of all threads
 };
 
-/// Runs a program (looked up in PATH) and waits for its end. Its stdout goes to `output`, or
-/// nowhere where that is empty; it reads nothing, and its stderr goes nowhere.
+/// Runs a program (looked up in PATH) and waits for it. Its stdout goes to `output`, or is
+/// discarded if that is empty; stdin is empty and stderr is discarded.
 ProcessTimes runProcess(const std::vector<std::string>& words,
                         const std::filesystem::path& output = {});
 
-/// User and system time of this process until now, s.
+/// User and system time of this process so far, s.
 double processorSeconds();
 
 } // namespace petrous::registration

@@ -6,8 +6,7 @@
 namespace petrous::registration
 {
 
-/// Random numbers without a state: the n-th one of a seed, the same on every machine and whatever
-/// thread asks for it.
+/// Counter-based random numbers: the n-th number of a seed, the same on every machine and thread.
 class CounterNoise
 {
 public:
@@ -28,7 +27,7 @@ public:
     return low + (high - low) * uniform(n);
   }
 
-  /// Standard normal (Box and Muller); takes numbers 2n and 2n + 1.
+  /// Standard normal (Box-Muller); uses numbers 2n and 2n + 1.
   double normal(std::uint64_t n) const noexcept
   {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform(2 * n)));
@@ -36,7 +35,7 @@ public:
   }
 
 private:
-  // The finaliser of SplitMix64 (Steele, Lea and Flood 2014).
+  // Finalizer of SplitMix64 (Steele, Lea and Flood 2014).
   static std::uint64_t mixed(std::uint64_t x) noexcept
   {
     x += 0x9E3779B97F4A7C15ULL;

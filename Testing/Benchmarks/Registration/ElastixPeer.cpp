@@ -100,7 +100,7 @@ void writeMetaImage(const fs::path& path, const volume::IntensityVolume& image)
 namespace
 {
 
-// The values of "(Name v v ...)"; empty where there is none.
+// Values of "(Name v v ...)"; empty if absent.
 std::vector<std::string> entry(const std::string& text, const std::string& name)
 {
   const auto begin = text.find("(" + name + " ");

@@ -23,7 +23,7 @@ using Method = itk::ImageRegistrationMethodv4<ItkImage, ItkImage, Transform>;
 
 constexpr unsigned kLevels = 3;
 constexpr double kShare = 0.1;        // of the voxels
-constexpr double kSamples = 200000.0; // at most, on the finest level
+constexpr double kSamples = 200000.0; // maximum, on the finest level
 
 ItkImage::Pointer imageOf(const Image& from)
 {

@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-/// ITK's part of the peer, without a type of Eigen: ITK brings a copy of Eigen of its own, and one
-/// source cannot see both.
+/// ITK part of the peer, without Eigen types: ITK bundles its own copy of Eigen, and one source
+/// file cannot include both.
 namespace petrous::registration::itkpeer
 {
 
@@ -16,7 +16,7 @@ struct Image
   float* voxels;
 };
 
-/// Row-major 3x4, fixed physical point -> moving. False where ITK threw.
+/// Row-major 3x4, fixed physical point -> moving. False if ITK threw.
 bool register3d(const Image& fixed, const Image& moving, const std::array<double, 3>& center,
                 std::array<double, 12>& matrix);
 

@@ -55,7 +55,7 @@ double cornerDistance(const RegistrationPair& pair, const core::RigidTransform& 
   return sum;
 }
 
-// The median of some runs in time; the result is that of the last.
+// Repeats a run: times are medians, the result is that of the last run.
 template <class Run>
 std::optional<PeerFit> repeated(int times, const Run& run)
 {
@@ -149,7 +149,7 @@ Points onePair(const BenchmarkInput& input, const RegistrationPair& pair,
   return points;
 }
 
-// A range of displaced starts, in mm and degrees alike.
+// A range of displaced starts, in both mm and degrees.
 struct Range
 {
   const char* name;

@@ -51,7 +51,7 @@ RegistrationPair displaced(const RegistrationPair& pair, const core::RigidTransf
       {
         using Voxels = std::decay_t<decltype(voxels)>;
         using Value = typename Voxels::Value;
-        // Keeps the voxels alive; nobody writes to them.
+        // Keeps the voxels alive; they are never written.
         std::shared_ptr<Value> data(pair.mr, const_cast<Value*>(voxels.data()));
         return std::make_shared<const volume::IntensityVolume>(
             std::make_shared<const Voxels>(moved, std::move(data)), pair.mr->padding());

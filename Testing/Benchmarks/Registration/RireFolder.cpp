@@ -104,7 +104,7 @@ private:
   std::map<std::string, std::string> m_values;
 };
 
-// The direction that a letter of ACR-NEMA names, LPS.
+// LPS direction of an ACR-NEMA letter.
 Vector3d toward(const Header& header, const std::string& letter)
 {
   const std::string letters = "RLAPFH";
@@ -122,7 +122,7 @@ core::GridGeometry gridOf(const Header& header)
   const auto pixel = header.parts("pixel size");
   if (pixel.size() != 2)
     wrong(header.path(), "'Pixel size' must be two numbers");
-  // ACR-NEMA: from row to row first, then from column to column.
+  // ACR-NEMA: row spacing first, then column spacing.
   const Vector3d spacing(header.number("pixel size", pixel[1]),
                          header.number("pixel size", pixel[0]), header.number("slice thickness"));
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();
@@ -139,7 +139,7 @@ core::GridGeometry gridOf(const Header& header)
   return {dims, spacing, Vector3d::Zero(), direction};
 }
 
-// RIRE's coordinates (along rows, columns, slices from the first voxel) to patient LPS.
+// Maps RIRE's coordinates (along rows, columns, slices from the first voxel) to patient LPS.
 core::RigidTransform patientFromRire(const core::GridGeometry& grid)
 {
   return {Eigen::Quaterniond(grid.direction()), grid.origin()};

@@ -20,8 +20,8 @@ struct Knot
   double hounsfield, signal;
 };
 
-// Relative signals of the tissues at their usual HU, joined by lines. Ours: they are to have the
-// order that the weightings are known for, not the values of a scanner.
+// Relative signals of the tissues at their typical HU, interpolated linearly. Our own values: they
+// reproduce the known order of the weightings, not measured signals.
 constexpr std::array<Knot, 12> kT1{{{-400, 0.02},
                                     {-160, 0.90},
                                     {-90, 1.00},
@@ -60,9 +60,9 @@ constexpr std::array<Knot, 12> kDiffusion{{{-400, 0.02},
                                            {1200, 0.02}}};
 
 constexpr float kAir = -1000.0F;
-constexpr float kSoftLow = -250.0F, kSoftHigh = 250.0F; // HU that may be soft tissue
-constexpr float kLikeness = 70.0F;                      // HU, of neighbours that are averaged
-constexpr double kScale = 1000.0;                       // MR units of a contrast of 1
+constexpr float kSoftLow = -250.0F, kSoftHigh = 250.0F; // HU range of possible soft tissue
+constexpr float kLikeness = 70.0F;                      // HU, of neighbours to average
+constexpr double kScale = 1000.0;                       // MR units per contrast of 1
 
 double signalOf(const std::array<Knot, 12>& curve, double hounsfield)
 {
@@ -78,7 +78,7 @@ double signalOf(const std::array<Knot, 12>& curve, double hounsfield)
   return curve.back().signal;
 }
 
-// Smooth noise of about -1 to 1: random values at a lattice of `cell` mm, blended.
+// Smooth noise of about -1 to 1: random values on a lattice of `cell` mm, interpolated.
 class SmoothNoise
 {
 public:
@@ -137,8 +137,8 @@ volume::Volume<float> hounsfieldOf(const volume::IntensityVolume& ct)
   return result;
 }
 
-// Of a voxel's neighbourhood of about 2 mm: the mean of what is like it, and whether it is the rim
-// between air and bone.
+// In a neighbourhood of about 2 mm of a voxel: the mean of similar voxels, and whether the voxel is
+// on the border between air and bone.
 struct Neighbourhood
 {
   double mean;
@@ -171,7 +171,7 @@ Neighbourhood look(const volume::Volume<float>& ct, int i, int j, int k, const c
   return {sum / count, air && bone};
 }
 
-// Keys' cubic convolution (1981), a = -1/2.
+// Keys' cubic convolution kernel (1981), a = -1/2.
 std::array<float, 4> cubicWeights(float t)
 {
   const float t2 = t * t, t3 = t2 * t;
@@ -221,7 +221,7 @@ float sampleCubic(const volume::Volume<float>& image, const Vector3d& voxel)
   return sum;
 }
 
-// Coil's sensitivity: a low polynomial of the place in the extent, -1 to 1 along each axis.
+// Coil sensitivity: a low-order polynomial of the position in the extent, -1 to 1 along each axis.
 double biasAt(const CounterNoise& noise, double strength, const Vector3d& u)
 {
   double sum = 0.0;
@@ -233,7 +233,7 @@ double biasAt(const CounterNoise& noise, double strength, const Vector3d& u)
   return std::exp(strength * sum);
 }
 
-// The share of its shift that a part has at p.
+// Fraction of the shift that applies at p.
 double occupancyOf(const LocalShift& part, const Vector3d& p)
 {
   const double inside =
@@ -303,13 +303,13 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
                                 a.mrFromCt.rotation().toRotationMatrix() * a.axes);
   const core::GridGeometry& from = contrast.geometry();
 
-  // Samples of a voxel's box along each of its axes: no more than 0.7 of a CT voxel apart.
+  // Samples per voxel box along each of its axes: at most 0.7 CT voxels apart.
   core::Index3 parts{};
   for (std::size_t axis = 0; axis < 3; ++axis)
     parts[axis] = std::clamp(static_cast<int>(std::ceil(a.spacing[static_cast<Eigen::Index>(axis)] /
                                                         (0.7 * from.minSpacing()))),
                              2, 12);
-  // From the middle of an MR voxel, in voxels of the contrast.
+  // From the centre of an MR voxel, in voxels of the contrast.
   std::vector<Vector3d> steps;
   const Eigen::Matrix3d turn = from.voxelFromPatientLinear() * scan.patientFromVoxelLinear();
   for (int w = 0; w < parts[2]; ++w)
@@ -319,7 +319,7 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
                                            (w + 0.5) / parts[2] - 0.5));
   const SmoothNoise field(a.seed + 101, 45.0);
   const Vector3d encode = a.axes.col(1);
-  // The place in the CT's frame whose signal lands at p.
+  // Position in the CT's frame whose signal appears at p.
   const auto source = [field, encode, amount = a.distortion,
                        local = a.local](const Vector3d& p) -> Vector3d
   {
@@ -359,8 +359,9 @@ SimulatedMr acquireMr(const volume::Volume<float>& contrast, const MrAcquisition
   SimulatedMr result;
   result.volume = std::make_shared<volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<float>>(std::move(voxels)));
-  // Where the signal of a CT point lands: the inverse of `source`, by iteration (it is near 1, but
-  // for the edge of a displaced part, which has none).
+  // Where the signal of a CT point appears: the inverse of `source`, by fixed-point iteration
+  // (`source` is near the identity, except at the edge of a displaced part, where there is no
+  // inverse).
   result.truth = [source, x = a.mrFromCt](const Vector3d& p) -> Vector3d
   {
     Vector3d q = p;

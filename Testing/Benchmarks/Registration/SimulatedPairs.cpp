@@ -107,7 +107,7 @@ PairRecipe usualRecipe(const SimulationBody& body, std::size_t ear, std::uint64_
   recipe.contrast = static_cast<std::size_t>(draw.bits(0) % body.contrasts.size());
   MrAcquisition& a = recipe.acquisition;
   a.extent = (size + Vector3d::Constant(10.0)).cwiseMin(Vector3d(180.0, 220.0, 140.0));
-  // A small body has small voxels.
+  // Smaller voxels for a small body.
   const double fine = std::clamp(a.extent.minCoeff() / 100.0, 0.6, 1.2);
   a.spacing = fine * Vector3d(1.0, 1.0, 2.5);
   a.center = bounds.center();

@@ -9,7 +9,7 @@
 namespace petrous::registration
 {
 
-/// A head whose CT is at hand, with what an MR scanner would see of it.
+/// A head with a CT, and its simulated MR contrasts.
 struct SimulationBody
 {
   struct Contrast
@@ -21,41 +21,41 @@ struct SimulationBody
   std::string name;
   std::shared_ptr<const volume::IntensityVolume> ct;
   std::vector<Contrast> contrasts;
-  std::vector<Vector3d> ears; ///< the middle ears in it, CT patient LPS mm
+  std::vector<Vector3d> ears; ///< middle ears in it, CT patient LPS mm
 };
 
-/// A pair drawn from a body.
+/// Parameters of a pair simulated from a body.
 struct PairRecipe
 {
   std::size_t contrast = 0;
   MrAcquisition acquisition;
-  std::optional<Vector3d> ctExtent; ///< mm; the CT is cut to this box; none: all of it
+  std::optional<Vector3d> ctExtent; ///< mm; the CT is cropped to this box; nullopt: not cropped
   Vector3d ctCenter{0.0, 0.0, 0.0}; ///< of that box
 };
 
-/// Its target is the ear, its truth exact.
+/// The ear is the target; the truth is exact.
 RegistrationPair simulatePair(const SimulationBody& body, std::size_t ear,
                               const PairRecipe& recipe);
 
-/// An everyday examination of a body: most of the head with voxels of 1.2 x 1.2 x 3 mm, or what
-/// the body has, a motion of 8 mm and 6 degrees; contrast and all else from the seed.
+/// A typical examination of a body: most of the head with voxels of 1.2 x 1.2 x 3 mm, limited to
+/// the body's extent, a motion of 8 mm and 6 degrees; contrast and everything else from the seed.
 PairRecipe usualRecipe(const SimulationBody& body, std::size_t ear, std::uint64_t seed);
 
-/// The volume's part within the box, voxels copied. Throws InvalidParameter where there is none.
+/// Crops the volume to the box, copying voxels. Throws InvalidParameter if nothing remains.
 std::shared_ptr<const volume::IntensityVolume>
 croppedTo(const volume::IntensityVolume& image, const Vector3d& center, const Vector3d& extent);
 
-/// A copy in floats whose voxels are value(i, j, k, value before).
+/// A float copy whose voxels are value(i, j, k, old value).
 std::shared_ptr<const volume::IntensityVolume>
 changed(const volume::IntensityVolume& image,
         const std::function<float(int, int, int, float)>& value);
 
-/// The voxels in the opposite order along an axis. With `header` the direction turns with them, and
-/// the image shows what it showed before; without, it shows a mirrored patient.
+/// Reverses the voxel order along an axis. With `header` the direction is flipped as well, so the
+/// image is geometrically unchanged; without, it shows a mirrored patient.
 std::shared_ptr<const volume::IntensityVolume> flipped(const volume::IntensityVolume& image,
                                                        int axis, bool header);
 
-/// The same voxels on another grid of the same dims.
+/// The same voxels on another grid of equal dims.
 std::shared_ptr<const volume::IntensityVolume> relaid(const volume::IntensityVolume& image,
                                                       const core::GridGeometry& grid);
 

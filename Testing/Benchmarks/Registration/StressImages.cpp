@@ -26,7 +26,7 @@ Image noiseLike(const volume::IntensityVolume& image, std::uint64_t seed, double
                  });
 }
 
-// Random balls: an image with shapes, of nothing that the CT shows.
+// Random balls: an image with shapes unrelated to the CT.
 Image ballsLike(const volume::IntensityVolume& image, std::uint64_t seed)
 {
   const CounterNoise noise(seed);
@@ -61,7 +61,7 @@ Image ballsLike(const volume::IntensityVolume& image, std::uint64_t seed)
                  });
 }
 
-// A share of the MR's voxels, scattered, becomes `value`.
+// Sets a random fraction of the MR's voxels to `value`.
 RegistrationPair scattered(const Draw& draw, double share, float value)
 {
   const RegistrationPair pair = draw.usual();
@@ -72,7 +72,7 @@ RegistrationPair scattered(const Draw& draw, double share, float value)
                     { return noise.uniform(grid.linearIndex(i, j, k)) < share ? value : before; }));
 }
 
-// An MR of so many slices across z, y or x.
+// An MR with only `slices` slices along z, y or x.
 RegistrationPair fewSlices(const Draw& draw, int slices)
 {
   PairRecipe recipe = draw.recipe();

@@ -10,7 +10,7 @@
 namespace petrous::registration::stress
 {
 
-/// The n-th draw of a kind: a body, an ear of it, and a seed.
+/// The n-th draw of a kind: a body, one of its ears, and a seed.
 struct Draw
 {
   const std::vector<SimulationBody>* bodies;
@@ -30,7 +30,7 @@ struct Draw
   }
 };
 
-/// Trials of kinds, one after the other.
+/// Collects trials by kind.
 class List
 {
 public:
@@ -72,7 +72,7 @@ inline RegistrationPair withoutTruth(RegistrationPair pair)
   return pair;
 }
 
-/// Trials of images that show little or nothing (StressImages.cpp).
+/// Trials with images that show little or nothing (StressImages.cpp).
 void addImages(List& list);
 
 } // namespace petrous::registration::stress

@@ -11,7 +11,7 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kFar = 2.0;          // mm, of a true error that "good" may not hide
+constexpr double kFar = 2.0;          // mm, maximum true error of a "good" verdict
 constexpr double kBeyondStated = 3.0; // times the stated maximum
 
 core::BenchmarkPoint runTrial(const StressTrial& trial, const core::Progress& progress)

@@ -33,12 +33,12 @@ RegistrationPair slabs(const Draw& draw, double ctLow, double ctHigh, double mrL
   a.extent[2] = (mrHigh - mrLow) * size[2];
   a.center[2] = bounds.min()[2] + 0.5 * (mrLow + mrHigh) * size[2];
   RegistrationPair pair = simulatePair(draw.body(), draw.ear(), recipe);
-  // A target that both or at least the CT shows.
+  // A target in both images, or at least in the CT.
   pair.targets = {recipe.ctCenter};
   return pair;
 }
 
-// Moves the MR's header so that the middles of both volumes coincide.
+// Moves the MR header so that both volumes' centres coincide.
 RegistrationPair centred(const RegistrationPair& pair)
 {
   return displaced(pair, {Eigen::Quaterniond::Identity(),
@@ -140,7 +140,7 @@ void addGeometry(List& list)
       "nothing wrong", 16, [](const Draw& d) { return d.usual(); }, true);
 }
 
-// A box of a head about one ear.
+// A box of the head around one ear.
 PairRecipe earRecipe(const Draw& draw, std::size_t ctEar, std::size_t mrEar)
 {
   const SimulationBody& body = draw.body();
@@ -165,7 +165,7 @@ void addSides(List& list, bool both)
              [](const Draw& d) {
                return withoutTruth(centred(simulatePair(d.body(), 0, earRecipe(d, d.n, d.n + 1))));
              });
-    return; // the mirrored ones are in the list already
+    return; // mirrored ones are already listed
   }
   list.add("MR of the other side: mirrored anatomy about the ear", 10,
            [](const Draw& d)
@@ -183,7 +183,7 @@ std::vector<StressTrial> stressTrials(const std::vector<SimulationBody>& bodies,
   List list(bodies, quick);
   addImages(list);
   addGeometry(list);
-  // Of those that have both ears.
+  // Bodies with both ears.
   const auto twoEared = std::make_shared<std::vector<SimulationBody>>();
   for (const SimulationBody& body : bodies)
     if (body.ears.size() > 1)
@@ -195,11 +195,11 @@ std::vector<StressTrial> stressTrials(const std::vector<SimulationBody>& bodies,
     addSides(sides, true);
     for (StressTrial& trial : sides.trials)
     {
-      trial.make = [twoEared, make = trial.make] { return make(); }; // keeps the bodies
+      trial.make = [twoEared, make = trial.make] { return make(); }; // keeps the bodies alive
       list.trials.push_back(std::move(trial));
     }
   }
-  // One person's CT, another one's MR.
+  // CT of one person, MR of another.
   std::vector<RegistrationPair> people;
   for (const SimulationBody& body : bodies)
     people.push_back({body.name, body.ct, nullptr, nullptr, body.ears});

@@ -18,14 +18,14 @@ std::string words(double value)
   return core::generalText(value);
 }
 
-// One setting of the schedule and the values to try; the default is among them.
+// A schedule setting and its values; the default is among them.
 struct Knob
 {
   const char* name;
   std::vector<double> values;
   double (*get)(const Schedule&);
   void (*set)(Schedule&, double);
-  bool displaced; // judged from displaced starts: it is about finding the basin of attraction
+  bool displaced; // evaluated from displaced starts: concerns the capture range
 };
 
 const std::vector<Knob>& knobs()
@@ -85,7 +85,7 @@ core::BenchmarkPoint judged(const std::vector<RegistrationPair>& pairs, const Kn
   point.series = knob.name;
   point.setting[knob.name] = words(value);
   point.isDefault = value == knob.get(Schedule{});
-  // The mean counts a lost basin of attraction; the median would not see it.
+  // The mean is sensitive to a lost basin of attraction; the median is not.
   for (const double error : errors)
     point.error += error / static_cast<double>(errors.size());
   point.errorUnit = "mm at the target, mean";
@@ -97,7 +97,7 @@ core::BenchmarkPoint judged(const std::vector<RegistrationPair>& pairs, const Kn
   return point;
 }
 
-// A property of the images and the values to try.
+// An image property and its values.
 struct Condition
 {
   const char* name;
@@ -118,7 +118,7 @@ const std::vector<Condition>& conditions()
        {0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0},
        [](PairRecipe& r, const SimulationBody& body, double v)
        {
-         // MR and CT share this part of their heights: the CT's upper end, the MR's lower one.
+         // Common fraction of the heights of MR and CT: the CT's upper end, the MR's lower one.
          const auto bounds = body.ct->geometry().patientBounds();
          const Vector3d size = bounds.sizes();
          const double height = size[2] / (2.0 - v);

@@ -12,7 +12,7 @@ class vtkRenderer;
 namespace petrous::rendering
 {
 
-/// The scene's volume as our mapper draws it, alone in a renderer, with every knob in reach.
+/// The scene's volume drawn by our mapper alone in a renderer, with access to all settings.
 class OwnPicture
 {
 public:
@@ -24,11 +24,11 @@ public:
   void attach(vtkRenderer* renderer);
   void setCamera(const core::CameraPose& camera);
   void setQuality(const RenderQuality& quality);
-  void setCounting(bool counting); ///< of fetches and samples, in the frames that follow
+  void setCounting(bool counting); ///< counts fetches and samples of subsequent frames
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
   const RenderStatistics& statistics() const; ///< of the last frame
-  DepthImage depth() const;                   ///< of the last frame, in the window that drew it
+  DepthImage depth() const; ///< of the last frame; call in the window that drew it
 
 private:
   class Implementation;

@@ -31,9 +31,9 @@ namespace petrous::rendering
 namespace
 {
 
-constexpr int kRemoved = 255; // label of what is cut away
+constexpr int kRemoved = 255; // label of removed tissue
 
-// Bone below the iso value is not seen; the ramp is one step of the gradient across a voxel.
+// Bone below the iso value is invisible; the ramp is one step of the gradient across a voxel.
 constexpr double kRamp = 100.0; // HU
 
 struct Tables
@@ -41,7 +41,7 @@ struct Tables
   vtkNew<vtkColorTransferFunction> color;
   vtkNew<vtkPiecewiseFunction> opacity;
 
-  // An opaque surface becomes an opaque inside: these mappers have no surfaces.
+  // An opaque surface becomes an opaque interior: these mappers have no surfaces.
   Tables(const appearance::Material& material, double below)
   {
     const auto& transfer = material.transfer;
@@ -49,7 +49,7 @@ struct Tables
     {
       color->AddRGBPoint(value, optics.color[0], optics.color[1], optics.color[2]);
       opacity->AddPoint(value, material.surfaceOpacity < 1.0F ? -std::expm1(-optics.extinction)
-                                                              : 1.0); // of 1 mm
+                                                              : 1.0); // per 1 mm
     };
     opacity->AddPoint(below - kRamp, 0.0);
     add(below, transfer.at(below));
@@ -59,7 +59,7 @@ struct Tables
   }
 };
 
-// The voxels lie along the axes and the prop turns them: the mappers know no directions.
+// Axis-aligned voxels with the orientation in the prop: these mappers ignore image directions.
 vtkSmartPointer<vtkImageData> upright(vtkSmartPointer<vtkImageData> image)
 {
   image->SetOrigin(0.0, 0.0, 0.0);
@@ -79,7 +79,7 @@ vtkSmartPointer<vtkMatrix4x4> poseOf(const core::GridGeometry& grid)
   return pose;
 }
 
-// One label a voxel of the CT: the structure that holds it, or kRemoved where it was cut away.
+// One label per CT voxel: the structure at the voxel, or kRemoved if it was cut away.
 vtkSmartPointer<vtkImageData> labelMask(const SceneContents& contents, vtkImageData* like)
 {
   const core::GridGeometry& grid = contents.ct->geometry();
@@ -220,7 +220,7 @@ void PeerPicture::Implementation::addLabels()
   vtkVolumeProperty* property = bone->GetProperty();
   for (std::size_t i = 1; i < contents.materials.size() && i < kRemoved; ++i)
   {
-    // A structure is seen whatever its intensity is.
+    // A structure is visible at any intensity.
     const Tables tables(contents.materials[i], -std::numeric_limits<short>::max());
     property->SetLabelColor(static_cast<int>(i), tables.color);
     property->SetLabelScalarOpacity(static_cast<int>(i), tables.opacity);

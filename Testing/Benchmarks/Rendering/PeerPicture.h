@@ -11,29 +11,29 @@ class vtkRenderer;
 namespace petrous::rendering
 {
 
-/// The mappers that VTK brings, as peers of ours in a benchmark.
+/// VTK's mappers, as peers of ours in a benchmark.
 enum class Peer
 {
-  GpuComposite, ///< vtkGPUVolumeRayCastMapper: the CT alone
-  GpuLabelMap,  ///< the same with labels and cut as a label map mask, a transfer function each
+  GpuComposite, ///< vtkGPUVolumeRayCastMapper: CT only
+  GpuLabelMap,  ///< the same with labels and cut as a label map mask, one transfer function each
   GpuMulti,     ///< vtkMultiVolume: CT and smoothed union as two volumes; no cut
-  CpuFixedPoint ///< vtkFixedPointVolumeRayCastMapper: the CT alone, on the processor
+  CpuFixedPoint ///< vtkFixedPointVolumeRayCastMapper: CT only, on the CPU
 };
 
 std::string nameOf(Peer peer);
 
-/// The scene as a peer can draw it: composite, shaded, linear, samples 0.5 of the smallest spacing
-/// apart, no adjustment of its own. Bone has the scene's transfer function above the iso value.
+/// A scene as drawn by a peer: composite, shaded, linear, sampling distance 0.5 of the smallest
+/// spacing, no automatic adjustment. Bone has the scene's transfer function above the iso value.
 ///
-/// The optics are others than ours (no surfaces of their own, gradients that ignore the cut), so
-/// there is a time to compare and no error.
+/// The optical model differs from ours (no explicit surfaces, gradients that ignore the cut), so
+/// times are compared, but no error.
 class PeerPicture
 {
 public:
-  static constexpr double kStep = 0.5; ///< smallest spacings of the CT
+  static constexpr double kStep = 0.5; ///< in units of the smallest CT spacing
 
-  /// Throws RenderingError BadContents when the scene has no CT, or lacks the labels or mask that
-  /// this peer draws.
+  /// Throws RenderingError BadContents if the scene lacks a CT, or the labels or mask that this
+  /// peer draws.
   PeerPicture(Peer peer, const SceneContents& contents, const core::CameraPose& camera);
   ~PeerPicture();
   PeerPicture(const PeerPicture&) = delete;

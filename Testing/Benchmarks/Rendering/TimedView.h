@@ -11,16 +11,16 @@ class vtkRenderer;
 namespace petrous::rendering
 {
 
-/// A window without a display in which our picture and its peers are timed alike: the same EGL
-/// context, size and renderer settings, and every frame waited for until its last pixel is there.
+/// A window without a display for timing our picture and its peers alike: the same EGL context,
+/// size and renderer settings; every frame is waited for until its last pixel is complete.
 class TimedView
 {
 public:
   struct Timing
   {
-    double first = 0.0;  ///< s, with uploads and shaders
+    double first = 0.0;  ///< s, including uploads and shader compilation
     double median = 0.0; ///< s, of the frames after the first
-    int frames = 0;      ///< how many the median is of; 0: `median` is `first`
+    int frames = 0;      ///< number of frames in the median; 0: `median` is `first`
   };
 
   /// Throws RenderingError NoOpenGL or BadSize.
@@ -29,24 +29,25 @@ public:
   TimedView(const TimedView&) = delete;
   TimedView& operator=(const TimedView&) = delete;
 
-  /// Attaches a picture (ScenePicture, PeerPicture) in place of the one before, which may be gone.
+  /// Attaches a picture (ScenePicture, PeerPicture) in place of the previous one, which may have
+  /// been destroyed.
   template <class Attachable>
   void show(Attachable& picture)
   {
     picture.attach(takeRenderer());
   }
 
-  /// Draws once. readBack: the pixels come to the processor, as a picture file needs them;
-  /// otherwise only the end of the drawing is waited for. Seconds.
+  /// Draws once and returns the seconds taken. readBack: transfers the pixels to the CPU, as for a
+  /// picture file; otherwise only waits for the drawing to finish.
   double frame(bool readBack = true);
 
-  /// The first frame of what is shown and the median of `frames` more: fast ones go on until half
-  /// a second is full, slow ones end once `enough` seconds are. 0: the first alone.
+  /// Times the first frame and the median of `frames` more: fast ones are repeated until half a
+  /// second has passed, slow ones stop after `enough` seconds. 0: only the first.
   Timing time(int frames, double enough = std::numeric_limits<double>::infinity());
 
-  Picture picture() const; ///< the last frame that was read back
+  Picture picture() const; ///< the last frame read back
 
-  std::string glRenderer() const; ///< as the driver calls itself
+  std::string glRenderer() const; ///< GL_RENDERER
   std::string glVersion() const;
 
 private:

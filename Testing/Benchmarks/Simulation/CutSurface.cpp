@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double kStep = 0.1; // voxels
 constexpr int kHalvings = 20;
 
-// The n-th of `count` directions spread evenly over the sphere (golden angle).
+// The n-th of `count` directions evenly distributed over the sphere (golden angle).
 Vector3d directionOf(int n, int count)
 {
   const double z = 1.0 - (2.0 * n + 1.0) / count;
@@ -24,7 +24,7 @@ Vector3d directionOf(int n, int count)
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-// Where the mask rises through 1/2 on the ray from within the cut; nothing outside the grid.
+// Where the mask crosses 1/2 on the ray from inside the cut; nullopt outside the grid.
 std::optional<Vector3d> surfaceOn(const volume::CutMask& mask, const Vector3d& from,
                                   const Vector3d& way, double first)
 {

@@ -34,7 +34,7 @@ struct Scope
   std::vector<double> degrees{0.0, 20.0, 40.0, 60.0, 80.0};
   std::vector<double> burrs{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}; // mm
   std::vector<double> peerBurrs{1.0, 2.0, 4.0, 6.0};            // mm
-  double volume = 0.4;                                          // mm^3 that a run shall take
+  double volume = 0.4;                                          // mm^3 to be removed per run
   double least = 0.06, most = 2.5;                              // s of contact
   double groove = 1.5;                                          // s
   int centers = 200, directions = 400;
@@ -96,7 +96,7 @@ const char* nameOf(Burr::Kind kind)
   return kind == Burr::Kind::Cutting ? "cutting burr" : "diamond burr";
 }
 
-// The worst over thrust and elevation of each tick and voxel.
+// Worst case over thrust and elevation for each tick and voxel size.
 Points balances(const Scope& scope, const core::Progress& progress)
 {
   Points points;

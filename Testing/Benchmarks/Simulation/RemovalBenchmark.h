@@ -6,12 +6,12 @@
 namespace petrous::simulation
 {
 
-/// Bone removed by the laws, the burr pressed on a block with constant thrust through servo, tool
-/// and loop; times are the processor's, of dissection steps that take something:
+/// Bone removal by the removal laws, with the burr pressed on a block with constant thrust through
+/// servo, tool and loop; times are CPU times of dissection steps that remove something:
 ///
 /// - removed + owed + forfeited against the law, over ticks, voxels, thrusts, elevations, both laws
-/// - the same and the time of a step over burrs and voxels, the burr led to and fro
-/// - the same beside the voxel-deleting rule of the volumetric_drilling simulator
+/// - the same and the step time over burrs and voxels, with the burr moved to and fro
+/// - the same compared with voxel deletion as in the volumetric_drilling simulator
 /// - the surface of a groove against the balls that made it
 core::BenchmarkReport runRemovalBenchmark(bool quick, const core::Progress& progress);
 

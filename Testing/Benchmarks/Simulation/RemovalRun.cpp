@@ -22,9 +22,9 @@ double resistanceOf(const LawScene::Setting& setting)
   return testing::resistance(setting.burr, "cortical-bone"); // N/mm^2
 }
 
-// mm^3 of {f > 0} that the mask has taken, by 512 points a cell that no plane of the grid aligns
-// with (additive recurrence by powers of the root of x^4 = x + 1): on points in rows a flat
-// surface would count a twelfth of a voxel too high or low.
+// Volume of {f > 0} removed by the mask, mm^3, from 512 points per cell that are not aligned with
+// the grid (additive recurrence by powers of the root of x^4 = x + 1): with points in rows, a flat
+// surface would be off by a twelfth of a voxel.
 double volumeGone(const LawScene& scene)
 {
   constexpr int points = 512;
@@ -38,7 +38,7 @@ double volumeGone(const LawScene& scene)
     for (int c = 0; c < 8; ++c)
       least = std::min(least, mask.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)));
     if (least > CutMask::kUntouched / 2)
-      return; // nothing of it is gone
+      return; // nothing removed from it
     for (int n = 0; n < points; ++n)
     {
       const auto part = [n](double step) { return std::fmod(0.5 + step * (n + 1), 1.0); };
@@ -56,7 +56,7 @@ double volumeGone(const LawScene& scene)
   return static_cast<double>(gone) * grid.voxelVolume() / points;
 }
 
-// Voxels that are there or not, in the mask that the tool feels.
+// Binary voxels in the mask that the tool touches.
 class VoxelDeletion
 {
 public:
@@ -68,7 +68,7 @@ public:
     takeAir();
   }
 
-  /// How many are gone.
+  /// Returns the number of deleted voxels.
   std::size_t step(const TickRecord& record)
   {
     if (!record.drill || !(record.thrust > 0.0))
@@ -88,7 +88,7 @@ public:
   }
 
 private:
-  // What is no bone is gone from the start, so that all that is felt is voxels.
+  // Removes everything but bone first, so that only binary voxels are touched.
   void takeAir()
   {
     CutMask& mask = m_scene.work.mask();
@@ -108,7 +108,7 @@ private:
     m_scene.mask->publish(mask, mask.takeDirty(), false);
   }
 
-  static std::size_t placeOf(const core::Index3& voxel) // in its brick
+  static std::size_t placeOf(const core::Index3& voxel) // within its brick
   {
     constexpr int edge = CutMask::kBrickEdge;
     return static_cast<std::size_t>(voxel[0] % edge +
@@ -217,7 +217,7 @@ RemovalRun runByDeletion(const LawScene::Setting& setting, double seconds, doubl
                 });
     run.measured = static_cast<double>(gone) * scene.work.mask().geometry().voxelVolume();
     if (run.contact == before)
-      break; // it touches nothing any more
+      break; // no more contact
   }
   return run;
 }

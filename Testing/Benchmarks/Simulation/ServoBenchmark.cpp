@@ -24,7 +24,7 @@ core::GridGeometry gridOf(double h)
   return {{n, n, n}, Eigen::Vector3d::Constant(h), Eigen::Vector3d(-9.0, -9.0, -15.0)};
 }
 
-// Bone below z = 0, its surface a ramp of a voxel or two, as a scanner shows it.
+// Bone below z = 0, its surface a ramp of a voxel or two, as in a scan.
 volume::TissueField boneOn(const core::GridGeometry& grid)
 {
   auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
@@ -52,7 +52,7 @@ struct Block
     , tissue(boneOn(work.mask().geometry()))
     , tool(std::make_unique<haptics::ConstrainedProxy>(
           std::make_shared<haptics::HapticField>(tissue, mask), shell))
-    , resistance(tissue.ct(), {300.0, 1800.0, 741.0, 2224.0}, {}) // N/mm2, a cutting burr's
+    , resistance(tissue.ct(), {300.0, 1800.0, 741.0, 2224.0}, {}) // N/mm2, of a cutting burr
     , search(tissue, resistance, {}, 2.0)
     , removalModel(search, {}, h)
   {
@@ -74,7 +74,7 @@ haptics::Pose handAt(double t)
           Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::sin(t), Eigen::Vector3d(0.6, 0.8, 0.0)))};
 }
 
-// In step: each cut is made, and written, before the next tick.
+// Synchronous: each cut is made and written before the next tick.
 DissectionLoop::Hooks to(RecordingWriter& writer, core::TickTimes& writing)
 {
   DissectionLoop::Hooks hooks;

@@ -8,8 +8,9 @@
 namespace petrous::simulation
 {
 
-/// A whole servo tick (device, guard, mapping, constrained tool, limits) and the recording of it: a
-/// hand with tremor drills a block of bone. The error is what a replay of the recording differs by.
+/// A complete servo tick (device, guard, mapping, constrained tool, limits) and its recording: a
+/// device with tremor drills a block of bone. The error is the difference between the recording and
+/// its replay.
 core::BenchmarkReport runServoBenchmark(const std::filesystem::path& work, bool quick,
                                         const core::Progress& progress);
 

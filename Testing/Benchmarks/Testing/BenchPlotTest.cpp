@@ -22,7 +22,7 @@ struct Label
   double left, top, right, bottom;
 };
 
-// Texts of 10 pixels, as wide as the usual fonts have digits.
+// Labels of 10 pixels, with the digit width of common fonts.
 std::vector<Label> labelsOf(const std::string& svg)
 {
   const std::regex text("<text x=\"([-.0-9]+)\" y=\"([-.0-9]+)\" text-anchor=\"middle\" "
@@ -62,7 +62,7 @@ core::BenchmarkPoint point(const std::string& series, const std::string& value, 
   return result;
 }
 
-// Five settings at one place, in the middle of the plot or near a corner of it.
+// Five settings at the same position, in the middle of the plot or near a corner.
 core::BenchmarkReport crowd(double seconds, double error)
 {
   core::BenchmarkReport report{"renderer", "title", {}};

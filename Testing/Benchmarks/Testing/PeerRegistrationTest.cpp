@@ -18,7 +18,7 @@ std::string parameters(const std::string& six, const std::string& center)
 
 } // namespace
 
-// R = Rz Rx Ry: by hand, for quarter turns.
+// R = Rz Rx Ry, evaluated by hand for quarter turns.
 TEST(ElastixTransform, TurnsAboutYThenXThenZ)
 {
   const auto xz = elastixTransform(parameters("1.5707963268 0 1.5707963268 0 0 0", "0 0 0"));

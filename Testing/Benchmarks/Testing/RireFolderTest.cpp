@@ -17,7 +17,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-// The truth of RIRE's training_001, CT to MR T1, as the project published it.
+// Ground truth of RIRE's training_001, CT to MR T1, as published by the project.
 constexpr const char* kStandard = R"(-----------------------------------------------------------
 Transformation Parameters
 
@@ -67,7 +67,7 @@ protected:
     std::ofstream(m_folder / path, std::ios::binary) << text;
   }
 
-  // Voxel n holds n - 3: both signs.
+  // Voxel n has the value n - 3: both signs.
   void writeImage(const fs::path& folder, const std::string& orientation = "L : P : H",
                   int missing = 0) const
   {

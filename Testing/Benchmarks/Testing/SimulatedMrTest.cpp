@@ -11,7 +11,7 @@ using namespace petrous::registration;
 namespace
 {
 
-// A ball of Gaussian profile, 1 at its middle: its integrals are known.
+// A ball of Gaussian profile with maximum 1: its integrals are known.
 constexpr double kSigma = 6.0; // mm
 const Vector3d kMiddle(3.0, -4.0, 12.0);
 
@@ -94,7 +94,7 @@ TEST(SimulatedMr, AveragesOverTheSlice)
   MrAcquisition a = quiet();
   a.center = kMiddle;
   a.spacing = {1.0, 1.0, 6.0};
-  a.extent = {33.0, 33.0, 30.0}; // odd counts: a voxel in the middle
+  a.extent = {33.0, 33.0, 30.0}; // odd counts: a voxel at the centre
   const SimulatedMr mr = acquireMr(image, a);
   const auto mean = [](double from, double to)
   {
@@ -145,7 +145,7 @@ TEST(SimulatedMr, IsTheSameForASeedAndAnotherForAnother)
 
 TEST(SimulatedMr, TellsWhereADistortedPointLands)
 {
-  const auto image = blob(1.5); // small against the field's bends
+  const auto image = blob(1.5); // small compared with the field's variations
   MrAcquisition a = quiet();
   a.distortion = 8.0;
   double farthest = 0.0;
@@ -173,7 +173,7 @@ TEST(SimulatedMr, ShowsTissueAsItsWeightingDoes)
   EXPECT_GT(level(35.0F, MrContrast::Diffusion), 2.0 * level(0.0F, MrContrast::Diffusion));
 }
 
-// Half a voxel of bone beside half a voxel of air is no soft tissue.
+// Half a voxel of bone next to half a voxel of air is not soft tissue.
 TEST(SimulatedMr, KeepsTheRimBetweenAirAndBoneDark)
 {
   volume::Volume<float> ct({{24, 24, 24}, Vector3d::Constant(1.0), Vector3d::Zero()}, -1000.0F);
@@ -187,7 +187,7 @@ TEST(SimulatedMr, KeepsTheRimBetweenAirAndBoneDark)
   EXPECT_LT(contrast.at(12, 12, 12), 0.05F);
 }
 
-// The CT's noise must not be found again in the MR: that would help a registration.
+// The CT's noise must not reappear in the MR: that would help registration.
 TEST(SimulatedMr, DoesNotInheritTheNoiseOfTheCt)
 {
   volume::Volume<float> ct({{24, 24, 24}, Vector3d::Constant(1.0), Vector3d::Zero()});
@@ -204,12 +204,12 @@ TEST(SimulatedMr, DoesNotInheritTheNoiseOfTheCt)
   double most = 0.0, apart = 0.0;
   for (int n = 4; n < 20; ++n)
     most = std::max(most, static_cast<double>(std::abs(noisy.at(n, 12, 9) - clean.at(n, 12, 9))));
-  // As the curve would turn 20 HU.
+  // The contrast of 20 HU according to the curve.
   apart = 20.0 * (0.60 - 0.55) / 18.0;
   EXPECT_LT(most, 0.6 * apart);
 }
 
-// A small blob in a ball that is displaced as a whole lands beside by that much.
+// A small blob in a ball that is displaced as a whole appears displaced by the same amount.
 TEST(SimulatedMr, DisplacesAPartOfThePatient)
 {
   MrAcquisition a = quiet();

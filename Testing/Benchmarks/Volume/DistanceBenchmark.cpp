@@ -28,7 +28,7 @@ double seconds(Clock::time_point since)
   return std::chrono::duration<double>(Clock::now() - since).count();
 }
 
-// A ring where `tube` is smaller than `radius`; a ball of radius `tube` where `radius` is 0.
+// A ring if `tube` is smaller than `radius`; a ball of radius `tube` if `radius` is 0.
 struct Shape
 {
   Eigen::Vector3d center;
@@ -55,7 +55,7 @@ std::vector<Shape> shapes()
   return all;
 }
 
-// An occupancy that is linear across the surface, on those voxels of the CT's grid that it needs.
+// An occupancy that is linear across the surface, on the required voxels of the CT's grid.
 std::shared_ptr<const Volume<float>> occupancyOf(const Shape& shape, double h)
 {
   const double reach = shape.radius + shape.tube + 4.0 * h;
@@ -87,7 +87,7 @@ std::shared_ptr<const Volume<float>> occupancyOf(const Shape& shape, double h)
 
 struct Asked
 {
-  std::vector<double> times; // s, of a place
+  std::vector<double> times; // s, per point
   double worst = 0.0;        // mm
 };
 
@@ -129,7 +129,7 @@ core::BenchmarkPoint pointOf(const Asked& asked, int edge, const std::string& pe
   return point;
 }
 
-// A field in which there is the structure and nothing else.
+// A field with the structure and nothing else.
 TissueField alone(const std::shared_ptr<const Volume<float>>& occupancy)
 {
   auto air = std::make_shared<Volume<std::int16_t>>(occupancy->geometry(), std::int16_t{-1000});

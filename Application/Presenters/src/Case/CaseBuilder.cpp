@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// `wanted`, or with a number behind it where that is taken.
+/// `wanted`, with a number appended if it is taken.
 template <class IsTaken>
 std::string freeName(const std::string& wanted, const IsTaken& isTaken)
 {
@@ -36,8 +36,7 @@ std::string freeName(const std::string& wanted, const IsTaken& isTaken)
   return name;
 }
 
-/// The name that a part gets from its file's, where nobody gave one; what of it is left out is
-/// noted.
+/// A part's name derived from its file name if none was given; what is left out of it is noted.
 template <class IsTaken>
 std::string nameFromFile(const fs::path& path, const std::string& otherwise, const IsTaken& isTaken,
                          std::vector<std::string>& notes)
@@ -69,8 +68,8 @@ volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeri
   }
 }
 
-// A UID leads whoever has the hospital's archive to the patient; whether two are the same can be
-// told without it.
+// A UID identifies the patient to anyone with access to the hospital's archive; a hash still allows
+// comparison.
 std::string withoutIdentity(const std::string& uid)
 {
   if (uid.empty())
@@ -96,7 +95,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
     imaging::ReadOptions options;
     options.roi = roi;
     std::vector<std::string> notes = series.geometry.notes;
-    if (!scan.notes.empty()) // which name files and folders, and those may be called after patients
+    if (!scan.notes.empty()) // which name files and folders, possibly after patients
       notes.push_back("Of what lies beside its slices, something was left out in " +
                       std::to_string(scan.notes.size()) +
                       (scan.notes.size() == 1 ? " place" : " places") +
@@ -112,7 +111,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
   return part;
 }
 
-// Cone-beam and micro-CT count in units of their own, in which 300 may be air or nothing at all.
+// Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all.
 void placeSurface(scene::Case& value)
 {
   const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
@@ -167,7 +166,7 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   value.mr.push_back(std::move(part));
 }
 
-// The MR that somebody named with a file; empty for the CT.
+// The MR that the user specified for a file; empty for the CT.
 std::string drawnOnNamed(const scene::Case& value, const PartSource& source)
 {
   if (source.drawnOn == "ct")
@@ -181,7 +180,7 @@ std::string drawnOnNamed(const scene::Case& value, const PartSource& source)
   return source.drawnOn;
 }
 
-// Nothing where the grid is neither the CT's nor that of an MR: an MR may come that has it.
+// None if the grid is neither the CT's nor an MR's: an MR with that grid may be added.
 std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& source,
                                    const core::GridGeometry& grid)
 {
@@ -200,7 +199,7 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
   return names.front();
 }
 
-// Before an MR comes that may have the same grid as another one.
+// Before an MR is added that may have the same grid as another one.
 void settleDrawnOn(scene::Case& value)
 {
   for (scene::LabelPart& part : value.labels)
@@ -213,7 +212,7 @@ void settleDrawnOn(scene::Case& value)
   }
 }
 
-// Of all that the case has, and of a part that comes to it.
+// Colours of all parts of the case, and of a part to be added.
 std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
                                            const std::vector<scene::StructurePart>& coming = {})
 {
@@ -228,13 +227,13 @@ std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
   return colors;
 }
 
-// Whether the name of a structure says nothing of its look.
+// Whether the name of a structure determines no appearance.
 bool isUnknown(const appearance::StructureAppearance& look)
 {
   return look.preset == "other";
 }
 
-// The box of some voxels of `grid` in the voxels of `onto`.
+// The box of some voxels of `grid`, in voxels of `onto`.
 Eigen::AlignedBox3d boxOn(const core::GridGeometry& onto, const core::GridGeometry& grid,
                           const core::IndexBox& box)
 {
@@ -261,7 +260,7 @@ bool liesOutside(const core::GridGeometry& ct, const core::GridGeometry& grid,
   return !hull.intersects(boxOn(ct, grid, box));
 }
 
-// Structures of which nothing will be seen or felt.
+// Notes structures that will be neither visible nor touchable.
 void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume::LabelMap& map)
 {
   if (part.drawnOn && !part.drawnOn->empty())
@@ -343,7 +342,7 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
   first.insert(first.begin(), notes.begin(), notes.end());
 }
 
-// A lost decimal point, or another unit. `what` names the image.
+// Catches a lost decimal point or a wrong unit. `what` names the image.
 void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
                  const core::GridGeometry& grid, const std::string& what)
 {
@@ -411,7 +410,7 @@ PartSource PartSource::parseDrawn(const std::string& text)
 
 FileName fileName(const fs::path& path)
 {
-  // The name up to its first format ending: "facial_nerve.nii.gz" -> "facial_nerve".
+  // The name up to its first format extension: "facial_nerve.nii.gz" -> "facial_nerve".
   std::string stem = path.stem().string();
   const std::string name = path.filename().string();
   for (const std::string end : {".seg.nrrd", ".nii.gz"})

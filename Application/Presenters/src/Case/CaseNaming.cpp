@@ -10,14 +10,14 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr std::size_t kMaxLength = 90; // bytes; leaves room for a number behind it
+constexpr std::size_t kMaxLength = 90; // bytes; leaves room for a number appended
 
 bool isContinuation(char c)
 {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-// Whether well-formed UTF-8 (as far as lead and continuation bytes tell).
+// Whether valid UTF-8 (checks lead and continuation bytes only).
 bool isUtf8(const std::string& text)
 {
   for (std::size_t n = 0; n < text.size();)

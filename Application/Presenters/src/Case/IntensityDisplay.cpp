@@ -12,9 +12,9 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr double kSteps = 1000.0;       // of a threshold from end to end, at least
-constexpr double kUsualLeast = -1000.0; // HU, of a CT's values
-constexpr double kUsualSpan = 4000.0;   // HU
+constexpr double kSteps = 1000.0;       // minimum number of threshold steps over the range
+constexpr double kUsualLeast = -1000.0; // HU, minimum of typical CT values
+constexpr double kUsualSpan = 4000.0;   // HU, their range
 
 double roundStep(double largest)
 {
@@ -27,7 +27,7 @@ int decimalsFor(double step)
   return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
 }
 
-// As far as the image has such values; all of them where it has none.
+// Clipped to the image's range; the full range if nothing remains.
 GreyWindow windowOf(double black, double white, const volume::ValueRange& range)
 {
   black = std::max(black, range.min);
@@ -68,7 +68,8 @@ IntensityDisplay displayOf(const scene::Case& value)
   display.hounsfield = scale.calibrated;
   if (!scale.calibrated && range.max > range.min)
   {
-    // A threshold above dense bone tells nothing of the scale: its usual span over the whole range.
+    // A threshold above dense bone does not define the scale: map the typical CT range to the
+    // image's.
     const double whole = (range.max - range.min) / kUsualSpan;
     const auto at = [&](double hounsfield)
     {

@@ -3,7 +3,7 @@
 namespace petrous::presenters
 {
 
-/// Calls what somebody may have asked to hear of.
+/// Calls an event handler, if set.
 template <class Event, class... Arguments>
 void notify(const Event& event, const Arguments&... arguments)
 {

@@ -31,7 +31,7 @@ Frame frameOf(const core::CameraPose& camera)
 core::CameraPose turned(const core::CameraPose& camera, double right, double down)
 {
   const Frame frame = frameOf(camera);
-  // The camera goes the other way round than the patient seems to.
+  // The camera rotates opposite to the apparent rotation of the patient.
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(-right * kDegree, frame.up) *
                                 Eigen::AngleAxisd(-down * kDegree, frame.right));
   core::CameraPose next = camera;
@@ -56,7 +56,7 @@ core::CameraPose shifted(const core::CameraPose& camera, double right, double do
 
 std::string directionLetters(const Eigen::Vector3d& direction)
 {
-  constexpr double kShare = 0.4; // of the length, to be named
+  constexpr double kShare = 0.4; // minimum component of the unit vector to be named
   constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
   const Eigen::Vector3d unit = direction.stableNormalized();
   std::array<Eigen::Index, 3> axes{0, 1, 2};

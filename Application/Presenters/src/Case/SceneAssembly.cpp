@@ -51,7 +51,7 @@ const scene::ImagePart* secondImage(const scene::Case& value, const Structures& 
   return nullptr;
 }
 
-// What asks for an image that is not drawn must not read its values from the CT.
+// Values for an image that is not drawn must not be read from the CT.
 StructureAppearance drawn(StructureAppearance look, const scene::ImagePart* second)
 {
   if (readsSecond(look) && !(second && look.sourceImage == second->name))

@@ -37,7 +37,7 @@ std::uint64_t printOf(const volume::CutMask& mask)
   {
     const volume::CutMask::BrickVersion& brick = mask.brick(n);
     const auto isCut = [](std::uint16_t left) { return left != volume::CutMask::kUntouched; };
-    // A brick that was cut and came back may be there or not.
+    // A brick that was cut and restored may or may not be allocated.
     if (!brick || std::none_of(brick->begin(), brick->end(), isCut))
       continue;
     print.add(n);
@@ -57,7 +57,7 @@ simulation::RecordedScene TouchScene::fingerprint() const
   result.ct = ct.value();
   result.iso = field.parameters().iso;
 
-  // All of it counts, wherever it is drilled.
+  // All of it counts, drilled or not.
   const Eigen::Vector3d everywhere = Eigen::Vector3d::Constant(1e9);
   m_drill.protectedTissue().prepare({-everywhere, everywhere});
   core::Fingerprint tissue;

@@ -20,10 +20,10 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr double kPatches = 0.9;       // of the voxels above 0 have an equal neighbour
-constexpr std::size_t kHardlyAny = 16; // values: no scanner has so few
+constexpr std::size_t kHardlyAny = 16; // values: no scanner yields so few
 constexpr double kAir = -500.0;        // HU
 
-// Whether whole numbers from 0 to 65535 in patches, and few of them.
+// Whether integers from 0 to 65535 in patches, and few distinct ones.
 template <class T>
 bool isLabelMap(const volume::Volume<T>& image)
 {
@@ -118,7 +118,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
     }
   if (result.series.size() > 1)
     return result;
-  // Without one that can be read: the reader of what was meant says what is wrong with it.
+  // If none is readable, the reader reports why.
   const std::string modality = result.series.empty() ? imaging::chooseSeries(scan, path).modality
                                                      : result.series.front().modality;
   result.content = contentOf(modality);

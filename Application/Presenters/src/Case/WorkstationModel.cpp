@@ -31,13 +31,13 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_journal.reset();
   m_saved.reset();
   m_nearby.reset();
-  m_assembly = {}; // what it keeps is of the case before
+  m_assembly = {}; // its cache is of the previous case
   m_unreadLabels.clear();
   m_unreadMeshes.clear();
   m_case = std::move(next);
   ++m_shown;
   m_leaving = false;
-  m_checked = unsaved; // what was just made needs no check
+  m_checked = unsaved; // a case just made needs no check
   m_unsaved = unsaved;
   m_journal = std::make_shared<JournalThread>();
   m_crosshair = m_case->ct.geometry.center();
@@ -79,8 +79,8 @@ rendering::SceneContents WorkstationModel::sceneContents()
 namespace
 {
 
-// Reads the parts of a copy of the case, each for itself. One that cannot be read makes way for an
-// empty one: the others are there nevertheless.
+// Reads the parts of a copy of the case one by one. An unreadable one is replaced by an empty one,
+// so that the others are available.
 template <class T, class Part>
 std::vector<PreparedCase::LeftOut> readParts(std::vector<Part>& parts, core::Lazy<T> Part::*member,
                                              const core::Lazy<T>& empty,
@@ -106,7 +106,7 @@ std::vector<PreparedCase::LeftOut> readParts(std::vector<Part>& parts, core::Laz
   return leftOut;
 }
 
-// One for all, so that what was made of it is known again.
+// A single instance, so that caches derived from it are reused.
 core::Lazy<volume::LabelMap> noLabels()
 {
   static const auto kNone = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(
@@ -128,7 +128,7 @@ core::Lazy<core::TriangleMesh> noMesh()
 std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation() const
 {
   scene::Case value = *m_case;
-  if (value.dissection) // a tool may cut the case's own
+  if (value.dissection) // a tool may be cutting the case's own
     value.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
   return [value = std::move(value), library = m_library, assembly = m_assembly, parts = m_parts,
           tissue = m_tissue, felt = m_session || m_scene](const core::Progress& progress) mutable
@@ -139,22 +139,22 @@ std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation
     done.meshes =
         readParts(value.meshes, &scene::MeshPart::mesh, noMesh(), progress.part(0.2, 0.3));
     if (!done.labels.empty() || !done.meshes.empty())
-      value.derived.reset(); // whose keys say what the objects hold
+      value.derived.reset(); // its keys identify the stored objects
     done.assembly = std::move(assembly);
     try
     {
       done.assembly.contents(value, progress.part(0.3, 0.6));
     }
-    catch (const core::InvalidParameter&) // too much to draw, as who draws will say
+    catch (const core::InvalidParameter&) // too much to draw; reported by the renderer
     {
     }
     if (!felt)
       done.drill.emplace(value, progress.part(0.6, 0.95));
     try
     {
-      library.checkVoxels(value, progress.part(0.95, 1.0)); // most often done by now
+      library.checkVoxels(value, progress.part(0.95, 1.0)); // usually done by now
     }
-    catch (const library::LibraryError&) // WorkstationModel::damage tells
+    catch (const library::LibraryError&) // reported by WorkstationModel::damage
     {
     }
     done.parts = parts;
@@ -169,7 +169,7 @@ bool WorkstationModel::prepared(PreparedCase done)
     return false;
   leaveOut(done);
   m_loaded = m_drawable = m_checked = true;
-  done.assembly.takeThickness(m_assembly); // it may have been asked for meanwhile
+  done.assembly.takeThickness(m_assembly); // may have been requested meanwhile
   m_assembly = std::move(done.assembly);
   if (done.tissue == m_tissue)
     m_feelable = true;
@@ -239,7 +239,7 @@ void WorkstationModel::step(bool back)
   notify(events.stepped, back);
 }
 
-// After the case went to another state by itself.
+// Call after the case itself moved to another state.
 void WorkstationModel::followHistory()
 {
   const std::vector<std::size_t> bricks = m_case->dissection->mask().takeDirty();
@@ -267,7 +267,7 @@ void WorkstationModel::setIso(double hounsfield)
 {
   if (!m_case || drilling() || m_case->iso == hounsfield)
     return;
-  // Structures are where they were.
+  // Structures are unaffected.
   std::optional<DrillSession> before;
   if (m_session || m_scene)
     before.emplace(session());
@@ -369,7 +369,7 @@ DrillSession& WorkstationModel::session()
   return *m_session;
 }
 
-// What was made of the case's voxels, threshold and structures.
+// Drops what was derived from the case's voxels, threshold and structures.
 void WorkstationModel::forgetTissue()
 {
   stopTouch();
@@ -392,7 +392,7 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
   PlaceReading reading = m_reader->at(patient);
   if (!reading.structure.empty())
     return reading;
-  if (!m_nearby) // after the reader, which makes the voxels of the meshes
+  if (!m_nearby) // after the reader, which voxelizes the meshes
     m_nearby = std::make_unique<NearbyStructures>(*m_case);
   reading.near =
       m_nearby->surfaces().nearest(patient, PointProbe::kReach,
@@ -444,7 +444,7 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, whole);
 }
 
-// Passes on what the news say of the case.
+// Forwards the news to the case's observers.
 TouchSession::News WorkstationModel::hear(TouchSession::News news)
 {
   if (m_journal)
@@ -478,7 +478,7 @@ TouchSession::News WorkstationModel::stopTouch()
   if (!m_touch)
     return {};
   TouchSession::News news = m_touch->stop();
-  if (m_touch->failed()) // the hand's tissue may not be the eye's any more
+  if (m_touch->failed()) // touched and rendered tissue may differ
   {
     m_reader.reset();
     m_touch.reset();

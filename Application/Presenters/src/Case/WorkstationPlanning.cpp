@@ -1,5 +1,5 @@
-// What a planner does with the open case: how near structures are, how thick bone is, how MRs lie,
-// approaches.
+// WorkstationModel: planning on the open case: distances to structures, bone thickness, MR
+// registration, approaches.
 
 #include <algorithm>
 #include <utility>
@@ -72,7 +72,7 @@ void WorkstationModel::startBranch(const std::string& name)
 namespace
 {
 
-// Where that lies which was drawn on MRs; touch, drill and pointer work on it.
+// Placements of what was drawn on MRs; touch, drill and pointer depend on them.
 std::vector<scene::Placement> drawnOnMrs(const scene::Case& value)
 {
   std::vector<scene::Placement> placements;
@@ -125,7 +125,7 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
   const auto follow = [&]
   {
     if (!before.empty())
-      m_nearby.reset(); // its uncertainties are of how the MRs lie
+      m_nearby.reset(); // its uncertainties depend on the registrations
     if (same(before, drawnOnMrs(*m_case)))
       return;
     const bool held = touching();
@@ -146,7 +146,7 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
   follow();
   notify(events.mrMoved);
   setUnsaved(true);
-  if (tissueMoved) // whoever asks before that waits for it
+  if (tissueMoved) // whoever asks earlier waits for it
     notify(events.preparationWanted);
 }
 

@@ -4,7 +4,7 @@
 #include "Notify.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
-// What of the model has to do with the library.
+// WorkstationModel: loading from and saving to the library.
 namespace petrous::presenters
 {
 
@@ -13,7 +13,7 @@ void WorkstationModel::listen()
   m_library.onNotice([this](const std::string& words) { notify(events.noticed, words); });
 }
 
-// From when the case is as it was saved, or goes on from there.
+// Call when the case is as saved, or continues from there.
 void WorkstationModel::keepJournal(const library::SavedState& saved, bool another)
 {
   m_saved = saved;
@@ -36,14 +36,14 @@ ReadCase ReadCase::from(const library::Library& library, const std::string& name
                         const core::Progress& progress)
 {
   ReadCase result;
-  library::Library own = library; // with an ear of its own
+  library::Library own = library; // with a listener of its own
   own.onNotice([&result](const std::string& words) { result.notices.push_back(words); });
   progress.report(0.0, "opening " + name);
   result.value = std::make_unique<scene::Case>(own.open(name));
   progress.report(0.3, "reading what was drilled");
   own.loadDissection(*result.value);
   progress.report(0.8, "reading the CT");
-  result.value->ct.volume.get(); // a missing object is told now
+  result.value->ct.volume.get(); // reports a missing object now
   progress.check("opening " + name);
   return result;
 }
@@ -73,7 +73,7 @@ void WorkstationModel::beginOpen(const std::string& name)
 {
   beginLeave();
   if (m_case && m_case->name == name)
-    m_journal.reset(); // or it would look as if another program drilled in it
+    m_journal.reset(); // otherwise it would look as if another program drilled in it
 }
 
 void WorkstationModel::opened(ReadCase next)
@@ -112,7 +112,7 @@ void WorkstationModel::takeParts(scene::Case with)
       parts.push_back(std::move(more[n]));
   };
   for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
-    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // an MR came that may have the same grid
+    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // another MR may have the same grid
   forgetTissue();
   m_nearby.reset();
   append(m_case->mr, with.mr);
@@ -147,11 +147,11 @@ void WorkstationModel::close()
 
 void StoreTask::run(const core::Progress& progress)
 {
-  library::Library own = library; // with an ear of its own
+  library::Library own = library; // with a listener of its own
   own.onNotice([this](const std::string& words) { notices.push_back(words); });
   if (source)
   {
-    // What is mapped would be stored there under the hash of what it is by now.
+    // Mapped voxels would be stored there under the hash of their current content.
     const auto map = [](const scene::ImagePart& image) { image.volume.get(); };
     map(value.ct);
     std::for_each(value.mr.begin(), value.mr.end(), map);
@@ -205,7 +205,7 @@ void WorkstationModel::stored(const StoreTask& done)
     for (std::size_t n = 0; n < std::min(parts.size(), from.size()); ++n)
       parts[n].object = from[n].object;
   };
-  // Salted by the save: one that is, and one that is not, say nothing of each other.
+  // Salted by the save: a salted and an unsalted frame cannot be compared.
   const auto takeFrame = [](scene::ImagePart& image, const scene::ImagePart& from)
   {
     image.frameOfReference = from.frameOfReference;
@@ -233,7 +233,7 @@ void WorkstationModel::stored(const StoreTask& done)
   m_case->derived =
       m_unreadLabels.empty() && m_unreadMeshes.empty() ? m_library.derived() : nullptr;
   m_unsaved = m_changes != done.changes;
-  keepJournal(saved, other); // what was drilled since then goes there at once
+  keepJournal(saved, other); // what was drilled since then is written at once
   notify(events.stateChanged);
   for (const std::string& words : done.notices)
     notify(events.noticed, words);

@@ -21,8 +21,8 @@ namespace
 using devices::DeviceKind;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kLookEvery = 0.3; // s, for a SpaceMouse that was pulled
-// A way that is led by a speed has no end: 7 hours at full deflection.
+constexpr double kLookEvery = 0.3; // s, poll interval for an unplugged SpaceMouse
+// Rate control is unbounded: 7 hours at full deflection.
 constexpr double kEndless = 1e6; // mm
 
 InputDevice spaceMouse(const devices::FoundDevice& found)
@@ -35,7 +35,7 @@ InputDevice spaceMouse(const devices::FoundDevice& found)
   return input;
 }
 
-// Whether opening it may work; of some nodes only the attempt tells.
+// Whether opening it may succeed; for some nodes only an attempt shows.
 bool usable(const devices::FoundDevice& found)
 {
   return found.access == devices::Access::Allowed || found.access == devices::Access::Unknown;
@@ -57,7 +57,7 @@ DeviceList findDevices(const DeviceSources& sources)
   std::vector<devices::FoundDevice> plugged;
   if (sources.hid)
     plugged = devices::findDevices(*sources.hid);
-  std::optional<InputDevice> cap; // the first that may be opened, as SpaceMouseDevice takes it
+  std::optional<InputDevice> cap; // the first that can be opened, as in SpaceMouseDevice
   for (const devices::FoundDevice& device : plugged)
   {
     const bool open = usable(device);

@@ -10,8 +10,8 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr double kSoft = 0.2;            // N/mm: any device with motors renders it
-constexpr double kMinStiffness = 0.02; // N/mm: what is softer cannot be worked with
+constexpr double kSoft = 0.2;            // N/mm: rendered by any device with force feedback
+constexpr double kMinStiffness = 0.02; // N/mm: anything softer is unusable
 constexpr double kEndless = 1e9;         // mm
 
 // N/mm, of the proxy's coupling.
@@ -55,7 +55,7 @@ void fit(TouchSession::Setup& setup, const haptics::DeviceDescription& device,
   setup.passivity.reset();
   if (!device.givesForce)
     return;
-  // As they are in the hand, at a gain of 1 / scale.
+  // As felt at the device, at a gain of 1 / scale.
   haptics::PassivityGuard::Parameters passivity;
   passivity.stiffness = setup.tool.coupling.stiffness * lead.scale;
   passivity.angularStiffness = setup.tool.coupling.angularStiffness / lead.scale;

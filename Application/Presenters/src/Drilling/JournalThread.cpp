@@ -44,7 +44,7 @@ void JournalThread::begin(const library::Library& library, const library::SavedS
     const std::lock_guard<std::mutex> lock(m_mutex);
     m_tasks.begin.swap(journal);
     m_tasks.beginStrokes = saved.strokes.size();
-    m_tasks.saved.reset(); // was told of the journal before
+    m_tasks.saved.reset(); // was meant for the previous journal
     m_begun = true;
   }
   m_wake.notify_one();
@@ -81,7 +81,7 @@ std::string JournalThread::takeFailure()
   return std::exchange(m_failure, {});
 }
 
-// What is written leaves the tasks.
+// Removes from the tasks what was written.
 void JournalThread::write(Tasks& tasks)
 {
   if (tasks.work)

@@ -11,7 +11,7 @@ namespace
 simulation::ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 {
   simulation::ServoSetup setup = scene.servoOf(tool);
-  // A written path may jump as it likes; no hand is harmed.
+  // A scripted path may jump; no user is at risk.
   setup.guard.speed = 1e9;
   setup.guard.angularSpeed = 1e9;
   setup.guard.reach = 1e9;
@@ -65,7 +65,7 @@ const simulation::TickRecord& PathDrill::feel(const dissection::ToolSample& samp
   return m_record;
 }
 
-// For the next tick; a burr that is in contact needs none.
+// For the next tick; a burr in contact needs none.
 void PathDrill::approach(const Eigen::Vector3d& place)
 {
   if (!m_parameters.constantThrust || m_record.thrust > 0.0)

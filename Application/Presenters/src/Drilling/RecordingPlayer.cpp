@@ -19,7 +19,7 @@ std::string strokes(std::uint64_t count)
   return std::to_string(count) + (count == 1 ? " stroke" : " strokes");
 }
 
-// What to do so that the dissection is as it was; there may be nothing.
+// How to restore the dissection's recorded state; empty if there is no way.
 std::string wayTo(std::uint64_t then, const scene::Case& value)
 {
   if (value.applied() > then)

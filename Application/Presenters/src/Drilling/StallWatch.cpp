@@ -5,7 +5,7 @@ namespace petrous::presenters
 
 namespace
 {
-constexpr double kNoForce = 0.3; // s: contacts come and go from tick to tick
+constexpr double kNoForce = 0.3; // s: contacts fluctuate from tick to tick
 }
 
 void StallWatch::see(const simulation::TickRecord& record)

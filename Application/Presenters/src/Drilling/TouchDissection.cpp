@@ -9,7 +9,7 @@ namespace petrous::presenters
 namespace
 {
 
-// Nothing in it is new to the servo or the case.
+// A fork whose changes are all known to the servo and the case.
 dissection::Dissection forkOf(const dissection::Dissection& start)
 {
   dissection::Dissection fork = start;

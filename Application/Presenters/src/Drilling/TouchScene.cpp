@@ -13,7 +13,8 @@ namespace petrous::presenters
 
 haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double> thrust) noexcept
 {
-  // In three degrees of freedom the centre sinks by the thrust over the stiffness: a measure of it.
+  // In three degrees of freedom the centre sinks in by thrust over stiffness, a measure of the
+  // force.
   if (!thrust || mode == TouchTool::Mode::ThreeDof)
     return {};
   return simulation::ConstantThrust::coupling(*thrust);

@@ -10,7 +10,7 @@ namespace
 
 using Event = simulation::DissectionEvent;
 
-// 8 s of ticks: a machine that stands longer loses bites, not the session.
+// 8 s of ticks: a longer stall of the machine loses bites, not the session.
 constexpr std::size_t kRing = 8192;
 
 simulation::ServoSetup setupOf(const TouchScene& scene, const TouchSession::Setup& setup)
@@ -33,7 +33,7 @@ std::unique_ptr<simulation::SessionRecorder> recorderOf(const TouchScene& scene,
       setup.recording, scene.recordingOf(setup.tool, servo.setup(), "live session"));
 }
 
-// The list of strokes, which the dissection has followed already.
+// Updates the case's history, which the dissection already follows.
 void list(const Event& event, scene::Case& value, TouchSession::News& news)
 {
   switch (event.kind)
@@ -78,7 +78,7 @@ TouchSession::~TouchSession()
   {
     stop();
   }
-  catch (const std::exception&) // no memory: then the case lacks what it has not followed
+  catch (const std::exception&) // out of memory: the case lacks what it has not followed
   {
   }
 }

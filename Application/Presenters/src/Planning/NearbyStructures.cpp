@@ -28,7 +28,7 @@ bool shown(const scene::Case& value, const std::string& name)
   return look && look->shown;
 }
 
-// A lumen is opened, not injured, and nearness to it is told only where a distance was asked for.
+// A lumen is opened, not injured, and its proximity is reported only if a warning distance is set.
 bool lumen(const appearance::StructureAppearance* look)
 {
   return look && !look->solid;
@@ -96,7 +96,7 @@ NearbyStructures::NearbyStructures(const scene::Case& value)
   : m_stop(std::make_shared<core::CancelToken>())
 {
   scene::Case copy = value; // shares voxels
-  copy.dissection.reset();  // another thread writes there
+  copy.dissection.reset();  // another thread writes to it
   m_surfaces = std::async(std::launch::async,
                           [copy = std::move(copy), progress = core::Progress(nullptr, m_stop)]
                           {
@@ -110,7 +110,7 @@ NearbyStructures::NearbyStructures(const scene::Case& value)
 
 NearbyStructures::~NearbyStructures()
 {
-  m_stop->cancel(); // the future waits
+  m_stop->cancel(); // the future's destructor waits
 }
 
 bool NearbyStructures::ready() const

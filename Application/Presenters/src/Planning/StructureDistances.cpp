@@ -10,7 +10,7 @@ namespace
 {
 
 constexpr double kFar = StructureSurfaces::kFar;
-constexpr double kStep = 0.01; // mm between positions that are kept
+constexpr double kStep = 0.01; // mm, minimum spacing of stored positions
 
 } // namespace
 
@@ -29,8 +29,9 @@ void StructureDistances::add(const Eigen::Vector3d& centre)
   m_positions.push_back(centre);
 }
 
-// From the centre to the surface; negative in the structure. A distance changes by no more than
-// the way, so between two positions it is at least half of what both have less the way.
+// Minimum distance from the centre to the surface; negative inside the structure. The distance is
+// 1-Lipschitz in path length, so between two positions it is at least half of the sum of theirs
+// minus the path length.
 double StructureDistances::nearest(std::size_t structure)
 {
   struct Stretch

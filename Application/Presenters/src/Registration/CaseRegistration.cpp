@@ -36,8 +36,7 @@ void add(std::string& text, const std::string& sentence)
     text += '.';
 }
 
-// The fit as it is put to the registration: between the MR and the CT, or the MR onto which it
-// goes.
+// The registration problem: from the MR to the CT, or to the MR given by `onto`.
 struct Task
 {
   const scene::ImagePart* fixed = nullptr;
@@ -45,9 +44,9 @@ struct Task
   core::RigidTransform fixedFromCt;
   bool commonFrame = false;
   Method method = Method::MutualInformation;
-  bool fitted = false; ///< the start is the end of a fit already
+  bool fitted = false; ///< the start is already the result of a fit
   registration::FitOptions options;
-  std::string statusMessage; ///< of the start, for the surgeon
+  std::string statusMessage; ///< about the start, for the surgeon
 
   core::RigidTransform fromCt(const core::RigidTransform& mrFromFixed) const
   {
@@ -79,7 +78,7 @@ void begin(Task& task, const core::RigidTransform& mrFromCt, Method method)
   task.method = method;
   task.options.start = registration::Start::Given;
   task.options.given = mrFromCt * task.fixedFromCt.inverse();
-  task.options.search = false; // somebody knows better than that
+  task.options.search = false; // the start is known better than by search
 }
 
 Task taskOf(const scene::Case& value, const RegistrationRequest& request)
@@ -123,7 +122,7 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
     if (request.lookAround)
     {
       task.options.search = true;
-      task.method = Method::MutualInformation; // which finds the place then
+      task.method = Method::MutualInformation; // which then determines the pose
     }
     break;
   case From::Centres:
@@ -145,7 +144,7 @@ const char* startWords(Method method)
                                                : "where it was put by hand";
 }
 
-// What the start says and what the fit says, at the place.
+// Compares start and fit at the place.
 void compare(const Task& task, const registration::Registration& fit, const RegistrationPlace& at,
              scene::Registration& how)
 {
@@ -174,7 +173,7 @@ std::optional<scene::RegistrationError> errorOf(const registration::LocalError& 
   return scene::RegistrationError{at.point, at.words, error.median, error.p95, error.max};
 }
 
-// Both ways together: their errors have nothing to do with each other.
+// Combines both registrations; their errors are independent.
 void chain(const Task& task, scene::Registration& how)
 {
   const std::string& onto = task.fixed->name;
@@ -222,7 +221,7 @@ void layAsIs(const Task& task, const RegistrationRequest& request, RegistrationO
                              .at(task.options.given);
     outcome.how.metric = outcome.fit.metric;
   }
-  catch (const core::InvalidParameter&) // an image that tells nothing can still be laid by hand
+  catch (const core::InvalidParameter&) // a featureless image can still be registered by hand
   {
   }
   outcome.how.verdict = SceneVerdict::Doubtful;

@@ -10,7 +10,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 core::RigidTransform shifted(const core::RigidTransform& mrFromCt, const Eigen::Vector3d& shift)
 {
-  // What was seen at p is seen at p + shift.
+  // What appeared at p appears at p + shift.
   return mrFromCt * core::RigidTransform(Eigen::Quaterniond::Identity(), -shift);
 }
 

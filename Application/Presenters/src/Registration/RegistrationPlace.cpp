@@ -10,7 +10,7 @@
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Scene/Placement.h"
 
-// Where the error of a registration is stated.
+// Where the error of a registration is estimated.
 namespace petrous::presenters
 {
 
@@ -54,7 +54,7 @@ std::optional<Eigen::Vector3d> middleOf(const core::TriangleMesh& mesh)
   return area > 0.0 ? std::optional<Eigen::Vector3d>(sum / area) : std::nullopt;
 }
 
-// Of the parts that the name may mean, the first that has a place on the CT.
+// The first part of that name that can be placed on the CT.
 std::optional<Eigen::Vector3d> middleOf(const scene::Case& value, const std::string& name)
 {
   for (const scene::LabelPart& part : value.labels)
@@ -77,7 +77,7 @@ bool contains(std::string name, const char* words)
   return name.find(words) != std::string::npos;
 }
 
-// How near to the middle ear a structure of this name lies: 0 in it; none where it says nothing.
+// Proximity rank to the middle ear by a structure's name: 0 in it; none if the name does not tell.
 std::optional<int> earRank(const appearance::StructurePresets& presets, const std::string& name)
 {
   const std::string preset = presets.lookFor(name).preset;
@@ -115,7 +115,7 @@ std::string coordinates(const Eigen::Vector3d& point)
   return text + ")";
 }
 
-// Where the MR lies on the CT before the fit, as far as that is known.
+// The MR's registration before the fit, as far as known.
 core::RigidTransform before(const scene::Case& value, const scene::ImagePart& mr,
                             const RegistrationRequest& request)
 {

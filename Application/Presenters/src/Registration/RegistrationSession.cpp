@@ -71,7 +71,7 @@ void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Regist
   change([&](scene::Case& value) { scene::layMr(value, m_name, mrFromCt, how); });
 }
 
-// What hears of the change finds that it can be undone.
+// The undo entry is pushed before listeners are notified.
 void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
 {
   const Places before = scene::mrPlaces(m_model.value());

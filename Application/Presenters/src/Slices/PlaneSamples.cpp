@@ -12,7 +12,7 @@ namespace petrous::presenters
 
 namespace
 {
-// Positions are computed from one corner of the picture; a pixel on the hull's border stays in it.
+// Positions are computed from one corner of the picture; tolerance for pixels on the hull's border.
 constexpr double kRounding = 1e-9; // voxels
 
 // Voxel positions along a picture's columns and rows.
@@ -39,7 +39,7 @@ struct VoxelPlane
   }
 };
 
-// The columns whose pixels lie inside on every axis: first to last, none where last < first.
+// The columns whose pixels are inside on every axis: first to last, none if last < first.
 std::pair<int, int> insideColumns(const VoxelPlane& plane, const Eigen::Vector3d& start, int width)
 {
   double first = 0.0;
@@ -63,7 +63,7 @@ std::pair<int, int> insideColumns(const VoxelPlane& plane, const Eigen::Vector3d
              : std::pair(static_cast<int>(std::ceil(first)), static_cast<int>(std::floor(last)));
 }
 
-// As volume::sampleTrilinear, for many positions of one volume: the same cell, found with less.
+// As volume::sampleTrilinear, optimized for many positions in one volume; the same cell.
 template <class T>
 class CellSampler
 {
@@ -105,7 +105,7 @@ public:
 private:
   const T* m_data;
   std::ptrdiff_t m_stride[3];
-  std::ptrdiff_t m_up[3]; // to the next voxel, 0 where there is none
+  std::ptrdiff_t m_up[3]; // to the next voxel, 0 at the last
   int m_lastCell[3];
   double m_lastVoxel[3];
 };
@@ -123,7 +123,7 @@ void sampleRow(const CellSampler<T>& sample, const VoxelPlane& plane, int row, i
   }
 }
 
-// One cell of four pixels: corners in turn, and the crossings on its sides.
+// One marching-squares cell of four pixels: corners in order, and the crossings on its sides.
 class Cell
 {
 public:
@@ -146,7 +146,7 @@ public:
     return std::all_of(std::begin(m_values), std::end(m_values),
                        [](float value) { return std::isfinite(value); });
   }
-  float slope() const // of the bilinear surface in the cell's middle, a pixel
+  float slope() const // of the bilinear surface at the cell's centre, per pixel
   {
     const float across = 0.5F * (m_values[1] + m_values[2] - m_values[0] - m_values[3]);
     const float down = 0.5F * (m_values[2] + m_values[3] - m_values[0] - m_values[1]);
@@ -163,7 +163,7 @@ public:
       out.push_back({crossings[0], crossings[1]});
     if (count != 4)
       return;
-    // A saddle: the middle belongs to one pair of opposite corners, which it joins.
+    // A saddle: the centre belongs to one pair of opposite corners, which it joins.
     const float middle = 0.25F * (m_values[0] + m_values[1] + m_values[2] + m_values[3]);
     const int first = (middle < level) == (m_values[0] < level) ? 0 : 3;
     out.push_back({crossings[first], crossings[(first + 1) % 4]});

@@ -13,7 +13,7 @@ namespace
 {
 constexpr double kMargin = 1.04;
 
-// The letter of the patient's direction that a vector along an LPS axis points to.
+// The letter of the patient direction that a vector along an LPS axis points to.
 char letterOf(const Eigen::Vector3d& direction)
 {
   constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};

@@ -14,13 +14,13 @@ namespace petrous::presenters
 namespace
 {
 constexpr float kLineWidth = 1.3F; // pixels
-constexpr float kCasing = 1.6F;    // pixels more, for the dark line beneath
+constexpr float kCasing = 1.6F;    // additional pixels, for the dark line beneath
 constexpr float kCasingShare = 0.55F;
 constexpr double kSquare = 40.0; // pixels, about
-// An MR beside the grey CT: white turns into this.
+// Tint of an MR over the grey CT: the colour of white.
 constexpr std::array<float, 3> kWarm{255.0F, 176.0F, 96.0F};
 
-// For each row in parallel: paint(pixel's bytes, MR sample, column, row).
+// For each row in parallel: paint(pixel bytes, MR sample, column, row).
 template <class Paint>
 void forEachSample(const PlaneSamples& samples, SlicePixels& pixels, const Paint& paint)
 {
@@ -40,7 +40,7 @@ void forEachSample(const PlaneSamples& samples, SlicePixels& pixels, const Paint
 void paintBlend(const PlaneSamples& mr, const SliceOverlay& overlay, SlicePixels& pixels)
 {
   const auto opacity = static_cast<float>(std::clamp(overlay.opacity, 0.0, 1.0));
-  const float warm = 4.0F * opacity * (1.0F - opacity); // plain grey where the MR is alone
+  const float warm = 4.0F * opacity * (1.0F - opacity); // plain grey if only the MR is visible
   std::array<float, 3> white{};
   for (std::size_t c = 0; c < 3; ++c)
     white[c] = (255.0F + warm * (kWarm[c] - 255.0F)) / 255.0F;
@@ -95,7 +95,7 @@ GreyWindow suggestMrWindow(const volume::IntensityHistogram& histogram)
   const double black = std::min(histogram.percentile(0.02, background), background);
   const double white = histogram.percentile(0.995, background);
   const double width = white - black;
-  // One value throughout: grey.
+  // A constant image: grey.
   return width > 0.0 ? GreyWindow{width, 0.5 * (white + black)} : GreyWindow{1.0, black};
 }
 

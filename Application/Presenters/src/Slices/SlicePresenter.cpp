@@ -21,7 +21,7 @@ constexpr std::array<float, 3> kCutColor{150.0F, 28.0F, 24.0F};
 constexpr std::array<float, 3> kHatchColor{235.0F, 70.0F, 52.0F};
 constexpr float kCutTint = 0.62F;
 
-// Walks a picture's pixels with their continuous positions on a grid; body(pixel index, voxel).
+// Iterates over a picture's pixels with their continuous grid positions; body(pixel index, voxel).
 template <class Body>
 void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, const Body& body)
 {

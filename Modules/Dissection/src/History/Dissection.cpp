@@ -10,7 +10,7 @@ namespace petrous::dissection
 namespace
 {
 
-// Where the strokes of `history` begin.
+// The strokes of `history`, at their start.
 History atStart(const History& history)
 {
   std::vector<std::size_t> parents(history.size());
@@ -65,7 +65,7 @@ void Dissection::follow(const History& next)
 bool Dissection::undo()
 {
   History next = m_history;
-  if (m_open || !next.back())
+  if (m_open || !next.undo())
     return false;
   follow(next);
   return true;
@@ -74,7 +74,7 @@ bool Dissection::undo()
 bool Dissection::redo()
 {
   History next = m_history;
-  if (m_open || !next.forth())
+  if (m_open || !next.redo())
     return false;
   follow(next);
   return true;
@@ -152,7 +152,7 @@ std::shared_ptr<const Stroke> Dissection::endStroke()
   }
   m_open = false;
   m_touched.clear();
-  m_before = volume::CutMask(m_mask.geometry()); // lets go of the bricks as they were
+  m_before = volume::CutMask(m_mask.geometry()); // releases the original bricks
   return stroke;
 }
 

@@ -46,7 +46,7 @@ History History::line(std::size_t strokes, std::size_t applied)
     throw core::InvalidParameter("history: more strokes are done than there are");
   std::vector<std::size_t> parents(strokes);
   for (std::size_t n = 0; n < strokes; ++n)
-    parents[n] = n - 1; // of the first: kStart
+    parents[n] = n - 1; // kStart for the first
   return {std::move(parents), {{kMain, strokes - 1, applied - 1, false}}, 0};
 }
 

@@ -15,7 +15,7 @@ using volume::CutMask;
 
 // Layout before compression, little endian: magic "PSTK", u32 version, u32 edge, u32 brick count,
 // then the u32 brick indices, then for each brick the low bytes of all differences, then the high
-// bytes: the high bytes are nearly constant and pack well.
+// bytes: these are nearly constant and compress well.
 constexpr char kMagic[4] = {'P', 'S', 'T', 'K'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeader = 16;
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> decompress(const std::vector<std::uint8_t>& bytes, std
   return raw;
 }
 
-// Bricks at the grid's upper faces reach beyond it.
+// Bricks at the grid's upper faces extend beyond it.
 bool takesBeyond(const CutMask& mask, std::size_t brick, const std::uint8_t* voxels)
 {
   constexpr int kEdge = CutMask::kBrickEdge;
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas)
   if (ZSTD_isError(size))
     throw core::Error(core::Fault::Internal, "stroke: could not be compressed");
   packed.resize(size);
-  packed.shrink_to_fit(); // it may be kept for long
+  packed.shrink_to_fit(); // it may be kept for a long time
   return packed;
 }
 

@@ -10,16 +10,15 @@
 namespace petrous::dissection
 {
 
-/// What a burr leaves of voxels (SweptSphereCut.h), in steps of the mask. Whoever cuts and whoever
-/// reckons what a cut would take use this one piece of arithmetic, so that both mean the same to
-/// the last bit. Single precision, relative to the burr: the distance is right to 1e-6 mm.
+/// What a burr leaves of each voxel (SweptSphereCut.h), in quantisation steps of the mask. Shared
+/// by cutting and by prediction of a cut, so that both agree to the last bit. Single precision,
+/// relative to the burr: the distance is accurate to 1e-6 mm.
 class BurrCoverage
 {
 public:
-  static constexpr int kBatch = 64; ///< voxels that are looked at together
+  static constexpr int kBatch = 64; ///< voxels processed together
 
-  /// generous: for a way of which the burr will take only a part, never leaving more than it leaves
-  ///           of that part.
+  /// generous: for a sweep of which only a part will be cut; never leaves more than that part does.
   BurrCoverage(const SweptSphere& burr, const core::GridGeometry& grid, bool generous = false)
     : m_spacing(grid.spacing())
     , m_from(m_spacing.cwiseProduct(grid.voxelFromPatient(burr.from)))
@@ -44,7 +43,7 @@ public:
     m_reach = burr.radius + halfWidth + biasLimit;
   }
 
-  double reach() const noexcept { return m_reach; } ///< mm from the burr's way: none beyond
+  double reach() const noexcept { return m_reach; } ///< mm from the burr's path; no effect beyond
 
   struct Span
   {
@@ -52,7 +51,7 @@ public:
     int end = 0;
   };
 
-  /// The part of a row of voxels in the ball round the whole way: all of the others is left.
+  /// Interval of a row of voxels within the bounding sphere of the sweep; all others are unchanged.
   Span span(int j, int k, int begin, int end) const noexcept
   {
     const Eigen::Vector3d middle = m_from + 0.5 * m_axis;
@@ -67,7 +66,7 @@ public:
             std::min(end, static_cast<int>(std::floor((middle[0] + half) / m_spacing[0])) + 1)};
   }
 
-  /// What is left of `count` voxels along the first axis.
+  /// Remainder of `count` voxels along the first axis.
   void row(int i, int j, int k, int count, std::uint16_t* result) const noexcept
   {
     const auto y = static_cast<float>(m_spacing[1] * j - m_from[1]);
@@ -82,7 +81,7 @@ public:
             });
   }
 
-  /// What is left of `count` voxels at x, y, z: voxel coordinates times spacing.
+  /// Remainder of `count` voxels at x, y, z: voxel coordinates times spacing.
   void list(const double* x, const double* y, const double* z, std::size_t count,
             std::uint16_t* result) const noexcept
   {
@@ -98,14 +97,14 @@ public:
   }
 
 private:
-  static constexpr double kRounding = 1e-3; // mm, of single precision
+  static constexpr double kRounding = 1e-3; // mm, rounding error of single precision
 
   struct Shape
   {
     float axis[3], bias[3];
     float perSquare, tangent, radius, biasLimit, slope;
 
-    // Share that is left, times all steps of the mask.
+    // Fraction left, scaled to quantisation steps of the mask.
     float left(float x, float y, float z) const noexcept
     {
       const float along = (x * axis[0] + y * axis[1] + z * axis[2]) * perSquare;
@@ -113,7 +112,7 @@ private:
       const float t = above > 1.0F ? 1.0F : above;
       const float ox = x - t * axis[0], oy = y - t * axis[1], oz = z - t * axis[2];
       // sum_a h_a^2/12 e_a' H e_a, with the Hessian H of the distance: (I - nn')/rho beyond the
-      // ends of the way, (I - nn' - tt')/rho beside it.
+      // ends of the path, (I - nn' - tt')/rho beside it.
       const float xx = ox * ox, yy = oy * oy, zz = oz * oz;
       const float sum = xx + yy + zz;
       const float square = sum < 1e-12F ? 1e-12F : sum;
@@ -121,7 +120,7 @@ private:
       const float beside = t == along ? tangent : 0.0F;
       const float curved = bias[0] * (yy + zz) + bias[1] * (xx + zz) + bias[2] * (xx + yy);
       const float wanted = (curved / square - beside) / rho;
-      // On the way's own line, where rho is 0, it is anything.
+      // Unbounded on the path itself, where rho is 0.
       const float least = wanted < -biasLimit ? -biasLimit : wanted;
       const float moved = least < biasLimit ? least : biasLimit;
       const float share = 0.5F + (rho - radius - moved) * slope;

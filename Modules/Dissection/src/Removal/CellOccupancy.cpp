@@ -14,7 +14,7 @@ constexpr std::size_t pointOf(int a, int b, int c)
   return static_cast<std::size_t>(a + kCellPoints * (b + kCellPoints * c));
 }
 
-// Difference of the field over one part along an axis; one-sided at the ends.
+// Difference of the field across one sub-cell along an axis; one-sided at the ends.
 float slopeAt(const CellValues& field, const std::array<int, 3>& part, std::size_t axis)
 {
   auto low = part, high = part;
@@ -59,7 +59,7 @@ bool cellOccupancies(const volume::TissueField& tissue, int i, int j, int k, Cel
   const double iso = tissue.parameters().iso;
   if (most <= iso && !mayHoldStructures(tissue, i, j, k))
     return false;
-  // Nowhere within a part of the surface; a comparison with NaN fails.
+  // The surface is farther than one sub-cell everywhere; false for NaN.
   if (least - iso > most - least)
   {
     shares.fill(1.0F);

@@ -6,7 +6,7 @@ namespace petrous::dissection
 namespace
 {
 
-constexpr int kEdge = 32; // cells along an axis that have places of their own
+constexpr int kEdge = 32; // edge of the block of cells with distinct slots in the table
 
 std::size_t placeOf(int i, int j, int k)
 {

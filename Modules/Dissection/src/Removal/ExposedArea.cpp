@@ -10,8 +10,8 @@ namespace petrous::dissection
 namespace
 {
 
-constexpr double kStep = 0.1;   // mm, between the places that are looked at
-constexpr double kAir = -300.0; // HU: below it there is no soft tissue
+constexpr double kStep = 0.1;   // mm, sampling step along the normal
+constexpr double kAir = -300.0; // HU: no soft tissue below it
 
 class Cover
 {
@@ -29,7 +29,7 @@ public:
       return false;
     const bool cutItself = isCut(point);
     bool air = false;
-    int first = 0; // place at which the cover begins, from 1
+    int first = 0; // first sample in the cover, from 1
     for (int n = 1; n <= last; ++n)
     {
       const Eigen::Vector3d place = point + n * kStep * outward;
@@ -44,8 +44,8 @@ public:
         first = n;
       const double from = n * kStep;
       if (first == n && air && from > kCover + 0.5 * kStep)
-        return false; // it lay open to an air cell
-      // What is seen from the cavity is free as far as kCover from the structure or its layer.
+        return false; // it was open to an air cell
+      // Exposed means free up to kCover from the structure or its soft-tissue layer.
       const double begin = first * kStep <= kCover + 0.5 * kStep ? 0.0 : (first - 1) * kStep;
       if (from - begin > kCover + 0.5 * kStep)
         break;

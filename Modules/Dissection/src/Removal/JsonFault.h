@@ -9,8 +9,8 @@
 namespace petrous::dissection
 {
 
-/// What is wrong with `text`, in words of our own: the parser's quote the file. Of a key that is
-/// missing or of another type it tells what the parser says of that, without its own numbering.
+/// Error message for `text`: the parser's own message would quote the file. For a missing key or a
+/// wrong type it is the parser's message without its id.
 inline std::string jsonFault(const nlohmann::json::exception& error, std::string_view text)
 {
   if (const auto* parsing = dynamic_cast<const nlohmann::json::parse_error*>(&error))

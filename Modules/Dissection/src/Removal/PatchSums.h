@@ -9,7 +9,7 @@
 namespace petrous::dissection
 {
 
-/// Where a burr takes what it takes: directions from its centre, each with what is taken there.
+/// Where a burr removes tissue: directions from its centre, weighted by the removed amount.
 class PatchSums
 {
 public:
@@ -21,7 +21,7 @@ public:
   }
 
   /// offset  from the burr's centre, not zero
-  /// weight  may be below 0 by rounding
+  /// weight  may be slightly negative due to rounding
   void add(const Eigen::Vector3d& offset, double weight)
   {
     const Eigen::Vector3d direction = offset.normalized();
@@ -30,7 +30,7 @@ public:
     m_all += weight;
   }
 
-  /// Axes as those of the offsets; spindle: unit, or zero. Nothing taken: zero.
+  /// Axes as those of the offsets; spindle: unit, or zero. Zero if nothing is removed.
   ContactPatch patch(double radius, const Eigen::Vector3d& spindle) const
   {
     ContactPatch patch;
@@ -45,7 +45,7 @@ public:
   }
 
 private:
-  // Of the places, on the ball, from the line through its centre along `axis`.
+  // Mean distance of the directions, on the sphere, from the line through its centre along `axis`.
   double meanDistance(double radius, const Eigen::Vector3d& axis) const
   {
     double moment = 0.0;

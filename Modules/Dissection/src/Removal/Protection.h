@@ -8,7 +8,7 @@
 namespace petrous::dissection
 {
 
-/// Before leastLeft is asked for voxels of a cut that reaches `reach` mm round its way.
+/// To be called before leastLeft, for a cut that reaches `reach` mm around its path.
 inline void prepare(const ProtectedTissue& keep, const SweptSphere& burr, double reach,
                     const core::GridGeometry& grid)
 {
@@ -16,7 +16,7 @@ inline void prepare(const ProtectedTissue& keep, const SweptSphere& burr, double
   keep.prepare({burr.from.cwiseMin(burr.to) - margin, burr.from.cwiseMax(burr.to) + margin});
 }
 
-/// The least that a cut leaves of a voxel at a patient point, in steps of the mask.
+/// The minimum that a cut leaves of a voxel at a patient point, in quantisation steps of the mask.
 inline std::uint16_t leastLeft(const ProtectedTissue& keep, const Eigen::Vector3d& patient)
 {
   double most = 0.0;

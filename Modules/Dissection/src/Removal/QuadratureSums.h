@@ -9,12 +9,12 @@
 namespace petrous::dissection
 {
 
-/// Sums over the points of a cell by the share of each point's part that is solid.
+/// Sums over the points of a cell, weighted by the solid fraction of each point's sub-cell.
 ///
-/// The mask falls along the way into a cut by 1/(2 w) a mm, w = |spacing| (SweptSphereCut.h). So
-/// where it interpolates to m in the middle of a part that is s mm wide, the share of the part that
-/// is left is clamp(1/2 + (m - 1/2) 2 w/s). Of tissue and mask the lesser share counts, as f is the
-/// lesser of both.
+/// The mask falls into a cut by 1/(2 w) per mm, w = |spacing| (SweptSphereCut.h). So where it
+/// interpolates to m at the centre of a sub-cell s mm wide, the fraction left of the sub-cell is
+/// clamp(1/2 + (m - 1/2) 2 w/s). The smaller of tissue and mask occupancy counts, as f is the
+/// minimum of both.
 class QuadratureSums
 {
 public:
@@ -27,17 +27,17 @@ public:
   {
   }
 
-  std::uint16_t low() const noexcept { return m_low; }        ///< at and below: nothing is left
-  std::uint16_t high() const noexcept { return m_high; }      ///< at and above: all is left
-  double partVolume() const noexcept { return m_partVolume; } ///< mm^3 of a point
+  std::uint16_t low() const noexcept { return m_low; }        ///< at or below: nothing is left
+  std::uint16_t high() const noexcept { return m_high; }      ///< at or above: all is left
+  double partVolume() const noexcept { return m_partVolume; } ///< mm^3 of a sub-cell
 
   struct Sums
   {
-    float work = 0.0F;   ///< of resistance: times partVolume, N mm
-    float volume = 0.0F; ///< of solid points: times partVolume, mm^3
+    float work = 0.0F;   ///< sum of resistance; times partVolume: N mm
+    float volume = 0.0F; ///< sum of solid fractions; times partVolume: mm^3
   };
 
-  /// The same, or what is known of the same corners; known from now on.
+  /// As solid(), cached in `content` for the same corners.
   Sums known(const std::array<std::uint16_t, 8>& corners, CellContent& content) const noexcept
   {
     if (!content.reckoned || content.corners != corners)
@@ -54,7 +54,7 @@ public:
     content.reckoned = true;
   }
 
-  /// Shares of the points' parts that are left, given what of them is tissue.
+  /// Fractions left of the sub-cells, given their tissue occupancy.
   void left(const std::array<std::uint16_t, 8>& corners, const CellValues& tissue,
             CellValues& shares) const noexcept
   {
@@ -88,7 +88,7 @@ public:
   }
 
 private:
-  // Gives the mask's shares, 0 and above, four along the first axis at a time.
+  // Calls `take` with the mask occupancies, >= 0, four at a time along the first axis.
   template <typename Take>
   void each(const std::array<std::uint16_t, 8>& corners, const Take& take) const noexcept
   {

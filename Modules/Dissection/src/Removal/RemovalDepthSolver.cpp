@@ -13,13 +13,13 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kSkin = 0.02;   // voxels: a search begins so far before where the last one ended
-constexpr double kBeside = 0.25; // voxels: to the side of the last bite, within which it tells
-constexpr double kAim = 0.96;    // share of the work
-constexpr double kFinest = 1e-4; // voxels; a step of the mask is half of it
-constexpr double kMinBite = 1e-3; // points' parts: the sums are floats, less is their rounding
+constexpr double kSkin = 0.02;   // voxels by which a search starts before the end of the last step
+constexpr double kBeside = 0.25; // voxels: lateral distance within which the last step is reused
+constexpr double kAim = 0.96;    // fraction of the work
+constexpr double kFinest = 1e-4; // voxels; twice a quantisation step of the mask
+constexpr double kMinBite = 1e-3; // sub-cells; below this is rounding error of the float sums
 constexpr int kMaxTrials = 40;     // bisection alone needs 14
-constexpr double kAheadOf = 2.0;    // voxels, for the first tissue
+constexpr double kAheadOf = 2.0;    // voxels, search distance for the first tissue
 constexpr double kAheadStep = 0.25;
 
 double checkedRadius(double radius)
@@ -49,12 +49,12 @@ struct RemovalDepthSolver::Parts
   double burr;   // mm, radius
   double radius; // mm, of the cut
   RemovalStencil window;
-  // Of the last bite.
+  // Result of the last step.
   bool known = false;
   Vector3d end{0.0, 0.0, 0.0};
   double yielding = 0.0; // mm/(N mm)
 
-  // Where the last bite ended, along the way in, if that tells something.
+  // Where the last step ended, in the direction of advance, if it is a valid start.
   std::optional<double> lastEnd(const Wish& wish) const
   {
     if (!known)
@@ -70,15 +70,15 @@ struct RemovalDepthSolver::Parts
 namespace
 {
 
-// The depth that is sought lies between `low` and `high`. Work rises with depth.
+// Bracket [low, high] of the depth. Work increases with depth.
 struct Bracket
 {
   double low, high;
   double workLow = 0.0;
   bool triedLow = false;
-  double workHigh = -1.0; // below 0: not tried
+  double workHigh = -1.0; // negative: not tried
 
-  // Where to try next, for the work that is aimed at.
+  // Next trial depth for the target work.
   double next(double aim, int trial, double guess) const
   {
     const double width = high - low;
@@ -91,7 +91,7 @@ struct Bracket
       x = low + width * (aim - workLow) / (workHigh - workLow);
     return std::clamp(x, triedLow ? low + 0.02 * width : low, high);
   }
-  double start = 0.0; // where there is nothing to be taken, about
+  double start = 0.0; // depth, approximately, at which nothing is removed
 };
 
 } // namespace
@@ -144,7 +144,7 @@ std::optional<RemovalStep> RemovalDepthSolver::find(const volume::CutMask& mask,
     }
     if (found || bracket.triedLow)
       break;
-    // Even a little in is too much: the burr has sunk into what is left there.
+    // Too much even at the lower end: the burr penetrates the remaining tissue there.
     const double farthest = -kFarthest * p.radius;
     if (bracket.low <= farthest)
       return std::nullopt;
@@ -168,7 +168,7 @@ std::optional<RemovalStep> RemovalDepthSolver::find(const volume::CutMask& mask,
     p.yielding = (depth - begin) / taken.work;
   p.known = true;
   p.end = at(depth);
-  taken.patch.arm *= p.burr / p.radius; // the cut is wider than the burr, whose teeth it is
+  taken.patch.arm *= p.burr / p.radius; // the cut is wider than the burr, whose teeth do the work
   return RemovalStep{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
 }
 

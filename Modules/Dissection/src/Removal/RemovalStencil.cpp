@@ -14,7 +14,7 @@ using volume::CutMask;
 namespace
 {
 
-constexpr int kGone = 8; // voxels in a row that are gone: worth passing over
+constexpr int kGone = 8; // consecutive empty voxels that are worth skipping
 constexpr std::size_t kFewCells = 200;
 
 } // namespace
@@ -61,7 +61,7 @@ bool RemovalStencil::gather(const CutMask& mask, const SweptSphere& way)
   if (box.empty())
     return false;
   prepare(m_keep, way, burr.reach(), m_grid);
-  // One more voxel on each side, so that every cell of a voxel that changes lies within.
+  // One more voxel on each side, so that every cell of a changed voxel is included.
   for (std::size_t a = 0; a < 3; ++a)
   {
     box.lower[a] = std::max(box.lower[a] - 1, 0);
@@ -93,7 +93,7 @@ void RemovalStencil::gatherRow(const BurrCoverage& burr, int first, int j, int k
           (static_cast<std::size_t>(j - m_box.lower[1]) +
            static_cast<std::size_t>(m_dims[1]) * static_cast<std::size_t>(k - m_box.lower[2]));
   const std::uint16_t* now = &m_now[start];
-  // In its own hole, what lies between the walls is gone already.
+  // Within the burr's own cavity most voxels are already removed.
   for (int begin = 0; begin < count;)
   {
     int end = begin;
@@ -102,7 +102,7 @@ void RemovalStencil::gatherRow(const BurrCoverage& burr, int first, int j, int k
         end = n + 1;
     if (end > begin)
       gatherRun(burr, first + begin, j, k, end - begin, start + static_cast<std::size_t>(begin));
-    begin = end + 1; // 0 there, or the end
+    begin = end + 1; // voxel `end` is empty, or past the last one
     while (begin < count && now[begin] == 0)
       ++begin;
   }
@@ -141,14 +141,14 @@ RemovalStencil::Corners RemovalStencil::cornersOf(const std::vector<std::uint16_
           v[slice], v[slice + 1], v[slice + row], v[slice + row + 1]};
 }
 
-// The cells of which such a voxel is a corner, and in which the mask passes where it counts.
+// Cells with such a voxel as a corner in which the mask leaves its saturated ranges.
 void RemovalStencil::gatherCells()
 {
   const auto row = static_cast<std::size_t>(m_dims[0]);
   const std::size_t slice = row * static_cast<std::size_t>(m_dims[1]);
   m_marked.assign(m_now.size(), 0);
   m_left.resize(m_voxels.size());
-  // At the border of the grid a mark may fall on the row before, whose last cell there is not.
+  // At the grid border a mark may fall on the last column of the previous row, which has no cell.
   for (const std::size_t voxel : m_voxels)
     for (const std::size_t down : {std::size_t{0}, row, slice, slice + row})
     {
@@ -178,10 +178,10 @@ void RemovalStencil::addCell(int x, int y, int z, std::uint32_t corner)
 {
   const Corners now = cornersOf(m_now, corner);
   if (*std::max_element(now.begin(), now.end()) <= m_sums.low())
-    return; // nothing of it is left
+    return; // already empty
   const Corners least = cornersOf(m_after, corner);
   if (*std::min_element(least.begin(), least.end()) >= m_sums.high())
-    return; // nothing of it goes
+    return; // nothing is removed
   CellContent& content = m_tissue.at(m_box.lower[0] + x, m_box.lower[1] + y, m_box.lower[2] + z);
   if (!content.empty)
     m_cells.push_back({corner, &content, m_sums.known(now, content), {}});
@@ -200,7 +200,7 @@ void RemovalStencil::lower(const Eigen::Vector3d& place, double radius)
 
 double RemovalStencil::work(const Eigen::Vector3d& place, double radius)
 {
-  // The bite that is made is most often the one that was tried last.
+  // The accepted step is usually the last one tried.
   if (m_reckoned && place == m_place && radius == m_radius)
     return m_work;
   lower(place, radius);
@@ -219,7 +219,7 @@ double RemovalStencil::work(const Eigen::Vector3d& place, double radius)
   return m_work;
 }
 
-// Directions of a patch of few cells are those of its points; of many, the cells' middles do.
+// For a patch of few cells the directions of its points are used; otherwise the cell centres.
 void RemovalStencil::addToPatch(const Cell& cell, const Eigen::Vector3d& center, bool fine)
 {
   const auto row = static_cast<std::uint32_t>(m_dims[0]);

@@ -11,18 +11,18 @@
 namespace petrous::dissection
 {
 
-/// The voxels and cells round a burr that a bite may change, laid side by side: what is reckoned
-/// again and again while the depth is searched.
+/// Contiguous copy of the voxels and cells around a burr that a step may change, which the depth
+/// search evaluates repeatedly.
 class RemovalStencil
 {
 public:
   RemovalStencil(const volume::TissueField& tissue, const TissueResistance& resistance,
              ProtectedTissue keep);
 
-  /// Gathers what the burr may change on its way. False when it is nothing.
+  /// Collects what the burr may change on its path. False if there is nothing.
   bool gather(const volume::CutMask& mask, const SweptSphere& way);
 
-  /// N mm that the burr takes at rest at `place`, which lies on the way that was gathered.
+  /// Work in N mm of the burr at rest at `place`, which lies on the collected path.
   double work(const Eigen::Vector3d& place, double radius);
 
   struct Taken
@@ -32,19 +32,19 @@ public:
     ContactPatch patch;
   };
 
-  /// The same and more, of the bite that is made: what was reckoned of it is kept.
+  /// Work, volume and contact patch of the accepted step; the results are cached.
   /// spindle  patient axes, unit, or zero: see ContactPatch::arm
   Taken taken(const Eigen::Vector3d& place, double radius, const Eigen::Vector3d& spindle);
 
-  double partVolume() const noexcept { return m_sums.partVolume(); } ///< mm^3 of a counted point
+  double partVolume() const noexcept { return m_sums.partVolume(); } ///< mm^3 of a sub-cell
 
 private:
   struct Cell
   {
-    std::uint32_t corner; // in the window, the lowest one
+    std::uint32_t corner; // lowest corner, in the window
     CellContent* content;
-    QuadratureSums::Sums before; // as the mask is now
-    QuadratureSums::Sums after;  // as m_after is
+    QuadratureSums::Sums before; // for m_now
+    QuadratureSums::Sums after;  // for m_after
   };
   void load(const volume::CutMask& mask, const core::IndexBox& box);
   void gatherRow(const BurrCoverage& burr, int first, int j, int k, int count);
@@ -64,19 +64,19 @@ private:
   core::IndexBox m_box;
   core::Index3 m_dims{0, 0, 0};
   std::vector<std::uint16_t> m_now;   // the mask in the box, first axis fastest
-  std::vector<std::uint16_t> m_after; // as the bite would leave it
-  std::vector<std::uint8_t> m_marked; // cells that a voxel touches
+  std::vector<std::uint16_t> m_after; // after the step
+  std::vector<std::uint8_t> m_marked; // cells that contain an affected voxel
   std::vector<std::uint16_t> m_row;
   // Voxels that may change.
   std::vector<std::uint32_t> m_voxels; // in the box
   std::vector<double> m_x, m_y, m_z;   // mm along the grid's axes from the first voxel
-  std::vector<std::uint16_t> m_least;  // that protection leaves; empty without any
+  std::vector<std::uint16_t> m_least;  // minimum left by protection; empty without protection
   std::vector<std::uint16_t> m_left;
   std::vector<Cell> m_cells;
-  std::vector<std::uint32_t> m_bitten; // cells that the bite made takes from
+  std::vector<std::uint32_t> m_bitten; // cells that the accepted step removes from
   PatchSums m_patch;
 
-  // What m_after and the cells' sums are of.
+  // Step for which m_after and the cells' sums are valid.
   bool m_reckoned = false;
   Eigen::Vector3d m_place{0.0, 0.0, 0.0};
   double m_radius = 0.0;

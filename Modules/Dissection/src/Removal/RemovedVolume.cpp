@@ -25,7 +25,7 @@ Corners cornersOf(const CutMask& mask, int i, int j, int k)
   return corners;
 }
 
-// Points that went: all, and those in each structure; each counts by the share of its part.
+// Removed points, in total and in each structure, weighted by the occupancy of their sub-cells.
 struct Count
 {
   double total = 0.0;
@@ -45,7 +45,7 @@ public:
   {
   }
 
-  /// The cell above the voxel (i, j, k).
+  /// The cell whose lowest corner is the voxel (i, j, k).
   void addCell(int i, int j, int k, Count& count) const
   {
     const Corners after = cornersOf(m_after, i, j, k);
@@ -94,7 +94,7 @@ private:
   QuadratureSums m_sums;
 };
 
-// A changed voxel is seen from its neighbours too: one voxel round each brick belongs to it.
+// Cells of adjacent bricks share the changed voxels: include one voxel around each brick.
 std::vector<std::size_t> withNeighbours(const CutMask& mask, const std::vector<std::size_t>& bricks)
 {
   std::set<std::size_t> all;
@@ -130,7 +130,7 @@ RemovedVolume measureRemoved(const volume::TissueField& tissue, const CutMask& b
                             quadrature.addCell(i, j, k, counts[n]);
                     });
 
-  // Summed in brick order: the same result whatever the threads did.
+  // Summed in brick order, for a result independent of thread scheduling.
   Count sum;
   sum.structures.resize(structures.size());
   for (const Count& count : counts)

@@ -15,7 +15,7 @@ namespace
 
 using volume::CutMask;
 
-// Null when no voxel of the brick is lowered.
+// Returns nullptr if no voxel of the brick is lowered.
 CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const core::IndexBox& box,
                                const BurrCoverage& burr, const ProtectedTissue& keep)
 {
@@ -35,7 +35,7 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
         continue;
       const auto first = static_cast<std::size_t>(
           span.begin - whole.lower[0] + edge * (j - whole.lower[1] + edge * (k - whole.lower[2])));
-      // Most of what a burr in its own hole covers is gone already.
+      // Most of what a burr covers in its own cavity is already removed.
       int begin = 0;
       int end = count;
       while (old && begin < end && (*old)[first + static_cast<std::size_t>(begin)] == 0)
@@ -73,7 +73,7 @@ CutMask::BrickVersion cutBrick(const CutMask& mask, std::size_t index, const cor
   return changed;
 }
 
-// Whether the burr's way comes near enough to the voxels of the box to take some of one.
+// Whether the burr's path is close enough to the box to affect one of its voxels.
 bool reaches(const SweptSphere& burr, double reach, const core::GridGeometry& grid,
              const core::IndexBox& box)
 {

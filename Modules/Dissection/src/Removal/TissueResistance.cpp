@@ -64,7 +64,7 @@ double TissueResistance::at(const Eigen::Vector3d& patient) const
     return m_structures[first].resistance;
   const double hu = m_ct->sample(m_ct->geometry().voxelFromPatient(patient));
   const double share = (hu - m_ramp.low) / (m_ramp.high - m_ramp.low);
-  // A value that is no number counts as the densest: the drill goes slowest there.
+  // NaN counts as the densest bone, where the drill is slowest.
   return m_ramp.atLow + (share >= 0.0  ? std::min(share, 1.0)
                          : share < 0.0 ? 0.0
                                        : 1.0) *

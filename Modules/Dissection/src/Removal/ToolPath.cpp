@@ -13,7 +13,7 @@ namespace
 {
 constexpr double kFarthest = 1e6;  // mm
 constexpr double kMaxTicks = 1e8; // more than a day at 1 kHz
-constexpr double kSameTick = 1e-6; // share of a tick
+constexpr double kSameTick = 1e-6; // fraction of a tick
 } // namespace
 
 ToolPath ToolPath::read(std::istream& csv, const std::string& name)
@@ -66,7 +66,7 @@ void ToolPath::play(double rate, const std::function<void(const ToolSample&)>& t
           a.drill});
   };
 
-  // The drill goes on and off at its row's own pose and time, also between two ticks.
+  // The drill switches at its row's own pose and time, also between two ticks.
   std::size_t row = 0;
   const auto emitSwitchesBefore = [&](double time)
   {
@@ -80,7 +80,7 @@ void ToolPath::play(double rate, const std::function<void(const ToolSample&)>& t
   {
     double time = std::min(start + static_cast<double>(n) / rate, end);
     emitSwitchesBefore(time - slack);
-    // A row that falls on the tick lends it its exact time.
+    // A row that coincides with a tick defines its exact time.
     if (row < m_samples.size() && std::abs(m_samples[row].time - time) <= slack)
       time = m_samples[row++].time;
     emit(time);

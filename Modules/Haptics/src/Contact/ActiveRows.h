@@ -8,28 +8,28 @@
 namespace petrous::haptics
 {
 
-/// The rows that hold at equality, each n y + c multiplier = b with the same minute compliance c,
-/// and their multipliers.
+/// The active rows (those that hold at equality), each n y + c multiplier = b with the same minute
+/// compliance c, and their multipliers.
 ///
-/// A row is the vector (n, sqrt(c) e) of N + size() numbers, e the unit vector of an axis of its
-/// own, so that rows never depend on each other. They are kept as N^T = Q R: Q has orthonormal
-/// columns, R is upper triangular, column j of N^T is the j-th row. Of each column of Q, `head` is
-/// the part in the N axes, `tail` the part in the rows' own.
+/// A row is the vector (n, sqrt(c) e) of N + size() components, e the unit vector of an axis of its
+/// own, so that rows are always linearly independent. They are stored as N^T = Q R: Q has
+/// orthonormal columns, R is upper triangular, column j of N^T is the j-th row. Of each column of
+/// Q, `head` is the part in the N axes, `tail` the part in the rows' own axes.
 template <int N>
 class ActiveRows
 {
 public:
-  static constexpr int kMax = N + 6; ///< N, and a few that nearly depend on those
+  static constexpr int kMax = N + 6; ///< N, plus a few that are nearly dependent on those
 
   using Vector = Eigen::Matrix<double, N, 1>;
-  using Coefficients = std::array<double, kMax>; // the first size() count
+  using Coefficients = std::array<double, kMax>; // the first size() are valid
 
-  /// What of a new row is orthogonal to the active ones: head, tail, and sqrt(c) in its own axis.
+  /// Component of a new row orthogonal to the active ones: head, tail, and sqrt(c) in its own axis.
   struct Rest
   {
     Vector head;
     Coefficients tail;
-    double square = 0.0; ///< of its length, > 0
+    double square = 0.0; ///< squared length, > 0
   };
 
   struct Members
@@ -50,8 +50,8 @@ public:
   double& multiplier(int j) noexcept { return m_members.multiplier[j]; }
   double multiplier(int j) const noexcept { return m_members.multiplier[j]; }
 
-  /// (n, sqrt(c) e) = Q d + rest. Orthogonalised twice: once leaves an error of eps |n| / |rest| in
-  /// the direction of a short rest.
+  /// (n, sqrt(c) e) = Q d + rest. Orthogonalised twice: a single pass leaves an error of eps |n| /
+  /// |rest| in the direction of a short rest.
   Rest split(const Vector& n, Coefficients& d) const noexcept
   {
     Rest rest;
@@ -105,7 +105,7 @@ public:
     return d;
   }
 
-  /// Adds the row that `split` took apart; there must be room.
+  /// Adds the row decomposed by `split`; there must be room.
   void push(Eigen::Index row, const Coefficients& d, const Rest& rest, double multiplier) noexcept
   {
     const int k = m_size;
@@ -124,8 +124,8 @@ public:
     ++m_size;
   }
 
-  /// Takes the j-th row out; Givens rotations make R triangular again. The axis of the row's own
-  /// goes too: what is left has no part in it.
+  /// Removes the j-th row; Givens rotations make R triangular again. The row's own axis is dropped
+  /// as well: the remaining rows have no component along it.
   void drop(int j) noexcept
   {
     --m_size;

@@ -15,7 +15,7 @@ namespace
 
 constexpr int kMaxSteps = 60; // of Newton's method
 constexpr int kMaxCuts = 40;  // of a line search
-constexpr double kFlat = 1e-6; // slope, beside that at the line's start, that ends a search
+constexpr double kFlat = 1e-6; // slope relative to that at the line's start that ends a search
 
 } // namespace
 
@@ -105,7 +105,7 @@ void CompliantContactObjective<N>::step(Vector& y) noexcept
   {
     const auto weighted = m_weight.head(count) * m_rows.normal.col(k).head(count);
     gradient[k] += (weighted * m_rows.slack.head(count)).sum();
-    for (int j = k; j < 6; ++j)
+    for (int j = k; j < N; ++j)
     {
       m_hessian(j, k) += (weighted * m_rows.normal.col(j).head(count)).sum();
       m_hessian(k, j) = m_hessian(j, k);
@@ -115,8 +115,8 @@ void CompliantContactObjective<N>::step(Vector& y) noexcept
   y -= m_inverseRoot.transpose() * (m_inverseRoot * gradient);
 }
 
-// F's derivative along the line is increasing and piecewise linear, so Newton's method within a
-// bracket finds its root.
+// F's derivative along the line is increasing and piecewise linear, so a bracketed Newton's method
+// finds its root.
 template <int N>
 double CompliantContactObjective<N>::lineSearch(const Vector& y, const Vector& d) noexcept
 {
@@ -156,7 +156,7 @@ bool CompliantContactObjective<N>::minimise(Vector& y, double rounding, int& ite
     const Vector d = next - y;
     const double share = lineSearch(y, d);
     y = share < 1.0 ? Vector(y + share * d) : next;
-    // Where a full step's springs still press at its end, and no others, the model is F.
+    // If the active springs are unchanged after a full step, the model equals F.
     const bool changed = takePressing(y);
     if ((!changed && share == 1.0) || d.norm() <= rounding)
       return true;
@@ -171,8 +171,8 @@ Eigen::Index CompliantContactObjective<N>::firstChange(const Vector& way, double
   Eigen::Index first = -1;
   for (Eigen::Index i = 0; i < m_rows.count; ++i)
   {
-    // Stretch that is left, or slack, and how fast it goes. The sign of the rate decides: right at
-    // its bound the sign of the slack is a matter of rounding.
+    // Remaining stretch or slack, and its rate of loss. The sign of the rate decides: at the bound
+    // itself the sign of the slack is rounding noise.
     const double sign = m_weight[i] > 0.0 ? -1.0 : 1.0;
     const double left = sign * m_rows.slack[i];
     const double loss = -sign * m_rate[i];

@@ -5,12 +5,12 @@
 namespace petrous::haptics
 {
 
-/// What a motion costs: the coupling's stretch and that of the compliant contacts that press
+/// Cost of a motion: stretch of the coupling and of the active compliant contacts
 ///
 ///   F(y) = 1/2 |y - v|^2 + 1/2 sum_i k_i max(0, b_i - n_i y)^2
 ///
-/// strictly convex and piecewise quadratic. With a set of pressing springs comes the model in which
-/// these, and no others, act both ways: its Hessian is H = 1 + sum k n n^T over the set.
+/// strictly convex and piecewise quadratic. A set of active springs defines the model in which
+/// these, and no others, act in both directions: its Hessian is H = 1 + sum k n n^T over the set.
 template <int N>
 class CompliantContactObjective
 {
@@ -27,37 +27,36 @@ public:
   /// 2 F(0) less |v|^2
   double energyAtRest() const noexcept;
 
-  /// A new problem; the springs that press at y = v make the first model.
+  /// Starts a new problem; the springs active at y = v define the first model.
   void start(const Vector& v) noexcept;
 
-  /// Moves y to the minimum of the model, whose springs are those that press at y.
+  /// Moves y to the minimum of the model given by the springs active at y.
   void step(Vector& y) noexcept;
 
-  /// Springs are measured at y and press where they are stretched; false when the set was that
-  /// before.
+  /// Measures the springs at y and activates the stretched ones; false if the set is unchanged.
   bool takePressing(const Vector& y) noexcept;
 
-  /// Whether at y the model's springs, and no others, are stretched by more than `tolerance`.
+  /// Whether exactly the model's springs are stretched at y, to within `tolerance`.
   bool agrees(const Vector& y, double tolerance) noexcept;
 
-  /// Where between y and y + d, as a share of d, F is least; springs were measured at y.
+  /// Minimiser of F between y and y + d, as a fraction of d; springs must have been measured at y.
   double lineSearch(const Vector& y, const Vector& d) noexcept;
 
-  /// y at the minimum of F by Newton's method with line search, which ends after finitely many
-  /// steps (J. Sun 1997, Mathematical Programming 76, 451). False when too many.
+  /// Moves y to the minimum of F by Newton's method with line search, which terminates (J. Sun
+  /// 1997, Mathematical Programming 76, 451). False if it takes too many steps.
   bool minimise(Vector& y, double rounding, int& iterations) noexcept;
 
   /// W with W^T W = H^-1
   const Matrix& inverseRoot() const noexcept { return m_inverseRoot; }
 
-  /// The spring that first begins or ceases to press on the way, within `length` of it, which it
-  /// makes shorter; -1 when none does.
+  /// The first spring to become active or inactive along the path, within `length`, which is
+  /// shortened accordingly; -1 if none.
   Eigen::Index firstChange(const Vector& way, double& length) noexcept;
 
-  /// Goes along the way given last, and lets spring i, if it is one, change.
+  /// Advances along the last path; toggles spring i, if i >= 0.
   void advance(double length, Eigen::Index i) noexcept;
 
-  /// Each spring's force from its stretch at y, and from then on by what a shift of y adds.
+  /// Sets each spring's force from its stretch at y; correctForces updates it for a shift of y.
   void takeForces(const Vector& y) noexcept;
   void correctForces(const Vector& shift) noexcept;
   double force(Eigen::Index i) const noexcept { return m_force[i]; }
@@ -73,7 +72,7 @@ private:
   NormalizedConstraints<N> m_rows;
   Vector m_v = Vector::Zero();
   Eigen::ArrayXd m_spring; ///< k
-  Eigen::ArrayXd m_weight; ///< k where the spring presses, else 0
+  Eigen::ArrayXd m_weight; ///< k if the spring is active, else 0
   Eigen::ArrayXd m_rate;   ///< n d along a line
   Eigen::ArrayXd m_force;
   Matrix m_hessian = Matrix::Identity();

@@ -11,27 +11,28 @@ namespace petrous::haptics
 namespace
 {
 constexpr std::size_t kGradient = 6; // samples
-constexpr double kFlat = 1e-6;       // of f a voxel: no slope to speak of
-constexpr double kAlong = 0.05;      // cosine: a normal along the way that led into tissue
-constexpr double kLookAhead = 1.5;   // of the near gap: normals up to 48 degrees apart
+constexpr double kFlat = 1e-6;       // of f per voxel: below this the slope is meaningless
+constexpr double kAlong = 0.05;      // cosine: normal almost along the motion that led into tissue
+constexpr double kLookAhead = 1.5;   // times the near gap: normals up to 48 degrees apart
 constexpr double kClose = 0.002;     // voxels: a gap that needs no better estimate
-constexpr double kExplained = 0.02;  // voxels: as deep as a known contact's plane says
+constexpr double kExplained = 0.02;  // voxels: tolerance to the plane of a known contact
 constexpr std::size_t kMaxRefined = 16;
-constexpr std::size_t kMaxOnBall = 64; // deepest first; the sweep answers for the others
+constexpr std::size_t kMaxOnBall = 64; // deepest first; the sweep covers the others
 constexpr double kFarthest = 0.6;       // rad, from a shell point to the ball's contact
 constexpr double kAligned = 0.01;       // rad, residual of a found contact
-constexpr double kMisaligned = 0.05;    // rad, residual of one that was not found
+constexpr double kMisaligned = 0.05;    // rad, maximum residual accepted
 constexpr int kTurns = 4;
-constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the surface as it is, ripples too
-constexpr double kDeepest = 0.05;          // voxels: of a gap that is given back in one motion
-constexpr std::size_t kMaxOnSolid = 128;  // found as near, besides those that stopped a motion
-constexpr std::size_t kMaxLooked = 1024;  // samples, the nearest first; the sweep has all
-constexpr std::size_t kLooksInASample = 2; // of the field, at known contacts
-constexpr std::size_t kMaxSmooth = 24;    // that have their tissue's normal looked at
-constexpr double kStretch = 1.0;           // voxels between two contacts of a line of contact
-constexpr double kOnBall = 0.1;  // voxels: a sample as deep as the ball's contacts say, about
-constexpr double kSmooth = 0.9;  // cosine, of the tissue's normal and the tool's
-constexpr double kSameGap = 0.1; // voxels: a surface is smooth where its normal leads to it
+constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the actual surface, ripples
+                               // included
+constexpr double kDeepest = 0.05;          // voxels: largest penetration recovered in one motion
+constexpr std::size_t kMaxOnSolid = 128;  // near ones, in addition to those that stopped a motion
+constexpr std::size_t kMaxLooked = 1024;  // samples, nearest first; the sweep has all
+constexpr std::size_t kLooksInASample = 2; // field samples, at known contacts
+constexpr std::size_t kMaxSmooth = 24;    // whose tissue normal is examined
+constexpr double kStretch = 1.0;           // voxels between two contacts of a line contact
+constexpr double kOnBall = 0.1;  // voxels: tolerance of a sample to the ball's contacts
+constexpr double kSmooth = 0.9;  // cosine between the normals of tissue and tool
+constexpr double kSameGap = 0.1; // voxels: the surface is smooth if its normal leads to it
 } // namespace
 
 ContactFinder::ContactFinder(const ShellSweep& sweep, double nearGap)
@@ -70,7 +71,7 @@ ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
   Surface result{-gradient / slope, -value / slope, slope};
   if (std::abs(result.gap) > kClose * h)
   {
-    // One secant step along the normal: the edges of an image are no straight ramps.
+    // One secant step along the normal: edges in an image are not linear ramps.
     const double ahead = std::clamp(result.gap, -h, h);
     const Eigen::Vector3d there =
         voxel - field.geometry().voxelFromPatientLinear() * (ahead * result.normal);
@@ -87,7 +88,7 @@ ContactFinder::Surface ContactFinder::surfaceAt(const Eigen::Vector3d& voxel,
 }
 
 // The tissue's surface as seen from the ball's point in direction `toPoint` (unit, patient axes);
-// false where the shaft hides that point, or there is nothing to be seen.
+// false if the shaft hides that point or no surface is found.
 bool ContactFinder::surfaceOfBall(const Eigen::Vector3d& toPoint, Surface& surface) const noexcept
 {
   const PointShell& shell = m_sweep.shell();
@@ -111,7 +112,7 @@ void ContactFinder::refineOnBall(ProxyContact& contact, double& slope) const noe
   const Eigen::Vector3d start = contact.arm / radius;
   Eigen::Vector3d at = start;
   Surface surface{contact.normal, contact.gap, slope};
-  double step = 1.0; // of the residual: 1 where tissue is flat, less where it bulges
+  double step = 1.0; // of the residual: 1 for flat tissue, less for convex tissue
   for (int turn = 0; turn < kTurns; ++turn)
   {
     const Eigen::Vector3d residual = -surface.normal - at;
@@ -128,20 +129,20 @@ void ContactFinder::refineOnBall(ProxyContact& contact, double& slope) const noe
     const bool closer = (-there.normal - next).norm() < residual.norm();
     step = std::clamp(better, 0.1, 3.0);
     if (!closer)
-      continue; // once more from where we are, with the step that the secant gives
+      continue; // retry from the same point with the secant's step
     at = next;
     surface = there;
   }
   if ((surface.normal + at).norm() > kMisaligned)
     return;
-  // The ball against the plane that was found at `at`.
+  // The ball against the plane found at `at`.
   contact.gap = surface.gap - radius * (1.0 + surface.normal.dot(at));
   contact.normal = surface.normal;
   contact.arm = -radius * surface.normal;
   slope = surface.slope;
 }
 
-// One look ahead spares most gradients: no tissue within reach along the tool's own normal.
+// One probe ahead saves most gradients: no tissue within reach along the tool's own normal.
 bool ContactFinder::farFrom(const Eigen::Vector3d& voxel,
                             const Eigen::Vector3d& outward) const noexcept
 {
@@ -169,7 +170,7 @@ void ContactFinder::add(const ShellSweep::Near& near, bool refine,
   double slope = surface.slope;
   if (surface.normal.isZero())
   {
-    // Where the field is flat, the tool's own surface says which way is out of what stopped it.
+    // If the field is flat, the tool's own surface gives the outward direction at a stop.
     if (!hit)
       return;
     contact.normal = -(pose.rotation * shell.normals[near.point]);
@@ -177,7 +178,7 @@ void ContactFinder::add(const ShellSweep::Near& near, bool refine,
   if (hit)
   {
     contact.gap = std::min(contact.gap, 0.0);
-    // It went in, whatever the gradient at a thin edge says.
+    // The motion went in, whatever the gradient at a thin edge suggests.
     if (contact.normal.dot(hit->direction) > kAlong)
       contact.normal = -hit->direction;
   }
@@ -189,7 +190,7 @@ void ContactFinder::add(const ShellSweep::Near& near, bool refine,
   m_found[m_count++] = {contact, slope, hit != nullptr};
 }
 
-// The tool's part against a place of the tissue's surface, as if that were a point.
+// The tool's part against a point of the tissue's surface.
 FoundContact ContactFinder::contactAt(std::uint32_t part,
                                       const Eigen::Vector3d& place) const noexcept
 {
@@ -208,7 +209,7 @@ FoundContact ContactFinder::contactAt(std::uint32_t part,
   return found;
 }
 
-// Of the ball one, of each cylinder stretches along its axis no shorter than kStretch.
+// One bin for the ball; for each cylinder, segments along its axis no shorter than kStretch.
 std::size_t ContactFinder::binOf(std::uint32_t part, double z) const noexcept
 {
   if (part == SolidParts::kBall)
@@ -218,7 +219,7 @@ std::size_t ContactFinder::binOf(std::uint32_t part, double z) const noexcept
   return 1 + (part - 1) * kBins + static_cast<std::size_t>(bin);
 }
 
-// A known contact's plane, of a place near by on the same part, lets the tool no farther.
+// Whether the plane of a known contact nearby on the same part already limits the tool as much.
 bool ContactFinder::explained(std::uint32_t part, double z,
                               const FoundContact& candidate) const noexcept
 {
@@ -240,8 +241,8 @@ bool ContactFinder::explained(std::uint32_t part, double z,
   return false;
 }
 
-// Where the tissue's surface goes on smoothly its own normal is better than the tool's at a sample,
-// which is up to half a line's distance off the place of contact.
+// Where the tissue's surface is smooth, its own normal is better than the tool's at a sample, which
+// is up to half a line spacing away from the actual contact.
 void ContactFinder::smooth(std::uint32_t part, const Eigen::Vector3d& place,
                            FoundContact& found) const noexcept
 {
@@ -330,7 +331,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     FoundContact found = contactAt(hits[n].part, hits[n].place);
     if (found.contact.gap > m_nearGap)
       continue;
-    // The surface's own normal at first; what stopped the tool twice is an edge that it hides.
+    // The surface's own normal first; what stopped the tool twice is an edge hidden by that normal.
     const bool again =
         std::any_of(hits, hits + n,
                     [&](const ShellSweep::Hit& other) {
@@ -357,7 +358,7 @@ void ContactFinder::addSurface(const ShellSweep::Hit* hits, std::size_t hitCount
     }
   }
   m_samples += looked / SurfaceSamples::kUnit;
-  // The nearest first, by number where two are as near.
+  // Nearest first; ties by number.
   const auto after = [](const Candidate& a, const Candidate& b)
   {
     return a.gap != b.gap     ? a.gap > b.gap

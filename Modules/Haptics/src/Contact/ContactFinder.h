@@ -13,36 +13,37 @@ namespace petrous::haptics
 struct FoundContact
 {
   ProxyContact contact;
-  double slope = 0.0;   ///< of f against the normal, per mm
-  bool stopped = false; ///< it ended a motion of this tick
+  double slope = 0.0;   ///< of f along the inward normal, per mm
+  bool stopped = false; ///< ended a motion of this tick
 };
 
-/// Turns shell points near rigid tissue into contacts: where, which way is out, and how far it is.
+/// Turns shell points near rigid tissue into contacts: position, outward normal and gap.
 ///
-/// The burr is a ball, and its contact is where the ball comes nearest to tissue, not where one of
-/// its shell points happens to be: at c + R s with s = -n(c + R s), n the tissue's normal there,
-/// found from the deepest shell point by a secant step over the residual -n - s. So neither the
-/// height at which it rests nor the force's direction shows the spacing of its points, and a ball
-/// without friction is given no torque. A shell point that lies on the free side of a contact's
-/// plane as deep as it lies in f adds nothing and gives no contact of its own.
+/// The burr is a ball, and its contact is where the ball is closest to tissue, not at one of its
+/// shell points: at c + R s with s = -n(c + R s), n the tissue's normal there, found from the
+/// deepest shell point by a secant step over the residual -n - s. Neither the height at which it
+/// rests nor the direction of the force therefore shows the spacing of its points, and a
+/// frictionless ball receives no torque. A shell point whose depth in f is explained by the plane
+/// of a known contact gives no contact of its own.
+///
 /// Points of other tools are contacts themselves. Shaft and handpiece of a solid tool touch where a
-/// sample of the tissue's surface is nearest to them, one contact for each stretch of about a
-/// voxel: along the tissue's normal where its surface is smooth, along the tool's own at a ridge or
-/// spike. Points of their shell give a contact only where one ended a motion.
+/// sample of the tissue's surface is closest to them, one contact per segment of about a voxel:
+/// along the tissue's normal where its surface is smooth, along the tool's own at a ridge or spike.
+/// Points of their shell give a contact only if one ended a motion.
 ///
-/// `find` neither allocates, locks nor throws. One thread.
+/// `find` does not allocate, lock or throw. Not thread-safe.
 class ContactFinder
 {
 public:
-  static constexpr std::size_t kMaxHits = 64; ///< that `find` may be given
+  static constexpr std::size_t kMaxHits = 64; ///< limit for `find`
 
-  /// `nearGap` in voxels: contacts farther away than that are none.
+  /// `nearGap` in voxels: there are no contacts farther away.
   ContactFinder(const ShellSweep& sweep, double nearGap);
 
-  /// Contacts of the sweep's near points; `hits` are those where this tick's motion ended so far.
+  /// Contacts of the sweep's near points; `hits` are the stops of this tick's motion so far.
   void find(const ShellSweep::Hit* hits, std::size_t hitCount) noexcept;
 
-  /// Values of the field asked for by the last `find`.
+  /// Field samples taken by the last `find`.
   std::size_t samples() const noexcept { return m_samples; }
 
   const FoundContact* begin() const noexcept { return m_found.data(); }
@@ -51,9 +52,9 @@ public:
 private:
   struct Surface
   {
-    Eigen::Vector3d normal{0.0, 0.0, 0.0}; // unit, out of the tissue; zero where f is flat
+    Eigen::Vector3d normal{0.0, 0.0, 0.0}; // unit, out of the tissue; zero if f is flat
     double gap = 0.0;                      // mm
-    double slope = 0.0;                    // of f against the normal, per mm
+    double slope = 0.0;                    // of f along the inward normal, per mm
   };
   Surface surfaceAt(const Eigen::Vector3d& voxel, const FieldSample& sample,
                     double step = 1.0) const noexcept;
@@ -62,7 +63,7 @@ private:
   void refineOnBall(ProxyContact& contact, double& slope) const noexcept;
   void add(const ShellSweep::Near& near, bool refine, const ShellSweep::Hit* hit) noexcept;
   bool explained(const ShellSweep::Near& near) const noexcept;
-  struct Candidate // a sample of the surface within reach
+  struct Candidate // a surface sample within reach
   {
     double gap;
     std::uint32_t part;
@@ -79,8 +80,8 @@ private:
   std::vector<std::uint32_t> m_order;
   std::vector<FoundContact> m_found;
   static constexpr std::size_t kBins = 256;
-  std::array<std::uint32_t, 2 * kBins + 1> m_bins; // last contact of a stretch of the solid, + 1
-  std::vector<std::uint32_t> m_next;               // the one before it in that stretch, + 1
+  std::array<std::uint32_t, 2 * kBins + 1> m_bins; // last contact of a segment of the solid, + 1
+  std::vector<std::uint32_t> m_next;               // the previous one in that segment, + 1
   std::vector<Candidate> m_candidates;
   std::uint32_t m_firstOnHandpiece = 0;
   std::array<double, 2> m_stretches{}; // of shaft and handpiece, below kBins

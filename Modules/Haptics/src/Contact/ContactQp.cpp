@@ -14,23 +14,25 @@ namespace petrous::haptics
 namespace
 {
 
-// Rows within this share of the problem's size of their bound hold: some thousand roundings.
+// Rows within this fraction of the problem's scale of their bound are satisfied: some thousand
+// ulps.
 constexpr double kFeasible = 1e-12;
 constexpr double kRounding = 1e-15;
-// What rigid rows give, beside the coupling. Its root, 1e-7, is how near to dependence rows are
-// told apart; rounding over that root is what an accident of rounding moves the solution by.
+// Compliance of rigid rows, relative to the coupling's. Its root, 1e-7, is the resolution of linear
+// dependence; rounding errors divided by that root are how far they can move the solution.
 constexpr double kCompliance = 1e-14;
-// A row that gives more than this share of the problem's size shows a contradiction: where some
-// motion w fulfils every row, no row gives more than sqrt(c F(w)) on the way to the solution.
+// A row that yields by more than this fraction of the problem's scale indicates infeasibility: if
+// some motion w satisfies every row, no row yields more than sqrt(c F(w)) on the way to the
+// solution.
 constexpr double kGiving = 4e-7;
-// Compliance, beside the coupling's own, under which a row is rigid.
+// Compliance, relative to the coupling's, below which a row is rigid.
 constexpr double kRigid = 1e-9;
-// A Newton step under this share of the problem's size is taken whole: it can be shorter than what
-// the rigid rows give, which the line search does not see.
+// A Newton step below this fraction of the problem's scale is taken in full: it can be shorter than
+// what the rigid rows yield, which the line search does not see.
 constexpr double kShort = 1e-3;
 constexpr int kNewtonSteps = 12;
 constexpr int kMaxPasses = 3;
-constexpr int kMaxChanges = 3000; // of the active rows and pressing springs
+constexpr int kMaxChanges = 3000; // of active rows and active springs
 
 template <class Vector>
 const Vector& checked(std::size_t capacity, const Vector& stiffness)
@@ -65,8 +67,8 @@ struct BasicContactQp<N>::Work
   NormalizedConstraints<N> rigid;
   CompliantContactObjective<N> springs;
   ActiveRows<N> active;
-  double highest = 0.0; ///< largest bound above 0
-  double scale = 0.0;   ///< the problem's size: root of 2 F(0), and the largest bound
+  double highest = 0.0; ///< largest positive bound
+  double scale = 0.0;   ///< the problem's scale: sqrt(2 F(0)) plus the largest bound
   int changes = 0;
 };
 
@@ -125,7 +127,7 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::solve(const Vector& uncons
   Vector y = v;
   if (work.scale < 1.0 / NormalizedConstraints<N>::kMaxLength)
     return Status::Solved;
-  // A size that is not a number is no size either.
+  // Also rejects NaN.
   const Status status =
       work.scale < NormalizedConstraints<N>::kMaxLength ? work.settle(v, y) : Status::Exhausted;
   m_iterations = work.changes;
@@ -133,7 +135,7 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::solve(const Vector& uncons
     return status;
   work.finish(y);
 
-  // The multipliers are the truth and y is what they give, so that force and motion agree.
+  // y is recomputed from the multipliers, so that force and motion agree.
   y = v;
   for (int j = 0; j < work.active.size(); ++j)
   {
@@ -161,8 +163,8 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::settle(const Vector&
   active.clear();
   if (springs.empty())
     return fulfil(y, false);
-  // Newton's method: the model's minimum under the rigid rows, from there again, until a step's
-  // springs still press at its end and no others do.
+  // Newton's method: the model's minimum subject to the rigid rows, repeated from there until a
+  // step leaves the active springs unchanged.
   for (int n = 0; n < kNewtonSteps; ++n)
   {
     ++changes;
@@ -172,15 +174,15 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::settle(const Vector&
     if (fulfil(next, false) != Status::Solved)
       break;
     const Vector d = next - y;
-    // The first step comes from where the rigid rows do not hold: there is no line to search.
+    // The first step starts where the rigid rows are violated: there is no line to search.
     const bool whole = n == 0 || d.norm() < kShort * scale;
     const double share = whole ? 1.0 : springs.lineSearch(y, d);
     y = share < 1.0 ? Vector(y + share * d) : next;
     if (!springs.takePressing(y) && share == 1.0)
       return Status::Solved;
   }
-  // It runs in circles now and then, or meets a model that contradicts the rows. Slower, but sure:
-  // from the springs' own minimum, following each of them.
+  // Newton's method occasionally cycles or meets a model that contradicts the rows. Slower but
+  // safe: start from the springs' own minimum and follow each of them.
   y = v;
   active.clear();
   if (!springs.minimise(y, kRounding * scale, changes))
@@ -188,14 +190,14 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::settle(const Vector&
   return fulfil(y, true);
 }
 
-// Dual active set: from a minimum without rigid rows, take in the most violated row, letting go of
-// those whose multiplier would become negative, until every row holds.
+// Dual active set: from a minimum without rigid rows, add the most violated row, dropping those
+// whose multiplier would become negative, until every row holds.
 template <int N>
 typename BasicContactQp<N>::Status BasicContactQp<N>::Work::fulfil(Vector& y, bool follow) noexcept
 {
   while (rigid.count > 0)
   {
-    // The others need not hold better than the active rows do.
+    // The others need not hold more accurately than the active rows.
     const double allowed = kFeasible * scale + 2.0 * given(y);
     rigid.measure(y);
     for (int j = 0; j < active.size(); ++j)
@@ -212,8 +214,9 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::fulfil(Vector& y, bo
   return Status::Solved;
 }
 
-// Presses on one row until it holds. `follow`: springs that begin or cease to press on the way
-// change the model there, so that y stays a minimum of F; otherwise the model stays.
+// Increases the multiplier of one row until it holds. `follow`: springs that become active or
+// inactive on the way change the model there, so that y stays a minimum of F; otherwise the model
+// is fixed.
 template <int N>
 typename BasicContactQp<N>::Status BasicContactQp<N>::Work::takeIn(Eigen::Index row, bool follow,
                                                                    Vector& y) noexcept
@@ -226,8 +229,8 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::takeIn(Eigen::Index 
     const typename ActiveRows<N>::Rest rest = active.split(springs.inverseRoot() * normal, d);
     const typename ActiveRows<N>::Coefficients r = active.solve(d);
     const Vector way = springs.inverseRoot().transpose() * rest.head;
-    // How far, in units of the new multiplier: until the row holds, another's multiplier is 0, or
-    // a spring changes.
+    // Step length, in units of the new multiplier: until the row holds, another's multiplier
+    // reaches 0, or a spring changes.
     const double slack = normal.dot(y) + kCompliance * multiplier - rigid.bound[row];
     double length = std::max(0.0, -slack / rest.square);
     int blocking = -1;
@@ -262,7 +265,7 @@ typename BasicContactQp<N>::Status BasicContactQp<N>::Work::takeIn(Eigen::Index 
   return Status::Exhausted;
 }
 
-// The active rows again, in the metric of a new model.
+// Re-adds the active rows in the metric of a new model.
 template <int N>
 void BasicContactQp<N>::Work::rebuild() noexcept
 {
@@ -278,7 +281,7 @@ void BasicContactQp<N>::Work::rebuild() noexcept
   }
 }
 
-// How far the active rows are from their bounds at y.
+// Largest violation of the active rows' bounds at y.
 template <int N>
 double BasicContactQp<N>::Work::given(const Vector& y) const noexcept
 {
@@ -291,10 +294,10 @@ double BasicContactQp<N>::Work::given(const Vector& y) const noexcept
   return most;
 }
 
-// Where rows give more than a little they are pressed until they hold: refinement without giving
-// lifts the multipliers, which is a step of the proximal point method, and takes in the rows that
-// are violated then. Rows 1e-6 or farther from dependence hold after a step or two; nearer ones
-// keep to what they give.
+// Rows that yield by more than a little are tightened until they hold: refinement without
+// compliance raises the multipliers, which is a step of the proximal point method, and adds the
+// rows violated then. Rows 1e-6 or farther from linear dependence hold after a step or two; nearer
+// ones keep their remaining violation.
 template <int N>
 void BasicContactQp<N>::Work::finish(Vector& y) noexcept
 {
@@ -320,10 +323,11 @@ void BasicContactQp<N>::Work::finish(Vector& y) noexcept
   }
 }
 
-// Iterative refinement of the equations that hold at the solution,
-//   y = v + sum multiplier n,   n y + c multiplier = b for active rows and springs that press,
-// takes away what H spoils when springs are stiff: without it 1e-6 of the coupling's compliance
-// costs seven digits. A multiplier that would become negative goes, and the rest is refined again.
+// Iterative refinement of the equations at the solution,
+//   y = v + sum multiplier n,   n y + c multiplier = b for active rows and active springs,
+// removes the error of H with stiff springs: without it a compliance of 1e-6 of the coupling's
+// costs seven digits. A multiplier that would become negative is dropped and the rest refined
+// again.
 template <int N>
 void BasicContactQp<N>::Work::refine(double compliance, Vector& y) noexcept
 {

@@ -35,7 +35,7 @@ bool ProxyQp::add(const Vector6& row, double bound) noexcept
   return m_shared ? m_shared->add(extended(row, 0.0), bound) : m_rigid.add(row, bound);
 }
 
-// The unknown is sqrt(k) s, of which 1/2 its square is the spring's energy.
+// The unknown is sqrt(k) s, half the square of which is the spring's energy.
 bool ProxyQp::addSoft(const Vector6& row, double depth, std::size_t spring, double give) noexcept
 {
   if (!m_shared || spring >= kMaxSprings)

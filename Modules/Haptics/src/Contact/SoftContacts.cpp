@@ -13,24 +13,24 @@ namespace petrous::haptics
 namespace
 {
 
-constexpr double kStep = 0.5;        // voxels of the field: how far contacts look ahead,
-constexpr double kFastStep = 1.5;    // and how far with a fast hand,
-constexpr double kHandShare = 0.25;  // of whose motion in a tick it is this much
-constexpr float kSteepest = 1.05F;   // of a map's depth, per mm, about
-constexpr double kFar = 1.5;         // mm: structures beyond it are not looked at point by point
+constexpr double kStep = 0.5;        // voxels of the field: minimum look-ahead of contacts
+constexpr double kFastStep = 1.5;    // voxels of the field: its maximum, for fast motion
+constexpr double kHandShare = 0.25;  // look-ahead as a fraction of the device's motion per tick
+constexpr float kSteepest = 1.05F;   // approximate bound on the slope of a map's depth, per mm
+constexpr double kFar = 1.5;         // mm: structures beyond are not examined point by point
 constexpr double kMinWay = 1e-12;  // mm
-constexpr double kRounding = 1e-5;   // mm, of bounds
-constexpr int kMaxSteps = 8;        // of a tick
-constexpr double kCreep = 0.02;      // mm a tick beyond the hand's motion
-constexpr double kAhead = 2.0;       // of the hand's motion in a tick, that the tool may make
-constexpr double kWhole = 0.4999;    // of the mask's operand: nothing is cut here
-constexpr double kExplained = 0.02;  // voxels: as deep as the ball's plane says
-constexpr double kRidge = 0.5;       // a gradient shorter than this is near the middle
+constexpr double kRounding = 1e-5;   // mm, tolerance of bounds
+constexpr int kMaxSteps = 8;        // per tick
+constexpr double kCreep = 0.02;      // mm per tick beyond the device's motion
+constexpr double kAhead = 2.0;       // times the device's motion per tick, allowed for the tool
+constexpr double kWhole = 0.4999;    // of the mask's operand: nothing removed here
+constexpr double kExplained = 0.02;  // voxels: tolerance to the ball's plane
+constexpr double kRidge = 0.5;       // a shorter gradient is near the medial ridge
 constexpr double kAligned = 0.005;   // rad, residual of the ball's deepest point
-constexpr double kMisaligned = 0.05; // rad, of one that was not found
-constexpr double kFarthest = 0.6;    // rad, from a shell point to it
+constexpr double kMisaligned = 0.05; // rad, maximum residual accepted
+constexpr double kFarthest = 0.6;    // rad, from a shell point to the ball's deepest point
 constexpr int kTurns = 6;
-constexpr std::size_t kMaxOfOne = 160; // contacts of a structure
+constexpr std::size_t kMaxOfOne = 160; // contacts per structure
 
 } // namespace
 
@@ -74,7 +74,7 @@ void SoftContacts::begin(const Pose& goal) noexcept
   m_goal = goal;
 }
 
-double SoftContacts::occupancyOf(const Structure& structure, double linear,
+double SoftContacts::fractionOf(const Structure& structure, double linear,
                              double angular) const noexcept
 {
   const auto way = static_cast<float>(linear + kMinWay) + static_cast<float>(angular) * m_arm;
@@ -87,10 +87,10 @@ double SoftContacts::share(const Motion& motion) noexcept
   const double linear = motion.linear.norm();
   const double angular = motion.angular.norm();
   double share = std::min(1.0, m_away / std::max(maxDisplacement(motion, m_shell.reach), kMinWay));
-  // A point with a contact may go a step. The others may go on until they could need one.
+  // A point with a contact may move by a step. The others may move until they could need one.
   if (share * maxDisplacement(motion, m_shell.reach) > m_step)
     for (const std::size_t n : m_near)
-      share = std::min(share, occupancyOf(m_structures[n], linear, angular));
+      share = std::min(share, fractionOf(m_structures[n], linear, angular));
   m_spent = ++m_steps >= kMaxSteps;
   const auto inside = [](const Contact& contact) { return contact.depth > 0.0; };
   if (m_pressed || m_behind || std::any_of(m_contacts.begin(), m_contacts.end(), inside))
@@ -113,11 +113,11 @@ Wrench SoftContacts::pull(const Pose& pose) const noexcept
   return {-m_stiffness * left.linear, -m_angularStiffness * left.angular};
 }
 
-// What was cut is air: depth counts from there too. The mask knows its surface no farther than its
-// ramp goes, so that is stretched over all depths, beginning with their own slope.
+// What was cut is air: depth counts from there too. The mask knows the distance to its surface only
+// within its ramp, so the ramp is stretched over all depths, starting with their own slope.
 double SoftContacts::belowCut(double left) const noexcept
 {
-  const double whole = 2.0 * left; // of the ramp: 0 at the surface, 1 where nothing is cut
+  const double whole = 2.0 * left; // position on the ramp: 0 at the surface, 1 where nothing is cut
   return m_ramp * whole / (1.0 - (left > 0.0 ? whole : -whole));
 }
 
@@ -129,8 +129,8 @@ Eigen::Vector3d SoftContacts::slopeBelowCut(const Eigen::Vector3d& voxel) const 
   return 2.0 * m_ramp * rise * volume::gradientInPatient(m_field.geometry(), voxel, 0.5, left);
 }
 
-// At a point `arm` (patient axes) from the tool's origin. `bound` becomes its depth in the map
-// where that is looked at.
+// At a point `arm` (patient axes) from the tool's origin. `bound` becomes its depth in the map if
+// the map is sampled.
 SoftContacts::Look SoftContacts::lookAt(const volume::DistanceMap& map, const Eigen::Vector3d& arm,
                                         float& bound) const noexcept
 {
@@ -149,7 +149,7 @@ SoftContacts::Look SoftContacts::lookAt(const volume::DistanceMap& map, const Ei
   const double most = left < kWhole ? belowCut(left) : std::numeric_limits<double>::max();
   if (most < -m_step)
   {
-    look.at.depth = most; // in what was cut, far from what is left
+    look.at.depth = most; // in removed tissue, far from what remains
     return look;
   }
   look.at = map.at(voxel);
@@ -168,8 +168,8 @@ void SoftContacts::complete(Look& look) const noexcept
         slopeBelowCut(m_field.geometry().voxelFromPatient(m_pose.position + look.arm));
 }
 
-// The points that are deepest, or may be after a step. The others are not looked at: each depth has
-// a bound that grows by what the tool moves.
+// Finds the points that are deepest or may be after a step. The others are skipped: each depth has
+// a bound that grows with the tool's motion.
 void SoftContacts::look(Structure& structure) noexcept
 {
   structure.bound += static_cast<float>(double{kSteepest} * structure.linear + kRounding) +
@@ -254,7 +254,7 @@ void SoftContacts::addTo(ProxyQp& qp) noexcept
     qp.addSoft(contact.row, contact.depth, contact.spring, contact.give);
 }
 
-// A row's multiplier is the force where depth rises by 1 a mm; in the middle of a structure it
+// A row's multiplier is the force where depth rises by 1 per mm; near the middle of a structure it
 // rises less.
 void SoftContacts::takeForces(const ProxyQp& qp) noexcept
 {
@@ -286,8 +286,8 @@ void SoftContacts::add(const Structure& structure, std::size_t spring, const Loo
   m_contacts.push_back(contact);
 }
 
-// The deepest point of the ball: up the depth from the deepest shell point, along the ball, by
-// secant steps over what of the gradient lies along it.
+// Deepest point of the ball: ascends the depth from the deepest shell point, along the ball, by
+// secant steps over the tangential part of the gradient.
 bool SoftContacts::addBall(const Structure& structure, std::size_t spring) noexcept
 {
   if (structure.last >= m_shell.burrCount || !(m_shell.burrRadius > 0.0))
@@ -319,7 +319,7 @@ bool SoftContacts::addBall(const Structure& structure, std::size_t spring) noexc
     const bool closer = left.norm() < residual.norm();
     step = std::clamp(agree > 0.0 ? step * residual.squaredNorm() / agree : 2.0 * step, 0.1, 3.0);
     if (!closer)
-      continue; // once more from where we are
+      continue; // retry from the same point
     at = next;
     look = there;
     residual = left;

@@ -38,8 +38,8 @@ bool notNegative(double value)
   return value >= 0.0 && std::isfinite(value);
 }
 
-// The velocity after a sub-step. `pull` is what acts on the body as it lies, N or N mm; `way` is
-// the target's change.
+// The velocity after a sub-step. `pull` acts on the body at its position, N or N mm; `way` is the
+// target's change.
 Vector3d nextVelocity(const Vector3d& velocity, const Vector3d& pull, const Vector3d& way,
                       double damping, double inertia, double step) noexcept
 {
@@ -92,7 +92,7 @@ SimulatedDevice::SimulatedDevice(Target target, const Hand& hand, const Faults& 
   for (auto& axis : m_tremor)
     for (std::size_t k = 0; k < kWaves; ++k)
     {
-      // One wave in each eighth of the band, so that no seed leaves a part of it out.
+      // One wave in each eighth of the band, so that every seed covers all of it.
       const double hertz = kSlowest + (kFastest - kSlowest) * (static_cast<double>(k) + share()) /
                                           static_cast<double>(kWaves);
       axis[k] = {2.0 * kPi * hertz, 2.0 * kPi * share()};
@@ -114,10 +114,10 @@ Pose SimulatedDevice::wantedAt(double time) const noexcept
 
 void SimulatedDevice::advance(double from, double to) noexcept
 {
-  // A hair less, so that a tick of 1 ms is ten sub-steps and not eleven by rounding.
+  // Slightly less, so that a tick of 1 ms is ten sub-steps and not eleven by rounding.
   const double steps = std::max(1.0, std::ceil((to - from) / m_hand.subStep - 1e-6));
   const double step = (to - from) / steps;
-  m_wanted = wantedAt(from); // which differs from the last one only after a leap
+  m_wanted = wantedAt(from); // differs from the last one only after a time jump
   for (double n = 1.0; n <= steps; n += 1.0)
   {
     const Pose wanted = wantedAt(from + n * step);

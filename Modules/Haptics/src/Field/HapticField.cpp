@@ -15,13 +15,14 @@ using volume::CutMask;
 using volume::TissueField;
 
 constexpr std::size_t kMaxSolids = 255;
-constexpr double kHullSlope = 0.25; // of f a voxel, at the border of the grid
-// Of a mask, per voxel along an axis: a cut's ramp rises by 1/2 over a voxel diagonal (adr 6), and
-// what is protected by a smoothed union's 1/2 a voxel.
+constexpr double kHullSlope = 0.25; // of f per voxel, at the border of the grid
+// Of a mask, per voxel along an axis: a cut's ramp rises by 1/2 over a voxel diagonal (adr 6),
+// protected structures by a smoothed union's 1/2 per voxel.
 constexpr double kMaskSlope = 0.5;
-constexpr double kSameGrid = 1e-6; // voxels a voxel: a union's voxels are the CT's
+constexpr double kSameGrid = 1e-6; // voxels: tolerance for a union's voxels to coincide with the
+                                   // CT's
 
-// Of a position that is not negative.
+// Of a non-negative position.
 double inBrick(double voxel) noexcept
 {
   return voxel - kTissueBrick * (static_cast<int>(voxel) / kTissueBrick);
@@ -33,7 +34,7 @@ std::size_t offsetInBrick(int i, int j, int k) noexcept
   return static_cast<std::size_t>((i % edge) + edge * ((j % edge) + edge * (k % edge)));
 }
 
-// Whether it does not end at the hull of its voxels while it is tissue.
+// Whether the union is air at the hull of its voxels.
 bool endsInAir(const volume::Volume<float>& occupancy) noexcept
 {
   const core::Index3& n = occupancy.geometry().dims();
@@ -88,7 +89,7 @@ HapticField::HapticField(const TissueField& tissue,
   m_steepness = std::move(bricks.steepness);
 }
 
-// Cell and weights of a voxel position in the hull of the CT's grid; CT and mask share them.
+// Cell and weights of a voxel position in the hull of the CT's grid; shared by CT and mask.
 struct HapticField::Cell
 {
   int i, j, k;
@@ -109,7 +110,7 @@ struct HapticField::Cell
 HapticField::cellAt(const Eigen::Vector3d& voxel, const core::Index3& dims) noexcept
 {
   Cell cell{};
-  // Positions are not negative: to cut is to round down.
+  // Positions are not negative: truncation rounds down.
   cell.i = std::min(static_cast<int>(voxel.x()), std::max(dims[0] - 2, 0));
   cell.j = std::min(static_cast<int>(voxel.y()), std::max(dims[1] - 2, 0));
   cell.k = std::min(static_cast<int>(voxel.z()), std::max(dims[2] - 2, 0));
@@ -151,7 +152,7 @@ HapticField::brickAt(const Eigen::Vector3d& voxel) const noexcept
                                 { return static_cast<double>(corner[offset]); });
       });
   const double value = (hounsfield - m_parameters.iso) / m_parameters.scale;
-  return std::isnan(value) ? TissueField::kAir : value; // a voxel without a value is no tissue
+  return std::isnan(value) ? TissueField::kAir : value; // a voxel without a value is not tissue
 }
 
 double HapticField::solid(std::size_t n, const Eigen::Vector3d& voxel) const noexcept
@@ -316,7 +317,7 @@ double HapticField::freeRadius(const Eigen::Vector3d& voxel,
 {
   if (sample.decider == Decider::Outside || !(sample.value < 0.0))
     return 0.0;
-  // The steepness of a brick holds for one voxel beyond it.
+  // The steepness of a brick holds up to one voxel beyond it.
   double within = kTissueBrick;
   for (Eigen::Index a = 0; a < 3; ++a)
   {
@@ -400,7 +401,7 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
     }
   if (untouched(brick, mask))
   {
-    // The hull is a voxel or more away: what counts is that it is above 0.
+    // The hull is a voxel or more away: only its sign matters.
     values.mask.fill(0.5F);
     values.hull.fill(static_cast<float>(kHullSlope));
     return;

@@ -18,22 +18,22 @@ namespace petrous::haptics
 namespace
 {
 
-// What a brick may hold.
+// What a brick may contain.
 constexpr std::uint8_t kTissue = 1;
 constexpr std::uint8_t kSome = 2; // a value above 0
-constexpr int kSlab = 8;          // brick layers that a thread does at once
-constexpr std::size_t kRun = 512; // bricks that are put together at once
+constexpr int kSlab = 8;          // brick layers per task
+constexpr std::size_t kRun = 512; // bricks combined at once
 
 // Steepness codes.
 constexpr int kPerOctave = 16;
-constexpr int kFirst = -6 * kPerOctave; // of code 0, if it were one
+constexpr int kFirst = -6 * kPerOctave; // exponent of code 0, extrapolated
 constexpr int kLast = 254;
 
-// A voxel that is no number is no tissue; f jumps beside it.
+// A voxel that is NaN is not tissue; f is discontinuous beside it.
 constexpr float kJump = std::numeric_limits<float>::infinity();
 
-// The lowest code that a float with these leading bits can have.
-constexpr int kLeadingShift = 17; // 6 bits of the mantissa are left
+// The lowest code of a float with these leading bits.
+constexpr int kLeadingShift = 17; // 6 bits of the mantissa remain
 
 std::vector<std::uint8_t> lowestCodes()
 {
@@ -68,17 +68,17 @@ std::uint8_t codeOf(float steepness)
   return static_cast<std::uint8_t>(code);
 }
 
-// Of a volume in bricks of two voxels.
+// Bricks of two voxels.
 struct VolumeBricks
 {
   core::Index3 dims;
-  std::vector<std::uint8_t> marks;     // by the voxels at the brick's corners and within
+  std::vector<std::uint8_t> marks;     // from the voxels at the brick's corners and inside
   std::vector<std::uint8_t> steepness; // codes, of the brick and one voxel around it
 };
 
-// What one slice of voxels says of the bricks' columns: the largest value of the voxels 2b to
-// 2b + 2, and the largest step to the next voxel along each axis, of the edges that the cells
-// 2b - 1 to 2b + 2 have.
+// Contribution of one slice of voxels to the columns of bricks: the maximum of the voxels
+// 2b to 2b + 2, and the maximum step to the next voxel along each axis, over the edges of the cells
+// 2b - 1 to 2b + 2.
 class SliceLook
 {
 public:
@@ -94,7 +94,7 @@ public:
     m_most.resize(static_cast<std::size_t>(dims[0]));
   }
 
-  static constexpr std::size_t kFields = 4; // the largest value, then the steps
+  static constexpr std::size_t kFields = 4; // the maximum, then the steps
 
   // into[f]: bricks of a layer, first axis fastest.
   template <class T>
@@ -116,7 +116,7 @@ public:
         for (std::size_t i = 0; i < count; ++i)
         {
           const float step = std::abs(static_cast<float>(other[i]) - static_cast<float>(row[i]));
-          line[i] = step <= std::numeric_limits<float>::max() ? step : kJump; // so NaN
+          line[i] = step <= std::numeric_limits<float>::max() ? step : kJump; // also for NaN
         }
         std::fill(line + count, line + width, 0.0F);
         reduceLine(field == 1 ? kAlong : kAcross, m_rows[field].data() + out);
@@ -141,7 +141,7 @@ public:
     }
   }
 
-  /// The larger of each two; what is no number is left out.
+  /// Element-wise maximum; NaN is ignored.
   static void raise(float* __restrict most, const float* values, std::size_t count)
   {
     for (std::size_t n = 0; n < count; ++n)
@@ -149,16 +149,16 @@ public:
   }
 
 private:
-  // Which numbers a brick 2b asks for.
+  // Range of values that brick 2b needs.
   struct Range
   {
     int before, after;
   };
   static constexpr Range kValues{0, 2}, kAlong{-1, 2}, kAcross{-1, 3};
   static constexpr std::size_t kPad =
-      4; // numbers beyond both ends of the line, which count nothing
+      4; // padding at both ends of the line, ignored by the maximum
 
-  // The largest of each brick's range in the line.
+  // Maximum over each brick's range in the line.
   void reduceLine(Range range, float* out)
   {
     std::fill(m_most.begin(), m_most.end(), -std::numeric_limits<float>::infinity());
@@ -175,7 +175,7 @@ private:
   std::vector<float> m_most;
 };
 
-// Tissue lies above `level`; `scale` is what the unit of f is worth.
+// Tissue is above `level`; `scale` is the value of one unit of f.
 template <class T>
 VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
 {
@@ -193,7 +193,7 @@ VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
   const auto slab = [&](int from, int to)
   {
     SliceLook looker(dims);
-    std::array<Layer, 5> slices; // of voxels, by number modulo 5
+    std::array<Layer, 5> slices; // of voxels, by index modulo 5
     int next = std::max(2 * from - 1, 0);
     for (int bk = from; bk < to; ++bk)
     {
@@ -220,7 +220,7 @@ VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
           const std::size_t brick = layer * static_cast<std::size_t>(bk) + first + n;
           result.marks[brick] = static_cast<std::uint8_t>((most[n] > level ? kTissue : 0) |
                                                           (most[n] > 0.0F ? kSome : 0));
-          // The gradient of a trilinear cell is, along each axis, a mean of the four edges' steps.
+          // Along each axis, the gradient of a trilinear cell is a mean of the steps of four edges.
           const Eigen::Array3f steepest(step[0][n], step[1][n], step[2][n]);
           result.steepness[brick] = codeOf((steepest * perMm).matrix().norm());
         }
@@ -236,7 +236,7 @@ VolumeBricks bricksOf(const volume::Volume<T>& volume, float level, float scale)
   return result;
 }
 
-// Tells the CT's bricks of a union, where its occupancy is above 0.
+// Marks the CT's bricks that a union reaches, where its occupancy is above 0.
 void addUnion(const volume::Volume<float>& occupancy, const core::GridGeometry& ct,
               VolumeBricks& bricks, std::vector<std::uint8_t>& here)
 {
@@ -244,7 +244,7 @@ void addUnion(const volume::Volume<float>& occupancy, const core::GridGeometry& 
   const Eigen::Matrix3d linear =
       ct.voxelFromPatientLinear() * occupancy.geometry().patientFromVoxelLinear();
   const Eigen::Vector3d offset = ct.voxelFromPatient(occupancy.geometry().origin());
-  // Half a brick and the voxel around it, in voxels of the CT.
+  // Half a brick plus the voxel around it, in voxels of the CT.
   const Eigen::Array3d half = (linear.cwiseAbs() * Eigen::Vector3d::Ones()).array() + 1.0;
   std::size_t n = 0;
   for (int k = 0; k < own.dims[2]; ++k)

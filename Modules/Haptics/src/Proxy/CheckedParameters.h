@@ -8,8 +8,8 @@
 namespace petrous::haptics
 {
 
-/// What every proxy asks of its parameters. `tool` begins the message: "constrained proxy".
-/// Throws InvalidParameter naming the first value that is out of its domain.
+/// Common checks of all proxies' parameters. `tool` begins the message: "constrained proxy". Throws
+/// InvalidParameter naming the first value out of range.
 class ParameterCheck
 {
 public:

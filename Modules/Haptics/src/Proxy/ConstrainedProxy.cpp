@@ -14,12 +14,12 @@ namespace petrous::haptics
 namespace
 {
 
-// The motion aims at this much of a voxel above the surface, so that the curvature that the rows
-// do not know rarely costs another round.
+// Height in voxels above the surface at which the motion aims, so that curvature unknown to the
+// rows rarely costs another round.
 constexpr double kSkin = 0.01;
-constexpr double kSkinSlack = 0.3; // of the skin, that need not be given back
+constexpr double kSkinSlack = 0.3; // of the skin, which need not be recovered
 constexpr double kMaxLift = 0.05; // voxels, over a bump
-constexpr int kMaxStretches = 32; // sweeps of a tick that end freely
+constexpr int kMaxStretches = 32; // sweeps per tick that end freely
 constexpr double kMinWay = 1e-6; // mm
 
 constexpr ParameterCheck kCheck("constrained proxy");
@@ -58,7 +58,7 @@ ConstrainedProxy::ConstrainedProxy(std::shared_ptr<const HapticField> field, Poi
                  Eigen::Vector3d::Constant(parameters.angularStiffness)),
          !field->soft().empty())
   , m_rows(kMaxRows)
-  , m_refuge(std::make_unique<PoseBacktracker>(m_sweep))
+  , m_backtracker(std::make_unique<PoseBacktracker>(m_sweep))
 {
   if (!field->soft().empty())
     m_soft = std::make_unique<SoftContacts>(*field, m_sweep.shell(), m_parameters, true);
@@ -70,8 +70,8 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
 {
   if (!pose.finite())
     return;
-  m_refuge->place(pose);
-  m_hitCount = 0; // what stopped it elsewhere
+  m_backtracker->place(pose);
+  m_hitCount = 0; // stops at the previous pose
   m_caught = false;
   if (m_soft)
     m_soft->begin(pose);
@@ -79,15 +79,15 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
 
 bool ConstrainedProxy::placeFree(const Pose& pose) noexcept
 {
-  if (!pose.finite() || !m_refuge->freeAt(pose))
+  if (!pose.finite() || !m_backtracker->freeAt(pose))
     return false;
   place(pose);
   return true;
 }
 
-// Two problems. In the first, standing still is allowed, and its forces are what the hand feels. In
-// the second the tool also keeps the skin above rigid tissue; tissue on all sides may leave no room
-// for that, and then the first one's motion stands.
+// Two problems. In the first, standing still is feasible, and its forces are rendered. In the
+// second the tool also keeps the skin above rigid tissue; if tissue on all sides leaves no room for
+// that, the first one's motion is used.
 Motion ConstrainedProxy::solve(const Motion& wanted, double lift) noexcept
 {
   static_assert(kMaxHits <= ContactFinder::kMaxHits);
@@ -162,10 +162,10 @@ bool ConstrainedProxy::spent() const noexcept
   return m_sweep.samples() + m_found >= static_cast<std::size_t>(m_parameters.samples);
 }
 
-// A sweep goes no farther than its chords, and neither does the search for near points.
+// A sweep is limited to its number of chords, and so is the search for near points.
 ShellSweep::Hit ConstrainedProxy::advance(const Motion& motion, double way) noexcept
 {
-  // In stretches that grow: what stops a motion is mostly near, and what is far is not looked at.
+  // In growing stretches: obstacles are mostly near, and distant points are not examined.
   const double step = m_parameters.sweepStep * m_sweep.field().voxel();
   const double farthest = std::min(1.0, ShellSweep::kMaxSteps * step / std::max(way, 1e-12));
   double share = std::min(farthest, 2.0 * step / std::max(way, 1e-12));
@@ -202,8 +202,8 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
   const double ahead = (m_parameters.nearGap + kSkin) * h;
   int stretches = 0;
   m_waits = false;
-  // What stopped a tick that made no way is still there in the next one; so a tick need not find it
-  // all, and its work can be bounded without the tool being caught on a bump.
+  // What stopped a tick that made no progress is still there in the next one. A tick therefore need
+  // not find all obstacles: its work can be bounded without the tool being caught on a bump.
   if (!m_caught || m_caughtIn != m_sweep.state().number())
   {
     m_hitCount = 0;
@@ -223,7 +223,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     if (way < m_parameters.deadband || (made > 0.0 && spent()))
       break;
     const ShellSweep::Hit hit = advance(motion, way);
-    m_refuge->remember();
+    m_backtracker->remember();
     made += hit.free * way;
     if (hit.any)
     {
@@ -238,7 +238,7 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
       ++stretches;
     else if (hit.free * way < m_lift && m_tick.rounds < m_parameters.rounds)
     {
-      // It lies on a bump that a smooth normal does not know: up first, then on.
+      // It rests on a bump unknown to a smooth normal: first up, then on.
       m_sweep.findNear(ahead);
       const Motion up = solve({}, m_lift);
       advance(up, maxDisplacement(up, reach));
@@ -273,12 +273,12 @@ const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   m_tick.maskState = m_sweep.state().number();
-  if (m_refuge->notice())
+  if (m_backtracker->notice())
     m_tick.status = ProxyStatus::Retreated;
-  if (m_refuge->inside())
+  if (m_backtracker->inside())
   {
-    m_refuge->follow(goal);
-    m_tick.status = m_refuge->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
+    m_backtracker->follow(goal);
+    m_tick.status = m_backtracker->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
   }
   else
     follow(goal);

@@ -16,17 +16,17 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kSkin = 0.01;     // voxels: the centre aims this high above the surface
+constexpr double kSkin = 0.01;     // voxels: height above the surface at which the centre aims
 constexpr double kMaxLift = 0.05; // voxels, over a bump
-constexpr double kKept = 0.1; // voxels: a plane counts again as near as this to where it is from
+constexpr double kKept = 0.1; // voxels: a plane is reused within this distance of its origin
 constexpr std::size_t kMaxKept = 8;
-constexpr double kReach = 0.1;     // voxels: of what is asked of the surface as it is, ripples too
-constexpr double kWithin = 0.005;  // voxels: beyond where a sweep ended, to see what ended it
-constexpr double kAgainst = 0.02;  // cosine: a normal is at least so much against the way in
-constexpr double kAstray = 0.5;    // cosine: one that is so far along it says nothing
-constexpr double kFlat = 1e-6;     // of f a voxel: no slope to speak of
-constexpr double kMin = 1e-9;    // N: a smaller push is none
-constexpr int kMaxStretches = 32; // sweeps of a tick that end freely
+constexpr double kReach = 0.1;     // voxels: scale of the actual surface, ripples included
+constexpr double kWithin = 0.005;  // voxels: beyond the end of a sweep, to see what ended it
+constexpr double kAgainst = 0.02;  // cosine: minimum by which a normal opposes the motion
+constexpr double kAstray = 0.5;    // cosine: a normal this far along the motion is not used
+constexpr double kFlat = 1e-6;     // of f per voxel: below this the slope is meaningless
+constexpr double kMin = 1e-9;    // N: a smaller push is ignored
+constexpr int kMaxStretches = 32; // sweeps per tick that end freely
 
 constexpr ParameterCheck kCheck("centre proxy");
 
@@ -49,7 +49,7 @@ PointShell centreAlone()
   return shell;
 }
 
-// The ball's surface: the outermost points that fill it, on the sphere.
+// The ball's surface: the outermost of the points that fill it, projected onto the sphere.
 PointShell ballOf(const BurrVolume& volume, double radius)
 {
   PointShell shell;
@@ -64,7 +64,7 @@ PointShell ballOf(const BurrVolume& volume, double radius)
   return shell;
 }
 
-// The problem is one of translation: the angular half of rows and goal is zero.
+// Translation only: the angular half of rows and goal is zero.
 ContactQp::Vector6 straight(const Vector3d& linear)
 {
   ContactQp::Vector6 result;
@@ -84,7 +84,7 @@ PointProxy::PointProxy(std::shared_ptr<const HapticField> field, const CentreBur
                  static_cast<double>(m_volume->points().size()))
   , m_qp(field->soft().empty() ? kMaxHits + 1 : kMaxRows,
          ContactQp::Vector6::Constant(parameters.stiffness), !field->soft().empty())
-  , m_refuge(std::make_unique<PoseBacktracker>(m_sweep))
+  , m_backtracker(std::make_unique<PoseBacktracker>(m_sweep))
 {
   if (field->soft().empty())
     return;
@@ -103,7 +103,7 @@ void PointProxy::place(const Pose& pose) noexcept
 {
   if (!pose.finite())
     return;
-  m_refuge->place(pose);
+  m_backtracker->place(pose);
   if (m_soft)
     m_soft->begin({pose.position, Eigen::Quaterniond::Identity()});
   m_tick.pose = m_sweep.pose();
@@ -111,14 +111,14 @@ void PointProxy::place(const Pose& pose) noexcept
 
 bool PointProxy::placeFree(const Pose& pose) noexcept
 {
-  if (!pose.finite() || !m_refuge->freeAt(pose))
+  if (!pose.finite() || !m_backtracker->freeAt(pose))
     return false;
   place(pose);
   return true;
 }
 
-// The tissue's surface as the centre sees it close by. The normal is smooth, over a voxel; how far
-// it is follows from the slope right here, as edges of an image are no straight ramps.
+// The tissue's surface near the centre. The normal is smoothed over a voxel; the distance follows
+// from the local slope, as edges in an image are not linear ramps.
 bool PointProxy::nearPlane(Plane& plane) const noexcept
 {
   if (m_sweep.nearCount() == 0)
@@ -140,7 +140,7 @@ bool PointProxy::nearPlane(Plane& plane) const noexcept
   return true;
 }
 
-// What ended a sweep: the surface just there. Where that says nothing, it is against the way.
+// The surface that ended a sweep. Without a usable gradient the normal opposes the motion.
 PointProxy::Plane PointProxy::planeOf(const ShellSweep::Hit& hit) const noexcept
 {
   const HapticField& field = m_sweep.field();
@@ -157,7 +157,7 @@ PointProxy::Plane PointProxy::planeOf(const ShellSweep::Hit& hit) const noexcept
   Vector3d normal = -hit.direction;
   if (steep * field.voxel() > kFlat && gradient.dot(hit.direction) > -kAstray * steep)
   {
-    // It went in, so a normal along the way is tilted against it, by no more than it takes.
+    // The motion went in, so a normal along it is tilted against it, by no more than needed.
     normal = -gradient / steep;
     const double along = normal.dot(hit.direction) + kAgainst;
     normal = (normal - std::max(along, 0.0) * hit.direction).normalized();
@@ -173,8 +173,8 @@ void PointProxy::addRow(const Plane& plane, double lift, bool tight) noexcept
     m_rows[row] = plane;
 }
 
-// The motion that comes nearest to the wanted one and keeps to the right side of every plane.
-// Where there is no room for skin and lift, standing still must be allowed.
+// The motion closest to the wanted one on the right side of every plane. If there is no room for
+// skin and lift, standing still must be feasible.
 Vector3d PointProxy::solve(const Vector3d& wanted, double lift) noexcept
 {
   Plane near;
@@ -200,7 +200,7 @@ Vector3d PointProxy::solve(const Vector3d& wanted, double lift) noexcept
   return m_qp.solution().head<3>();
 }
 
-// A sweep goes no farther than its chords, and neither does the search for tissue.
+// A sweep is limited to its number of chords, and so is the search for tissue.
 ShellSweep::Hit PointProxy::advance(const Vector3d& motion) noexcept
 {
   const double most = static_cast<double>(ShellSweep::kMaxSteps) * m_parameters.sweepStep *
@@ -209,8 +209,8 @@ ShellSweep::Hit PointProxy::advance(const Vector3d& motion) noexcept
   return m_sweep.advance({motion, Vector3d::Zero()});
 }
 
-// What stopped the last ticks, presses and is right here still holds, while the tissue is the same:
-// in corners the centre comes to rest rather than to try the same walls over and over.
+// Planes of the last ticks that are active and nearby stay valid while the mask is unchanged: in
+// corners the centre comes to rest rather than meeting the same walls again and again.
 void PointProxy::keepPlanes() noexcept
 {
   const bool same = m_sweep.state().number() == m_number;
@@ -239,7 +239,7 @@ void PointProxy::follow(const Vector3d& goal) noexcept
     if (motion.norm() < m_parameters.deadband)
       return;
     const ShellSweep::Hit hit = advance(motion);
-    m_refuge->remember();
+    m_backtracker->remember();
     if (!hit.any && hit.free >= 1.0 && part >= 1.0)
       return;
     if (!hit.any)
@@ -251,7 +251,7 @@ void PointProxy::follow(const Vector3d& goal) noexcept
     m_hits[m_hitCount++] = planeOf(hit);
     if (hit.free * motion.norm() < lift && m_tick.rounds < m_parameters.rounds)
     {
-      // It lies on a bump that the smooth normal does not know: up first, then on.
+      // It rests on a bump unknown to the smooth normal: first up, then on.
       m_sweep.findNear(ahead);
       advance(solve(Vector3d::Zero(), lift));
       lift = std::min(2.0 * lift, kMaxLift * h);
@@ -269,7 +269,7 @@ void PointProxy::addContact(const Vector3d& normal, double thrust, double gap) n
   contact.thrust = thrust;
 }
 
-// Force of the soft structures; their contacts are noted.
+// Force of the soft structures; adds their contacts.
 Vector3d PointProxy::softPush() noexcept
 {
   Vector3d sum = Vector3d::Zero();
@@ -341,13 +341,13 @@ const ProxyTick& PointProxy::step(const Pose& goal) noexcept
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   m_tick.maskState = m_sweep.state().number();
-  if (m_refuge->notice())
+  if (m_backtracker->notice())
     m_tick.status = ProxyStatus::Retreated;
-  if (m_refuge->inside())
+  if (m_backtracker->inside())
   {
-    m_refuge->follow(goal);
-    m_tick.status = m_refuge->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
-    if (m_refuge->inside())
+    m_backtracker->follow(goal);
+    m_tick.status = m_backtracker->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
+    if (m_backtracker->inside())
       m_tick.penetration = m_radius;
   }
   else

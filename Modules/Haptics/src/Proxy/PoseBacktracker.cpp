@@ -8,7 +8,7 @@ namespace petrous::haptics
 namespace
 {
 constexpr double kTrailStep = 0.5;         // voxels
-constexpr std::size_t kMaxRetreat = 3000; // samples of the field in a tick
+constexpr std::size_t kMaxRetreat = 3000; // field samples per tick
 } // namespace
 
 PoseBacktracker::PoseBacktracker(ShellSweep& sweep)
@@ -64,7 +64,7 @@ void PoseBacktracker::remember() noexcept
   m_trailLength = std::min(m_trailLength + 1, kTrail);
 }
 
-// Back along the path to the last pose that is free now, as far as a tick's work goes.
+// Goes back along the path to the last pose that is free now, within a tick's budget.
 bool PoseBacktracker::retreat() noexcept
 {
   while (m_trailLength > 0)

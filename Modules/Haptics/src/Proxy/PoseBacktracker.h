@@ -9,33 +9,33 @@
 namespace petrous::haptics
 {
 
-/// Where a tool can go when tissue comes back round it (undo, another state of the mask): the way
-/// that it came, as poses that were free. A tool that has nowhere to go is inside, and follows the
-/// hand without contact until it is free.
+/// Resolves tissue restored around a tool (undo, another mask state): the tool goes back along its
+/// path, which is stored as poses that were free. A tool without a free pose is inside and follows
+/// the device without contact until it is free.
 ///
-/// Only the constructor allocates; nothing locks or throws. One thread.
+/// Only the constructor allocates; nothing locks or throws. Not thread-safe.
 class PoseBacktracker
 {
 public:
-  explicit PoseBacktracker(ShellSweep& sweep); ///< which must outlive this
+  explicit PoseBacktracker(ShellSweep& sweep); ///< must outlive this
 
-  /// Puts the tool where it is told; the way that it came is forgotten.
+  /// Places the tool at `pose`; clears its path.
   void place(const Pose& pose) noexcept;
 
-  /// Whether no tissue is there, by the mask as it is now.
+  /// Whether the tool would be free of tissue in the current mask state.
   bool freeAt(const Pose& pose) noexcept;
 
-  /// Looks at the sweep's present state of the mask. True when tissue came back round the tool and
-  /// it went back on its path. What of that a tick's work is not enough for, the next ones do; the
-  /// tool is inside until then.
+  /// Processes the sweep's mask state. True if tissue was restored around the tool and it went back
+  /// along its path. Work beyond a tick's budget continues in the next ticks; the tool is inside
+  /// until then.
   bool notice() noexcept;
 
   bool inside() const noexcept { return m_inside; }
 
-  /// Inside: the tool goes where the hand is, and may be free there.
+  /// If inside: moves the tool to the goal, where it may be free.
   void follow(const Pose& goal) noexcept;
 
-  /// The tool is free where it is now.
+  /// Stores the present pose, which is free.
   void remember() noexcept;
 
 private:
@@ -50,7 +50,7 @@ private:
   std::size_t m_trailLength = 0;
   std::uint64_t m_raises = 0;
   bool m_inside = false;
-  bool m_retreats = false; // inside, and the way back is not looked through yet
+  bool m_retreats = false; // inside, and the path back is not fully searched yet
 };
 
 } // namespace petrous::haptics

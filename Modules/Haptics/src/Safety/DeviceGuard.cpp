@@ -12,8 +12,8 @@ namespace petrous::haptics
 namespace
 {
 
-// Readings closer in time than this are judged as if they were so far apart: the noise of a
-// position divided by almost no time would be a high speed.
+// Readings closer in time than this are judged as if that far apart: position noise divided by a
+// tiny interval would be a high speed.
 constexpr double kShortestTick = 1e-3; // s
 
 void check(bool holds, const char* what)
@@ -99,7 +99,7 @@ DeviceGuard::Judgement DeviceGuard::judge(const DeviceReading& reading, double n
   const bool repeated = result.verdict == DeviceVerdict::Repeated;
   const bool elsewhere =
       result.verdict == DeviceVerdict::Jump || result.verdict == DeviceVerdict::TimeBackward;
-  if (sound || elsewhere) // after a jump the next reading is held against where the hand is then
+  if (sound || elsewhere) // after a jump the next reading is compared with this one
   {
     m_latest = {reading.pose.position, reading.pose.rotation.normalized()};
     m_time = reading.time;
@@ -162,7 +162,7 @@ const char* toString(DeviceVerdict verdict) noexcept
 
 std::string toString(const DeviceGuard::Judgement& judgement)
 {
-  // There is none for a turn, nor where the device itself says that it is stale.
+  // No number for a rotation, nor if the device itself reports that it is stale.
   const double value = judgement.value;
   if (value == 0.0)
     return toString(judgement.verdict);

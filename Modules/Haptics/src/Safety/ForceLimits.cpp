@@ -32,7 +32,7 @@ Vector3d saturate(const Vector3d& wanted, double most, bool& noted) noexcept
   const double largest = wanted.cwiseAbs().maxCoeff();
   if (largest == 0.0)
     return wanted;
-  // Scaled first: the square of a huge number is not finite.
+  // Scaled first: the square of a huge number overflows.
   const Vector3d scaled = wanted / largest;
   const double norm = scaled.norm();
   if (largest <= most / norm)
@@ -51,7 +51,7 @@ Vector3d slew(const Vector3d& last, const Vector3d& target, double most, bool& n
   return last + change * (most / norm);
 }
 
-// As long as `target` where that is shorter, in the direction of `last`.
+// Reduced to the length of `target` if that is shorter, in the direction of `last`.
 Vector3d shrink(const Vector3d& last, const Vector3d& target) noexcept
 {
   const double norm = last.norm();

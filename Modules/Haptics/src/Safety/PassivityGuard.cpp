@@ -66,7 +66,7 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
   m_damping = 0.0;
   const double dt = now - m_time;
   const bool observed =
-      m_hasPose && pose.finite() && dt > 0.0 && dt <= kMaxStep; // false where dt is NaN
+      m_hasPose && pose.finite() && dt > 0.0 && dt <= kMaxStep; // false if dt is NaN
   Motion step;
   if (observed)
   {
@@ -75,7 +75,7 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
                  m_parameters.deviceAngularDamping * step.angular.squaredNorm()) /
                     dt -
                 m_sent.linear.dot(step.linear) - m_sent.angular.dot(step.angular);
-    if (!std::isfinite(m_energy)) // of forces that no device gives
+    if (!std::isfinite(m_energy)) // from implausible forces
       m_energy = 0.0;
   }
   m_hasPose = pose.finite() && std::isfinite(now);

@@ -16,9 +16,9 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kFelt = 0.02;            // voxels that the ball may be felt too small by
-constexpr std::size_t kFewest = 100;      // on a burr, however coarse the voxels
-const double kRowShare = std::sqrt(0.75); // distance of rows to that of points in a row
+constexpr double kFelt = 0.02;            // voxels by which the ball may be felt too small
+constexpr std::size_t kFewest = 100;      // on a burr, for any voxel size
+const double kRowShare = std::sqrt(0.75); // ratio of row distance to point distance
 
 void check(const char* what, double value, double least, double most)
 {
@@ -59,7 +59,7 @@ SphereCover coverBurr(double radius, double rim, double voxel, std::size_t most)
   }
 }
 
-// Rows of points round the axis, each turned by half a step against the one before.
+// Rows of points around the axis, each rotated by half a step against the previous one.
 struct Rows
 {
   double radius = 0.0; // of the cylinder, mm
@@ -76,7 +76,7 @@ double hole(double step, double pitch)
   return pitch >= 0.5 * step ? 0.5 * slant / pitch : slant / step;
 }
 
-// The rows of at most `count` points with the smallest holes, from `lead` of a pitch after `from`
+// The rows with the smallest holes for at most `count` points, from `lead` of a pitch after `from`
 // up to `to`.
 Rows bestRows(double radius, double from, double to, double lead, std::size_t count)
 {
@@ -116,7 +116,8 @@ void add(PointShell& shell, const Rows& rows, bool firstIsEdge)
     }
 }
 
-// The disc between shaft and handpiece: rings about `step` apart, none on its inner or outer rim.
+// The disc between shaft and handpiece: rings about `step` apart, excluding its inner and outer
+// rims.
 void addDisc(PointShell& shell, double inner, double outer, double z, double step)
 {
   const double width = outer - inner;
@@ -142,7 +143,7 @@ void addHandpiece(PointShell& shell, const BurrShape& shape, std::size_t count)
   const double side = 2.0 * kPi * radius * shape.handpieceLength;
   const std::size_t before = shell.points.size();
   std::size_t onDisc = count;
-  // Two rows of three at least are left for the side.
+  // At least two rows of three are left for the side.
   for (double step = std::sqrt((disc + side) / (kRowShare * static_cast<double>(count)));
        onDisc + 6 > count; step *= 1.1)
   {
@@ -158,7 +159,7 @@ void addHandpiece(PointShell& shell, const BurrShape& shape, std::size_t count)
       disc > 0.0);
 }
 
-// Largest distance of shaft and handpiece to the nearest point; parameters are lengths along them.
+// Largest distance of shaft and handpiece to their nearest point; parameterised by arc length.
 double measureSpacing(const PointShell& shell, const BurrShape& shape, double neck)
 {
   const double inner = shape.shaftRadius;
@@ -202,7 +203,7 @@ PointShell makeBurrShell(const BurrShape& wanted, double voxel, std::size_t budg
   shell.burrCount = shell.points.size();
   shell.burrSpacing = shape.radius * burr.spacing;
 
-  // Shaft and handpiece get half of the rest each, but are no denser than the burr.
+  // Shaft and handpiece get half of the rest each, but no denser than the burr.
   const double neck = shell.points.front().z();
   shell.burrRadius = shape.radius;
   shell.burrTop = neck;

@@ -12,9 +12,10 @@ namespace
 {
 constexpr double kPi = 3.141592653589793;
 constexpr double kGoldenAngle = 2.399963229728653; // pi (3 - sqrt 5)
-constexpr double kFlat = 1e-6;                     // of f a voxel: no slope to speak of
+constexpr double kFlat = 1e-6;                     // of f per voxel: below this the slope is
+                                                   // meaningless
 constexpr double kUntouched = 0.5;                 // of the mask's operand
-constexpr double kLayers = 1.25; // spheres a spacing: of 1 to 2 it gives the least ripple
+constexpr double kLayers = 1.25; // spheres per spacing: least ripple between 1 and 2
 constexpr int kBisections = 8;
 
 Eigen::Vector3d onSpiral(std::size_t i, std::size_t count)
@@ -58,7 +59,7 @@ BurrVolume::BurrVolume(const HapticField& field, double radius, std::size_t coun
   m_spacing = radius * std::cbrt(4.0 / 3.0 * kPi / static_cast<double>(m_points.size()));
 }
 
-// How much of the point's share of the ball is in tissue, as if its surface there were a plane.
+// Fraction of the point's volume inside tissue, taking its surface there as a plane.
 double BurrVolume::filled(const Eigen::Vector3d& voxel, const FieldSample& sample,
                           const volume::MaskState& mask) const noexcept
 {
@@ -78,8 +79,8 @@ double BurrVolume::filled(const Eigen::Vector3d& voxel, const FieldSample& sampl
   return std::clamp(0.5 + value / (slope * m_spacing), 0.0, 1.0);
 }
 
-// On the way (voxels) from the centre, which is in no rigid tissue, to a place that is: the share
-// of it up to the tissue.
+// Fraction of the path (voxels) up to tissue, from the centre, which is not in rigid tissue, to a
+// point that is.
 double BurrVolume::firstInside(const Eigen::Vector3d& centre, const Eigen::Vector3d& way,
                                const volume::MaskState& mask) const noexcept
 {
@@ -109,12 +110,13 @@ BurrVolume::Push BurrVolume::push(const Eigen::Vector3d& centre,
     const FieldSample sample = m_field.sample(at, mask);
     result.sum -= filled(at, sample, mask) * m_outward[i];
     if (sample.value > 0.0 && nearest == m_points.size())
-      nearest = i; // the inner points come first
+      nearest = i; // inner points come first
   }
   if (nearest == m_points.size())
     return result;
   double distance = m_points[nearest].norm() * firstInside(voxel, m_offsets[nearest], mask);
-  // Against the push tissue is nearer still, where it is about as flat as the ball is wide.
+  // In the direction opposite to the push tissue is closer still, if it is nearly flat over the
+  // ball.
   const Eigen::Vector3d ahead =
       m_field.geometry().voxelFromPatientLinear() * (-distance * result.sum.normalized());
   if (m_field.sample(voxel + ahead, mask).value > 0.0)

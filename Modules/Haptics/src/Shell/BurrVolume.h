@@ -10,18 +10,18 @@
 namespace petrous::haptics
 {
 
-/// A ball as points that fill it evenly, and how tissue pushes it towards its centre
+/// A ball filled evenly with points, and the force with which tissue pushes it towards its centre
 /// [Chan2013, 2.3, after the point sampling of its reference 7].
 ///
-/// The points lie on concentric spheres, each the sphere of equal mean volume within its layer, in
-/// Fibonacci spirals of opposite pairs; every sphere is turned its own way. So no plane cuts many
-/// points at once, as it does with a lattice, and the push of a ball all in tissue is zero.
+/// The points are on concentric spheres, each the sphere of equal mean volume within its layer, in
+/// Fibonacci spirals of opposite pairs; every sphere is rotated differently. No plane therefore
+/// cuts many points at once, as with a lattice, and the push on a ball fully in tissue is zero.
 ///
-/// Fixed to the patient's axes: a ball looks the same from all sides. Const calls are thread-safe.
+/// Fixed to the patient's axes: a ball is rotationally symmetric. Const calls are thread-safe.
 class BurrVolume
 {
 public:
-  /// The field must outlive it. radius mm; count as wished, about.
+  /// The field must outlive this. radius mm; count is approximate.
   BurrVolume(const HapticField& field, double radius, std::size_t count);
 
   const std::vector<Eigen::Vector3d>& points() const noexcept { return m_points; }
@@ -30,12 +30,12 @@ public:
   struct Push
   {
     Eigen::Vector3d sum{0.0, 0.0, 0.0}; ///< sum over the points of -s_i u_i, patient axes
-    double depth = 0.0;                 ///< mm, R less the distance from the centre to the nearest
-                                        ///< rigid tissue that a point has found
-    std::size_t looked = 0;             ///< points that were looked at
+    double depth = 0.0;                 ///< mm, R minus the distance from the centre to the nearest
+                                        ///< rigid tissue found by a point
+    std::size_t looked = 0;             ///< points examined
   };
 
-  /// Of rigid tissue; centre in the patient, mm.
+  /// Push by rigid tissue; centre in patient coordinates, mm.
   Push push(const Eigen::Vector3d& centre, const volume::MaskState& mask) const noexcept;
 
 private:

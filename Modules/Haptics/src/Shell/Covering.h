@@ -11,12 +11,12 @@
 namespace petrous::haptics
 {
 
-/// How far a surface gets from a set of points: the largest distance of any of its places to its
-/// nearest point, by branch and bound over triangles.
+/// Covering radius of a set of points on a surface: the largest distance of any surface point to
+/// the nearest of the set, by branch and bound over triangles.
 ///
-/// A triangle may lie in a plane of parameters; `map` takes it to the surface and must not stretch
-/// (|map(a) - map(b)| <= |a - b|). Then no place of the triangle is farther from the points than
-/// its centroid is plus the centroid's distance to the farthest corner.
+/// A triangle may be in a parameter plane; `map` takes it to the surface and must not expand
+/// (|map(a) - map(b)| <= |a - b|). The distance of any of its points to the set is then at most
+/// that of its centroid plus the centroid's distance to the farthest corner.
 class Covering
 {
 public:
@@ -42,7 +42,7 @@ public:
       m_worst = std::max(m_worst, distance);
       if (distance + radius <= kSlack * m_worst)
         continue;
-      // Halved across the longest side: slivers end as quickly as others.
+      // Bisected at the longest side, so that slivers converge as fast as others.
       std::size_t k = 0;
       for (const std::size_t side : {1, 2})
         if ((t[side] - t[(side + 1) % 3]).squaredNorm() > (t[k] - t[(k + 1) % 3]).squaredNorm())
@@ -53,7 +53,7 @@ public:
     }
   }
 
-  /// A rectangle of the plane of parameters, from (0, 0) to (width, height).
+  /// A rectangle of the parameter plane, from (0, 0) to (width, height).
   template <typename Map>
   void addRectangle(double width, double height, Map map)
   {
@@ -64,14 +64,14 @@ public:
         map);
   }
 
-  /// Not below the truth, and at most 1 % above it.
+  /// Upper bound, at most 1 % above the true value.
   double bound() const { return kSlack * m_worst; }
 
 private:
   static constexpr double kSlack = 1.01;
 
-  const PointGrid& m_grid; ///< the caller keeps it
-  double m_worst = 1e-9;   ///< above 0, so that the search ends where points are everywhere
+  const PointGrid& m_grid; ///< owned by the caller
+  double m_worst = 1e-9;   ///< above 0, so that the search terminates if points are everywhere
   std::vector<Triangle> m_open;
 };
 

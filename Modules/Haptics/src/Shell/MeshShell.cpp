@@ -21,9 +21,9 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSharpCorner = 0.5; // rad that the angles round a corner lack of (or exceed) 2 pi
-constexpr double kSharpEdge = 0.6;   // rad between the normals of its triangles
-constexpr std::size_t kChoices = 40; // places to choose from for each point
+constexpr double kSharpCorner = 0.5; // rad by which the angles around a vertex differ from 2 pi
+constexpr double kSharpEdge = 0.6;   // rad between the normals of adjacent triangles
+constexpr std::size_t kChoices = 40; // candidates for each point
 constexpr std::size_t kMaxChoices = 200000;
 constexpr int kRelaxations = 16;
 
@@ -63,7 +63,7 @@ public:
     {
       const Vector3d cross =
           (m_vertices[t[1]] - m_vertices[t[0]]).cross(m_vertices[t[2]] - m_vertices[t[0]]);
-      // One without area has no normal, and no place that its neighbours lack.
+      // A degenerate triangle has no normal, and its neighbours cover its points.
       if (!(cross.norm() > 0.0))
         continue;
       m_triangles.push_back(t);
@@ -77,7 +77,7 @@ public:
 
   double area() const { return m_area; }
 
-  // Vertices whose angles do not add up to those of a plane, the sharpest first.
+  // Vertices with the largest angle defect, sharpest first.
   Places corners(std::size_t most) const
   {
     std::vector<double> angles(m_vertices.size(), 0.0);
@@ -107,7 +107,7 @@ public:
     return places;
   }
 
-  // Points at most `step` apart on edges where the surface breaks, their ends included.
+  // Points at most `step` apart on sharp edges, including their ends.
   Places edges(double step) const
   {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> firstSide;
@@ -133,7 +133,7 @@ public:
     return places;
   }
 
-  // Places spread by area, each triangle's on a low-discrepancy sequence (Roberts' R2).
+  // Points distributed by area, each triangle's on a low-discrepancy sequence (Roberts' R2).
   Places spread(std::size_t count) const
   {
     Places places;
@@ -176,14 +176,15 @@ private:
   double m_area = 0.0;
 };
 
-// The two sides of a thin blade are near one another and yet apart.
+// The two sides of a thin blade are close but distinct.
 bool sameSide(const Vector3d& normal, const Vector3d& other)
 {
   return normal.dot(other) > 0.0;
 }
 
-// Adds to `chosen`, until it has `most` or each choice lies within `enough` of one, the choice
-// that is farthest from all before (Gonzalez 1985). `cell` is of the order of what results.
+// Farthest-point sampling (Gonzalez 1985): adds to `chosen` the choice farthest from all before,
+// until it has `most` points or each choice is within `enough` of one. `cell` is of the order of
+// the resulting spacing.
 void addFarthest(Places& chosen, const Places& choices, std::size_t most, double enough,
                  double cell)
 {
@@ -223,7 +224,7 @@ void addFarthest(Places& chosen, const Places& choices, std::size_t most, double
     farthest.pop();
     const std::size_t i = choices.at.size() - key;
     if (d != distance[i])
-      continue; // it has come nearer since
+      continue; // outdated: its distance has decreased
     if (d <= enough)
       break;
     chosen.add(choices.at[i], choices.normal[i]);
@@ -231,8 +232,8 @@ void addFarthest(Places& chosen, const Places& choices, std::size_t most, double
   }
 }
 
-// Each point but the first `fixed` goes to the middle of the places that are nearest to it, on the
-// surface (Lloyd).
+// Lloyd relaxation: moves each point but the first `fixed` to the centre of the choices nearest to
+// it, on the surface.
 void relax(Places& chosen, std::size_t fixed, const Places& choices, double spacing)
 {
   for (int round = 0; round < kRelaxations; ++round)
@@ -275,7 +276,7 @@ PointShell makeMeshShell(const core::TriangleMesh& mesh, const std::string& name
 {
   checkShellBudget(budget, name);
   const Surface surface(mesh, name);
-  // Of an even triangular lattice with that many points.
+  // Spacing of a regular triangular lattice with that many points.
   const double step = std::sqrt(surface.area() / (std::sqrt(0.75) * static_cast<double>(budget)));
 
   Places chosen = surface.corners(budget / 4);

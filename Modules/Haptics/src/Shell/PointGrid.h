@@ -12,14 +12,14 @@
 namespace petrous::haptics
 {
 
-/// Points sorted into cubes, so that those near a place are found without looking at all of them.
-/// For building shells; it allocates. Lengths in the points' own unit.
+/// Points binned into cubes, for fast neighbour search. For building shells; allocates. Lengths in
+/// the points' own unit.
 class PointGrid
 {
 public:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  /// `cell` is the wished edge of a cube; it grows where the box would hold too many cubes.
+  /// `cell` is the desired edge of a cube; increased if the box would hold too many cubes.
   PointGrid(const std::vector<Eigen::Vector3d>& points, double cell)
     : m_points(points)
   {
@@ -55,7 +55,8 @@ public:
       m_order[next[home[i]]++] = i;
   }
 
-  /// visit(index) for every point of the cubes that a ball reaches; a few lie outside the ball.
+  /// Calls visit(index) for every point of the cubes that a ball reaches; a few are outside the
+  /// ball.
   template <typename Visit>
   void near(const Eigen::Vector3d& centre, double radius, Visit visit) const
   {
@@ -77,11 +78,11 @@ public:
     double distance = std::numeric_limits<double>::infinity();
   };
 
-  /// The nearest point for which allowed(index) holds; of equals the first in `points`.
+  /// The nearest point for which allowed(index) holds; ties go to the first in `points`.
   template <typename Allowed>
   Nearest nearest(const Eigen::Vector3d& place, Allowed allowed) const
   {
-    // A ball that holds a point holds the nearest one; it doubles until it does, or holds all.
+    // A ball that contains a point contains the nearest one; doubled until it does or contains all.
     const double all = (m_cell * Eigen::Vector3d(m_count[0], m_count[1], m_count[2])).norm() +
                        2.0 * (place - m_low).norm();
     for (double radius = m_cell;; radius *= 2.0)
@@ -120,7 +121,7 @@ private:
     return (static_cast<std::size_t>(c[2]) * m_count[1] + c[1]) * m_count[0] + c[0];
   }
 
-  const std::vector<Eigen::Vector3d>& m_points; ///< the caller keeps them
+  const std::vector<Eigen::Vector3d>& m_points; ///< owned by the caller
   Eigen::Vector3d m_low = Eigen::Vector3d::Zero();
   double m_cell = 1.0;
   Cube m_count{};

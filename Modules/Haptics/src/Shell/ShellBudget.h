@@ -8,7 +8,7 @@
 namespace petrous::haptics
 {
 
-/// Throws InvalidParameter "NAME: ..." when a shell may not have that many points.
+/// Throws InvalidParameter "NAME: ..." if a shell may not have that many points.
 inline void checkShellBudget(std::size_t budget, const std::string& name)
 {
   if (budget < 200 || budget > 20000)

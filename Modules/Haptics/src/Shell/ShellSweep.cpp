@@ -11,9 +11,9 @@ namespace petrous::haptics
 
 namespace
 {
-// Stretches of a path shorter than this much of a voxel are not halved further.
+// Path segments shorter than this fraction of a voxel are not halved further.
 constexpr double kFinest = 1.0 / 16.0;
-constexpr std::size_t kLooksInADistance = 4; // at a sample that sleeps
+constexpr std::size_t kLooksInADistance = 4; // skipped samples that cost as much as one distance
 constexpr std::size_t kMaxMeetings = SolidParts::kParts * SurfaceSamples::kMaxSamples;
 } // namespace
 
@@ -84,7 +84,7 @@ void ShellSweep::forgetClearances() noexcept
   m_inside = 0.0;
 }
 
-// Of a point whose known clearance is not enough.
+// Examines a point whose known clearance is insufficient.
 void ShellSweep::judge(std::size_t point, double way) noexcept
 {
   const Eigen::Vector3d voxel = voxelOf(static_cast<std::uint32_t>(point));
@@ -168,7 +168,7 @@ double ShellSweep::penetration() const noexcept
                                     std::max(m_shell.burrRadius, m_field->voxel())));
 }
 
-// Where on the chord f rises above 0: the share of it that is free, 1 when all of it is.
+// Where f rises above 0 on the chord: the fraction of it that is free, 1 if all of it is.
 double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& atFrom,
                                const Eigen::Vector3d& to, const FieldSample& atTo,
                                double limit) const noexcept
@@ -188,7 +188,7 @@ double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& a
   const auto endOf = [](double at, const FieldSample& s) -> End {
     return {at, s.value, s.uncut, s.left};
   };
-  std::array<Stretch, 40> stack; // one for each halving
+  std::array<Stretch, 40> stack; // one per halving
   std::size_t depth = 0;
   stack[depth++] = {endOf(0.0, atFrom), endOf(1.0, atTo)};
   while (depth > 0)
@@ -198,7 +198,7 @@ double ShellSweep::firstInside(const Eigen::Vector3d& from, const FieldSample& a
       return 1.0;
     const double part = end.at - begin.at;
     const double run = part * length;
-    // Tissue needs both operands above 0 somewhere on the way.
+    // Tissue requires both operands to be above 0 somewhere on the segment.
     const bool free = begin.uncut + end.uncut + steepness * run <= 0.0 ||
                       begin.left + end.left + m_field->leftSteepness() * run <= 0.0 ||
                       run <= finest;
@@ -222,8 +222,8 @@ double ShellSweep::distanceAt(const Meeting& meeting, const Pose& pose) const no
                                      pose.rotation.conjugate() * (meeting.place - pose.position));
 }
 
-// Of the samples, those that the motion can bring into the tool. One that lies in it already, by
-// less than matters or since the mask changed, may not go deeper.
+// The surface samples that the motion can bring into the tool. One that is in it already, within
+// the tolerance or since the mask changed, may not go deeper.
 void ShellSweep::findMeetings(const Motion& motion) noexcept
 {
   m_meetingCount = 0;
@@ -256,7 +256,7 @@ void ShellSweep::findMeetings(const Motion& motion) noexcept
 std::uint32_t ShellSweep::chordsTo(const Meeting& meeting, double distance, double linear,
                                    double angular) const noexcept
 {
-  // The place may be beyond the part's reach by as much as it is away from it.
+  // The place may be beyond the part's reach by as much as its distance from it.
   const double arm = m_surface->parts().reach(meeting.part) + std::max(distance, 0.0);
   const double chords = (distance - meeting.least) / std::max(linear + angular * arm, 1e-12);
   return static_cast<std::uint32_t>(std::clamp(chords, 1.0, double{kMaxSteps}));
@@ -275,7 +275,7 @@ ShellSweep::Hit ShellSweep::hitOf(const Meeting& meeting, const Pose& pose,
   return hit;
 }
 
-// The samples at the end of chord s.
+// Tests the samples at the end of chord s.
 void ShellSweep::meet(std::uint32_t s, const Motion& motion, double perStep, double& best,
                       Hit& hit) noexcept
 {
@@ -337,8 +337,8 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t maxSamples
   m_blocker = {};
   findMeetings({share * motion.linear, share * motion.angular});
 
-  // Chord by chord, so that what is paid is the way that is made. A point sleeps while it cannot
-  // have come to tissue.
+  // Chord by chord, so that cost is proportional to the motion made. A point sleeps while it cannot
+  // have reached tissue.
   Hit hit;
   auto best = static_cast<double>(steps);
   const double linear = perStep * motion.linear.norm();
@@ -390,13 +390,13 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t maxSamples
   hit.free = perStep * best;
   if (!hit.any)
   {
-    // Where it came to stand is the end of a chord.
+    // The tool came to rest at the end of a chord.
     m_deepest = volume::TissueField::kAir;
     for (std::size_t n = 0; n < m_nearCount; ++n)
       if (m_known[n])
         deepen(m_near[n].sample.value, m_near[n].point);
   }
-  // The samples lie on chords: where the tool comes to stand is looked at itself.
+  // The field is sampled at the ends of chords: the final pose is tested itself.
   if (hit.any)
   {
     const double before = m_deepest;
@@ -407,7 +407,7 @@ ShellSweep::Hit ShellSweep::advance(const Motion& motion, std::size_t maxSamples
       const Pose pose = moved(m_pose, motion, hit.free);
       if (freeThere(pose))
         break;
-      // It is another place that the tool may not go on at, and needs a contact of its own.
+      // A different place blocks the tool, and needs a contact of its own.
       if (m_deepest > 0.0)
       {
         const Eigen::Vector3d arm = pose.rotation * m_shell.points[m_deepestPoint];

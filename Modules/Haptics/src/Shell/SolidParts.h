@@ -21,19 +21,19 @@ public:
 
   struct Cylinder
   {
-    double radius = 0.0; ///< 0: there is none
+    double radius = 0.0; ///< 0: absent
     double from = 0.0;   ///< z of its ends
     double to = 0.0;
-    bool lowerFace = false; ///< whether the end is a face, or lies in the part beside it
+    bool lowerFace = false; ///< whether the end is a face, or is inside the adjacent part
     bool upperFace = false;
   };
 
-  /// Where a part is nearest to a point.
+  /// Where a part is closest to a point.
   struct Nearest
   {
-    double distance = 0.0;                  ///< below 0 in the part
+    double distance = 0.0;                  ///< negative inside the part
     Eigen::Vector3d outward{0.0, 0.0, 1.0}; ///< unit, from the part's surface to the point outside
-    bool onSide = false;                    ///< of a cylinder, not on a face or an edge of it
+    bool onSide = false;                    ///< of a cylinder, not on a face or edge
     bool onEdge = false;
   };
 

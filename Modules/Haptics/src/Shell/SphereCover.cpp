@@ -14,18 +14,17 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-// What relaxed points need more than the ideal lattice, whose cell is s^2 sqrt(3)/2.
+// Extra points that a relaxed set needs over the ideal lattice, whose cell is s^2 sqrt(3)/2.
 constexpr double kExcess = 1.15;
-constexpr std::size_t kEffort = 200000; // cells made in all: 1 to 2 s
+constexpr std::size_t kEffort = 200000; // cells computed in total: 1 to 2 s
 
 double area(double rim)
 {
   return 2.0 * kPi * (1.0 + std::sqrt(std::max(0.0, 1.0 - rim * rim)));
 }
 
-// Voronoi cell of a point among its neighbours on the unit sphere, seen from the sphere's centre
-// on the tangent plane at the point (gnomonic): great circles are lines there, so each neighbour
-// cuts a half plane off.
+// Voronoi cell of a point on the unit sphere, in gnomonic projection onto the tangent plane at the
+// point: great circles are lines there, so each neighbour clips a half plane.
 class Cell
 {
 public:
@@ -50,7 +49,7 @@ public:
       double far = 0.0;
       for (const auto& corner : m_corners)
         far = std::max(far, corner.norm());
-      // A neighbour beyond twice the farthest corner's angle cuts nothing.
+      // A neighbour beyond twice the farthest corner's angle clips nothing.
       if (squared > 2.0 - 2.0 * std::cos(std::min(2.0 * std::atan(far), kPi)))
         break;
       cut(m_centre - points[other]);
@@ -78,7 +77,8 @@ public:
     return twice > 0.0 ? Eigen::Vector2d(sum / twice) : Eigen::Vector2d(0.0, 0.0);
   }
 
-  // Of the smallest circle around the corners: steps 1/n towards the farthest (Badoiu, Clarkson).
+  // Centre of the smallest circle around the corners: steps 1/n towards the farthest (Badoiu,
+  // Clarkson).
   Eigen::Vector2d middle() const
   {
     Eigen::Vector2d centre(0.0, 0.0);
@@ -153,7 +153,7 @@ std::size_t pointsToCover(double rim, double spacing)
 
 SphereCover coverSphere(double rim, std::size_t count)
 {
-  // pointsToCover, solved for the side.
+  // Inverse of pointsToCover.
   const double a = kExcess * area(rim) * 2.0 / std::sqrt(3.0);
   const double b = kPi * rim;
   const double side = 2.0 * a / (std::sqrt(b * b + 4.0 * a * static_cast<double>(count)) - b);
@@ -173,14 +173,14 @@ SphereCover coverSphere(double rim, std::size_t count)
     for (std::size_t i = onRim; i < count; ++i)
     {
       cell.make(cover.points, grid, i, reach);
-      // Lloyd's steps may be lengthened: it is slow, and stable up to twice the step.
+      // Over-relaxation: Lloyd's method is slow, and stable up to twice the step.
       next[i] = cell.onSphere(even ? Eigen::Vector2d(1.6 * cell.centroid()) : cell.middle());
     }
     cover.points.swap(next);
     std::copy_n(cover.points.begin(), onRim, next.begin());
   }
 
-  // The farthest place is a corner of a cell, or lies on the rim between two of its points.
+  // The farthest point is a corner of a cell, or on the rim between two of its points.
   const double top = cover.points.front().z();
   cover.spacing = 2.0 * rim * std::sin(kPi / (2.0 * static_cast<double>(onRim)));
   const PointGrid grid(cover.points, side);

@@ -13,29 +13,29 @@ namespace petrous::haptics
 namespace
 {
 constexpr double kSagitta = 0.02; // mm, of a thin tool between two samples of a flat surface
-constexpr float kFlat = 0.2F;     // of the slope: how much a cell's edges may differ
-constexpr int kBulging = 2;       // lines a side of a cell that is not flat
-constexpr double kBulge = 0.15;   // mm: lines as near as that need not be more
-constexpr int kMaxLines = 4;     // a side
+constexpr float kFlat = 0.2F;     // of the slope: how much parallel edges of a cell may differ
+constexpr int kBulging = 2;       // lines per side of a cell that is not flat
+constexpr double kBulge = 0.15;   // mm: line spacing that is fine enough for curved cells
+constexpr int kMaxLines = 4;     // per side
 constexpr int kRenewal = 16;      // ticks, of the handpiece after a cut
-// Voxels: the margin is not made smaller to be cheap. Round the ball there is another search after
-// each cut, whatever way it makes.
+// Voxels: lower limits of the margin, however expensive. The ball is searched again after each cut,
+// regardless of its motion.
 constexpr double kMin = 3.0;
 constexpr double kMinAfterCut = 1.0;
 constexpr double kMax = 32.0;   // voxels
-constexpr double kFirst = 4.0;   // voxels, the first
-constexpr double kShrink = 0.7;  // of the margin, where the samples are too many
-constexpr int kMaxShrinks = 20; // and then none are kept
+constexpr double kFirst = 4.0;   // voxels, initial
+constexpr double kShrink = 0.7;  // of the margin, if there are too many samples
+constexpr int kMaxShrinks = 20; // then none are kept
 constexpr double kUsed = 0.75;   // of the margin: the next search begins
 // Units, see SurfaceSamples::kUnit.
 constexpr std::size_t kBoxCost = 4;
 constexpr std::size_t kBrickCost = 24;
 constexpr std::size_t kCellCost = 8;
 constexpr std::size_t kUnionCellCost = 4;
-constexpr std::size_t kCheap = 800; // a search: the next may go farther
-constexpr std::size_t kDear = 3000; // a search: it need not go as far
-constexpr float kWithin = 1e-5F;    // of f: another tissue goes on there
-constexpr int kHalvings = 10;       // of a line in a union's cell, to a cut
+constexpr std::size_t kCheap = 800; // per search: the next may have a larger margin
+constexpr std::size_t kDear = 3000; // per search: the next has a smaller margin
+constexpr float kWithin = 1e-5F;    // of f: another tissue continues there
+constexpr int kHalvings = 10;       // of a line in a union's cell, to locate a cut
 } // namespace
 
 SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
@@ -44,7 +44,7 @@ SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
 {
   if (!any())
     return;
-  // Written, so that no page is missing in a tick.
+  // Written, so that no page faults occur in a tick.
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
     if (m_parts.has(part))
       m_lists[part].places.assign(kMaxSamples, Eigen::Vector3d::Zero());
@@ -70,7 +70,7 @@ void SurfaceSamples::look(const volume::MaskState& state) noexcept
     std::fill(m_empty.begin(), m_empty.end(), 0);
   if (!m_state || raised)
     forget();
-  // A cut only takes tissue away.
+  // Cutting only removes tissue.
   const bool cut = m_number != state.number();
   m_search.cut = m_search.cut || cut;
   for (List& list : m_lists)
@@ -108,7 +108,7 @@ double SurfaceSamples::find(const Pose& pose, double linear, double angular, dou
   double share = 1.0;
   const bool burrCuts = m_lists[SolidParts::kBall].cut;
   m_cut = m_cut || burrCuts;
-  // What the ball leaves of it is for the others: the shaft's root is beside what was cut.
+  // The others get what the ball leaves: the shaft's root is next to what was cut.
   const std::size_t most = kMaxWork + (m_cut ? kMaxAfterCut : 0);
   for (std::size_t part = 0; part < SolidParts::kParts; ++part)
   {
@@ -129,7 +129,7 @@ double SurfaceSamples::find(const Pose& pose, double linear, double angular, dou
   return share;
 }
 
-// One search at a time: what another part began is ended first.
+// One search at a time: a search begun for another part is finished first.
 void SurfaceSamples::renew(std::size_t part, const Pose& pose, std::size_t until) noexcept
 {
   while (m_work < until)
@@ -151,7 +151,7 @@ void SurfaceSamples::renew(std::size_t part, const Pose& pose, std::size_t until
   }
 }
 
-// Samples by their distance when they were found.
+// Sorts the samples by their distance when found.
 void SurfaceSamples::finish() noexcept
 {
   Search& search = m_search;
@@ -192,7 +192,7 @@ std::size_t SurfaceSamples::within(std::size_t part, double distance) const noex
   if (!list.known)
     return 0;
   const double bin = kBins * (list.made + distance) / std::max(list.margin, 1e-12);
-  // One more for the rounding of distances.
+  // One bin more for rounding of distances.
   return list.first[static_cast<std::size_t>(std::clamp(bin + 2.0, 1.0, double{kBins}))];
 }
 
@@ -227,7 +227,7 @@ std::optional<double> SurfaceSamples::insideAt(const Pose& pose, std::size_t mos
   return 0.0;
 }
 
-// Nearer ones only, where there are too many, or they cost too much.
+// Keeps only nearer samples if there are too many or they cost too much.
 void SurfaceSamples::shrink(Search& search, double margin) noexcept
 {
   search.margin = margin;
@@ -259,7 +259,7 @@ void SurfaceSamples::begin(Search& search, std::size_t part, const Pose& pose, d
   search.dearAt = kDear;
   search.count = 0;
   const core::GridGeometry& grid = m_field.geometry();
-  // The part's box, in bricks.
+  // The part's bounding box, in bricks.
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
   if (part != SolidParts::kBall)
@@ -278,7 +278,7 @@ void SurfaceSamples::begin(Search& search, std::size_t part, const Pose& pose, d
     const auto axis = static_cast<Eigen::Index>(a);
     const double low = std::min(ends[0][axis], ends[1][axis]) - half[axis];
     const double high = std::max(ends[0][axis], ends[1][axis]) + half[axis];
-    // Compared as numbers: a tool may be anywhere.
+    // Compared as doubles: the tool may be anywhere.
     if (!(high > 0.0) || !(low < kTissueBrick * dims[a]))
       return;
     all.lower[a] = static_cast<int>(std::max(0.0, low)) / kTissueBrick;
@@ -288,7 +288,8 @@ void SurfaceSamples::begin(Search& search, std::size_t part, const Pose& pose, d
   search.stack[search.depth++] = all;
 }
 
-// Halves a box of bricks until it is far from the part's surface, or from all tissue, or one brick.
+// Bisects a box of bricks until it is far from the part's surface, far from tissue, or a single
+// brick.
 void SurfaceSamples::run(Search& search, std::size_t until) noexcept
 {
   const core::GridGeometry& grid = m_field.geometry();
@@ -374,8 +375,8 @@ void SurfaceSamples::add(Search& search, const Eigen::Vector3d& place) noexcept
   search.distances[search.count++] = static_cast<float>(distance);
 }
 
-// Two samples of a flat surface are at most a line's distance apart, so the tool sinks in between
-// by the sagitta of half of it.
+// Two samples of a flat surface are at most a line spacing apart, so the tool sinks in between by
+// the sagitta of half of it.
 int SurfaceSamples::linesFor(std::size_t part, const core::GridGeometry& grid,
                              bool flat) const noexcept
 {
@@ -401,7 +402,7 @@ float most(const Corners& f) noexcept
   return *std::max_element(f.begin(), f.end());
 }
 
-// Whether its edges along each axis are about alike.
+// Whether parallel edges along each axis are about equal.
 bool isFlat(const Corners& f) noexcept
 {
   std::array<float, 3> mean{};
@@ -430,9 +431,9 @@ bool isFlat(const Corners& f) noexcept
 struct Line
 {
   std::size_t along;
-  float u, v; // where it is on the two axes that follow
+  float u, v; // position on the next two axes
 
-  // f where it enters and leaves.
+  // f at both ends.
   std::array<float, 2> ends(const Corners& f) const noexcept
   {
     const std::size_t a = std::size_t{1} << along;
@@ -467,7 +468,7 @@ void forEachLine(int lines, const Take& take)
         take(Line{along, step * static_cast<float>(i), step * static_cast<float>(j)});
 }
 
-// Where on a line an operand is above 0.
+// Segment of a line where an operand is above 0.
 struct Span
 {
   float from = 0.0F;
@@ -504,11 +505,11 @@ Corners cornersOf(const std::array<float, 27>& values, std::size_t base) noexcep
 struct SurfaceSamples::Cell
 {
   std::array<Corners, HapticField::BrickValues::kMaxTissues> tissue;
-  std::size_t tissues = 0; // those that are above 0 somewhere in it
+  std::size_t tissues = 0; // those above 0 somewhere in it
   Corners mask;
   Corners hull;
   bool whole = false;  // mask and hull are above 0
-  bool others = false; // there may be unions with cells of their own
+  bool others = false; // there may be unions on grids of their own
 };
 
 void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcept
@@ -586,7 +587,7 @@ void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcep
 void SurfaceSamples::addCell(Search& search, const core::Index3& cell, const Cell& values) noexcept
 {
   const core::GridGeometry& grid = m_field.geometry();
-  // One operand that crosses 0 and is about flat.
+  // A single operand that crosses 0 and is nearly flat.
   const Corners* crossing = nullptr;
   int crossings = values.others ? 1 : 0;
   const auto look = [&](const Corners& f)
@@ -628,7 +629,7 @@ void SurfaceSamples::addCell(Search& search, const core::Index3& cell, const Cel
                 };
                 const auto add = [&](std::size_t n, float t)
                 {
-                  // Not where another tissue goes on; where a cut ends several, once.
+                  // Not where another tissue continues; once where a cut ends several.
                   if (!within(0, n, t) && !within(n + 1, values.tissues, t) &&
                       !(values.others && inOthers(line.at(cell, t), HapticField::kCt)))
                     this->add(search, place(line, t));
@@ -660,7 +661,7 @@ void SurfaceSamples::addCell(Search& search, const core::Index3& cell, const Cel
               });
 }
 
-// Whether a place lies in another union: beside the CT's cells those with cells of their own.
+// Whether a place is in another union; for the CT's cells, in those on grids of their own.
 bool SurfaceSamples::inOthers(const Eigen::Vector3d& voxel, std::size_t but) const noexcept
 {
   for (std::size_t n = 0; n < m_field.unions(); ++n)
@@ -670,7 +671,7 @@ bool SurfaceSamples::inOthers(const Eigen::Vector3d& voxel, std::size_t but) con
   return false;
 }
 
-// The cells of a union with voxels of its own that reach into the brick.
+// The cells of a union on its own grid that reach into the brick.
 void SurfaceSamples::addUnion(Search& search, const core::Index3& brick, std::size_t n,
                               bool whole) noexcept
 {
@@ -721,7 +722,7 @@ void SurfaceSamples::addUnion(Search& search, const core::Index3& brick, std::si
       }
 }
 
-// Of each sample the brick in which it lies is asked, so that none is found twice.
+// Each sample is added only for the brick that contains it, so that none is found twice.
 void SurfaceSamples::addUnionCell(Search& search, const core::Index3& brick, std::size_t n,
                                   bool whole, const core::Index3& cell,
                                   const Corners& share) noexcept
@@ -736,7 +737,7 @@ void SurfaceSamples::addUnionCell(Search& search, const core::Index3& brick, std
     for (std::size_t a = 0; a < 3; ++a)
     {
       const double at = voxel[static_cast<Eigen::Index>(a)];
-      // The last brick has the voxels at the grid's border.
+      // The last brick includes the voxels at the grid's border.
       const bool tail = brick[a] + 1 == m_field.brickDims()[a];
       if (!(at >= kTissueBrick * brick[a]) || !(tail || at < kTissueBrick * (brick[a] + 1)))
         return;
@@ -766,7 +767,7 @@ void SurfaceSamples::addUnionCell(Search& search, const core::Index3& brick, std
                   add(line, span.to);
                 if (leftFrom == leftTo)
                   return;
-                // The cut lies between: on the side of what is left.
+                // The cut is in between: on the side that remains.
                 float left = leftFrom ? span.from : span.to;
                 float gone = leftFrom ? span.to : span.from;
                 for (int halving = 0; halving < kHalvings; ++halving)

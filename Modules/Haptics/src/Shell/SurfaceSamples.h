@@ -12,27 +12,27 @@
 namespace petrous::haptics
 {
 
-/// Samples of the tissue's surface round a tool that is a solid: tissue against the tool, where a
-/// point shell is the tool against the tissue. What is thinner than a shell's spacing (a plate on
-/// edge, a ridge, a spike) cannot pass between its points, but it has samples of its own.
+/// Samples of the tissue's surface around a solid tool: tissue against the tool, where a point
+/// shell tests the tool against the tissue. Features thinner than a shell's spacing (a plate on
+/// edge, a ridge, a spike) cannot pass between its points, since they have samples of their own.
 ///
 /// The samples are where lines parallel to the grid's axes cross f = 0. Along such a line each
-/// operand of f is linear in a cell, so each sample lies on the interpolated surface; a union whose
-/// voxels are not the CT's has lines in its own cells. A cell has the lines along its edges where
-/// its surface is about flat, and 2 x 2 or more a side where it bulges or the tool is thin. They
-/// depend on the field alone and not on the tool, so a pose that is free of them stays free however
-/// often they are found again.
+/// operand of f is linear in a cell, so each sample is on the interpolated surface; a union on
+/// another grid than the CT's has lines in its own cells. A cell has the lines along its edges
+/// where its surface is nearly flat, and 2 x 2 or more per side where it is curved or the tool is
+/// thin. They depend on the field only and not on the tool, so a pose free of them stays free
+/// however often they are found again.
 ///
-/// Samples are found for some way around the tool (`margin`) and kept until the tool has made that
-/// way. What finding them may cost in a tick is bounded: a search goes on in the ticks that follow,
-/// beside the samples that are known, and where they are many it makes do with a smaller margin. So
-/// the tool may have to wait, but it never goes where nothing was looked for. A search begins
-/// before the known samples are used up, and after a cut: until it ends they hold more tissue than
-/// there is, never less. Only the constructor allocates; nothing locks or throws. One thread.
+/// Samples are found within a `margin` around the tool and kept until the tool has moved that far.
+/// The cost of finding them per tick is bounded: a search continues in following ticks, while the
+/// known samples are used, and a smaller margin is used where they are many. The tool may have to
+/// wait, but never goes where no search was made. A search begins before the known samples are used
+/// up, and after a cut: until it ends they represent more tissue than there is, never less. Only
+/// the constructor allocates; nothing locks or throws. Not thread-safe.
 class SurfaceSamples
 {
 public:
-  static constexpr double kTolerance = 1e-6; ///< mm, in the solid: no contact yet
+  static constexpr double kTolerance = 1e-6; ///< mm, depth in the solid that is no contact yet
 
   /// The field must outlive this.
   SurfaceSamples(const HapticField& field, const ToolSolid& solid);
@@ -40,77 +40,78 @@ public:
   bool any() const noexcept { return m_parts.has(SolidParts::kBall); }
   const SolidParts& parts() const noexcept { return m_parts; }
 
-  /// The mask's state for the calls that follow.
+  /// Sets the mask state for the following calls.
   void look(const volume::MaskState& state) noexcept;
 
-  /// The tool is at `pose`, wherever it was before.
+  /// Discards all known samples: the tool was placed elsewhere or tissue was restored.
   void forget() noexcept;
 
   /// The tool moved to `pose`.
   void moved(const Pose& pose) noexcept;
 
-  /// Searches for every sample that a motion of so much (mm, rad) from `pose`, and `beyond` mm
-  /// more, can reach. The share of the motion, 0 to 1, for which all are known now.
+  /// Searches for every sample within reach of a motion of this size (mm, rad) from `pose`, plus
+  /// `beyond` mm. Returns the fraction of the motion, 0 to 1, for which all are known now.
   double find(const Pose& pose, double linear, double angular, double beyond) noexcept;
 
-  /// The first so many samples of a part hold all that were found within `distance` mm of it now.
+  /// Number of leading samples of a part that include all those within `distance` mm of it now.
   std::size_t within(std::size_t part, double distance) const noexcept;
   const Eigen::Vector3d& place(std::size_t part, std::size_t n) const noexcept ///< patient, mm
   {
     return m_lists[part].places[n];
   }
 
-  /// The arm, mm, on which a sample that was found can turn about the tool's origin.
+  /// Maximum lever arm of the known samples about the tool's origin, mm.
   double arm(std::size_t part) const noexcept { return m_parts.reach(part) + m_lists[part].margin; }
 
-  /// Depth of the deepest sample that was found, in the tool at `pose`, mm; 0 where none is deeper
-  /// than the tolerance.
+  /// Depth of the deepest known sample in the tool at `pose`, mm; 0 if none is deeper than the
+  /// tolerance.
   double depth(const Pose& pose) const noexcept;
 
-  /// Depth of a sample that is deeper than the tolerance in the tool at `pose`, mm; 0 where there
-  /// is none; nothing where that was not found out at the cost of `most` (in samples of the field).
+  /// Depth of a sample deeper than the tolerance in the tool at `pose`, mm; 0 if there is none;
+  /// nullopt if not determined at the cost of `most` (field samples).
   std::optional<double> insideAt(const Pose& pose, std::size_t most) noexcept;
 
-  /// What finding cost since the last `look`, in samples of the field. `find` costs at most
-  /// kMaxWork (and kMaxAfterCut) and what one brick costs.
+  /// Cost of searching since the last `look`, in field samples. `find` costs at most kMaxWork (plus
+  /// kMaxAfterCut) and the cost of one brick.
   std::size_t samples() const noexcept { return m_work / kUnit; }
 
-  static constexpr std::size_t kMaxSamples = 16384; ///< of a part
-  static constexpr std::size_t kMaxWork = 1000;     ///< of `find` in a tick, samples of the field
-  /// As much more after a cut, so that the burr mostly goes on in the tick that feels it.
+  static constexpr std::size_t kMaxSamples = 16384; ///< per part
+  static constexpr std::size_t kMaxWork = 1000;     ///< of `find` per tick, field samples
+  /// Additional work after a cut, so that the burr mostly continues in the tick that uses it.
   static constexpr std::size_t kMaxAfterCut = 3000;
-  static constexpr std::size_t kUnit = 8; ///< distances to the tool, for one such sample
+  static constexpr std::size_t kUnit = 8; ///< distances to the tool per field sample
 
 private:
   static constexpr std::size_t kBins = 64;
   struct List
   {
-    std::vector<Eigen::Vector3d> places;          // patient, mm, in bins, the nearest first
+    std::vector<Eigen::Vector3d> places;          // patient, mm, in bins, nearest first
     std::array<std::uint32_t, kBins + 1> first{}; // of each bin
-    Pose pose;                                    // at which they were found
+    Pose pose;                                    // at the time of the search
     double margin = 0.0;                          // mm within which all were found
-    double made = 0.0;                            // mm of a sample in the tool since, at most
-    double wish = 0.0;                            // mm, the margin of the next search
+    double made = 0.0;                            // mm, maximum motion of a sample relative to the
+                                                  // tool since
+    double wish = 0.0;                            // mm, margin of the next search
     bool known = false;
-    bool cut = false; // the mask changed since they were found
+    bool cut = false; // the mask changed since the search
     int age = 0;      // ticks since then
 
     double left() const noexcept { return known ? margin - made : -1.0; }
   };
-  struct Box // of bricks, half open
+  struct Box // of bricks, half-open
   {
     core::Index3 lower, upper;
   };
-  struct Search // round a part at a pose
+  struct Search // around a part at a pose
   {
     std::size_t part = 0;
     Pose pose;
     Eigen::Matrix3d toTool = Eigen::Matrix3d::Identity();
     double margin = 0.0;
-    double least = 0.0; // of the margin, mm
+    double least = 0.0; // lower limit of the margin, mm
     double made = 0.0;
-    double deepest = 0.0; // where inside
-    bool inside = false;  // only whether anything is in the tool
+    double deepest = 0.0; // if inside
+    bool inside = false;  // only tests whether anything is in the tool
     bool active = false;
     bool cut = false;
     std::array<Box, 64> stack;
@@ -147,10 +148,11 @@ private:
   SolidParts m_parts;
   std::array<List, SolidParts::kParts> m_lists;
   Search m_search; // for a list
-  Search m_query;  // whether a tool is free
-  // Bits of bricks. What is tissue everywhere before it is cut needs no look while nothing is.
+  Search m_query;  // whether a pose is free
+  // One bit per brick. A brick that was tissue throughout before cutting is skipped until it is
+  // cut.
   std::vector<std::uint64_t> m_empty; // nothing is left in them
-  std::vector<std::uint64_t> m_full;  // uncut they are tissue everywhere
+  std::vector<std::uint64_t> m_full;  // tissue throughout before cutting
   const volume::MaskState* m_state = nullptr;
   std::uint64_t m_number = 0;
   std::uint64_t m_raises = 0;

@@ -8,7 +8,7 @@ namespace petrous::imaging
 namespace
 {
 
-/// Big-endian numbers out of bytes; 0 beyond the end.
+/// Reads big-endian numbers; 0 beyond the end.
 class Head
 {
 public:
@@ -42,15 +42,15 @@ bool bitsFit(std::uint32_t bits, const SliceHeader& slice)
   return bits >= 2 && bits <= static_cast<std::uint32_t>(slice.pixels.bitsAllocated);
 }
 
-/// Tables and remarks that may stand before a scan (T.81 B.2.4, T.87 C.2.4).
+/// Tables and comments that may precede a scan (T.81 B.2.4, T.87 C.2.4).
 bool isTable(std::uint32_t marker)
 {
   return marker == 0xffc4 || marker == 0xffcc || marker == 0xffdb || marker == 0xffdd ||
          (marker >= 0xffe0 && marker <= 0xffef) || marker == 0xfff8 || marker == 0xfffe;
 }
 
-/// The scan header (SOS) of ITU-T T.81 B.2.3: one component, and for lossless frames one of the
-/// predictors 1 to 7. GDCM ends the program at another.
+/// The scan header (SOS) of ITU-T T.81 B.2.3: one component, and for lossless frames one of
+/// predictors 1 to 7. GDCM aborts the program on any other.
 bool scanFits(const Head& head, std::size_t at, std::uint32_t frame)
 {
   const bool isLossless = frame == 0xffc3 || frame == 0xffc7 || frame == 0xffcb || frame == 0xffcf;
@@ -59,7 +59,7 @@ bool scanFits(const Head& head, std::size_t at, std::uint32_t frame)
          (!isLossless || (predictor >= 1 && predictor <= 7));
 }
 
-/// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2, and the scan header behind it.
+/// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2, and the scan header after it.
 bool jpegFits(const Head& head, const SliceHeader& slice)
 {
   if (head.number(0, 2) != 0xffd8)

@@ -7,9 +7,9 @@
 namespace petrous::imaging
 {
 
-/// Whether the head of a JPEG, JPEG-LS or JPEG 2000 codestream promises the grey image that
-/// `slice` describes. GDCM's decoders believe the codestream and run wild on a spoilt one.
-/// True for compressions without such a head (RLE).
+/// Whether the header of a JPEG, JPEG-LS or JPEG 2000 codestream matches the greyscale image that
+/// `slice` describes. GDCM's decoders trust the codestream and misbehave on a corrupt one. True for
+/// compressions without such a header (RLE).
 bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice);
 
 } // namespace petrous::imaging

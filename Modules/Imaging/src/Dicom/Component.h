@@ -5,7 +5,7 @@
 namespace petrous::imaging
 {
 
-/// The types of a voxel's number that files hold.
+/// Component types of voxels in files.
 enum class Component
 {
   Int8,
@@ -20,7 +20,7 @@ enum class Component
   Double
 };
 
-/// visitor(T{}) with the C++ type of a component.
+/// Calls visitor(T{}) with the C++ type of a component.
 template <class Visitor>
 decltype(auto) visitComponent(Component component, Visitor&& visitor)
 {

@@ -11,8 +11,8 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr std::uint32_t kMaxKept = 4096; // bytes; every value of ours is far shorter
-constexpr int kDeepest = 32;                 // nested sequences; hostile files go on for ever
+constexpr std::uint32_t kMaxKept = 4096; // bytes; all values used here are far shorter
+constexpr int kDeepest = 32;                 // nested sequences; malicious files may nest endlessly
 
 constexpr Tag kItem = 0xfffee000;
 constexpr Tag kItemEnd = 0xfffee00d;
@@ -35,8 +35,8 @@ bool hasLongLength(const unsigned char* vr)
 
 bool isWanted(Tag tag)
 {
-  // Identification, equipment, relationship, image pixel: where our values are.
-  // Of the patient only what tells two apart.
+  // Identification, equipment, relationship, image pixel: the groups of the values used here. Of
+  // the patient group only what distinguishes patients.
   const Tag group = tag >> 16;
   if (group == 0x0010)
     return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100030;
@@ -60,8 +60,8 @@ DicomElements::DicomElements(ByteSource& source)
   readDataSet(offset);
 }
 
-/// After the preamble's marker; or, in files of before 1993 and careless exports, at the start
-/// where a first tag of group 2 or 8 with a believable length stands there.
+/// After the preamble's DICM prefix; or, for files from before 1993 and careless exports, at the
+/// start if it holds a first tag of group 2 or 8 with a plausible length.
 bool DicomElements::findStart(std::uint64_t& offset)
 {
   std::array<unsigned char, 4> marker{};
@@ -146,7 +146,7 @@ bool DicomElements::readMeta(std::uint64_t& offset)
     std::array<unsigned char, 8> head{};
     if (!m_source.readNear(offset, head.data(), head.size()) || number16(head.data()) != 2)
       break;
-    // Some writers leave the VR out here too.
+    // Some writers omit the VR here too.
     if (!readElement(offset, element, isUpper(head[4]) && isUpper(head[5])) || !keep(element))
       return false;
     offset = element.value + element.length;
@@ -158,7 +158,7 @@ bool DicomElements::readMeta(std::uint64_t& offset)
 
 void DicomElements::readDataSet(std::uint64_t offset)
 {
-  // What the first element looks like is believed more than what the file says of itself.
+  // The encoding of the first element takes precedence over the declared transfer syntax.
   std::array<unsigned char, 8> head{};
   if (!m_source.readNear(offset, head.data(), head.size()))
     return;
@@ -200,7 +200,7 @@ void DicomElements::readDataSet(std::uint64_t offset)
   m_state = State::Complete;
 }
 
-/// From the first item of a sequence of undefined length to behind its delimiter.
+/// From the first item of a sequence of undefined length to after its delimiter.
 bool DicomElements::skipItems(std::uint64_t& offset, bool explicitVr, int depth)
 {
   Element item;
@@ -283,7 +283,7 @@ std::vector<double> DicomElements::numbers(Tag tag, std::size_t count) const
     const char* last = first + parts[i].size();
     if (first != last && *first == '+')
       ++first;
-    const auto end = std::from_chars(first, last, result[i]); // unlike strtod: one locale
+    const auto end = std::from_chars(first, last, result[i]); // unlike strtod, locale-independent
     if (end.ec != std::errc() || end.ptr != last || !std::isfinite(result[i]))
       return {};
   }

@@ -13,25 +13,25 @@
 namespace petrous::imaging
 {
 
-/// Group and element in one number: (0028,0010) is 0x00280010.
+/// Group and element as one number: (0028,0010) is 0x00280010.
 using Tag = std::uint32_t;
 
 constexpr Tag kFloatPixelData = 0x7fe00008;
 constexpr Tag kDoublePixelData = 0x7fe00009;
 constexpr Tag kPixelData = 0x7fe00010;
 
-/// The short top-level elements of a DICOM file up to its pixels (PS3.5 section 7, PS3.10).
+/// The short top-level elements of a DICOM file up to its pixel data (PS3.5 section 7, PS3.10).
 ///
-/// Our own, not gdcm::Reader: as Debian builds it, that one asserts, so a damaged file would end
-/// the program and the work in it. GDCM decodes the pixels.
+/// Used instead of gdcm::Reader, which as built by Debian has assertions enabled: a damaged file
+/// would abort the program and lose the user's work. GDCM decodes the pixels.
 class DicomElements
 {
 public:
   enum class State
   {
     Foreign, ///< not DICOM
-    Damaged, ///< an element does not fit the file
-    Complete ///< read to the pixels or, where there are none, to the end
+    Damaged, ///< an element does not fit into the file
+    Complete ///< read to the pixel data or, without any, to the end
   };
 
   explicit DicomElements(ByteSource& source);
@@ -45,26 +45,26 @@ public:
 
   struct Pixels
   {
-    Tag tag = 0; ///< 0: none
+    Tag tag = 0; ///< 0: no pixel data
     std::uint64_t offset = 0;
-    std::uint32_t length = 0; ///< kUndefinedLength where encapsulated
+    std::uint32_t length = 0; ///< kUndefinedLength if encapsulated
   };
   const Pixels& pixels() const noexcept { return m_pixels; }
-  bool empty() const noexcept ///< no element but those about the file itself
+  bool empty() const noexcept ///< no elements except file meta information
   {
     return m_count == 0;
   }
 
-  bool hasModalityLut() const noexcept ///< a table instead of rescale slope and intercept
+  bool hasModalityLut() const noexcept ///< a lookup table instead of rescale slope and intercept
   {
     return m_hasModalityLut;
   }
 
-  /// Without padding and control characters: what a terminal or a JSON reader can bear.
+  /// Without padding and control characters, safe for a terminal or a JSON parser.
   std::string text(Tag tag) const;
   std::vector<std::string> words(Tag tag) const; ///< split at backslashes
-  std::optional<double> number(Tag tag) const;   ///< decimal text; nothing where garbled
-  std::vector<double> numbers(Tag tag, std::size_t count) const;    ///< all or empty
+  std::optional<double> number(Tag tag) const;   ///< decimal string; nullopt if malformed
+  std::vector<double> numbers(Tag tag, std::size_t count) const;    ///< all of them, or empty
   std::optional<int> integer(Tag tag, bool isSigned = false) const; ///< binary, two bytes
 
   static constexpr std::uint32_t kUndefinedLength = 0xFFFFFFFFU;
@@ -75,7 +75,7 @@ private:
     Tag tag = 0;
     std::uint32_t length = 0;
     std::uint64_t value = 0; ///< offset
-    bool isUnknown = false;  ///< VR UN: where of undefined length, implicit inside
+    bool isUnknown = false;  ///< VR UN: content of undefined length is implicit VR
   };
 
   bool findStart(std::uint64_t& offset);

@@ -22,7 +22,7 @@ const char* const kExplicit = "1.2.840.10008.1.2.1";
 const char* const kBigEndian = "1.2.840.10008.1.2.2";
 const char* const kDirectoryClass = "1.2.840.10008.1.3.10";
 
-/// Compressions of single images that GDCM decodes: JPEG, JPEG-LS, JPEG 2000, RLE.
+/// Single-image compressions that GDCM decodes: JPEG, JPEG-LS, JPEG 2000, RLE.
 bool isDecodable(const std::string& syntax)
 {
   static const char* const kKnown[] = {
@@ -32,7 +32,7 @@ bool isDecodable(const std::string& syntax)
   return std::find(std::begin(kKnown), std::end(kKnown), syntax) != std::end(kKnown);
 }
 
-/// Storage classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
+/// SOP classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
 bool isSliceClass(const std::string& sopClass)
 {
   static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
@@ -46,7 +46,7 @@ bool isNative(const std::string& syntax)
   return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
 }
 
-/// Walks the items of an encapsulated element; false where one reaches beyond the end.
+/// Walks the items of an encapsulated element; false if one extends beyond the end of the file.
 bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
 {
   std::uint64_t bytes = 0;
@@ -64,7 +64,7 @@ bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
       return false;
     bytes += length;
   }
-  return bytes > 0; // some writers leave the closing delimiter out
+  return bytes > 0; // some writers omit the sequence delimiter
 }
 
 std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
@@ -91,7 +91,7 @@ void readPlace(const DicomElements& elements, SliceHeader& slice)
       static_cast<int>(std::clamp(elements.number(0x00200013).value_or(0.0), -1e9, 1e9));
 }
 
-/// 0 for nothing. Writers differ in capitals and in what they leave open at the end of a name.
+/// 0 for an empty text. Writers differ in case and in trailing name delimiters.
 std::size_t keyOf(std::string text)
 {
   text.erase(text.find_last_not_of(" ^") + 1);
@@ -100,7 +100,7 @@ std::size_t keyOf(std::string text)
   return text.empty() ? 0 : std::max<std::size_t>(std::hash<std::string>{}(text), 1);
 }
 
-// The first date that is there, with the time beside it to the minute.
+// The first date present, with its time to the minute.
 std::string takenOf(const DicomElements& elements)
 {
   constexpr std::pair<Tag, Tag> kDates[] = {
@@ -153,7 +153,7 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
   slice.paddingRangeLimit = elements.integer(0x00280121, pixels.isSigned);
 }
 
-/// What is wrong with the rescale, or nothing.
+/// What is wrong with the rescale, or an empty string.
 const char* readRescale(const DicomElements& elements, SliceHeader& slice)
 {
   constexpr Tag kSlope = 0x00281053;
@@ -170,14 +170,15 @@ const char* readRescale(const DicomElements& elements, SliceHeader& slice)
   return "";
 }
 
-/// What is wrong with the coding of a grey image, or nothing.
+/// What is wrong with the encoding of a greyscale image, or an empty string.
 const char* checkFormat(const SliceHeader& slice)
 {
   const PixelFormat& pixels = slice.pixels;
   const int bits = pixels.bitsAllocated;
   if (!isNative(pixels.transferSyntax) && !isDecodable(pixels.transferSyntax))
     return "is compressed in a way that cannot be read";
-  // 12 bits allocated were packed in two ways, 8 bits big endian too; nothing tells them apart.
+  // There were two packings of 12 bits allocated, and of 8 bits in big endian; they cannot be told
+  // apart.
   if (bits != 16 && bits != 32 && (bits != 8 || pixels.isBigEndian))
     return "has pixels of an unusual number of bits";
   if (pixels.bitsStored < 1 || pixels.bitsStored > bits || pixels.highBit >= bits ||
@@ -186,7 +187,7 @@ const char* checkFormat(const SliceHeader& slice)
   return "";
 }
 
-/// Where the pixels lie and what is wrong with them, or nothing.
+/// Locates the pixels; returns what is wrong with them, or an empty string.
 const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, SliceHeader& slice)
 {
   if (found.tag != kPixelData)
@@ -200,7 +201,7 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   if (pixels.offset + pixels.length > source.size())
     return kCutShort;
   if (slice.frames > 1 || pixels.samplesPerPixel != 1)
-    return ""; // set aside for that reason, which is the better one to name
+    return ""; // excluded for that reason, which is the better one to report
   if (pixels.isEncapsulated)
   {
     if (!fragmentsComplete(source, pixels.offset))
@@ -243,7 +244,7 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
     slice.damage = checkPixels(source, elements.pixels(), slice);
   else if (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass))
   {
-    // Cut between two elements, or stripped: either way something is lost.
+    // Truncated between two elements, or stripped: in either case data are lost.
     slice.damage = "holds no pixels";
     if (header.seriesUid.empty())
       header.kind = FileKind::Broken;
@@ -252,8 +253,8 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
     slice.damage = rescale;
 }
 
-/// Why a file that is not DICOM may have been, or nothing: empty, or no more than the zeros before
-/// DICOM's own marker.
+/// Why a file that is not DICOM may have been, or an empty string: empty, or only zeros of the
+/// preamble before the DICM prefix.
 const char* shortDamage(ByteSource& source)
 {
   std::array<unsigned char, 132> head{};

@@ -8,13 +8,13 @@
 namespace petrous::imaging
 {
 
-/// What a file turned out to be.
+/// Classification of a file.
 enum class FileKind
 {
-  Foreign,   ///< not DICOM; slice.damage says where it may have been a slice
-  Directory, ///< a DICOMDIR: an index, no object of its own
-  Broken,    ///< DICOM, but damaged before it says to which series it belongs
-  Dicom      ///< an object of a series; slice.damage says whether its pixels can be read
+  Foreign,   ///< not DICOM; slice.damage is set if it may have been a slice
+  Directory, ///< a DICOMDIR: an index without an object of its own
+  Broken,    ///< DICOM, but damaged before its series is stated
+  Dicom      ///< an object of a series; slice.damage is set if its pixels cannot be read
 };
 
 struct FileHeader
@@ -26,7 +26,7 @@ struct FileHeader
   SliceHeader slice;
 };
 
-/// Reads everything before the pixels, and checks that the pixels are all there. Never throws on
+/// Reads everything before the pixel data, and checks that the pixels are complete. Never throws on
 /// bad content. Thread-safe.
 FileHeader readHeader(const std::filesystem::path& file);
 

@@ -26,9 +26,9 @@ using core::IndexBox;
 using volume::IntensityVolume;
 using volume::Volume;
 
-constexpr double kAir = -1024.0; // HU; the lowest value of most CTs
+constexpr double kAir = -1024.0; // HU; the minimum of most CTs
 
-/// Smallest and largest of some values; empty before the first.
+/// Minimum and maximum of a set of values; initially empty.
 struct Span
 {
   double min = std::numeric_limits<double>::infinity();
@@ -53,7 +53,7 @@ bool isWhole(double value)
   return value == std::nearbyint(value) && std::abs(value) < 1e9;
 }
 
-/// The stored values that a slice calls padding: [low, high].
+/// The range of stored values that a slice declares as padding: [low, high].
 struct PaddingRange
 {
   std::int32_t low = 1;
@@ -77,12 +77,12 @@ double rescaled(const SliceHeader& slice, double stored)
   return slice.slope * stored + slice.intercept;
 }
 
-/// What a fill of the volume found out.
+/// Statistics of filling the volume.
 struct Contents
 {
   Span real;                  ///< values that are not padding
-  bool isPadded = false;      ///< padding was met in the box
-  bool cornersPadded = false; ///< and at a corner of a slice, where a round field leaves it
+  bool isPadded = false;      ///< padding occurs in the box
+  bool cornersPadded = false; ///< padding occurs in a slice corner, as outside a circular field
 };
 
 class SeriesReader
@@ -117,7 +117,7 @@ public:
     if (!whole)
       return *tryRead<float>();
     if (declared.fits<std::int16_t>() || !declared.fits<std::uint16_t>())
-      // 16 bits stored with an intercept of -1024 promise more than they hold.
+      // 16 bits stored with an intercept of -1024 declare a larger range than is used.
       if (auto result = tryRead<std::int16_t>())
         return *result;
     if (auto result = tryRead<std::uint16_t>())
@@ -126,11 +126,11 @@ public:
   }
 
 private:
-  /// Nothing when a real value does not fit T; the memory is free again then.
+  /// nullopt if a real value does not fit T; the memory is freed then.
   template <class T>
   std::optional<IntensityVolume> tryRead()
   {
-    if (!m_contents.real.fits<T>()) // known from a try before
+    if (!m_contents.real.fits<T>()) // known from an earlier attempt
       return std::nullopt;
     auto voxels = std::make_shared<Volume<T>>(m_geometry);
     bool usePadding = true;
@@ -147,7 +147,7 @@ private:
     const std::string value = decimals(paddingValue(), 0);
     if (!m_contents.cornersPadded)
     {
-      // Some writers name a value of tissue (0, water) as padding; then it is met inside only.
+      // Some writers declare a tissue value (0, water) as padding; then it occurs only inside.
       usePadding = false;
       fill(*voxels, stand, usePadding);
       if (!m_contents.real.fits<T>())
@@ -169,7 +169,7 @@ private:
                : IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
   }
 
-  /// The padding of the first slice that has any, in the volume's values.
+  /// The padding value of the first slice that has one, rescaled.
   double paddingValue() const
   {
     for (const SliceHeader& slice : m_slices)
@@ -181,8 +181,8 @@ private:
     return 0.0;
   }
 
-  /// What padding voxels hold until it is known whether their own value may stay: one value that
-  /// no other voxel has.
+  /// Value of padding voxels until it is known whether their own value can be kept: one that no
+  /// other voxel has.
   template <class T>
   T standIn() const
   {
@@ -278,7 +278,7 @@ private:
       const auto intercept = static_cast<std::int64_t>(slice.intercept);
       if (slope == 1)
       {
-        // In 16 bits the sum wraps alike; a value that does not fit ends the try anyway.
+        // In 16 bits the sum wraps the same way; a value that does not fit ends the attempt anyway.
         const auto offset = static_cast<std::uint16_t>(intercept);
         for (std::size_t i = 0; i < count; ++i)
           to[i] = static_cast<T>(
@@ -314,7 +314,7 @@ private:
   IndexBox m_box;
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
-  bool m_needsRange = true; ///< whether anything hangs on the real values' range
+  bool m_needsRange = true; ///< whether the range of the real values is needed
   std::mutex m_mutex;
   Contents m_contents;
 };

@@ -24,8 +24,8 @@ namespace
 
 const char* const kTask = "scan of the DICOM files";
 
-/// What lies below a path: every regular file once, where it is met first, and what cannot be read.
-/// A link to a folder is followed where it stays below the path.
+/// Everything below a path: each regular file once, under the first path found, and what cannot be
+/// read. Links to folders are followed if they stay below the path.
 class FileList
 {
 public:
@@ -44,7 +44,7 @@ public:
       const fs::path folder = std::move(m_folders.back());
       m_folders.pop_back();
       m_progress.check(kTask);
-      // Sorted, so that which of two ways to a file is met first is not up to the disk.
+      // Sorted, so that the path under which a file is found does not depend on the file system.
       std::vector<fs::path> entries;
       fs::directory_iterator entry(folder, error);
       for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
@@ -59,9 +59,9 @@ public:
   }
 
   std::vector<fs::path> files;
-  std::vector<FileHeader> lost;   ///< names without a file: links to nothing
-  std::vector<Finding> findings;  ///< of folders
-  std::vector<std::string> notes; ///< the same, and of links
+  std::vector<FileHeader> lost;   ///< names without a file: dangling links
+  std::vector<Finding> findings;  ///< about folders
+  std::vector<std::string> notes; ///< the same, and about links
 
 private:
   void visit(const fs::path& path, bool isRoot)
@@ -71,7 +71,7 @@ private:
     {
       const bool denied = errno == EACCES;
       std::error_code none;
-      if (denied && !fs::is_symlink(path, none)) // of its folder the names may be read, and no more
+      if (denied && !fs::is_symlink(path, none)) // its folder can be listed but not searched
         return unreadable(path.parent_path());
       lost.emplace_back();
       lost.back().slice.file = path;
@@ -151,7 +151,7 @@ Finding unreadable(const FileHeader& header)
 
 using Groups = std::map<std::string, std::vector<const FileHeader*>>;
 
-/// A file's name with "#" for each number: what the slices of one export have in common.
+/// A file name with "#" for each number: what the slices of one export have in common.
 std::string patternOf(const fs::path& file)
 {
   std::string pattern;
@@ -166,7 +166,7 @@ std::string patternOf(const fs::path& file)
   return pattern;
 }
 
-/// The series of one folder by the names of their files.
+/// The series of one folder, by file name.
 struct FolderNames
 {
   std::set<std::string> series;
@@ -189,7 +189,7 @@ std::map<fs::path, FolderNames> namesOf(const Groups& groups)
   return folders;
 }
 
-/// Whether a file that is not DICOM was a slice once, as far as anyone can tell.
+/// Whether a file that is not DICOM was presumably a slice.
 bool isLostSlice(const FileHeader& header, const std::map<fs::path, FolderNames>& folders)
 {
   const fs::path& file = header.slice.file;
@@ -202,11 +202,11 @@ bool isLostSlice(const FileHeader& header, const std::map<fs::path, FolderNames>
           folder->second.endings.count(ending) > 0);
 }
 
-/// Of a series, what could not be read and may be of it: nobody can tell that it is whole.
+/// Unreadable data that may belong to a series, so that it may be incomplete.
 using Doubts = std::map<std::string, std::vector<Finding>>;
 
-/// A damaged file that does not say its series is a slice of the only one in its folder, or of the
-/// only one there whose files are named like it, as far as anyone can tell.
+/// A damaged file that does not state its series is presumed to belong to the only series in its
+/// folder, or to the only one there with files named like it.
 void placeOrphans(const std::vector<const FileHeader*>& orphans,
                   const std::map<fs::path, FolderNames>& folders, Groups& groups, Doubts& doubts,
                   ScanResult& result)
@@ -306,7 +306,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;
-  const std::vector<Finding> folderDoubts = list.findings; // of every series: any may go on there
+  const std::vector<Finding> folderDoubts = list.findings; // of every series: any may extend there
   result.unreadable = std::move(list.findings);
   result.notes = std::move(list.notes);
   Groups groups;
@@ -319,7 +319,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
     else if (header.kind == FileKind::Broken)
       orphans.push_back(&header);
     else if (header.kind == FileKind::Dicom)
-      // Objects that name no series are at most one series a folder.
+      // Objects without a series UID form at most one series per folder.
       groups[header.seriesUid.empty() ? "/" + header.slice.file.parent_path().string()
                                       : header.seriesUid]
           .push_back(&header);
@@ -346,7 +346,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
     open.insert(open.end(), folderDoubts.begin(), folderDoubts.end());
     result.series.push_back(makeSeries(members, open));
   }
-  // By first file: the order in which a file manager shows them.
+  // By first file: the order in which file managers show them.
   std::vector<std::pair<fs::path, std::size_t>> order;
   std::size_t index = 0;
   for (const auto& [key, members] : groups)

@@ -30,8 +30,8 @@ namespace
 
 using Modality = SeriesDescription::Modality;
 
-/// A decimal string holds at most 16 characters, the last one perhaps a space that makes the
-/// length even: the most digits that fit.
+/// A decimal string (DS) has at most 16 characters, the last possibly a space for even length:
+/// writes as many digits as fit.
 std::string decimal(double value)
 {
   if (value == 0.0)
@@ -51,7 +51,7 @@ std::string decimals(std::initializer_list<double> values)
   return text;
 }
 
-/// Puts an element with a text value, padded to even length as its representation asks.
+/// Adds an element with a text value, padded to even length as required by its VR.
 void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
          std::string text)
 {
@@ -73,7 +73,7 @@ void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::u
   data.Replace(de);
 }
 
-/// What every slice of a series says alike.
+/// The attributes common to all slices of a series.
 gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
                          bool isSigned)
 {
@@ -252,7 +252,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
                             "writing DICOM slices");
             gdcm::Writer writer;
             gdcm::DataSet& data = writer.GetFile().GetDataSet();
-            // GDCM counts references to values without a lock, so slices share none of them
+            // GDCM's reference counts are not thread-safe, so slices share no values
             data = commonPart(description, grid, std::is_signed_v<T>);
             if (image.padding())
             {
@@ -289,7 +289,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             std::array<char, 32> name{};
             std::snprintf(name.data(), name.size(), "slice-%04d.dcm", k + 1);
             const std::filesystem::path file = folder / name.data();
-            // into memory first: GDCM aborts the program where a disk is full
+            // into memory first: GDCM aborts the program on a full disk
             std::ostringstream encoded;
             encoded.imbue(std::locale::classic());
             writer.SetStream(encoded);
@@ -303,7 +303,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
               throw core::Error(core::Fault::Refused,
                                 file.string() + ": cannot be written; is the disk full?");
           };
-          writeSlice(0); // GDCM's dictionaries are made on first use, by one thread
+          writeSlice(0); // GDCM's dictionaries are initialized on first use, so single-threaded
           tbb::parallel_for(1, slices, writeSlice);
         }
       });

@@ -33,11 +33,11 @@ namespace
                                                        "came from");
 }
 
-/// The stored value among its allocated bits: shifted down, masked, sign-extended.
+/// Extraction of the stored value from its allocated bits: shift, mask, sign extension.
 struct BitField
 {
   int shift = 0;  ///< unused bits below
-  int unused = 0; ///< unused bits above, counted in 32
+  int unused = 0; ///< unused bits above, relative to 32
   bool isSigned = false;
 
   std::int32_t operator()(std::uint32_t cell) const
@@ -48,7 +48,7 @@ struct BitField
   }
 };
 
-/// Plain pointers and one branch outside the loop, so that the compiler can vectorise it.
+/// Plain pointers and one branch outside the loop, so that the compiler can vectorize it.
 template <class Cell>
 void unpack(const unsigned char* bytes, bool swap, const BitField& field,
             std::vector<std::int32_t>& values)
@@ -98,7 +98,7 @@ void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& fi
     unpack<std::uint32_t>(bytes, swap, field, pixels.values);
   else
     fail(slice, "has pixels of an unusual number of bits");
-  // Unsigned values of 32 bits that do not fit come out negative.
+  // Unsigned 32-bit values that do not fit appear as negative.
   if (field.unused == 0 && !field.isSigned &&
       *std::min_element(pixels.values.begin(), pixels.values.end()) < 0)
     fail(slice, "holds values beyond 2147483647");
@@ -109,7 +109,7 @@ BitField bitField(int bitsStored, int highBit, bool isSigned)
   return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
 }
 
-/// The items behind the offset table. One frame, so all of them are one codestream.
+/// The items after the offset table. There is one frame, so they form one codestream.
 std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
 {
   std::uint64_t offset = slice.pixels.offset;
@@ -137,9 +137,9 @@ std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
   return bytes;
 }
 
-/// Keeps what the codecs under GDCM write on the error stream from it, in this thread and while it
-/// lives: their words are not ours. They have nothing to say of a sound image ("Corrupt JPEG data:
-/// premature end of data segment"), and decode on.
+/// Suppresses stderr output of the codecs used by GDCM, on this thread and during its lifetime: it
+/// is not part of this program's output. Codecs print nothing for a valid image; on damage they
+/// print a warning ("Corrupt JPEG data: premature end of data segment") and continue decoding.
 class CodecMessages
 {
 public:
@@ -152,8 +152,8 @@ public:
                      gdcm::Trace::DebugOff();
                      gdcm::Trace::WarningOff();
                      gdcm::Trace::ErrorOff();
-                     // They print to C's stderr, which is a variable in glibc. Without a buffer of
-                     // its own, its writer runs in the thread that prints.
+                     // They print to C's stderr, which is a variable in glibc. Without buffering,
+                     // the write callback runs on the printing thread.
                      cookie_io_functions_t functions{};
                      functions.write = write;
                      if (FILE* stream = ::fopencookie(nullptr, "w", functions))
@@ -224,11 +224,11 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
       decoded = image.GetBuffer(reinterpret_cast<char*>(pixels.scratch.data()));
     }
   }
-  catch (const std::exception&) // its words may quote the patient
+  catch (const std::exception&) // the text may contain patient data
   {
     decoded = false;
   }
-  // The codestream's own word on bits and sign replaces the header's where they differ.
+  // Bits and sign in the codestream take precedence over the header.
   const gdcm::PixelFormat& real = image.GetPixelFormat();
   if (!decoded || messages.any() || real.GetSamplesPerPixel() != 1 ||
       real.GetBitsAllocated() != format.bitsAllocated)
@@ -249,7 +249,7 @@ void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
   pixels.values.resize(static_cast<std::size_t>(slice.rows) *
                        static_cast<std::size_t>(slice.columns));
   if (format.isDeflated)
-    const DicomElements inflated(source); // leaves the source inflated
+    const DicomElements inflated(source); // side effect: inflates the source
   if (format.isEncapsulated)
   {
     decompress(source, slice, pixels);

@@ -8,7 +8,7 @@
 namespace petrous::imaging
 {
 
-/// Stored values of one slice, sign-extended, row after row. Its memory is used again.
+/// Stored values of one slice, sign-extended, row by row. The memory is reused.
 struct StoredPixels
 {
   std::vector<std::int32_t> values;
@@ -17,8 +17,8 @@ struct StoredPixels
 
 /// Reads and decodes the pixels that `slice` describes.
 ///
-/// Bits above the high bit (overlays of old scanners) are dropped. Thread-safe.
-/// Throws DicomError (Unreadable), naming the file.
+/// Bits above the high bit (overlays of old scanners) are discarded. Thread-safe. Throws DicomError
+/// (Unreadable), naming the file.
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels);
 
 } // namespace petrous::imaging

@@ -18,9 +18,9 @@ namespace
 
 using Headers = std::vector<SliceHeader>;
 
-constexpr double kFarthest = 1e5;       // mm; a position beyond is garbage
+constexpr double kFarthest = 1e5;       // mm; positions beyond are invalid
 constexpr double kCoarsest = 1e3;       // mm
-constexpr double kPerpendicular = 1e-3; // dot product of the direction cosines; ten times rounding
+constexpr double kPerpendicular = 1e-3; // dot product of direction cosines; ten times rounding
 constexpr double kUnitLength = 1e-2;
 
 bool isFinite(const std::optional<Eigen::Vector3d>& v)
@@ -28,7 +28,7 @@ bool isFinite(const std::optional<Eigen::Vector3d>& v)
   return v && v->allFinite() && v->norm() < kFarthest;
 }
 
-/// Whether the file says where and how its slice lies, in numbers that can be true.
+/// Whether the file states plausible position, orientation and spacing.
 bool isPlaced(const SliceHeader& slice)
 {
   if (!isFinite(slice.position) || !isFinite(slice.rowDirection) ||
@@ -53,7 +53,7 @@ bool isLocalizer(const SliceHeader& slice)
          slice.imageType.end();
 }
 
-/// Moves the slices of which `test` is true out of `from`, order kept.
+/// Removes the slices that satisfy `test` from `from` and returns them, order preserved.
 Headers takeOut(Headers& from, const std::function<bool(const SliceHeader&)>& test)
 {
   const auto rest = std::stable_partition(from.begin(), from.end(),
@@ -63,7 +63,7 @@ Headers takeOut(Headers& from, const std::function<bool(const SliceHeader&)>& te
   return taken;
 }
 
-/// Keeps the largest group of slices that are alike (the first of equals); returns the others.
+/// Keeps the largest group of equal slices (the first if tied); returns the others.
 Headers takeMinority(Headers& from,
                      const std::function<bool(const SliceHeader&, const SliceHeader&)>& alike)
 {
@@ -106,7 +106,7 @@ bool sameSize(const SliceHeader& a, const SliceHeader& b)
   return a.rows == b.rows && a.columns == b.columns && sizeError(a, b) <= kJitterTolerance;
 }
 
-/// How far apart the corners of two slices lie when one is laid along the other's cosines, mm.
+/// Maximum corner displacement, mm, if one slice is placed with the direction cosines of the other.
 double turnError(const SliceHeader& a, const SliceHeader& b)
 {
   const Eigen::Vector2d field = fieldOfView(a);
@@ -142,7 +142,7 @@ public:
     : m_slices(std::move(slices))
     , m_all(m_slices.size())
   {
-    // The order of the files must not decide anything.
+    // The result must not depend on the order of the files.
     std::sort(m_slices.begin(), m_slices.end(),
               [](const SliceHeader& a, const SliceHeader& b)
               { return std::tie(a.instanceNumber, a.file) < std::tie(b.instanceNumber, b.file); });
@@ -173,7 +173,7 @@ private:
   {
     const Headers damaged =
         takeOut(m_slices, [](const SliceHeader& s) { return !s.damage.empty(); });
-    constexpr std::size_t kNamed = 3; // findings stay readable when a whole disc is bad
+    constexpr std::size_t kNamed = 3; // keeps findings readable if a whole disc is bad
     for (std::size_t i = 0; i < std::min(damaged.size(), kNamed); ++i)
       find(FindingKind::Unreadable,
            damaged[i].file.filename().string() + " " + damaged[i].damage + ".");
@@ -205,7 +205,7 @@ private:
                                         countOf(colour.size(), m_all) + ".");
   }
 
-  /// A SeriesInstanceUID may be missing, or copied with the header of another series.
+  /// A SeriesInstanceUID may be missing, or copied with the header from another series.
   void setAsideStrangers()
   {
     const std::size_t images = m_slices.size();
@@ -256,7 +256,7 @@ private:
     for (const SliceHeader& slice : turned)
     {
       const double slant = normalAngle(slice, m_slices.front());
-      // A few slices across a whole stack are scouts even when they do not say so.
+      // A few slices across a whole stack are scouts even if not labelled as such.
       if (slant > 45.0 && turned.size() * 4 <= m_slices.size())
       {
         ++m_scouts;
@@ -315,7 +315,8 @@ private:
            "unequal values; no position is affected (0 mm).");
   }
 
-  /// Slices of several scans may make an even stack together, each scan between the other's slices.
+  /// Slices of several scans may form an evenly spaced stack, each scan between the slices of the
+  /// other.
   void judgeAcquisitions()
   {
     if (m_slices.size() < 2)
@@ -353,9 +354,9 @@ private:
                "files of one in the folder.");
   }
 
-  /// Whether an acquisition comes again after another one. Scanners that take a stack in steps
-  /// number the steps one after the other. Interleaving within one MR scan is usual: there slices
-  /// must also overlap.
+  /// Whether an acquisition number reappears after another one. Scanners that acquire a stack in
+  /// steps number the steps consecutively. Interleaving within one MR scan is usual: there the
+  /// slices must also overlap.
   bool isInterleaved() const
   {
     std::vector<int> runs;
@@ -366,7 +367,7 @@ private:
     if (std::adjacent_find(runs.begin(), runs.end()) == runs.end())
       return false;
     const SliceHeader& first = m_slices.front();
-    constexpr double kOverlap = 1.5; // thickness by spacing
+    constexpr double kOverlap = 1.5; // thickness / spacing
     return first.modality == "CT" || (first.thickness && m_result.grid &&
                                       *first.thickness > kOverlap * m_result.grid->spacing()[2]);
   }

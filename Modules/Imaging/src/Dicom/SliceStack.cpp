@@ -14,32 +14,32 @@ namespace
 {
 
 constexpr double kSamePlace = 1e-3; // mm
-constexpr double kSameOccupancy = 0.01; // of the usual gap: closer slices share one place
-constexpr double kWholeGap = 0.05;  // a gap this near to a multiple lacks whole slices
+constexpr double kSameFraction = 0.01; // of the usual gap: closer slices share one position
+constexpr double kWholeGap = 0.05;  // a gap this close to a multiple lacks whole slices
 constexpr std::size_t kPlacesNamed = 3;
-constexpr std::size_t kPitchChange = 3; // so many wide gaps in a row are a pitch, not a loss
+constexpr std::size_t kPitchChange = 3; // wide gaps in a row that are a pitch change, not a loss
 
-double median(std::vector<double> values) ///< the lower one of two; not empty
+double median(std::vector<double> values) ///< the lower of two middle values; not empty
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Right-handed orthonormal axes nearest to the cosines of a slice.
+/// Right-handed orthonormal axes closest to the direction cosines of a slice.
 Eigen::Matrix3d axesOf(const SliceHeader& slice)
 {
   const Eigen::Vector3d row = slice.rowDirection->normalized();
   const Eigen::Vector3d column = slice.columnDirection->normalized();
   const Eigen::Vector3d normal = row.cross(column).normalized();
   Eigen::Matrix3d axes;
-  axes.col(0) = (row + column.cross(normal)).normalized(); // shares the misfit between the two
+  axes.col(0) = (row + column.cross(normal)).normalized(); // splits the misfit between the two axes
   axes.col(1) = normal.cross(axes.col(0));
   axes.col(2) = normal;
   return axes;
 }
 
-/// A line e(t) = offset + slope t through sideways shifts, and how far the worst lies off it.
+/// A line e(t) = offset + slope t fitted to sideways shifts, and the maximum deviation from it.
 struct ShiftLine
 {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
@@ -76,7 +76,7 @@ ShiftLine leastSquares(const std::vector<double>& t, const std::vector<Eigen::Ve
   return line;
 }
 
-/// Medians of the steps, so that a few slices out of line do not pass for a tilt.
+/// Robust fit by medians of the steps, so that a few misplaced slices do not look like a tilt.
 ShiftLine robustLine(const std::vector<double>& t, const std::vector<Eigen::Vector3d>& e)
 {
   ShiftLine line;
@@ -118,14 +118,14 @@ SliceStack::SliceStack(std::vector<SliceHeader>& slices)
     m_place.push_back(normal.dot(*slice.position));
 }
 
-/// The gap that a missing or doubled slice interrupts, mm; 0 where all lie at one place.
+/// The usual gap between slices, ignoring missing and duplicate ones, mm; 0 if all coincide.
 double SliceStack::usualGap() const
 {
   std::vector<double> gaps;
   for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
     gaps.push_back(m_place[k + 1] - m_place[k]);
   std::sort(gaps.begin(), gaps.end());
-  // The upper quartile is a gap of the stack even where every slice is there twice.
+  // The upper quartile is a valid gap even if every slice is present twice.
   double scale = gaps[(gaps.size() * 3) / 4 < gaps.size() ? (gaps.size() * 3) / 4 : 0];
   if (scale <= kSamePlace)
     scale = gaps.back();
@@ -168,7 +168,7 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
     const double gap = m_place[k + 1] - m_place[k];
     double step = 1.0;
     double plainStep = 1.0;
-    if (gap <= std::max(kSamePlace, kSameOccupancy * usual))
+    if (gap <= std::max(kSamePlace, kSameFraction * usual))
     {
       firstDoubled = doubled++ == 0 ? k : firstDoubled;
       step = plainStep = 0.0;
@@ -263,7 +263,7 @@ void SliceStack::judgeSideways(SeriesGeometry& result) const
   const double slide = tangent * t.back();
   if (slide > kJitterTolerance || tangent > kJitterShare)
   {
-    // Half: the middle slice in its place is the best that a straight stack can do.
+    // Half, since a straight stack can at best have the middle slice in place.
     result.findings.push_back({FindingKind::GantryTilt,
                                "The gantry was tilted: the stack leans by " +
                                    decimals(std::atan(tangent) * 180.0 / M_PI, 1) +
@@ -282,7 +282,7 @@ void SliceStack::judgeSideways(SeriesGeometry& result) const
                            " mm sideways of a straight stack; accepted.");
 }
 
-/// Headers often contradict the positions; the positions are what the scanner measured by.
+/// Headers often contradict the positions; the positions are what the scanner measured.
 void SliceStack::noteDeclarations(SeriesGeometry& result) const
 {
   const SliceHeader& first = m_slices.front();

@@ -14,14 +14,14 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr std::size_t kWindow = 16384;                // most headers fit one
+constexpr std::size_t kWindow = 16384;                // large enough for most headers
 constexpr std::size_t kLargestInflated = 256UL << 20; // bytes; a slice of 8192^2 and its header
 constexpr std::size_t kLargestDeflated = kLargestInflated;
 
 } // namespace
 
 ByteSource::ByteSource(const std::filesystem::path& file)
-  : m_descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) // a pipe would wait
+  : m_descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) // a pipe would block
 {
   struct stat status = {};
   if (m_descriptor < 0)
@@ -94,7 +94,7 @@ bool ByteSource::inflateFrom(std::uint64_t start)
   std::vector<unsigned char> plain(packed.begin(),
                                    packed.begin() + static_cast<std::ptrdiff_t>(start));
   z_stream stream = {};
-  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) // negative: no zlib header
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) // negative: raw DEFLATE, no zlib header
     return false;
   stream.next_in = packed.data() + start;
   stream.avail_in = static_cast<uInt>(packed.size() - start);

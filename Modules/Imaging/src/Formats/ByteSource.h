@@ -8,9 +8,8 @@
 namespace petrous::imaging
 {
 
-/// The bytes of a regular file, or of one inflated in memory. Not open: nothing there, or a pipe or
-/// device. Reading beyond the end fails; nothing
-/// throws but bad_alloc.
+/// The bytes of a regular file, or of a file inflated in memory. Not open if the file is missing,
+/// or is a pipe or device. Reading beyond the end fails; throws nothing but bad_alloc.
 class ByteSource
 {
 public:
@@ -22,20 +21,20 @@ public:
   bool isOpen() const noexcept { return m_descriptor >= 0; }
   std::uint64_t size() const noexcept { return m_size; }
 
-  /// All `count` bytes from `offset`, or false.
+  /// Reads exactly `count` bytes from `offset`, or returns false.
   bool read(std::uint64_t offset, void* bytes, std::size_t count);
 
-  /// The same through a window of the file: for many small pieces that lie together.
+  /// Like `read`, buffered: for many small reads close together.
   bool readNear(std::uint64_t offset, void* bytes, std::size_t count);
 
-  /// Replaces what follows `start` by its raw DEFLATE decompression (DICOM PS3.5 A.5). False
-  /// where it is damaged or larger than any slice could be.
+  /// Replaces everything after `start` by its raw DEFLATE decompression (DICOM PS3.5 A.5). False if
+  /// it is damaged or larger than any slice can be.
   bool inflateFrom(std::uint64_t start);
 
 private:
   int m_descriptor = -1;
   std::uint64_t m_size = 0;
-  std::vector<unsigned char> m_memory; ///< the inflated file; empty: read the file
+  std::vector<unsigned char> m_memory; ///< the inflated file; if empty, the file is read
   std::vector<unsigned char> m_window;
   std::uint64_t m_windowStart = 0;
 };

@@ -13,7 +13,7 @@ namespace petrous::imaging
 namespace
 {
 
-/// "nan" and "inf" are words.
+/// "nan" and "inf" are not accepted.
 template <class T>
 std::optional<T> finite(const std::optional<T>& value)
 {
@@ -63,7 +63,7 @@ std::string baseName(const std::filesystem::path& path)
 namespace
 {
 
-// Not empty.
+// Throws for an empty file.
 core::InputFile opened(const std::filesystem::path& path)
 try
 {

@@ -18,9 +18,9 @@ namespace
 constexpr double kLargestShear = 1e-3;  // dot product of two unit axes
 constexpr double kLargestCost = 0.1;    // mm
 constexpr double kNotedCost = 1e-3;     // mm
-constexpr double kCoarsest = 1e3;       // mm; of a voxel
-constexpr double kFarthest = 1e5;       // mm; a place beyond is garbage, as in SeriesGeometry.cpp
-constexpr double kRoundingShear = 1e-6; // float32 headers; left as it is
+constexpr double kCoarsest = 1e3;       // mm, voxel size
+constexpr double kFarthest = 1e5;       // mm; invalid beyond, as in SeriesGeometry.cpp
+constexpr double kRoundingShear = 1e-6; // float32 headers; not corrected
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 } // namespace
 
@@ -59,7 +59,7 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
       (axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (shear > kRoundingShear)
   {
-    // The nearest perpendicular axes (orthogonal Procrustes, by the singular value decomposition).
+    // The nearest orthogonal axes (orthogonal Procrustes problem, solved by SVD).
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Matrix3d straight = svd.matrixU() * svd.matrixV().transpose();
     const Eigen::Vector3d half =

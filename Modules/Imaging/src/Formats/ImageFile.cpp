@@ -34,7 +34,7 @@ Voxels adopted(const core::GridGeometry& geometry, const std::shared_ptr<void>& 
       geometry, std::shared_ptr<T>(raw, static_cast<T*>(raw.get())));
 }
 
-/// Smallest and largest value, and whether every one is a whole number.
+/// Minimum and maximum value, and whether all values are integral.
 struct Contents
 {
   double min = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ Voxels keepOrNarrow(const core::GridGeometry& geometry, const std::shared_ptr<vo
   }
 }
 
-/// A number that is none would spread through every sample, picture and force near it.
+/// A non-finite value would propagate to every sample, picture and force near it.
 void requireFinite(const std::filesystem::path& path, const Voxels& voxels)
 {
   const auto* volume = std::get_if<std::shared_ptr<const volume::Volume<float>>>(&voxels);

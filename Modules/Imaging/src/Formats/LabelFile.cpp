@@ -81,8 +81,8 @@ std::vector<bool> valuesIn(const volume::Volume<std::uint16_t>& labels)
   return {seen.begin(), seen.end()};
 }
 
-/// Names for a file that carries none itself; may renumber a lone structure to 1, and says then
-/// whether only the file's name names it.
+/// Names for a file that contains none; may renumber a single structure to 1, and reports whether
+/// only the file name names it.
 std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
                                               volume::Volume<std::uint16_t>& labels,
                                               bool& isNamedAfterFile)
@@ -93,7 +93,7 @@ std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
     fail(FileError::Reason::Unsupported, path,
          "holds no structure, every voxel is 0; voxels of a structure need a value from 1 on");
   LabelTable table = findLabelTable(path);
-  // A table of another name speaks of one structure by chance only.
+  // A table of another name matches a single structure only by chance.
   if (count > 1 || table.sameName)
   {
     auto& list = table.segments;

@@ -26,7 +26,7 @@ std::array<float, 3> colorOf(const std::string* text)
   return color;
 }
 
-/// The boxes of all segments, (first, last) an axis; last < first where a segment is empty.
+/// Bounding boxes of all segments, (first, last) per axis; last < first for an empty segment.
 std::vector<std::array<int, 6>> extents(const volume::LabelMap& labels)
 {
   std::vector<std::size_t> place(65536, labels.segments.size());
@@ -99,7 +99,7 @@ std::optional<volume::Segment> snapEntry(std::string_view line, std::uint16_t in
   return segment;
 }
 
-/// Lower-case words of a file name: cut at signs, digits and capitals ("HeadAndNeck").
+/// Lower-case words of a file name: split at punctuation, digits and capitals ("HeadAndNeck").
 std::vector<std::string> wordsOf(const std::string& name)
 {
   std::vector<std::string> words(1);
@@ -119,7 +119,7 @@ std::vector<std::string> wordsOf(const std::string& name)
 
 bool shareAWord(const std::string& a, const std::string& b)
 {
-  // Words that any label file or colour table may carry tell nothing.
+  // Words common to label files and colour tables carry no information.
   const std::array<std::string, 8> empty{"label", "labels", "color",        "colors",
                                          "table", "colour", "segmentation", "file"};
   const auto others = wordsOf(b);
@@ -151,7 +151,7 @@ bool hasSegment(const NrrdHeader& header, std::size_t segment)
          header.key(prefix + "ID");
 }
 
-/// -1 where what the file says is no number. Older files know one layer only and name none.
+/// -1 if the value is not a number. Older files have one layer and do not state it.
 std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
 {
   const std::string* stated = header.key(prefixOf(segment) + "Layer");
@@ -185,7 +185,7 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
     const std::string* value = header.key(prefix + "LabelValue");
     if (layerOf(header, s) != static_cast<std::int64_t>(layer))
       continue;
-    // Slicer wrote no LabelValue before it knew layers: the structures counted from 1.
+    // Before Slicer supported layers it wrote no LabelValue: structures are numbered from 1.
     const auto index =
         value ? parseInteger(trimmed(*value)).value_or(0) : static_cast<std::int64_t>(s) + 1;
     if (index < 1 || index > 65535)

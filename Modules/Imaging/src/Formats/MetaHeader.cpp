@@ -40,7 +40,7 @@ Fields fieldsOf(const std::filesystem::path& path)
   return fields;
 }
 
-/// The first of the names that the header has; they mean the same.
+/// The first of these synonymous keys that the header has.
 const std::string* valueOf(const Fields& fields, std::initializer_list<const char*> names)
 {
   for (const char* name : names)
@@ -57,7 +57,7 @@ bool isTrue(const Fields& fields, const char* name)
          (value->front() == 'T' || value->front() == 't' || value->front() == '1');
 }
 
-/// Types of MetaImage. MET_LONG is left out: its size depends on the machine that wrote it.
+/// MetaImage types. MET_LONG is excluded: its size depends on the machine that wrote it.
 std::optional<Component> metaComponent(const std::string* name)
 {
   constexpr std::array<std::pair<const char*, Component>, 10> kTypes{
@@ -77,7 +77,7 @@ std::optional<Component> metaComponent(const std::string* name)
   return std::nullopt;
 }
 
-/// All words as numbers; empty where one is none.
+/// All words as numbers; empty if one is not a number.
 std::vector<double> numbersOf(const std::string* text)
 {
   std::vector<double> values;
@@ -135,8 +135,8 @@ void findVoxels(const std::filesystem::path& path, const Fields& fields, MetaHea
   }
 }
 
-/// Letters of the side of the patient from which each axis comes ("RAI": LPS), where the file gives
-/// them. ITK and all that builds on it go by TransformMatrix, so the letters are only compared.
+/// The letters denote the side of the patient from which each axis starts ("RAI": LPS), if present.
+/// ITK and everything based on it uses TransformMatrix, so the letters are only compared.
 void noteOrientation(const Fields& fields, bool hasAxes, const std::vector<double>& cosines,
                      std::size_t n, std::vector<std::string>& notes)
 {
@@ -195,7 +195,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
   {
     const auto column = static_cast<Eigen::Index>(a);
     header.origin[column] = origin[a] * unit;
-    // TransformMatrix lists the axes one after the other.
+    // TransformMatrix lists the axes consecutively.
     for (std::size_t row = 0; row < 3; ++row)
       header.linear(static_cast<Eigen::Index>(row), column) =
           (axes ? cosines[a * n + row] : (a == row ? 1.0 : 0.0)) * spacing[a] * unit;

@@ -22,12 +22,12 @@ constexpr std::size_t kHeaderBytes = 348;
 constexpr std::size_t kDataOffset = 352;
 constexpr double kLargestOffset = 1e9;
 constexpr const char* kGzipStart = "\x1f\x8b";
-constexpr double kMaxQuaternion = 1.001; // squared; float32 and a few digits round by less
-constexpr double kPlacementsDiffer = 0.1;    // mm; see "No silent guess"
-// NIfTI counts right, anterior, superior; the patient frame is left, posterior, superior.
+constexpr double kMaxQuaternion = 1.001; // squared norm; float32 and few digits round by less
+constexpr double kPlacementsDiffer = 0.1;    // mm between sform and qform; noted if exceeded
+// NIfTI uses right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 
-// Where the fields lie, in bytes from the start (nifti1.h).
+// Byte offsets of the fields (nifti1.h).
 enum Offset : std::size_t
 {
   kSizeOfHeader = 0,
@@ -108,14 +108,14 @@ Fields checkedFields(const std::filesystem::path& path)
   return fields;
 }
 
-/// The axes of the qform; nothing where its quaternion is longer than 1, which no rotation is.
+/// The axes of the qform; nullopt if its quaternion is longer than 1, so not a rotation.
 std::optional<Eigen::Matrix3d> qformLinear(const Fields& fields, const Eigen::Vector3d& spacing)
 {
   const Eigen::Vector3d v(fields.get<float>(kQuaternion, 0), fields.get<float>(kQuaternion, 1),
                           fields.get<float>(kQuaternion, 2));
   if (!(v.squaredNorm() <= kMaxQuaternion))
     return std::nullopt;
-  // nifti1.h, METHOD 2: a >= 0 follows from the unit length.
+  // nifti1.h, METHOD 2: a >= 0 follows from unit length.
   const double rest = 1.0 - v.squaredNorm();
   Eigen::Quaterniond q(std::sqrt(std::max(rest, 0.0)), v[0], v[1], v[2]);
   q.normalize();
@@ -240,7 +240,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& path)
   if (!(offset <= kLargestOffset))
     fail(FileError::Reason::Unreadable, path,
          "its voxels should start beyond any sense; export it again from where it came");
-  // Some writers leave 0 here; the voxels never start within the header.
+  // Some writers store 0 here; the voxels never start within the header.
   header.voxelOffset = static_cast<std::uint64_t>(std::max(offset, double{kDataOffset}));
   header.slope = fields.get<float>(kSlope);
   header.intercept = fields.get<float>(kIntercept);

@@ -23,8 +23,8 @@ namespace
 {
 
 constexpr std::size_t kPage = 4096;
-// The spacing and the cosines multiplied are NRRD's "space directions"; kept apart as well, they
-// come back to the bit.
+// NRRD's "space directions" are spacing times direction cosines; stored separately as well, both
+// are restored bit-exactly.
 constexpr const char* kSpacingKey = "petrous_spacing";
 constexpr const char* kDirectionKey = "petrous_direction";
 constexpr const char* kPaddingKey = "petrous_padding";
@@ -42,7 +42,7 @@ std::string paddedHeader(const core::GridGeometry& geometry, const char* type,
   header += nrrdKeyText(kSpacingKey, spacing) + nrrdKeyText(kDirectionKey, direction);
   if (padding)
     header += nrrdKeyText(kPaddingKey, exactText(*padding));
-  // "#", filling, line end, blank line
+  // "#", padding, line end, blank line
   const std::size_t least = header.size() + 3;
   const std::size_t end = (least + kPage - 1) / kPage * kPage;
   return header + "#" + std::string(end - least, ' ') + "\n\n";
@@ -118,7 +118,7 @@ core::GridGeometry exactGeometry(const std::filesystem::path& path, const NrrdHe
   }
 }
 
-/// The mapped file; unmapped with the last volume that uses it.
+/// Maps the file; unmapped with the last volume that uses it.
 std::shared_ptr<char> mapFile(const std::filesystem::path& path, std::size_t size)
 {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -139,7 +139,7 @@ template <class T>
 volume::IntensityVolume::Voxels adopt(const core::GridGeometry& geometry,
                                       const std::shared_ptr<char>& map, std::size_t offset)
 {
-  // Shared as const, so nobody writes into the read-only pages.
+  // Shared as const, so that nobody writes to the read-only pages.
   return std::make_shared<const volume::Volume<T>>(
       geometry, std::shared_ptr<T>(map, reinterpret_cast<T*>(map.get() + offset)));
 }

@@ -88,7 +88,7 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
   if (readBytes(path, 7) != "NRRD000")
     fail(FileError::Reason::UnknownFormat, path,
          "is no NRRD file although its name says so; give it the name of the format it is in");
-  // Headers are short; one with many structures and colours still stays below a few hundred KiB.
+  // Headers are short; even with many structures and colours below a few hundred KiB.
   const std::uintmax_t size = checkedFileSize(path);
   std::string bytes;
   std::size_t end = std::string::npos;
@@ -117,7 +117,7 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
     const std::string_view line = takeLine(text);
     if (line.empty() || line.front() == '#')
       continue;
-    // A key holds no colon; a key/value pair is told from a field by ":=".
+    // A key contains no colon; a key/value pair differs from a field by ":=".
     const std::size_t colon = line.find(':');
     const bool pair = colon != line.npos && colon + 1 < line.size() && line[colon + 1] == '=';
     if (pair)
@@ -127,7 +127,7 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
     }
     if (colon == line.npos)
     {
-      // Names of data files may follow "data file: LIST", one a line.
+      // Names of data files may follow "data file: LIST", one per line.
       if (const std::string* list = header.field("data file"); list && list->rfind("LIST", 0) == 0)
         break;
       fail(FileError::Reason::Unreadable, path,

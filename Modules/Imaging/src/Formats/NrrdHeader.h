@@ -11,15 +11,15 @@
 namespace petrous::imaging
 {
 
-/// NRRD header up to and with "space origin": type, sizes, directions, kinds, units, endian,
-/// encoding. `type` as NRRD names it. Further fields, key/value pairs and a blank line follow.
+/// NRRD header up to and including "space origin": type, sizes, directions, kinds, units, endian,
+/// encoding. `type` as named by NRRD. Further fields, key/value pairs and a blank line follow.
 std::string nrrdHeaderText(const core::GridGeometry& geometry, const std::string& type,
                            const std::string& encoding);
 
 /// A key/value line; line ends and backslashes in the value are escaped.
 std::string nrrdKeyText(const std::string& key, const std::string& value);
 
-/// What a NRRD header says as text. Field names are in lower case.
+/// The text header of a NRRD. Field names are in lower case.
 struct NrrdHeader
 {
   std::vector<std::pair<std::string, std::string>> fields;
@@ -30,8 +30,8 @@ struct NrrdHeader
   const std::string* key(const std::string& name) const;
 };
 
-/// Throws FileError: UnknownFormat when the file does not start as NRRD, Unreadable when the
-/// header does not end or has a line that is neither field, key nor comment.
+/// Throws FileError: UnknownFormat if the file does not start as NRRD, Unreadable if the header
+/// does not end or has a line that is neither field, key nor comment.
 NrrdHeader readNrrdHeader(const std::filesystem::path& path);
 
 } // namespace petrous::imaging

@@ -33,7 +33,7 @@ std::string valueOf(const NrrdHeader& header, const std::string& name)
   return text ? inLowerCase(trimmed(*text)) : std::string();
 }
 
-/// The names of the types, all their spellings.
+/// The names of the types, in all spellings.
 std::optional<Component> componentNamed(const std::string& name)
 {
   constexpr std::pair<const char*, Component> kTypes[] = {
@@ -83,7 +83,7 @@ std::optional<Component> componentNamed(const std::string& name)
   return std::nullopt;
 }
 
-/// The words of a field that has one for each axis: vectors in brackets, texts in quotes.
+/// The words of a field with one per axis: vectors in parentheses, texts in quotes.
 std::vector<std::string> axisWords(const std::string* text)
 {
   std::vector<std::string> words;
@@ -104,7 +104,7 @@ std::vector<std::string> axisWords(const std::string* text)
   return words;
 }
 
-/// "(a,b,c)" as numbers; `time` is the fourth one where there is one.
+/// Parses "(a,b,c)"; `time` receives a fourth number if present.
 std::optional<Eigen::Vector3d> vectorOf(const std::string& word, double& time)
 {
   if (word.size() < 2 || word.front() != '(' || word.back() != ')')
@@ -127,12 +127,12 @@ std::optional<Eigen::Vector3d> vectorOf(const std::string& word, double& time)
   return Eigen::Vector3d(values[0], values[1], values[2]);
 }
 
-/// Signs that turn the file's frame into left, posterior, superior.
+/// Signs that convert the file's frame to left, posterior, superior.
 Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header,
                              std::vector<std::string>& notes)
 {
   std::string space = valueOf(header, "space");
-  for (const std::string_view time : {"-time", "t"}) // "LPST": the first three say where
+  for (const std::string_view time : {"-time", "t"}) // "LPST": the first three are spatial
     if (space.size() > time.size() + 2 && endsWith(space, time) && space != "right" &&
         space != "left")
     {
@@ -159,7 +159,7 @@ Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header,
   return {1.0, 1.0, 1.0};
 }
 
-/// Millimetres of the file's unit along each axis of its frame.
+/// Millimetres per unit along each axis of the file's frame.
 Eigen::Vector3d unitsOf(const NrrdHeader& header, std::vector<std::string>& notes)
 {
   const std::string* text = header.field("space units");
@@ -192,7 +192,7 @@ std::vector<std::uint64_t> sizesOf(const Path& path, const NrrdHeader& header)
   return sizes;
 }
 
-/// Which axes count the numbers of a voxel and do not lie in space.
+/// Which axes index voxel components instead of space.
 std::vector<bool> rangeAxes(const NrrdHeader& header, std::size_t count)
 {
   std::vector<bool> range(count, false);
@@ -268,7 +268,7 @@ void readPlacement(const Path& path, const NrrdHeader& header, std::size_t first
   layout.origin = toLps.cwiseProduct(*first);
 }
 
-/// The first byte behind `lines` line ends.
+/// The first byte after `lines` line ends.
 std::uint64_t skippedLines(const Path& path, std::uint64_t offset, std::int64_t lines)
 {
   constexpr std::uintmax_t kMaxSkipped = std::uintmax_t{16} << 20;
@@ -322,7 +322,7 @@ void findVoxels(const Path& path, const NrrdHeader& header, NrrdLayout& layout)
     (layout.encoding == NrrdLayout::Encoding::Gzip ? layout.unpackedOffset : layout.offset) += skip;
     return;
   }
-  // -1: the voxels are the end of the file.
+  // -1: the voxels are at the end of the file.
   if (layout.encoding != NrrdLayout::Encoding::Raw)
     fail(FileError::Reason::Unsupported, path,
          "counts its packed voxels from the end of the file; save it as one .nrrd");
@@ -347,7 +347,7 @@ NrrdLayout readNrrdLayout(const Path& path, const NrrdHeader& header)
   const auto sizes = sizesOf(path, header);
   const auto range = rangeAxes(header, sizes.size());
   std::size_t first = 0;
-  long double components = 1.0L; // absurd sizes would overflow a whole number
+  long double components = 1.0L; // absurd sizes would overflow an integer
   for (; first < sizes.size() && range[first]; ++first)
     components *= static_cast<long double>(sizes[first]);
   if (components > 65536.0L)

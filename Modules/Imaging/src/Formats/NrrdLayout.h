@@ -14,13 +14,13 @@
 namespace petrous::imaging
 {
 
-/// Where the voxels of a NRRD file are and where they lie, from its header
-/// (https://teem.sourceforge.net/nrrd/format.html). Our own: ITK 5.2 turns what is stated in
-/// left-anterior-superior by 180 degrees about the third axis, and checks no checksum.
+/// Location of the voxels of a NRRD file, in the file and in the patient, from its header
+/// (https://teem.sourceforge.net/nrrd/format.html). Used instead of ITK 5.2, which rotates
+/// left-anterior-superior data by 180 degrees about the third axis and verifies no checksum.
 struct NrrdLayout
 {
   std::vector<std::uint64_t> dims;
-  std::size_t components = 1; ///< numbers a voxel: the leading axes that do not lie in space
+  std::size_t components = 1; ///< numbers per voxel: the leading non-spatial axes
   Component component = Component::Int16;
   Eigen::Matrix3d linear; ///< d patient / d voxel of the first three axes, LPS mm
   Eigen::Vector3d origin; ///< LPS mm
@@ -32,11 +32,11 @@ struct NrrdLayout
     Gzip,
     Text
   };
-  std::filesystem::path file;   ///< where the voxels are
+  std::filesystem::path file;   ///< containing the voxels
   std::uintmax_t dataBytes = 0; ///< size of that file
   Encoding encoding = Encoding::Raw;
-  std::uint64_t offset = 0;         ///< on the disk
-  std::uint64_t unpackedOffset = 0; ///< within the unpacked stream
+  std::uint64_t offset = 0;         ///< in the file
+  std::uint64_t unpackedOffset = 0; ///< in the decompressed stream
   bool swapped = false;             ///< big-endian
 };
 

@@ -15,7 +15,7 @@ namespace petrous::imaging
 namespace
 {
 constexpr std::size_t kPart = std::size_t{4} << 20;
-// Levels above cost twice the time for a few per cent on CT voxels.
+// Higher levels take twice the time for a few per cent on CT voxels.
 constexpr int kLevel = 5;
 constexpr int kGzipWindow = 15 + 16; // zlib: 32 KiB window, gzip header and trailer
 
@@ -68,7 +68,7 @@ void OutputFile::writeCompressed(std::string_view first, const void* bytes, std:
   std::vector<Bytef> out(std::size_t{1} << 18);
   const auto feed = [&](const void* data, std::size_t size, int flush)
   {
-    stream.next_in = static_cast<Bytef*>(const_cast<void*>(data)); // zlib only reads it
+    stream.next_in = static_cast<Bytef*>(const_cast<void*>(data)); // zlib does not write to it
     stream.avail_in = static_cast<uInt>(size);
     do
     {

@@ -11,7 +11,7 @@
 namespace petrous::imaging
 {
 
-/// core::OutputFile for voxels: in parts, compressed, and what it throws as FileError (Unwritable).
+/// core::OutputFile for voxels: in chunks, compressed, with FileError (Unwritable) for its errors.
 class OutputFile
 {
 public:
@@ -21,11 +21,11 @@ public:
   void write(std::string_view text) { write(text.data(), text.size()); }
   void commit();
 
-  /// Writes voxels as they are, in parts, with progress and cancel.
+  /// Writes voxels uncompressed, in chunks, with progress and cancellation.
   void writeVoxels(const void* bytes, std::size_t count, const core::Progress& progress);
 
-  /// `first`, then the voxels, as one gzip stream without time or name: equal bytes in, equal
-  /// bytes out.
+  /// Writes `first`, then the voxels, as one gzip stream without time or name: equal input gives
+  /// equal bytes.
   void writeCompressed(std::string_view first, const void* bytes, std::size_t count,
                        const core::Progress& progress);
 

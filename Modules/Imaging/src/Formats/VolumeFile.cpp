@@ -20,7 +20,7 @@ std::string metaHeaderText(const core::GridGeometry& geometry, const VoxelType& 
   { return exactText(v[0]) + " " + exactText(v[1]) + " " + exactText(v[2]); };
   const auto& n = geometry.dims();
   const Eigen::Matrix3d& axes = geometry.direction();
-  // TransformMatrix lists the axes one after the other, so its rows are our columns.
+  // TransformMatrix lists the axes consecutively, so its rows are our columns.
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = False\nTransformMatrix = " +
          row(axes.col(0)) + " " + row(axes.col(1)) + " " + row(axes.col(2)) +

@@ -18,7 +18,7 @@ namespace petrous::imaging
 namespace
 {
 
-// zlib cannot pack tighter than this; more is a header that does not belong to the voxels.
+// Maximum compression ratio of zlib; beyond it the header does not belong to the voxels.
 constexpr long double kTightestPacking = 1032.0L;
 
 /// DT_ codes of nifti1.h.
@@ -137,7 +137,7 @@ void VoxelSource::openMeta()
   m_dataBytes = header.dataBytes;
   m_place = Place{header.file, header.offset, 0, header.packed, header.swapped};
   checkRoom();
-  // Not said to be binary, the voxels may be text, unless their length fits to the byte.
+  // Unless declared binary, the voxels may be text, except if their length matches exactly.
   if (!header.saysBinary && !header.packed &&
       voxelBytes() !=
           static_cast<long double>(m_dataBytes) - static_cast<long double>(header.offset))
@@ -157,7 +157,7 @@ void VoxelSource::requireThreeDims() const
 
 long double VoxelSource::voxelBytes() const
 {
-  // Not in whole numbers: absurd dimensions would overflow their product.
+  // Not in integers: absurd dimensions would overflow the product.
   long double bytes = static_cast<long double>(m_components);
   for (const std::uint64_t n : m_dims)
     bytes *= static_cast<long double>(n);
@@ -166,7 +166,7 @@ long double VoxelSource::voxelBytes() const
 
 void VoxelSource::checkRoom() const
 {
-  // A number as text takes a digit and a gap, the last one no gap.
+  // A number as text takes a digit and a separator; the last needs no separator.
   const long double numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
   const long double needed =
       m_place.isText ? 2.0L * voxelBytes() / numberBytes - 1.0L : voxelBytes();

@@ -17,9 +17,9 @@
 namespace petrous::imaging
 {
 
-/// A NIfTI, NRRD or MetaImage file whose header has been read and found sound: its dimensions
-/// can be held by the file, its axes are perpendicular. No text of the file ever reaches a message.
-/// Everything throws FileError.
+/// A NIfTI, NRRD or MetaImage file with a validated header: the file is large enough for its
+/// dimensions, and its axes are perpendicular. Text from the file never reaches a message. All
+/// members throw FileError.
 class VoxelSource
 {
 public:
@@ -27,24 +27,24 @@ public:
 
   const core::GridGeometry& geometry() const noexcept { return *m_geometry; }
   Component component() const noexcept { return rescaled() ? Component::Float : m_stored; }
-  /// Numbers a voxel: above 1 for vectors, colours, and the layers of a segmentation.
+  /// Numbers per voxel: above 1 for vectors, colours, and the layers of a segmentation.
   std::size_t components() const noexcept { return m_components; }
-  /// Whether whole numbers were turned into float by a rescale slope and intercept.
+  /// Whether integers were converted to float by a rescale slope and intercept.
   bool rescaled() const noexcept { return m_slope != 0.0; }
   const std::vector<std::string>& notes() const noexcept { return m_notes; }
-  /// The text header of a NRRD; nothing for other formats.
+  /// The text header of a NRRD; nullopt for other formats.
   const std::optional<NrrdHeader>& nrrd() const noexcept { return m_nrrd; }
 
-  /// The voxels of a box, numbers of a voxel side by side, first axis fastest. Reads no more than
-  /// the box where the format allows it, and keeps no more.
+  /// The voxels of a box, components interleaved, first axis fastest. Reads no more than the box if
+  /// the format allows it, and keeps no more.
   std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
 
 private:
   struct Place
   {
     std::filesystem::path file;
-    std::uint64_t offset = 0;       ///< on the disk
-    std::uint64_t packedOffset = 0; ///< within the unpacked stream
+    std::uint64_t offset = 0;       ///< in the file
+    std::uint64_t packedOffset = 0; ///< in the decompressed stream
     bool packed = false;
     bool swapped = false;
     bool isText = false;
@@ -62,13 +62,13 @@ private:
   std::vector<std::uint64_t> m_dims;
   std::optional<core::GridGeometry> m_geometry;
   Place m_place;
-  Component m_stored = Component::Int16; ///< before the rescale
+  Component m_stored = Component::Int16; ///< before rescaling
   std::size_t m_components = 1;
-  double m_slope = 0.0; ///< 0: no rescale
+  double m_slope = 0.0; ///< 0: no rescaling
   double m_intercept = 0.0;
   std::vector<std::string> m_notes;
   std::optional<NrrdHeader> m_nrrd;
-  std::uintmax_t m_dataBytes = 0; ///< most bytes on disk that can hold the voxels
+  std::uintmax_t m_dataBytes = 0; ///< upper limit of the bytes on disk available for voxels
 };
 
 } // namespace petrous::imaging

@@ -14,14 +14,14 @@ namespace
 {
 constexpr std::size_t kPart = std::size_t{1} << 18;
 constexpr int kEitherWindow = 15 + 32;       // zlib: 32 KiB window, gzip or zlib header
-constexpr std::uint64_t kMaxTail = 1U << 20; // bytes behind the voxels
+constexpr std::uint64_t kMaxTail = 1U << 20; // bytes after the voxels
 } // namespace
 
 struct VoxelStream::Inflater
 {
   z_stream stream{};
   std::vector<char> in = std::vector<char>(kPart);
-  bool ended = false; ///< the checksum has been reached, and is right
+  bool ended = false; ///< the checksum was reached, and is correct
 };
 
 VoxelStream::VoxelStream(const std::filesystem::path& path, std::uint64_t offset, bool packed)
@@ -109,7 +109,7 @@ std::size_t VoxelStream::unpack(char* out, std::size_t count)
     }
     if (m_inflater->ended)
     {
-      // Packed in parallel, a file is several streams one after the other; zeros may fill its end.
+      // Parallel compressors write several streams in sequence; zeros may pad the end of the file.
       if (*stream.next_in != 0x1f)
         return done;
       inflateReset(&stream);

@@ -13,13 +13,13 @@
 namespace petrous::imaging
 {
 
-/// The bytes of a file from an offset on, unpacked where they are gzip or zlib. A file that breaks
-/// off or fails its checksum is refused: ITK 5.2 would give voxels from nothing there, in silence.
+/// The bytes of a file from an offset onwards, decompressed if gzip or zlib. A truncated file or a
+/// checksum mismatch is an error, unlike in ITK 5.2, which would silently return undefined voxels.
 /// Throws FileError (Unreadable).
 class VoxelStream
 {
 public:
-  /// `offset` counts bytes on the disk.
+  /// `offset` is in the file, not the decompressed stream.
   VoxelStream(const std::filesystem::path& path, std::uint64_t offset, bool packed);
   ~VoxelStream();
   VoxelStream(const VoxelStream&) = delete;
@@ -28,8 +28,8 @@ public:
   void read(void* out, std::size_t count);
   void skip(std::uint64_t count);
 
-  /// Reads a packed stream on to its end, where the last checksum stands. More than `most` bytes
-  /// beyond what was asked for belong to another header, and are refused.
+  /// Reads a compressed stream to its end, where the last checksum is. More than `most` bytes
+  /// beyond those requested indicate a mismatched header, and are rejected.
   void finish(std::uint64_t most, const core::Progress& progress);
 
 private:
@@ -42,12 +42,13 @@ private:
   std::unique_ptr<Inflater> m_inflater;
 };
 
-/// Reads a box of a grid whose voxels of `voxelBytes` follow on `stream`, first axis fastest, and
-/// keeps only it. A packed stream is read to its end, so that damage anywhere is known.
+/// Reads a box of a grid whose voxels of `voxelBytes` follow in `stream`, first axis fastest,
+/// storing only the box. A compressed stream is read to its end, so that damage anywhere is
+/// detected.
 void readBox(VoxelStream& stream, const core::Index3& dims, const core::IndexBox& box,
              std::size_t voxelBytes, void* out, const core::Progress& progress);
 
-/// Turns the bytes of each of `count` numbers round.
+/// Reverses the byte order of each of `count` numbers.
 void swapBytes(void* numbers, std::size_t count, std::size_t numberBytes);
 
 } // namespace petrous::imaging

@@ -10,7 +10,7 @@
 namespace petrous::imaging
 {
 
-/// How a voxel type is called in each format.
+/// Names of a voxel type in each format.
 struct VoxelType
 {
   const char* nrrd; ///< "short"
@@ -22,8 +22,8 @@ struct VoxelType
 template <class T>
 VoxelType voxelTypeOf();
 
-/// Writes voxels in the format that the name's extension asks for (.nrrd .nii .nii.gz .mha);
-/// `nrrdKeys` are finished key/value lines for .nrrd. Throws FileError, CancelledError.
+/// Writes voxels in the format given by the file extension (.nrrd .nii .nii.gz .mha); `nrrdKeys`
+/// are complete key/value lines for .nrrd. Throws FileError, CancelledError.
 void writeVoxelFile(const std::filesystem::path& path, const core::GridGeometry& geometry,
                     const VoxelType& type, const void* voxels, const std::string& nrrdKeys,
                     const core::Progress& progress);

@@ -17,7 +17,7 @@ namespace petrous::imaging
 namespace
 {
 
-// The comment or header that tells the frame stands near the start.
+// The comment or header that states the frame is near the start.
 constexpr std::size_t kFrameWithin = 4096;
 constexpr const char* kStatement = "Petrous surface. SPACE=LPS, unit mm";
 
@@ -42,7 +42,7 @@ std::string objText(const core::TriangleMesh& mesh)
 
 std::string stlBytes(const core::TriangleMesh& mesh)
 {
-  std::string bytes(kStatement); // not "solid", which is how a text STL starts
+  std::string bytes(kStatement); // not "solid", which starts a text STL
   bytes.resize(80, ' ');
   bytes.reserve(84 + mesh.triangles.size() * 50);
   append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -82,7 +82,7 @@ std::string plyBytes(const core::TriangleMesh& mesh)
   return bytes;
 }
 
-/// A vertex of no triangle is not of the surface, and must not count for where it lies.
+/// A vertex without triangle is not part of the surface, and must not affect its bounds.
 void dropUnusedVertices(core::TriangleMesh& mesh)
 {
   constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();

@@ -11,8 +11,8 @@
 namespace petrous::imaging
 {
 
-/// Collects a mesh from a file and refuses what cannot be true: a vertex that is not finite, a
-/// corner that names a vertex which is not there. Throws FileError.
+/// Collects a mesh from a file and rejects invalid data: a non-finite vertex, or a corner with an
+/// invalid vertex index. Throws FileError.
 class MeshBuilder
 {
 public:
@@ -20,13 +20,13 @@ public:
 
   void reserve(std::size_t vertices, std::size_t triangles);
   void addVertex(float x, float y, float z);
-  /// A polygon by its corners (from 0), cut into a fan from its first corner; triangles that
-  /// name a vertex twice have no area and are left out.
+  /// A polygon by its corners (from 0), triangulated as a fan from its first corner; degenerate
+  /// triangles that use a vertex twice are skipped.
   void addPolygon(const std::vector<std::int64_t>& corners);
   std::size_t vertexCount() const noexcept { return m_mesh.vertices.size(); }
   [[noreturn]] void failUnreadable(const char* what) const;
 
-  /// Refuses a mesh without triangles.
+  /// Throws for a mesh without triangles.
   core::TriangleMesh take();
 
 private:
@@ -34,7 +34,7 @@ private:
   core::TriangleMesh m_mesh;
 };
 
-/// Readers of a whole file's bytes.
+/// Parsers of a whole file.
 core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes);

@@ -23,8 +23,8 @@ bool isKeyword(std::string_view word)
                      { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
 }
 
-/// The vertex of a corner "7", "7/1", "7/1/3" or "7//3"; a negative one counts back from the last
-/// vertex that has been read.
+/// The vertex of a corner "7", "7/1", "7/1/3" or "7//3"; negative numbers count back from the last
+/// vertex read.
 std::int64_t cornerOf(const MeshBuilder& builder, std::string_view word)
 {
   const auto index = parseInteger(word.substr(0, word.find('/')));
@@ -33,7 +33,7 @@ std::int64_t cornerOf(const MeshBuilder& builder, std::string_view word)
   return *index > 0 ? *index - 1 : static_cast<std::int64_t>(builder.vertexCount()) + *index;
 }
 
-/// The next line; a backslash at its end joins the one after.
+/// The next line; a backslash at its end continues it on the following one.
 std::string_view takeRecord(std::string_view& rest, std::string& joined)
 {
   std::string_view line = takeLine(rest);

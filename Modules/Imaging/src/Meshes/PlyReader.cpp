@@ -27,7 +27,7 @@ struct Property
 {
   std::string name;
   Component type = Component::Float;
-  std::optional<Component> listCount; ///< the type of a list's length
+  std::optional<Component> listCount; ///< type of the list length
 };
 
 struct Element
@@ -163,14 +163,14 @@ private:
     m_elements.back().properties.push_back(std::move(property));
   }
 
-  /// A count that the rest of the file cannot hold is never believed.
+  /// Rejects a count that the rest of the file cannot contain.
   void checkCount(const Element& element) const
   {
     std::uint64_t least = 0;
     for (const Property& property : element.properties)
       least +=
           m_encoding == Encoding::Text ? 2 : sizeOf(property.listCount.value_or(property.type));
-    // The last number of a text may lack the line end.
+    // The last number of a text file may lack the line end.
     if (element.count > 0 && (least == 0 || element.count > (m_rest.size() + 1) / least))
       m_builder.failUnreadable("its header counts more than the file can hold");
   }

@@ -32,7 +32,7 @@ struct PointHash
   }
 };
 
-/// Gives equal corners one vertex. STL repeats each vertex for every facet.
+/// Merges coincident corners. STL repeats each vertex for every facet.
 class Merger
 {
 public:
@@ -66,7 +66,7 @@ core::TriangleMesh parseBinary(const std::filesystem::path& path, std::string_vi
   std::vector<std::int64_t> corners(3);
   for (std::size_t f = 0; f < facets; ++f)
   {
-    std::array<Point, 4> facet{}; // the normal comes first; it follows from the corners
+    std::array<Point, 4> facet{}; // the normal comes first; ignored, as it follows from the corners
     std::memcpy(facet.data(), bytes.data() + kPrefixBytes + f * kFacetBytes, sizeof facet);
     for (std::size_t c = 0; c < 3; ++c)
       corners[c] = merger.indexOf(facet[c + 1]);
@@ -118,7 +118,7 @@ core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view
 
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes)
 {
-  // Some writers start the binary header with "solid" too, so the length decides first.
+  // Some writers start the binary header with "solid" too, so the size decides first.
   std::uint32_t facets = 0;
   if (bytes.size() >= kPrefixBytes)
   {

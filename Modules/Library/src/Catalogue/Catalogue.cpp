@@ -10,10 +10,10 @@ namespace
 {
 
 constexpr int kWriterWaits = 2000; // ms
-constexpr int kReaderWaits = 500;  // ms; the manifests can be read instead
+constexpr int kReaderWaits = 500;  // ms; the manifests are read instead
 
-// A rollback journal and not WAL: WAL cannot be read from a read-only medium but with `immutable`,
-// which is wrong while others write, and leaves files where it is only read.
+// Rollback journal instead of WAL: WAL can be read from a read-only medium only with `immutable`,
+// which is wrong while others write, and leaves files behind even if only read.
 SQLite::Database openForWriting(const std::filesystem::path& file)
 {
   SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
@@ -27,14 +27,14 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
   return database;
 }
 
-// SQLite would wait for a pipe.
+// SQLite would block on a pipe.
 bool isRegular(const std::filesystem::path& file)
 {
   std::error_code error;
   return std::filesystem::is_regular_file(file, error);
 }
 
-// Runs `change` on the database; on a new one where the old one is damaged.
+// Applies `change` to the database; to a new one if the old one is damaged.
 template <class Change>
 void write(const std::filesystem::path& file, const Change& change)
 {
@@ -117,7 +117,7 @@ try
 }
 catch (const std::exception&)
 {
-  // The manifest is what counts; `entries` will not answer for it and it is read again.
+  // The manifest is authoritative; `entries` will not match it, so it is read again.
 }
 
 void Catalogue::remove(const std::string& name) noexcept
@@ -133,7 +133,7 @@ try
 }
 catch (const std::exception&)
 {
-  // An entry without a manifest is never asked for.
+  // An entry without a manifest is never looked up.
 }
 
 } // namespace petrous::library

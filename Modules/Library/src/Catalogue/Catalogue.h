@@ -10,13 +10,13 @@
 namespace petrous::library
 {
 
-/// The SQLite index over the manifests. It only saves time: an entry holds while the manifest's
-/// size and time of change are those it was made from, and where the database cannot be opened or
-/// written, everything is read from the manifests. A damaged one is made anew by `put`.
+/// SQLite index of the manifests. It is only an optimization: an entry is valid while size and
+/// modification time of the manifest match, and if the database cannot be opened or written,
+/// everything is read from the manifests. A damaged database is recreated by `put`.
 class Catalogue
 {
 public:
-  /// Which state of a manifest an entry was made from.
+  /// The state of the manifest from which an entry was made.
   struct Stamp
   {
     std::uintmax_t size = 0;
@@ -31,7 +31,7 @@ public:
     Stamp stamp;
   };
 
-  /// By name; as one reader sees it who locks writers out. Leaves no file behind.
+  /// Keyed by name; one consistent read that locks out writers. Creates no files.
   std::map<std::string, Entry> entries() const noexcept;
   void put(const CaseSummary& summary, const Stamp& stamp) noexcept;
   void remove(const std::string& name) noexcept;

@@ -34,14 +34,14 @@ namespace
 
 using Reason = LibraryError::Reason;
 
-// An object that is gone (its last case was deleted meanwhile) is written again where the part is
-// still in memory; else the case goes on naming it, and who opens it is told.
+// A missing object (its last case was deleted meanwhile) is stored again if the part is still in
+// memory; else the case keeps the reference, and opening it reports the missing object.
 bool mustStore(const std::string& object, const ObjectStore& store, bool inMemory)
 {
   return object.empty() || (inMemory && !store.contains(object));
 }
 
-// Puts the voxels of every part that has no object yet into the store.
+// Stores the voxels of every part that has no object yet.
 void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& progress)
 {
   const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
@@ -104,12 +104,12 @@ void refuse(const std::vector<std::string>& damage)
 
 constexpr std::size_t kSaltDigits = 64; // 256 bits
 
-/// The library's secret, drawn once. Call with the library locked.
+/// The library's secret salt, generated once. The library must be locked.
 std::string saltOf(const fs::path& folder)
 {
   const fs::path path = folder / "salt";
   if (!fs::exists(path))
-    core::writeFile(path, randomId() + randomId()); // from the system's generator
+    core::writeFile(path, randomId() + randomId()); // from the system's random generator
   std::string salt;
   try
   {
@@ -127,7 +127,7 @@ std::string saltOf(const fs::path& folder)
   return salt;
 }
 
-/// Whoever knows a hospital's UIDs could try which of them a plain hash is of.
+/// A plain hash would allow anyone who knows a hospital's UIDs to test them against it.
 void saltFrames(scene::Case& value, const fs::path& folder)
 {
   const auto salted = [&folder](scene::ImagePart& image)
@@ -144,15 +144,15 @@ void saltFrames(scene::Case& value, const fs::path& folder)
   std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
 
-constexpr int kUnpackedLabelsVersion = 1; // raised with every change of what readLabelFile answers
+constexpr int kUnpackedLabelsVersion = 1; // incremented with every change of readLabelFile's result
 
-// Unpacking a file of labels takes longer than all that is asked of it most often.
+// Decompressing a label file takes longer than most uses of it.
 std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
                                                        const std::string& object,
                                                        const std::string& what,
                                                        core::DerivedStore& derived)
 {
-  // Nothing stands in for an object that is damaged, nor is kept of it.
+  // No cached data replace a damaged object, or are derived from it.
   const fs::path path = store.checkedPath(object, what);
   const std::string key = "labels " + std::to_string(kUnpackedLabelsVersion) + " " + object;
   if (const auto bytes = derived.find(key))
@@ -208,7 +208,7 @@ std::vector<CaseSummary> Library::list() const
   {
     const auto state = stateOf(manifestPath(name));
     if (!state)
-      continue; // removed just now
+      continue; // removed in the meantime
     const auto entry = known.find(name);
     if (entry != known.end() && entry->second.stamp.size == state->stamp.size &&
         entry->second.stamp.changed == state->stamp.changed)
@@ -319,14 +319,14 @@ void Library::loadDissection(scene::Case& value) const
     value.strokes[n].stroke = std::move(strokes[n]);
 }
 
-// The objects that were read from here, each with what it is.
+// The images that were read from here, each with a description.
 std::vector<std::pair<fs::path, std::string>> Library::mappedImages(const scene::Case& value) const
 {
   std::vector<std::pair<fs::path, std::string>> images;
   const auto add = [&](const scene::ImagePart& image)
   {
     const fs::path path = objectFolder() / image.object;
-    if (image.volume.peek() && m_checks->knows(path)) // others were made here
+    if (image.volume.peek() && m_checks->knows(path)) // others were created in memory
       images.emplace_back(path, imageText(value, image));
   };
   add(value.ct);
@@ -395,11 +395,11 @@ void Library::save(scene::Case& value, const core::Progress& progress)
     ++next.revision;
     progress.report(0.95, "saving");
     const std::string manifest = scene::toManifest(next);
-    scene::fromManifest(manifest, path.string()); // what cannot be read again is never written
+    scene::fromManifest(manifest, path.string()); // never writes what cannot be read again
     core::OutputFile file(path);
     file.write(manifest);
     onDisk = file.commit();
-    // The manifest is published: from here on nothing is taken back.
+    // The manifest is published: no rollback from here on.
     store.forget();
     value = std::move(next);
   }
@@ -422,7 +422,7 @@ void Library::save(scene::Case& value, const core::Progress& progress)
 std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
                                  const core::Progress& progress)
 {
-  constexpr int kAttempts = 20; // somebody else saves again and again
+  constexpr int kAttempts = 20; // another program keeps saving
   for (int attempt = 1;; ++attempt)
   {
     try
@@ -456,7 +456,7 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
     scene::Case own = value;
     own.revision = 0;
     std::string stem = value.name.substr(0, 80);
-    // Cut at a character's border (UTF-8), and names do not end in a space.
+    // Truncate at a UTF-8 character boundary; names must not end in a space.
     if (stem.size() < value.name.size())
       while (!stem.empty() && (static_cast<unsigned char>(value.name[stem.size()]) & 0xC0) == 0x80)
         stem.pop_back();
@@ -473,7 +473,8 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
   }
 }
 
-// What another program saved, with the strokes drilled since `base`; nothing where they do not fit.
+// The state saved by another program, with the strokes drilled since `base`; nullopt if they do not
+// fit.
 std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
                                                     const SavedState& base) const
 {
@@ -489,7 +490,7 @@ std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
     const auto first = value.strokes.begin() + static_cast<std::ptrdiff_t>(base.strokes.size());
     return graft(now, base, {{first, value.strokes.end()}, value.history});
   }
-  catch (const core::Error&) // damaged meanwhile
+  catch (const core::Error&) // damaged in the meantime
   {
     return std::nullopt;
   }

@@ -12,7 +12,7 @@
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
 
-// What is done to a library as a whole, and to cases as files.
+// Operations on the whole library, and on cases as files.
 namespace petrous::library
 {
 
@@ -24,7 +24,7 @@ namespace
 
 constexpr const char* kIndex = "library.sqlite";
 
-// The objects of a case, each with what it is.
+// The objects of a case, each with a description.
 std::map<std::string, std::string> objectsOf(const scene::Case& value)
 {
   std::map<std::string, std::string> objects;
@@ -48,7 +48,7 @@ std::string lower(std::string text)
   return text;
 }
 
-// The journals of a case, those that were set aside too.
+// The journals of a case, including those set aside.
 std::vector<fs::path> journalsOf(const fs::path& library, const std::string& name)
 {
   const fs::path journal = journalPath(library, name);
@@ -88,7 +88,7 @@ void Library::refuseWhereDrilled(const std::string& name) const
 namespace
 {
 
-// A journal goes on from the case of its name; under another one nobody would bring it back.
+// A journal belongs to the case of its name; under another name it would never be recovered.
 void refuseWhereUnrecovered(const fs::path& library, const std::string& name)
 {
   const fs::path journal = journalPath(library, name);
@@ -112,7 +112,7 @@ void Library::rename(const std::string& from, const std::string& to)
   {
     try
     {
-      open(from); // brings back what was not saved
+      open(from); // recovers unsaved drilling
       return false;
     }
     catch (const core::Error&)
@@ -129,7 +129,7 @@ void Library::rename(const std::string& from, const std::string& to)
                                               m_folder.string() + "; choose another name");
   setOrphanAside(m_folder, to);
   // The manifest first: a kill then leaves journals that are set aside when the old name is used
-  // again, and never a journal with another case's manifest.
+  // again, and never a journal beside the manifest of another case.
   if (::rename(path.c_str(), manifestPath(to).c_str()) != 0)
     throwForErrno(errno, manifestPath(to));
   const std::string old = journalPath(m_folder, from).string();
@@ -155,8 +155,7 @@ void Library::remove(const std::string& name)
   const fs::path path = checkedManifestPath(name);
   const FolderLock lock(m_folder / ".lock");
   refuseWhereDrilled(name);
-  // The journals first: one that is left alone would be taken for that of the next case of this
-  // name.
+  // The journals first: one left behind would be taken for that of the next case of this name.
   for (const fs::path& journal : journalsOf(m_folder, name))
     removeFile(journal);
   std::error_code error;
@@ -232,7 +231,7 @@ Inspection Library::verify(const core::Progress& progress) const
   std::uintmax_t total = 1;
   for (const auto& [object, bytes] : store.list())
   {
-    uses[object]; // one that no case names is looked at too
+    uses[object]; // unreferenced objects are verified too
     sizes[object] = bytes;
     total += bytes;
   }
@@ -320,7 +319,7 @@ std::vector<std::string> Library::repair()
     }
     catch (const core::Error&)
     {
-      // told above
+      // reported above
     }
   done.push_back("the index holds " + std::to_string(index.entries().size()) + " of " +
                  std::to_string(names.size()) + " cases");

@@ -47,7 +47,7 @@ std::vector<std::string> namesIn(const fs::path& folder)
     if (path.extension() == ".json" && path.filename().string()[0] != '.')
       names.push_back(path.stem().string());
   }
-  // A library that was never saved to has no folder yet; anything else is a fault to be told.
+  // A library that was never saved to has no folder yet; any other error is reported.
   if (error && error != std::errc::no_such_file_or_directory)
     throw LibraryError(Reason::Damaged,
                        core::printable(folder) + ": cannot be read (" + error.message() +

@@ -49,7 +49,7 @@ Journal::Journal(const Library& library, SavedState saved, Measure measure)
                        "case '" + m_base.name +
                            "' is being drilled by another process; end that first");
   if (other.there())
-    setAside(path); // Library::open could not bring it back, and said so
+    setAside(path); // Library::open could not recover it, and reported that
 }
 
 void Journal::claim()
@@ -69,7 +69,7 @@ void Journal::makeFile()
 {
   const fs::path path = journalPath(m_folder, m_base.name);
   if (const JournalFile other(path); other.there() && other.held())
-    setAside(path); // of a process that was killed since this object was made
+    setAside(path); // of a process that was killed since this object was created
   m_file = std::make_unique<JournalFile>(path, JournalHead(m_base));
 }
 
@@ -110,7 +110,7 @@ void Journal::write(std::vector<Kept> frames)
     m_kept.push_back(std::move(kept));
 }
 
-// What the open stroke took since the last part, if that is due.
+// What the open stroke removed since the last part, if a part is due.
 std::optional<Journal::Kept> Journal::partOf(const dissection::Dissection& work)
 {
   const Clock::time_point now = Clock::now();
@@ -173,7 +173,7 @@ void Journal::saved(SavedState now)
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
   const std::size_t strokes = now.strokes.size();
-  // A frame of the history holds all of it: what leads up to the saved one is of no more use.
+  // A history frame is complete: frames leading up to the saved one are obsolete.
   const std::string history =
       encoded(JournalFrame{JournalFrame::Kind::History, scene::toText(now.history), {}});
   std::vector<Kept> left;
@@ -197,7 +197,7 @@ void Journal::saved(SavedState now)
       bytes += kept.frame;
     const fs::path next = path.string() + ".new";
     std::error_code ignored;
-    fs::remove(next, ignored); // of one that was killed here
+    fs::remove(next, ignored); // of a process that was killed here
     auto file = std::make_unique<JournalFile>(next, JournalHead(now));
     try
     {

@@ -26,8 +26,8 @@ namespace
 
 using nlohmann::json;
 
-// A frame: u64 length of the rest, its SHA-256 in hexadecimal, then the rest: kind, u32 length of
-// the text, text, bytes. Little endian.
+// Frame: u64 length of the rest, its SHA-256 in hexadecimal, then the rest: kind, u32 length of the
+// text, text, bytes. Little endian.
 constexpr std::size_t kHash = 64;
 constexpr std::size_t kBefore = 8 + kHash;
 constexpr std::size_t kMin = 5;
@@ -55,7 +55,7 @@ std::string hashOf(std::string_view bytes)
   return sha256Of(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
 }
 
-// The frame at the beginning of `bytes`; its length, or 0 where there is no good one.
+// Parses the frame at the start of `bytes`; returns its length, or 0 if it is invalid.
 std::size_t frameIn(std::string_view bytes, JournalFrame& frame)
 {
   if (bytes.size() < kBefore + kMin)
@@ -98,15 +98,15 @@ bool headIn(const JournalFrame& frame, JournalHead& head)
   return true;
 }
 
-// Nothing but the beginning of a head.
+// Whether the bytes are only the start of a head.
 bool endsInHead(std::string_view bytes)
 {
   return bytes.size() < kBefore + kMin ||
          (numberIn(bytes, 8) < kMaxHead && numberIn(bytes, 8) > bytes.size() - kBefore);
 }
 
-// Who drills holds the lock as long as that lasts; who only looks for a moment. A moment's lock is
-// waited for, or the one who looks would be taken for one who drills.
+// A drilling process holds the lock for as long as it drills; an inspecting process only briefly.
+// Brief locks are waited for, or an inspecting process would be taken for a drilling one.
 bool lockSoon(int descriptor)
 {
   constexpr int kTries = 20;
@@ -206,7 +206,7 @@ fs::path setAside(const fs::path& journal)
 JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
   : m_path(path)
 {
-  // A reader may take the empty file for one that was left behind, and remove it: then once more.
+  // A reader may take the empty file for a stale one and remove it: then try again.
   struct stat info
   {
   };

@@ -11,26 +11,25 @@
 namespace petrous::library
 {
 
-// The file of a journal: frames one after the other, each with its length and its hash, so that
-// what a kill or a flipped bit left is known for what it is. The layout is in
-// Documentation/adr/0003.
+// A journal file is a sequence of frames, each with its length and hash, so that truncation by a
+// kill and flipped bits are detected. The layout is in Documentation/adr/0003.
 
 struct JournalFrame
 {
   enum class Kind : std::uint8_t
   {
-    Head = 'J',    ///< text: which case and revision
-    Stroke = 'S',  ///< text: scene::toText(StrokePart), bytes: its voxels
+    Head = 'J',    ///< text: case and revision
+    Stroke = 'S',  ///< text: scene::toText(StrokePart), bytes: voxels
     History = 'H', ///< text: scene::toText(History)
-    Part = 'P'     ///< of the open stroke: as Stroke, since the part before
+    Part = 'P'     ///< of the open stroke: like Stroke, since the previous part
   };
   Kind kind = Kind::Head;
   std::string text;
   std::vector<std::uint8_t> bytes;
 };
 
-/// The state from which the session went on. What follows `strokes` is missing in journals of older
-/// programs.
+/// The state that the journal continues. The members after `strokes` are missing in journals of
+/// older programs.
 struct JournalHead
 {
   JournalHead() = default;
@@ -38,44 +37,45 @@ struct JournalHead
 
   std::string caseName;
   std::uint64_t revision = 0; ///< of the manifest
-  std::size_t strokes = 0;    ///< that it has
-  std::string ct;             ///< its object
-  std::string strokesHash;    ///< of the names of their objects
+  std::size_t strokes = 0;    ///< in the manifest
+  std::string ct;             ///< object name
+  std::string strokesHash;    ///< of their object names
   std::string history;        ///< scene::toText
 };
 
-/// What JournalHead::strokesHash says of these strokes.
+/// JournalHead::strokesHash of these strokes.
 std::string hashOfNames(const std::vector<std::string>& strokes);
 
 struct JournalContent
 {
-  bool headed = false;  ///< else nothing of the rest is known
-  bool started = false; ///< else the writer ended before its head was whole
+  bool headed = false;  ///< else nothing else is known
+  bool started = false; ///< else the writer terminated before its head was complete
   JournalHead head;
-  std::vector<JournalFrame> frames; ///< the good ones up to the first that is not
-  std::size_t leftOver = 0;         ///< bytes behind them
+  std::vector<JournalFrame> frames; ///< valid frames up to the first invalid one
+  std::size_t leftOver = 0;         ///< bytes after them
 };
 
 std::string encoded(const JournalFrame& frame);
 std::string encoded(const JournalHead& head);
 
-/// Never throws but for memory: what cannot be read is left over.
+/// Throws only bad_alloc: unreadable content is reported as left over.
 JournalContent journalFrom(std::string_view bytes);
 
-/// Where the journal of a case lies.
+/// Path of the journal of a case.
 std::filesystem::path journalPath(const std::filesystem::path& library, const std::string& name);
 
-/// Renames a journal that cannot be used to a name that nobody has; that name. Throws LibraryError.
+/// Renames an unusable journal to an unused name and returns that. Throws LibraryError.
 std::filesystem::path setAside(const std::filesystem::path& journal);
 
-/// A journal that is open and locked: nobody else writes it or takes it for left behind.
+/// An open and locked journal: no other process writes it or considers it stale.
 class JournalFile
 {
 public:
-  /// Makes the file with its head. Throws LibraryError: Conflict where another process has one.
+  /// Creates the file with its head. Throws LibraryError: Conflict if another process has one.
   JournalFile(const std::filesystem::path& path, const JournalHead& head);
 
-  /// One that is there. `held()` is false where a live program has it, `there()` where it is gone.
+  /// Opens an existing file. `held()` is false if a running program has it locked, `there()` if it
+  /// is gone.
   explicit JournalFile(const std::filesystem::path& path);
 
   ~JournalFile();
@@ -85,13 +85,12 @@ public:
   bool there() const noexcept { return m_descriptor >= 0; }
   bool held() const noexcept { return m_held; }
   std::size_t size() const noexcept { return m_size; }
-  std::string read() const; ///< all of it
+  std::string read() const; ///< the whole file
 
-  /// Frames at the end, on the disk when it returns. Throws LibraryError; then the file is as
-  /// before.
+  /// Appends frames, synced to disk on return. Throws LibraryError; the file is then unchanged.
   void append(std::string_view frames);
 
-  /// Takes the place of what lies there. Throws LibraryError.
+  /// Atomically replaces the file at `path`. Throws LibraryError.
   void moveTo(const std::filesystem::path& path);
 
   void remove() noexcept;

@@ -30,11 +30,11 @@ std::string nameIn(const JournalFrame& stroke)
 struct Standing
 {
   bool fits = false;
-  std::size_t saved = 0; ///< strokes of the journal that the manifest has already
+  std::size_t saved = 0; ///< strokes of the journal that are already in the manifest
 };
 
-// A journal goes on from the manifest of its revision, or from the one after it where that has
-// strokes of the journal: the program ended after it had saved them.
+// A journal continues the manifest of its revision, or the next revision if that contains strokes
+// of the journal: the program terminated after saving them.
 Standing standingOf(const JournalContent& content, const scene::Case& value)
 {
   Standing standing;
@@ -58,8 +58,8 @@ Standing standingOf(const JournalContent& content, const scene::Case& value)
 
 struct Recovered
 {
-  std::size_t strokes = 0; ///< that had ended
-  double part = -1.0;      ///< s of a stroke that was open; below 0: none was
+  std::size_t strokes = 0; ///< finished ones
+  double part = -1.0;      ///< duration of an open stroke, s; < 0: none
 };
 
 std::shared_ptr<dissection::Stroke> strokeOf(const JournalFrame& frame)
@@ -68,7 +68,7 @@ std::shared_ptr<dissection::Stroke> strokeOf(const JournalFrame& frame)
       dissection::Stroke{scene::strokeFromText(frame.text).info, frame.bytes});
 }
 
-// Throws InvalidParameter where a frame does not fit what it follows.
+// Throws InvalidParameter if a frame does not fit its predecessors.
 Recovered play(const JournalContent& content, std::size_t saved, dissection::Dissection& work)
 {
   Recovered result;
@@ -125,7 +125,7 @@ std::string toString(const Recovered& what, std::size_t leftOver)
   return text + (leftOver > 0 ? " (the end of its journal was not whole)" : "");
 }
 
-// The state that the journal goes on from, where the case has gone on from it too: another program
+// The base state of the journal, if the case has been continued from it too: another program has
 // saved it meanwhile.
 std::optional<SavedState> commonState(const JournalContent& content, const scene::Case& value)
 {
@@ -173,7 +173,7 @@ bool isSpent(const JournalContent& content, const scene::Case& value)
   return any && !open;
 }
 
-// The dissection as it was at an earlier state.
+// The dissection at an earlier state.
 dissection::Dissection atState(const scene::Case& value, const SavedState& base)
 {
   std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
@@ -182,7 +182,7 @@ dissection::Dissection atState(const scene::Case& value, const SavedState& base)
   return {value.ct.geometry, std::move(strokes), base.history};
 }
 
-// The case with what the dissection has more.
+// The case with the additional strokes of the dissection.
 scene::Case withNew(scene::Case value, const dissection::Dissection& work)
 {
   for (std::size_t n = value.strokes.size(); n < work.strokes().size(); ++n)
@@ -206,7 +206,7 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
     return aside("the journal of a session that ended without saving cannot be read");
   if (!content.headed)
   {
-    file.remove(); // it ended before anything was in it
+    file.remove(); // terminated before anything was written
     return {};
   }
   const Standing standing = standingOf(content, value);
@@ -214,7 +214,7 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   { return frame.kind == Kind::Stroke || frame.kind == Kind::Part; };
   if (!standing.fits && std::none_of(content.frames.begin(), content.frames.end(), holdsVoxels))
   {
-    file.remove(); // nobody drilled
+    file.remove(); // nothing was drilled
     return {};
   }
   if (!standing.fits && isSpent(content, value))
@@ -254,7 +254,7 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   const bool moved = scene::toText(work.history()) != scene::toText(value.history);
   if (what.strokes > 0 || what.part >= 0.0 || moved)
   {
-    if (what.part >= 0.0) // so that the journal is known to be spent once this is saved
+    if (what.part >= 0.0) // so that the journal is recognized as spent once this is saved
     {
       const auto& last = work.strokes().back();
       file.append(encoded(JournalFrame{

@@ -10,13 +10,13 @@ namespace petrous::library
 
 class Library;
 
-/// Brings what the journal of a case holds into the case, where no program that runs has that
-/// journal: saved, and the journal gone. What happened in words for the user, empty where nothing
-/// did. `value` is as the manifest has it, before and after; `read` reads it again, once nobody
-/// else can bring the journal back.
+/// Recovers the journal of a case, unless a running program has it: applies it to the case, saves
+/// the case and removes the journal. Returns a message for the user, empty if nothing happened.
+/// `value` matches the manifest, before and after; `read` reads it again, once no other program can
+/// recover the journal.
 ///
-/// Where the journal cannot be used it is set aside, where it cannot be saved it stays; the words
-/// say so. Throws LibraryError only where `value` could not be read again.
+/// A journal that cannot be used is set aside, one that cannot be saved is kept; the message says
+/// so. Throws LibraryError only if `value` cannot be read again.
 std::string recover(Library library, scene::Case& value, const std::function<scene::Case()>& read);
 
 } // namespace petrous::library

@@ -26,14 +26,14 @@ namespace
 
 using Bytes = core::DerivedStore::Bytes;
 
-// A file is one frame of zstd with its checksum; unpacked: the bytes, the key, u32 the key's length
+// A file is one zstd frame with checksum; decompressed: the bytes, the key, u32 length of the key
 // (little endian).
 constexpr const char* kEnding = ".derived";
 constexpr int kLevel = 1;
 constexpr std::size_t kLengthBytes = 4;
 constexpr unsigned long long kMaxBytes = 1ULL << 32;
 constexpr std::chrono::hours kLeftover{1};
-constexpr std::uintmax_t kShareOfDisk = 10; // a file takes no more than a tenth of what is free
+constexpr std::uintmax_t kShareOfDisk = 10; // a file may use at most a tenth of the free space
 
 std::string packed(const std::string& key, const Bytes& bytes)
 {
@@ -87,7 +87,7 @@ std::vector<Entry> entriesOf(const fs::path& folder)
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
   {
-    // Another program may remove it meanwhile.
+    // Another program may remove it concurrently.
     std::error_code gone;
     const auto used = at->last_write_time(gone);
     const std::uintmax_t bytes = gone ? 0 : at->file_size(gone);
@@ -124,12 +124,12 @@ std::optional<Bytes> DerivedCache::find(const std::string& key) noexcept
     const fs::path path = fileOf(key);
     auto bytes = unpacked(key, core::readFile(path));
     if (bytes)
-      ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0); // used now
+      ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0); // mark as used
     else
       ::unlink(path.c_str());
     return bytes;
   }
-  catch (...) // none there, or no memory: it is made again
+  catch (...) // missing, or out of memory: recomputed by the caller
   {
     return std::nullopt;
   }
@@ -140,8 +140,8 @@ void DerivedCache::put(const std::string& key, const Bytes& bytes) noexcept
   try
   {
     std::error_code error;
-    fs::create_directory(m_folder, error); // of a library that is there
-    // Cases need the disk more.
+    fs::create_directory(m_folder, error); // only within an existing library
+    // Cases have priority in disk space.
     const fs::space_info space = fs::space(m_folder, error);
     if (error || ::access(m_folder.c_str(), W_OK) != 0 ||
         bytes.size() + key.size() + kLengthBytes > kMaxBytes)
@@ -187,7 +187,7 @@ std::uintmax_t DerivedCache::prune(std::uintmax_t most) noexcept
     const auto now = fs::file_time_type::clock::now();
     for (const Entry& entry : entries)
     {
-      // What another program writes right now is left alone.
+      // Files being written by another program are left alone.
       if (entry.temporary ? now - entry.used < kLeftover : sum <= most)
         continue;
       std::error_code error;

@@ -21,7 +21,7 @@ std::string joined(const std::string& text, const std::string& consequence)
   return consequence.empty() ? text : text + "; " + consequence;
 }
 
-// Of programs before the one file writer.
+// Temporary files of older program versions.
 bool isOldLeftover(const fs::path& path)
 {
   return path.filename().string().rfind(".tmp-", 0) == 0;
@@ -90,7 +90,7 @@ void removeLeftovers(const fs::path& folder) noexcept
   }
   catch (const std::exception&)
   {
-    // They do no harm.
+    // They are harmless.
   }
 }
 

@@ -10,20 +10,20 @@
 namespace petrous::library
 {
 
-/// What a failed read or write of a file means to the library. `consequence` ends the message.
+/// Converts a failed read or write to a LibraryError. `consequence` is appended to the message.
 LibraryError libraryError(const core::InputFileError& error, const std::string& consequence = {});
 LibraryError libraryError(const core::OutputFileError& error, const std::string& consequence = {});
 
-/// Throws the LibraryError for a value of errno.
+/// Throws the LibraryError for an errno value.
 [[noreturn]] void throwForErrno(int error, const std::filesystem::path& path);
 
-/// Makes a folder and its parents, durably. Throws LibraryError.
+/// Creates a folder and its parents, durably. Throws LibraryError.
 void makeFolder(const std::filesystem::path& path);
 
-/// Removes what killed writers left in a folder. Only while nobody else writes there.
+/// Removes leftovers of killed writers. Only while no other process writes there.
 void removeLeftovers(const std::filesystem::path& folder) noexcept;
 
-/// Exclusive while it lives, between processes; waits for the other. Throws LibraryError.
+/// Exclusive inter-process lock during its lifetime; waits for it. Throws LibraryError.
 class FolderLock
 {
 public:

@@ -29,7 +29,7 @@ void ObjectChecks::start(const fs::path& object, const std::string& what)
   if (m_running)
     return;
   if (m_thread.joinable())
-    m_thread.join(); // it has nothing more to do and needs no lock
+    m_thread.join(); // it is finishing and needs no lock
   try
   {
     m_running = true;
@@ -37,7 +37,7 @@ void ObjectChecks::start(const fs::path& object, const std::string& what)
   }
   catch (const std::system_error&)
   {
-    m_running = false; // no more threads: `wait` does it
+    m_running = false; // no thread available: `wait` runs the checks
   }
 }
 

@@ -14,9 +14,9 @@
 namespace petrous::library
 {
 
-/// Holds objects that are mapped, and so are not read as a whole, against their hash, in a thread
-/// of its own. Each object once. Thread-safe; the thread is there while there is something to do,
-/// and what is left undone is given up on destruction.
+/// Verifies memory-mapped objects, which are never read completely, against their hash on a
+/// background thread. Each object once. Thread-safe; the thread exists while there is work, and
+/// pending work is abandoned on destruction.
 class ObjectChecks
 {
 public:
@@ -25,21 +25,21 @@ public:
   ObjectChecks(const ObjectChecks&) = delete;
   ObjectChecks& operator=(const ObjectChecks&) = delete;
 
-  /// `what` names for the user what the object is. One that was found whole, or that waits for its
-  /// turn, is not looked at again; one that was damaged is: it may have been restored.
+  /// `what` describes the object to the user. An object that is intact or pending is not checked
+  /// again; a damaged one is, since it may have been restored.
   void start(const std::filesystem::path& object, const std::string& what);
 
   bool knows(const std::filesystem::path& object) const;
 
-  /// Starts the check where that was not done, and waits for it: one sentence on the damage, empty
-  /// where there is none. Throws CancelledError.
+  /// Starts the check if necessary, and waits for it: returns one sentence on the damage, empty if
+  /// there is none. Throws CancelledError.
   std::string wait(const std::filesystem::path& object, const std::string& what,
                    const core::Progress& progress = {});
 
-  /// Waits for all that were given: the damage, one sentence each. Throws CancelledError.
+  /// Waits for all started checks; returns the damage, one sentence each. Throws CancelledError.
   std::vector<std::string> waitForAll(const core::Progress& progress = {});
 
-  /// The damage of an object that was found so far, one sentence; empty: none.
+  /// Damage of an object found so far, one sentence; empty: none.
   std::string found(const std::filesystem::path& object) const;
 
 private:
@@ -51,7 +51,7 @@ private:
   };
   void run();
 
-  mutable std::mutex m_mutex; // guards all but the token
+  mutable std::mutex m_mutex; // guards everything but the token
   std::condition_variable m_done;
   std::map<std::filesystem::path, Check> m_checks;
   std::deque<std::filesystem::path> m_queue;

@@ -20,7 +20,7 @@ namespace
 
 constexpr std::size_t kHashDigits = 64;
 
-// Removes the file unless it was taken in.
+// Removes the file on destruction, unless it was renamed.
 struct TemporaryFile
 {
   fs::path path;
@@ -116,7 +116,7 @@ std::string ObjectStore::add(const std::string& ending,
                              const std::function<void(const fs::path&)>& write)
 {
   makeFolder(m_folder);
-  // Writers choose the format by the ending.
+  // Writers choose the format by the file extension.
   const TemporaryFile temporary{core::temporaryBeside(m_folder / ending).string() + "." + ending};
   write(temporary.path);
   const std::string name = sha256OfFile(temporary.path) + "." + ending;
@@ -140,7 +140,7 @@ std::string ObjectStore::add(const std::string& ending, const std::vector<std::u
   return name;
 }
 
-// False where the object is there and whole.
+// False if the object exists and is intact.
 bool ObjectStore::makeRoom(const std::string& object)
 {
   const fs::path target = m_folder / object;
@@ -151,7 +151,7 @@ bool ObjectStore::makeRoom(const std::string& object)
   return true;
 }
 
-// An object must be on the disk before a manifest names it.
+// An object must be on disk before a manifest references it.
 void ObjectStore::settle(bool synced) const
 {
   if (!synced)

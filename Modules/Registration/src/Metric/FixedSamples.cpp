@@ -12,7 +12,7 @@ namespace petrous::registration
 namespace
 {
 
-// Centre and radius of the points, which are moved to lie about it.
+// Computes centre and radius of the points, and makes them relative to the centre.
 void settle(FixedSamples& samples)
 {
   if (samples.points.empty())
@@ -36,7 +36,7 @@ void settle(FixedSamples& samples)
 FixedSamples drawSamples(const LevelImage& image, const core::IndexBox& box, std::size_t count,
                          std::uint32_t seed, int bins)
 {
-  // The additive recurrence of the generalised golden ratio g, g^4 = g + 1 (Roberts 2018).
+  // Additive recurrence with the generalized golden ratio g, g^4 = g + 1 (Roberts 2018).
   constexpr double g = 1.2207440846057596;
   const Eigen::Vector3d step(1.0 / g, 1.0 / (g * g), 1.0 / (g * g * g));
   std::mt19937 random(seed);

@@ -12,18 +12,18 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kCoarsest = 8.0;      // mm a voxel
-constexpr double kVoxelsAcross = 24.0; // of the coarsest level, over the smaller field
-constexpr double kMargin = 8.0;        // mm about what an image shows
-constexpr double kFinest = 0.25;       // mm a voxel; finer tells a fit nothing
-constexpr std::size_t kFewest = 500;   // voxels that hold something
+constexpr double kCoarsest = 8.0;      // mm, voxel size
+constexpr double kVoxelsAcross = 24.0; // of the coarsest level, across the smaller field
+constexpr double kMargin = 8.0;        // mm around the image content
+constexpr double kFinest = 0.25;       // mm, voxel size; finer does not improve a fit
+constexpr std::size_t kFewest = 500;   // voxels with a value
 
 double fieldOf(const core::GridGeometry& grid, const core::IndexBox& box)
 {
   return grid.voxelVolume() * static_cast<double>(box.count());
 }
 
-// The smallest side of a field, mm.
+// Smallest side of a field of view, mm.
 double narrowest(const core::GridGeometry& grid)
 {
   double side = 1e9;

@@ -17,7 +17,7 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kTail = 0.001;                // of the values, left out of the range at each end
+constexpr double kTail = 0.001;                // fraction clipped at each end of the range
 constexpr std::size_t kRangeSamples = 100'000; // of which the range is taken
 
 core::Index3 blockOf(const core::GridGeometry& grid, double scale)
@@ -46,7 +46,7 @@ core::GridGeometry reducedGrid(const core::GridGeometry& grid, const core::Index
   return {dims, spacing, grid.patientFromVoxel(first), grid.direction()};
 }
 
-// Means over blocks of the finite values; NaN where fewer than half of a block are.
+// Block means of the finite values; NaN if fewer than half of a block are finite.
 template <class Value>
 LevelImage blockMeans(const core::GridGeometry& grid, const core::Index3& block, const Value& value)
 {
@@ -108,7 +108,7 @@ void gaussian(volume::Volume<float>& voxels, const std::array<double, 3>& varian
   std::copy_n(out, voxels.size(), voxels.data());
 }
 
-// NaN count for nothing: the weighted mean of what there is.
+// Normalized convolution: NaN have weight 0.
 void smooth(LevelImage& level, const std::array<double, 3>& variance)
 {
   if (std::all_of(variance.begin(), variance.end(), [](double v) { return v <= 0.0; }))
@@ -158,8 +158,8 @@ void measure(LevelImage& level)
   level.high = nth(1.0 - kTail);
 }
 
-// What is still to be blurred after means over blocks, mm^2 along each axis. `already` is the
-// standard deviation that the finer image was blurred to.
+// Variance still missing after block averaging, mm^2 along each axis. `already` is the standard
+// deviation of the finer image's smoothing.
 std::array<double, 3> missingVariance(const core::GridGeometry& fine, const core::Index3& block,
                                       double scale, double already)
 {
@@ -169,8 +169,8 @@ std::array<double, 3> missingVariance(const core::GridGeometry& fine, const core
     const double h = fine.spacing()[static_cast<Eigen::Index>(a)];
     const double wanted = 0.25 * scale * scale;
     const double had = h * h * (block[a] * block[a] - 1) / 12.0 + already * already;
-    // What the file's own resolution has not is not put there, and the finest level stays as sharp
-    // as it is: blur shifts the optimum of a curved surface (Documentation/adr).
+    // Axes at the file's own resolution are not blurred, so the finest level stays as sharp as it
+    // is: blur shifts the optimum of a curved surface (Documentation/adr).
     variance[a] = block[a] == 1 ? 0.0 : std::max(0.0, wanted - had);
   }
   return variance;

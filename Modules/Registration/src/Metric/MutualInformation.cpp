@@ -17,15 +17,16 @@ namespace petrous::registration
 namespace
 {
 
-constexpr std::size_t kChunk = 8192; // samples that share a histogram before the sums are joined
-constexpr int kPad = 2;              // empty bins on each side, for the window's tails
+constexpr std::size_t kChunk = 8192; // samples per partial histogram
+constexpr int kPad = 2;              // empty bins on each side, for the support of the B-spline
 
 float mix(float a, float b, float t)
 {
   return a + (b - a) * t;
 }
 
-// The four weights of the cubic B-spline at t in [0, 1) after a bin, and their derivatives.
+// The four weights of the cubic B-spline at t in [0, 1) after a bin; windowSlope: their
+// derivatives.
 struct Window
 {
   std::array<float, 4> weight;
@@ -44,16 +45,16 @@ std::array<float, 4> windowSlope(float t)
   return {-0.5f * s * s, -2.0f * t + 1.5f * t * t, 0.5f + t - 1.5f * t * t, 0.5f * t * t};
 }
 
-// The moving image, addressed as the inner loop wants it.
+// The moving image, addressed as required by the inner loop.
 struct Sampler
 {
   const float* values;
-  std::array<int, 3> last; // index of the last cell's lower corner
+  std::array<int, 3> last; // index of the lower corner of the last cell
   Eigen::Array3f upper;    // largest voxel coordinate
   std::ptrdiff_t row;
   std::ptrdiff_t slice;
-  std::array<std::ptrdiff_t, 3> next; // 0 along an axis of one voxel
-  Eigen::Matrix3f linear;             // voxel from a fixed point (from its centre)
+  std::array<std::ptrdiff_t, 3> next; // 0 along an axis with one voxel
+  Eigen::Matrix3f linear;             // voxel from fixed point (relative to its centre)
   Eigen::Vector3f offset;
 
   Sampler(const LevelImage& moving, const Eigen::Vector3d& centre,
@@ -76,7 +77,7 @@ struct Sampler
     offset = grid.voxelFromPatient(movingFromFixed * centre).cast<float>();
   }
 
-  // Cell and weights; false outside the hull.
+  // Cell and interpolation weights; false outside the hull.
   bool locate(const Eigen::Vector3f& point, const float*& cell, Eigen::Array3f& w) const
   {
     const Eigen::Array3f voxel = (linear * point + offset).array();
@@ -103,7 +104,7 @@ struct Sampler
     return mix(front, back, w[2]);
   }
 
-  // The gradient of `value`, a voxel.
+  // Gradient of `value` per voxel.
   Eigen::Vector3f slope(const float* c, const Eigen::Array3f& w) const
   {
     const float* d = c + next[1];
@@ -126,7 +127,7 @@ struct Scaling
 {
   float low;
   float perUnit;
-  float top; // largest bin position
+  float top; // maximum bin position
 
   Scaling(const LevelImage& moving, int bins)
     : low(moving.low)
@@ -142,17 +143,17 @@ std::size_t chunksOf(std::size_t size)
   return (size + kChunk - 1) / kChunk;
 }
 
-// Of a sample that needs no gradient.
+// For evaluations without gradient.
 struct Forget
 {
 };
 
-// Where a sample fell.
+// Histogram position of a sample, for the gradient.
 struct Touch
 {
-  Eigen::Vector3f slope; // of the bin position, a voxel of the moving image; 0 where clamped
+  Eigen::Vector3f slope; // of the bin position, per voxel of the moving image; 0 where clamped
   float t = 0.0f;
-  std::int16_t column = -1; // of the window's first bin; -1: fell outside
+  std::int16_t column = -1; // of the first bin of the window; -1: outside
 };
 
 } // namespace
@@ -177,8 +178,8 @@ MutualInformation::MutualInformation(const FixedSamples& fixed, const LevelImage
 {
 }
 
-// The loops here may run within one over many fits. Where that is cancelled they still do all their
-// work (`isolated`): a histogram that is half there is none.
+// These loops may be nested in a loop over several fits. If that is cancelled they still run to
+// completion (`isolated`): a partial histogram is invalid.
 template <class Fall>
 JointHistogram MutualInformation::fill(const core::RigidTransform& movingFromFixed,
                                        const Fall& fall) const
@@ -260,7 +261,7 @@ MutualInformation::withGradient(const core::RigidTransform& movingFromFixed) con
       [&](std::size_t chunk)
       {
         const std::size_t end = std::min(m_fixed.size(), (chunk + 1) * kChunk);
-        // sum of g and of p x g, p from the fixed centre and both turned afterwards
+        // sum of g and of p x g, p relative to the fixed centre, both rotated afterwards
         Eigen::Vector3f force = Eigen::Vector3f::Zero();
         Eigen::Matrix3f moment = Eigen::Matrix3f::Zero(); // sum of g p^T
         for (std::size_t n = chunk * kChunk; n < end; ++n)
@@ -282,7 +283,7 @@ MutualInformation::withGradient(const core::RigidTransform& movingFromFixed) con
         const Eigen::Matrix3d turned =
             (patientFromSlope * moment * rotation.transpose()).cast<double>();
         sums[chunk][0] = (patientFromSlope * force).cast<double>();
-        // (R p) x g summed, from sum g (R p)^T
+        // sum of (R p) x g, from sum g (R p)^T
         sums[chunk][1] = Eigen::Vector3d(turned(2, 1) - turned(1, 2), turned(0, 2) - turned(2, 0),
                                          turned(1, 0) - turned(0, 1));
       },

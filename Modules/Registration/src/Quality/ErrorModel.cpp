@@ -10,12 +10,13 @@ namespace
 {
 
 constexpr double kInflation = 1.1; // calibrated
-constexpr double kFloor = 0.06;    // of a voxel of the finest level, along each axis; calibrated
+constexpr double kFloor = 0.06;    // in voxels of the finest level, along each axis; calibrated
 // Quantiles of the standard normal distribution.
 constexpr double kNormal95 = 1.6449;
 constexpr double kNormal999 = 3.0902;
 
-// Percentile of chi-square by Wilson and Hilferty (1931), which is within 1 % for 1 degree and up.
+// Chi-square percentile by Wilson and Hilferty (1931), accurate to 1 % for 1 or more degrees of
+// freedom.
 double chiSquare(double degrees, double normal)
 {
   const double a = 2.0 / (9.0 * degrees);

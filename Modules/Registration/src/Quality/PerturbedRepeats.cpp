@@ -16,7 +16,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The part of a level's content that the other image covers at a pose.
+// The part of a level's content covered by the other image at a pose.
 core::IndexBox sharedBox(const Pyramid& here, const Pyramid& other,
                          const core::RigidTransform& hereFromOther)
 {
@@ -51,8 +51,8 @@ core::RigidTransform perturbed(const core::RigidTransform& pose, const Eigen::Ve
   return {rotation, pose * centre + by - rotation * centre};
 }
 
-// The n-th repeat: samples of its own in a box of the fixed image, a perturbed start. Takes fixed
-// to moving points.
+// One repeat: new samples in a box of the fixed image, a perturbed start. Returns the pose from
+// fixed to moving points.
 core::RigidTransform fitAgain(const LevelImage& fixed, const core::IndexBox& box,
                               const LevelImage& moving, const core::RigidTransform& pose,
                               double scale, std::uint32_t seed, int blocks,

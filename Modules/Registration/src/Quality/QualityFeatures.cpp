@@ -14,13 +14,13 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kSurroundings = 30.0; // mm about the point, of the fits that are its own
-constexpr double kShareOfField = 0.35; // of the smaller field's narrowest side, at most
+constexpr double kSurroundings = 30.0; // mm, radius of the local fits about the point
+constexpr double kShareOfField = 0.35; // at most, of the narrowest side of the smaller field
 constexpr int kLocalFits = 6;
-constexpr double kStray = 5.0;     // voxels of the finest level; a repeat further off is lost
+constexpr double kStray = 5.0;     // voxels of the finest level; repeats further off are strays
 constexpr double kDisplaced = 0.6; // mm; see displacedPart
 
-// A level with its left and right exchanged, about the middle of its content.
+// A pyramid mirrored left to right, about the centre of its finest grid.
 Pyramid mirrored(const Pyramid& pyramid)
 {
   Pyramid result;
@@ -58,7 +58,7 @@ ImagePair coarsePart(const ImagePair& pair, std::size_t levels)
   return part;
 }
 
-// The best score at the coarser levels, with and without the mirror.
+// Ratio of the best scores at the coarser levels, mirrored to unmirrored.
 double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
                    const FitOptions& options, const core::Progress& progress)
 {
@@ -68,7 +68,7 @@ double mirrorShare(const ImagePair& pair, const core::RigidTransform& mrFromCt,
   again.start = Start::Given;
   again.given = mrFromCt;
   again.search = false;
-  again.schedule.polish = 0; // the scores are compared, not the poses
+  again.schedule.polish = 0; // only the scores are compared, not the poses
   const Fit straight = fitPair(part, again, progress.part(0.0, 0.3), {}).fit;
   part.moving = mirrored(part.moving);
   again.search = true;

@@ -8,7 +8,7 @@ namespace petrous::registration
 namespace
 {
 
-// Set on simulated pairs, right and wrong ones: Documentation/adr.
+// Determined on simulated pairs, correct and incorrect ones: Documentation/adr.
 constexpr double kMinOverlap = 0.25;
 constexpr double kMinInformation = 0.05; // nats
 constexpr double kLostStrays = 0.5;
@@ -17,8 +17,8 @@ constexpr double kRival = 0.95;
 constexpr double kMirror = 0.97;
 constexpr double kWide = 0.9;  // mm, of the p95
 constexpr double kAside = 0.6; // mm
-// mm from every start. The search looks 26 mm along each axis and 42 degrees about them: what ends
-// further off and is not beyond doubt came to lie there by chance.
+// mm from every start. The search covers 26 mm along and 42 degrees about each axis: a fit that
+// ends further off, with any doubt, got there by chance.
 constexpr double kFar = 50.0;
 
 std::string percent(double share)

@@ -15,19 +15,19 @@ namespace
 {
 
 constexpr double kRadii[] = {10.0, 18.0, 30.0}; // mm
-constexpr double kReach = 9.0;                  // mm of the shifts that are tried
-constexpr double kStep = 2.0;                   // mm between them
-constexpr std::size_t kClimbs = 6;              // from the best of them
+constexpr double kReach = 9.0;                  // mm, maximum of the shifts tried
+constexpr double kStep = 2.0;                   // mm between the shifts
+constexpr std::size_t kClimbs = 6;              // optimizations from the best shifts
 constexpr double kMinOverlap = 0.7;           // of a ball with the MR
 constexpr int kLocalBins = 16;                  // a ball of 10 mm has 2,000 voxels
-constexpr std::size_t kDrawn = 9000;            // samples in the box about a ball
-constexpr std::size_t kFewest = 500;            // that have a value
+constexpr std::size_t kDrawn = 9000;            // samples in the bounding box of a ball
+constexpr std::size_t kFewest = 500;            // required number of samples with a value
 constexpr int kBlocks = 4;                      // along each axis, for the bootstrap
 constexpr int kDraws = 16;                      // of the bootstrap
-// Information won, of what a ball has: calibrated (Documentation/adr).
+// Minimum relative information gain: calibrated (Documentation/adr).
 constexpr double kGain = 0.13;
 
-using Shift = Eigen::Vector3d; // MR or CT patient mm, added to a pose
+using Shift = Eigen::Vector3d; // MR patient mm, added to the translation of a pose
 
 core::IndexBox boxAbout(const core::GridGeometry& grid, const Eigen::Vector3d& centre,
                         double radius)
@@ -36,8 +36,8 @@ core::IndexBox boxAbout(const core::GridGeometry& grid, const Eigen::Vector3d& c
   return grid.boxCovering(centre - half, centre + half).intersected(grid.fullBox());
 }
 
-// A ball of the CT and the part of the MR that it may come to lie on, each with a range of its own:
-// the whole image's would leave the dark of bone and air a bin or two.
+// A ball of the CT and the part of the MR to which it may be displaced, each with its own intensity
+// range: that of the whole image would leave a bin or two for the dark of bone and air.
 class Ball
 {
 public:
@@ -101,7 +101,7 @@ private:
     return maximize(metric, start, options);
   }
 
-  // The whole's own pose, and the best shifts of a grid that are not neighbours.
+  // The pose of the global fit, and the best shifts of a grid that are not neighbours.
   std::vector<core::RigidTransform> startsOf(const MutualInformation& metric) const
   {
     std::vector<Shift> grid;
@@ -132,7 +132,7 @@ private:
     return starts;
   }
 
-  // Those that end within reach; the information of little that is left may grow without end.
+  // The optima within reach; the information of a small remaining overlap may grow without bound.
   std::vector<Optimum> climbs(const MutualInformation& metric,
                              const std::vector<core::RigidTransform>& starts) const
   {
@@ -147,7 +147,8 @@ private:
     return tops;
   }
 
-  // Each draw ends at the better of the maxima that rival, so that two equal ones show as a spread.
+  // Each bootstrap ends at the better of the competing maxima, so that two equal ones show as
+  // spread.
   void measureError(const std::vector<core::RigidTransform>& rivals, LocalFit& result) const
   {
     std::vector<Shift> ends(kDraws);

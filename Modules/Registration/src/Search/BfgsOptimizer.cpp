@@ -10,11 +10,11 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kArmijo = 1e-4;   // share of the promised gain that a step must bring
-constexpr double kShortest = 1e-3; // mm; a shorter step says nothing
-constexpr int kHalvings = 8;       // of a step before the search ends
+constexpr double kArmijo = 1e-4;   // fraction of the predicted gain required of a step
+constexpr double kShortest = 1e-3; // mm; shorter steps are not informative
+constexpr int kHalvings = 8;       // of a step before the line search fails
 
-// One evaluation on the chart.
+// One evaluation in the parametrization.
 struct Place
 {
   PoseVector x = PoseVector::Zero();
@@ -54,7 +54,7 @@ public:
       if (!step(here, direction, next))
         break;
       const PoseVector s = next.x - here.x;
-      const PoseVector y = here.slope - next.slope; // of the negative metric
+      const PoseVector y = here.slope - next.slope; // of the negated metric
       const double sy = s.dot(y);
       if (sy > 1e-10 * s.norm() * y.norm())
       {
@@ -93,7 +93,7 @@ private:
     return {x, value.information, slope};
   }
 
-  // Along the direction, shortened by the parabola through what is known until it gains enough.
+  // Backtracking line search with parabolic interpolation.
   bool step(const Place& here, const PoseVector& direction, Place& next)
   {
     const double promised = direction.dot(here.slope);

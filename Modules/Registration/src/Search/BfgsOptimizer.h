@@ -9,27 +9,27 @@ namespace petrous::registration
 
 struct BfgsOptions
 {
-  int evaluations = 60;      ///< of the metric with its gradient, at most
-  double gradient = 1e-6;    ///< nats a mm: flatter is the top
-  double change = 1e-8;      ///< share of the metric that two steps on end must win
-  double firstStep = 1.0;    ///< mm, root mean square of the samples
+  int evaluations = 60;      ///< maximum, of the metric with its gradient
+  double gradient = 1e-6;    ///< convergence: gradient norm, nats per mm
+  double change = 1e-8;      ///< convergence: relative gain over two successive steps
+  double firstStep = 1.0;    ///< mm, RMS displacement of the samples
   double maxStep = 10.0; ///< mm
-  bool turns = true;         ///< false: translations alone
+  bool turns = true;         ///< false: translations only
 };
 
 struct Optimum
 {
-  core::RigidTransform pose; ///< the best seen
-  double information = 0.0;  ///< nats, there
+  core::RigidTransform pose; ///< best pose seen
+  double information = 0.0;  ///< nats, at that pose
   double overlap = 0.0;
   int evaluations = 0;
 };
 
-/// Told of each evaluation; what it throws ends the ascent and reaches the caller.
+/// Called for each evaluation; an exception thrown by it ends the optimization and propagates.
 using EvaluationListener = std::function<void(const core::RigidTransform& pose, double information)>;
 
-/// Climbs to the nearest maximum of the metric: BFGS (Nocedal and Wright 2006, 6.1) with steps
-/// shortened until they gain. (Of the two in ITK's libraries one writes to the console, the other
+/// Finds the nearest local maximum of the metric: BFGS (Nocedal and Wright 2006, 6.1) with a
+/// backtracking line search. (Of ITK's two implementations, one writes to the console, the other
 /// cannot run in two threads.)
 Optimum maximize(const MutualInformation& metric, const core::RigidTransform& start,
               const BfgsOptions& options, const EvaluationListener& listener = {});

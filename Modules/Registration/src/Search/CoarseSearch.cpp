@@ -16,12 +16,12 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSearchBins = 16; // few samples fill few bins
-constexpr double kReach = 26.0; // mm between the starts' translations
+constexpr int kSearchBins = 16; // few samples fill only few bins
+constexpr double kReach = 26.0; // mm, step of the translation grid
 constexpr double kMinOverlap = 0.2;
 
-// Identity and turns of 22 and 42 degrees about 13 axes, both ways: no pose within 45 degrees is
-// further than about 15 from one of them.
+// Identity and rotations of 22 and 42 degrees about 13 axes, in both directions: no rotation within
+// 45 degrees is further than about 15 degrees from one of them.
 std::vector<Eigen::Quaterniond> turns()
 {
   std::vector<Eigen::Quaterniond> list{Eigen::Quaterniond::Identity()};
@@ -121,7 +121,7 @@ std::vector<Candidate> searchCandidates(const ImagePair& pair,
   const auto better = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
   std::stable_sort(grid.begin(), grid.end(), better);
   std::vector<Candidate> candidates(grid.begin(), grid.begin() + std::min(options.climbs, grid.size()));
-  // The starts themselves are always climbed from.
+  // The starts themselves are always optimized.
   for (const core::RigidTransform& start : starts)
     candidates.push_back({start, 0.0});
   BfgsOptions climb;

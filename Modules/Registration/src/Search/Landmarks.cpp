@@ -13,9 +13,9 @@ namespace petrous::registration
 namespace
 {
 
-constexpr double kOffLine = 1.0; // mm; less is a line
+constexpr double kOffLine = 1.0; // mm; less counts as collinear
 
-// Root mean square distance of the columns from the line that fits them best.
+// RMS distance of the columns from their best-fitting line.
 double offLine(const Eigen::Matrix3Xd& points)
 {
   const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();

@@ -13,7 +13,7 @@ namespace petrous::registration
 namespace
 {
 
-constexpr std::size_t kFewest = 4000; // samples of any level
+constexpr std::size_t kFewest = 4000; // minimum number of samples per level
 
 double scoreOf(const Optimum& top)
 {
@@ -35,9 +35,9 @@ std::vector<core::RigidTransform> startsOf(const ImagePair& pair, const FitOptio
   return starts;
 }
 
-// The metric has ripples (of interpolation: Pluim et al., CVIU 77:211, 2000) that end an ascent up
-// to some tenths of a voxel from the maximum of their mean, another one from every start. The mean
-// of several ends is near it.
+// The metric has ripples (from interpolation: Pluim et al., CVIU 77:211, 2000) that stop an
+// optimization up to some tenths of a voxel from the true maximum, at a different place for every
+// start. The mean of several results is close to it.
 void polish(const ImagePair& pair, const FitOptions& options, PairFit& result,
             const core::Progress& progress)
 {
@@ -84,7 +84,7 @@ std::size_t samplesAt(const ImagePair& pair, std::size_t level, const Schedule& 
 namespace
 {
 
-// One level's ascents, from each candidate, best first.
+// Optimizes each candidate at one level; best first.
 std::vector<Optimum> climbLevel(const ImagePair& pair, std::size_t level,
                                const MutualInformation& metric, const std::vector<Candidate>& candidates,
                                const FitOptions& options, int& iterations,

@@ -23,7 +23,7 @@ Eigen::Quaterniond turn(const Eigen::Vector3d& vector)
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
 }
 
-// J with exp(w + dw) = exp(J dw) exp(w).
+// Left Jacobian J of SO(3): exp(w + dw) = exp(J dw) exp(w).
 Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& w)
 {
   const double angle = w.norm();

@@ -11,19 +11,19 @@ namespace petrous::registration
 
 using PoseVector = Eigen::Matrix<double, 6, 1>;
 
-/// Six numbers, all in mm, for the poses about one pose: a rotation vector times `radius`, then a
-/// translation of the mapped centre. With the samples' radius a step of 1 mm moves them 1 mm in
-/// root mean square whichever number it is of, so that an optimiser needs no scales.
+/// Parametrization of the poses near a base pose by six numbers, all in mm: a rotation vector times
+/// `radius`, then a translation of the mapped centre. With the samples' radius, a step of 1 mm in
+/// any parameter moves the samples by 1 mm RMS, so that an optimizer needs no parameter scales.
 class RigidParametrization
 {
 public:
-  /// Zero is `base`; rotations are about the point that `centre` (fixed patient) is mapped to.
+  /// Zero is `base`; rotations are about the image of `centre` (fixed patient).
   RigidParametrization(const core::RigidTransform& base, const Eigen::Vector3d& centre, double radius);
 
   core::RigidTransform pose(const PoseVector& x) const;
 
-  /// A gradient at pose(x) from one for small motions: translation (1/mm) and rotation (1/rad)
-  /// about the mapped centre, in the moving patient's axes.
+  /// Gradient at pose(x) from the gradient for small motions: translation (1/mm) and rotation
+  /// (1/rad) about the mapped centre, in the moving patient's axes.
   PoseVector gradient(const PoseVector& x, const Eigen::Vector3d& translation,
                       const Eigen::Vector3d& rotation) const;
 
@@ -33,13 +33,13 @@ private:
   double m_radius;
 };
 
-/// Largest distance between where two poses take a point within `radius` mm of `centre`, bounded
-/// from above: that of the centre plus 2 radius sin(angle / 2).
+/// Upper bound of the distance between the positions to which two poses map a point within `radius`
+/// mm of `centre`: that of the centre plus 2 radius sin(angle / 2).
 double poseDistance(const core::RigidTransform& a, const core::RigidTransform& b,
                     const Eigen::Vector3d& centre, double radius);
 
-/// The mean of poses that lie close together, by rotation vectors about the first and by where they
-/// take `centre`.
+/// Mean of poses close to each other, from rotation vectors relative to the first and the mapped
+/// positions of `centre`.
 core::RigidTransform meanPose(const std::vector<core::RigidTransform>& poses,
                               const Eigen::Vector3d& centre);
 

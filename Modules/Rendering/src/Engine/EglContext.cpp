@@ -24,7 +24,7 @@ namespace
                            "(Debian: apt install libegl1 libgl1-mesa-dri)");
 }
 
-// The entry points that are used, from libEGL.so.1 opened at run time.
+// EGL entry points, loaded from libEGL.so.1 at run time.
 struct Egl
 {
   decltype(&eglGetProcAddress) getProcAddress = nullptr;
@@ -43,7 +43,7 @@ struct Egl
 
   Egl()
   {
-    // Never closed: drivers keep threads and exit handlers of their own.
+    // Never closed: drivers own threads and exit handlers.
     void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL);
     if (!library)
       fail("libEGL.so.1 is not installed");
@@ -73,7 +73,7 @@ struct Egl
 
   static const Egl& instance()
   {
-    static const Egl egl; // tried again after a failure, kept after a success
+    static const Egl egl; // retried after a failure
     return egl;
   }
 };
@@ -166,7 +166,7 @@ EglContext::~EglContext()
 {
   if (isCurrent())
     releaseCurrent();
-  // The display is shared by every context of the process and ends with it.
+  // The display is shared by all contexts of the process and lives as long as the process.
   m_state->egl.destroyContext(m_state->display, m_state->context);
 }
 

@@ -8,12 +8,12 @@ namespace petrous::rendering
 
 /// An OpenGL core context without a display or a surface.
 ///
-/// Tried in this order: EGL devices that are hardware, Mesa's surfaceless platform, EGL devices in
-/// software; the first that gives OpenGL 3.2 or later is taken. libEGL is opened when first used.
+/// Tries in order: hardware EGL devices, Mesa's surfaceless platform, software EGL devices; the
+/// first that provides OpenGL 3.2 or later is used. libEGL is loaded on first use.
 class EglContext
 {
 public:
-  /// Throws RenderingError NoOpenGL saying what to install.
+  /// Throws RenderingError NoOpenGL; the message says what to install.
   EglContext();
   ~EglContext();
   EglContext(const EglContext&) = delete;

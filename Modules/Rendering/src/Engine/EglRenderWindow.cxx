@@ -11,7 +11,7 @@ vtkStandardNewMacro(vtkPetrousEGLRenderWindow);
 vtkPetrousEGLRenderWindow::vtkPetrousEGLRenderWindow()
 {
   this->SetMultiSamples(0);
-  // There is no default frame buffer to copy the picture to.
+  // There is no default frame buffer to blit to.
   this->SetFrameBlitModeToNoBlit();
   this->SetUseOffScreenBuffers(true);
   this->SetShowWindow(false);
@@ -72,7 +72,7 @@ void vtkPetrousEGLRenderWindow::OpenGLInitContext()
     return;
   glewExperimental = GL_TRUE;
   const GLenum result = glewInit();
-  // A GLEW made for GLX loads every OpenGL function first and complains of the display after it.
+  // A GLEW built for GLX loads all OpenGL functions before it fails for lack of a display.
   constexpr GLenum noGlxDisplay = 4;
   if ((result != GLEW_OK && result != noGlxDisplay) || !GLEW_VERSION_3_2)
     throw petrous::rendering::RenderingError(

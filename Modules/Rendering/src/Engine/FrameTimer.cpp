@@ -70,7 +70,7 @@ void FrameTimer::read()
   glGetQueryObjectui64v(m_queries[Begin], GL_QUERY_RESULT, &begun);
   glGetQueryObjectui64v(m_queries[End], GL_QUERY_RESULT, &ended);
   m_pending = false;
-  if (ended > begun) // the clock may have come round
+  if (ended > begun) // the clock may have wrapped around
     m_known = Frame{1e-6 * static_cast<double>(ended - begun), m_quality};
 }
 

@@ -9,26 +9,26 @@
 namespace petrous::rendering
 {
 
-/// How long frames take the graphics card, without waiting for it: a timestamp before and one
-/// behind a frame's orders, read when a later frame begins. Frames whose predecessor is not done
-/// yet are not timed. A software renderer is waited for: it works on the processor anyway, and its
-/// timestamps tell when the last tile was begun.
+/// GPU time of frames, measured without stalling: timestamp queries before and after a frame's
+/// commands, read when a later frame begins. A frame that begins while its predecessor is still
+/// pending is not timed. With a software renderer the timer waits for completion: it runs on the
+/// CPU anyway, and its timestamps only mark the start of the last tile.
 class FrameTimer
 {
 public:
   struct Frame
   {
     double milliseconds = 0.0;
-    RenderQuality quality; ///< that it was drawn with
+    RenderQuality quality; ///< used for the frame
   };
 
-  /// All with the same context current.
+  /// All calls need the same context current.
   void begin();
   void end(const RenderQuality& quality);
   bool holdsQueries() const noexcept { return m_queries[Begin] != 0; }
-  void release(); ///< before the context goes, or another one comes
+  void release(); ///< call before the context is destroyed or replaced
 
-  /// A frame that became known since, once.
+  /// A newly measured frame, once.
   std::optional<Frame> take();
 
 private:
@@ -42,7 +42,7 @@ private:
 
   std::optional<bool> m_software;
   std::array<unsigned, MarkCount> m_queries{}; // 0: none
-  bool m_pending = false;                      // both are stamped, none read
+  bool m_pending = false;                      // both stamped, not yet read
   bool m_open = false;                         // the first is stamped
   std::chrono::steady_clock::time_point m_begun;
   RenderQuality m_quality; // of the pending frame

@@ -9,8 +9,8 @@
 namespace petrous::rendering
 {
 
-/// A linked vertex and fragment shader of the current context, with its uniforms by name. A name
-/// that the variant does not use is passed over. Released explicitly, as GlTexture.
+/// A linked vertex and fragment shader of the current context, with uniforms set by name. Names
+/// that a variant does not use are ignored. Must be released explicitly, as GlTexture.
 class GlProgram
 {
 public:
@@ -18,7 +18,7 @@ public:
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
 
-  /// From GLSL 3.30 without its version line. Throws RenderingError NoOpenGL with the driver's log.
+  /// Sources: GLSL 3.30 without #version. Throws RenderingError NoOpenGL with the driver's log.
   void build(std::string_view vertex, std::string_view fragment);
   void use() const { glUseProgram(m_name); }
   void release();

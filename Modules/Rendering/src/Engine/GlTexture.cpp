@@ -11,7 +11,8 @@ namespace petrous::rendering
 namespace
 {
 
-// Uploads from plain memory, whatever the application left behind, and leaves OpenGL's defaults.
+// Uploads from client memory independently of the application's pixel-store state, and restores
+// OpenGL's defaults.
 class PlainUpload
 {
 public:
@@ -70,7 +71,7 @@ void GlTexture::make(GLenum target, const TexelFormat& format, const core::Index
   m_bytes = count(dims) * format.bytes;
   while (glGetError() != GL_NO_ERROR)
   {
-  } // of others before us
+  } // clear errors of earlier calls
   const PlainUpload plain;
   glGenTextures(1, &m_name);
   glBindTexture(target, m_name);

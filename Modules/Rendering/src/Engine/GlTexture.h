@@ -10,13 +10,13 @@
 namespace petrous::rendering
 {
 
-/// How texels lie in a texture and in memory.
+/// Texel layout in the texture and in memory.
 struct TexelFormat
 {
   GLint internal;
   GLenum layout;
   GLenum type;
-  std::size_t bytes; ///< of a texel
+  std::size_t bytes; ///< per texel
 };
 
 namespace texel
@@ -33,8 +33,8 @@ constexpr TexelFormat kFloat4{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 constexpr TexelFormat kFloat2{GL_RG32F, GL_RG, GL_FLOAT, 8};
 } // namespace texel
 
-/// A texture of the current context. Released explicitly, while that context is current: a
-/// destructor may run when it is gone.
+/// A texture of the current context. Must be released explicitly while that context is current: a
+/// destructor may run after the context is gone.
 class GlTexture
 {
 public:
@@ -42,18 +42,18 @@ public:
   GlTexture(const GlTexture&) = delete;
   GlTexture& operator=(const GlTexture&) = delete;
 
-  /// Whether the driver takes a 3D texture of this size.
+  /// Whether the driver accepts a 3D texture of this size.
   static bool fits(const TexelFormat& format, const core::Index3& dims);
 
-  /// (Re)makes it; `data` may be null. filter: GL_LINEAR or GL_NEAREST. Clamped at its border.
-  /// Throws RenderingError NoOpenGL where the driver has no room.
+  /// (Re)creates the texture; `data` may be null. filter: GL_LINEAR or GL_NEAREST. Clamped to edge.
+  /// Throws RenderingError NoOpenGL if the driver runs out of memory.
   void create(const TexelFormat& format, const core::Index3& dims, const void* data, GLint filter);
   void create(const TexelFormat& format, int width, int height, const void* data, GLint filter);
 
-  /// Texels of a box, first axis fastest.
+  /// Uploads a box of texels, first axis fastest.
   void update(const core::IndexBox& box, const void* data);
 
-  /// Sets every texel to one value of the format's memory layout.
+  /// Sets all texels to one value in the format's memory layout.
   void fill(const void* texel);
 
   void bind(int unit) const;

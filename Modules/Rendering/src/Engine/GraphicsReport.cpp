@@ -46,7 +46,7 @@ std::shared_ptr<volume::LabelField> labelField()
 
 using Change = std::function<void(SceneContents&)>;
 
-// What makes the mapper compile each of its features.
+// Contents that make the mapper compile each of its features.
 std::vector<Change> features()
 {
   const auto materials = [](SceneContents& contents)

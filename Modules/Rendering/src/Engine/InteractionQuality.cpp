@@ -10,10 +10,10 @@ namespace petrous::rendering
 
 namespace
 {
-// Of a frame's time, the share that steps stand for; the rest is setup, refinement and shading.
+// Fraction of the frame time due to steps; the rest is setup, refinement and shading.
 constexpr double kStepShare = 0.5;
-constexpr double kStepsFromScale = 0.5; // below it steps grow as well
-constexpr double kReserve = 0.85;       // of the frame's time, for what is not the volume
+constexpr double kStepsFromScale = 0.5; // below this scale the step length increases as well
+constexpr double kReserve = 0.85;       // of the frame time; the rest is for all but the volume
 
 double stepCost(double step)
 {
@@ -43,7 +43,7 @@ RenderQuality InteractionQuality::coarser(const RenderQuality& full) const noexc
     quality.step = std::max(full.step, kMaxStep);
     scale = std::min(kStepsFromScale, std::sqrt(budget / (m_cost * stepCost(quality.step))));
   }
-  // In steps of a twentieth, so that the picture's size does not change with every frame.
+  // Quantized to 1/20, so that the picture's size does not change with every frame.
   scale = std::floor(20.0 * scale) / 20.0;
   quality.imageScale = std::min(std::max(scale, kSmallestScale), full.imageScale);
   return quality;

@@ -30,7 +30,7 @@ public:
   {
     for (std::atomic<std::uint8_t>& mark : m_marks)
       mark.store(0, std::memory_order_relaxed);
-    // A long run across a turned grid is cut up, or the box around it would be all of the volume.
+    // In a rotated grid a long run is split; its bounding box could span the whole volume.
     Eigen::Vector3d aside = m_linear.col(0).cwiseAbs();
     Eigen::Index along = 0;
     aside.maxCoeff(&along);
@@ -80,12 +80,12 @@ private:
                      (static_cast<std::size_t>(y) +
                       static_cast<std::size_t>(m_bricks[1]) * static_cast<std::size_t>(z))];
         for (int x = box.lower[0]; x < box.upper[0]; ++x)
-          if (row[x].load(std::memory_order_relaxed) == 0) // a write takes the line from others
+          if (row[x].load(std::memory_order_relaxed) == 0) // avoids cache-line contention
             row[x].store(1, std::memory_order_relaxed);
       }
   }
 
-  Eigen::Matrix3d m_linear; // CT voxels a label voxel
+  Eigen::Matrix3d m_linear; // CT voxels per label voxel
   Eigen::Vector3d m_offset;
   core::Index3 m_bricks;
   int m_edge;

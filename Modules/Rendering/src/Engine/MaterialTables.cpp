@@ -24,8 +24,8 @@ void MaterialTables::upload(const std::vector<appearance::Material>& materials, 
     double upper = points.back().value;
     if (points.size() > 1)
     {
-      // Beyond its points a function is constant, but a stretch may begin there. Where the image
-      // goes far beyond, resolution matters more.
+      // Outside its points the function is constant, but a ray segment may begin there. If the
+      // image's range is much wider, resolution takes precedence.
       const double most = 4.0 * (upper - lower);
       lower = std::max(std::min(lower, range.min), lower - most);
       upper = std::min(std::max(upper, range.max), upper + most);
@@ -45,7 +45,7 @@ void MaterialTables::upload(const std::vector<appearance::Material>& materials, 
       float* integral = &integrals[(row * width + i) * 4];
       if (i > 0)
       {
-        // Simpson's rule over eight parts of the interval: colour times extinction is not linear.
+        // Simpson's rule over eight subintervals: colour times extinction is not linear.
         constexpr int parts = 8;
         for (int p = 0; p <= parts; ++p)
         {

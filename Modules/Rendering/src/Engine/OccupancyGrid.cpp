@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr std::uint16_t kUntouched = volume::CutMask::kUntouched;
-// Above half: 32768 of 65535 is the first value that lies in tissue.
+// The threshold is one half: 32768 of 65535 is the first value inside tissue.
 constexpr std::uint16_t kLastAir = kUntouched / 2;
 
 struct MaskRange
@@ -121,8 +121,8 @@ core::IndexBox OccupancyGrid::reach(int i, int j, int k) const noexcept
   return box;
 }
 
-// Whole rows are folded into one, voxel by voxel, and that one into bricks at the end: the inner
-// loop is as wide as the registers, and memory sets the pace.
+// Rows are reduced voxel by voxel into one row, and that row into bricks at the end, so that the
+// inner loop vectorizes; it is bound by memory bandwidth.
 template <class T>
 void OccupancyGrid::readIntensities(const volume::Volume<T>& ct)
 {
@@ -155,12 +155,12 @@ void OccupancyGrid::readIntensities(const volume::Volume<T>& ct)
                               const T* row = &ct.at(0, y, z);
                               for (std::size_t x = 0; x < count; ++x)
                               {
-                                low[x] = row[x] < low[x] ? row[x] : low[x]; // NaN never wins
+                                low[x] = row[x] < low[x] ? row[x] : low[x]; // false for NaN
                                 high[x] = row[x] > high[x] ? row[x] : high[x];
                               }
                               if constexpr (std::is_floating_point_v<T>)
                                 for (std::size_t x = 0; x < count; ++x)
-                                  bad[x] += 0.0F * row[x]; // NaN from NaN and infinity, for good
+                                  bad[x] += 0.0F * row[x]; // sticky NaN from NaN or infinity
                             }
                           for (int i = 0; i < m_dims[0]; ++i)
                           {
@@ -221,7 +221,7 @@ std::uint8_t OccupancyGrid::judge(std::size_t brick, const volume::CutMask* mask
   return static_cast<std::uint8_t>(flags);
 }
 
-// Distances of one flag in a box, from the flags as they stand. The box of what changed.
+// Recomputes the distances to one flag in a box from the current flags. Returns the box of changes.
 core::IndexBox OccupancyGrid::measure(const core::IndexBox& box, Flag flag,
                                       std::uint8_t Texel::*distance)
 {
@@ -247,8 +247,8 @@ core::IndexBox OccupancyGrid::measure(const core::IndexBox& box, Flag flag,
   return changed;
 }
 
-// Box of the texels whose distance a change of flags can alter. From `reached` on outwards: one
-// whose distance is less than that to the changed bricks has something else that is nearer.
+// Box of the texels whose distance may change with the flags, searched within `reached`. A texel
+// whose distance is less than that to the changed bricks has a nearer flagged brick.
 core::IndexBox OccupancyGrid::affected(const Changes& changes, std::uint8_t Texel::*distance) const
 {
   const core::IndexBox center = changes.added.united(changes.removed);
@@ -310,7 +310,7 @@ core::IndexBox OccupancyGrid::maskChanged(const volume::CutMask* mask, const cor
   const core::IndexBox inside = voxels.intersected(m_grid.fullBox());
   if (inside.empty())
     return {};
-  core::IndexBox bricks; // whose reach meets the voxels
+  core::IndexBox bricks; // whose reach intersects the voxels
   for (std::size_t a = 0; a < 3; ++a)
   {
     bricks.lower[a] = std::max((inside.lower[a] + m_edge - 1) / m_edge - 1, 0);

@@ -21,7 +21,7 @@ bool hasOpaqueProps(vtkRenderer* renderer)
   return false;
 }
 
-// A blit of depth wants the very format of its source.
+// A depth blit requires identical source and destination formats.
 GLint depthFormat()
 {
   GLint bound = 0;

@@ -7,11 +7,11 @@ class vtkRenderer;
 namespace petrous::rendering
 {
 
-/// A copy of the depth that opaque polygons left in the bound frame buffer, for rays to end at.
+/// A copy of the depth of opaque polygons in the bound frame buffer, at which rays end.
 class OpaqueDepth
 {
 public:
-  /// 0 where nothing opaque is drawn, or where the depth cannot be had.
+  /// 0 if nothing opaque is drawn or the depth is not available.
   GLuint capture(vtkRenderer* renderer, int x, int y, int width, int height);
   void release();
 

@@ -20,7 +20,7 @@ namespace
 
 bool drawable(const SceneContents& contents)
 {
-  // What is one sample thin has a hull without a volume: the field is air everywhere.
+  // A box that is one sample thin has no volume: the field is air everywhere.
   if (!contents.ct)
     return false;
   const core::IndexBox whole = contents.ct->geometry().fullBox();
@@ -37,7 +37,7 @@ bool translucent(const std::vector<appearance::Material>& materials)
                      [](const appearance::Material& m) { return m.surfaceOpacity < 1.0F; });
 }
 
-// Whether a ray goes on inside structures, so that it must know of each sample which one it is in.
+// Whether rays continue inside structures, so that each sample needs its structure.
 bool structuresTranslucent(const SceneContents& contents)
 {
   return contents.labels && contents.materials.size() > 1 &&
@@ -75,7 +75,7 @@ bool sameRules(const OccupancyGrid::Rules& a, const OccupancyGrid::Rules& b)
                     { return x.min == y.min && x.max == y.max; });
 }
 
-// Intensities at which a transfer function has opacity.
+// Intensity ranges in which a transfer function has opacity.
 std::vector<volume::ValueRange> opaqueRanges(const appearance::TransferFunction& transfer)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ std::vector<volume::ValueRange> opaqueRanges(const appearance::TransferFunction&
 
 } // namespace
 
-// ---- what is drawn
+// ---- contents
 
 void RayCaster::setContents(const SceneContents& contents)
 {
@@ -169,12 +169,12 @@ void RayCaster::expectCut(bool expected)
   std::shared_ptr<const volume::CutMask> mask = maskInUse();
   if (static_cast<bool>(mask) == m_mask.inUse())
     return;
-  // The bricks stay: a mask in which nothing is cut says of them what none does.
+  // The bricks stay valid: a mask in which nothing is cut yields the same flags as no mask.
   m_contents.mask = mask;
   m_mask.reset(std::move(mask), m_quality.maskBits, m_quality.largestTexture);
 }
 
-// A mask in which nothing is cut draws as none does.
+// A mask in which nothing is cut is drawn as no mask.
 std::shared_ptr<const volume::CutMask> RayCaster::maskInUse() const
 {
   return m_givenMask && (m_cutExpected || !m_givenMask->untouched()) ? m_givenMask : nullptr;

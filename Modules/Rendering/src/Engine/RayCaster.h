@@ -18,42 +18,42 @@
 namespace petrous::rendering
 {
 
-/// Casts the rays of RayCast.frag.glsl into a picture of its own: the graphics side of
-/// vtkPetrousVolumeMapper, without VTK.
+/// Casts the rays of RayCast.frag.glsl into its own render target: the OpenGL side of
+/// vtkPetrousVolumeMapper, independent of VTK.
 ///
-/// `draw`, `present`, `release` and the read-backs need the context current in which the first
-/// frame was drawn; the setters do not touch OpenGL.
+/// `draw`, `present`, `release` and the read-backs require the context of the first frame to be
+/// current; the setters make no OpenGL calls.
 class RayCaster
 {
 public:
-  /// What else a frame needs. `opaque`: depth of opaque polygons in the window, or 0.
+  /// Input of a frame. `opaque`: depth texture of the window's opaque polygons, or 0.
   struct Frame
   {
     RayView view;
-    int width = 0; ///< of the window's part, pixels
+    int width = 0; ///< of the viewport, pixels
     int height = 0;
     GLuint opaque = 0;
-    bool everywhere = false; ///< cast the rays that pass all tissue by, too
+    bool everywhere = false; ///< also cast rays that cannot meet tissue
   };
 
-  /// Keeps on the card what did not change. Throws RenderingError BadContents.
+  /// Unchanged data stay on the GPU. Throws RenderingError BadContents.
   void setContents(const SceneContents& contents);
   void setQuality(const RenderQuality& quality); ///< throws InvalidParameter
 
-  /// Marks a box of CT voxels of the mask as changed, to less or to more; null: nothing is cut.
+  /// The mask decreased or increased in a box of CT voxels; null: nothing is cut.
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
-  /// A tool is in the hand: the mask takes part though nothing is cut yet, so that the first cut
-  /// need not wait for a shader and a texture.
+  /// A tool is in use: the mask takes part although nothing is cut yet, so that the first cut does
+  /// not wait for shader compilation and texture upload.
   void expectCut(bool expected);
 
-  /// Into the own picture; counting is slower. Throws RenderingError NoOpenGL.
+  /// Renders into the own target; counting is slower. Throws RenderingError NoOpenGL.
   void draw(const Frame& frame, bool count);
 
-  /// The own picture over the bound frame buffer; blending is set up by the caller.
+  /// Draws the own target over the bound frame buffer; the caller sets up blending.
   void present(int width, int height);
 
-  /// What the last frame was cast into.
+  /// Target of the last frame.
   const RayTarget& target() const noexcept { return m_target; }
 
   void release();
@@ -73,7 +73,7 @@ private:
   void castRays(const Frame& frame, int width, int height);
   void releaseData();
 
-  SceneContents m_contents; // its mask only where that is in use
+  SceneContents m_contents; // its mask only if in use
   std::shared_ptr<const volume::CutMask> m_givenMask;
   bool m_cutExpected = false;
   RenderQuality m_quality;
@@ -84,7 +84,7 @@ private:
   bool m_newThickness = false;
   bool m_newRules = false;
   core::IndexBox m_dirtyBricks;
-  core::IndexBox m_tissueBricks; // all that can be seen lies in them
+  core::IndexBox m_tissueBricks; // bounding box of all visible tissue
   volume::ValueRange m_ctRange, m_secondRange;
 
   IntensityTexture m_ct, m_second;

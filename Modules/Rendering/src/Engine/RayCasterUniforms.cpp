@@ -1,4 +1,4 @@
-// What one frame tells the shader: rays, grids, light; and the pixels that it is asked for.
+// Per-frame uniforms (rays, grids, light) and the pixels for which rays are cast.
 
 #include "RayCaster.h"
 
@@ -177,8 +177,8 @@ void RayCaster::setVolume(GlProgram& program) const
   }
 }
 
-// Adds the bricks of a box that hold tissue. What an edit takes away stays in until all is judged
-// anew.
+// Adds the bricks of a box that contain tissue. Bricks emptied by an edit remain until the next
+// rebuild.
 void RayCaster::findTissue(const core::IndexBox& bricks)
 {
   const core::Index3& dims = m_occupancy->dims();
@@ -200,7 +200,7 @@ void RayCaster::findTissue(const core::IndexBox& bricks)
     }
 }
 
-// Pixels, in x and y, whose rays can meet tissue.
+// Pixel rectangle whose rays may meet tissue.
 core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int height) const
 {
   const core::IndexBox whole{{0, 0, 0}, {width, height, 1}};
@@ -208,7 +208,7 @@ core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int heig
     return whole;
   if (m_tissueBricks.empty())
     return {};
-  constexpr double margin = 0.01; // voxels; more than single precision errs by
+  constexpr double margin = 0.01; // voxels; exceeds the error of single precision
   const RayView& view = frame.view;
   Eigen::Matrix3d axes;
   if (view.parallel)
@@ -230,7 +230,7 @@ core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int heig
     const Eigen::Vector3d at =
         inverse * (m_contents.ct->geometry().patientFromVoxel(voxel) - view.origin);
     if (!view.parallel && !(at.z() > 0.0))
-      return whole; // beside the eye or behind it
+      return whole; // beside or behind the camera
     const Eigen::Array2d ndc = at.head<2>().array() / (view.parallel ? 1.0 : at.z());
     if (!ndc.isFinite().all())
       return whole;
@@ -251,15 +251,15 @@ core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int heig
   return pixels;
 }
 
-// Rays that pass all tissue by are not cast: pixels that run in lock step pay for what follows a
-// hit even where nothing is hit.
+// Rays that miss all tissue are not cast: on SIMT hardware their pixels would pay for the code
+// after a hit even without one.
 void RayCaster::castRays(const Frame& frame, int width, int height)
 {
   const core::IndexBox pixels = tissueOnScreen(frame, width, height);
   if (pixels.empty())
     return;
   std::array<GLint, 4> before{};
-  glGetIntegerv(GL_SCISSOR_BOX, before.data()); // VTK remembers what it set
+  glGetIntegerv(GL_SCISSOR_BOX, before.data()); // VTK caches its state
   glEnable(GL_SCISSOR_TEST);
   glScissor(pixels.lower[0], pixels.lower[1], pixels.size()[0], pixels.size()[1]);
   m_triangle.draw();

@@ -7,28 +7,28 @@
 namespace petrous::rendering
 {
 
-constexpr std::size_t kMaxPlanes = 6; ///< that a picture can be clipped by
+constexpr std::size_t kMaxPlanes = 6; ///< max. number of clipping planes
 
-/// What a variant of the ray caster's shader is compiled with.
+/// Compile-time features of a variant of the ray caster's shader.
 struct RayFeatures
 {
-  bool bone = false;      ///< the CT's own surface
+  bool bone = false;      ///< the CT's isosurface
   bool labels = false;    ///< structures
-  bool borders = false;   ///< structures that touch
-  bool nested = false;    ///< structures can be looked into
-  bool mask = false;      ///< the cut
+  bool borders = false;   ///< touching structures
+  bool nested = false;    ///< translucent structures
+  bool mask = false;      ///< the cut mask
   bool second = false;    ///< a second image that some materials read
-  bool interior = false;  ///< tissue can be looked into
+  bool interior = false;  ///< translucent tissue
   bool clip = false;      ///< clipping planes
   bool thickness = false; ///< bone is coloured by its distance to a structure
-  bool count = false;     ///< fetches and samples are counted
+  bool count = false;     ///< texture fetches and samples are counted
 
-  unsigned key() const noexcept;          ///< another one for each variant
-  std::vector<std::string> names() const; ///< "ct" and what is added to it; counting is not named
+  unsigned key() const noexcept;          ///< unique per variant
+  std::vector<std::string> names() const; ///< "ct" and the added features; counting is not named
 };
 
-/// The fragment shader of a variant (for GlProgram). Numbers that OpticalModel.h and
-/// OccupancyGrid.h state are written into it.
+/// Fragment shader of a variant (for GlProgram), with the constants of OpticalModel.h and
+/// OccupancyGrid.h inserted.
 std::string rayFragmentShader(const RayFeatures& features);
 
 } // namespace petrous::rendering

@@ -75,7 +75,7 @@ DepthImage RayTarget::readDepth() const
     glBindTexture(GL_TEXTURE_2D, 0);
   }
   image.millimetres.resize(rows.size());
-  for (std::size_t y = 0; y < height; ++y) // OpenGL's rows run from the bottom
+  for (std::size_t y = 0; y < height; ++y) // OpenGL stores rows bottom up
     std::transform(rows.begin() + static_cast<std::ptrdiff_t>((height - 1 - y) * width),
                    rows.begin() + static_cast<std::ptrdiff_t>((height - y) * width),
                    image.millimetres.begin() + static_cast<std::ptrdiff_t>(y * width),

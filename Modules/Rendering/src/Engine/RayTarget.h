@@ -8,23 +8,23 @@
 namespace petrous::rendering
 {
 
-/// What rays are cast into: premultiplied colour, distance to the first surface, and counts where
-/// they are asked for. Of the context in which it was prepared; released explicitly.
+/// Render target of the ray caster: premultiplied colour, distance to the first surface, and counts
+/// if requested. Belongs to the context in which it was prepared; must be released explicitly.
 class RayTarget
 {
 public:
-  /// Binds it for drawing at this size. Throws RenderingError NoOpenGL.
+  /// Binds it for drawing at the given size. Throws RenderingError NoOpenGL.
   void prepare(int width, int height, bool count);
   void release();
 
   const GlTexture& color() const noexcept { return m_color; }
 
-  /// Distance to the first surface, mm along each pixel's ray, rows from the top; NaN: none.
+  /// Distance to the first surface, mm along each pixel's ray, top row first; NaN: none.
   DepthImage readDepth() const;
-  /// At one pixel of a picture of width x height that shows it, rows from the top.
+  /// Depth at one pixel when shown as a picture of width x height, rows from the top.
   float readDepth(double column, double row, int width, int height) const;
 
-  /// Fetches and samples, means over the pixels. While it is bound.
+  /// Fetches and samples, averaged over the pixels. The target must be bound.
   std::array<double, 2> meanCounts() const;
 
 private:

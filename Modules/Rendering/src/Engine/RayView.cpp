@@ -29,7 +29,7 @@ RayView rayView(const Eigen::Matrix4d& viewFromWorld, const Eigen::Matrix4d& pro
   rays.parallel = projection(3, 2) == 0.0;
   if (rays.parallel)
   {
-    // Rays start on the camera's plane, z = 0 in view.
+    // Rays start on the camera plane, z = 0 in view coordinates.
     const Eigen::Vector3d along = unproject(0.0, 0.0, 1.0) - unproject(0.0, 0.0, -1.0);
     const Eigen::Vector3d forward = along / std::abs(along.z()); // z = -1, sheared or not
     const auto start = [&](double x, double y) -> Eigen::Vector3d

@@ -7,11 +7,11 @@
 namespace petrous::rendering
 {
 
-/// The rays of a picture, affine in the pixel's normalised device coordinates x, y in -1..1:
+/// The rays of a picture, affine in the pixel's normalized device coordinates x, y in -1..1:
 ///   origin    = origin + x originX + y originY              patient mm
-///   direction = direction + x directionX + y directionY     patient mm at unit depth of view
-/// Any projection that a graphics library makes: perspective, off-axis, parallel. Composed in
-/// double precision, so that a scene far from the world's origin draws the same.
+///   direction = direction + x directionX + y directionY     patient mm at unit view depth
+/// Covers all OpenGL projections: perspective, off-axis, parallel. Composed in double precision, so
+/// the picture does not depend on the scene's distance from the world origin.
 struct RayView
 {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -22,12 +22,13 @@ struct RayView
   Eigen::Vector3d directionY = Eigen::Vector3d::Zero();
   bool parallel = false;
 
-  /// Depth of view from z in -1..1: [1] / (z + [0]) in perspective, [2] + [3] z in parallel.
+  /// View depth from z in -1..1: [1] / (z + [0]) in perspective, [2] + [3] z in parallel.
   Eigen::Vector4d depth = Eigen::Vector4d::Zero();
 };
 
-/// From the matrices of a camera (OpenGL's conventions, column vectors) and the pose of the patient
-/// frame in the world. Throws InvalidParameter where a matrix is singular or not finite.
+/// From a camera's view and projection matrices (OpenGL conventions, column vectors) and the pose
+/// of the patient frame in the world. Throws InvalidParameter if a matrix is singular or not
+/// finite.
 RayView rayView(const Eigen::Matrix4d& viewFromWorld, const Eigen::Matrix4d& projection,
                 const Eigen::Matrix4d& worldFromPatient);
 

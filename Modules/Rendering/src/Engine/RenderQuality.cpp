@@ -19,7 +19,7 @@ void require(bool holds, const char* name, double value, const char* range)
 
 void RenderQuality::validate() const
 {
-  // Drivers end a loop after some 65000 rounds, and with it the ray.
+  // Drivers terminate a loop, and with it the ray, after about 65000 iterations.
   require(step >= 0.05 && step <= 100.0, "step", step, "0.05 to 100 voxels");
   require(bisections >= 0 && bisections <= 24, "bisections", bisections, "0 to 24");
   require(brick == 4 || brick == 8 || brick == 16, "brick", brick, "4, 8 or 16 voxels");

@@ -2,17 +2,17 @@
 
 #include "petrous/Rendering/SceneContents.h"
 
-/// What both engines ask of a scene. All throw RenderingError BadContents in words.
+/// Scene requirements of both engines. All functions throw RenderingError BadContents.
 namespace petrous::rendering
 {
 
-/// That its parts do not contradict each other. Looks at no voxel.
+/// Checks that the parts are consistent. Reads no voxels.
 void checkContents(const SceneContents& contents);
 
-/// That each index of the labels has its material. Looks at all of their voxels.
+/// Checks that each label index has a material. Reads all label voxels.
 void checkMaterials(const SceneContents& contents);
 
-/// That the shader takes so many clipping planes.
+/// Checks the shader's limit on clipping planes.
 void checkPlaneCount(const SceneContents& contents);
 
 } // namespace petrous::rendering

@@ -18,8 +18,8 @@ core::IndexBox wholeBox(const core::Index3& dims)
   return {{0, 0, 0}, dims};
 }
 
-// What no value is to a texture: far below every threshold, finite, so that it cannot spread, and
-// so is the square of a slope to it.
+// Texture value of a voxel without a value: far below every threshold, and finite, so that it does
+// not propagate, as is the square of a gradient towards it.
 constexpr float kNoValue = -1e15F;
 
 template <class T>
@@ -39,7 +39,7 @@ double unitOf()
   return std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
 }
 
-// A copy without values that are no numbers; empty where there are none.
+// A copy with NaN and infinities replaced; empty if there are none.
 std::vector<float> cleaned(const float* values, std::size_t count)
 {
   if (std::all_of(values, values + count, [](float v) { return std::isfinite(v); }))
@@ -96,18 +96,18 @@ void MaskTexture::reset(std::shared_ptr<const volume::CutMask> mask, int bits, i
   m_bits = bits;
   m_largest = largest;
   m_pending.clear();
-  m_reduction = {0, 0, 0}; // to be made
+  m_reduction = {0, 0, 0}; // computed by upload
 }
 
 void MaskTexture::changed(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
 {
   m_mask = std::move(mask);
   if (!m_mask || m_reduction[0] == 0)
-    return; // nothing to show, or all of it is uploaded anyway
+    return; // nothing to show, or everything is uploaded anyway
   core::IndexBox merged = box.intersected(m_mask->geometry().fullBox());
   if (merged.empty())
     return;
-  // A union is worth it where it is hardly more than its parts.
+  // Merge boxes if the union is hardly larger than its parts.
   for (auto other = m_pending.begin(); other != m_pending.end();)
   {
     const core::IndexBox both = merged.united(*other);
@@ -266,7 +266,7 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
 {
   const volume::Volume<float>& occupancies = *labels.occupancy;
   const core::Index3& dims = occupancies.geometry().dims();
-  // Sixteen bits hold an occupancy exactly: it comes in steps of 1/65535.
+  // 16 bits store an occupancy exactly: its resolution is 1/65535.
   const auto inSixteenBits = [](float value)
   { return static_cast<std::uint16_t>(std::lround(65535.0F * std::clamp(value, 0.0F, 1.0F))); };
   reduction = reductionFor(texel::kUnsignedShort, dims, largest);
@@ -310,7 +310,7 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   occupancy.create(texel::kUnsignedShort, texels, means.data(), GL_LINEAR);
   std::vector<std::uint8_t> indices(means.size());
   std::size_t texel = 0;
-  // An index is a name and has no mean: that of the voxel in the block which has most of the occupancy.
+  // Labels cannot be averaged: take that of the block's voxel with the greatest occupancy.
   for (int z = 0; z < texels[2]; ++z)
     for (int y = 0; y < texels[1]; ++y)
       for (int x = 0; x < texels[0]; ++x, ++texel)

@@ -13,7 +13,7 @@
 namespace petrous::rendering
 {
 
-/// A CT or a second image in its own type; intensity = texel * unit.
+/// A CT or second image in its native type; intensity = texel * unit.
 struct IntensityTexture
 {
   GlTexture texture;
@@ -25,24 +25,24 @@ struct IntensityTexture
   void upload(const volume::IntensityVolume& volume, int largest);
 };
 
-/// The cut on the CT's grid. Edits are collected and brought to the card at the next frame, at most
-/// so many voxels of them; the rest waits.
+/// The cut mask on the CT's grid. Edits are collected and uploaded with the next frame, up to a
+/// maximum number of voxels; the rest is deferred.
 class MaskTexture
 {
 public:
   static constexpr std::size_t kVoxelsPerFrame = std::size_t{4} << 20U;
 
-  /// Takes over another mask (null: none) or another precision; everything is uploaded anew.
+  /// Sets another mask (null: none) or another precision; everything is uploaded again.
   void reset(std::shared_ptr<const volume::CutMask> mask, int bits, int largest);
 
-  /// The voxels of a box changed. Boxes that meet are merged.
+  /// Marks the voxels of a box as changed. Touching boxes are merged.
   void changed(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
-  /// Finds by itself what changed in a mask whose changes nobody told: compares brick versions.
-  /// Whether anything did.
+  /// Detects unreported changes of the mask by comparing brick versions. Returns whether there were
+  /// any.
   bool compare();
 
-  /// On the render thread, before a frame.
+  /// Call on the render thread before a frame.
   void upload();
   void release();
 
@@ -70,9 +70,9 @@ struct LabelTextures
 {
   GlTexture occupancy;
   GlTexture index;
-  TextureMap map; ///< of the occupancy; a texel of the index is voxel / reduction
+  TextureMap map; ///< of the occupancy; index texel = voxel / reduction
   core::Index3 reduction{1, 1, 1};
-  bool borders = false; ///< the index has a second channel, LabelField::borders
+  bool borders = false; ///< the index texture has a second channel, LabelField::borders
 
   /// Reduced labels have no borders. largest: see RenderQuality::largestTexture.
   void upload(const volume::LabelField& labels, int largest);
@@ -82,7 +82,7 @@ struct LabelTextures
 /// Distances to a structure; mm = texel * unit.
 struct ThicknessTexture
 {
-  static constexpr double kReach = 2.0; ///< of the farthest: values are held within that
+  static constexpr double kReach = 2.0; ///< values are clamped to this multiple of `farthest`
 
   GlTexture texture;
   TextureMap map;
@@ -91,14 +91,14 @@ struct ThicknessTexture
   void upload(const ThicknessOverlay& overlay);
 };
 
-/// Materials as tables over their intensities; see RayCast.frag.glsl.
+/// Material lookup tables over intensity; see RayCast.frag.glsl.
 struct MaterialTables
 {
   GlTexture look;
   GlTexture depth;
   GlTexture material;
 
-  /// `ct`, `second`: the intensities that occur.
+  /// `ct`, `second`: the images' intensity ranges.
   void upload(const std::vector<appearance::Material>& materials, int tableSize,
               const volume::ValueRange& ct, const volume::ValueRange& second);
   void release();

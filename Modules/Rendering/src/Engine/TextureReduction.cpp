@@ -26,7 +26,7 @@ core::Index3 reductionFor(const TexelFormat& format, core::Index3 dims, int larg
     if (fits(longest))
       break;
     if (dims[longest] == 1)
-      break; // even one texel is refused: the upload says so
+      break; // even one texel is refused: the upload reports the error
     factor[longest] *= 2;
     dims = reducedDims(whole, factor);
   }

@@ -11,14 +11,14 @@
 namespace petrous::rendering
 {
 
-/// By how much a volume must shrink along each axis (1: not at all) for the driver to take it, and
-/// for no edge to be longer than `largest` texels; 0: the driver alone decides.
+/// Reduction factor along each axis (1: none) for the driver to accept a volume, with no edge
+/// longer than `largest` texels; 0: only the driver's limit.
 core::Index3 reductionFor(const TexelFormat& format, core::Index3 dims, int largest);
 
-/// Texels along each axis after a reduction.
+/// Texels along each axis after reduction.
 core::Index3 reducedDims(const core::Index3& dims, const core::Index3& factor);
 
-/// Position in voxels -> texture coordinate, per axis: v * scale + offset.
+/// Maps voxel position to texture coordinate, per axis: v * scale + offset.
 struct TextureMap
 {
   Eigen::Vector3d scale{1.0, 1.0, 1.0};
@@ -26,7 +26,7 @@ struct TextureMap
 };
 TextureMap textureMap(const core::Index3& dims, const core::Index3& factor);
 
-/// Means over blocks of `factor` voxels of what `at(i, j, k)` gives, for a box of texels.
+/// Means of `at(i, j, k)` over blocks of `factor` voxels, for a box of texels.
 template <class T, class At>
 std::vector<T> reduceBox(const core::Index3& dims, const core::Index3& factor,
                          const core::IndexBox& texels, const At& at)

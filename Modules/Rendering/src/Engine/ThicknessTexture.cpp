@@ -14,7 +14,7 @@ void ThicknessTexture::upload(const ThicknessOverlay& overlay)
 {
   const volume::Volume<float>& distance = *overlay.distance;
   const core::Index3& dims = distance.geometry().dims();
-  // What is a little farther than the farthest must be told from it after interpolation, too.
+  // Values just beyond `farthest` must stay distinguishable after interpolation.
   unit = kReach * overlay.farthest;
   map = textureMap(dims, {1, 1, 1});
   constexpr double largest = std::numeric_limits<std::int16_t>::max();

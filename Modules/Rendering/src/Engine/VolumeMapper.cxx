@@ -31,7 +31,7 @@ using petrous::rendering::SceneContents;
 namespace
 {
 
-// What a vtkVolumeProperty says of component 0, as a material.
+// Material from component 0 of a vtkVolumeProperty.
 petrous::appearance::Material materialOf(vtkVolumeProperty* property, double surfaceOpacity)
 {
   std::set<double> values;
@@ -81,11 +81,12 @@ public:
   petrous::rendering::RenderQuality quality;
   SceneContents contents;
   bool given = false;                   // by SetContents, not by the pipeline
-  vtkMTimeType made = 0;                // when `contents` was made from the pipeline
-  const vtkDataObject* image = nullptr; // that they were made from
+  vtkMTimeType made = 0;                // when `contents` was created from the pipeline
+  const vtkDataObject* image = nullptr; // source of `contents`
   vtkMTimeType clipped = 0;
-  vtkWeakPointer<vtkOpenGLRenderWindow> window; // whose context holds the textures
-  const vtkWindow* owner = nullptr; // the same; a window that is dying has no weak pointers
+  vtkWeakPointer<vtkOpenGLRenderWindow> window; // whose context owns the textures
+  // The same window; weak pointers are cleared while it is destroyed.
+  const vtkWindow* owner = nullptr;
   int width = 0;
   int height = 0;
   std::exception_ptr error;
@@ -118,7 +119,7 @@ void vtkPetrousVolumeMapper::SetContents(const SceneContents& contents)
   this->Internal->given = true;
   if (newCt && contents.ct)
     this->SetInputData(petrous::rendering::wrap(*contents.ct).Get());
-  this->Internal->clipped = 0; // to be passed on with the mapper's own clipping
+  this->Internal->clipped = 0; // to be merged with the mapper's own clipping
   this->Modified();
 }
 
@@ -242,7 +243,7 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
                                  petrous::rendering::toEigen(volume->GetMatrix()));
 
   vtkOpenGLState* state = window->GetState();
-  // Before the copy of the depth, too, which a scissor would clip.
+  // Before copying the depth, which a scissor would clip as well.
   const petrous::rendering::PlainDrawing plain(window);
   const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
   state->PushFramebufferBindings();
@@ -250,7 +251,7 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   {
     frame.opaque = my.opaque.capture(renderer, x, y, frame.width, frame.height);
     my.caster.draw(frame, this->Counting);
-    state->ResetFramebufferBindings(); // bound behind VTK's back
+    state->ResetFramebufferBindings(); // bound outside of VTK's state cache
     state->PopFramebufferBindings();
     state->ResetGLViewportState();
     state->vtkglViewport(x, y, frame.width, frame.height);

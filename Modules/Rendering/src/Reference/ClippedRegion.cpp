@@ -11,8 +11,8 @@ namespace petrous::rendering
 
 namespace
 {
-constexpr double kParallel = 1e-14; // cosine below which a ray does not meet a face
-constexpr double kInset = 1e-9;     // of the distance: rounding must not put an end outside
+constexpr double kParallel = 1e-14; // cosine below which a ray is parallel to a face
+constexpr double kInset = 1e-9; // relative to the distance: keeps the ends inside despite rounding
 } // namespace
 
 ClippedRegion::ClippedRegion(const core::GridGeometry& grid, const std::optional<core::IndexBox>& crop,
@@ -69,7 +69,7 @@ RaySpan ClippedRegion::clip(const PixelRay& ray) const
       span.face = -side.inwards;
     }
   }
-  // What is thinner than rounding is nothing; an inset of it would turn its ends round.
+  // Spans thinner than rounding are empty; the inset would reverse their ends.
   const double inset = kInset * (1.0 + span.last);
   if (!(span.last - span.first > 2.0 * inset))
     return {};

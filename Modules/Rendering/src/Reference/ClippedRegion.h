@@ -10,16 +10,17 @@
 namespace petrous::rendering
 {
 
-/// Where a ray may meet tissue: [first, last], mm along it.
+/// Where a ray may meet tissue: [first, last], mm along the ray.
 struct RaySpan
 {
   double first = 0.0;
   double last = -1.0;                  ///< < first: nowhere
-  std::optional<Eigen::Vector3d> face; ///< unit normal of the face it enters through; none: the eye
+  /// Unit normal of the entry face; none: starts at the camera.
+  std::optional<Eigen::Vector3d> face;
 };
 
-/// The part of the CT that is drawn: the hull of its voxel centres (of the crop box's, where there
-/// is one), on the positive side of every clipping plane. A convex body bounded by flat faces.
+/// The drawn part of the CT: the hull of its voxel centres (of those in the crop box, if any) on
+/// the positive side of every clipping plane. A convex polyhedron.
 class ClippedRegion
 {
 public:

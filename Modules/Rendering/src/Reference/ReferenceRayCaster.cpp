@@ -73,7 +73,7 @@ ReferenceRayCaster::Implementation::Pixel
 ReferenceRayCaster::Implementation::see(const PixelRay& ray) const
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
-  double occupancy = 1.0; // of the pixels that no screen door has stopped yet
+  double occupancy = 1.0; // fraction of the pixels not yet covered by a screen door
   for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
   {
     const GatheredLight light = gather(ray, hit.distance);

@@ -22,7 +22,7 @@ public:
 
   void add(const std::array<std::uint32_t, 3>& triangle)
   {
-    // The polygon that is left has up to four corners, in the triangle's own order.
+    // The clipped polygon has up to four corners, in the triangle's winding order.
     std::array<std::uint32_t, 4> corners{};
     std::size_t count = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -43,7 +43,7 @@ public:
 private:
   bool keeps(std::uint32_t vertex) const { return m_values[vertex] >= 0.0; }
 
-  // The same new vertex for both triangles at an edge.
+  // Both triangles at an edge share the new vertex.
   std::uint32_t between(std::uint32_t a, std::uint32_t b)
   {
     const auto edge = std::minmax(a, b);

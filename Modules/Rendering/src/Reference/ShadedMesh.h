@@ -7,15 +7,15 @@
 namespace petrous::rendering
 {
 
-/// Triangles with a normal at each vertex.
+/// Triangles with vertex normals.
 struct ShadedMesh
 {
   core::TriangleMesh mesh;
   std::vector<Eigen::Vector3f> normals;
 };
 
-/// The part where `values` (one a vertex, linear between them) is not negative. Vertices that are
-/// not used any more stay.
+/// The part where `values` (per vertex, interpolated linearly) is not negative. Unused vertices are
+/// kept.
 ShadedMesh clip(const ShadedMesh& whole, const std::vector<double>& values);
 
 void append(ShadedMesh& first, const ShadedMesh& second);

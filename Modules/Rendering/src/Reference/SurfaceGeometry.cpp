@@ -38,7 +38,7 @@ Hit meetSphere(const PixelRay& ray, const Eigen::Vector3d& center, double radius
   return TriangleTree::Hit{t, (t * ray.direction - to) / radius};
 }
 
-// A closed cylinder from `base` along the unit axis.
+// A capped cylinder from `base` along the unit axis.
 Hit meetCylinder(const PixelRay& ray, const Eigen::Vector3d& base, const Eigen::Vector3d& axis,
                  double length, double radius)
 {

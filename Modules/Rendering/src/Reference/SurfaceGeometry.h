@@ -8,8 +8,8 @@
 namespace petrous::rendering
 {
 
-/// The meshes and the tool of a scene, as a ray meets them: lit as the surfaces of tissue are, the
-/// tool with a highlight of its own.
+/// Ray intersection with the meshes and the tool of a scene, shaded as tissue surfaces; the tool
+/// has its own highlight.
 class SurfaceGeometry
 {
 public:
@@ -17,14 +17,14 @@ public:
   {
     double distance = 0.0; ///< mm along the ray
     Eigen::Vector3d color; ///< lit, RGB
-    double opacity = 1.0;  ///< share of pixels that a translucent mesh covers (screen door)
+    double opacity = 1.0;  ///< fraction of pixels that a translucent mesh covers (screen door)
   };
 
-  /// Throws RenderingError BadContents for a mesh without triangles, InvalidParameter for one that
-  /// contradicts itself.
+  /// Throws RenderingError BadContents for a mesh without triangles, InvalidParameter for an
+  /// inconsistent one.
   explicit SurfaceGeometry(const SceneContents& contents);
 
-  /// Nearest first, one of each mesh at most, up to the first that nothing is seen through.
+  /// Nearest first, at most one hit per mesh, up to and including the first opaque one.
   std::vector<Hit> along(const PixelRay& ray) const;
 
 private:

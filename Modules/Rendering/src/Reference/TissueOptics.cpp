@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double kScale = 1000.0; // HU; only the unit of f
-constexpr double kNoBone = 1e300; // HU; an iso that no bone reaches
+constexpr double kNoBone = 1e300; // HU; iso value above all bone
 
 const SceneContents& checked(const SceneContents& contents)
 {
@@ -67,7 +67,7 @@ std::size_t TissueOptics::indexAt(const Eigen::Vector3d& patient) const
   return m_index ? indexOfVoxel(m_index->geometry().voxelFromPatient(patient)) : 0;
 }
 
-// Of the voxel nearest to a position; 0 beyond the grid.
+// Of the voxel nearest to a position; 0 outside the grid.
 std::size_t TissueOptics::indexOfVoxel(const Eigen::Vector3d& voxel) const
 {
   core::Index3 nearest{};
@@ -81,7 +81,7 @@ std::size_t TissueOptics::indexOfVoxel(const Eigen::Vector3d& voxel) const
   return m_index->at(nearest[0], nearest[1], nearest[2]);
 }
 
-// How deep a voxel lies in a structure, below 0 in another; without borders 1 or 0.
+// Depth of a voxel in a structure, negative in another one; without borders 1 or 0.
 double TissueOptics::depthIn(std::size_t index, const Eigen::Vector3d& voxel) const
 {
   const bool inside = indexOfVoxel(voxel) == index;
@@ -95,7 +95,7 @@ double TissueOptics::depthIn(std::size_t index, const Eigen::Vector3d& voxel) co
   return inside ? depth : -depth;
 }
 
-// In the tissue of structures.
+// Only inside structures.
 volume::StructureChoice TissueOptics::structureAt(const Eigen::Vector3d& patient) const
 {
   return m_index ? volume::structureAt(*m_index, m_borders.get(),
@@ -152,8 +152,8 @@ Eigen::Vector3d TissueOptics::occupancyNormal(const Eigen::Vector3d& patient) co
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }
 
-// Out of a structure: against the gradient of how deep in it a place lies (without borders, of how
-// much round the place belongs to it), voxels weighted by quadratic B-splines.
+// Out of a structure: along the negative gradient of the depth in it (without borders, of its
+// fraction of the neighbourhood), with quadratic B-spline weights.
 Eigen::Vector3d TissueOptics::borderNormal(const Eigen::Vector3d& patient, std::size_t index) const
 {
   const core::GridGeometry& grid = m_index->geometry();
@@ -176,7 +176,7 @@ Eigen::Vector3d TissueOptics::borderNormal(const Eigen::Vector3d& patient, std::
   return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
 }
 
-// The colour in place of bone's own.
+// The colour that replaces bone's own.
 std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector3d& patient) const
 {
   if (!m_thickness.distance)

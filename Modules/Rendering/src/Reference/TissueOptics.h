@@ -13,8 +13,8 @@
 namespace petrous::rendering
 {
 
-/// What a point of the scene's tissue is and how it is lit: the definitions of OpticalModel.h, read
-/// from the voxels themselves in double precision. Needs a CT. Pure and thread-safe.
+/// State and shading at a point of the scene's tissue: the definitions of OpticalModel.h, evaluated
+/// from the voxels in double precision. Requires a CT. Pure and thread-safe.
 class TissueOptics
 {
 public:
@@ -26,7 +26,7 @@ public:
   struct Place
   {
     State state = kAir;
-    double margin = 0.0; ///< how far f (and the occupancy) are from another state than this one, >= 0
+    double margin = 0.0; ///< distance of f (and the occupancy) to another state, >= 0
   };
 
   struct Surface
@@ -35,24 +35,23 @@ public:
     double opacity = 1.0;
   };
 
-  /// Throws RenderingError BadContents where the contents contradict themselves: no CT, a mask on
-  /// another grid, labels without voxels, a material that is missing or that reads a second image
-  /// which is not there.
+  /// Throws RenderingError BadContents if the contents are inconsistent: no CT, a mask on another
+  /// grid, labels without voxels, a missing material, or one that reads a missing second image.
   explicit TissueOptics(const SceneContents& contents);
 
   Place at(const Eigen::Vector3d& patient) const;
 
-  /// Whether the step from one state to another is a surface.
+  /// Whether the transition between two states is a surface.
   static bool isSurface(State from, State to);
 
-  /// What fills a state; not for air.
+  /// Material of a state; not for air.
   const appearance::Material& materialOf(State state) const;
 
-  /// What a material's transfer function reads at a point.
+  /// Input of a material's transfer function at a point.
   double intensity(const appearance::Material& material, const Eigen::Vector3d& patient) const;
 
-  /// The surface that a ray meets at distance t, going from one state to another. `face`: the
-  /// normal of the face that cuts the tissue off there; zero for one that looks at the eye.
+  /// Surface at distance t along the ray, at the transition between two states. `face`: normal of
+  /// the face that cuts the tissue off there; zero: facing the camera.
   Surface surfaceAt(const PixelRay& ray, double t, State from, State to,
                     const std::optional<Eigen::Vector3d>& face) const;
 

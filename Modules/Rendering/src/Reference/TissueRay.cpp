@@ -8,10 +8,10 @@ namespace petrous::rendering
 
 namespace
 {
-constexpr double kTolerance = 1e-5;      // of the smallest spacing
+constexpr double kTolerance = 1e-5;      // relative to the smallest spacing
 constexpr double kNothingVisible = 1e-6; // transmittance
 constexpr double kGolden = 0.6180339887498949;
-const double kGauss = 0.5 / std::sqrt(3.0); // of a piece, from its middle
+const double kGauss = 0.5 / std::sqrt(3.0); // relative to the segment's length, from its middle
 } // namespace
 
 struct TissueRay::Walk
@@ -19,8 +19,8 @@ struct TissueRay::Walk
   const PixelRay& ray;
   GatheredLight light;
   TissueOptics::State state = TissueOptics::kAir;
-  double t = 0.0;          // up to where the tissue is gathered
-  double value = 0.0;      // intensity there, where `valueKnown`
+  double t = 0.0;          // up to which tissue is accumulated
+  double value = 0.0;      // intensity at t, if `valueKnown`
   bool valueKnown = false; // for the material of `state`
 
   Eigen::Vector3d at(double distance) const { return ray.origin + distance * ray.direction; }
@@ -55,7 +55,7 @@ GatheredLight TissueRay::cast(const PixelRay& ray, double end) const
   Sample before = sample(0);
   if (before.place.state != TissueOptics::kAir)
   {
-    // Tissue that begins at the eye itself is cut off there by a face that looks at the eye.
+    // Tissue that contains the camera is cut off there by a face towards the camera.
     addSurface(walk, span.first, before.place.state,
                span.face ? *span.face : Eigen::Vector3d::Zero().eval());
     walk.state = before.place.state;
@@ -81,7 +81,7 @@ TissueRay::Sample TissueRay::sampleAt(const PixelRay& ray, double t) const
   return {t, m_optics.at(ray.origin + t * ray.direction)};
 }
 
-// A place between three neighbours of one state where the state is another one.
+// A point between three samples of the same state at which the state differs.
 std::optional<TissueRay::Sample> TissueRay::turningPoint(const PixelRay& ray, const Sample& a,
                                                          const Sample& b, const Sample& c) const
 {
@@ -107,12 +107,12 @@ std::optional<TissueRay::Sample> TissueRay::turningPoint(const PixelRay& ray, co
   return std::nullopt;
 }
 
-// Goes over every change of state up to `target` that bisection finds.
+// Processes every change of state up to `target` that bisection finds.
 void TissueRay::walkTo(Walk& walk, const Sample& target) const
 {
   if (!(target.t > walk.t))
     return;
-  double known = walk.t; // the state there is walk.state
+  double known = walk.t; // the state at this point is walk.state
   while (walk.state != target.place.state)
   {
     double low = known;
@@ -151,7 +151,7 @@ void TissueRay::addSurface(Walk& walk, double t, TissueOptics::State to,
   walk.light.transmittance *= 1.0 - surface.opacity;
 }
 
-// Integrates the tissue of the present state from walk.t on.
+// Integrates the tissue of the current state from walk.t on.
 void TissueRay::gather(Walk& walk, double to) const
 {
   const double from = walk.t;
@@ -189,7 +189,7 @@ void TissueRay::gather(Walk& walk, double to) const
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const double bend = points[b > a ? i : points.size() - 1 - i].value;
-    const double fraction = (bend - a) / (b - a); // not finite where the intensity stays the same
+    const double fraction = (bend - a) / (b - a); // not finite if the intensity is constant
     if (fraction > done && fraction < 1.0)
     {
       addPiece(done, fraction);

@@ -8,26 +8,26 @@
 namespace petrous::rendering
 {
 
-/// What a ray gathers on its way through the tissue.
+/// What a ray accumulates in tissue.
 struct GatheredLight
 {
-  Eigen::Vector3d color{0.0, 0.0, 0.0}; ///< what the tissue sends to the eye, RGB
-  double transmittance = 1.0;           ///< share of what lies behind that comes through
+  Eigen::Vector3d color{0.0, 0.0, 0.0}; ///< light from the tissue, RGB
+  double transmittance = 1.0;           ///< fraction of the light from behind that is transmitted
   double depth = std::numeric_limits<double>::quiet_NaN(); ///< mm to the first surface of f
 };
 
-/// Follows rays through the tissue in constant small steps. Every change of state is bisected, and
-/// where the state stays but comes close to another, so that a ray which only grazes a surface
-/// might pass it between two samples, the turning point is looked at too. In between, the transfer
-/// function is integrated with the intensity linear within a step, split where the function bends,
-/// by Gauss' rule of two points. Pure and thread-safe.
+/// Marches rays through tissue in small constant steps. Every change of state is bisected. Where
+/// the state stays but comes close to another, so that a ray grazing a surface could miss it
+/// between two samples, the turning point is examined as well. In between, the transfer function is
+/// integrated by two-point Gauss quadrature, with the intensity linear within a step, split at the
+/// function's points. Pure and thread-safe.
 class TissueRay
 {
 public:
-  /// step: of the smallest spacing. Throws RenderingError BadContents.
+  /// step: relative to the smallest spacing. Throws RenderingError BadContents.
   TissueRay(const SceneContents& contents, double step);
 
-  /// Up to `end` mm, where something opaque may stand.
+  /// Up to `end` mm, e.g. an opaque hit.
   GatheredLight cast(const PixelRay& ray, double end) const;
 
 private:

@@ -17,7 +17,7 @@ namespace
 
 constexpr std::size_t kLeaf = 4; // triangles
 
-// Whether the ray meets the box before `end`.
+// Whether the ray intersects the box before `end`.
 bool meets(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, const PixelRay& ray,
            double end)
 {
@@ -37,7 +37,7 @@ bool meets(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, const Pix
     first = std::max(first, std::min(a, b));
     last = std::min(last, std::max(a, b));
   }
-  // Flat boxes: rounding must not lose the triangle in them.
+  // For flat boxes: rounding must not lose the triangle inside.
   return first <= last + 1e-9 * (1.0 + std::abs(last));
 }
 
@@ -90,7 +90,7 @@ std::size_t TriangleTree::build(std::size_t first, std::size_t last)
   return self;
 }
 
-// Möller and Trumbore's test, from either side.
+// Möller-Trumbore intersection, front and back faces.
 void TriangleTree::intersect(std::size_t triangle, const PixelRay& ray,
                              std::optional<Hit>& nearest) const
 {
@@ -119,7 +119,7 @@ void TriangleTree::intersect(std::size_t triangle, const PixelRay& ray,
 std::optional<TriangleTree::Hit> TriangleTree::first(const PixelRay& ray) const
 {
   std::optional<Hit> nearest;
-  std::size_t pending[64]; // the tree of 2^32 triangles is 31 deep
+  std::size_t pending[64]; // a tree of 2^32 triangles has depth 31
   std::size_t count = 0;
   if (!m_nodes.empty())
     pending[count++] = 0;

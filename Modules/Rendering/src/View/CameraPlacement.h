@@ -12,15 +12,14 @@ class vtkRenderer;
 namespace petrous::rendering
 {
 
-/// Puts VTK's camera where a pose says, all but the shift of the lens.
+/// Sets VTK's camera from a pose, except for the lens shift.
 void aimCamera(vtkCamera* camera, const core::CameraPose& pose);
 
-/// Shifts the lens of the renderer's camera; to be done again where the shape of the picture
-/// changes.
+/// Sets the lens shift of the renderer's camera; to be repeated when the aspect ratio changes.
 void shiftLens(vtkRenderer* renderer, const core::CameraPose& pose);
 
-/// The camera's rays through a picture of `aspect` (width / height) of a patient who stands in the
-/// world so.
+/// The camera's rays for a picture of `aspect` (width / height), with the given pose of the patient
+/// in the world.
 RayView raysOf(vtkCamera* camera, double aspect, const Eigen::Matrix4d& worldFromPatient);
 
 Eigen::Matrix4d toEigen(vtkMatrix4x4* matrix);

@@ -21,7 +21,7 @@ core::TriangleMesh isoTriangles(const volume::Volume<float>& field)
   const core::GridGeometry& grid = field.geometry();
   vtkNew<vtkFloatArray> values;
   values->SetArray(const_cast<float*>(field.data()), static_cast<vtkIdType>(field.size()), 1);
-  // In voxel coordinates: the filter's float points keep their precision far from the origin too.
+  // In voxel coordinates, so that the filter's float points stay precise far from the origin.
   vtkNew<vtkImageData> image;
   image->SetDimensions(grid.dims().data());
   image->GetPointData()->SetScalars(values);
@@ -43,7 +43,7 @@ core::TriangleMesh isoTriangles(const volume::Volume<float>& field)
     mesh.vertices[i] = grid.patientFromVoxel(voxel).cast<float>();
   }
   mesh.triangles.reserve(static_cast<std::size_t>(surface->GetNumberOfPolys()));
-  // Flying edges winds counter-clockwise seen from the lower values; a mirrored grid turns it.
+  // Flying edges winds counter-clockwise seen from the lower values; a left-handed grid flips it.
   const bool mirrored = grid.direction().determinant() < 0.0;
   vtkCellArray* cells = surface->GetPolys();
   vtkIdType count = 0;

@@ -6,8 +6,8 @@
 namespace petrous::rendering
 {
 
-/// The surface of value 0 of a field by flying edges, patient LPS mm, counter-clockwise seen from
-/// where the field is negative; also on left-handed grids.
+/// Isosurface 0 of a field by flying edges, patient LPS mm, counter-clockwise seen from the
+/// negative side, on left-handed grids too.
 core::TriangleMesh isoTriangles(const volume::Volume<float>& field);
 
 } // namespace petrous::rendering

@@ -51,7 +51,7 @@ public:
 
   ~Implementation() { window->MakeCurrent(); }
 
-  // A renderer for one scene: with it go the last scene's props, lamp and textures.
+  // A new renderer per scene drops the previous scene's props, light and textures.
   void takeNewRenderer()
   {
     window->MakeCurrent();
@@ -93,7 +93,7 @@ Picture OffscreenView::render(ScenePicture& scene)
   if (picture.rgb.empty())
     throw RenderingError(RenderingError::Reason::NoOpenGL,
                          my.rendererName + " gave no picture back");
-  // GLX refuses a thread on which an EGL context is still current.
+  // GLX fails on a thread with a current EGL context.
   my.window->ReleaseCurrent();
   my.milliseconds = since(start);
   if (first)

@@ -70,7 +70,7 @@ void writePng(const std::filesystem::path& file, const Picture& picture)
   image->SetDimensions(picture.width, picture.height, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
-  for (int y = 0; y < picture.height; ++y) // VTK's rows run from the bottom
+  for (int y = 0; y < picture.height; ++y) // VTK stores rows bottom up
     std::memcpy(image->GetScalarPointer(0, picture.height - 1 - y, 0), picture.pixel(0, y), row);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
@@ -86,8 +86,8 @@ void writeNpy(const std::filesystem::path& file, const DepthImage& depth)
 {
   checkSize(file, depth.width, depth.height, depth.millimetres.size(), 1);
   static_assert(sizeof(float) == 4);
-  // Magic, version 1.0 and the header's length (2 bytes), padded so that the data starts at a
-  // multiple of 64 [numpy.lib.format].
+  // Magic number, version 1.0 and header length (2 bytes), padded so that the data start at a
+  // multiple of 64 bytes [numpy.lib.format].
   std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
                        std::to_string(depth.height) + ", " + std::to_string(depth.width) + "), }";
   constexpr std::size_t preamble = 10;
@@ -97,7 +97,7 @@ void writeNpy(const std::filesystem::path& file, const DepthImage& depth)
   bytes += static_cast<char>(header.size() & 0xff);
   bytes += static_cast<char>(header.size() >> 8);
   bytes += header;
-  bytes.append(reinterpret_cast<const char*>(depth.millimetres.data()), // x86 and arm: '<'
+  bytes.append(reinterpret_cast<const char*>(depth.millimetres.data()), // x86, ARM: little-endian
                depth.millimetres.size() * sizeof(float));
   writeWhole(file, bytes.data(), bytes.size());
 }

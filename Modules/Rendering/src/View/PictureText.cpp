@@ -16,9 +16,9 @@ namespace
 {
 constexpr int kDpi = 72;
 constexpr int kBorder = 2; // pixels
-constexpr double kBorderOccupancy = 0.8;
+constexpr double kBorderOpacity = 0.8;
 
-// How much of each pixel the text covers, 0 to 1, rows from the top.
+// Coverage of each pixel by the text, 0 to 1, top row first.
 struct TextMask
 {
   int width = 0;
@@ -32,7 +32,7 @@ struct TextMask
                : covered[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                          static_cast<std::size_t>(column)];
   }
-  double around(int column, int row) const // of the border
+  double around(int column, int row) const // coverage including the outline
   {
     double most = 0.0;
     for (int dy = -kBorder; dy <= kBorder; ++dy)
@@ -60,7 +60,7 @@ TextMask maskOf(const std::string& text, int size)
   mask.width = std::min(box[0], dims[0]);
   mask.height = std::min(box[1], dims[1]);
   const int last = image->GetNumberOfScalarComponents() - 1; // opacity
-  for (int row = mask.height - 1; row >= 0; --row)           // VTK's rows go up
+  for (int row = mask.height - 1; row >= 0; --row)           // VTK stores rows bottom up
     for (int column = 0; column < mask.width; ++column)
       mask.covered.push_back(image->GetScalarComponentAsDouble(column, row, 0, last) / 255.0);
   return mask;
@@ -80,7 +80,7 @@ void writeText(Picture& picture, const std::string& text, const TextPlace& place
       const int y = top + row;
       if (x < 0 || y < 0 || x >= picture.width || y >= picture.height)
         continue;
-      const double dark = kBorderOccupancy * mask.around(column, row);
+      const double dark = kBorderOpacity * mask.around(column, row);
       const double share = mask.at(column, row);
       std::uint8_t* pixel =
           &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +

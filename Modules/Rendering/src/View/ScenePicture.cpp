@@ -82,7 +82,7 @@ public:
 
   vtkWeakPointer<vtkRenderer> renderer;
   core::CameraPose pose;
-  std::shared_ptr<const volume::LabelField> labels; // whose indices have their materials
+  std::shared_ptr<const volume::LabelField> labels; // whose indices were checked to have materials
   std::size_t materials = 0;
   vtkNew<vtkPetrousVolumeMapper> mapper;
   vtkNew<vtkVolume> volume;
@@ -90,7 +90,7 @@ public:
   RenderQuality drawn; // of the last frame
   InteractionQuality interaction;
   bool interactive = false;
-  double milliseconds = 0.0; // of the latest frame whose time is known
+  double milliseconds = 0.0; // of the latest frame with a known time
   std::vector<std::unique_ptr<MeshActor>> meshes;
   ToolProps tool;
 
@@ -108,8 +108,8 @@ private:
 
 ScenePicture::Implementation::Implementation()
 {
-  m_lamp->SetLightTypeToCameraLight(); // at the eye
-  m_lamp->SetConeAngle(180.0);         // all around
+  m_lamp->SetLightTypeToCameraLight(); // at the camera
+  m_lamp->SetConeAngle(180.0);         // omnidirectional
   m_onStart->SetClientData(this);
   m_onStart->SetCallback([](vtkObject*, unsigned long, void* self, void*)
                          { static_cast<Implementation*>(self)->startFrame(); });
@@ -122,12 +122,12 @@ ScenePicture::Implementation::Implementation()
 
 void ScenePicture::Implementation::startFrame()
 {
-  // Near and far follow the props, whoever moved the camera or them.
+  // The clipping range follows the props, whoever moved them or the camera.
   renderer->ResetCameraClippingRange();
   shiftLens(renderer, pose);
   drawn = interactive ? interaction.coarser(quality) : quality;
   mapper->SetQuality(drawn);
-  // The lamp sits at the eye, as for the volume's rays; parallel rays have none.
+  // The light is at the camera, as in the ray caster; a parallel projection has no such position.
   m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
   m_timer.begin();
 }
@@ -135,7 +135,7 @@ void ScenePicture::Implementation::startFrame()
 void ScenePicture::Implementation::endFrame()
 {
   m_timer.end(drawn);
-  // At rest, too, so that the first frame that moves is not slower than the others.
+  // Also at rest, so that the first interactive frame is not slower than the others.
   if (const auto frame = m_timer.take())
   {
     milliseconds = frame->milliseconds;
@@ -187,13 +187,13 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
       window->MakeCurrent();
       m_timer.release();
     }
-    m_timer = FrameTimer(); // the next context may be of another driver
+    m_timer = FrameTimer(); // the next context may use another driver
     tool.removeFrom(last);
     last->RemoveLight(m_lamp);
     last->RemoveObserver(m_startObserver);
     last->RemoveObserver(m_endObserver);
     if (window && !wasCurrent)
-      window->ReleaseCurrent(); // which freeing the textures made current
+      window->ReleaseCurrent(); // made current by releasing the textures
   }
   renderer = next;
   if (!next)
@@ -204,7 +204,7 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
   next->RemoveAllLights();
   next->AddLight(m_lamp);
   next->SetTwoSidedLighting(1);
-  // A volume out of sight is drawn all the same: else its depth would be that of an earlier frame.
+  // A culled volume must still be drawn; otherwise its depth would be that of an earlier frame.
   next->GetCullers()->RemoveAllItems();
   forEachProp([next](vtkProp* prop) { next->AddViewProp(prop); });
   tool.addTo(next);

@@ -19,11 +19,11 @@ constexpr std::array<std::pair<StandardView, const char*>, 7> kNames{{
     {StandardView::Anterior, "anterior"},
     {StandardView::Posterior, "posterior"},
 }};
-constexpr double kMidlineWidth = 10.0;  // mm; nearer to it, a volume has no side of its own
+constexpr double kMidlineWidth = 10.0;  // mm; volumes closer to the midline have no side
 constexpr double kViewAngle = 30.0;     // degrees, vertical
-constexpr double kSmallestRadius = 1.0; // mm: a single voxel has a picture too
+constexpr double kSmallestRadius = 1.0; // mm: for single-voxel volumes
 
-// From the patient's centre towards the eye (LPS).
+// From the patient's centre towards the camera (LPS).
 Eigen::Vector3d towardsEye(StandardView view, const Eigen::Vector3d& center)
 {
   switch (view)
@@ -68,7 +68,7 @@ core::CameraPose standardCamera(StandardView view, const core::GridGeometry& gri
   const Eigen::Vector3d extent =
       grid.patientFromVoxelLinear() *
       Eigen::Vector3d(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
-  // The grid's axes are perpendicular, so every corner lies on this sphere round the centre.
+  // The grid's axes are perpendicular, so all corners lie on this sphere.
   return standardCamera(view, grid, grid.center(), 0.5 * extent.norm());
 }
 

@@ -105,7 +105,7 @@ EyePair eyesOf(const core::CameraPose& camera, const StereoGeometry& geometry)
               .toRotationMatrix();
       pose.position = pivot + turn * (camera.position - pivot);
       pose.focalPoint = pivot + turn * (camera.focalPoint - pivot);
-      pose.viewUp = up; // which the turn leaves as it is
+      pose.viewUp = up; // unchanged by the rotation
       return pose;
     }
     pose.position += side * half * right;

@@ -29,7 +29,7 @@ namespace
 {
 
 constexpr TexelFormat kPixel{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-constexpr float kAfterThePicture = -1.0F; // of the observers; ScenePicture's come first
+constexpr float kAfterThePicture = -1.0F; // observer priority; ScenePicture's observers run first
 
 void point(vtkRenderer* renderer, const core::CameraPose& pose)
 {
@@ -43,7 +43,7 @@ bool contains(Collection* collection, vtkObject* object)
   return collection->IsItemPresent(object) != 0;
 }
 
-// Not RemoveViewProp, which would free the textures that the left eye goes on using.
+// Not RemoveViewProp, which would release the textures that the left eye still uses.
 void forget(vtkRenderer* renderer, int index)
 {
   vtkPropCollection* props = renderer->GetViewProps();
@@ -51,7 +51,7 @@ void forget(vtkRenderer* renderer, int index)
   props->RemoveItem(index);
 }
 
-// The right eye sees what the left one sees.
+// The right eye's renderer gets the props of the left one.
 void mirrorProps(vtkRenderer* from, vtkRenderer* to)
 {
   vtkPropCollection* wanted = from->GetViewProps();
@@ -128,7 +128,7 @@ private:
   vtkNew<vtkCallbackCommand> m_leftStart, m_leftEnd, m_rightStart, m_rightEnd;
   unsigned long m_startObserver = 0;
   unsigned long m_endObserver = 0;
-  bool m_moved = false; // the scene's camera stands at an eye
+  bool m_moved = false; // the scene's camera is at an eye position
   core::CameraPose m_head;
   GlTexture m_pictures[2];
   GlProgram m_program;
@@ -166,7 +166,7 @@ void StereoPicture::Implementation::show(StereoMode next)
   m_endObserver = left->AddObserver(vtkCommand::EndEvent, m_leftEnd, kAfterThePicture);
   if (mode == StereoMode::QuadBuffer && shown)
   {
-    left->GetActiveCamera()->SetEyeAngle(0.0); // the eyes are placed here, not by VTK
+    left->GetActiveCamera()->SetEyeAngle(0.0); // the eye cameras are set here, not by VTK
     shown->SetStereoTypeToCrystalEyes();
     shown->StereoRenderOn();
   }
@@ -174,7 +174,7 @@ void StereoPicture::Implementation::show(StereoMode next)
     shown->AddRenderer(m_right);
 }
 
-// Both eyes are drawn in the same place, the lower left one, and put where they belong afterwards.
+// Both eyes are drawn into the same area, at the lower left, and then composed.
 void StereoPicture::Implementation::place()
 {
   const int width = std::max(window()->GetSize()[0], 1);

@@ -21,8 +21,8 @@ namespace petrous::rendering
 
 namespace
 {
-// VTK reflects the lamp: its highlight falls off as cos(2a)^n, where a is the angle between normal
-// and eye. The optical model's cos(a)^n is the same for a small angle and a fourth of the exponent.
+// VTK's highlight falls off as cos(2a)^n, a being the angle between normal and view direction. For
+// small angles this equals the optical model's cos(a)^n with a quarter of the exponent.
 constexpr double kHighlight = 0.25;
 } // namespace
 

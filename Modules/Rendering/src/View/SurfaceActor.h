@@ -16,18 +16,18 @@ class vtkPolyDataMapper;
 namespace petrous::rendering
 {
 
-/// Triangles with a normal at each vertex; the normals' sense does not matter.
+/// Triangles with vertex normals of any orientation.
 vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
                                         const std::vector<Eigen::Vector3f>& normals);
 
-/// Normals of the triangles round each vertex, weighted by area.
+/// Area-weighted vertex normals.
 std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh);
 
-/// A surface as the picture draws it: lit like bone, translucent by a screen-door pattern.
+/// A surface shaded like bone, with screen-door transparency.
 class SurfaceActor
 {
 public:
-  /// `pattern` moves the screen door, so that neighbours in a list do not share it.
+  /// `pattern` offsets the screen door, so that neighbours in a list do not share it.
   explicit SurfaceActor(int pattern);
   ~SurfaceActor();
 

@@ -18,8 +18,8 @@ core::TriangleMesh extractSurface(const volume::TissueField& field, const core::
   const core::IndexBox inside = box.intersected(grid.fullBox());
   if (inside.empty())
     return {};
-  // One layer of air all round closes what the box cuts off. Its value is so far below 0 that the
-  // surface stays at the border within a thousandth of a voxel.
+  // A surrounding layer of air closes the surface at the box. Its value is so far below 0 that the
+  // surface stays within a thousandth of a voxel of the border.
   constexpr float air = -1000.0F;
   const core::Index3 size = inside.size();
   const core::GridGeometry padded(
@@ -29,8 +29,8 @@ core::TriangleMesh extractSurface(const volume::TissueField& field, const core::
       grid.direction());
   volume::Volume<float> samples(padded, air);
 
-  // The outermost voxel centres lie on the hull's border, where rounding decides between f and
-  // air: those are asked for a millionth of a voxel further in.
+  // The outermost voxel centres lie on the hull's border, where rounding decides between f and air;
+  // they are sampled a millionth of a voxel further inside.
   const auto sampleAt = [&](const core::Index3& index)
   {
     Eigen::Vector3d voxel;

@@ -22,7 +22,7 @@ namespace
 using Color = std::array<double, 3>;
 
 constexpr int kMinWidth = 120;
-constexpr int kDots = 72; // an inch: a point of the type is a pixel
+constexpr int kDots = 72; // dpi: a font point is a pixel
 constexpr double kShade = 0.75;
 constexpr Color kGround{0.063, 0.075, 0.090};
 constexpr Color kInk{0.843, 0.863, 0.886};
@@ -61,7 +61,7 @@ public:
     m_look->SetColor(kInk[0], kInk[1], kInk[2]);
   }
 
-  /// Cut off at `most` pixels. Pixels that it is wide, drawn or not.
+  /// Returns the width in pixels, drawn or not; clipped at `most` pixels.
   int write(Picture* picture, const std::string& text, int left, int top, int most) const
   {
     vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
@@ -69,7 +69,7 @@ public:
     int dims[2] = {0, 0};
     if (!renderer || !renderer->RenderString(m_look, vtkStdString(text), image, dims, kDots))
       return 0;
-    // Rows from below; the picture's own size may be larger than the text.
+    // Rows bottom up; the image may be larger than the text.
     for (int row = 0; picture && row < dims[1]; ++row)
       for (int column = 0; column < std::min(dims[0], most); ++column)
       {

@@ -69,7 +69,7 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
   if (!shown)
     return;
   m_burr->SetRadius(tool->radius);
-  // VTK's cylinders lie along y, centred.
+  // VTK's cylinders are centred and along y.
   m_shaft->SetRadius(kShaftRatio * tool->radius);
   m_shaft->SetHeight(kShaftLength);
   m_shaft->SetCenter(0.0, 0.5 * kShaftLength, 0.0);

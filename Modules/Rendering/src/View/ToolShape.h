@@ -8,8 +8,8 @@
 namespace petrous::rendering::tool
 {
 
-// The tool of the tissue field's shell: a ball, a shaft of at most 0.6 of its radius for 30 mm, the
-// handpiece beyond.
+// Similar to the haptic tool (haptics::BurrShape): a ball, a shaft of at most 0.6 of its radius for
+// 30 mm, then the handpiece.
 constexpr double kShaftRatio = 0.5;
 constexpr double kShaftLength = 30.0;     // mm from the burr's centre
 constexpr double kHandpieceLength = 90.0; // mm

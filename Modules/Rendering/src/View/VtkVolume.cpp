@@ -16,7 +16,7 @@ namespace petrous::rendering
 
 namespace
 {
-// Holds the voxels for as long as the VTK array observes with it, which is until it dies.
+// Keeps the voxels alive as long as it observes the VTK array, i.e. until the array is deleted.
 class KeepAlive : public vtkCommand
 {
 public:
@@ -32,7 +32,7 @@ vtkSmartPointer<vtkImageData> wrap(const std::shared_ptr<const volume::Volume<T>
   const core::GridGeometry& grid = voxels->geometry();
   vtkNew<vtkAOSDataArrayTemplate<T>> array;
   array->SetName("voxels");
-  // VTK has no read-only arrays; nothing here writes, and `save` leaves the memory to its owner.
+  // VTK has no read-only arrays; nothing here writes, and `save` leaves ownership with the caller.
   array->SetVoidArray(const_cast<T*>(voxels->data()), static_cast<vtkIdType>(voxels->size()), 1);
   vtkNew<KeepAlive> keep;
   keep->owner = voxels;
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkImageData> wrap(const std::shared_ptr<const volume::Volume<T>
   image->SetDimensions(grid.dims().data());
   image->SetSpacing(grid.spacing()[0], grid.spacing()[1], grid.spacing()[2]);
   image->SetOrigin(grid.origin()[0], grid.origin()[1], grid.origin()[2]);
-  // VTK reads a row-major matrix; setting its elements one by one would not reach the transforms.
+  // VTK expects a row-major matrix; setting single elements would not update the transforms.
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> direction = grid.direction();
   image->SetDirectionMatrix(direction.data());
   image->GetPointData()->SetScalars(array);

@@ -8,11 +8,11 @@ class vtkUnsignedCharArray;
 namespace petrous::rendering
 {
 
-/// What a window shows; without pixels where it gives none back.
+/// Reads back a window's pixels; empty if the window returns none.
 Picture readWindow(vtkRenderWindow* window);
 
-/// From a window's pixels, RGB with rows from the bottom as OpenGL has them; without pixels where
-/// their number is another.
+/// From a window's pixels, RGB, bottom row first as in OpenGL; empty if their number does not
+/// match.
 Picture fromBottomRow(int width, int height, vtkUnsignedCharArray* rgb);
 
 } // namespace petrous::rendering

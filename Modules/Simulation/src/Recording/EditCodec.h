@@ -8,15 +8,15 @@
 namespace petrous::simulation
 {
 
-// Edits as bytes that pack well, and back to the last bit: as RecordCodec.h, but each word is
-// predicted from the edit before, and where a cut ends from where it begins.
+// Lossless encoding of edits that compresses well: like RecordCodec.h, but each word is predicted
+// from the previous edit, and the end of a cut from its start.
 std::vector<std::uint8_t> encodeEdits(const std::vector<MaskEdit>& edits);
 
-// False when the bytes are not those of `count` edits.
+// False if the bytes do not encode `count` edits.
 bool decodeEdits(const std::vector<std::uint8_t>& bytes, std::size_t count,
                  std::vector<MaskEdit>& edits);
 
-// Most bytes that `count` edits can take.
+// Maximum size of `count` encoded edits.
 std::size_t maxEditBytes(std::size_t count);
 
 } // namespace petrous::simulation

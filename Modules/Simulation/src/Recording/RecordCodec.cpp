@@ -22,9 +22,9 @@ using Table = std::array<Words, kColumns>;
 
 enum Rule : std::uint8_t
 {
-  kPrevious, // as in the tick before
+  kPrevious, // value of the previous tick
   kLine,     // 2 x[t-1] - x[t-2]
-  kCopy,     // as the first source in the same tick
+  kCopy,     // value of the first source in the same tick
   kFit,      // x[t-1] + sum_j g_j (y_j[t] - y_j[t-1]), y_j the sources
   kRules
 };
@@ -122,7 +122,7 @@ std::uint64_t bitsOf(double value)
 
 using Gains = std::array<double, kMaxSources>;
 
-// The same bits on every machine: one rounding an operation (2 x is exact, fma is one rounding).
+// Bit-identical on every machine: one rounding per operation (2 x is exact, fma rounds once).
 std::uint64_t predict(Rule rule, const Table& table, std::size_t c, std::size_t t,
                       const Gains& gains)
 {
@@ -144,12 +144,12 @@ std::uint64_t predict(Rule rule, const Table& table, std::size_t c, std::size_t 
     }
   else
     return previous;
-  // What is no number or near none may differ between machines.
+  // NaN, infinity and subnormals may differ between machines.
   return std::isnormal(value) ? bitsOf(value) : previous;
 }
 
-// Gains by least squares over the block, on the values themselves: their differences are too
-// coarsely rounded. Zeros where a value is not finite.
+// Least-squares gains over the block, on the values themselves, as their differences are rounded
+// too coarsely. Zeros if a value is not finite.
 Gains fit(const Table& table, std::size_t c)
 {
   const Column& column = layout()[c];

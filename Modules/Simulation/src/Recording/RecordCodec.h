@@ -8,17 +8,17 @@
 namespace petrous::simulation
 {
 
-// Ticks as bytes that pack well, and back to the last bit. A record is a row of 8-byte words; each
-// column is predicted, by the rule that does best in the block, from its own past and from columns
-// before it (the mapped pose from the device's, the force from hand and tool ...). What is kept is
-// how far the word is from its prediction, in units of the last place, in byte planes.
+// Lossless encoding of ticks that compresses well. A record is a row of 8-byte words; each column
+// is predicted, by the best rule for the block, from its own past and from preceding columns (the
+// mapped pose from the device's, the force from device and tool ...). Stored are the differences of
+// the words from their predictions, in units in the last place, as byte planes.
 std::vector<std::uint8_t> encodeTicks(const std::vector<TickRecord>& ticks);
 
-// False when the bytes are not those of `count` ticks.
+// False if the bytes do not encode `count` ticks.
 bool decodeTicks(const std::vector<std::uint8_t>& bytes, std::size_t count,
                  std::vector<TickRecord>& ticks);
 
-// Most bytes that `count` ticks can take.
+// Maximum size of `count` encoded ticks.
 std::size_t maxBytes(std::size_t count);
 
 } // namespace petrous::simulation

@@ -63,7 +63,7 @@ void RecordingReader::corrupt(const std::string& what) const
 
 bool RecordingReader::read(std::vector<std::uint8_t>& bytes, std::size_t count)
 {
-  // In pieces: a damaged length must not ask for more memory than the file can fill.
+  // Piecewise: a damaged length must not allocate more memory than the file can fill.
   constexpr std::size_t kPiece = 1 << 20;
   bytes.clear();
   while (bytes.size() < count)
@@ -86,7 +86,7 @@ bool RecordingReader::next(RecordingBlock& block)
     return false;
   std::vector<std::uint8_t> head, ticks, edits;
   const std::string name = "block " + std::to_string(m_blocks + 1);
-  m_ended = true; // unless a whole block follows
+  m_ended = true; // unless a complete block follows
   if (!read(head, kMarkBytes))
     return false;
   if (getU32(head.data()) == kEndMark)
@@ -103,7 +103,7 @@ bool RecordingReader::next(RecordingBlock& block)
   const std::uint32_t editCount = getU32(&head[8]);
   const std::uint32_t tickBytes = getU32(&head[12]);
   const std::uint32_t editBytes = getU32(&head[16]);
-  // Packed, what does not pack is a little longer.
+  // Incompressible data becomes slightly longer.
   const auto longest = [](std::size_t raw) { return 2 * raw + 1000; };
   if (getU32(head.data()) != kBlockMark || (tickCount == 0 && editCount == 0) ||
       tickCount > kMaxTicks || editCount > kMaxEdits ||

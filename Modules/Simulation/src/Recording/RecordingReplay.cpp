@@ -12,7 +12,7 @@ RecordingReplay::RecordingReplay(RecordingReader& reader, Servo& servo, Dissecti
 {
 }
 
-// Until there is a tick to play; false at the end.
+// Reads until there is a tick to play; false at the end.
 bool RecordingReplay::read()
 {
   while (!m_ended && m_at == m_block.ticks.size())
@@ -25,7 +25,7 @@ bool RecordingReplay::read()
     m_outcome.warning = m_reader.warning();
   else if (m_block.ticks[m_at].number != m_outcome.ticks)
   {
-    // A servo cannot be taken over what is missing.
+    // The servo cannot continue across a gap.
     m_ended = true;
     m_edits.clear();
     m_outcome.warning = "the recording has a gap after " + std::to_string(m_outcome.ticks) +

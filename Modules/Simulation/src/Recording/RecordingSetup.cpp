@@ -14,8 +14,8 @@ namespace
 
 using nlohmann::json;
 
-// Calls `field(name, value)` for every number of the set-up, so that what is written and what is
-// read cannot differ.
+// Calls `field(name, value)` for every number of the setup, so that writing and reading are
+// consistent.
 template <typename Setup, typename Field>
 void eachNumber(Setup& s, Field field)
 {
@@ -86,7 +86,7 @@ std::string toJson(const RecordingSetup& setup)
   out["burr"] = dissection::nameOf(setup.burr.kind);
   const auto put = [&out](const char* name, const auto& value)
   {
-    // JSON has no infinity; it would come back as nothing.
+    // JSON has no infinity; it would be read back as null.
     if (!std::isfinite(static_cast<double>(value)))
       throw core::InvalidParameter(std::string("recording: ") + name + " is not a finite number");
     out[name] = value;
@@ -122,7 +122,7 @@ RecordingSetup setupFromJson(const std::string& text)
     if (in.contains("passivity_lever_mm"))
       eachPassivity(setup.servo.passivity.emplace(), get);
   }
-  catch (const json::exception&) // its words quote the file
+  catch (const json::exception&) // its message quotes the file
   {
     throw core::InvalidParameter(
         "recording: the set-up cannot be read; it is damaged or of another "

@@ -56,7 +56,7 @@ RecordingWriter::~RecordingWriter()
   }
   catch (const std::exception&)
   {
-    // Whoever wants to know calls close().
+    // Callers who need the error call close().
   }
 }
 
@@ -71,7 +71,7 @@ void RecordingWriter::fail()
 
 void RecordingWriter::write(const std::vector<std::uint8_t>& bytes)
 {
-  // Flushed, so that a killed program loses one block at most.
+  // Flushed, so that a killed program loses at most one block.
   if (std::fwrite(bytes.data(), 1, bytes.size(), m_file.get()) != bytes.size() ||
       std::fflush(m_file.get()) != 0)
     fail();

@@ -27,7 +27,7 @@ bool identical(const TickRecord& a, const TickRecord& b) noexcept
 
 std::string differenceOf(const TickRecord& a, const TickRecord& b)
 {
-  // In the order of the record; each part ends where the next begins.
+  // In the record's order; each part ends where the next begins.
   struct Part
   {
     std::size_t begin;

@@ -7,11 +7,11 @@
 namespace petrous::simulation
 {
 
-// 8-byte words as bytes that pack well: how far each is from its prediction, in units of the last
-// place, in byte planes.
+// 8-byte words encoded to compress well: differences from their predictions, in units in the last
+// place, as byte planes.
 using Words = std::vector<std::uint64_t>;
 
-// Doubles in the order of their values are integers in order; every bit pattern has its place.
+// Order-preserving bijection from doubles to integers; defined for every bit pattern.
 inline std::uint64_t ordered(std::uint64_t word)
 {
   return word >> 63 ? ~word : word | std::uint64_t{1} << 63;
@@ -22,7 +22,7 @@ inline std::uint64_t unordered(std::uint64_t place)
   return place >> 63 ? place & ~(std::uint64_t{1} << 63) : ~place;
 }
 
-// How far `word` is from what was predicted; small for near ones of either side.
+// Difference of `word` from its prediction; small for near ones on either side.
 inline std::uint64_t codeOf(std::uint64_t word, std::uint64_t predicted)
 {
   const std::uint64_t difference = ordered(word) - ordered(predicted);
@@ -43,7 +43,7 @@ inline int bytesOf(std::uint64_t code)
   return bytes;
 }
 
-// Planes that all of the codes need, 0 to 8.
+// Number of planes needed by all codes, 0 to 8.
 inline int planesOf(const Words& codes)
 {
   std::uint64_t all = 0;

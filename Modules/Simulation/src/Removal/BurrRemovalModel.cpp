@@ -14,16 +14,17 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-// mm that a burr on a flat surface has sunk in before anything is taken: what two turns of a
-// cutting burr with ten teeth take at a tenth of a micrometre each. It makes the least patch.
+// mm by which a burr on a flat surface has sunk in before the first removal: what a cutting burr
+// with ten teeth removes in two turns at a tenth of a micrometre per tooth. It defines the smallest
+// patch.
 constexpr double kMinSink = 0.002;
 
-// Quadrature over a patch: within 0.3 % of its mean at the pole, and nearer elsewhere.
+// Quadrature over a patch: within 0.3 % of its mean at the pole, and better elsewhere.
 constexpr int kRings = 12;
 constexpr int kPlaces = 24;
 
-// Half the opening (rad) of the cap of a unit ball whose mean distance from its own axis is that:
-// (a - sin a cos a) / (2 (1 - cos a)), which is 2/3 a for small a and rises up to a ball's.
+// Half angle (rad) of the cap of a unit ball with this mean distance from its own axis:
+// (a - sin a cos a) / (2 (1 - cos a)), which is 2/3 a for small a and increases up to a full ball.
 double rimOf(double spread) noexcept
 {
   double low = 0.0;
@@ -61,7 +62,7 @@ double BurrRemovalModel::armOf(double radius, double elevation, double spread) n
 {
   const double least = 2.0 / 3.0 * std::sqrt(2.0 * radius * kMinSink);
   const double rim = rimOf(std::max(spread, least) / radius);
-  // Rings of equal area, the places of a half of each evenly spaced.
+  // Rings of equal area, points of half of each evenly spaced.
   const double sine = std::sin(elevation);
   const double cosine = std::cos(elevation);
   double sum = 0.0;
@@ -82,7 +83,7 @@ double BurrRemovalModel::armOf(double radius, double elevation, double spread) n
 double BurrRemovalModel::armOfPatch() const noexcept
 {
   const double now = armOf(m_patch.middle, m_patch.spread);
-  // The spindle may have turned since the bite.
+  // The spindle may have rotated since the bite.
   return m_biteArm > 0.0 ? std::min(m_search.radius(), m_patch.arm * now / m_biteArm) : now;
 }
 
@@ -109,7 +110,7 @@ void BurrRemovalModel::press(const TickRecord& record, double seconds)
   m_pressed = true;
 }
 
-// Known from the last bite; at first, from what lies ahead.
+// From the last bite; initially from the tissue ahead.
 double BurrRemovalModel::resistance(const volume::CutMask& mask)
 {
   if (m_resistance > 0.0)
@@ -127,7 +128,7 @@ void BurrRemovalModel::account(const dissection::RemovalStep& bite)
   m_resistance = bite.work / bite.volume;
   m_patch = bite.patch;
   m_bitten = true;
-  // The patch grew with the bite, which was made with the mean of what it was and is.
+  // The patch grew with the bite, which used the mean of its old and new arm.
   m_biteArm = armOf(m_patch.middle, m_patch.spread);
   const double arm = m_patch.arm;
   m_arm = 0.5 * (std::exchange(m_patchArm, arm) + arm);
@@ -142,7 +143,7 @@ void BurrRemovalModel::forfeit(double work)
   if (m_resistance > 0.0)
     m_balance.forfeited += work / m_resistance;
   else
-    m_unpriced -= work; // nothing that could be taken: no volume was promised
+    m_unpriced -= work; // nothing could be removed: no volume was predicted
 }
 
 std::optional<dissection::SweptSphere> BurrRemovalModel::bite(const volume::CutMask& mask)
@@ -165,7 +166,7 @@ std::optional<dissection::SweptSphere> BurrRemovalModel::bite(const volume::CutM
     m_pressed = bite->capped;
     return bite->burr;
   }
-  // Within reach nothing may be taken, or the tool is held back: it does not save up for later.
+  // Nothing within reach may be removed, or the tool is held back: work is not saved for later.
   if (bite)
     forfeit(m_owed);
   else if (const double most = kMaxOwed * m_rate; m_owed > most)

@@ -9,7 +9,7 @@ namespace petrous::simulation
 namespace
 {
 
-// A tick after a stall must not bite for the time in which nobody drilled.
+// After a stall a tick must not remove for the time without drilling.
 constexpr double kMaxTick = 0.01; // s
 
 bool together(const TickRecord& record, const TickRecord& next)
@@ -39,7 +39,7 @@ double DissectionLoop::secondsOf(const TickRecord& record)
   return past > 0.0 ? std::min(past, kMaxTick) : 0.0; // 0 for NaN
 }
 
-// Opens and closes strokes as the drill goes on and off; whether it is on.
+// Opens and closes strokes as the drill is switched; returns whether it is on.
 bool DissectionLoop::follow(const TickRecord& record)
 {
   const bool drill = record.drill && record.time() > m_ignoreUntil;
@@ -61,7 +61,7 @@ void DissectionLoop::open()
   notify({MaskEdit::Kind::Begin});
 }
 
-// The state is known once it is published.
+// The state number is known after publishing.
 void DissectionLoop::notify(MaskEdit edit) const
 {
   edit.state = m_mask.number();
@@ -94,7 +94,7 @@ bool DissectionLoop::cut(const dissection::SweptSphere& burr)
   return true;
 }
 
-// What half a cut has changed, and no stroke would list.
+// Restores what an incomplete cut has changed, which no stroke would list.
 void DissectionLoop::putBack()
 {
   volume::CutMask& mask = m_dissection.mask();
@@ -132,7 +132,7 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
       continue;
     }
     m_removalModel.press(record, seconds);
-    // Where the tool hardly moves on, what the next tick does is bitten off with this one's.
+    // If the tool hardly moves, this tick's bite is combined with the next.
     if (n + 1 < count && together(record, records[n + 1]))
       continue;
     while (const auto bite = m_removalModel.bite(m_dissection.mask()))

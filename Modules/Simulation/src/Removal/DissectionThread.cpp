@@ -9,7 +9,7 @@ namespace petrous::simulation
 namespace
 {
 
-constexpr std::size_t kBatch = 64; // records looked at together
+constexpr std::size_t kBatch = 64; // records processed together
 constexpr std::chrono::milliseconds kPoll(1);
 
 } // namespace
@@ -65,7 +65,7 @@ std::string DissectionThread::takeFailure()
   return std::exchange(m_failure, {});
 }
 
-// The first failure is kept for whoever asks.
+// Keeps the first failure.
 template <typename Work>
 bool DissectionThread::attempt(const char* what, Work work)
 {
@@ -83,7 +83,7 @@ bool DissectionThread::attempt(const char* what, Work work)
   return false;
 }
 
-// What cannot go on without.
+// For work without which drilling cannot continue.
 template <typename Work>
 void DissectionThread::need(const char* what, Work work)
 {
@@ -126,7 +126,7 @@ void DissectionThread::obey()
     return;
   for (const bool undo : asked)
     need(undo ? "Undo" : "Redo", [&] { undo ? m_loop.undo() : m_loop.redo(); });
-  // A tick that begins from now on sees the new state.
+  // A tick that starts from now on uses the new state.
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
   m_loop.ignoreUntil(now.count());
   pass();

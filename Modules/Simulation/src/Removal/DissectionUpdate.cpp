@@ -16,7 +16,7 @@ bool tookNothing(const DissectionEvent& event)
   return event.kind == Kind::StrokeClosed && !event.stroke;
 }
 
-// A drill that goes on and off in the air would be told without end.
+// A drill switched on and off in the air would add events without limit.
 void forgetRepeated(std::vector<DissectionEvent>& events)
 {
   const std::size_t n = events.size();
@@ -41,10 +41,10 @@ void DissectionUpdate::append(DissectionUpdate& next)
     forgetRepeated(events);
   }
   next.events.clear();
-  next.bricks.merge(bricks); // only what it lacks: its own are later
+  next.bricks.merge(bricks); // only missing ones: its own are newer
   bricks.swap(next.bricks);
   next.bricks.clear();
-  if (next.history) // knows also what could not be noted for want of memory
+  if (next.history) // includes what could not be noted for lack of memory
     for (auto& [brick, version] : bricks)
       version = next.history->mask().brick(brick);
   if (next.history)
@@ -74,7 +74,7 @@ std::vector<std::size_t> follow(DissectionUpdate& mail, dissection::Dissection& 
 {
   if (mail.history)
   {
-    // Likewise where the mask changed, and no mail could be written.
+    // Likewise where the mask changed but no update could be written.
     const volume::CutMask& now = mail.history->mask();
     for (std::size_t brick = 0; brick < now.brickCount(); ++brick)
       if (now.brick(brick) != copy.mask().brick(brick))

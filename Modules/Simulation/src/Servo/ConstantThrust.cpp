@@ -12,41 +12,42 @@ using Eigen::Vector3d;
 namespace
 {
 
-// s in which what the force lacks is made up for: a surface that gives way takes from it.
+// s, time constant for compensating missing force: a yielding surface reduces it.
 constexpr double kAdvanceTime = 0.005;
 
-// mm of way along the surface in which the force follows what the contacts say. Not a time: in a
-// hollow of the burr's own size all directions within its opening are in balance, so that one that
-// follows in time wanders, and with it the law's r, though the burr stays where it is.
+// mm of motion along the surface over which the force direction follows the contacts. Not a time:
+// in a hollow of the burr's own size all directions within its opening are in equilibrium, so that
+// a direction filtered in time would drift, and with it the law's r, although the burr stays in
+// place.
 constexpr double kFollowWay = 1.0;
 
-// mm that the tool may go to and fro without that being a way: it slides on the ripples of its
-// hollow. Where the force turns, the place it is pulled to turns too, on a lever as long as the
-// place lies deep, so that each of those slides would lead to a farther one.
+// mm of back-and-forth motion that is ignored: the tool slides on the ripples of its hollow. Where
+// the force turns, the goal turns too, with the depth of the goal as lever, so that each slide
+// would lead to a larger one.
 constexpr double kPlay = 0.15;
 
-// A place that lies L beyond the tool pulls sideways by k L where the force turns by one, against
-// that turn: followed as fast as anything else, a weak force would swing about from tick to tick.
+// A goal at distance L beyond the tool pulls sideways by k L per radian of the force's rotation,
+// against it: without this limit, a weak force would oscillate from tick to tick.
 constexpr double kMaxGain = 0.5;
 
 constexpr double kArrived = 0.001; // mm
-constexpr double kStill = 1e-4;    // mm in a tick: no way
+constexpr double kStill = 1e-4;    // mm per tick: no progress
 
-// A tool that is beyond its approach goes back at once.
+// A tool beyond its approach goes back at once.
 constexpr double kMaxWayBack = 30.0; // mm
 
 // Ripples and the skin between tool and tissue are some hundredths of a millimetre: a tool that
-// presses by less is now on the surface and now off it.
+// presses by less is on the surface only intermittently.
 constexpr double kMinPress = 0.04; // mm
 constexpr double kStiffest = 10.0;   // N/mm
-constexpr double kAngular = 10.0;    // mm^2/rad, of the stiffness
+constexpr double kAngular = 10.0;    // mm^2/rad, ratio to the stiffness
 
-// Of the force, that may pull sideways on a tool that is held back; one that goes may be led on as
-// fast as this, and what is led too far pulls for one tick.
+// Fraction of the force that may pull sideways on a tool that is held back; a moving tool may be
+// led at up to this speed, and an excessive lead pulls for one tick only.
 constexpr double kMaxSideways = 0.7;
 constexpr double kFollowSpeed = 200.0; // mm/s
 
-// How much faster a tool in the air may come from tick to tick.
+// Maximum ratio of the speeds of a tool in the air from tick to tick.
 constexpr double kHaste = 2.0;
 
 } // namespace
@@ -96,8 +97,8 @@ void ConstantThrust::see(const haptics::ProxyTick& tick, double speed, double dt
     const double share = 1.0 - std::exp(-dt / kAdvanceTime);
     m_advance = pressed ? std::clamp(m_advance + share * lacks, 0.0, speed * dt) : 0.0;
   }
-  // A tick's work is bounded (ConstrainedProxy): what gave way far may not have been fallen
-  // through.
+  // A tick's work is bounded (ConstrainedProxy): the tool may not have fallen all the way through
+  // tissue that gave way.
   const bool falls =
       pressed && m_contact && !contact && (m_goal - tick.pose.position).norm() > kArrived;
   m_idle = falls && moved.norm() < kStill ? m_idle + 1 : 0;
@@ -136,7 +137,7 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   Vector3d sideways = offset - direction.dot(offset) * direction;
   const double whole = thrust / m_stiffness;
   m_turning = whole / std::max(whole + std::abs(direction.dot(offset)), kArrived);
-  // What pulls sideways is part of the force.
+  // The lateral pull is part of the force.
   const double pull = std::min(m_pull, kMaxSideways * whole);
   m_press = std::sqrt(whole * whole - pull * pull);
   double along = m_falling ? direction.dot(m_goal - proxy.position) : m_press + m_advance;
@@ -150,7 +151,7 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   if (m_contact && length > most)
     sideways *= most / length;
   Vector3d lead = sideways + along * direction;
-  // Held by what is not the burr.
+  // Held by something other than the burr.
   if (const double pulls = lead.norm(); m_touches && !m_contact && pulls > whole)
     lead *= whole / pulls;
   m_goal = proxy.position + lead;

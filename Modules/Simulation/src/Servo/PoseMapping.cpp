@@ -37,7 +37,7 @@ void PoseMapping::hold(const Pose& device, const View& view, const Pose& tool) n
   m_view = view;
   m_device = m_lastDevice = device;
   m_tool = tool;
-  // The anchor is made anew again and again: its length would drift.
+  // The anchor is recomputed repeatedly: its norm would drift.
   m_tool.rotation.normalize();
   m_lastTool = m_tool;
 }

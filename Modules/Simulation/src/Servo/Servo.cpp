@@ -18,17 +18,18 @@ using haptics::ProxyTick;
 namespace
 {
 
-constexpr double kMaxStep = 0.01; // s that a tick may count for
+constexpr double kMaxStep = 0.01; // s, maximum per tick
 constexpr double kPedalDown = 0.5;
 
-// Where a tool may be placed anew, mm from its place towards the eye: at last beyond any scan.
+// Distances for relocating a tool, mm from its target towards the camera: the last is beyond any
+// scan.
 constexpr double kFirstBack = 1.0;
 constexpr double kLastBack = 4096.0;
-constexpr double kNearer = 1.0;     // mm that it must come nearer by
-constexpr int kRest = 100;          // ticks until the next look, where it cannot
+constexpr double kNearer = 1.0;     // mm by which relocation must reduce the distance
+constexpr int kRest = 100;          // ticks until the next attempt after a failure
 constexpr double kHeldShare = 0.05; // of the contacts' forces
-constexpr double kFace = 0.01;      // mm: the handpiece's own face is met within rounding
-constexpr double kNoWay = 1e-6;     // mm
+constexpr double kFace = 0.01;      // mm: rounding at the handpiece's own face
+constexpr double kNoWay = 1e-6;     // mm, no progress
 constexpr double kAtGoal = 0.005;   // mm: the proxy has a deadband
 
 const ServoSetup& checked(const ServoSetup& setup)
@@ -56,7 +57,7 @@ Servo::Servo(haptics::Proxy& proxy, const ServoSetup& setup)
 {
 }
 
-// Fills the step and the record's fault from what came in.
+// Fills the step and the record's fault from the input.
 Servo::Step Servo::judge(const TickInput& input) noexcept
 {
   Step step;
@@ -100,12 +101,12 @@ void Servo::map(Step& step, bool anew) noexcept
   if (!m_placed && step.usable)
   {
     step.mapped = m_mapping.map(step.device, step.view);
-    // A wheel's tool begins before the tissue, too, and goes on from there.
+    // A wheel's tool also starts in front of the tissue, and continues from there.
     const bool byWheel = m_record.input.parameters.maxLead > 0.0F &&
                          Eigen::Map<const Eigen::Vector3d>(m_record.input.parameters.approach) !=
                              Eigen::Vector3d::Zero();
     bool before = false;
-    if (step.pointer || byWheel) // all places at once: nothing is felt yet
+    if (step.pointer || byWheel) // all positions at once: no force is rendered yet
       do
         before = placeAnew(step);
       while (!before && m_rest == 0);
@@ -119,7 +120,7 @@ void Servo::map(Step& step, bool anew) noexcept
     m_placed = true;
     return;
   }
-  // A place that is pressed on by a set force is where it is, and needs no anchor for safety.
+  // With a set thrust the position is absolute and needs no anchor for safety.
   if (step.usable && !step.clutch && (!anew || m_record.input.parameters.constantThrust))
   {
     step.mapped = m_mapping.map(step.device, step.view);
@@ -160,8 +161,8 @@ Eigen::Vector3d sightOf(const ServoParameters& p, const Pose& place) noexcept
                       : Eigen::Vector3d(-(place.rotation * Eigen::Vector3d::UnitZ()));
 }
 
-// Of a tool to its place, mm; from the part of the line of sight that lies before that, since
-// tissue may keep it from coming nearer.
+// Distance of a tool to its target, mm: to the part of the pick ray in front of the target, since
+// tissue may keep it from coming closer.
 double distanceTo(const Pose& place, const Eigen::Vector3d& tool,
                   const Eigen::Vector3d& sight) noexcept
 {
@@ -180,7 +181,7 @@ bool Servo::isFar(const Step& step) const noexcept
   return distanceTo(step.mapped, m_proxy.pose().position, sight) > kFarthest;
 }
 
-// One place a tick once the tool is in the hand: whether a tool is free at one is dear to find out.
+// One position per tick once the tool is in use: testing whether a pose is free is expensive.
 bool Servo::placeAnew(const Step& step) noexcept
 {
   const Eigen::Vector3d sight = sightOf(m_record.input.parameters, step.mapped);
@@ -204,8 +205,8 @@ bool Servo::placeAnew(const Step& step) noexcept
   return placed;
 }
 
-// A tool that made no way is held, and the hand feels what the coupling is stretched by, also where
-// the contacts do not say all of it.
+// A tool without progress is held, and the wrench includes the coupling's stretch, even where the
+// contacts do not fully account for it.
 void Servo::notifyStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept
 {
   const double told = m_record.wrench.wrench().linear.norm();
@@ -217,7 +218,7 @@ void Servo::notifyStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& wa
   std::copy(force.data(), force.data() + 3, m_record.wrench.force);
 }
 
-// Where the proxy is to go.
+// Goal of the proxy.
 Pose Servo::goalOf(const Step& step) noexcept
 {
   const ServoParameters& p = m_record.input.parameters;
@@ -229,7 +230,7 @@ Pose Servo::goalOf(const Step& step) noexcept
   return step.mapped;
 }
 
-// `share` of what the contacts gave is what the hand is told.
+// Records the fraction `share` of the contact forces.
 void Servo::reportContacts(const ProxyTick& tick, double share) noexcept
 {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
@@ -322,7 +323,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
     m_thrust.see(tick, p.approachSpeed, step.dt);
     m_traverse.see(tick);
   }
-  // What meets tissue on its way does not press for that tick with what it was short of.
+  // A tool that meets tissue on its way does not press with the rest of its motion in that tick.
   const double force = tick.wrench.linear.norm();
   const bool bounded = (step.pressed || step.pointer) && force > p.thrust;
   reportContacts(tick, bounded ? p.thrust / force : 1.0);
@@ -332,7 +333,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   ServoFault fault = static_cast<ServoFault>(m_record.fault);
   if (tick.status == ProxyStatus::Retreated)
   {
-    // The hand is deep in what came back: it takes the tool up where it is now.
+    // The device is deep in restored tissue: re-anchor at its present pose.
     anew = true;
     if (step.usable && !p.constantThrust)
       m_mapping.hold(step.device, step.view, tick.pose);

@@ -33,7 +33,7 @@ void sleepUntil(double seconds) noexcept
   const double whole = std::floor(seconds);
   until.tv_sec = static_cast<time_t>(whole);
   until.tv_nsec = std::clamp(static_cast<long>(1e9 * (seconds - whole)), 0L, 999999999L);
-  // A signal only makes the tick early; the next one is on the grid again.
+  // A signal only makes this tick early; the next one is on the grid again.
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
 }
 

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 namespace
 {
 constexpr double kSameWay = 0.05;  // of the distance
-constexpr double kMinWay = 1e-3; // mm: a place on the surface has a direction, too
+constexpr double kMinWay = 1e-3; // mm: a position on the surface has a direction, too
 } // namespace
 
 Vector3d SurfaceApproach::at(const Vector3d& place)
@@ -22,7 +22,7 @@ Vector3d SurfaceApproach::at(const Vector3d& place)
   if (!m_search)
     m_search.emplace(m_field, kReach);
   const double h = m_field.geometry().minSpacing();
-  // The nearest surface is no farther than that of the last place, and the way from there.
+  // The nearest surface is at most as far as the last one plus the distance moved.
   std::optional<volume::NearestSurface> nearest;
   for (double reach = std::min(m_distance + moved + 2.0 * h, kReach);;
        reach = std::min(2.0 * reach, kReach))
@@ -37,7 +37,7 @@ Vector3d SurfaceApproach::at(const Vector3d& place)
   m_way.setZero();
   if (nearest)
   {
-    // What lies nearer than a part of a voxel is told better by the slope there.
+    // Within part of a voxel the slope is more accurate.
     Vector3d into = nearest->distance > 0.0 ? Vector3d(nearest->point - place)
                                             : Vector3d(place - nearest->point);
     if (m_distance < 0.5 * h && !nearest->normal.isZero())

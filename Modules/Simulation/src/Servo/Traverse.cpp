@@ -11,11 +11,11 @@ using Eigen::Vector3d;
 namespace
 {
 
-constexpr double kBeside = 0.1;       // mm across the line of sight: it is over its place
+constexpr double kBeside = 0.1;       // mm across the pick ray: the tool is above its target
 constexpr double kAnotherPlace = 0.5; // mm
-constexpr double kStill = 1e-4;       // mm in a tick: no way
-constexpr double kMinThrust = 0.1;  // N: a tool that is not to be pressed at all must go on, too
-constexpr double kMaxTurn = 0.05;    // rad in a tick, where tissue holds it
+constexpr double kStill = 1e-4;       // mm per tick: no progress
+constexpr double kMinThrust = 0.1;  // N: a tool with zero thrust must move, too
+constexpr double kMaxTurn = 0.05;    // rad per tick, when held by tissue
 
 Vector3d atMost(const Vector3d& lead, double most) noexcept
 {
@@ -89,7 +89,7 @@ haptics::Pose Traverse::goal(const haptics::Pose& place, const haptics::Pose& pr
     lead = retracts ? Vector3d(std::max(lift, kBeside) * m_up) : beside;
   }
   m_asked = true;
-  // A turn in a hole would jam it.
+  // Rotating in a hole would jam it.
   const haptics::Pose goal{proxy.position + atMost(lead, most),
                            retracts && m_touches ? proxy.rotation : place.rotation};
   if (!m_touches)

@@ -15,14 +15,14 @@ constexpr std::size_t kRegister = 16;
 
 struct Line
 {
-  const std::uint8_t* first; // of the whole grid's line along the first axis
+  const std::uint8_t* first; // start of the whole grid's line along the first axis
   std::size_t stride;
   std::uint8_t bit;
 
   bool marked(int i) const noexcept { return (first[static_cast<std::size_t>(i) * stride] & bit); }
 };
 
-// Distances along the line for the cells [lower, upper) of a line of `count` cells.
+// Distances along a line of `count` cells, for its cells [lower, upper).
 void alongLine(const Line& line, int count, int lower, int upper, int cap, std::uint8_t* out)
 {
   int away = cap;
@@ -41,8 +41,8 @@ void alongLine(const Line& line, int count, int lower, int upper, int cap, std::
   }
 }
 
-// out = min over the neighbours at |r| < cap of max(|r|, in), `width` bytes at once. `in` points
-// at the line's own bytes; `before` and `after` are how many neighbours there are, `step` apart.
+// out = min over the neighbours at |r| < cap of max(|r|, in), `width` bytes at once. `in` points to
+// the line itself; `before` and `after` are the numbers of neighbours, `step` apart.
 void acrossLines(const std::uint8_t* in, std::size_t step, int before, int after, int cap,
                  std::uint8_t* __restrict out, std::size_t width)
 {
@@ -74,7 +74,7 @@ DistanceBlock chebyshevDistances(const std::uint8_t* cells, std::size_t stride, 
 {
   const core::Index3 size = box.size();
   const auto width = (static_cast<std::size_t>(size[0]) + kRegister - 1) / kRegister * kRegister;
-  // Lines and planes beyond the box that can hold what is nearest.
+  // Lines and planes beyond the box that may contain the nearest mark.
   const auto from = [&](std::size_t axis) { return std::max(box.lower[axis] - cap + 1, 0); };
   const auto to = [&](std::size_t axis) { return std::min(box.upper[axis] + cap - 1, dims[axis]); };
   const int firstLine = from(1);

@@ -11,7 +11,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr int kMaxRounds = 1; // what is left is put right on the surface itself
+constexpr int kMaxRounds = 1; // remaining errors are corrected on the surface itself
 
 } // namespace
 
@@ -94,7 +94,7 @@ bool ClosestPoints::sweep(const core::Index3& way)
       {
         const std::ptrdiff_t node = i + row * j + plane * k;
         const Eigen::Vector3f at = positionOf(i, j, k);
-        // The neighbours along the axes that this sweep has passed.
+        // The neighbours that this sweep has already visited.
         for (const int n : {1, 2, 4})
         {
           const int x = n & 1;

@@ -9,10 +9,9 @@
 namespace petrous::volume
 {
 
-/// Which of many points is closest, for every node of a grid of cubes: nodes beside a point look at
-/// it, and the closest one found is handed on from node to node until nothing changes (after
-/// Danielsson 1980, doi 10.1016/0146-664X(80)90054-4, with the points themselves in place of
-/// voxels).
+/// Closest of a set of points for every node of a cubic grid: nodes next to a point are initialised
+/// with it, and the closest point is propagated between nodes in eight sweeps (after Danielsson
+/// 1980, doi 10.1016/0146-664X(80)90054-4, with the points themselves in place of voxels).
 class ClosestPoints
 {
 public:
@@ -39,7 +38,7 @@ private:
   Eigen::Vector3f m_origin;
   float m_edge;
   std::vector<std::int32_t> m_closest;
-  std::vector<float> m_square; // of the distance
+  std::vector<float> m_square; // squared distance
 };
 
 } // namespace petrous::volume

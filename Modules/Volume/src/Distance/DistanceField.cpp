@@ -21,13 +21,13 @@ std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& occu
   const core::IndexBox box = insideBox(occupancy);
   if (box.empty())
     return nullptr;
-  // The surface may lie up to a voxel beyond the voxels inside.
+  // The surface may be up to one voxel beyond the inside voxels.
   const DistanceGrid grid = gridFor(from, box, reach + from.spacing().maxCoeff(), maxVoxels);
   const OccupancySurface surface(occupancy);
   const ClosestPoints closest(surface.points(progress.part(0.0, 0.2)), grid.dims, grid.origin,
                               grid.edge, progress.part(0.2, 0.8));
   auto field = std::make_shared<Volume<float>>(geometryOf(grid, from));
-  const double most = reach + 2.0 * grid.edge; // what interpolation up to the reach can ask for
+  const double most = reach + 2.0 * grid.edge; // maximum needed by interpolation up to the reach
   const auto distanceAt = [&](const Eigen::Vector3d& position, std::size_t node)
   {
     if (!closest.any())
@@ -46,7 +46,7 @@ std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& occu
                               grid.origin + grid.edge * Eigen::Vector3d(i, j, k);
                           const std::size_t node = field->geometry().linearIndex(i, j, k);
                           const double distance = distanceAt(position, node);
-                          // An occupancy ends where it is 0 or where the image does.
+                          // The structure ends where the occupancy does, or the image.
                           const Eigen::Vector3d voxel = position.cwiseQuotient(from.spacing());
                           const bool inside =
                               from.hullContains(voxel) && surface.at(position).value > 0.0;

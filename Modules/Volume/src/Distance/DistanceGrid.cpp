@@ -8,7 +8,7 @@ namespace petrous::volume
 
 namespace
 {
-constexpr double kFinest = 0.5; // voxels of the occupancy: an edge
+constexpr double kFinest = 0.5; // voxels of the occupancy: minimum edge
 }
 
 core::IndexBox insideBox(const Volume<float>& occupancy)
@@ -38,7 +38,7 @@ DistanceGrid gridFor(const core::GridGeometry& occupancy, const core::IndexBox& 
   Eigen::Vector3d size;
   for (;; grid.edge *= 1.25)
   {
-    // Three nodes at least: a spline reaches over two to each side.
+    // At least three nodes: the support of the spline extends over two on each side.
     const double margin = beyond + grid.edge;
     std::size_t count = 1;
     for (std::size_t a = 0; a < 3; ++a)

@@ -7,7 +7,7 @@
 namespace petrous::volume
 {
 
-/// A grid of cubes round a structure, along the axes of its occupancy.
+/// A cubic grid around a structure, aligned with the axes of its occupancy.
 struct DistanceGrid
 {
   Eigen::Vector3d origin; ///< of the first node, mm along the occupancy's axes from its first voxel
@@ -15,11 +15,11 @@ struct DistanceGrid
   core::Index3 dims;
 };
 
-/// The voxels that lie inside; empty where none does.
+/// Bounding box of the inside voxels; empty if there are none.
 core::IndexBox insideBox(const Volume<float>& occupancy);
 
-/// Reaches `beyond` mm past the voxels of `box`, and a cube more. The cubes are half the occupancy's
-/// least spacing in edge, larger where there would be more than `maxVoxels`.
+/// Extends `beyond` mm past the voxels of `box`, plus one cell. The edge is half the occupancy's
+/// minimum spacing, larger where there would be more than `maxVoxels`.
 DistanceGrid gridFor(const core::GridGeometry& occupancy, const core::IndexBox& box, double beyond,
                      std::size_t maxVoxels);
 

@@ -17,7 +17,8 @@ namespace
 {
 
 constexpr double kMargin = 2.5; // voxels of the occupancy beyond those inside
-constexpr double kSharp = 3.0;  // of the map's voxels: nearer than this the spline is sharpened,
+constexpr double kSharp = 3.0;  // map voxels: the spline is sharpened closer to the surface than
+                                // this,
 constexpr double kFullySharp = 1.5; // and fully so up to here
 
 constexpr double kNoSurface = 1e6; // mm: the structure fills its grid
@@ -36,8 +37,9 @@ double belowHull(const core::GridGeometry& grid, const Eigen::Vector3d& patient)
   return depth;
 }
 
-// A quadratic B-spline of the values themselves lowers them by an eighth of the second difference;
-// near the surface that is put right beforehand. In the middle it stays, and rounds the ridge off.
+// A quadratic B-spline with the values as coefficients lowers them by an eighth of the second
+// difference; this is compensated near the surface. Around the medial axis it is not, which rounds
+// the ridge.
 void sharpen(const Volume<float>& depth, Volume<float>& result)
 {
   const core::Index3& dims = depth.geometry().dims();
@@ -86,7 +88,7 @@ DistanceMap::DistanceMap(Volume<float> coefficients)
           m_border = std::min(m_border, -depth);
       }
     }
-  // Nodes are an edge apart, and depth falls by no more than what lies between.
+  // Nodes are one edge apart, and depth decreases by no more than the distance.
   m_border = std::max(0.0, m_border - geometry().minSpacing());
 }
 

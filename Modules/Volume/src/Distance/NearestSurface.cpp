@@ -13,18 +13,19 @@ namespace
 {
 
 constexpr int kBlock = 8;        // cells along the edge of a block
-constexpr int kSubdivisions = 3; // of a cell that the surface crosses, at least
+constexpr int kSubdivisions = 3; // of a crossed cell, minimum
 constexpr int kMaxSubdivisions = 12;
-constexpr double kFine = 0.9; // of the CT's spacing: a union with finer voxels is looked at itself
+constexpr double kFine = 0.9; // of the CT's spacing: finer unions are sampled at their own
+                              // resolution
 constexpr int kRefinements = 12;
 
-struct Nearest // the best so far
+struct Nearest // best candidate so far
 {
   double distance;
   Eigen::Vector3d point;
 };
 
-// Finer unions ask for a finer lattice: their walls are three of their voxels thick at least.
+// Finer unions need a finer lattice: their walls are at least three of their voxels thick.
 int subdivisionsOf(const TissueField& field)
 {
   const double ratio = field.geometry().spacing().maxCoeff() / field.finestSpacing();
@@ -72,7 +73,7 @@ void searchCell(const TissueField& field, const Eigen::Vector3d& from, const cor
       }
 }
 
-// Of all operands, mm: normals look that far.
+// Over all operands, mm: the reach of normals.
 double coarsestSpacing(const TissueField& field)
 {
   double spacing = field.geometry().spacing().maxCoeff();
@@ -87,12 +88,13 @@ void prepareAround(const TissueField& field, const Eigen::Vector3d& point, doubl
   field.prepare({point - step, point + step});
 }
 
-// Slides the point along the surface towards `from`, and back onto f = 0 by bisection.
+// Slides the point along the surface towards `from`, and projects it onto f = 0 by bisection.
 void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best)
 {
   const double h = field.finestSpacing();
   double stride = 1.0;
-  // A round goes half of h on and looks as far again, and half a voxel round that for the normal.
+  // Each round moves by h/2, searches as far again, and needs half a voxel around that for the
+  // normal.
   const double around = 1.5 * h + coarsestSpacing(field);
   for (int round = 0; round < kRefinements; ++round)
   {
@@ -106,7 +108,7 @@ void refine(const TissueField& field, const Eigen::Vector3d& from, Nearest& best
         best.point + slide * std::min(1.0, 0.5 * h / std::max(slide.norm(), 1e-12));
     const Eigen::Vector3d in = moved - 0.5 * h * n;
     const Eigen::Vector3d out = moved + 0.5 * h * n;
-    // What begins beyond the scan would meet its face, which is no surface.
+    // A search from outside the scan would hit its face, which is not a surface.
     const bool known = field.geometry().hullContains(field.geometry().voxelFromPatient(out));
     const auto hit = known ? field.firstHit(out, in) : std::nullopt;
     if (!hit || *hit <= 0.0)
@@ -158,8 +160,8 @@ NearestSurfaceSearch::blocksWithinReach(const Eigen::Vector3d& patient, double r
   return blocks;
 }
 
-// Cells in which a union of finer voxels has some of its own: all of a wall may lie between the
-// CT's voxel centres.
+// Marks cells that contain inside voxels of a union with finer voxels: a whole wall may lie between
+// CT voxel centres.
 void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) const
 {
   const core::GridGeometry& grid = m_field.geometry();
@@ -203,7 +205,7 @@ void NearestSurfaceSearch::markFine(const core::IndexBox& corners, bool* cells) 
   }
 }
 
-// Where the CT alone is as solid as a union can be, no union is asked for.
+// Where the CT alone exceeds the maximum of a union, no union is needed.
 void NearestSurfaceSearch::prepareBlock(const core::IndexBox& corners) const
 {
   constexpr double kMaxOfUnion = 0.5;
@@ -213,7 +215,7 @@ void NearestSurfaceSearch::prepareBlock(const core::IndexBox& corners) const
     for (int j = corners.lower[1]; j < corners.upper[1] && alone; ++j)
       for (int i = corners.lower[0]; i < corners.upper[0]; ++i)
         alone = alone && (m_field.ct()->at(i, j, k) - parameters.iso) / parameters.scale >
-                             kMaxOfUnion; // not of NaN
+                             kMaxOfUnion; // false for NaN
   if (alone)
     return;
   const core::GridGeometry& grid = m_field.geometry();

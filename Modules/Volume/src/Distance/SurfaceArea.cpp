@@ -14,9 +14,9 @@ namespace petrous::volume
 
 namespace
 {
-constexpr int kParts = 2;               // of a voxel's edge, between lines
-constexpr std::size_t kChunk = 4096;    // cells that one task looks at
-constexpr double kSmallestSlope = 1e-6; // of the occupancy, a mm: less is no surface
+constexpr int kParts = 2;               // lines per voxel edge
+constexpr std::size_t kChunk = 4096;    // cells per task
+constexpr double kSmallestSlope = 1e-6; // of the occupancy, per mm: below this there is no surface
 } // namespace
 
 double surfaceArea(

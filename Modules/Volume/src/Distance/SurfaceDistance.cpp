@@ -14,12 +14,12 @@ namespace petrous::volume
 namespace
 {
 
-constexpr std::size_t kBranches = 8; // of a box of the tree
-constexpr int kParts = 2;            // of a cell, between points that are looked at first
-// Of a cell's diagonal: no part of the surface in it is farther than that from one of those.
+constexpr std::size_t kBranches = 8; // children of a box of the tree
+constexpr int kParts = 2;            // initial sample intervals per cell edge
+// Fraction of a cell's diagonal: no part of its surface is farther than that from a sample point.
 constexpr double kGap = 0.5;
 
-// The bits of the three numbers by turns (Morton 1966).
+// Morton code (1966) of the three numbers.
 std::uint64_t curve(const std::array<std::uint16_t, 3>& cell)
 {
   const auto spread = [](std::uint64_t x)
@@ -121,8 +121,7 @@ double SurfaceDistance::squareTo(const Box& box, const Eigen::Vector3d& position
   return square;
 }
 
-// The nearest of the cell's own points, put right on the surface where it may be the nearest of
-// all.
+// Nearest sample point of the cell, refined on the surface if it may be the overall minimum.
 void SurfaceDistance::look(Search& search, const Cell& cell) const
 {
   double best = std::numeric_limits<double>::max();
@@ -138,7 +137,7 @@ void SurfaceDistance::look(Search& search, const Cell& cell) const
                                    nearest = crossing.point;
                                  });
   const double gap = kGap * geometry().spacing().norm();
-  // Where the surface is nearest, it lies across the line from there.
+  // The nearest point of the surface is the foot of a perpendicular, so Pythagoras bounds the gap.
   if (best < search.best * search.best + gap * gap)
     search.best =
         std::min(search.best, search.surface.refined(search.position, nearest.cast<float>()));
@@ -165,7 +164,7 @@ void SurfaceDistance::visit(Search& search, std::size_t level, std::size_t box) 
       square = squareTo(m_levels[level - 1][part], search.position);
     if (!(square < search.best * search.best))
       continue;
-    std::size_t at = n++; // the nearest first
+    std::size_t at = n++; // sorted insertion, nearest first
     for (; at > 0 && near[at - 1].first > square; --at)
       near[at] = near[at - 1];
     near[at] = {square, part};

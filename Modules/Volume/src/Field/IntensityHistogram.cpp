@@ -22,7 +22,7 @@ constexpr std::size_t kGrain = std::size_t{1} << 18;
 
 using Counts = std::vector<std::uint64_t>;
 
-// visit(value, counts) for every voxel; the sum of what the threads counted.
+// Calls visit(value, counts) for every voxel; returns the sum of all threads' counts.
 template <class T, class Visit>
 Counts countInParallel(const Volume<T>& volume, std::size_t size, const Visit& visit)
 {
@@ -82,7 +82,7 @@ IntensityHistogram::IntensityHistogram(const IntensityVolume& image, int bins)
       });
 }
 
-// 16 bits: every value has a counter of its own, so that one pass finds range and bins.
+// 16 bits: one counter per value, so that one pass gives range and bins.
 template <class T>
 void IntensityHistogram::countExactly(const Volume<T>& volume, int bins,
                                       const std::optional<double>& padding)
@@ -129,7 +129,7 @@ void IntensityHistogram::countInBins(const Volume<float>& volume, int bins,
   {
     m_lower = used.min;
     m_width = (used.max - used.min) / bins;
-    if (!(m_width > 0.0)) // one value, or too close to tell apart
+    if (!(m_width > 0.0)) // one value, or indistinguishable values
       m_width = std::max(1.0, std::abs(used.min));
     Counts counts = countInParallel(volume, size,
                                     [&](float value, Counts& sum)
@@ -151,7 +151,7 @@ void IntensityHistogram::countInBins(const Volume<float>& volume, int bins,
     const bool squeezed = (bulk.last - bulk.first + 1) * kSqueezed < size;
     const ValueRange narrower{m_lower + static_cast<double>(bulk.first) * m_width,
                               m_lower + static_cast<double>(bulk.last + 1) * m_width};
-    // No room between two numbers, or one value: as narrow as it gets.
+    // One value, or adjacent numbers: cannot be narrowed further.
     if (!squeezed || !(narrower.max - narrower.min < 0.5 * (used.max - used.min)) ||
         narrower.max - narrower.min <= 1e-6 * std::abs(narrower.max))
       return;
@@ -168,7 +168,7 @@ double IntensityHistogram::percentile(double share, double above) const
 {
   if (m_bins.empty())
     return 0.0;
-  const auto part = [&](std::size_t bin) // of the bin that lies above
+  const auto part = [&](std::size_t bin) // fraction of the bin above `above`
   {
     return std::clamp((m_lower + static_cast<double>(bin + 1) * m_width - above) / m_width, 0.0,
                       1.0);

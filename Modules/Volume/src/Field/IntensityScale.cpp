@@ -24,7 +24,7 @@ constexpr std::size_t kLevels = 512;
 constexpr double kSmoothing = 3.0; // levels
 constexpr double kTrimmed = 5e-4;  // of the voxels at either end: metal, dead pixels
 
-// The histogram on few levels, and smoothed, where extremes are modes and not noise.
+// The histogram at few levels, smoothed, so that its extrema are modes rather than noise.
 class Density
 {
 public:
@@ -33,7 +33,7 @@ public:
     const auto& bins = histogram.bins();
     const double low = histogram.percentile(kTrimmed);
     const double high = histogram.percentile(1.0 - kTrimmed);
-    // A whole number of bins a level, or a comb of full and empty levels would come out.
+    // An integer number of bins per level avoids a comb of full and empty levels.
     const double wanted = std::max(high - low, histogram.binWidth());
     const double perLevel =
         std::max(1.0, std::ceil(wanted / histogram.binWidth() / static_cast<double>(kLevels)));
@@ -66,7 +66,7 @@ private:
     for (int i = 0; i < size; ++i)
       for (int d = -reach; d <= reach; ++d)
       {
-        // Mirrored at the ends: a peak that the range cuts off stays a peak.
+        // Mirrored at the ends, so that a peak truncated by the range remains a peak.
         int from = i + d;
         from = from < 0 ? -1 - from : from >= size ? 2 * size - 1 - from : from;
         if (from >= 0 && from < size)
@@ -102,7 +102,7 @@ public:
   {
     return m_weight[last] - m_weight[first];
   }
-  // What the class adds to the variance between classes, but for a constant.
+  // The class's contribution to the between-class variance, up to a constant.
   double between(std::size_t first, std::size_t last) const
   {
     const double own = weight(first, last);
@@ -158,7 +158,7 @@ std::size_t modeIn(const std::vector<double>& smoothed, std::size_t first, std::
                                   begin);
 }
 
-// Where a side of the peak falls to half its height, in levels from the mode.
+// Distance from the mode to half its height on one side, in levels.
 double halfWidth(const std::vector<double>& smoothed, std::size_t mode, int side)
 {
   const double half = 0.5 * smoothed[mode];
@@ -180,16 +180,16 @@ struct Tissues
   double soft = 0.0;
   double softNoise = 0.0; // standard deviation
   double upper = 0.0;     // Otsu's threshold between soft tissue and bone
-  bool cutOff = false;    // air lies below what the file's numbers can say
+  bool cutOff = false;    // air is below the file's value range
 };
 
-// Peaks of air and of soft tissue, and a tail of bone above; nothing where one is missing.
+// Peaks of air and of soft tissue, and a tail of bone above; nullopt if one is missing.
 std::optional<Tissues> findTissues(const Density& density)
 {
   constexpr double kValley = 0.5;   // of the lower peak, at most
   constexpr double kFall = 0.5;     // of the soft peak, at most, where bone begins
   constexpr double kPresent = 0.01; // of the voxels, at least, in each of both
-  constexpr double kBoneAway = 0.3; // of the way from air to soft tissue, on top of it
+  constexpr double kBoneAway = 0.3; // of the distance from air to soft tissue, above the latter
   const std::vector<double>& s = density.smoothed;
   if (s.size() < 8)
     return std::nullopt;
@@ -223,7 +223,8 @@ bool near(double value, double wanted, double slack)
   return std::abs(value - wanted) <= slack;
 }
 
-// Hounsfield units by the one peak that there is: air outside, or a region inside the head.
+// Hounsfield units, judged by the main peak: air outside, or soft tissue in a region inside the
+// head.
 bool looksCalibrated(const IntensityHistogram& histogram, const Density& density)
 {
   if (histogram.range().min > -100.0)
@@ -233,7 +234,7 @@ bool looksCalibrated(const IntensityHistogram& histogram, const Density& density
   return near(mode, kAir, kAirSlack) || near(mode, kSoft, kSoftSlack);
 }
 
-// Beyond the scanner's field of view images often hold one value for all, which is no tissue.
+// Outside the scanner's field of view, images often have one constant value, which is not tissue.
 bool hasFrame(const IntensityHistogram& histogram)
 {
   const auto& bins = histogram.bins();
@@ -246,7 +247,7 @@ bool hasFrame(const IntensityHistogram& histogram)
   return own > 0.02 * static_cast<double>(histogram.count()) && own > 20.0 * beside;
 }
 
-// Whether the values up to `air` do not rise to a peak of their own, apart from the first bin.
+// True if the values up to `air` have no peak of their own apart from the first bin.
 bool isFlank(const IntensityHistogram& histogram, double air)
 {
   const auto& bins = histogram.bins();

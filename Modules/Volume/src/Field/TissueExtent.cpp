@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr int kStride = 2;
-constexpr double kOutliers = 0.01; // share left out at each end of an axis
+constexpr double kOutliers = 0.01; // fraction excluded at each end of an axis
 constexpr double kMargin = 1.05;
 
 using Counts = std::array<std::vector<std::uint64_t>, 3>;
@@ -40,7 +40,7 @@ Counts countPlanes(const Volume<T>& v, double iso)
   return counts;
 }
 
-// First plane at which more than `share` of all lies behind.
+// First plane up to which more than the fraction `share` is found.
 double quantile(const std::vector<std::uint64_t>& counts, double share)
 {
   const auto total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});

@@ -11,8 +11,7 @@ namespace petrous::volume
 
 namespace
 {
-// Surfaces are bracketed in steps of half the finest voxel: a wall thinner than that is not in the
-// samples.
+// Surfaces are bracketed in steps of half the finest voxel; thinner walls are not resolved.
 constexpr double kMarchStep = 0.5;
 constexpr double kHitTolerance = 1e-4; // of the finest spacing
 } // namespace
@@ -58,7 +57,7 @@ TissueField::Decision TissueField::decide(const Eigen::Vector3d& patient) const
     return {};
   Decision decision{ctOperand(voxel), Operand::Ct, 0};
   if (std::isnan(decision.value))
-    decision.value = kAir; // a voxel without a value is no tissue
+    decision.value = kAir; // a voxel without a value is not tissue
   for (std::size_t s = 0; s < m_solids.size(); ++s)
   {
     const double inside = solidOperand(s, patient);

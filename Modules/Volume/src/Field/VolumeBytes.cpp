@@ -16,13 +16,13 @@ namespace petrous::volume
 namespace
 {
 
-// A volume is its grid, then the layers of tiles along the last axis: u64 bytes of each, then the
-// tiles. A tile is its kind and what belongs to that.
+// Format of a volume: its grid, then the layers of tiles along the last axis, each as a u64 byte
+// count and its tiles. A tile is its kind and the data of that kind.
 enum TileKind : std::uint8_t
 {
   kZero = 0,
   kUniform = 1, // one value
-  kFull = 2     // all of them, the first axis fastest
+  kFull = 2     // all values, the first axis fastest
 };
 
 struct Malformed
@@ -122,7 +122,7 @@ core::GridGeometry gridFrom(Reader& reader)
   return {dims, spacing, origin, direction};
 }
 
-// What stands in the bytes for a voxel.
+// Encoding of a voxel.
 template <class T>
 struct Code
 {
@@ -217,7 +217,7 @@ void readTile(Reader& reader, Volume<T>& volume, const core::IndexBox& tile)
     }
 }
 
-// Whether each voxel came through as it is.
+// Returns false if a voxel cannot be encoded losslessly.
 template <class T>
 bool append(Bytes& bytes, const Volume<T>& volume)
 {
@@ -290,7 +290,7 @@ std::shared_ptr<T> from(const Bytes& bytes, const Make& make)
   {
     return nullptr;
   }
-  catch (const core::InvalidParameter&) // no grid
+  catch (const core::InvalidParameter&) // invalid grid
   {
     return nullptr;
   }

@@ -16,20 +16,20 @@ namespace
 {
 
 constexpr auto kThreshold = static_cast<float>(kInsideOccupancy);
-constexpr int kBlock = 4; // voxels: the blocks round a border's have a say in how it is relaxed
+constexpr int kBlock = 4; // voxels: the blocks around a border's blocks take part in its relaxation
 constexpr int kRound = 2 * kBlock;
 
 using Boxes = std::array<core::IndexBox, 256>;
 
-// Marks the voxels round which two solids meet in tissue, and finds the box of each solid's cells
-// that do.
+// Marks the voxels around which two solids meet in tissue, and returns the bounding box of such
+// cells for each solid.
 Boxes markMeetings(const Volume<float>& occupancy, const Volume<std::uint8_t>& index,
                    const std::array<bool, 256>& solid, Volume<std::uint8_t>& borders,
                    const core::Progress& progress)
 {
   const core::Index3& dims = index.geometry().dims();
   tbb::enumerable_thread_specific<Boxes> found;
-  // Of a cell of eight voxels, whether its solids meet; `corners` are their indices.
+  // Whether the solids of a cell of eight voxels meet; `corners` receives their indices.
   const auto cellAt = [&](int i, int j, int k, std::array<std::uint8_t, 8>& corners)
   {
     std::uint8_t first = 0;
@@ -90,7 +90,7 @@ Boxes markMeetings(const Volume<float>& occupancy, const Volume<std::uint8_t>& i
   return boxes;
 }
 
-// Blocks of voxels that are, or are next to, one in which structures meet.
+// Blocks of voxels that contain, or are adjacent to, voxels in which structures meet.
 class Blocks
 {
 public:
@@ -109,7 +109,7 @@ public:
             mark({i, j, k});
   }
 
-  // False beside the voxels that were given.
+  // `voxel` is at most one outside the given box; false if an index is negative.
   bool hold(const core::Index3& voxel) const
   {
     return voxel[0] >= 0 && voxel[1] >= 0 && voxel[2] >= 0 && m_near[at(voxel)] != 0;
@@ -147,7 +147,7 @@ private:
   std::vector<std::uint8_t> m_near;
 };
 
-// How deep the voxels of one index lie in it, inside `box`.
+// Writes the depth of the voxels of one index inside `box`.
 void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core::IndexBox& box,
                  Volume<std::uint8_t>& borders, const core::Progress& progress)
 {

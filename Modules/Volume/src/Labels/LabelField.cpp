@@ -16,14 +16,14 @@ namespace
 
 constexpr auto kThreshold = static_cast<float>(kInsideOccupancy);
 
-// A step to another voxel, and how far that is.
+// Offset to another voxel, and its squared length.
 struct Step
 {
   core::Index3 by;
   double distance; // mm^2
 };
 
-// All steps within `reach` voxels on each axis, the nearest first.
+// All offsets within `reach` voxels on each axis, nearest first.
 std::vector<Step> stepsWithin(int reach, const Eigen::Vector3d& spacing)
 {
   std::vector<Step> steps;
@@ -38,7 +38,7 @@ std::vector<Step> stepsWithin(int reach, const Eigen::Vector3d& spacing)
   return steps;
 }
 
-// The voxels of a tile with an apron as wide as an index grows.
+// The voxels of a tile with an apron as wide as an index is dilated.
 template <class T>
 class TileCopy
 {
@@ -56,7 +56,7 @@ public:
                                           k - m_box.lower[2]));
   }
 
-  // Of a voxel of the tile, its own first voxel being (0, 0, 0).
+  // Relative to the tile's first voxel (0, 0, 0).
   std::ptrdiff_t offsetOf(int i, int j, int k) const
   {
     return at(i + kLabelMargin, j + kLabelMargin, k + kLabelMargin);
@@ -120,7 +120,7 @@ private:
     kLumen = 2
   };
 
-  // What there is within kLabelMargin of each voxel of the tile; most have nothing to search.
+  // Kinds present within kLabelMargin of each voxel of the tile; most have nothing to search.
   void findKinds()
   {
     static_assert(kLabelMargin == 2, "the sums below reach over two voxels");
@@ -133,7 +133,7 @@ private:
     std::vector<std::uint8_t> before;
     for (const core::Index3& axis : {core::Index3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
     {
-      // Lines run on into each other; that is wrong in the apron alone, which nobody asks for.
+      // Sums run across line ends; this affects only the apron, which is not read.
       before = m_kinds;
       const auto stride = static_cast<std::size_t>(m_ranks.stride(axis));
       const std::uint8_t* from = before.data();
@@ -151,7 +151,7 @@ private:
     return result;
   }
 
-  // The nearest structure of a kind; of those equally far the one that goes first.
+  // The nearest structure of a kind; the first in rank among equidistant ones.
   LabelRank nearest(std::ptrdiff_t at, const Strides& steps, bool solid) const
   {
     constexpr double kTie = 1e-6;
@@ -170,9 +170,9 @@ private:
     return best;
   }
 
-  // Whether the occupancy exceeds the threshold anywhere nearer to this voxel than to another. Linear
-  // along each axis between voxel centres and the planes half-way, it is largest in one of those
-  // 27 points.
+  // Whether the occupancy exceeds the threshold anywhere nearer to this voxel than to another. It
+  // is linear along each axis between voxel centres and the planes halfway, so its maximum is at
+  // one of those 27 points.
   bool reachesThreshold(std::ptrdiff_t at) const
   {
     const float* occupancy = m_occupancy.data();
@@ -202,7 +202,7 @@ private:
   std::vector<std::uint8_t> m_kinds;
 };
 
-// Gives the voxels of solid structures their own index. Returns whether others are left.
+// Writes the index of voxels in solid structures. Returns whether others remain.
 bool fillInside(const LabelPriority& ranks, const core::Index3& offset, const core::IndexBox& tile,
                 const LabelOrder& order, Volume<std::uint8_t>& index)
 {
@@ -224,7 +224,7 @@ bool fillInside(const LabelPriority& ranks, const core::Index3& offset, const co
   return filled < tile.count();
 }
 
-// `offset` takes voxels of the occupancy to those of the ranks.
+// `offset` maps voxels of the occupancy to those of the ranks.
 std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, const core::Index3& offset,
                                                 const Volume<float>& occupancy, const LabelOrder& order,
                                                 const core::Progress& progress)

@@ -31,7 +31,7 @@ LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
 
   std::vector<std::uint64_t> count(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1);
   const std::uint16_t* data = voxels->data();
-  constexpr std::size_t kWord = 4; // voxels that are compared with nothing at once
+  constexpr std::size_t kWord = 4; // voxels compared with zero at once
   for (std::size_t i = 0; i < voxels->size();)
   {
     std::uint64_t word = 1;

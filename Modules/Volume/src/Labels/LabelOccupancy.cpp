@@ -68,7 +68,7 @@ float quantizedOccupancy(double occupancy) noexcept
 namespace
 {
 
-// A map's voxels and which of its values count.
+// A map's voxels and the values that are wanted.
 struct WantedVoxels
 {
   const Volume<std::uint16_t>* voxels;
@@ -92,7 +92,7 @@ std::vector<WantedVoxels> wantedIn(const std::vector<LabelSource>& sources)
   return maps;
 }
 
-// Calls visit(i) for the voxels of a row that count.
+// Calls visit(i) for the wanted voxels of a row.
 template <class Visit>
 void forEachWanted(const std::uint16_t* row, int count, const std::vector<std::uint8_t>& table,
                    const Visit& visit)

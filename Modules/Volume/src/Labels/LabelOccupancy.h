@@ -11,10 +11,10 @@
 namespace petrous::volume
 {
 
-/// Two voxels beyond a structure its occupancy is 0 for certain, and its index has ended.
+/// Two voxels beyond a structure its occupancy is certainly 0, and its index has ended.
 constexpr int kLabelMargin = 2;
 
-/// An occupancy above this is what a picture takes for inside (OpticalModel.h, kOccupancyThreshold).
+/// The renderer treats an occupancy above this as inside (OpticalModel.h, kOccupancyThreshold).
 constexpr double kInsideOccupancy = 0.5 - 1e-3;
 
 core::IndexBox grown(const core::IndexBox& box, int voxels) noexcept;
@@ -24,21 +24,22 @@ Eigen::Vector3d toVector(const core::Index3& index) noexcept;
 core::Index3 nearestVoxel(const Eigen::Vector3d& position) noexcept;
 core::Index3 flooredVoxel(const Eigen::Vector3d& position) noexcept;
 
-/// The grid of a box of voxels that may reach beyond `grid`.
+/// The grid of a box of voxels that may extend beyond `grid`.
 core::GridGeometry gridOf(const core::GridGeometry& grid, const core::IndexBox& box);
 
-/// The nearest step of 1/65535.
+/// Rounds to a multiple of 1/65535.
 float quantizedOccupancy(double occupancy) noexcept;
 
-/// Smoothed union (SmoothedUnion.h) of the solid voxels on the box of them, kLabelMargin wider.
+/// Smoothed union (SmoothedUnion.h) of the solid voxels on their bounding box, grown by
+/// kLabelMargin.
 std::shared_ptr<Volume<float>> smoothRanks(const LabelPriority& ranks, const LabelOrder& order,
                                            const core::Progress& progress);
 
-/// Whether the sources lie on one grid.
+/// Whether the sources share one grid.
 bool onOneGrid(const std::vector<LabelSource>& sources);
 
-/// The voxels of sources on one grid, 1 in any of them and 0 elsewhere, on the box of them
-/// kLabelMargin wider; null when there are none.
+/// Inside voxels of sources on one grid, 1 in any of them and 0 elsewhere, on their bounding box
+/// grown by kLabelMargin; nullptr if there are none.
 std::shared_ptr<const Volume<std::uint8_t>> insideOf(const std::vector<LabelSource>& sources,
                                                      const core::Progress& progress);
 

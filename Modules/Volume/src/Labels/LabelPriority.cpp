@@ -17,7 +17,7 @@ namespace
 
 using RankTable = std::vector<LabelRank>; // by voxel value
 
-// The sources that lie on one grid: each array of voxels once, with the ranks of its values.
+// The sources on one grid: each array of voxels once, with the ranks of its values.
 struct Group
 {
   std::vector<std::pair<const Volume<std::uint16_t>*, RankTable>> maps;
@@ -48,8 +48,8 @@ std::vector<Group> groupByGrid(const std::vector<LabelSource>& sources, const La
   return groups;
 }
 
-// Ranks along one row; `tiles` gets a mark where there is one. Returns the first and behind the
-// last voxel that has a rank, and whether there are solids and lumens.
+// Ranks along one row; marks `tiles` that contain one. Returns the range [first, last) of voxels
+// that have a rank, and whether there are solids and lumens.
 struct RowRanks
 {
   int first = std::numeric_limits<int>::max();

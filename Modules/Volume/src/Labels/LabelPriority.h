@@ -13,11 +13,11 @@
 namespace petrous::volume
 {
 
-/// Calls visit(i, label) for the labels of a row that are not 0.
+/// Calls visit(i, label) for the nonzero labels of a row.
 template <class Visit>
 void forEachLabel(const std::uint16_t* row, int count, const Visit& visit)
 {
-  constexpr int kWord = 4; // labels that are compared with nothing at once
+  constexpr int kWord = 4; // labels compared with zero at once
   for (int i = 0; i < count;)
   {
     std::uint64_t word = 1;
@@ -34,24 +34,24 @@ void forEachLabel(const std::uint16_t* row, int count, const Visit& visit)
   }
 }
 
-/// Place of a source in the order in which structures take a voxel: 1 the first, 0 none. Solid
-/// sources come before all lumens, each kind in the order of the sources.
+/// Rank of a source in the order in which structures own a voxel: 1 the first, 0 none. Solid
+/// sources precede all lumens, each kind in the order of the sources.
 using LabelRank = std::uint16_t;
 
 /// The order of the sources.
 struct LabelOrder
 {
   std::vector<LabelRank> rankOf;            ///< by source
-  std::vector<std::uint8_t> materialOfRank; ///< [0] is 0: nothing
+  std::vector<std::uint8_t> materialOfRank; ///< [0] is 0: none
   LabelRank lastSolid = 0;                  ///< ranks above it are lumens
 
-  /// Throws InvalidParameter naming the first source that is wrong.
+  /// Throws InvalidParameter naming the first invalid source.
   explicit LabelOrder(const std::vector<LabelSource>& sources);
 
   bool isSolid(LabelRank rank) const noexcept { return rank != 0 && rank <= lastSolid; }
 };
 
-/// Which tiles of a grid hold anything, so that the rest need not be looked at.
+/// Occupied tiles of a grid, so that empty ones can be skipped.
 class LabelTiles
 {
 public:
@@ -61,9 +61,9 @@ public:
 
   const core::Index3& dims() const noexcept { return m_dims; }
   core::IndexBox voxelsOf(int i, int j, int k) const noexcept; ///< clipped to the grid
-  /// Flags of the tiles along the first axis; threads may write different ones.
+  /// Flags of the tiles along the first axis; threads may write to different ones.
   std::uint8_t* row(int j, int k) noexcept { return m_occupied.data() + offset(j, k); }
-  bool any(const core::IndexBox& voxels) const noexcept; ///< the box may reach beyond the grid
+  bool any(const core::IndexBox& voxels) const noexcept; ///< the box may extend beyond the grid
 
 private:
   std::size_t offset(int j, int k) const noexcept;
@@ -73,24 +73,24 @@ private:
   std::vector<std::uint8_t> m_occupied;
 };
 
-/// The structures of all maps that share a grid, each voxel given to one.
+/// The structures of all maps that share a grid, each voxel assigned to one.
 struct LabelPriority
 {
   std::shared_ptr<Volume<LabelRank>> voxels;
   LabelTiles tiles;
-  core::IndexBox box; ///< of the voxels that have a rank
+  core::IndexBox box; ///< bounding box of the voxels that have a rank
   bool hasSolid = false;
   bool hasLumen = false;
 
   const core::GridGeometry& geometry() const noexcept { return voxels->geometry(); }
 };
 
-/// One for each grid that the sources lie on, in the order in which they come; grids without a
-/// voxel of any source are left out.
+/// One entry for each grid of the sources, in their order; grids without a voxel of any source are
+/// omitted.
 std::vector<LabelPriority> rankLabels(const std::vector<LabelSource>& sources, const LabelOrder& order,
                                    const core::Progress& progress);
 
-/// Voxels that are 0 and take memory only where something else is written.
+/// Zero-initialised voxels that take memory only where other values are written.
 template <class T>
 std::shared_ptr<Volume<T>> makeZeroVolume(const core::GridGeometry& geometry)
 {

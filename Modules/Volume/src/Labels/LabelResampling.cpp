@@ -17,7 +17,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kHalf = 0.5 - 1e-6; // a tie is inside
+constexpr double kHalf = 0.5 - 1e-6; // a tie counts as inside
 constexpr double kAligned = 5e-3;    // voxels
 constexpr int kMaxSamples = 8;      // per axis, in a common voxel
 
@@ -25,7 +25,7 @@ constexpr int kMaxSamples = 8;      // per axis, in a common voxel
 
 const core::GridGeometry& finestGrid(const std::vector<LabelPriority>& grids)
 {
-  // Solids choose, so that the hand, which knows no lumen, has the same lattice as the eye.
+  // Solids decide, so that haptics, which ignores lumens, has the same lattice as the renderer.
   const bool solids =
       std::any_of(grids.begin(), grids.end(), [](const auto& g) { return g.hasSolid; });
   const core::GridGeometry* finest = nullptr;
@@ -56,7 +56,7 @@ core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size
       upper = upper.cwiseMax(p);
     }
   }
-  // The corners of the finest grid's own box are integers but for rounding.
+  // The corners of the finest grid's own box are integers up to rounding.
   const auto slack = Vector3d::Constant(kAligned);
   lower = (lower + slack).array().floor();
   upper = (upper - slack).array().ceil();
@@ -88,7 +88,7 @@ core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size
   return {size, spacing, finest.patientFromVoxel(lower), finest.direction()};
 }
 
-// ---- one grid seen from the common one
+// ---- one grid, sampled on the common one
 
 struct Sample
 {
@@ -96,8 +96,7 @@ struct Sample
   LabelRank rank = 0;
 };
 
-// What the voxels round the samples of a common voxel add up to. Kept between voxels for its
-// memory.
+// Accumulated samples of a common voxel. Reused between voxels to avoid allocation.
 struct Tally
 {
   double occupancy = 0.0;
@@ -155,13 +154,13 @@ public:
   bool aligned() const noexcept { return m_aligned; }
   const LabelPriority& ranks() const noexcept { return m_ranks; }
 
-  // Whether anything can be met in a box of common voxels.
+  // Whether a box of common voxels may contain any structure.
   bool reaches(const core::IndexBox& voxels) const
   {
     const Vector3d low = toVector(voxels.lower);
     const Vector3d high = toVector(voxels.upper) - Vector3d::Ones();
     const Vector3d center = m_linear * (0.5 * (low + high)) + m_offset;
-    // Half a common voxel for its samples, two of this grid for filter and interpolation.
+    // Half a common voxel for its samples, two voxels of this grid for filter and interpolation.
     const Vector3d half = m_linear.cwiseAbs() * (0.5 * (high - low) + Vector3d::Constant(0.5)) +
                           Vector3d::Constant(2.0);
     const core::IndexBox box{flooredVoxel(center - half),
@@ -202,7 +201,7 @@ private:
                : 0.0;
   }
 
-  // The eight voxels of this grid round a position.
+  // Adds the eight voxels of this grid around a position.
   void add(const Vector3d& position, Tally& tally) const
   {
     const core::Index3 lower = flooredVoxel(position);
@@ -251,7 +250,7 @@ private:
   const LabelPriority& m_ranks;
   const LabelOrder& m_order;
   std::shared_ptr<const Volume<float>> m_occupancy;
-  core::IndexBox m_box; // of m_occupancy in voxels of the ranks
+  core::IndexBox m_box; // of m_occupancy, in voxels of the ranks
   Eigen::Matrix3d m_linear;
   Vector3d m_offset;
   core::Index3 m_samples{1, 1, 1};

@@ -14,8 +14,8 @@ namespace
 constexpr std::size_t kMaxPoints = 20'000'000;
 constexpr int kFinestParts = 2; // of a cell's edge, between points
 constexpr int kTurns = 6;
-constexpr double kSettled = 0.002;   // voxels: a step that is none
-constexpr double kOnSurface = 0.005; // voxels: a point that counts as lying on the surface
+constexpr double kSettled = 0.002;   // voxels: a smaller step is convergence
+constexpr double kOnSurface = 0.005; // voxels: tolerance for a point on the surface
 
 } // namespace
 
@@ -67,7 +67,7 @@ std::vector<core::Index3> OccupancySurface::crossedCells(const core::Progress& p
     progress.check("measuring structures");
     for (int j = 0; j + 1 < dims[1]; ++j)
     {
-      // How many of the four voxels at each end of a cell are inside.
+      // Number of inside voxels among the four at each end of a cell.
       const auto insideAt = [&](int i)
       {
         return int{m_occupancy.at(i, j, k) > 0.5F} + int{m_occupancy.at(i, j + 1, k) > 0.5F} +
@@ -106,8 +106,8 @@ std::vector<Eigen::Vector3f> OccupancySurface::points(const core::Progress& prog
   return points;
 }
 
-// Down onto the surface, along it to below the position, and again. Every point that lies on the
-// surface bounds the distance from above, so the least is kept.
+// Alternately projects onto the surface and slides along it towards the foot of the perpendicular.
+// Every point on the surface is an upper bound of the distance, so the minimum is kept.
 double OccupancySurface::refined(const Eigen::Vector3d& position,
                              const Eigen::Vector3f& near) const noexcept
 {

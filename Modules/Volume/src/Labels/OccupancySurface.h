@@ -9,7 +9,7 @@
 namespace petrous::volume
 {
 
-/// The surface occupancy = 1/2 of trilinear cells. Positions are mm along the axes of the occupancy's grid,
+/// The 1/2 level of a trilinear occupancy. Positions are mm along the axes of the occupancy's grid,
 /// (0, 0, 0) its first voxel's centre.
 class OccupancySurface
 {
@@ -18,12 +18,12 @@ public:
 
   struct Sample
   {
-    double value;             ///< occupancy - 1/2, beyond the grid as on its hull
+    double value;             ///< occupancy - 1/2, clamped to the hull beyond the grid
     Eigen::Vector3d gradient; ///< per mm, of the cell
   };
   Sample at(const Eigen::Vector3d& position) const noexcept;
 
-  /// Cells (by their lowest corner) whose corners lie on both sides. The last axis runs slowest.
+  /// Cells (by their lowest corner) with corners on both sides. The last axis is slowest.
   std::vector<core::Index3> crossedCells(const core::Progress& progress) const;
 
   static constexpr int kMaxParts = 3;
@@ -31,20 +31,20 @@ public:
   struct Crossing
   {
     Eigen::Vector3d point;
-    Eigen::Index axis; // that the line runs along
-    bool shared;       // the line lies on an upper face, and is the next cell's
+    Eigen::Index axis; // axis of the line
+    bool shared;       // the line is on an upper face, and belongs to the next cell
   };
 
-  /// Calls `visit(const Crossing&)` with the points where the lines of a finer lattice, `parts` to
-  /// an edge, meet the surface in the cell. Along the axes occupancies are linear: these points lie on
-  /// it. Parts: 1 to kMaxParts.
+  /// Calls `visit(const Crossing&)` with the intersections of the surface with the lines of a finer
+  /// lattice in the cell, `parts` per edge (1 to kMaxParts). Occupancies are linear along the axes,
+  /// so these points are exact.
   template <class Visit>
   void forEachCrossing(const core::Index3& cell, int parts, const Visit& visit) const;
 
-  /// Points on the surface, some in each cell that it crosses.
+  /// Points on the surface, several in each crossed cell.
   std::vector<Eigen::Vector3f> points(const core::Progress& progress) const;
 
-  /// Distance to the surface, from a point on it that is nearly the closest.
+  /// Distance to the surface, given a point on it that is nearly the closest.
   double refined(const Eigen::Vector3d& position, const Eigen::Vector3f& near) const noexcept;
 
 private:

@@ -15,14 +15,14 @@ namespace
 
 constexpr int kEdge = LabelTiles::kEdge;
 
-// Tiles along the edge of the blocks that are worked out at once. The net round a tile is far
-// larger than that in it, and whoever asks for one asks for the next.
+// Edge, in tiles, of the blocks that are computed at once. The net around a tile is far larger than
+// that inside it, and neighbouring tiles are usually requested next.
 constexpr int kBlock = 4;
 
-// Points of a net: where regions asked for more, the whole of a head's structures is cheaper.
+// Points of a net: beyond this the whole of a head's structures is cheaper.
 constexpr std::size_t kMaxPoints = 2'000'000;
 
-/// The units of `edge` that a box has a part of.
+/// The units of `edge` that a box intersects.
 core::IndexBox inUnits(const core::IndexBox& box, int edge)
 {
   core::IndexBox units;
@@ -45,7 +45,7 @@ core::IndexBox times(const core::IndexBox& units, int edge)
   return box;
 }
 
-// Calls visit(tile's index, its number).
+// Calls visit(tile index, its number).
 template <class Visit>
 void forEachTile(const core::Index3& dims, const core::IndexBox& tiles, const Visit& visit)
 {
@@ -67,7 +67,7 @@ std::shared_ptr<RegionalUnion> RegionalUnion::make(const std::vector<LabelSource
   std::vector<LabelSource> solid = sources;
   for (LabelSource& source : solid)
     source.solid = true;
-  LabelOrder{solid}; // throws what is wrong with them
+  LabelOrder{solid}; // throws if they are invalid
   std::shared_ptr<RegionalUnion> result(new RegionalUnion);
   if (!onOneGrid(solid))
   {
@@ -102,7 +102,7 @@ void RegionalUnion::prepare(const std::vector<core::PatientBox>& boxes,
       continue;
     const core::IndexBox box = m_occupancy->geometry().boxCovering(patient.min(), patient.max());
     if (!box.empty())
-      voxels.push_back(grown(box, 1)); // a position on a voxel may come out beside it
+      voxels.push_back(grown(box, 1)); // rounding may move a position on a voxel into the next cell
   }
   prepareVoxels(voxels, progress);
 }
@@ -118,7 +118,7 @@ void RegionalUnion::prepareVoxels(const std::vector<core::IndexBox>& boxes,
 {
   const core::IndexBox full = m_occupancy->geometry().fullBox();
   const core::IndexBox grid{{0, 0, 0}, m_tileDims};
-  std::map<std::size_t, core::IndexBox> missing; // the voxels of tiles
+  std::map<std::size_t, core::IndexBox> missing; // voxels by tile
   for (const core::IndexBox& asked : boxes)
   {
     const core::IndexBox box = asked.intersected(full);
@@ -164,7 +164,7 @@ void RegionalUnion::prepareAll(const core::Progress& progress)
   if (!m_inside)
     return;
   const auto whole = smoothedOccupancy(*m_inside, progress);
-  // Into the memory that others read already.
+  // Into the memory that others already read.
   const core::IndexBox full = whole->geometry().fullBox();
   tbb::parallel_for(0, full.upper[2],
                     [&](int k)
@@ -174,7 +174,7 @@ void RegionalUnion::prepareAll(const core::Progress& progress)
                         const float* from = &whole->at(0, j, k);
                         float* to = &m_occupancy->at(0, j, k);
                         for (int i = 0; i < full.upper[0]; ++i)
-                          if (from[i] > 0.0F && to[i] != from[i]) // memory is taken where needed
+                          if (from[i] > 0.0F && to[i] != from[i]) // commit memory only if needed
                             to[i] = from[i];
                       }
                     });

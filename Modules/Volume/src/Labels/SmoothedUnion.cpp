@@ -63,7 +63,7 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
     return nullptr;
 
   const core::Index3 size = box.size();
-  // May reach beyond the label grid, so that a structure cut off by its border is closed there.
+  // May extend beyond the label grid, so that a structure cut off at its border is closed there.
   const core::GridGeometry geometry = gridOf(labels.voxels->geometry(), grown(box, kLabelMargin));
   const auto inside = makeZeroVolume<std::uint8_t>(geometry);
   for (int k = 0; k < size[2]; ++k)

@@ -16,19 +16,19 @@ namespace petrous::volume
 namespace
 {
 
-constexpr int kCurvatureRounds = 8; // of averaging: how wide a neighbourhood is
-constexpr int kRelaxations = 8;     // each with a curvature to go to
+constexpr int kCurvatureRounds = 8; // of averaging: width of the neighbourhood
+constexpr int kRelaxations = 8;     // each with a target curvature
 constexpr int kStepsEach = 6;
 constexpr float kStep = 0.7F;
 constexpr float kClearance = 0.05F; // from the faces of its cell, so that no voxel changes sides
 constexpr int kNormalRounds = 1;
-constexpr int kNormalReach = 2 + kNormalRounds; // joins to the points that decide over a normal
-// And over a position, by a whole relaxation.
+constexpr int kNormalReach = 2 + kNormalRounds; // joins to the points that affect a normal
+// And those that affect a position, over a whole relaxation.
 constexpr int kRelaxationReach = kCurvatureRounds + kStepsEach - 1 + kNormalReach;
-constexpr int kSeedMargin = 3;   // voxels beyond a target whose cells say something of its occupancies
-constexpr int kWord = 8;         // voxels that are looked at at once
-constexpr float kCrease = 0.9F;  // cosine between the normals of two points with a crease between
-constexpr float kSmooth = 0.98F; // of two with none
+constexpr int kSeedMargin = 3;   // voxels beyond a target whose cells affect its occupancies
+constexpr int kWord = 8;         // voxels compared at once
+constexpr float kCrease = 0.9F;  // cosine between the normals of two points across a crease
+constexpr float kSmooth = 0.98F; // of two points without one
 
 constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
@@ -52,7 +52,7 @@ bool sameWord(const std::uint8_t* const (&rows)[4], int i, bool inside)
   return true;
 }
 
-// Calls visit(cell, corners) for the cells of a box that the border passes, the first axis fastest.
+// Calls visit(cell, corners) for the border cells of a box, the first axis fastest.
 template <class Visit>
 void forEachBorderCell(const Volume<std::uint8_t>& inside, const core::IndexBox& cells,
                        const Visit& visit)
@@ -149,7 +149,7 @@ SurfaceNet::SurfaceNet(const Volume<std::uint8_t>& inside,
   findNormals(kJoinReach - kNormalReach);
 }
 
-// How many points of a region are at most so many joins from its seeds. They come first.
+// Number of points of a region at most `joins` joins from its seeds. They come first.
 std::size_t SurfaceNet::within(int joins) const noexcept
 {
   if (m_within.empty())
@@ -168,7 +168,7 @@ int SurfaceNet::cornersOf(const core::Index3& cell) const noexcept
   return corners;
 }
 
-// Whether the border passes a face of a cell: 2 * axis, and 1 more for the upper one.
+// Whether the border crosses a face of a cell: 2 * axis, + 1 for the upper one.
 bool SurfaceNet::passes(int corners, int face) noexcept
 {
   int inside = 0;
@@ -178,7 +178,7 @@ bool SurfaceNet::passes(int corners, int face) noexcept
   return inside != 0 && inside != 4;
 }
 
-// Whether the border passes the edge of a cell that begins at a corner.
+// Whether the border crosses the edge of a cell that begins at a corner.
 bool SurfaceNet::crosses(int corners, int corner, int axis) noexcept
 {
   return (corners >> corner & 1) != (corners >> (corner | 1 << axis) & 1);
@@ -223,7 +223,7 @@ void SurfaceNet::findPoints(const core::Progress& progress, const Wanted& wanted
   }
 }
 
-// Those in the seeds, then all that are joined with them, the nearest first.
+// Points in the seeds, then all those joined with them, nearest first.
 void SurfaceNet::findPoints(const std::vector<core::IndexBox>& seeds,
                             const core::Progress& progress)
 {
@@ -264,7 +264,7 @@ void SurfaceNet::findPoints(const std::vector<core::IndexBox>& seeds,
 void SurfaceNet::placePoints()
 {
   m_positions.resize(m_points.size());
-  // In the middle of where the border passes the cell's edges.
+  // Initial position: the mean of the crossings of the cell's edges.
   forEachPoint(m_points.size(),
                [this](std::size_t n)
                {
@@ -308,9 +308,9 @@ void SurfaceNet::join()
       });
 }
 
-// The quadrangle round the edge that a point's cell has at its lowest voxel, along `axis`: of the
-// four cells round it this one has the highest indices. The product of its diagonals; zero where
-// the border does not pass the edge, or the net ends.
+// The quad around the edge of a point's cell at its lowest voxel, along `axis`: this is the one
+// with the highest indices of the four cells around it. Returns the cross product of its diagonals;
+// zero if the border does not cross the edge, or at the edge of the net.
 Eigen::Vector3f SurfaceNet::quadrangle(std::size_t n, int axis) const
 {
   const auto u = static_cast<std::size_t>((axis + 1) % 3);
@@ -325,8 +325,8 @@ Eigen::Vector3f SurfaceNet::quadrangle(std::size_t n, int axis) const
   return (m_positions[n] - at(low)).cross(at(lowU) - at(lowV));
 }
 
-// The mean of the quadrangles round a point. For the points `reach` joins from the seeds of a
-// region; positions must hold kNormalReach farther.
+// Normal as the mean of the quads around a point, for the points `reach` joins from the seeds of a
+// region; positions must be valid kNormalReach farther.
 void SurfaceNet::findNormals(int reach)
 {
   m_normals.resize(m_points.size());
@@ -366,7 +366,7 @@ void SurfaceNet::findNormals(int reach)
                  }
                  raw[n] = sum;
                });
-  static_assert(kNormalRounds == 1); // each round half of the way to the mean
+  static_assert(kNormalRounds == 1); // each round averages half with the neighbours
   forEachPoint(within(reach),
                [&](std::size_t n)
                {
@@ -387,16 +387,16 @@ void SurfaceNet::findNormals(int reach)
                });
 }
 
-// What a region's point comes to depends on points that are a few joins farther with each of the
-// loops below, so those that are farther out are left as they are: kRelaxationReach a relaxation.
+// A point depends on points a few joins farther with each of the loops below, so the outer points
+// of a region are skipped progressively: kRelaxationReach per relaxation.
 void SurfaceNet::relax(const core::Progress& progress)
 {
   std::vector<float> curvature(m_points.size());
   std::vector<float> scratch(m_points.size());
   std::vector<Eigen::Vector3f> next(m_points.size());
-  // How much the curvature of each that is joined counts, and 1/2 over their sum; 0: too little.
+  // Weight of each joined point's curvature, and 1/2 over their sum; 0: too small.
   std::vector<std::array<float, 7>> weights(m_points.size());
-  // From a point to the middle of those joined with it.
+  // From a point to the mean of those joined with it.
   const auto towardsMean = [this](std::size_t n) -> Eigen::Vector3f
   {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -414,10 +414,10 @@ void SurfaceNet::relax(const core::Progress& progress)
   };
   const auto along = [this](std::size_t n, const Eigen::Vector3f& v)
   { return v.dot(m_normals[n]); };
-  // A crease has its own curvature, which is none of the faces' beside it.
+  // A crease has its own curvature, different from that of the adjacent faces.
   const auto alike = [&](std::size_t n, std::size_t other)
   { return std::clamp((along(n, m_normals[other]) - kCrease) / (kSmooth - kCrease), 0.0F, 1.0F); };
-  int reach = kJoinReach - kNormalReach; // of good normals
+  int reach = kJoinReach - kNormalReach; // of valid normals
   for (int relaxation = 0; relaxation < kRelaxations; ++relaxation)
   {
     forEachPoint(within(reach), [&](std::size_t n) { curvature[n] = along(n, towardsMean(n)); });
@@ -438,7 +438,7 @@ void SurfaceNet::relax(const core::Progress& progress)
                  });
     for (int round = 0; round < kCurvatureRounds; ++round, --reach)
     {
-      // Each round half of the way to the mean of those joined.
+      // Each round averages half with the joined points.
       forEachPoint(within(reach),
                    [&](std::size_t n)
                    {

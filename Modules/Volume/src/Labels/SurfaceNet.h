@@ -14,31 +14,30 @@
 namespace petrous::volume
 {
 
-/// The border between the voxels inside (1) and outside (0) as a net of points: one in each cell of
-/// eight voxel centres that the border passes, joined across the faces that it passes (Gibson 1998,
+/// The border between the voxels inside (1) and outside (0) as a net of points: one in each border
+/// cell of eight voxel centres, joined across the faces that the border crosses (Gibson 1998,
 /// "Constrained elastic surface nets"). Positions are in voxels.
 ///
-/// `relax` moves the points, each within its cell, so that the net has no voxel steps: a point goes
-/// along its normal until the curvature there is that of its neighbourhood. Plane, cylinder and
-/// ball are at rest, so that nothing shrinks, and since the net has two sides a sheet one voxel
-/// thin is as safe as a thick one.
+/// `relax` moves the points, each within its cell, so that the net has no voxel steps: a point
+/// moves along its normal until its curvature equals that of its neighbourhood. Planes, cylinders
+/// and spheres are fixed points, so that nothing shrinks, and since the net has two sides a sheet
+/// one voxel thin is as stable as a thick one.
 ///
-/// What a voxel's occupancy comes to depends on no more than the points that are kJoinReach joins away,
-/// so the net of a region is built and relaxed for itself, and its occupancies are those of the whole
-/// net to the last bit.
+/// A voxel's occupancy depends only on the points within kJoinReach joins, so the net of a region
+/// is built and relaxed on its own, and its occupancies are bit-identical to those of the whole
+/// net.
 class SurfaceNet
 {
 public:
-  /// Whether a cell, named by its lowest voxel, may have a point.
+  /// Whether a cell, identified by its lowest voxel, may have a point.
   using Wanted = std::function<bool(const core::Index3& cell)>;
 
-  /// `inside` must be 0 on its outermost voxels, and must live as long as this. Where cells are not
-  /// wanted the net has an edge, and voxels count as far from it.
+  /// `inside` must be 0 on its outermost voxels, and must outlive this. Where cells are not wanted
+  /// the net has an edge, and voxels count as far from it.
   SurfaceNet(const Volume<std::uint8_t>& inside, const core::Progress& progress,
              const Wanted& wanted = {});
 
-  /// The part of the net that decides over the voxels of `targets`: what was said of `inside`
-  /// holds.
+  /// The part of the net that determines the voxels of `targets`; `inside` as above.
   SurfaceNet(const Volume<std::uint8_t>& inside, const std::vector<core::IndexBox>& targets,
              const core::Progress& progress);
 
@@ -46,22 +45,23 @@ public:
 
   std::size_t points() const noexcept { return m_points.size(); }
 
-  /// Signed distance of voxel centres from the net in voxels, above 0 inside, as an occupancy:
+  /// Writes the signed distance of voxel centres from the net in voxels, positive inside, as an
+  /// occupancy:
   ///   1/2 + distance / kShareReach, from 0 to 1
-  /// A voxel inside stays above 1/2 and one outside below, in steps of 1/65535. `occupancy` must be 0
-  /// everywhere.
+  /// A voxel inside stays above 1/2 and one outside below, in steps of 1/65535. `occupancy` must be
+  /// 0 everywhere.
   ///
-  /// Not so where the inside is one voxel thin, which leaves the net too little to go by: there
-  /// voxels that touch by an edge or a corner only are joined, which trilinear interpolation of
-  /// distances would not do; and where it is a sheet or a rod, the distance is that from the plane
-  /// or line fitted to it, a voxel in a gap of which may come to lie inside.
+  /// Exception: where the inside is one voxel thin, the net is too coarse. There voxels that touch
+  /// only by an edge or a corner are joined, which trilinear interpolation of distances would not
+  /// do; and in a sheet or a rod, the distance is that from the plane or line fitted to it, and a
+  /// voxel in a gap of it may become inside.
   void writeOccupancy(Volume<float>& occupancy, const core::Progress& progress) const;
 
-  /// The same for the voxels of a box of one of the net's targets; the others are left as they are.
+  /// The same for the voxels of a box inside one of the net's targets; the others are unchanged.
   void writeOccupancyIn(const core::IndexBox& box, Volume<float>& occupancy) const;
 
-  /// Voxels from an occupancy of nothing to one: 2 sqrt(3), so that on equal voxels the occupancy falls as a
-  /// cut's mask does, and a mask that keeps a structure leaves all of it (SweptSphereCut.h).
+  /// Voxels from occupancy 0 to 1: 2 sqrt(3), so that on equal voxels the occupancy has the slope
+  /// of a cut's mask, and a mask that protects a structure leaves all of it (SweptSphereCut.h).
   static constexpr float kShareReach = 3.4641016F;
   static float occupancyOf(double depth) noexcept; ///< in voxels, > 0 inside; to the nearest step
   static double depthOf(float occupancy) noexcept;
@@ -79,15 +79,15 @@ private:
   struct Point
   {
     core::Index3 cell;
-    std::uint8_t corners; ///< which of its voxels are inside, the first axis fastest
+    std::uint8_t corners; ///< bits of the voxels inside, the first axis fastest
   };
   using Joined = std::array<std::int32_t, 6>; ///< points by face: 2 * axis, + 1 the upper; -1 none
 
-  /// Shares of the voxels of a box.
+  /// View of the occupancies of a box.
   struct OccupancyView
   {
     core::IndexBox box;
-    float* data; ///< of its first voxel
+    float* data; ///< its first voxel
     std::ptrdiff_t row, slice;
 
     float& at(const core::Index3& v) const noexcept
@@ -97,7 +97,7 @@ private:
     }
   };
 
-  /// Points by cell: 0 none, else 1 + the point. Memory is taken round the points only.
+  /// Points by cell: 0 none, else 1 + the point. Memory is used only around the points.
   class PointTable
   {
   public:
@@ -108,7 +108,7 @@ private:
       return row ? *row : 0;
     }
     std::int32_t& slot(const core::Index3& cell);
-    /// The entry of a cell, which those up to `rowEnd` follow; null: they are all 0.
+    /// The entry of a cell, followed by those up to `rowEnd`; nullptr: they are all 0.
     const std::int32_t* rowFrom(int i, int j, int k) const noexcept
     {
       const auto& brick = m_bricks[brickOf(i, j, k)];
@@ -159,12 +159,12 @@ private:
   const Volume<std::uint8_t>& m_inside;
   PointTable m_pointOf;
   std::vector<Point> m_points;
-  std::vector<std::size_t> m_within; ///< points at most so many joins from a seed; empty: the whole
+  std::vector<std::size_t> m_within; ///< points at most n joins from a seed; empty: whole net
   std::vector<Eigen::Vector3f> m_positions;
-  std::vector<Eigen::Vector3f> m_normals; ///< out of the inside
+  std::vector<Eigen::Vector3f> m_normals; ///< pointing outside
   std::vector<Joined> m_joined;
-  /// Across an edge of the cell along an axis, 2 * axis that of its lowest voxel and + 1 that
-  /// opposite: the fourth of the points round it. -1: the border does not pass it, or none there.
+  /// Across an edge of the cell along an axis (2 * axis that of its lowest voxel, + 1 the opposite
+  /// one): the fourth of the points around it. -1: the border does not cross it, or no point.
   std::vector<Joined> m_diagonal;
 };
 

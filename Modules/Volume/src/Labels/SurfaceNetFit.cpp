@@ -21,11 +21,11 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr int kReach = 4;      // voxels, of the neighbourhood that a sheet or a rod is fitted to
+constexpr int kReach = 4;      // voxels, neighbourhood to which a sheet or a rod is fitted
 constexpr double kSigma = 1.4; // voxels, of its Gaussian weights
 constexpr double kPi = 3.14159265358979323846;
 
-// Half a thickness that has no holes whatever way the voxels lie to it, and the same of a rod.
+// Minimum half thickness of a sheet, and radius of a rod, without holes in any orientation.
 constexpr double kThinnestSheet = 0.53;
 constexpr double kThinnestRod = 0.65;
 constexpr double kThickest = 0.85;
@@ -38,13 +38,13 @@ double ramp(double from, double to, double value)
 
 struct Fit
 {
-  double weight = 0.0; // 0: it is neither
+  double weight = 0.0; // 0: neither
   double depth = 0.0;  // voxels
 };
 
-// The plane or the line that the inside round a voxel is, and how far in it the voxel lies. How
-// thick it is, follows from how much of it there is: a sheet of thickness t has 2 pi sigma^2 t, a
-// rod of cross-section a has sqrt(2 pi) sigma a.
+// Fits a plane or a line to the inside around a voxel, and returns the voxel's depth in it. The
+// thickness follows from the weighted amount: 2 pi sigma^2 t for a sheet of thickness t, sqrt(2 pi)
+// sigma a for a rod of cross-section a.
 Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
 {
   static const auto kWeights = []
@@ -82,7 +82,7 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
   const Vector3d center = first / sum;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(second / sum - center * center.transpose());
-  const Vector3d spread = solver.eigenvalues() / (kSigma * kSigma); // the smallest first
+  const Vector3d spread = solver.eigenvalues() / (kSigma * kSigma); // ascending
   const Vector3d across = solver.eigenvectors().col(0);
   const Vector3d along = solver.eigenvectors().col(2);
   const double off = std::abs(across.dot(center));
@@ -106,7 +106,7 @@ Fit fitAround(const Volume<std::uint8_t>& inside, const core::Index3& at)
 
 } // namespace
 
-// A voxel's fit asks for the inside alone, and changes its own occupancy alone.
+// A voxel's fit reads only `inside`, and changes only its own occupancy.
 void SurfaceNet::fitThin(const OccupancyView& occupancy, const core::IndexBox& target,
                          const std::vector<std::size_t>& thinPoints) const
 {

@@ -17,13 +17,14 @@ namespace petrous::volume
 namespace
 {
 
-constexpr float kReach = 1.9F;     // voxels from which a point counts
-constexpr int kSpan = 2;           // cells that far may hold one
-constexpr float kMin = 0.05F;    // |distance| of any voxel, voxels
-constexpr float kThinDepth = 0.3F; // of voxels that touch others by an edge or a corner
+constexpr float kReach = 1.9F;     // voxels, radius within which a point counts
+constexpr int kSpan = 2;           // cells within that radius
+constexpr float kMin = 0.05F;    // minimum |distance| of any voxel, voxels
+constexpr float kThinDepth = 0.3F; // voxels that touch others by an edge or a corner
 
-// How far outside a voxel lies beside such, of the sum of their depths (of the numerator of the
-// trilinear value in the middle of a triangle). Half of what would part them, or less.
+// Depth outside of a voxel next to such voxels, as a fraction of the sum of their depths (of the
+// numerator of the trilinear value at the centre of a triangle). At most half of what would
+// separate them.
 constexpr float kAcrossFace = 0.25F;
 constexpr float kAcrossCell = 0.1F;
 constexpr float kAcrossTriangle = 0.6F / 14.0F;
@@ -33,7 +34,7 @@ bool has(int corners, int corner)
   return (corners >> corner & 1) != 0;
 }
 
-// Calls visit(a, b, c, d), corners of a cell round one of its faces, twice a face.
+// Calls visit(a, b, c, d), the corners of a cell around one of its faces, twice per face.
 template <class Visit>
 void forEachFace(const Visit& visit)
 {
@@ -53,7 +54,7 @@ bool touchAcross(int corners, int a, int b, int c, int d)
   return has(corners, a) && has(corners, c) && !has(corners, b) && !has(corners, d);
 }
 
-// By the corners of a cell that are inside, whether some touch by an edge or a corner only.
+// For each corner mask of a cell, whether some inside corners touch by an edge or a corner only.
 std::array<bool, 256> cellsAskew()
 {
   std::array<bool, 256> result{};
@@ -68,8 +69,8 @@ std::array<bool, 256> cellsAskew()
   return result;
 }
 
-// Calls lift(corner, depth) for what joins the corners of a cell that are inside; `thin`: which of
-// them are, `at(corner)` the depth in voxels.
+// Calls lift(corner, depth) for the voxels that join the inside corners of a cell; `thin`: mask of
+// the thin ones, `at(corner)`: depth in voxels.
 template <class At, class Lift>
 void joinCorners(int corners, int thin, const At& at, const Lift& lift)
 {
@@ -85,7 +86,7 @@ void joinCorners(int corners, int thin, const At& at, const Lift& lift)
     if (corners == (1 << a | 1 << (7 - a)))
       for (int corner = 0; corner < 8; ++corner)
         lift(corner, -kAcrossCell * (at(a) + at(7 - a)));
-  // Three that touch by edges, the corners of a triangle: `far` lies beyond it.
+  // Three that touch by edges, the corners of a triangle: `far` is the corner beyond it.
   for (int far = 0; far < 8; ++far)
   {
     if (corners != (1 << (far ^ 3) | 1 << (far ^ 5) | 1 << (far ^ 6)))
@@ -119,7 +120,7 @@ void SurfaceNet::writeOccupancy(Volume<float>& occupancy, const core::Progress& 
   fitThin(all, full, thinPoints);
 }
 
-// What joins thin voxels asks for the occupancies one voxel beyond the box.
+// Joining thin voxels needs the occupancies one voxel beyond the box.
 void SurfaceNet::writeOccupancyIn(const core::IndexBox& box, Volume<float>& occupancy) const
 {
   const core::IndexBox full = occupancy.geometry().fullBox();
@@ -154,7 +155,7 @@ void SurfaceNet::writeOccupancyIn(const core::IndexBox& box, Volume<float>& occu
     }
 }
 
-// Heights over the points near the voxels of a tile: their weighted sum, and the weights.
+// Heights above the points near the voxels of a tile: weighted sum, and sum of weights.
 std::vector<std::array<float, 2>> SurfaceNet::heightsIn(const core::IndexBox& tile) const
 {
   const core::Index3 size = tile.size();
@@ -198,7 +199,7 @@ std::vector<std::array<float, 2>> SurfaceNet::heightsIn(const core::IndexBox& ti
               const float closeness =
                   1.0F - (dx * dx + dy * dy + dz * dz) * (1.0F / (kReach * kReach));
               const float height = dx * normal.x() + dy * normal.y() + dz * normal.z();
-              // The other side of a thin sheet has nothing to say of this voxel.
+              // The other side of a thin sheet does not count for this voxel.
               if (closeness <= 0.0F || (height < 0.0F) != (inside[x] != 0))
                 continue;
               const float squared = closeness * closeness;
@@ -216,7 +217,7 @@ std::vector<std::array<float, 2>> SurfaceNet::heightsIn(const core::IndexBox& ti
 void SurfaceNet::writeDistances(Volume<float>& occupancy, const core::Progress& progress) const
 {
   const core::Index3& dims = occupancy.geometry().dims();
-  LabelTiles tiles(dims); // with points
+  LabelTiles tiles(dims); // tiles that contain points
   for (const Point& point : m_points)
     tiles.row(point.cell[1] / LabelTiles::kEdge,
               point.cell[2] / LabelTiles::kEdge)[point.cell[0] / LabelTiles::kEdge] = 1;
@@ -226,13 +227,13 @@ void SurfaceNet::writeDistances(Volume<float>& occupancy, const core::Progress& 
   {
     const bool near = tiles.any(grown(tile, kSpan));
     if (!near && m_inside.at(tile.lower[0], tile.lower[1], tile.lower[2]) == 0)
-      return; // all of it is outside
+      return; // entirely outside
     writeDistancesIn(tile, near, all);
   };
   forEachTile(dims, progress, "smoothing structures", writeTile);
 }
 
-// `near`: whether there may be points that say something of the tile.
+// `near`: whether points may affect the tile.
 void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
                                   const OccupancyView& occupancy) const
 {
@@ -254,16 +255,16 @@ void SurfaceNet::writeDistancesIn(const core::IndexBox& tile, bool near,
           const float depth = -sums[n][0] / sums[n][1];
           value = occupancyOf(in ? std::max(depth, kMin) : std::min(depth, -kMin));
         }
-        if (value > 0.0F) // memory is taken where something is written
+        if (value > 0.0F) // memory is committed only where something is written
           row[x] = value;
       }
     }
 }
 
-// Whether no eight voxels round it are all inside.
+// Whether no 2 x 2 x 2 block that contains it is entirely inside.
 bool SurfaceNet::isThin(const core::Index3& voxel) const noexcept
 {
-  // Which of the voxels of each row round it, the lowest bit first, are followed by another one.
+  // Bit n: voxels n and n + 1 of a row around it are both inside.
   std::array<int, 9> pairs{};
   for (int row = 0; row < 9; ++row)
   {
@@ -277,7 +278,7 @@ bool SurfaceNet::isThin(const core::Index3& voxel) const noexcept
   return true;
 }
 
-// Which of a point's voxels are inside and thin.
+// Mask of a point's voxels that are inside and thin.
 std::uint8_t SurfaceNet::thinCorners(std::size_t point) const noexcept
 {
   int thin = 0;
@@ -287,16 +288,16 @@ std::uint8_t SurfaceNet::thinCorners(std::size_t point) const noexcept
   return static_cast<std::uint8_t>(thin);
 }
 
-// Lifts voxels beside two or three that touch by an edge or a corner: so far that there is inside
-// between them, and that their own voxel stays outside. Of a part of the occupancies all is lifted but
-// its outermost voxels.
+// Lifts voxels next to two or three that touch by an edge or a corner: enough to connect these, and
+// little enough to stay outside themselves. For a part of the occupancies, all but its outermost
+// voxels are valid.
 void SurfaceNet::joinThin(const OccupancyView& occupancy, const std::vector<std::size_t>& thinPoints) const
 {
   struct Corners
   {
     core::Index3 cell;
     int corners;
-    int thin; // which of them
+    int thin; // the thin ones among them
   };
   const std::array<bool, 256> askew = cellsAskew();
   std::vector<Corners> cells;
@@ -314,7 +315,7 @@ void SurfaceNet::joinThin(const OccupancyView& occupancy, const std::vector<std:
   const auto partly = [&occupancy](const Corners& cell)
   { return !occupancy.box.contains(cell.cell) || !occupancy.box.contains(voxelOf(cell.cell, 7)); };
   cells.erase(std::remove_if(cells.begin(), cells.end(), partly), cells.end());
-  // The highest lift of a voxel counts, in whatever order they come.
+  // The highest lift of a voxel counts, independent of order.
   using Lifts = std::vector<std::pair<core::Index3, float>>;
   tbb::enumerable_thread_specific<Lifts> found;
   const auto findLifts = [&](const Corners& cell, Lifts& lifts)

@@ -17,7 +17,7 @@ namespace
 using Eigen::Vector3d;
 
 constexpr int kMaxTouchTests = 16; // per axis, in a voxel of the source
-constexpr double kWhole = 0.52; // occupancy between the points of a thin structure that are looked at
+constexpr double kWhole = 0.52; // minimum occupancy halfway between voxels of a thin structure
 
 class ThinStructures
 {
@@ -78,7 +78,7 @@ private:
            m_order.isSolid(m_source.voxels->at(voxel[0], voxel[1], voxel[2]));
   }
 
-  // Whether a voxel of a solid would fall to 1/2 or below by [1 2 1]/4 alone.
+  // Whether a solid voxel would fall to 1/2 or below with the filter [1 2 1]/4 alone.
   bool isThin(const core::Index3& voxel) const
   {
     int sum = 0;
@@ -93,7 +93,7 @@ private:
     return sum <= kHalfWeight;
   }
 
-  // Whether a thin voxel is inside on the common grid too, and what joins it to those beside it.
+  // Whether a thin voxel, and its connections to its neighbours, are inside on the common grid too.
   bool isWhole(const core::Index3& voxel) const
   {
     bool whole = true;
@@ -137,7 +137,7 @@ private:
     return false;
   }
 
-  // A voxel shows a structure when it carries its rank, or one that goes before it.
+  // A voxel shows a structure if it carries its rank, or a prior one.
   bool shows(const core::Index3& v, LabelRank rank) const
   {
     const LabelRank own = m_ranks.voxels->at(v[0], v[1], v[2]);
@@ -150,7 +150,7 @@ private:
     return shows(nearestVoxel(m_linear * position + m_offset), rank);
   }
 
-  // Calls visit(common voxel) for those that a voxel of the source touches by a tenth and more.
+  // Calls visit(common voxel) for those that a voxel of the source overlaps by a tenth or more.
   template <class Visit>
   void forEachTouched(const core::Index3& voxel, const Visit& visit) const
   {
@@ -190,7 +190,7 @@ private:
   const LabelOrder& m_order;
   const LabelPriority& m_ranks; // the common grid
   const Volume<float>& m_occupancy;
-  Eigen::Matrix3d m_linear; // common voxels a voxel of the source
+  Eigen::Matrix3d m_linear; // common voxels per voxel of the source
   Vector3d m_offset;
   core::Index3 m_tests{1, 1, 1};
 };

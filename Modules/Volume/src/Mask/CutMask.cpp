@@ -70,7 +70,7 @@ void CutMask::setBrick(std::size_t index, BrickVersion version)
 {
   if (!m_isDirty[index])
   {
-    m_dirty.push_back(index); // first: without memory nothing has changed
+    m_dirty.push_back(index); // first: if it throws, nothing has changed
     m_isDirty[index] = true;
   }
   m_bricks[index] = std::move(version);

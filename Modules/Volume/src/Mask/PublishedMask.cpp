@@ -62,7 +62,7 @@ void PublishedMask::publish(const CutMask& mask, const std::vector<std::size_t>&
     next->raise();
   m_states.push_back(std::move(next));
   m_present.store(m_states.back().get());
-  // Sequentially consistent with acquire: a reader either shows up here or sees the new state.
+  // Sequentially consistent with acquire: a reader either is seen here or sees the new state.
   const MaskState* held = m_held.load();
   m_states.erase(std::remove_if(m_states.begin(), m_states.end() - 1,
                                 [held](const auto& state) { return state.get() != held; }),
@@ -72,8 +72,8 @@ void PublishedMask::publish(const CutMask& mask, const std::vector<std::size_t>&
 const MaskState* PublishedMask::acquire() const noexcept
 {
   const MaskState* state = m_present.load();
-  // The writer may replace a state between load and store; it lasts only once it is held and still
-  // present. A cut takes longer than this loop, so it turns once, rarely twice.
+  // The writer may replace a state between load and store; it is safe only once it is held and
+  // still current. A cut takes longer than this loop, so it runs once, rarely twice.
   for (;;)
   {
     m_held.store(state);

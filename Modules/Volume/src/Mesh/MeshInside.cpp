@@ -14,7 +14,7 @@ namespace petrous::volume
 namespace
 {
 
-constexpr double kLatticeSteps = 1 << 23; // products of differences stay far below 2^63
+constexpr double kLatticeSteps = 1 << 23; // so that products of differences stay far below 2^63
 
 // Twice the signed area of (a, b, p).
 std::int64_t orientation(const std::array<std::int64_t, 2>& a, const std::array<std::int64_t, 2>& b,
@@ -23,8 +23,8 @@ std::int64_t orientation(const std::array<std::int64_t, 2>& a, const std::array<
   return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-// The triangle's part in the box, as triangles (Sutherland and Hodgman 1974, one plane after the
-// other).
+// The part of a triangle inside the box, as triangles (Sutherland and Hodgman 1974, plane by
+// plane).
 std::vector<Triangle> clipped(const Triangle& triangle, const Eigen::AlignedBox3d& box)
 {
   Eigen::AlignedBox3d bounds;
@@ -95,16 +95,16 @@ MeshInside::MeshInside(const core::TriangleMesh& mesh)
   fillCells();
 }
 
-// About as many cells as triangles; fewer where triangles are so long that each lies in many.
+// About as many cells as triangles; fewer if long triangles overlap many cells.
 void MeshInside::fillCells()
 {
-  constexpr std::size_t kMaxPlaces = 8; // of a triangle, on average
+  constexpr std::size_t kMaxPlaces = 8; // cells per triangle, on average
   Lattice last{0, 0};
   for (const auto& triangle : m_lattice)
     for (const Lattice& corner : triangle)
       for (std::size_t a = 0; a < 2; ++a)
         last[a] = std::max(last[a], corner[a]);
-  // The cells of a triangle's box: first and last along y and z.
+  // The cells of a triangle's bounding box: first and last along y and z.
   const auto cellsOf = [this](const std::array<Lattice, 3>& triangle)
   {
     std::array<Lattice, 2> cells;
@@ -195,7 +195,7 @@ void MeshInside::measureEdges(const std::vector<std::array<std::int64_t, 3>>& co
   }
 }
 
-// Lines lie at odd numbers, corners at even ones: a line never meets a corner.
+// Lines are at odd coordinates, vertices at even ones: a line never meets a vertex.
 MeshInside::Lattice MeshInside::latticeOf(double y, double z) const
 {
   const auto odd = [this](double value, double base)
@@ -203,7 +203,7 @@ MeshInside::Lattice MeshInside::latticeOf(double y, double z) const
   return {odd(y, m_base[1]), odd(z, m_base[2])};
 }
 
-// What crossing the triangle towards +x adds to the winding number; 0 when the line passes by.
+// Contribution of the triangle to the winding number towards +x; 0 if the line misses it.
 int MeshInside::turnAt(const std::array<Lattice, 3>& triangle, const Lattice& line,
                        std::array<double, 3>& weights) const
 {
@@ -215,8 +215,8 @@ int MeshInside::turnAt(const std::array<Lattice, 3>& triangle, const Lattice& li
     const Lattice& a = triangle[(e + 1) % 3];
     const Lattice& b = triangle[(e + 2) % 3];
     const std::int64_t side = orientation(a, b, line);
-    // On the edge, the line counts as moved by an infinitesimal step along y. An edge along y never
-    // comes to this: it lies at an even z.
+    // On an edge, the line is treated as shifted infinitesimally along y. This never applies to an
+    // edge along y, which is at an even z.
     const bool positive = side != 0 ? side > 0 : b[1] < a[1];
     if (positive != (area > 0))
       return 0;
@@ -267,10 +267,11 @@ bool MeshInside::contains(const Eigen::Vector3d& point) const
   return (std::upper_bound(places.begin(), places.end(), point[0]) - places.begin()) % 2 == 1;
 }
 
-// +1 where the triangle's front is outside and its back inside, -1 the other way, 0 no surface.
+// +1 if the triangle's front is outside and its back inside, -1 if reversed, 0 if not on the
+// surface.
 int MeshInside::facing(const Triangle& triangle, const Eigen::Vector3d& point) const
 {
-  // Far enough from the triangle for the lattice to tell its sides apart.
+  // Far enough from the triangle for the lattice to distinguish its sides.
   const double step = 8.0 * m_unit;
   const Eigen::Vector3d normal =
       (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();

@@ -18,15 +18,15 @@ namespace petrous::volume
 namespace
 {
 
-constexpr double kBand = 3.0;    // voxels on either side of the surface in which the occupancy changes
-constexpr int kMargin = 4;       // voxels round the mesh: the band and one more
-constexpr int kRun = 8;          // voxels of a row that are judged together
-constexpr double kFine = 0.002;  // occupancy of the surface that may be thinner than what is resolved
-constexpr double kWhole = 0.02;  // the same where memory is short
+constexpr double kBand = 3.0;    // voxels on either side of the surface: the occupancy's ramp
+constexpr int kMargin = 4;       // voxels around the mesh: the band and one more
+constexpr int kRun = 8;          // voxels of a row that are tested together
+constexpr double kFine = 0.002;  // fraction of the surface that may be thinner than is resolved
+constexpr double kWhole = 0.02;  // the same if memory is limited
 constexpr double kSharp = 0.08;  // of thickness times spacing: see MeshSolid.h
-constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, not the edge of something
+constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, rather than the edge of something
 constexpr std::size_t kMaxSamples = 20000; // triangles at which thickness is measured
-constexpr double kGuarded = 0.501;          // above what the mask's 16 bits may round to 0.5
+constexpr double kGuarded = 0.501;          // stays above 0.5 when rounded to 16 bits
 
 const char* const kTask = "making a mesh touchable";
 
@@ -37,8 +37,8 @@ struct Chord
   bool facing;
 };
 
-// From the middle of each triangle inwards to the wall across; `beyond` mm where that was cut off,
-// or not counted where `beyond` is 0.
+// Distance from the centre of each triangle inwards to the opposite wall; `beyond` mm if that was
+// cut off, or omitted if `beyond` is 0.
 std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond,
                             const core::Progress& progress)
 {
@@ -67,7 +67,7 @@ std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond
                     });
   const auto missing = [](const Chord& chord) { return chord.area == 0.0; };
   chords.erase(std::remove_if(chords.begin(), chords.end(), missing), chords.end());
-  // A body without walls that face one another, as a tetrahedron, is as thick as it is anyhow.
+  // A body without parallel walls, such as a tetrahedron, uses all chords.
   const auto aslant = [](const Chord& chord) { return !chord.facing; };
   const auto last = std::remove_if(chords.begin(), chords.end(), aslant);
   if (last != chords.begin())
@@ -77,20 +77,21 @@ std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond
   return chords;
 }
 
-// The length that `occupancy` of the area falls below. `chords` in ascending order, at least one.
-double quantile(const std::vector<Chord>& chords, double occupancy)
+// Area-weighted quantile of the chord lengths at the fraction `fraction`. `chords` sorted, not
+// empty.
+double quantile(const std::vector<Chord>& chords, double fraction)
 {
   double area = 0.0;
   for (const Chord& chord : chords)
     area += chord.area;
   double sum = 0.0;
   for (const Chord& chord : chords)
-    if ((sum += chord.area) > occupancy * area)
+    if ((sum += chord.area) > fraction * area)
       return chord.length;
   return chords.back().length;
 }
 
-// Samples along one axis.
+// Number of samples along one axis.
 double countAlong(double length, double edge)
 {
   return std::ceil(length / edge) + 2.0 + 2.0 * kMargin;
@@ -102,7 +103,7 @@ double bytesAt(const Eigen::Vector3d& size, double edge)
          sizeof(float);
 }
 
-// A flat end of the mesh lies between two samples, not on one.
+// Offset by half a voxel, so that a flat end of the mesh lies between two samples.
 core::GridGeometry gridAt(const Eigen::Vector3d& lower, const Eigen::Vector3d& size, double edge)
 {
   const auto count = [&](Eigen::Index axis)
@@ -112,7 +113,7 @@ core::GridGeometry gridAt(const Eigen::Vector3d& lower, const Eigen::Vector3d& s
           lower - Eigen::Vector3d::Constant((kMargin + 0.5) * edge)};
 }
 
-// The smallest edge in [wanted, coarsest] that memory permits; its bytes fall as it grows.
+// The smallest edge in [wanted, coarsest] that memory permits; bytes decrease with the edge.
 double permitted(const Eigen::Vector3d& size, double wanted, double coarsest, double maxBytes)
 {
   if (bytesAt(size, wanted) <= maxBytes)
@@ -147,14 +148,15 @@ std::string farText(double reach)
          " mm beyond the CT, so a coordinate lost its point or is not in mm";
 }
 
-// Of a mesh, what the voxels in a box may depend on, with room for the wall across from one in it.
+// Box of the mesh on which the voxels in a box may depend, with room for the wall opposite to one
+// in it.
 Eigen::AlignedBox3d roundAbout(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
 {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant((upper - lower).norm());
   return {lower - margin, upper + margin};
 }
 
-// Raises voxels until none lies more than `most` below a neighbour along an axis.
+// Raises voxels until none is more than `most` below a neighbour along an axis.
 void limitSteps(Volume<float>& volume, float most)
 {
   const core::Index3& dims = volume.geometry().dims();
@@ -267,7 +269,7 @@ solidOf(const core::TriangleMesh& mesh, const MeshSolidPlan& plan, const core::P
   const core::Index3& dims = plan.grid.dims();
   const double band = kBand * edge;
 
-  // The row's voxels [first, last), of which `within` says whether they are inside.
+  // Voxels [first, last) of the row; `within` states which are inside.
   const auto fill = [&](int first, int last, int j, int k, const std::vector<char>& within)
   {
     const double reach = band + 0.5 * kRun * edge;
@@ -335,7 +337,7 @@ std::shared_ptr<const Volume<float>> protectionMaskOf(const Volume<float>& solid
   core::IndexBox box = grid.boxCovering(bounds.min(), bounds.max());
   if (box.empty())
     return nullptr;
-  for (std::size_t a = 0; a < 3; ++a) // room for what is raised to come down again
+  for (std::size_t a = 0; a < 3; ++a) // room for raised values to decrease again
   {
     box.lower[a] -= 2;
     box.upper[a] += 2;
@@ -357,9 +359,9 @@ std::shared_ptr<const Volume<float>> protectionMaskOf(const Volume<float>& solid
           guard->at(i, j, k) =
               from.hullContains(voxel) ? static_cast<float>(sampleTrilinear(solid, voxel)) : 0.0F;
         });
-  // Where a part is thinner than a voxel, all centres may lie outside it: the corners of the cell
-  // are raised by the least change (in squares) that puts the point right. Raising never undoes an
-  // earlier raise, so once over the points is enough.
+  // Where a part is thinner than a voxel, all centres may be outside it: the cell's corners are
+  // raised by the least-squares change that corrects the point. A raise never undoes an earlier
+  // one, so one pass over the points suffices.
   visit(from,
         [&](int i, int j, int k, const Eigen::Vector3d& patient)
         {

@@ -22,7 +22,7 @@ double squaredDistanceToEdge(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return (point - a - t * run).squaredNorm();
 }
 
-// Distance along the ray, or nothing. Edges belong to both triangles: none is missed between two.
+// Distance along the ray, or nullopt. Edges belong to both triangles, so no ray passes between two.
 std::optional<double> meeting(const Triangle& triangle, const Eigen::Vector3d& origin,
                               const Eigen::Vector3d& direction)
 {
@@ -108,7 +108,7 @@ double MeshTree::distance(const Eigen::Vector3d& point, double limit) const
   struct Pending
   {
     std::uint32_t node;
-    double squared; // a bound from below
+    double squared; // lower bound
   };
   const auto boundOf = [&](std::uint32_t node)
   { return m_nodes[node].box.squaredExteriorDistance(point); };
@@ -161,7 +161,7 @@ std::optional<MeshTree::Hit> MeshTree::firstAlong(const Eigen::Vector3d& origin,
       from = std::max(from, std::min(a, b));
       to = std::min(to, std::max(a, b));
     }
-    return from <= to + 1e-9 * (1.0 + std::abs(to)); // flat boxes: rounding must not lose them
+    return from <= to + 1e-9 * (1.0 + std::abs(to)); // tolerance for flat boxes
   };
   walk(meets,
        [&](std::size_t triangle)

@@ -13,10 +13,10 @@ namespace petrous::volume
 
 using Triangle = std::array<Eigen::Vector3d, 3>; // corners, patient LPS mm
 
-/// Distance of a point from a triangle, squared; a triangle without area is its edges.
+/// Squared distance of a point from a triangle; a degenerate triangle is treated as its edges.
 double squaredDistance(const Triangle& triangle, const Eigen::Vector3d& point) noexcept;
 
-/// Triangles in boxes in a binary tree, halved at the median. Immutable and thread-safe.
+/// Binary bounding-box tree of triangles, split at the median. Immutable and thread-safe.
 class MeshTree
 {
 public:
@@ -24,7 +24,7 @@ public:
 
   const std::vector<Triangle>& triangles() const noexcept { return m_triangles; }
 
-  /// Distance to the nearest triangle, mm; `limit` where none is nearer.
+  /// Distance to the nearest triangle, mm; `limit` if none is nearer.
   double distance(const Eigen::Vector3d& point, double limit) const;
 
   struct Hit
@@ -33,8 +33,7 @@ public:
     std::size_t triangle;
   };
 
-  /// The first triangle that the ray (unit direction) meets farther than `start` mm from its
-  /// origin.
+  /// The first triangle hit by the ray (unit direction) farther than `start` mm from its origin.
   std::optional<Hit> firstAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                 double start) const;
 
@@ -42,7 +41,7 @@ private:
   struct Node
   {
     Eigen::AlignedBox3d box;
-    std::uint32_t first = 0; // of m_order
+    std::uint32_t first = 0; // in m_order
     std::uint32_t count = 0; // 0: an inner node; its left child is the next one
     std::uint32_t right = 0;
   };
@@ -52,7 +51,7 @@ private:
   template <class Meets, class Visit>
   void walk(const Meets& meets, const Visit& visit) const
   {
-    std::array<std::uint32_t, 64> pending; // the tree of 2^32 triangles is 31 deep
+    std::array<std::uint32_t, 64> pending; // a tree of 2^32 triangles is 31 deep
     std::size_t count = 0;
     if (!m_nodes.empty())
       pending[count++] = 0;

@@ -14,20 +14,20 @@
 namespace petrous::presenters
 {
 
-/// What may hold the tool.
+/// An input device that can control the tool.
 struct InputDevice
 {
   enum class Kind : std::uint8_t
   {
-    Mouse, ///< the pointer in the window; always there
+    Mouse, ///< the window's pointer; always available
     SpaceMouse,
     Server ///< a vendor's device behind a device server
   };
   Kind kind = Kind::Mouse;
   std::string id = "mouse";      ///< for settings: letters, digits, '.', '-', '_'
-  std::string name;              ///< for people; empty for the mouse
-  std::string advice;            ///< why it cannot be used, one sentence; empty when it can
-  std::filesystem::path program; ///< of a server
+  std::string name;              ///< display name; empty for the mouse
+  std::string advice;            ///< why it cannot be used, one sentence; empty if it can
+  std::filesystem::path program; ///< of the server
 };
 
 inline bool operator==(const InputDevice& a, const InputDevice& b)
@@ -38,8 +38,8 @@ inline bool operator==(const InputDevice& a, const InputDevice& b)
 struct DeviceList
 {
   std::vector<InputDevice> devices{InputDevice()}; ///< the mouse first
-  bool pedal = false;              ///< one is plugged in and may be opened
-  std::string pedalAdvice;         ///< what to do about one that is plugged in; mostly empty
+  bool pedal = false;              ///< one is connected and can be opened
+  std::string pedalAdvice;         ///< what to do about an unusable one; usually empty
 };
 
 inline bool operator==(const DeviceList& a, const DeviceList& b)
@@ -47,39 +47,39 @@ inline bool operator==(const DeviceList& a, const DeviceList& b)
   return a.devices == b.devices && a.pedal == b.pedal && a.pedalAdvice == b.pedalAdvice;
 }
 
-/// Where hands are looked for.
+/// Where input devices are searched for.
 struct DeviceSources
 {
   std::shared_ptr<const devices::HidLibrary> hid; ///< null: no SpaceMouse, no pedal
   std::vector<std::filesystem::path> serverFolders;
 };
 
-/// What is there now. Asks the system, so it may take some tenths of a second; starts no server.
+/// The devices available now. Queries the system (some tenths of a second); starts no server.
 DeviceList findDevices(const DeviceSources& sources);
 
-/// A device that was taken into the hand, as the servo sees it. What senses no heading of its own
-/// (a SpaceMouse, a device of three axes) begins with the heading that the mouse's tool has, so
-/// that the shaft does not hide the burr.
+/// The device that controls the tool, as read by the servo. A device without orientation sensing
+/// (SpaceMouse, 3-DOF device) starts with the orientation of the mouse's tool, so that the shaft
+/// does not hide the burr.
 class ActiveDevice final : public haptics::Device
 {
 public:
   static constexpr std::uint32_t kDrill = 1;  ///< the device's first button drills
-  static constexpr std::uint32_t kClutch = 2; ///< its second one holds the tool still
+  static constexpr std::uint32_t kClutch = 2; ///< its second button holds the tool still
 
-  /// Waits until a server is ready (up to 10 s), or `wanted` says false. Throws
+  /// Waits until a server is ready (up to 10 s) or `wanted` returns false. Throws
   /// devices::ServerError, InvalidParameter.
   ActiveDevice(const DeviceSources& sources, const InputDevice& input, std::function<bool()> wanted = {});
-  ~ActiveDevice() override; ///< a server is ended: up to 0.7 s
+  ~ActiveDevice() override; ///< stops the server: up to 0.7 s
 
   const InputDevice& input() const noexcept { return m_input; }
 
-  /// Puts a pedal under it; not while a servo reads it. Again is as once.
+  /// Attaches a pedal; not while a servo reads the device. Idempotent.
   void setPedal(const std::shared_ptr<devices::Pedal>& pedal);
 
-  /// Why nothing comes, one sentence; empty while all is well. Not from the servo's thread.
+  /// Why no readings arrive, one sentence; empty if none is known. Not from the servo thread.
   std::string problem() const;
 
-  /// A speed leads it, so that there is no end to its way.
+  /// Rate-controlled, so its workspace is unbounded.
   bool endless() const noexcept { return m_input.kind == InputDevice::Kind::SpaceMouse; }
 
   const haptics::DeviceDescription& description() const noexcept override;

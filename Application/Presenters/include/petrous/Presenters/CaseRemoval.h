@@ -6,12 +6,12 @@
 namespace petrous::presenters
 {
 
-/// A burr in a case: what it meets there and how far it goes in, by the removal laws.
+/// The removal model of a burr in a case: tissue resistance and removal depth by the removal laws.
 struct CaseRemoval
 {
-  /// tissue  of the case, asked for f before any mask; must outlive this
+  /// tissue  of the case, evaluated before masking; must outlive this
   /// keep    structures that are not drilled
-  /// Throws InvalidParameter that names what is wrong.
+  /// Throws InvalidParameter naming the bad value.
   CaseRemoval(const scene::Case& value, const volume::TissueField& tissue,
               const dissection::ProtectedTissue& keep, const dissection::Burr& burr,
               const dissection::Catalogues& catalogues)

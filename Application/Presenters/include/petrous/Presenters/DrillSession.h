@@ -11,37 +11,37 @@
 namespace petrous::presenters
 {
 
-/// A case as the drill knows it: its field, what is left alone, and what a stroke removed.
+/// A case as seen by the drill: tissue field, protected tissue, and what a stroke removed.
 ///
 /// The case must have its dissection loaded and outlive the session; a change of its structures or
-/// surface threshold asks for a new session. One thread.
+/// surface threshold requires a new session. Not thread-safe.
 class DrillSession
 {
 public:
-  /// regional: what is left alone is worked out round the cuts (scene::protectedTissue): for who
-  /// drills little, in one thread. Throws CancelledError.
+  /// regional: protected tissue is computed only around the cuts (scene::protectedTissue): for
+  /// little drilling in a single thread. Throws CancelledError.
   explicit DrillSession(scene::Case& value, const core::Progress& progress = {},
                         bool regional = false);
 
-  /// One for a case with the same structures as that of `like` (a copy of it, which may be gone),
-  /// whatever its threshold and its cut; what was made of the structures is shared.
+  /// A session for a case with the same structures as that of `like` (a copy of it, which may be
+  /// gone), whatever its threshold and cut mask; what was derived from the structures is shared.
   DrillSession(scene::Case& value, const DrillSession& like);
 
-  /// The field as it stands now; follows the cut.
+  /// The current field; follows the cut mask.
   const volume::TissueField& field() const noexcept { return m_field; }
 
-  /// What the drill must leave.
+  /// Tissue that the drill must not remove.
   const dissection::ProtectedTissue& protectedTissue() const noexcept { return m_keep; }
 
-  /// Drill off: measures what the open stroke removed and lists it in the case. Null when there is
-  /// none, or it changed nothing.
+  /// Drill off: measures what the open stroke removed and adds it to the case's history. Returns
+  /// nullptr if none is open or it changed nothing.
   std::shared_ptr<const dissection::Stroke> end();
 
-  /// What the open stroke of a dissection of this case, or of a copy, has removed so far. Pure: of
-  /// what this holds it reads nothing that drilling changes, so that another thread may ask.
+  /// What the open stroke of a dissection of this case, or of a copy, has removed so far. Reads no
+  /// member that drilling changes, so other threads may call it.
   dissection::RemovedVolume measure(const dissection::Dissection& work) const;
 
-  /// The same by itself, also when this is gone.
+  /// `measure` as a function object that may outlive this.
   std::function<dissection::RemovedVolume(const dissection::Dissection&)> measurer() const;
 
 private:

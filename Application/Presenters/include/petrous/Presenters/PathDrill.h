@@ -14,13 +14,13 @@
 namespace petrous::presenters
 {
 
-/// Plays tool poses through device, proxy, force and cut, one tick after the other: the same poses
-/// give the same result to the last bit.
+/// Plays tool poses through device, proxy, force and removal, tick by tick: the same poses give a
+/// bit-identical result.
 ///
-/// Where the tool stands in tissue (a path that begins inside bone) nothing is felt, and a drill
-/// that is on takes what the burr sweeps, until the tool is free.
+/// While the tool is embedded in tissue (a path that begins inside bone) no force is rendered, and
+/// a running drill removes what the burr sweeps, until the tool is free.
 ///
-/// The scene must outlive this. One thread.
+/// The scene must outlive this. Not thread-safe.
 class PathDrill
 {
 public:
@@ -28,33 +28,33 @@ public:
   {
     TouchTool tool;
     dissection::Catalogues catalogues = dissection::Catalogues::builtIn();
-    std::optional<double> thrust;           ///< N: the tool is pressed on the surface with it
-    std::optional<core::CameraPose> camera; ///< noted with each stroke
-    std::filesystem::path recording;        ///< ticks and cuts are written there; empty: not
+    std::optional<double> thrust;           ///< N: presses the tool on the surface
+    std::optional<core::CameraPose> camera; ///< stored with each stroke
+    std::filesystem::path recording;        ///< file for ticks and cuts; empty: none
   };
 
   /// Throws InvalidParameter naming the first bad value, RecordingError.
   PathDrill(scene::Case& value, TouchScene& scene, const Options& options);
 
-  /// The servo's tick: what the hand feels at this pose. The record holds until the next tick.
+  /// The servo's tick: the force at this pose. The record is valid until the next tick.
   const simulation::TickRecord& feel(const dissection::ToolSample& sample) noexcept;
 
-  /// What follows it in the tissue: the drill's bite, a stroke's begin and end. Throws
-  /// RecordingError when the disk is full.
+  /// The tick's effect on the tissue: removal, begin and end of a stroke. Throws RecordingError if
+  /// the disk is full.
   void cut(const dissection::ToolSample& sample);
 
-  /// Drill off: closes the stroke that is open, and the recording. Throws RecordingError.
+  /// Drill off: closes the open stroke and the recording. Throws RecordingError.
   void end();
 
-  /// What the laws say of the drilling, and what went into them at the last tick.
+  /// The removal model's results, and its inputs at the last tick.
   const simulation::BurrRemovalModel& removal() const noexcept { return m_removal->removalModel; }
 
   double radius() const noexcept { return m_radius; } ///< mm, of the burr
 
-  /// mm^3 taken besides, where the tool stood in tissue: of that no law says anything.
+  /// mm^3 removed by sweeping while the tool was embedded in tissue, outside the removal laws.
   double swept() const noexcept { return m_sweptVolume; }
 
-  /// Null when there is none.
+  /// nullptr if nothing is recorded.
   const simulation::RecordingWriter* recording() const noexcept { return m_recording.get(); }
 
 private:
@@ -65,7 +65,7 @@ private:
   const dissection::Dissection& m_dissection;
   const volume::TissueField& m_tissue;
   double m_radius; // mm
-  bool m_turns;    // a burr that stands still takes nothing, wherever it is
+  bool m_turns;    // a burr that does not spin removes nothing, even when embedded
   std::unique_ptr<haptics::Proxy> m_proxy;
   simulation::Servo m_servo;
   std::unique_ptr<simulation::RecordingWriter> m_recording;
@@ -73,9 +73,9 @@ private:
   simulation::DissectionLoop m_loop;
   simulation::ServoParameters m_parameters;
   simulation::SurfaceApproach m_approach;
-  std::uint64_t m_approached = 0; // the mask's state that it looked at
+  std::uint64_t m_approached = 0; // the mask's state at the last approach
   simulation::TickRecord m_record;
-  std::optional<Eigen::Vector3d> m_swept; // where the drill was last in tissue, mm
+  std::optional<Eigen::Vector3d> m_swept; // where the drill was last embedded in tissue, mm
   std::vector<std::size_t> m_changed;     // bricks, while it sweeps
   double m_sweptVolume = 0.0;             // mm^3
 };

@@ -13,26 +13,25 @@
 namespace petrous::presenters
 {
 
-/// What there is at a place.
+/// Values at a point.
 struct PlaceReading
 {
-  std::optional<double> hounsfield;  ///< nothing outside the CT
-  std::string structure;             ///< that the place lies in; empty: none
-  std::optional<double> surface;     ///< mm to the nearest surface of tissue as it is drilled now,
-                                     ///< negative in tissue; nothing beyond kReach
-  std::optional<NearStructure> near; ///< the nearest that is shown, where the place lies in none;
-                                     ///< nothing beyond kReach
+  std::optional<double> hounsfield;  ///< none outside the CT
+  std::string structure;             ///< that contains the point; empty: none
+  std::optional<double> surface;     ///< mm to the nearest surface of the tissue as drilled,
+                                     ///< negative inside tissue; none beyond kReach
+  std::optional<NearStructure> near; ///< the nearest visible one unless in one; none beyond kReach
 };
 
-/// Reads a case at places, by the same rules as `petrous probe`. Holds for the tissue as it was at
-/// the construction: a cut asks for a new one. One thread.
+/// Evaluates a case at points, as `petrous probe` does. Valid for the tissue at construction:
+/// create a new one after drilling. Not thread-safe.
 class PointProbe
 {
 public:
-  static constexpr double kReach = 20.0; ///< mm, of the nearest surface
+  static constexpr double kReach = 20.0; ///< mm, search distance for the nearest surface
 
-  /// field  of the case, which must outlive this as the case must
-  /// Loads the labels and makes the voxels of meshes that have none yet, whatever their looks.
+  /// field  of the case; both must outlive this
+  /// Loads the labels and voxelizes meshes that have no voxels yet, visible or not.
   PointProbe(const scene::Case& value, const volume::TissueField& field);
 
   PlaceReading at(const Eigen::Vector3d& patient); ///< LPS mm

@@ -16,13 +16,13 @@
 namespace petrous::presenters
 {
 
-/// What a live tool drills, cut in a thread of its own on a fork of the case's dissection: that
-/// thread is the only one that writes the fork, and publishes its states to the servo. The case is
-/// not touched; `take` tells what happened, and simulation::follow brings the case there.
+/// Removal by a live tool, in a separate thread on a fork of the case's dissection: that thread is
+/// the fork's only writer and publishes its states to the servo. The case is not modified; `take`
+/// returns what happened, and simulation::follow applies it to the case.
 ///
-/// A recording holds each tick and each cut; what fails there ends the recording alone.
+/// A recording contains each tick and each cut; a recording failure ends only the recording.
 ///
-/// All is called from one thread, which never waits for a cut but in `stop`.
+/// Call from one thread, which waits for the removal only in `stop`.
 class TouchDissection
 {
 public:
@@ -30,10 +30,10 @@ public:
   {
     dissection::Burr burr;
     dissection::Catalogues catalogues;
-    bool cuts = true; ///< false: takes nothing and opens no stroke
-    std::unique_ptr<simulation::SessionRecorder> recorder; ///< null: nothing is recorded
-    /// Gets the fork, in its thread, before what it has new can be taken: at each step of the
-    /// history, and every kJournal in an open stroke. May be empty; what it throws ends the
+    bool cuts = true; ///< false: removes nothing and opens no stroke
+    std::unique_ptr<simulation::SessionRecorder> recorder; ///< nullptr: nothing is recorded
+    /// Receives the fork, in its thread, before its changes become available to `take`: at each
+    /// history step, and every kJournal in an open stroke. May be empty; an exception ends the
     /// session.
     std::function<void(const dissection::Dissection&)> journal;
   };
@@ -41,26 +41,26 @@ public:
 
   /// start   forked; scene.mask() must have been published from it
   /// ring    the servo's; it and the scene must outlive this
-  /// Throws InvalidParameter, or std::system_error without a thread.
+  /// Throws InvalidParameter, or std::system_error if no thread can be started.
   TouchDissection(const dissection::Dissection& start, TouchScene& scene,
                   simulation::SpscRing<simulation::TickRecord>& ring, Setup setup);
 
-  void setCamera(const core::CameraPose& camera); ///< noted with the strokes to come
+  void setCamera(const core::CameraPose& camera); ///< stored with the strokes to come
 
-  // Asked for: done after what the servo did until now (DissectionThread).
+  // Asynchronous: done after the servo ticks so far (DissectionThread).
   void undo() { m_thread.undo(); }
   void redo() { m_thread.redo(); }
 
   simulation::DissectionUpdate take() { return m_mailbox.take(); }
 
-  /// Why it cuts no more, one sentence, once; empty while it does.
+  /// Why removal has stopped, one sentence, reported once; empty while it works.
   std::string takeFailure() { return m_thread.takeFailure(); }
   bool failed() const noexcept { return m_thread.failed(); }
 
-  /// Cuts the rest of the ring, closes the stroke and the recording. Again is as once.
+  /// Processes the rest of the ring, closes the stroke and the recording. Idempotent.
   void stop();
 
-  /// Only after `stop`; null when there is none.
+  /// Only after `stop`; nullptr if nothing is recorded.
   const simulation::SessionRecorder* recording() const noexcept { return m_setup.recorder.get(); }
 
 private:
@@ -72,13 +72,13 @@ private:
   std::mutex m_mutex; // guards m_camera
   std::optional<core::CameraPose> m_camera;
   dissection::Dissection m_work;
-  std::uint64_t m_changes = 0; // of the fork, that the journal has
+  std::uint64_t m_changes = 0; // of the fork, as of the last journal entry
   std::chrono::steady_clock::time_point m_journalled;
   std::unique_ptr<CaseRemoval> m_removal;
   simulation::UpdateQueue m_mailbox;
   simulation::DissectionReporter m_reporter;
   simulation::DissectionLoop m_loop;
-  simulation::DissectionThread m_thread; // last: uses all the others
+  simulation::DissectionThread m_thread; // last: uses all others
 };
 
 } // namespace petrous::presenters

@@ -18,39 +18,38 @@
 namespace petrous::presenters
 {
 
-/// The tool in the hand and how it is held.
+/// A tool and its coupling.
 struct TouchTool
 {
   enum class Mode
   {
     SixDof,  ///< burr, shaft and handpiece, with torque [Chan2016]
-    ThreeDof ///< the burr alone, its centre held at the surface [Chan2013]
+    ThreeDof ///< the burr alone, its centre constrained to the surface [Chan2013]
   };
   dissection::Burr burr;
   Mode mode = Mode::SixDof;
   haptics::ProxyParameters coupling; ///< 1 N/mm and 20 N mm/rad by default
 };
 
-/// How such a tool is best tied to a hand that a set thrust presses, in newtons, and without one to
-/// a hand that presses by its way.
+/// Recommended coupling for a tool pressed with a given thrust, in newtons, or without one, by the
+/// device's displacement.
 haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double> thrust) noexcept;
 
-/// A case made ready for touch: its tissue field as a servo samples it, and the mask as the servo
-/// sees it. Made once for a case and its touchable structures; tools come and go.
+/// A case prepared for touch: its tissue field as sampled by a servo, and the mask as seen by the
+/// servo. Made once for a case and its touchable structures; tools come and go.
 ///
-/// The case must have its dissection loaded and outlive the scene. One thread, but for the field,
-/// which a servo thread may use.
+/// The case must have its dissection loaded and outlive the scene. Not thread-safe, except the
+/// field, which a servo thread may use.
 class TouchScene
 {
 public:
-  /// Reads the CT once (about a second for 512^3), and measures soft structures. `firstState` is
-  /// the number of the mask's state as the servo sees it: a session that is played again counts as
-  /// it did.
-  /// regional: see DrillSession. Throws CancelledError.
+  /// Reads the CT once (about a second for 512^3), and computes the distance fields of soft
+  /// structures. `firstState` is the number of the mask's state as seen by the servo: a replay
+  /// continues the recorded numbering. regional: see DrillSession. Throws CancelledError.
   explicit TouchScene(scene::Case& value, const core::Progress& progress = {},
                       std::uint64_t firstState = 0, bool regional = false);
 
-  /// The same with what is known of the case already.
+  /// The same, reusing what is known of the case.
   TouchScene(scene::Case& value, const DrillSession& drill, const core::Progress& progress = {},
              std::uint64_t firstState = 0);
 
@@ -58,43 +57,43 @@ public:
   const std::shared_ptr<volume::PublishedMask>& mask() const noexcept { return m_mask; }
   const std::shared_ptr<const haptics::HapticField>& field() const noexcept { return m_field; }
 
-  /// What a servo reads of the field, kept in memory while somebody holds this; the same for all.
+  /// What a servo reads of the field, locked in memory while any holder exists; shared.
   std::shared_ptr<const core::LockedMemory> lockedMemory() const;
 
-  /// Tells the servo of bricks that were changed by other means than drilling: undo, redo.
+  /// Publishes to the servo bricks changed by other means than drilling: undo, redo.
   void publish(const std::vector<std::size_t>& bricks);
 
-  /// Points on the tool for this scene's voxels, made once for each burr (about a second) and kept.
-  /// Throws InvalidParameter.
+  /// Point shell of the tool for this scene's voxels, cached per burr (about a second on first
+  /// use). Throws InvalidParameter.
   const haptics::PointShell& shellOf(const TouchTool& tool) const;
 
-  /// The tool held by the tissue. Throws InvalidParameter naming the first bad value.
+  /// The tool's proxy. Throws InvalidParameter naming the first bad value.
   std::unique_ptr<haptics::Proxy> proxyOf(const TouchTool& tool) const;
 
-  /// What a servo must know of that tool.
+  /// The servo's setup for that tool.
   simulation::ServoSetup servoOf(const TouchTool& tool) const;
 
-  /// What is felt here as it is now, to know it again. Reads every voxel (0.1 s for 512^3).
+  /// Fingerprint of what can be touched now. Reads every voxel (0.1 s for 512^3).
   simulation::RecordedScene fingerprint() const;
 
-  /// The head of a recording that begins now.
+  /// The header of a recording that begins now.
   /// servo  as the session has it
-  /// note   for people: what kind of session
+  /// note   for the reader: what kind of session
   simulation::RecordingSetup recordingOf(const TouchTool& tool, const simulation::ServoSetup& servo,
                                          const std::string& note) const;
 
-  /// What the burr removes, by the laws, in a `loop` of its own. `catalogues` say what it meets.
-  /// Loads what the case's tissues need. Throws InvalidParameter.
+  /// The burr's removal model, for a `loop` of its own, with resistances from `catalogues`. Loads
+  /// what the case's tissues need. Throws InvalidParameter.
   std::unique_ptr<CaseRemoval> removalOf(const dissection::Burr& burr,
                                          const dissection::Catalogues& catalogues) const;
 
-  /// What is known of a stroke that begins now; `camera` is asked where it is drilled from.
+  /// Metadata of a stroke that begins now; `camera` returns the viewpoint.
   static simulation::DissectionLoop::Begin
   beginOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
 
-  /// What a dissection loop that cuts the case's own dissection tells the case: strokes are opened
-  /// and listed as by a DrillSession, and the case goes through its list when one is undone or
-  /// redone. No loop that cuts a fork of it (TouchDissection) may have these.
+  /// Hooks for a dissection loop that cuts the case's own dissection: strokes are opened and added
+  /// to the history as by a DrillSession, and the case follows undo and redo. Not for a loop that
+  /// cuts a fork of it (TouchDissection).
   simulation::DissectionLoop::Hooks
   hooksOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
 

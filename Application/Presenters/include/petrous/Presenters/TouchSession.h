@@ -13,16 +13,16 @@
 namespace petrous::presenters
 {
 
-/// A tool in a live hand. The servo runs in one thread, and what it drills is cut in another
-/// (TouchDissection); the servo feels each cut through the scene's PublishedMask, however seldom
-/// pictures are drawn. The case is written by `advance` alone, once a picture: it follows what was
-/// cut until then. So all that reads the case in this thread reads it in peace, and a save holds
-/// the strokes that were closed until then.
+/// A live session with a tool. The servo runs in one thread, and removal runs in another
+/// (TouchDissection); the servo sees each cut through the scene's PublishedMask, whatever the frame
+/// rate. Only `advance` modifies the case, once per frame: it applies what was removed until then.
+/// So this thread can read the case without locking, and a save contains the strokes closed until
+/// then.
 ///
-/// A recording holds each tick and each cut; what fails there ends the recording alone. It begins
-/// with the session: for another tool, or a switch that is turned on later, there is a new session.
+/// A recording contains each tick and each cut; a recording failure ends only the recording. It
+/// begins with the session: another tool, or recording switched on later, needs a new session.
 ///
-/// Case, scene and device must outlive this. One thread.
+/// Case, scene and device must outlive this. Not thread-safe.
 class TouchSession
 {
 public:
@@ -30,13 +30,13 @@ public:
   {
     TouchTool tool;
     simulation::ServoParameters parameters;
-    Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: where the hand's origin is
-    /// The session is written there, so that it can be played again; empty: it is not.
+    Eigen::Vector3d center{0.0, 0.0, 0.0}; ///< patient mm: position of the device's origin
+    /// File to record the session to, for replay; empty: not recorded.
     std::filesystem::path recording;
     haptics::DeviceGuard::Limits guard;
     haptics::ForceLimits::Limits limits; ///< of the device
     std::optional<haptics::PassivityGuard::Parameters> passivity;
-    bool cuts = true; ///< false: takes nothing and opens no stroke, whatever asks for the drill
+    bool cuts = true; ///< false: removes nothing and opens no stroke, whatever requests the drill
     dissection::Catalogues catalogues = dissection::Catalogues::builtIn();
     std::function<void(const dissection::Dissection&)> journal; ///< see TouchDissection
   };
@@ -44,51 +44,52 @@ public:
   /// What happened since the last call.
   struct News
   {
-    std::optional<simulation::TickRecord> record; ///< the latest; nothing before the first tick
+    std::optional<simulation::TickRecord> record; ///< the latest; none before the first tick
     std::vector<std::size_t> bricks;              ///< of the mask that changed, sorted
-    std::vector<std::shared_ptr<const dissection::Stroke>> strokes; ///< closed; null: took nothing
-    std::vector<bool> steps;    ///< of the history; true: a stroke was undone, false: redone
-    std::string fault;          ///< the latest one, one sentence; empty while all is well
-    std::string recordingFault; ///< why the recording ended before the session; empty otherwise
-    std::string journalFault;   ///< why what is drilled is not on the disk; told once
-    std::string failure;        ///< why nothing is cut any more, told once; see `failed`
+    std::vector<std::shared_ptr<const dissection::Stroke>> strokes; ///< closed; nullptr: empty
+    std::vector<bool> steps;    ///< history steps; true: undo, false: redo
+    std::string fault;          ///< the latest, one sentence; empty if there is none
+    std::string recordingFault; ///< why the recording ended before the session; else empty
+    std::string journalFault;   ///< why the journal is not on the disk; reported once
+    std::string failure;        ///< why removal has stopped, reported once; see `failed`
   };
 
-  /// Makes the tool's points (up to some 1.5 s), unless they are given, and starts the servo.
-  /// Throws InvalidParameter naming the first bad value, RecordingError when the recording cannot
-  /// be begun, or std::system_error without a thread.
+  /// Makes the tool's point shell (up to about 1.5 s), unless cached, and starts the servo. Throws
+  /// InvalidParameter naming the first bad value, RecordingError if the recording cannot be begun,
+  /// or std::system_error if no thread can be started.
   TouchSession(scene::Case& value, TouchScene& scene, haptics::Device& device, const Setup& setup);
-  ~TouchSession(); ///< as stop
+  ~TouchSession(); ///< calls stop
   TouchSession(const TouchSession&) = delete;
   TouchSession& operator=(const TouchSession&) = delete;
 
-  /// Brings the case to what was drilled, undone and redone. Never waits for it.
+  /// Applies to the case what was drilled, undone and redone. Never blocks on removal.
   News advance();
 
-  /// For the ticks to come. Throws InvalidParameter.
+  /// For the following ticks. Throws InvalidParameter.
   void setParameters(const simulation::ServoParameters& parameters);
 
-  /// Noted with the strokes to come.
+  /// Stored with the strokes to come.
   void setCamera(const core::CameraPose& camera) { m_dissection.setCamera(camera); }
 
   bool drilling() const noexcept; ///< a stroke is open, as far as the case has followed
 
-  /// Asks for one stroke back or forth, the open one closed first; the tissue that comes back moves
-  /// the tool out. Told by the news, some milliseconds later; nothing is when there is none.
+  /// Requests undo or redo of one stroke, closing an open one first; restored tissue pushes the
+  /// tool out. Reported by News some milliseconds later, or not at all if there is nothing to undo
+  /// or redo.
   void undo() { m_dissection.undo(); }
   void redo() { m_dissection.redo(); }
 
-  /// The force falls, the servo ends (some 20 ms), what it drilled is cut, the stroke is closed and
-  /// the case is there. Again is as once.
+  /// Ramps down the force, ends the servo (about 20 ms), finishes the removal, closes the stroke
+  /// and brings the case up to date. Idempotent.
   News stop();
 
-  /// Nothing is cut any more. All that was cut until then comes with `stop`; then the scene is to
-  /// be made anew.
+  /// Removal has stopped. `stop` returns all that was removed until then; afterwards the scene must
+  /// be remade.
   bool failed() const noexcept { return m_dissection.failed(); }
 
   simulation::ServoThread::State state() const noexcept { return m_thread->state(); }
 
-  /// Only after `stop`; null when there is none.
+  /// Only after `stop`; nullptr if nothing is recorded.
   const simulation::SessionRecorder* recording() const noexcept { return m_dissection.recording(); }
 
 private:
@@ -98,7 +99,7 @@ private:
   simulation::Servo m_servo;
   simulation::SpscRing<simulation::TickRecord> m_ring;
   TouchDissection m_dissection;
-  std::unique_ptr<simulation::ServoThread> m_thread; // last: uses all the others
+  std::unique_ptr<simulation::ServoThread> m_thread; // last: uses all others
 };
 
 } // namespace petrous::presenters

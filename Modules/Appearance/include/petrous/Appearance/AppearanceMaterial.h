@@ -7,27 +7,27 @@
 namespace petrous::appearance
 {
 
-/// The values of presets are made for a calibrated CT, whose bone begins at 300 HU and is dense at
-/// 1800 HU. They are carried over linearly to where bone lies in the case's image, so that bone of
-/// a cone-beam or micro-CT looks the same at once:
+/// Preset values refer to a calibrated CT, where bone begins at 300 HU and is dense at 1800 HU.
+/// They are mapped linearly to the bone range of the case's image, so that bone of a cone-beam or
+/// micro-CT gets the same appearance:
 ///
 ///   v' = iso + (v - 300) (dense - iso) / (1800 - 300)
 ///
-/// Where dense is not above iso (a surface that somebody chose), iso + 1500 is taken for it.
+/// If dense <= iso (an iso value set by the user), dense = iso + 1500 is used.
 double onScale(double value, const volume::IntensityScale& scale) noexcept;
 TransferFunction onScale(const TransferFunction& transfer, const volume::IntensityScale& scale);
 
-/// Opacity of 1 mm inside a structure that has no transfer function and an opaque surface; with the
-/// opacity of the surface it becomes less in proportion.
+/// Opacity of 1 mm inside a structure that has no transfer function and an opaque surface; scaled
+/// by the opacity of the surface.
 constexpr float kPlainOpacity = 0.95F;
 
-/// The material of a look. Values given by a person are taken as they are, those of a preset on
-/// `scale`. A preset says nothing of MR: where such a look is to read one, it is drawn in one
-/// colour and reads nothing.
+/// The material of an appearance. User-defined values are used unchanged, preset values are mapped
+/// to `scale`. Presets are not defined for MR: with an MR as source image, a preset's material is a
+/// constant colour that reads no image.
 Material materialOf(const StructureAppearance& look, const volume::IntensityScale& scale = {});
 
-/// The material of a lumen: that of the bone around it, tinted by the lumen's opacity, so that its
-/// wall stays as opaque as bone is.
+/// The material of a lumen: that of the surrounding bone, tinted by the lumen's opacity, so that
+/// its wall remains as opaque as bone.
 Material lumenMaterial(const StructureAppearance& look, const Material& bone,
                        const volume::IntensityScale& scale = {});
 

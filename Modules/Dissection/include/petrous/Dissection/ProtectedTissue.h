@@ -12,7 +12,7 @@
 namespace petrous::dissection
 {
 
-/// Structures that the drill must leave: their smoothed unions (SmoothedUnion.h).
+/// Structures excluded from drilling, as smoothed unions (SmoothedUnion.h).
 class ProtectedTissue
 {
 public:
@@ -36,8 +36,8 @@ public:
   auto end() const noexcept { return m_occupancies.end(); }
   const std::vector<Occupancy>& occupancies() const noexcept { return m_occupancies; }
 
-  /// Whoever drills says so where, before the occupancies there are read: they may be worked out only
-  /// then (volume::RegionalUnion). Patient LPS mm.
+  /// To be called with the region before the occupancies there are read: they may be computed on
+  /// demand (volume::RegionalUnion). Patient LPS mm.
   void prepare(const core::PatientBox& box) const
   {
     if (m_prepare)

@@ -8,13 +8,13 @@ class vtkRenderer;
 namespace petrous::interaction
 {
 
-/// Where a renderer's camera is; the lens shift as rendering::ScenePicture sets it.
+/// Pose of a renderer's camera, with the lens shift as set by rendering::ScenePicture.
 core::CameraPose cameraOf(vtkRenderer& renderer);
 
-/// Through the centre of a pixel of the window, as VTK counts them: from the lower left corner.
-/// Perspective: from the eye; parallel: from the camera's plane. A patient that a prop's matrix
-/// moves in the world is not accounted for.
-/// Throws InvalidParameter for a camera that looks nowhere.
+/// Ray through the centre of a pixel of the window, in VTK display coordinates (origin at the lower
+/// left). Perspective: from the camera position; parallel: from the camera plane. A prop matrix
+/// that moves the patient in the world is not taken into account. Throws InvalidParameter if the
+/// camera has no viewing direction.
 PickRay pickRayThrough(vtkRenderer& renderer, double x, double y);
 
 } // namespace petrous::interaction

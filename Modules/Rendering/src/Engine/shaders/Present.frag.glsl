@@ -1,4 +1,5 @@
-// The rays' picture onto the window's: pixel by pixel where their sizes agree, else smoothly.
+// Copies the ray caster's picture to the window: texel by texel if the sizes agree, otherwise
+// linearly interpolated.
 
 in vec2 ndc;
 layout(location = 0) out vec4 outColor;

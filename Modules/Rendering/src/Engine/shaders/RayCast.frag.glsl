@@ -1,38 +1,38 @@
-// One ray a pixel through CT, labels, mask and a second image in lock step [Chan2013, 2.2]; the
-// states, surfaces and integrals are those of OpticalModel.h.
+// Casts one ray per pixel through CT, labels, mask and a second image simultaneously [Chan2013,
+// 2.2]; states, surfaces and integrals are defined in OpticalModel.h.
 //
-// Nested loops: the inner ones only sample, leaping over empty bricks, until the ray's state changes;
-// the outer one refines that change, takes the normal and lights it. There are two inner ones, for
-// bricks where only the CT counts and for the others, because a processor that runs pixels in lock
-// step pays for what a branch passes over, but not for a loop that nobody enters again. Positions are
-// in voxels of the CT (0 at the first centre), distances from the eye in mm.
+// Nested loops: the inner ones only sample, skipping empty bricks, until the ray's state changes;
+// the outer one refines that change, computes the normal and shades it. There are two inner loops,
+// for bricks where only the CT matters and for the others, because SIMT hardware pays for a branch
+// not taken by a pixel, but not for a loop that no pixel enters. Positions are in CT voxels (0 at
+// the first centre), distances from the camera in mm.
 //
-// Last part of the fragment shader, after RayScene.glsl (textures, uniforms, features), RayClip.glsl,
-// RayOptics.glsl and RayMarch.glsl.
+// Last part of the fragment shader, after RayScene.glsl (textures, uniforms, features),
+// RayClip.glsl, RayOptics.glsl and RayMarch.glsl.
 
-// Where a state gives way to another.
+// Bracket of a change of state.
 struct Bracket
 {
   float low;
   float high;
   vec3 atLow; // operands
   vec3 atHigh;
-  vec2 weight; // of the ends
+  vec2 weight; // weights of the ends
   float hit;
-  int state; // there
+  int state; // at `hit`
   bool open;
 };
 
-// The operand that decides between the ray's state and the next, at an end.
+// Operand at an end that decides between the ray's state and the next.
 float deciding(Ray ray, vec3 operands)
 {
   return ray.state != kAir && ray.next != kAir ? operands.y : fieldOf(operands);
 }
 
-// By a few false positions, the value of an end that stays being halved (the Illinois rule); bisected
-// where that does not find it (next to what is no number), where nothing crosses 0 (between two
-// structures) and where an end is not known. `plain`: only the CT counts there. The ray's operands and
-// next state become those of the last place.
+// A few steps of false position with the Illinois modification, then bisection: where false
+// position fails (next to NaN), where nothing crosses 0 (between two structures) and where an end
+// is unknown. `plain`: only the CT matters there. The ray's operands and next state become those of
+// the last position.
 void narrow(inout Bracket bracket, inout Ray ray, const bool plain)
 {
   int sided = 0;
@@ -62,16 +62,16 @@ void narrow(inout Bracket bracket, inout Ray ray, const bool plain)
       ray.next = bracket.state;
     }
     sided = before ? -1 : 1;
-    bool met = abs(deciding(ray, here)) <= kOnSurface; // not with what is no number
+    bool met = abs(deciding(ray, here)) <= kOnSurface; // never with NaN
     bracket.open = !met && bracket.high - bracket.low > 1.0 / 256.0;
   }
 }
 
-// Goes back from the last sample to where the state changes; the ray's operands and next state become
-// those of that place. `plain`: only the CT counts there.
+// Locates the change of state before the last sample; the ray's operands and next state become
+// those at that position. `plain`: only the CT matters there.
 float changePoint(inout Ray ray, const bool plain)
 {
-  bool aside = ray.s < ray.before; // found where a wall was thought to be
+  bool aside = ray.s < ray.before; // found by the search for a thin wall
   Bracket bracket;
   bracket.low = aside ? ray.s - 1.0 : max(ray.s - 1.0, ray.before);
   bracket.high = ray.s;
@@ -94,7 +94,8 @@ float changePoint(inout Ray ray, const bool plain)
     ray.at.left = here.z + 0.5;
   }
 #if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
-  // Just before the surface the operands tell what begins there; it need not go on to `high`.
+  // The operands just in front of the surface determine what begins there; it may end before
+  // `high`.
   if (!plain && bracket.state == ray.state && ray.next != kAir && ray.state <= kBone)
   {
     bool structure = ray.state == kBone || ray.at.occupancy > kOccupancyThreshold;
@@ -109,7 +110,7 @@ float changePoint(inout Ray ray, const bool plain)
   return bracket.hit;
 }
 
-// The material of a surface at a position, on the way from one state to the next.
+// Material of a surface at a position, at the transition from one state to the next.
 int materialAt(vec3 v, Operands at, int state, int next)
 {
 #ifdef PETROUS_LABELS
@@ -136,14 +137,14 @@ void setMaterial(inout Ray ray, int material)
   ray.more = texelFetch(materialTexture, ivec2(1, material), 0);
 }
 
-// Lights the surface at `hit`; `facing` below 0: take the normal of the operand that decides.
+// Shades the surface at `hit`; `facing` < 0: use the normal of the deciding operand.
 void shade(inout Ray ray, vec3 v, float hit, float facing)
 {
   Operands at = ray.at;
   vec3 slopeMm = vec3(0.0);
   float along = 0.0;
 #ifdef PETROUS_NESTED
-  bool between = ray.state >= kStructure; // two structures
+  bool between = ray.state >= kStructure; // between two structures
   vec3 borderSlope = indexGradient(labelPosition(v), ray.material, between);
   if (between)
   {
@@ -193,7 +194,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec3 below = v;
   if (facing < 0.0)
   {
-    facing = 1.0; // a flat field faces the eye
+    facing = 1.0; // zero gradient: facing the camera
     if (size > 1e-12)
     {
       facing = min(abs(along) / size, 1.0);
@@ -209,7 +210,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   ray.transmittance *= 1.0 - ray.row.z;
 }
 
-// Through a change of state. `facing`: see shade.
+// Passes a change of state. `facing`: see shade.
 int pass(inout Ray ray, float hit, float facing, inout float depth)
 {
   vec3 v = positionOf(ray, hit);
@@ -227,15 +228,15 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
 #ifdef PETROUS_INTERIOR
   if (ray.transmittance < ray.gathering.enough)
     return kEnd;
-  // The state says what fills it, not the surface: a lumen's look belongs to the wall only, and
-  // between two structures the other's voxels may begin just behind the hit.
+  // The state determines the material inside, not the surface: a lumen's material applies to its
+  // wall only, and between two structures the voxels of the other may begin just behind the hit.
   int inside = max(ray.next - kStructure, 0);
   if (ray.next != kAir && ray.material != inside)
     setMaterial(ray, inside);
   ray.value = valueAt(ray, hit, ray.at.value);
   ray.state = ray.next;
   ray.before = hit;
-  ray.number = floor(hit); // the sample behind it is taken again in the new state
+  ray.number = floor(hit); // the next sample is taken again in the new state
   ray.passed = kUnknown;
   ray.height = vec2(kNever);
   ray.summit = 0.0;
@@ -246,9 +247,9 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
 }
 
 #ifdef PETROUS_INTERIOR
-// From change to change, to the ray's end. Changes where only the CT counts are met in the inner loop:
-// what the other bricks cost, pixels in lock step pay each time that one of them comes to such bricks,
-// and not at every change.
+// From change to change, to the ray's end. Changes where only the CT matters are handled in the
+// inner loop: on SIMT hardware the cost of the other bricks is then paid when a pixel reaches such
+// bricks, and not at every change.
 void follow(inout Ray ray, int outcome, float facing, inout float depth)
 {
   float hit = 0.0;
@@ -281,7 +282,7 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
   }
 }
 #else
-// To the first surface, which ends the ray.
+// Up to the first surface, which ends the ray.
 void follow(inout Ray ray, int outcome, float facing, inout float depth)
 {
   float hit = 0.0;
@@ -299,7 +300,7 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
   {
     if (plain)
       hit = changePoint(ray, true);
-    else if (facing < 0.0) // not on the border of what is drawn
+    else if (facing < 0.0) // not on the border of the drawn region
       hit = changePoint(ray, false);
     pass(ray, hit, facing, depth);
   }
@@ -352,12 +353,12 @@ void main()
   ray.transmittance = 1.0;
   ray.at = operandsAt(ray.ways, 0.0, false);
   ray.next = alive ? stateOf(ray.at, ray.ways, 0.0, false) : kAir;
-  bool face = ray.next != kAir; // it enters tissue through the border of what is drawn
+  bool face = ray.next != kAir; // enters tissue through the border of the drawn region
   if (alive)
     follow(ray, face ? kChange : kOn, face ? span.facing : -1.0, outDepth);
 
 #ifdef PETROUS_INTERIOR
-  // What it did not go on to see is taken to look like what it saw, in the light that is there.
+  // The rest is assumed to look like what was seen, with the light there.
   if (ray.transmittance < ray.gathering.enough)
   {
     float reached = reaches(ray.gathering, ray.nearest + ray.before);

@@ -1,4 +1,4 @@
-// One triangle over the whole picture; no buffers.
+// A full-viewport triangle without vertex buffers.
 out vec2 ndc;
 
 void main()

@@ -1,12 +1,12 @@
-// Where a ray enters the part of the volume that is drawn, and where it ends. Second part of the ray
+// Where a ray enters the drawn part of the volume, and where it ends. Second part of the ray
 // caster's fragment shader; see RayCast.frag.glsl.
 
-// Of the distance, some roundings of it: between faces that meet nothing is left, not what the digits
-// of two numbers differ by.
+// Relative to the distance, a few rounding errors: shorter spans are empty, e.g. between touching
+// faces.
 const float kThinnest = 2e-6;
 
-// Where the ray enters the part of the volume that is drawn, where it leaves, and how the face that
-// it enters through looks at it.
+// Distances at which the ray enters and leaves the drawn part of the volume, and the cosine between
+// the ray and the normal of the entry face.
 struct Span
 {
   float first;
@@ -21,7 +21,7 @@ Span clipRay(vec3 o, vec3 d)
   vec3 b = (boxUpper - o) / safe;
   vec3 enter = min(a, b);
   vec3 leave = max(a, b);
-  // Along an axis that the ray does not move on, it is inside always or never.
+  // Along an axis on which the ray does not move it is either always or never inside.
   bvec3 still = lessThanEqual(abs(d), vec3(1e-20));
   bvec3 inside = lessThanEqual(abs(2.0 * o - boxLower - boxUpper), boxUpper - boxLower);
   enter = mix(enter, mix(vec3(1e30), vec3(-1e30), inside), still);
@@ -29,7 +29,7 @@ Span clipRay(vec3 o, vec3 d)
   Span span;
   span.first = max(max(enter.x, enter.y), max(enter.z, 0.0));
   span.last = min(min(leave.x, leave.y), leave.z);
-  span.facing = 1.0; // the eye is inside
+  span.facing = 1.0; // the camera is inside
   vec3 along = abs(d) / vec3(length(normalFromVoxel[0]), length(normalFromVoxel[1]),
                              length(normalFromVoxel[2]));
   if (span.first > 0.0)

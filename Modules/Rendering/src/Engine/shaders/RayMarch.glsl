@@ -1,29 +1,29 @@
-// The way of a ray from one change of its state to the next. Fourth part of the ray caster's fragment
+// March of a ray from one change of state to the next. Fourth part of the ray caster's fragment
 // shader; see RayCast.frag.glsl.
 //
-// Places on a ray (s) are in steps from where it enters; samples lie on whole steps, whatever is leapt
-// over.
+// Positions on a ray (s) are in steps from its entry; samples lie on whole steps, also after
+// skipping.
 
 struct Ray
 {
-  vec3 direction; // voxels a mm
+  vec3 direction; // voxels per mm
   Way voxel;      // voxels of the CT
   Way brick;      // bricks
   vec3 perBrick;  // steps from wall to wall
-  vec3 ahead;     // the way it crosses bricks: 1, 0 or -1 along each axis
-  vec3 behind;    // from a brick's lower corner to its wall on that side
-  vec3 never;     // far, along an axis that it does not move on
+  vec3 ahead;     // direction across bricks: 1, 0 or -1 along each axis
+  vec3 behind;    // from a brick's lower corner to its exit wall
+  vec3 never;     // large along an axis on which the ray does not move
   Ways ways;
-  float first; // mm from the eye to where it enters
-  float last;  // where it ends
+  float first; // mm from the camera to the entry
+  float last;  // end of the ray
   float number; // of the last sample
-  float before; // up to here it is done, and tissue is gathered
+  float before; // position up to which the ray is done and tissue is accumulated
   float s;      // of the last sample
-  vec2 height;  // see nearness: of the last two samples, the older first; kNever: not known
-  vec3 passed;  // operands a step before s; kUnknown: not known
-  float summit; // where a wall may hide between samples; 0: nowhere
-  float aside;  // how far from there the next samples are
-  float top;    // the greatest nearness seen there
+  vec2 height;  // nearness of the last two samples, older first; kNever: unknown
+  vec3 passed;  // operands one step before s; kUnknown: unknown
+  float summit; // expected position of a thin wall between samples; 0: none
+  float aside;  // offset of the next samples from it
+  float top;    // maximum of nearness found there
   int state;
   int next; // state at the last sample
   Operands at;
@@ -32,9 +32,9 @@ struct Ray
   vec4 more;
 #ifdef PETROUS_INTERIOR
   Gathering gathering;
-  float nearest; // where it enters, steps from the eye
-  float value;   // that its material reads where it is done
-  float lit;     // of the lamp's light, how much that got which the colour is of
+  float nearest; // entry, steps from the camera
+  float value;   // intensity of its material at `before`
+  float lit;     // opacity weighted by the attenuation of the light
 #endif
   vec3 color;
   float transmittance;
@@ -58,13 +58,13 @@ float fieldOf(vec3 at)
   return min(max(at.x, at.y), at.z);
 }
 
-// The operands of f, each so that it crosses 0.
+// The operands of f, each offset to cross 0 at its surface.
 vec3 operandsOf(Operands at)
 {
   return vec3(at.ct, at.occupancy - 0.5, at.left - 0.5);
 }
 
-// Of a place in a state: rises above 0 where another one begins.
+// Measure of the distance to another state: becomes positive where one begins.
 float nearness(int state, vec3 at, float margin, const bool plain)
 {
   float field = plain ? at.x : fieldOf(at);
@@ -73,8 +73,9 @@ float nearness(int state, vec3 at, float margin, const bool plain)
   return plain ? -field : max(-field, state == kBone ? at.y : -min(at.y, margin));
 }
 
-// A thin wall can lie between two samples in air, a gap between two in tissue. Three heights with the
-// highest in the middle (at s) tell where, by a parabola's summit, and whether it may reach 0.
+// A thin wall can lie between two samples in air, a gap between two in tissue. From three heights
+// with the highest in the middle (at s): the vertex of their parabola if it may reach 0, otherwise
+// 0.
 float summitOf(float s, vec3 height)
 {
   float bend = 2.0 * height.y - height.x - height.z;
@@ -84,7 +85,7 @@ float summitOf(float s, vec3 height)
   return near ? s + offset : 0.0;
 }
 
-// What the ray's material reads where the CT has a value.
+// Intensity for the ray's material, given that of the CT.
 float valueAt(Ray ray, float s, float value)
 {
 #ifdef PETROUS_SECOND
@@ -95,13 +96,13 @@ float valueAt(Ray ray, float s, float value)
 }
 
 #ifdef PETROUS_INTERIOR
-// The stretch of tissue from where it is done up to a place where the CT has a value. `bulge`: how
-// far the CT lies, half way there, above the mean of both ends. The intensity is taken to run on a
-// parabola; two thirds of that lift both ends of a straight line to the same mean (Simpson's rule).
+// Accumulates the tissue from `before` to a position where the CT has a value. `bulge`: CT at half
+// way minus the mean of both ends. The intensity is assumed to be parabolic; raising both ends of a
+// linear profile by two thirds of the bulge gives the same mean (Simpson's rule).
 void passTissue(inout Ray ray, float to, float value, float bulge)
 {
   float reads = valueAt(ray, to, value);
-  bulge = ray.more.y > 0.5 ? 0.0 : bulge; // of the second image nothing is read half way
+  bulge = ray.more.y > 0.5 ? 0.0 : bulge; // the second image is not sampled half way
   gather(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
          ray.nearest + 0.5 * (ray.before + to), vec2(ray.value, reads) + 0.66666667 * bulge,
          ray.color, ray.lit, ray.transmittance);
@@ -109,21 +110,21 @@ void passTissue(inout Ray ray, float to, float value, float bulge)
 }
 #endif
 
-// How a ray goes on.
+// How the march continues.
 const int kOn = 0;
-const int kOtherBricks = 1; // the next sample is for the other inner loop
-const int kWideChange = 2;  // a change that lies between bricks of both kinds
+const int kOtherBricks = 1; // the next sample belongs to the other inner loop
+const int kWideChange = 2;  // a change across bricks of both kinds
 const int kChange = 3;
 const int kEnd = 4;
 
-// Samples inside one brick.
+// Samples within one brick.
 struct Run
 {
   float last;
   float stride;
 };
 
-// Leaps over what is empty, to the brick of the next sample. `plain`: only the CT counts there.
+// Skips empty bricks up to the brick of the next sample. `plain`: only the CT matters there.
 int seek(inout Ray ray, out Run run, const bool plain)
 {
   vec3 lastBrick = vec3(textureSize(brickTexture, 0) - 1);
@@ -144,7 +145,7 @@ int seek(inout Ray ray, out Run run, const bool plain)
     vec3 crossed = (wall - ray.brick.from) * ray.perBrick + ray.never;
     leave = min(min(crossed.x, crossed.y), crossed.z);
     leaps = away > 0.0 && next < ray.last + 1.0;
-    next = leaps ? max(next + 1.0, ceil(leave - 1e-3)) : next; // to behind the wall
+    next = leaps ? max(next + 1.0, ceil(leave - 1e-3)) : next; // past the wall
     leapt = leapt || leaps;
   } while (leaps);
   if (leapt)
@@ -168,10 +169,10 @@ int seek(inout Ray ray, out Run run, const bool plain)
   return ray.number < ray.last ? outcome : kEnd;
 }
 
-// The samples of a run, until the state changes. Two a turn, which do not wait for each other; where
-// both stay in the state, tissue is gathered over both at once. Where a wall may hide, both are taken
-// beside the likeliest place, seven times, each time nearer to the best so far, before the next two.
-// `from`: where bricks of this kind begin.
+// Takes the samples of a run until the state changes. Two independent samples per iteration; if
+// both stay in the state, tissue is accumulated over both at once. Where a thin wall is suspected,
+// both are first taken on either side of the most likely position, seven times, each time closer to
+// the best so far. `from`: where bricks of this kind begin.
 int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 {
   bool inAir = ray.state == kAir;
@@ -183,7 +184,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
     float n1 = min(ray.number + run.stride, run.last);
     float n2 = min(n1 + run.stride, run.last);
     float s1 = aside ? max(ray.summit - ray.aside, from) : min(n1, ray.last);
-    float most = plain ? max(min(run.last, ray.last), ray.summit) : ray.last; // the next brick's kind?
+    // The next brick may be of the other kind.
+    float most = plain ? max(min(run.last, ray.last), ray.summit) : ray.last;
     float s2 = aside ? min(ray.summit + ray.aside, most) : min(n2, ray.last);
     Operands at1 = operandsAt(ray.ways, s1, plain);
     Operands at2 = operandsAt(ray.ways, s2, plain);
@@ -194,7 +196,7 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
     bool changes = changes1 || next2 != ray.state;
     bool passes = !aside && !changes;
     bool both = passes && n1 != n2;
-    bool one = !aside && !changes1 && !both; // the second changes, or is the same place
+    bool one = !aside && !changes1 && !both; // the second changes, or coincides
 
     vec3 operands1 = operandsOf(at1);
     vec3 operands2 = operandsOf(at2);
@@ -235,7 +237,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
   return outcome;
 }
 
-// Samples bricks of one kind until the state changes; ends with a bracket of where (see changePoint).
+// Samples bricks of one kind until the state changes; ends with a bracket of the change (see
+// changePoint).
 int marchIn(inout Ray ray, const bool plain)
 {
   float from = plain ? ray.number + 1.0 : 0.0;
@@ -251,7 +254,7 @@ int marchIn(inout Ray ray, const bool plain)
   if (plain && outcome == kChange && ray.s - 1.0 < from)
     outcome = kWideChange;
 #endif
-  if (plain) // height is all that it kept
+  if (plain) // only the height was kept
     ray.passed = ray.height.y < kNever
                      ? vec3(ray.state == kAir ? ray.height.y : -ray.height.y, -0.5, 0.5)
                      : kUnknown;

@@ -1,4 +1,4 @@
-// What tissue looks like, as OpticalModel.h has it: light, surfaces, and the integral along a stretch
+// Tissue appearance as defined in OpticalModel.h: light, surfaces, and the integral along a segment
 // of one tissue. Third part of the ray caster's fragment shader; see RayCast.frag.glsl.
 
 float lightAt(float t)
@@ -7,7 +7,7 @@ float lightAt(float t)
   return light.x / (1.0 + ratio * ratio);
 }
 
-// Intensity that a material reads.
+// Intensity used by a material.
 float intensityAt(vec3 v, vec4 more)
 {
 #ifdef PETROUS_SECOND
@@ -26,7 +26,7 @@ float rowCoordinate(int material)
   return (float(material) + 0.5) / float(textureSize(materialTexture, 0).y);
 }
 
-// What takes the place of bone's own colour, and whether anything does (a).
+// Colour that replaces bone's own; a: 1 if it does, otherwise 0.
 vec4 overlayAt(vec3 v)
 {
 #ifdef PETROUS_THICKNESS
@@ -61,14 +61,14 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
 }
 
 #ifdef PETROUS_INTERIOR
-// What the integral along a ray needs, worked out once.
+// Per-ray constants of the volume integral.
 struct Gathering
 {
   float lastEntry; // of the tables
-  float exponent;  // log2 of what is left behind a step of extinction 1/mm
-  float lamp;      // that lights the inside of tissue, near the eye
-  float dimming;   // 1 / steps, with the lamp's falloff
-  float enough;    // transmittance at which a ray ends
+  float exponent;  // log2 of the transmittance of a step with extinction 1/mm
+  float lamp;      // light inside tissue, near the camera
+  float dimming;   // 1 / steps, from the light's falloff
+  float enough;    // transmittance at which a ray terminates
 };
 
 Gathering makeGathering()
@@ -82,30 +82,30 @@ Gathering makeGathering()
   return g;
 }
 
-// Share of the lamp's light so many steps away from it.
+// Attenuation of the light at a distance in steps.
 float reaches(Gathering g, float steps)
 {
   float dim = steps * g.dimming;
   return 1.0 / (1.0 + dim * dim);
 }
 
-// Integrals up to an entry.
+// Cumulative integrals up to a table entry.
 vec4 integralAt(int material, float entry)
 {
   COUNT(1);
   return texelFetch(depthTexture, ivec2(int(entry), material), 0);
 }
 
-// The nearest of the table's intensities: a difference of two entries is then exact between them.
+// Nearest table entry, so that the difference of two entries is exact.
 float entryOf(vec4 row, Gathering g, float value)
 {
   return floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry) + 0.5);
 }
 
-// Adds `steps` of one tissue, round `middle` steps from the lamp, over which the intensity goes from
-// one value to another, to what the ray has gathered; `lit`: how much of the lamp's light that got.
-// The mean over the intensities in between is a difference of integrals, never over less than an
-// entry.
+// Accumulates a segment of one tissue, `steps` long and centred at `middle` steps from the light,
+// over which the intensity changes from values.x to values.y. `lit` accumulates the opacity
+// weighted by the light's attenuation. The mean over the intensities in between is a difference of
+// cumulative integrals, over at least one entry.
 void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2 values,
             inout vec3 color, inout float lit, inout float transmittance)
 {

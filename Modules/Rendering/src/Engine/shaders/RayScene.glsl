@@ -1,29 +1,29 @@
-// The scene that rays are cast through: its textures and uniforms, the tissue field at a position and
-// its gradients. First part of the ray caster's fragment shader; see RayCast.frag.glsl.
+// The scene: textures and uniforms, the tissue field at a position and its gradients. First part of
+// the ray caster's fragment shader; see RayCast.frag.glsl.
 //
-// Compiled with the features that the scene uses (PETROUS_*): what is not defined is not fetched.
-//   BONE       the CT's own surface            MASK     the cut
-//   LABELS     structures                      SECOND   a second image for some materials
-//   BORDERS    structures that touch           NESTED   structures can be looked into
-//   INTERIOR   tissue can be looked into       CLIP     clipping planes
+// Compiled with the features that the scene uses (PETROUS_*); undefined features are not fetched.
+//   BONE       the CT's isosurface            MASK     the cut mask
+//   LABELS     structures                     SECOND   a second image for some materials
+//   BORDERS    touching structures            NESTED   translucent structures
+//   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
-// Before it stand the numbers that the C++ states (RayShader.cpp): kMostPlanes, kInteriorFacing,
-// kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h), kThicknessColors
-// (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting, kDeepest,
-// kMarginPerDepth (LabelBorders.h).
+// Preceded by the constants that the C++ code defines (RayShader.cpp): kMostPlanes,
+// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
+// kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
+// kDeepest, kMarginPerDepth (LabelBorders.h).
 //
-// Textures (linear unless named otherwise):
+// Textures (linear filtering unless stated otherwise):
 //   ctTexture      R16 / R16_SNORM / R32F, value = texel * ctUnit
-//   maskTexture    R8 or R16, 1 untouched, 0 gone, the CT's grid
+//   maskTexture    R8 or R16, 1 untouched, 0 removed, the CT's grid
 //   occupancyTexture   R16, smoothed union of solid structures, own grid
-//   indexTexture   R8UI, nearest, the same grid: row of the material; with BORDERS RG8UI, the second
-//                  as LabelField::borders
+//   indexTexture   R8UI, nearest, grid of occupancyTexture: row of the material; with BORDERS
+//                  RG8UI, the second channel as LabelField::borders
 //   secondTexture  as ctTexture, own grid
-//   brickTexture   RGBA8UI, nearest, a texel a brick: distances to tissue, inside; flags
+//   brickTexture   RGBA8UI, nearest, one texel per brick: distances to tissue, inside; flags
 //   lookTexture    RGBA16F, row = material, over its intensities: colour, specular
-//   depthTexture   RGBA32F, nearest, row = material: integrals over its intensities of extinction * colour
-//                  and of extinction (1/mm)
+//   depthTexture   RGBA32F, nearest, row = material: integrals over its intensities of
+//                  extinction * colour and of extinction (1/mm)
 //   materialTexture RGBA32F, nearest, 2 x rows: (first intensity, 1 / range, surface opacity,
 //                  shininess), (lumen, reads the second image, -, -)
 //   thicknessTexture R16_SNORM, mm to a structure = texel * thicknessUnit, own grid
@@ -31,7 +31,7 @@
 
 in vec2 ndc;
 layout(location = 0) out vec4 outColor; // premultiplied
-layout(location = 1) out float outDepth; // mm to the first surface, -1 none
+layout(location = 1) out float outDepth; // mm to the first surface; -1: none
 #ifdef PETROUS_COUNT
 layout(location = 2) out vec2 outCount; // fetches, samples
 #endif
@@ -42,15 +42,15 @@ uniform sampler2D lookTexture;
 uniform sampler2D materialTexture;
 uniform sampler2D opaqueTexture;
 
-// Rays: origin and direction are affine in the pixel; direction in mm has the length `toMm`.
+// Rays: origin and direction are affine in the pixel; the length of the direction in mm is `toMm`.
 uniform vec3 originCenter, originX, originY;
 uniform vec3 directionCenter, directionX, directionY;
-uniform vec3 viewCenter, viewX, viewY; // the same direction in the eye's frame, mm
+uniform vec3 viewCenter, viewX, viewY; // the same direction in view coordinates, mm
 uniform vec4 opaqueDepth; // w = y / (z + x) perspective; z + w * ndc parallel; see opaqueEnd
 uniform bool hasOpaque;
 uniform bool parallel;
 
-uniform vec3 boxLower, boxUpper; // voxels that are drawn
+uniform vec3 boxLower, boxUpper; // drawn voxels
 uniform vec3 hullUpper;          // dims - 1
 uniform vec3 ctScale, ctOffset;  // voxel -> texture coordinate
 uniform float ctUnit;
@@ -58,7 +58,7 @@ uniform float iso, perUnit; // intensity; 1 / scale of c_CT
 uniform float brickEdge;
 uniform float stepLength; // mm
 uniform int bisections;
-uniform float termination; // transmittance at which a ray ends
+uniform float termination; // transmittance at which a ray terminates
 uniform mat3 normalFromVoxel; // gradient over voxels -> gradient over mm
 uniform mat3 voxelFromMm;
 uniform float colorDepth; // mm
@@ -77,7 +77,7 @@ uniform mat3 labelFromVoxel;
 uniform vec3 labelOrigin;
 uniform vec3 labelUpper; // dims - 1
 uniform vec3 labelScale, labelOffset; // label voxel -> texture coordinate of the occupancy
-uniform vec3 labelBlock;              // label voxels a texel
+uniform vec3 labelBlock;              // label voxels per texel
 uniform mat3 normalFromLabel;
 #endif
 #ifdef PETROUS_SECOND
@@ -102,22 +102,22 @@ uniform sampler2D depthTexture;
 #endif
 #ifdef PETROUS_CLIP
 uniform int planeCount;
-uniform vec4 planes[kMostPlanes]; // mm on the side that stays, over voxels
+uniform vec4 planes[kMostPlanes]; // mm on the side that is kept, over voxels
 #endif
 
 const int kAir = 0;
 const int kBone = 1;
 const int kStructure = 2; // + index
-const int kMostEvents = 512; // far more than a ray meets before nothing comes through
-const float kOnSurface = 1e-5; // of f: that near to 0 a surface is found
+const int kMostEvents = 512; // far more than a ray meets before it becomes opaque
+const float kOnSurface = 1e-5; // of f: tolerance of a surface point
 const int kFalsePositions = 5;
 const float kSummitDoubt = 1.0;
-// Steps from where a wall may hide to where it is looked for: of the first look, by what share the
-// next ones are shorter, and the shortest after which there is one more.
+// Search for a thin wall around its expected position, in steps: initial offset, factor by which
+// the offset shrinks, and the offset at which the search ends.
 const float kFirstAside = 0.3;
 const float kNextAside = 0.6;
 const float kLastAside = 0.02;
-const float kLongSteps = 4.0; // where nothing but the density changes
+const float kLongSteps = 4.0; // where only the density varies
 
 #ifdef PETROUS_COUNT
 float fetches = 0.0;
@@ -155,7 +155,7 @@ float occupancyAtLabel(vec3 l)
   return texture(occupancyTexture, l * labelScale + labelOffset).r;
 }
 
-// Index and border of a voxel; 0 beyond the grid.
+// Index and border of a voxel; 0 outside the grid.
 uvec2 labelOfVoxel(vec3 voxel)
 {
   COUNT(1);
@@ -169,14 +169,14 @@ int indexAtLabel(vec3 l)
   return int(labelOfVoxel(floor(l + 0.5)).r);
 }
 
-// Which structure, and how far from another one, in units of occupancy.
+// Structure, and margin to the next one in units of occupancy.
 struct Choice
 {
   int index;
   float margin;
 };
 
-// In the tissue of structures: volume::structureAt.
+// Only inside structures: volume::structureAt.
 Choice structureAtLabel(vec3 l)
 {
   uvec2 nearest = labelOfVoxel(floor(l + 0.5));
@@ -216,8 +216,8 @@ int indexAt(vec3 v)
 }
 #endif
 
-// A ray through a texture: at s steps from where it enters, `from` + s * `by`. Worked out once a ray:
-// a processor that draws reads uniforms anew in every turn of a loop.
+// A ray in a texture's coordinates: `from` + s * `by`, s steps from its entry. Computed once per
+// ray: CPU renderers read uniforms in every loop iteration.
 struct Way
 {
   vec3 from;
@@ -241,7 +241,7 @@ struct Ways
 #endif
 };
 
-// Of a ray in voxels of the CT.
+// `voxel`: the ray in CT voxels.
 Ways waysOf(Way voxel)
 {
   Ways ways;
@@ -256,17 +256,17 @@ Ways waysOf(Way voxel)
   return ways;
 }
 
-// What the field is made of at a position.
+// Operands of the tissue field at a position.
 struct Operands
 {
   float value; // intensity of the CT
   float ct;    // c_CT
   float occupancy;
-  float left; // of the mask
-  float margin; // inside a structure: from another one, in units of occupancy
+  float left; // mask value
+  float margin; // inside a structure: distance to another one, in units of occupancy
 };
 
-// `plain`: known to be where neither labels nor mask count.
+// `plain`: neither labels nor mask matter there.
 Operands operandsAt(Ways ways, float s, const bool plain)
 {
   Operands at;
@@ -301,11 +301,11 @@ Operands operandsAt(Ways ways, float s, const bool plain)
   return at;
 }
 
-// Also finds the margin.
+// Also sets the margin.
 int stateOf(inout Operands at, Ways ways, float s, const bool plain)
 {
   float f = min(max(at.ct, at.occupancy - 0.5), at.left - 0.5);
-  // Written so that a value that is no number is air.
+  // Written so that NaN is air.
   if (!(f > 0.0))
     return kAir;
 #ifdef PETROUS_NESTED
@@ -317,13 +317,14 @@ int stateOf(inout Operands at, Ways ways, float s, const bool plain)
   }
 #elif defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
   if (!plain && at.occupancy > 0.5)
-    return kStructure; // the ray ends on it, whichever it is
+    return kStructure; // the ray ends on it, whichever structure it is
 #endif
   return kBone;
 }
 
-// Gradients over the voxels of the operand's own grid, one-sided at its border. One sample a turn: to
-// pixels in lock step a loop that none of them needs costs one turn, a branch all that is in it.
+// Gradients over the voxels of the operand's own grid, one-sided at its border. One sample per
+// iteration: on SIMT hardware a loop that no pixel needs costs one iteration, a branch its whole
+// body.
 #define GRADIENT(name, sampleAt, upper)                                                            \
   vec3 name(vec3 v, bool wanted)                                                                   \
   {                                                                                                \
@@ -342,7 +343,8 @@ int stateOf(inout Operands at, Ways ways, float s, const bool plain)
     return mix(vec3(0.0), rise / max(run, vec3(1e-6)), greaterThan(run, vec3(0.0)));               \
   }
 
-// The CT's; `smoothly`: by twelve samples, +-1 on two axes at once (edgeGradientInPatient).
+// Gradient of the CT; `smoothly`: from twelve samples, +-1 on two axes at once
+// (edgeGradientInPatient).
 vec3 ctGradient(vec3 v, bool wanted, bool smoothly)
 {
   vec3 low = max(v - 1.0, vec3(0.0));
@@ -368,8 +370,8 @@ GRADIENT(maskGradient, maskAt, hullUpper)
 #ifdef PETROUS_LABELS
 GRADIENT(occupancyGradient, occupancyAtLabel, labelUpper)
 #ifdef PETROUS_NESTED
-// Of how deep in a structure a position lies (without borders, of how much round it belongs to it),
-// voxels weighted by quadratic B-splines.
+// Gradient of the depth in a structure (without borders, of the structure's fraction of the
+// neighbourhood), with quadratic B-spline weights.
 vec3 indexGradient(vec3 l, int index, bool wanted)
 {
   vec3 nearest = floor(l + 0.5);

@@ -1,9 +1,9 @@
-// Two eyes' pictures in one, as composeStereo in Stereo.h states it.
+// Combines both eyes' pictures as composeStereo in Stereo.h.
 //
-// leftPicture, rightPicture: RGBA8, of one size, rows from the bottom
-// arrangement:               0 side by side, 1 rows by turns, 2 half-colour anaglyph
-// rightColumn:               where the right picture begins when side by side
-// firstRow:                  the screen's row of the picture's first row from the top
+// leftPicture, rightPicture: RGBA8, same size, bottom row first
+// arrangement:               0 side by side, 1 row-interleaved, 2 half-colour anaglyph
+// rightColumn:               first column of the right picture if side by side
+// firstRow:                  screen row of the picture's top row
 
 in vec2 ndc;
 layout(location = 0) out vec4 outColor;

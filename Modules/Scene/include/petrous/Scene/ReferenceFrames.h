@@ -9,7 +9,7 @@
 namespace petrous::scene
 {
 
-/// How one MR lies on the CT: what of an ImagePart layMr changes.
+/// Registration state of one MR: the fields of ImagePart that layMr changes.
 struct MrPlace
 {
   std::string name;
@@ -20,9 +20,8 @@ struct MrPlace
 
 std::vector<MrPlace> mrPlaces(const Case& value);
 
-/// Lays the MRs as they lay then, by layMr and unlayMr. One that lies so now stays as it is, with
-/// its sign-off; to one that is laid anew no sign-off comes back. Names that the case has not are
-/// passed over.
+/// Restores the registrations of the MRs with layMr and unlayMr. Unchanged MRs keep their sign-off;
+/// for an MR that is changed no sign-off is restored. Names not in the case are ignored.
 void layAs(Case& value, const std::vector<MrPlace>& places);
 
 } // namespace petrous::scene

@@ -10,20 +10,20 @@
 namespace petrous::scene
 {
 
-/// A structure of a case, whole and alone, as the occupancy whose 1/2 level is its surface.
+/// A single structure of a case as occupancy, whose 1/2 isosurface is its surface.
 struct StructureOccupancy
 {
   std::string name;
-  std::string mr;            ///< the MR that it was drawn on; empty: the CT, or another grid
-  core::GridGeometry grid;   ///< that it was drawn on, as it lies on the CT; of a mesh its voxels'
-  core::GridGeometry around; ///< part of that grid: nothing of the structure is outside its hull
-  /// Makes the occupancy: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
+  std::string mr;            ///< the MR on which it was drawn; empty: the CT, or another grid
+  core::GridGeometry grid;   ///< on which it was drawn, in CT space; for a mesh that of its voxels
+  core::GridGeometry around; ///< part of that grid whose hull contains the whole structure
+  /// Computes the occupancy: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
   std::function<std::shared_ptr<const volume::Volume<float>>()> make;
 };
 
-/// The structures of all label maps, and those meshes that have voxels for touch already, as far as
-/// they have a place on the CT. Loads the
-/// labels and looks at their voxels once; makes no occupancy yet.
+/// The structures of all label maps, and the meshes that are already voxelized for touch, if they
+/// have a place in CT space. Loads the labels and scans their voxels once; computes no occupancy
+/// yet.
 std::vector<StructureOccupancy> structureOccupancies(const Case& value);
 
 } // namespace petrous::scene

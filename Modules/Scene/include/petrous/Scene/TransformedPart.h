@@ -9,9 +9,9 @@
 namespace petrous::scene
 {
 
-/// What was drawn on an MR, moved to where it lies on the CT. Kept as long as the same thing is
-/// asked for at the same place, so that who compares pointers sees no change where there is none.
-/// Copies occupancy what is kept. Thread-safe.
+/// Data drawn on an MR, transformed to CT space. Cached as long as the same data are requested with
+/// the same transform, so that pointer comparison shows no change if there is none. Copies share
+/// the cache. Thread-safe.
 template <class T>
 class TransformedPart
 {

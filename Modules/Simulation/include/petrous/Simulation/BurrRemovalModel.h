@@ -7,13 +7,13 @@
 namespace petrous::simulation
 {
 
-/// The balance of a drill: removed + owed + forfeited = predicted.
+/// Volume balance of drilling: removed + owed + forfeited = predicted.
 struct RemovalBalance
 {
   double predicted = 0.0; ///< mm^3, sum of law times dt over the ticks with drill on and thrust
   double removed = 0.0;   ///< mm^3 lost from {f > 0}
-  double owed = 0.0;      ///< mm^3 that the work done so far will still take
-  double forfeited = 0.0; ///< mm^3 that were owed when contact ended, or that protected tissue kept
+  double owed = 0.0;      ///< mm^3 that the work done so far will still remove
+  double forfeited = 0.0; ///< mm^3 owed at the end of contact, or kept by protected tissue
 };
 
 /// Removal by the laws [Chan2016, Eq. 8 and 9; Documentation/equations.md, "Removal"]. Each tick
@@ -21,30 +21,30 @@ struct RemovalBalance
 ///
 ///   dW = F_t r omega dt,
 ///
-/// which takes tissue as far as it reaches (RemovalDepthSolver); what is less than a step of the search is
-/// owed and goes into the next bite.
+/// which removes tissue up to the depth it allows (RemovalDepthSolver); work below a step of the
+/// search is owed and added to the next bite.
 ///
-/// F_t  N, what the burr's contacts push back together, so that walls between which the burr is
-///      wedged do not count twice
-/// r    mm, the distance of the contact from the spindle's axis: the mean over the patch where the
-///      last bite took what it took, weighed by volume. Of a small patch away from the pole that is
-///      r_b cos(theta) of its middle. A bite counts with the mean of the patch before and after it.
+/// F_t  N, vector sum of the burr's contact forces, so that opposing walls that wedge the burr do
+///      not count twice
+/// r    mm, distance of the contact from the spindle axis: the mean over the patch removed by the
+///      last bite, weighted by volume. For a small patch away from the pole that is r_b cos(theta)
+///      of its middle. A bite uses the mean of the patch before and after it.
 class BurrRemovalModel : public RemovalModel
 {
 public:
-  /// Tissue is taken at most this far ahead of where the servo knows the burr to be: a burr that is
-  /// held back (by its shaft, by what may not be drilled) does not bore on alone. What is left is
-  /// owed, at most for kMaxOwed.
+  /// Tissue is removed at most this far ahead of the burr's known position: a burr that is held
+  /// back (by its shaft, by protected tissue) does not drill on by itself. The remaining work is
+  /// owed, at most kMaxOwed.
   static constexpr double kVoxelsAhead = 0.25; ///< voxels
   static constexpr double kMinAhead = 0.1;   ///< mm
   static constexpr double kMaxOwed = 0.05; ///< s of work at the present rate
 
-  /// A bite that would not move the burr by so much waits for more work, but not for long.
+  /// A bite that would advance the burr by less waits for more work, at most kMaxWait.
   static constexpr double kMinAdvance = 0.005; ///< voxels
   static constexpr double kMaxWait = 0.02;   ///< s of work at the present rate
 
   /// search  for this burr; must outlive this
-  /// Throws InvalidParameter when the spindle's speed is below 0.
+  /// Throws InvalidParameter if the spindle's speed is negative.
   BurrRemovalModel(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel);
 
   void press(const TickRecord& record, double seconds) override;
@@ -53,18 +53,17 @@ public:
 
   RemovalBalance balance() const noexcept;
 
-  /// Of the last press: what went into the law.
+  /// Inputs of the law at the last press.
   double thrust() const noexcept { return m_thrust; } ///< F_t, N
   double arm() const noexcept { return m_arm; }       ///< r, mm
 
-  /// r, mm, of a round patch: the mean distance from the spindle's axis over a cap of the ball, by
+  /// r, mm, of a round patch: the mean distance from the spindle axis over a cap of the ball, by
   /// quadrature.
   ///
   /// radius     r_b, mm
   /// elevation  theta, rad, of the spindle above the surface at the patch's middle
-  /// spread     s, mm, mean distance of the patch from the line through centre and middle: what r
-  /// is
-  ///            at the pole; that of a burr sunk in by 2 um at least
+  /// spread     s, mm, mean distance of the patch from the line through centre and middle, i.e. r
+  ///            at the pole; at least that of a burr sunk in by 2 um
   static double armOf(double radius, double elevation, double spread) noexcept;
 
 private:
@@ -79,20 +78,20 @@ private:
   double m_voxel; // mm
   double m_ahead; // mm
   dissection::RemovalDepthSolver::Wish m_wish;
-  bool m_pressed = false; // since the last bite that said there is nothing more
+  bool m_pressed = false; // since the last bite that returned nothing more
   double m_thrust = 0.0;
   double m_arm = 0.0;
   bool m_bitten = false;            // in this contact
   dissection::ContactPatch m_patch; // of the last bite
   Eigen::Vector3d m_spindle{0.0, 0.0, 1.0};
-  double m_pressedArm = 0.0; // mm, with which the last press was reckoned
+  double m_pressedArm = 0.0; // mm, used by the last press
   double m_patchArm = 0.0;   // mm, of the last bite's patch
-  double m_biteArm = 0.0;    // mm, of a round patch like it, as the spindle was then
+  double m_biteArm = 0.0;    // mm, of an equivalent round patch, with the spindle as it was then
   double m_rate = 0.0;       // N mm/s
-  double m_resistance = 0.0; // N/mm^2, of the last bite; 0: not known in this contact
+  double m_resistance = 0.0; // N/mm^2, of the last bite; 0: unknown in this contact
   double m_unpriced = 0.0;   // N mm done before the resistance was known
   double m_owed = 0.0;       // N mm
-  RemovalBalance m_balance;  // but for what is owed
+  RemovalBalance m_balance;  // except for what is owed
 };
 
 } // namespace petrous::simulation

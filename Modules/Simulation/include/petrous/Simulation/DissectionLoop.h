@@ -12,27 +12,27 @@
 namespace petrous::simulation
 {
 
-/// What follows a servo tick in the tissue: the drill's bite, strokes, undo. The only writer of the
-/// mask and of its published states. One thread.
+/// Applies a servo tick to the tissue: drill bites, strokes, undo. The only writer of the mask and
+/// of its published states. Not thread-safe.
 ///
 /// Alternating with the servo (tick, step, tick, step ...) the same records give the same mask; in
-/// a thread of its own it may lag, and takes bites at nearly one place together.
+/// a separate thread it may lag and combine bites at nearly the same position.
 ///
-/// When a cut throws (no memory), mask and stroke are as they were before it.
+/// If a cut throws (out of memory), mask and stroke are left unchanged.
 class DissectionLoop
 {
 public:
-  using Begin = std::function<dissection::StrokeInfo()>; ///< what is known of a new stroke
-  using Edited = std::function<void(const MaskEdit&)>;   ///< once done: for a recording
+  using Begin = std::function<dissection::StrokeInfo()>; ///< known properties of a new stroke
+  using Edited = std::function<void(const MaskEdit&)>;   ///< after each edit: for a recording
 
   struct Hooks
   {
     Begin begin;
     std::function<void(dissection::Dissection&)> close; ///< closes the open stroke; empty:
                                                         ///< Dissection::endStroke
-    std::function<bool(bool back)> turn; ///< one stroke back (true) or forth, false when there is
-                                         ///< none; empty: Dissection::undo, redo
-    std::function<void(const std::vector<std::size_t>&)> changed; ///< bricks, once published
+    std::function<bool(bool back)> turn; ///< undoes (true) or redoes (false) a stroke, false if
+                                         ///< there is none; empty: Dissection::undo, redo
+    std::function<void(const std::vector<std::size_t>&)> changed; ///< bricks, after publishing
     Edited edited;
   };
 
@@ -40,36 +40,36 @@ public:
   DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask, RemovalModel& removalModel,
                  dissection::ProtectedTissue keep = {}, Hooks hooks = {});
 
-  /// What follows one tick; true when tissue was taken.
+  /// Processes one tick; true if tissue was removed.
   bool step(const TickRecord& record);
 
-  /// What follows `count` ticks, oldest first: where the tool hardly moved (`kTogether`) between
-  /// bites only the last is made, which goes on from the others (RemovalModel).
+  /// Processes `count` ticks, oldest first: while the tool hardly moves (`kTogether`), only the
+  /// last bite is made, with the accumulated work (RemovalModel).
   bool step(const TickRecord* records, std::size_t count);
   static constexpr double kTogether = 0.05; ///< mm
 
-  /// Instead of a step where no force leads and the drill is on: all that `burr` sweeps is taken.
+  /// Replaces a step if the drill is on and no force is rendered: removes all that `burr` sweeps.
   bool sweep(const TickRecord& record, const dissection::SweptSphere& burr);
 
-  /// Closes the stroke that is open.
+  /// Closes the open stroke.
   void endStroke();
 
-  /// One stroke back or forth, the open one closed first; false when there is none.
+  /// Undoes or redoes one stroke, after closing an open one; false if there is none.
   bool undo();
   bool redo();
 
-  /// Does again what was recorded. False when it does not lead to the state that it led to then.
+  /// Repeats a recorded edit. False if the resulting state differs from the recorded one.
   bool apply(const MaskEdit& edit);
 
-  /// Number of the mask's present state.
+  /// Number of the current mask state.
   std::uint64_t state() const noexcept { return m_mask.number(); }
 
-  /// Ticks up to this time (TickRecord::time) drill no more: in threads some that were made before
-  /// an undo come after it, and would cut what has just come back.
+  /// Disables drilling for ticks up to this time (TickRecord::time): with threads, some made before
+  /// an undo arrive after it and would cut what was just restored.
   void ignoreUntil(double time) noexcept { m_ignoreUntil = time; }
 
   const dissection::Dissection& dissection() const noexcept { return m_dissection; }
-  std::uint64_t cuts() const noexcept { return m_cuts; } ///< bites that took tissue
+  std::uint64_t cuts() const noexcept { return m_cuts; } ///< bites that removed tissue
 
 private:
   double secondsOf(const TickRecord& record);

@@ -8,27 +8,27 @@
 namespace petrous::simulation
 {
 
-/// Notes what a DissectionLoop does and posts it. For the thread that cuts.
+/// Collects the changes made by a DissectionLoop and posts them. For the cutting thread.
 class DissectionReporter
 {
 public:
-  /// Fills in what is known of a stroke only at its end (its removed volume). What it throws is
-  /// told once by `complain`, and the stroke is closed without.
+  /// Adds to a stroke what is known only at its end (its removed volume). An exception is reported
+  /// once by `takeComplaint`, and the stroke is closed without.
   using Complete = std::function<void(dissection::Dissection&)>;
 
   /// Both must outlive this; `work` is the loop's dissection.
   DissectionReporter(const dissection::Dissection& work, UpdateQueue& mailbox);
 
-  /// The loop's hooks, so that this hears of all. Strokes are closed and undone in `work`, and
-  /// nowhere else: of the hooks there are only these two to be had beside this one's own.
+  /// Hooks for the loop. Only `begin` and `edited` can be supplied: strokes are closed and undone
+  /// in `work` only.
   DissectionLoop::Hooks listen(DissectionLoop::Begin begin, DissectionLoop::Edited edited,
                                Complete complete);
 
   void note(const TickRecord& record); ///< for its fault
   void note(const std::string& recordingFault);
 
-  /// Posts what was noted since: once after several ticks, so that bricks, events and history fit
-  /// each other.
+  /// Posts the changes noted since the last call: once after several ticks, so that bricks, events
+  /// and history are consistent.
   void post();
 
   std::string takeComplaint(); ///< why a stroke was not completed, once; empty otherwise

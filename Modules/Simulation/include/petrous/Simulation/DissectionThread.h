@@ -14,44 +14,43 @@
 namespace petrous::simulation
 {
 
-/// Empties the servo's ring in a thread of its own: cuts, undoes and redoes, records. It never
-/// holds the servo up; the servo's ring is polled every millisecond.
+/// Empties the servo's ring in a thread of its own: cuts, undoes, redoes, records. Never blocks the
+/// servo; polls its ring every millisecond.
 class DissectionThread
 {
 public:
   /// Called in the thread; each may be empty.
   struct Hooks
   {
-    /// Gets every record, in order; for instance RecordingWriter::add. What it throws ends it
-    /// alone.
+    /// Receives every record, in order; for instance RecordingWriter::add. If it throws, only the
+    /// recording ends.
     std::function<void(const TickRecord&)> tick;
-    /// After some ticks were looked at, or an undo: where what was done is passed on.
+    /// After a batch of ticks or an undo: to pass on the results.
     std::function<void()> after;
   };
 
-  /// records, loop  must outlive this; used by the thread alone until stop()
-  /// cuts           false: no tick cuts, whatever it says
-  /// Throws std::system_error when there is no thread to be had.
+  /// records, loop  must outlive this; used by the thread only, until stop()
+  /// cuts           false: ticks never cut
+  /// Throws std::system_error if the thread cannot be started.
   DissectionThread(SpscRing<TickRecord>& records, DissectionLoop& loop, Hooks hooks,
                    bool cuts = true);
   DissectionThread(const DissectionThread&) = delete;
   DissectionThread& operator=(const DissectionThread&) = delete;
   ~DissectionThread();
 
-  /// Asks for one stroke back or forth, to be done after what the ring holds now, the open stroke
-  /// closed first; from any thread. What still drills opens another with the first tick that felt
-  /// the change.
+  /// Requests undo or redo of one stroke, after the current contents of the ring and after closing
+  /// an open stroke; from any thread. A drill still running opens a new one with the first tick
+  /// that felt the change.
   void undo();
   void redo();
 
-  /// Empties the ring, does what was asked, closes the stroke and ends the thread. Again is as
-  /// once.
+  /// Empties the ring, completes requests, closes the stroke and ends the thread. Idempotent.
   void stop();
 
-  /// What went wrong, one sentence, once. Empty when nothing did.
+  /// First failure as one sentence, returned once. Empty if none.
   std::string takeFailure();
 
-  /// A cut, an undo or `after` failed: what was done until then stands, and no tick cuts any more.
+  /// A cut, an undo or `after` failed: previous work is kept, and no further tick cuts.
   bool failed() const noexcept { return m_failed; }
 
 private:
@@ -70,7 +69,7 @@ private:
   const bool m_cuts;
   std::vector<TickRecord> m_batch;
   std::atomic<bool> m_failed{false};
-  std::mutex m_mutex; // guards what follows
+  std::mutex m_mutex; // for the members below
   std::condition_variable m_wake;
   std::vector<bool> m_asked; // true: undo, false: redo
   std::string m_failure;

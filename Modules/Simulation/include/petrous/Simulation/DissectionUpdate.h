@@ -24,31 +24,32 @@ struct DissectionEvent
     Redone
   };
   Kind kind = Kind::StrokeBegun;
-  std::shared_ptr<const dissection::Stroke> stroke; ///< closed; null when it took nothing
+  std::shared_ptr<const dissection::Stroke> stroke; ///< closed stroke; nullptr if it removed
+                                                    ///< nothing
 };
 
-/// What a thread that cuts has done since it was last asked, for the thread that draws. However
-/// long nobody asks, it holds a brick once (only the latest version matters), a history once, and
-/// of the events no more than there are strokes: one that took nothing is told once in a row.
+/// Changes made by the cutting thread since last taken, for the rendering thread. Bounded however
+/// long it is not taken: one entry per brick (only the latest version matters), one history, and no
+/// more events than strokes; consecutive strokes that removed nothing count once.
 struct DissectionUpdate
 {
-  std::map<std::size_t, volume::CutMask::BrickVersion> bricks; ///< that changed, as they are now
+  std::map<std::size_t, volume::CutMask::BrickVersion> bricks; ///< changed bricks, latest versions
   std::vector<DissectionEvent> events;                         ///< in order
-  std::optional<dissection::Dissection> history; ///< after the last event; nothing without events
-  std::optional<TickRecord> fault;               ///< the latest tick that had one
+  std::optional<dissection::Dissection> history; ///< after the last event; nullopt without events
+  std::optional<TickRecord> fault;               ///< latest tick with a fault
   std::string recordingFault;                    ///< why the recording ended
 
   bool empty() const noexcept;
 
-  /// `next` follows this, and is empty then. On std::bad_alloc both are as they were.
+  /// Appends `next`, the later update, which is then empty. On std::bad_alloc both are unchanged.
   void append(DissectionUpdate& next);
 };
 
-/// Hands mail from one thread to another. Either holds the other up for some swaps of pointers.
+/// Passes updates between threads. Each blocks the other only for a few pointer swaps.
 class UpdateQueue
 {
 public:
-  void post(DissectionUpdate& mail); ///< which is empty then
+  void post(DissectionUpdate& mail); ///< empty afterwards
   DissectionUpdate take();
 
 private:
@@ -56,9 +57,9 @@ private:
   DissectionUpdate m_mail;
 };
 
-/// Brings a copy of the dissection to where the thread's was when the mail was posted; sorted, the
-/// bricks that changed. In an open stroke the copy has mask and maskBeforeStroke of the thread's;
-/// openBricks and openInfo are as they were at its begin.
+/// Brings a copy of the dissection up to date with the cutting thread's; returns the changed
+/// bricks, sorted. During an open stroke the copy's mask and maskBeforeStroke equal the thread's;
+/// openBricks and openInfo are those at its begin.
 std::vector<std::size_t> follow(DissectionUpdate& mail, dissection::Dissection& copy);
 
 } // namespace petrous::simulation

@@ -8,25 +8,24 @@
 namespace petrous::simulation
 {
 
-/// One thing that was done to the mask or its history, so that it can be done again. Fixed layout
-/// without gaps.
+/// One repeatable edit of the mask or its history. Fixed layout without padding.
 struct MaskEdit
 {
   enum class Kind : std::uint64_t
   {
-    Begin, ///< a stroke is opened
+    Begin, ///< opens a stroke
     Cut,
-    End, ///< the stroke is closed
+    End, ///< closes the stroke
     Undo,
     Redo
   };
 
   Kind kind = Kind::Begin;
-  std::uint64_t state = 0;          ///< number of the mask's published state once it is done
+  std::uint64_t state = 0;          ///< number of the mask state published by this edit
   double from[3] = {0.0, 0.0, 0.0}; ///< of a cut: dissection::SweptSphere, patient mm
   double to[3] = {0.0, 0.0, 0.0};
   double radius = 0.0;   ///< mm
-  double duration = 0.0; ///< of an end: s that the stroke took
+  double duration = 0.0; ///< of an end: duration of the stroke, s
 
   dissection::SweptSphere burr() const noexcept
   {

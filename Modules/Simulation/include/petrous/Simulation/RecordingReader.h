@@ -11,26 +11,25 @@
 namespace petrous::simulation
 {
 
-/// Reads a recording block by block, each double as it was written to the last bit.
+/// Reads a recording block by block; doubles are bit-identical to those written.
 class RecordingReader
 {
 public:
-  /// Reads the head. Throws RecordingError.
+  /// Reads the header. Throws RecordingError.
   explicit RecordingReader(const std::filesystem::path& file);
 
   const RecordingSetup& setup() const noexcept { return m_setup; }
 
-  /// What comes next; false, and nothing, at the end. A file that ends too early ends after its
-  /// last whole block, and `complete` is false. Throws RecordingError (Corrupt) where bytes were
-  /// changed.
+  /// Reads the next block; false and an empty block at the end. A truncated file ends after its
+  /// last complete block, with `complete` false. Throws RecordingError (Corrupt) for damaged data.
   bool next(RecordingBlock& block);
 
   std::uint64_t ticks() const noexcept { return m_ticks; } ///< read so far
 
-  /// After the end: the writer closed the file.
+  /// After the end: whether the writer closed the file.
   bool complete() const noexcept { return m_complete; }
 
-  /// After the end of a file that is not complete: that, in words. Empty otherwise.
+  /// After the end of an incomplete file: a warning, for display. Empty otherwise.
   std::string warning() const;
 
 private:

@@ -12,44 +12,44 @@
 namespace petrous::simulation
 {
 
-/// Plays a recording again: the mask goes through the states that it went through, and each tick
-/// finds the one that it felt then, whatever thread cut at the time. The result is the recording,
-/// bit for bit, and each tick is held against it.
+/// Replays a recording: the mask passes through the same states, and each tick uses the one that it
+/// used when recorded, whichever thread cut at that time. The result is bit-identical to the
+/// recording, which is checked for each tick.
 ///
 ///     while (replay.next())
 ///       use(replay.feel());
 ///
-/// One thread.
+/// Not thread-safe.
 class RecordingReplay
 {
 public:
   struct Outcome
   {
     std::uint64_t ticks = 0;
-    std::uint64_t different = 0;                 ///< ticks that are not the recorded ones
-    std::optional<std::uint64_t> firstDifferent; ///< number of the first one
-    std::string difference; ///< what of it differs, or where the mask went another way; for people
-    std::string warning;    ///< the recording ends early; for people
+    std::uint64_t different = 0;                 ///< ticks that differ from the recorded ones
+    std::optional<std::uint64_t> firstDifferent; ///< index of the first one
+    std::string difference; ///< what differs first, or where the mask diverged; for display
+    std::string warning;    ///< the recording is truncated; for display
 
     bool equal() const noexcept { return different == 0 && difference.empty(); }
   };
 
-  /// reader  of which nothing was read yet
-  /// servo   fresh, with reader.setup().servo and a proxy as the recording's
-  /// loop    over a dissection and a mask as they were when the recording began (RecordedScene,
-  ///         with its first state's number), without a tick
+  /// reader  not read yet
+  /// servo   new, with reader.setup().servo and a proxy as in the recording
+  /// loop    over a dissection and a mask as at the start of the recording (RecordedScene, with its
+  ///         first state's number), without a tick
   /// All must outlive this.
   RecordingReplay(RecordingReader& reader, Servo& servo, DissectionLoop& loop);
 
-  /// Takes the mask to the state that the next tick felt, and gives that tick as it was recorded.
-  /// Null at the end, with all done to the mask that was done. Throws RecordingError.
+  /// Brings the mask to the state used by the next tick, and returns that tick as recorded. Returns
+  /// nullptr at the end, after all edits. Throws RecordingError.
   const TickRecord* next();
 
-  /// The servo's tick, after next(). It holds until the one after.
+  /// Runs the servo's tick, after next(). The result is valid until the next call.
   const TickRecord& feel() noexcept;
 
-  /// Does now what was done to the mask before the tick that comes next, for those who look at it
-  /// between ticks; next() would do it. Throws RecordingError.
+  /// Applies the edits made before the next tick, for inspection between ticks; next() would do so.
+  /// Throws RecordingError.
   void follow();
 
   const Outcome& outcome() const noexcept { return m_outcome; }
@@ -63,7 +63,7 @@ private:
   Servo& m_servo;
   DissectionLoop& m_loop;
   RecordingBlock m_block;
-  std::size_t m_at = 0; // in the block's ticks
+  std::size_t m_at = 0; // index in the block's ticks
   std::deque<MaskEdit> m_edits;
   bool m_ended = false;
   Outcome m_outcome;

@@ -11,31 +11,31 @@
 namespace petrous::simulation
 {
 
-/// Writes ticks to a file, block by block: what is on disk can be read up to its last whole block,
-/// also when the program was killed. Layout: src/Recording/RecordingFormat.h.
+/// Writes ticks to a file, block by block: a file is readable up to its last complete block, even
+/// if the program was killed. Layout: src/Recording/RecordingFormat.h.
 ///
-/// Called by the thread that empties the ring, never by the servo. One thread.
+/// Called by the thread that empties the ring, never by the servo. Not thread-safe.
 class RecordingWriter
 {
 public:
   static constexpr std::size_t kBlock = 1000;  ///< ticks
-  static constexpr std::size_t kEdits = 10000; ///< or edits, whichever is first
+  static constexpr std::size_t kEdits = 10000; ///< or edits, whichever comes first
 
-  /// Makes or replaces the file. Throws RecordingError, InvalidParameter.
+  /// Creates or overwrites the file. Throws RecordingError, InvalidParameter.
   RecordingWriter(const std::filesystem::path& file, const RecordingSetup& setup);
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// Writes what is left, like close(), but tells nobody when that fails.
+  /// Writes the rest, like close(), but ignores errors.
   ~RecordingWriter();
 
-  /// Throws RecordingError (NotWritten); then nothing more is written.
+  /// Throws RecordingError (NotWritten), after which nothing more is written.
   void add(const TickRecord& record);
 
-  /// What was done to the mask, before the first tick that felt it is added. Throws as above.
+  /// To be called before adding the first tick that felt the edit. Throws as above.
   void add(const MaskEdit& edit);
 
-  /// Writes what is left and says in the file that it is whole. Throws RecordingError.
+  /// Writes the rest and the end mark. Throws RecordingError.
   void close();
 
   std::uint64_t ticks() const noexcept { return m_ticks; }
@@ -51,7 +51,7 @@ private:
   [[noreturn]] void fail();
 
   std::string m_name;
-  std::unique_ptr<std::FILE, CloseFile> m_file; // null once closed
+  std::unique_ptr<std::FILE, CloseFile> m_file; // null after close
   RecordingBlock m_block;
   std::uint64_t m_ticks = 0;
   std::uint64_t m_edits = 0;

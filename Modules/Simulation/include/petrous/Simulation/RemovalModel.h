@@ -8,23 +8,23 @@
 namespace petrous::simulation
 {
 
-/// How far a drill that is pressed goes into the tissue. One thread.
+/// Advance of a pressed drill into the tissue. Not thread-safe.
 class RemovalModel
 {
 public:
   virtual ~RemovalModel() = default;
 
-  /// The drill is on and the burr pressed, for `seconds` of a tick.
+  /// The drill is on and the burr pressed, for a tick of `seconds`.
   virtual void press(const TickRecord& record, double seconds) = 0;
 
-  /// What the burr takes now; asked again, once that is cut from `mask`, until it is nothing.
+  /// The next step of removal; called again, after cutting it from `mask`, until nullopt.
   virtual std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) = 0;
 
-  /// The drill is off, or the burr touches nothing any more.
+  /// The drill is off, or the burr has lost contact.
   virtual void release() = 0;
 };
 
-/// Takes nothing: for a loop that only does again what was recorded.
+/// Removes nothing: for a loop that only replays edits.
 class NoRemovalModel : public RemovalModel
 {
 public:

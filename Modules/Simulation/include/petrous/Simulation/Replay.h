@@ -10,20 +10,20 @@
 namespace petrous::simulation
 {
 
-/// Gives a servo the inputs that were recorded (a whole recording: RecordingReplay). With the
-/// set-up, field and mask of the recording the result is the recording, bit for bit.
+/// Runs a servo on recorded inputs (for a whole recording see RecordingReplay). With the
+/// recording's setup, field and mask the result is bit-identical to the recording.
 ///
 /// recorded  ticks from the first one on
-/// servo     fresh, as the recording's was when it began
-/// after     called after each tick with the new record, where the mask is to follow
+/// servo     new, as at the start of the recording
+/// after     called after each tick with the new record, e.g. to update the mask
 ///           (DissectionLoop::step); may be empty
 std::vector<TickRecord> replay(const std::vector<TickRecord>& recorded, Servo& servo,
                                const std::function<void(const TickRecord&)>& after = {});
 
-/// Whether two records are the same to the last bit.
+/// Whether two records are bit-identical.
 bool identical(const TickRecord& a, const TickRecord& b) noexcept;
 
-/// What of two records differs first, for people ("the tool's pose"); empty where nothing does.
+/// The first difference of two records, for display ("the tool's pose"); empty if none.
 std::string differenceOf(const TickRecord& a, const TickRecord& b);
 
 } // namespace petrous::simulation

@@ -16,44 +16,43 @@
 namespace petrous::simulation
 {
 
-/// What a servo is made with; fixed while it runs.
+/// Configuration of a servo; constant while it runs.
 struct ServoSetup
 {
   haptics::DeviceGuard::Limits guard;
   haptics::ForceLimits::Limits limits;
-  /// Of the wrench on the hand, so stiffness means that in the hand: k scale^2 forceGain.
+  /// For the wrench on the hand, so its stiffness is the one at the hand: k scale^2 forceGain.
   std::optional<haptics::PassivityGuard::Parameters> passivity;
   double stiffness = 1.0;     ///< of the proxy's coupling, N/mm, > 0
   std::size_t burrPoints = 0; ///< PointShell::burrCount of the proxy's tool
-  double handpiece = haptics::BurrShape().shaftLength; ///< mm along the shaft, where it begins
+  double handpiece = haptics::BurrShape().shaftLength; ///< mm along the shaft to its beginning
   Eigen::Vector3d center{0.0, 0.0, 0.0};               ///< patient mm: see PoseMapping
-  double stallAfter = 0.05; ///< s without a tick: the tool is taken up anew
+  double stallAfter = 0.05; ///< s without a tick: the tool is re-anchored
 };
 
-/// One tick of touch: reading -> guard -> mapping -> proxy -> passivity -> limits -> the wrench
-/// that the device is to be sent.
+/// One tick of haptic rendering: reading -> guard -> mapping -> proxy -> passivity -> limits ->
+/// wrench for the device.
 ///
-/// The first good reading places the tool. After a bad stretch, a stall, a clutch, or tissue that
-/// came back, the hand may be anywhere: the tool stays where it is and goes on from there, the
-/// force rising anew (in constant-thrust mode it goes to the place that is given). While force may
-/// not be given the tool rests, so that tissue that comes back still moves it out. A hand without
-/// force is kept on a leash (ServoParameters::maxLead), since nothing stops it in the tissue.
+/// The first good reading places the tool. After bad readings, a stall, a clutch, or restored
+/// tissue the device may be anywhere: the tool stays where it is and continues from there, with the
+/// force fading in (in constant-thrust mode it goes to the given position). While force is disabled
+/// the tool rests, and is still moved out of restored tissue. Without force feedback the coupling
+/// has a drift limit (ServoParameters::maxLead), since nothing stops the device at tissue.
 ///
-/// A pointer's tool (ServoParameters::kPointer) that is more than `kFarthest` from its place, that
-/// stands in tissue, or that tissue does not let go, is placed anew: on its line of sight, before
-/// the tissue, at the first place from its own towards the eye (0, 1, 2, 4 mm ...) that is free.
-/// Each tick tries one of them.
-/// There, and where a set thrust presses, the force on the hand is never more than the thrust.
+/// A pointer tool (ServoParameters::kPointer) that is more than `kFarthest` from its target, stands
+/// in tissue or is stuck is relocated: along its pick ray, in front of the tissue, at the first
+/// free position from its target towards the camera (0, 1, 2, 4 mm ...). Each tick tries one of
+/// them. In this mode and with set thrust, the force on the hand never exceeds the thrust.
 ///
-/// The same inputs in the same order give the same records to the last bit, as long as the proxy
-/// and its field do. `tick` neither allocates, locks, throws nor does I/O. One thread.
+/// Deterministic: the same inputs in the same order give bit-identical records, if proxy and field
+/// are deterministic. `tick` does not allocate, lock, throw or do I/O. Not thread-safe.
 class Servo
 {
 public:
-  /// `proxy` must outlive this. Throws InvalidParameter naming the first bad value.
+  /// `proxy` must outlive this. Throws InvalidParameter naming the first invalid value.
   Servo(haptics::Proxy& proxy, const ServoSetup& setup);
 
-  /// The record holds until the next tick; send `output` to the device.
+  /// The record is valid until the next tick; send `output` to the device.
   const TickRecord& tick(const TickInput& input) noexcept;
 
   const ServoSetup& setup() const noexcept { return m_setup; }
@@ -67,10 +66,10 @@ private:
     haptics::Pose device;
     haptics::Pose mapped;
     double dt = 0.0;
-    bool usable = false; ///< reading, clock and parameters are sound
+    bool usable = false; ///< reading, clock and parameters are valid
     bool clutch = false;
-    bool pressed = false; ///< by a set thrust
-    bool pointer = false; ///< a pointer's tool
+    bool pressed = false; ///< with a set thrust
+    bool pointer = false; ///< pointer tool
   };
   Step judge(const TickInput& input) noexcept;
   void map(Step& step, bool anew) noexcept;
@@ -95,13 +94,13 @@ private:
   std::uint64_t m_number = 0;
   double m_time = 0.0;
   bool m_hasTime = false;
-  bool m_placed = false; ///< the first good reading has come
-  bool m_giving = false; ///< force was let in at the last tick
+  bool m_placed = false; ///< the first good reading has arrived
+  bool m_giving = false; ///< force was enabled at the last tick
   bool m_wasUsable = false;
   bool m_touches = false; ///< at the last tick
   bool m_inside = false;  ///< at the last tick
-  double m_back = 0.0;    ///< mm from its place towards the eye, where it is tried next
-  int m_rest = 0;         ///< ticks before it looks for another place again
+  double m_back = 0.0;    ///< mm from its target towards the camera, tried next
+  int m_rest = 0;         ///< ticks until the next search for another position
 };
 
 static_assert(noexcept(std::declval<Servo&>().tick(std::declval<const TickInput&>())));

@@ -12,38 +12,38 @@
 namespace petrous::simulation
 {
 
-/// Runs a servo at 1 kHz from construction to stop(), at real-time priority (SCHED_FIFO) where the
-/// system grants it. Its clock is CLOCK_MONOTONIC in seconds (std::chrono::steady_clock), for
-/// devices that time their readings themselves.
+/// Runs a servo at 1 kHz from construction to stop(), at real-time priority (SCHED_FIFO) if
+/// permitted. Its clock is CLOCK_MONOTONIC in seconds (std::chrono::steady_clock), for devices that
+/// time-stamp their readings.
 ///
-/// Ticks fall on a grid of the period. A tick that comes after the next one was due is late; the
-/// ones that were missed are left out, not made up for, so that a machine that slept takes up the
-/// work with one tick (see ServoSetup::stallAfter).
+/// Ticks are on a grid of the period. A tick that starts after the next one was due is late; missed
+/// ticks are skipped, not made up for, so that a suspended machine resumes with one tick (see
+/// ServoSetup::stallAfter).
 class ServoThread
 {
 public:
   struct State
   {
     bool running = false;
-    bool realTime = false; ///< the system granted real-time priority
+    bool realTime = false; ///< real-time priority was granted
     std::uint64_t ticks = 0;
-    std::uint64_t late = 0;      ///< ticks that began after the next one was due
-    double worstWall = 0.0;      ///< s, longest tick, device included
-    double worstProcessor = 0.0; ///< s of the thread's processor time, longest tick
-    std::uint64_t dropped = 0;   ///< records that found the ring full
-    long majorFaults = 0;        ///< page faults that waited for the disk
+    std::uint64_t late = 0;      ///< ticks that started after the next one was due
+    double worstWall = 0.0;      ///< s, longest tick, including the device
+    double worstProcessor = 0.0; ///< s of the thread's CPU time, longest tick
+    std::uint64_t dropped = 0;   ///< records lost because the ring was full
+    long majorFaults = 0;        ///< page faults that required I/O
   };
 
-  /// servo, device, records  must outlive this; used by the thread alone until stop()
+  /// servo, device, records  must outlive this; used by the thread only, until stop()
   /// period                  s, in [1e-4, 0.1]
-  /// Throws InvalidParameter, or std::system_error when there is no thread to be had.
+  /// Throws InvalidParameter, or std::system_error if the thread cannot be started.
   ServoThread(Servo& servo, haptics::Device& device, SpscRing<TickRecord>& records,
               const ServoParameters& parameters, double period = 0.001);
   ServoThread(const ServoThread&) = delete;
   ServoThread& operator=(const ServoThread&) = delete;
   ~ServoThread();
 
-  /// For the ticks to come; from one thread at a time. Throws InvalidParameter.
+  /// For subsequent ticks; from one thread at a time. Throws InvalidParameter.
   void setParameters(const ServoParameters& parameters);
 
   /// The record of the last tick; false before the first.
@@ -51,7 +51,7 @@ public:
 
   State state() const noexcept;
 
-  /// Lets the force fall to zero, then ends the thread: some 20 ticks. Again is as once.
+  /// Lets the force fall to zero, then ends the thread, within about 20 ticks. Idempotent.
   void stop();
 
 private:
@@ -72,7 +72,7 @@ private:
   std::atomic<long> m_majorFaults{0};
   std::atomic<double> m_worstWall{0.0};
   std::atomic<double> m_worstProcessor{0.0};
-  std::thread m_thread; // last: it uses all the others
+  std::thread m_thread; // last: uses all other members
 };
 
 } // namespace petrous::simulation

@@ -8,25 +8,25 @@
 namespace petrous::simulation
 {
 
-/// Records a live session and never stands in its way: when the disk is full, or ticks were lost,
-/// the recording ends and holds the session up to there. For the thread that cuts.
+/// Records a live session without ever disturbing it: if the disk is full or ticks were lost, the
+/// recording ends and contains the session up to that point. For the cutting thread.
 class SessionRecorder
 {
 public:
-  /// Makes or replaces the file. Throws RecordingError, InvalidParameter.
+  /// Creates or overwrites the file. Throws RecordingError, InvalidParameter.
   SessionRecorder(const std::filesystem::path& file, const RecordingSetup& setup);
 
-  void add(const TickRecord* records, std::size_t count); ///< in the order in which they were made
-  void add(const MaskEdit& edit);                         ///< as RecordingWriter::add
+  void add(const TickRecord* records, std::size_t count); ///< in chronological order
+  void add(const MaskEdit& edit);                         ///< see RecordingWriter::add
 
-  /// The session is over. Again is as once.
+  /// Ends the recording. Idempotent.
   void close();
 
   bool recording() const noexcept { return m_on; }
   std::uint64_t ticks() const noexcept { return m_writer.ticks(); }
   std::uint64_t bytes() const noexcept { return m_writer.bytes(); } ///< on disk so far
 
-  /// Why the recording ended before the session did, one sentence, once. Empty otherwise.
+  /// Why the recording ended before the session, one sentence, once. Empty otherwise.
   std::string takeFailure();
 
 private:
@@ -35,7 +35,7 @@ private:
 
   RecordingWriter m_writer;
   bool m_on = true;
-  std::uint64_t m_next = 0; // number of the tick to come
+  std::uint64_t m_next = 0; // number of the next tick
   std::string m_failure;
 };
 

@@ -13,8 +13,8 @@
 namespace petrous::simulation
 {
 
-/// A bounded queue from one thread to one other. Neither waits for the other: a push into a full
-/// ring is counted and given up, a pop from an empty one gives nothing. No memory is asked for
+/// Bounded single-producer, single-consumer queue. Neither thread waits for the other: a push into
+/// a full ring is counted and dropped, a pop from an empty one returns nothing. Does not allocate
 /// after construction.
 ///
 /// T  trivially copyable
@@ -24,8 +24,8 @@ class SpscRing
   static_assert(std::is_trivially_copyable_v<T>, "an item is copied as bytes");
 
 public:
-  /// Holds at least `capacity` items (rounded up to a power of two).
-  /// Throws InvalidParameter when it is 0 or above 2^24.
+  /// Holds at least `capacity` items (rounded up to a power of two). Throws InvalidParameter if it
+  /// is 0 or above 2^24.
   explicit SpscRing(std::size_t capacity)
     : m_size(sizeFor(capacity))
     , m_items(new T[m_size])
@@ -34,7 +34,7 @@ public:
 
   std::size_t capacity() const noexcept { return m_size; }
 
-  /// Producer. False, and counted, when the ring is full.
+  /// Producer. Returns false and counts the drop if the ring is full.
   bool push(const T& item) noexcept
   {
     const std::uint64_t head = m_head.load(std::memory_order_relaxed);
@@ -52,7 +52,7 @@ public:
     return true;
   }
 
-  /// Consumer. Moves up to `count` items, oldest first; how many.
+  /// Consumer. Moves up to `count` items, oldest first, and returns their number.
   std::size_t pop(T* items, std::size_t count) noexcept
   {
     const std::uint64_t tail = m_tail.load(std::memory_order_relaxed);
@@ -65,7 +65,7 @@ public:
   }
   bool pop(T& item) noexcept { return pop(&item, 1) == 1; }
 
-  /// Pushes that were given up, from any thread.
+  /// Dropped pushes; from any thread.
   std::uint64_t dropped() const noexcept { return m_dropped.load(std::memory_order_relaxed); }
 
 private:
@@ -81,9 +81,9 @@ private:
 
   const std::size_t m_size;
   std::unique_ptr<T[]> m_items;
-  // 64: a cache line each, so that the two threads do not disturb each other.
+  // 64: a cache line each, to avoid false sharing.
   alignas(64) std::atomic<std::uint64_t> m_head{0}; // next to be written
-  std::uint64_t m_tailSeen = 0;                     // the producer's copy
+  std::uint64_t m_tailSeen = 0;                     // the producer's copy of m_tail
   std::atomic<std::uint64_t> m_dropped{0};
   alignas(64) std::atomic<std::uint64_t> m_tail{0}; // next to be read
 };

@@ -7,7 +7,7 @@
 namespace petrous::simulation
 {
 
-/// A pose as bare numbers: what can be copied as bytes, to a ring or a file.
+/// A pose as plain numbers, trivially copyable to a ring or file.
 struct PoseValues
 {
   double position[3] = {0.0, 0.0, 0.0};      ///< mm
@@ -26,7 +26,7 @@ struct PoseValues
   }
 };
 
-/// A wrench as bare numbers, N and N mm.
+/// A wrench as plain numbers, N and N mm.
 struct WrenchValues
 {
   double force[3] = {0.0, 0.0, 0.0};

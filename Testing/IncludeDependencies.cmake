@@ -17,19 +17,19 @@ set(allowed_Registration Core Volume)
 set(allowed_Haptics Core Volume)
 set(allowed_Devices Core Volume Haptics)
 set(allowed_Dissection Core Volume)
-set(allowed_Simulation Core Volume Haptics Dissection)
 set(allowed_Scene Core Volume Appearance Dissection)
+set(allowed_Session Core Volume Haptics Dissection Scene)
 set(allowed_Library Core Volume Appearance Dissection Scene Imaging)
 set(allowed_Rendering Core Volume Appearance)
 set(allowed_Interaction
-  Core Volume Appearance Haptics Dissection Simulation Scene Rendering)
+  Core Volume Appearance Haptics Dissection Session Scene Rendering)
 # The application's view models: built like a module, and independent of Qt (no toolkit below).
 set(allowed_Presenters
-  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Simulation Scene
+  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Session Scene
   Library Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
-  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Simulation Scene
+  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Session Scene
   Library Rendering Interaction Presenters)
 
 # The toolkits whose headers a module may include; modules not listed here include none. Qt is

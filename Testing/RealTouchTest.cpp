@@ -9,10 +9,10 @@
 #include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/RecordingPlayer.h"
-#include "petrous/Presenters/TouchSession.h"
+#include "petrous/Session/TouchSession.h"
 
 using namespace petrous;
-using petrous::simulation::TickRecord;
+using petrous::session::TickRecord;
 using petrous::testing::CommandLine;
 using petrous::testing::quoted;
 using petrous::testing::textOf;
@@ -106,8 +106,8 @@ protected:
     library::Library library(this->library());
     scene::Case value = library.open("ear");
     library.loadDissection(value);
-    simulation::RecordingReader reader(file);
-    presenters::TouchScene scene(value, {}, reader.setup().scene.firstState);
+    session::RecordingReader reader(file);
+    session::TouchScene scene(value, {}, reader.setup().scene.firstState);
     presenters::RecordingPlayer replay(value, scene, reader, "session.ticks");
     const auto& shell = scene.shellOf(presenters::toolOf(reader.setup())).points;
     EXPECT_GT(shell.size(), 100u);
@@ -125,7 +125,7 @@ protected:
       if (!hasBefore && felt.fault != 0)
         continue; // the device is not valid yet
       // Leaving tissue restored by an undo is limited by each tick's work.
-      const bool inside = felt.fault == static_cast<std::uint8_t>(simulation::ServoFault::Inside);
+      const bool inside = felt.fault == static_cast<std::uint8_t>(session::ServoFault::Inside);
       enclosed = inside ? enclosed + 1 : 0;
       result.refilled += inside;
       result.inside = std::max(result.inside, enclosed);
@@ -207,7 +207,7 @@ TEST_F(RealTouch, ALiveSessionOverTheMastoidIsPlayedAgainByTheCommand)
     library::Library library(this->library());
     scene::Case value = library.open("ear");
     library.loadDissection(value);
-    presenters::TouchScene scene(value);
+    session::TouchScene scene(value);
     haptics::SimulatedDevice::Hand tremor;
     tremor.tremor = 0.05;
     double start = -1.0;
@@ -219,11 +219,11 @@ TEST_F(RealTouch, ALiveSessionOverTheMastoidIsPlayedAgainByTheCommand)
           return handAt(now - start);
         },
         tremor, {});
-    presenters::TouchSession::Setup setup;
+    session::TouchSession::Setup setup;
     setup.tool.burr.diameter = 2.0 * kRadius;
     setup.recording = file;
-    simulation::ServoParameters parameters;
-    presenters::TouchSession session(value, scene, device, setup);
+    session::ServoParameters parameters;
+    session::TouchSession session(value, scene, device, setup);
     const auto until = [&](double seconds)
     {
       const auto ticks = static_cast<std::uint64_t>(1000.0 * seconds);

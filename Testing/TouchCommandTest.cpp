@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "CommandRunner.h"
-#include "petrous/Simulation/RecordingReader.h"
-#include "petrous/Simulation/RecordingWriter.h"
-#include "petrous/Simulation/BurrRemovalModel.h"
+#include "petrous/Session/RecordingReader.h"
+#include "petrous/Session/RecordingWriter.h"
+#include "petrous/Session/BurrRemovalModel.h"
 
 using namespace petrous::testing;
 
@@ -160,7 +160,7 @@ TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
   // r is the mean over the patch, here of about 1 mm radius: 2/3 mm from its centre.
   const auto arm = [](double degrees)
   {
-    return petrous::simulation::BurrRemovalModel::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
+    return petrous::session::BurrRemovalModel::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
                                                    2.0 / 3.0);
   };
   EXPECT_NEAR(drilled(75.0) / oblique, arm(75.0) / arm(60.0), 0.04);
@@ -371,9 +371,9 @@ TEST_F(TouchCommand, SaysWhereAReplayDiffersAndLeavesTheCase)
   json("undo plane");
   // As computed by another program: one bit of the force of one tick.
   {
-    petrous::simulation::RecordingReader reader(file);
-    petrous::simulation::RecordingWriter writer(m_folder / "other.ticks", reader.setup());
-    petrous::simulation::RecordingBlock block;
+    petrous::session::RecordingReader reader(file);
+    petrous::session::RecordingWriter writer(m_folder / "other.ticks", reader.setup());
+    petrous::session::RecordingBlock block;
     while (reader.next(block))
     {
       for (const auto& edit : block.edits)

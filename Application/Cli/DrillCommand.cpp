@@ -11,7 +11,7 @@
 #include "petrous/Library/Journal.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/RecordingPlayer.h"
-#include "petrous/Presenters/PathDrill.h"
+#include "petrous/Session/PathDrill.h"
 
 namespace petrous::cli
 {
@@ -50,22 +50,22 @@ dissection::Burr burrFrom(const Options& options)
   return burr;
 }
 
-presenters::PathDrill::Options toolFrom(const Options& options)
+session::PathDrill::Options toolFrom(const Options& options)
 {
-  presenters::PathDrill::Options result;
+  session::PathDrill::Options result;
   result.tool.burr = burrFrom(options);
   if (options.mode != "6dof" && options.mode != "3dof")
     throw UsageError("--mode: '6dof' or '3dof', not '" + options.mode + "'");
-  result.tool.mode = options.mode == "3dof" ? presenters::TouchTool::Mode::ThreeDof
-                                            : presenters::TouchTool::Mode::SixDof;
+  result.tool.mode = options.mode == "3dof" ? session::TouchTool::Mode::ThreeDof
+                                            : session::TouchTool::Mode::SixDof;
   if (options.thrust && !(*options.thrust > 0.0 && *options.thrust <= 20.0))
     throw UsageError("--thrust: must lie above 0 and within 20 N");
   result.thrust = options.thrust;
-  result.tool.coupling = presenters::couplingFor(result.tool.mode, result.thrust);
+  result.tool.coupling = session::couplingFor(result.tool.mode, result.thrust);
   return result;
 }
 
-void checkTool(const Options& options, const simulation::RecordingSetup& recorded)
+void checkTool(const Options& options, const session::RecordingSetup& recorded)
 {
   // Checks only options given explicitly.
   const auto refuse = [&](const std::string& asked)
@@ -73,8 +73,8 @@ void checkTool(const Options& options, const simulation::RecordingSetup& recorde
     throw core::InvalidParameter(options.replay + ": was recorded with a " + toString(recorded) +
                                  ", not with " + asked);
   };
-  const presenters::PathDrill::Options tool = toolFrom(options);
-  const bool three = tool.tool.mode == presenters::TouchTool::Mode::ThreeDof;
+  const session::PathDrill::Options tool = toolFrom(options);
+  const bool three = tool.tool.mode == session::TouchTool::Mode::ThreeDof;
   if (options.given("--burr") && tool.tool.burr.kind != recorded.burr.kind)
     refuse("--burr " + options.kind);
   if (options.given("--diameter") && tool.tool.burr.diameter != recorded.burr.diameter)
@@ -135,16 +135,16 @@ void save(const Context& context, library::Library& library, scene::Case& value,
   }
 }
 
-double armAt(const presenters::PathDrill& session, const simulation::TickRecord& record)
+double armAt(const session::PathDrill& session, const session::TickRecord& record)
 {
   return record.drill ? session.removal().arm()
-                      : simulation::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
+                      : session::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
 }
 
-void printBalance(const Context& context, const presenters::PathDrill& session,
+void printBalance(const Context& context, const session::PathDrill& session,
                 nlohmann::json& answer)
 {
-  const simulation::RemovalBalance balance = session.removal().balance();
+  const session::RemovalBalance balance = session.removal().balance();
   context.print("the laws predict " + fixed(balance.predicted, 2) +
               " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
               " owed, " + fixed(balance.forfeited, 2) + " forfeited");
@@ -156,7 +156,7 @@ void printBalance(const Context& context, const presenters::PathDrill& session,
 
 // What is drilled survives a kill; a command that ends otherwise leaves no journal.
 std::unique_ptr<library::Journal> journalOf(const library::Library& library,
-                                            const scene::Case& value, presenters::TouchScene& touch)
+                                            const scene::Case& value, session::TouchScene& touch)
 {
   const auto measured = [&touch](const dissection::Dissection& work)
   {
@@ -173,7 +173,7 @@ std::unique_ptr<library::Journal> journalOf(const library::Library& library,
 
 void play(const Context& context, const Options& options)
 {
-  presenters::PathDrill::Options tool = toolFrom(options);
+  session::PathDrill::Options tool = toolFrom(options);
   std::ifstream file = core::openInput(options.path, kLargestInput);
   const auto path = dissection::ToolPath::read(file, options.path);
 
@@ -185,9 +185,9 @@ void play(const Context& context, const Options& options)
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
   tool.catalogues = cataloguesFrom(options, library.folder());
-  presenters::TouchScene touch(value, progress, 0, true);
+  session::TouchScene touch(value, progress, 0, true);
   const auto journal = journalOf(library, value, touch);
-  presenters::PathDrill session(value, touch, tool);
+  session::PathDrill session(value, touch, tool);
   DrillReport report(value, touch, 0.5 * tool.tool.burr.diameter, options.log, context.json());
 
   std::size_t ticks = 0;
@@ -198,11 +198,11 @@ void play(const Context& context, const Options& options)
             {
               if (ticks++ % 256 == 0)
                 progress.report(0.9 * (tick.time - start) / length, "drilling");
-              const simulation::TickRecord& record = report.feel(
-                  [&]() -> const simulation::TickRecord& { return session.feel(tick); });
+              const session::TickRecord& record = report.feel(
+                  [&]() -> const session::TickRecord& { return session.feel(tick); });
               session.cut(tick);
               journal->follow(*value.dissection);
-              const simulation::RemovalBalance balance = session.removal().balance();
+              const session::RemovalBalance balance = session.removal().balance();
               report.add(record, TickRemoval{record.thrust > 0.0 ? armAt(session, record) : 0.0,
                                              balance.removed + session.swept(), balance.predicted});
             });
@@ -214,7 +214,7 @@ void play(const Context& context, const Options& options)
   report.say(context);
   nlohmann::json answer = report.json();
   printBalance(context, session, answer);
-  if (const simulation::RecordingWriter* recording = session.recording())
+  if (const session::RecordingWriter* recording = session.recording())
   {
     context.print("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
                 " bytes");
@@ -227,7 +227,7 @@ void play(const Context& context, const Options& options)
 void replay(const Context& context, const Options& options)
 {
   core::InputFile(options.replay); // throws, naming a missing file
-  simulation::RecordingReader reader(options.replay);
+  session::RecordingReader reader(options.replay);
   checkTool(options, reader.setup());
 
   library::Library library = context.openLibrary();
@@ -236,7 +236,7 @@ void replay(const Context& context, const Options& options)
   openCase(context, library, options.caseName, value, progress);
   const library::SavedState opened = value;
   const auto camera = presenters::currentCamera(value);
-  presenters::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
+  session::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);
   presenters::RecordingPlayer session(value, touch, reader, options.replay, camera);
   DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
@@ -246,14 +246,14 @@ void replay(const Context& context, const Options& options)
   {
     if (ticks++ % 256 == 0)
       progress.report(0.5, "playing the recording");
-    const simulation::TickRecord& record =
-        report.feel([&]() -> const simulation::TickRecord& { return session.feel(); });
+    const session::TickRecord& record =
+        report.feel([&]() -> const session::TickRecord& { return session.feel(); });
     session.follow();
     journal->follow(*value.dissection);
     report.add(record);
   }
   report.close();
-  const simulation::RecordingReplay::Outcome& outcome = session.outcome();
+  const session::RecordingReplay::Outcome& outcome = session.outcome();
   if (!outcome.warning.empty())
     context.warn(outcome.warning);
   if (outcome.equal())

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "petrous/Dissection/RemovedVolume.h"
-#include "petrous/Presenters/TouchScene.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TouchScene.h"
+#include "petrous/Session/TickRecord.h"
 
 namespace petrous::cli
 {
@@ -27,9 +27,9 @@ class DrillLog
 public:
   /// Throws InvalidParameter naming the file if it cannot be written.
   DrillLog(const std::filesystem::path& file, const scene::Case& value,
-           presenters::TouchScene& scene);
+           session::TouchScene& scene);
 
-  void add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal);
+  void add(const session::TickRecord& record, const std::optional<TickRemoval>& removal);
 
   /// Throws InvalidParameter if not everything could be written.
   void close();
@@ -40,7 +40,7 @@ private:
   std::string m_name;
   std::ofstream m_file;
   const scene::Case& m_case;
-  presenters::TouchScene& m_scene;
+  session::TouchScene& m_scene;
   volume::CutMask m_before;
   double m_removed = 0.0; // mm^3
 };

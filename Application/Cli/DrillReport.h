@@ -20,18 +20,18 @@ public:
   /// log        the file of `--log`, or empty
   /// distances  whether the minimum distance of the burr to each labelled structure is computed
   /// Case and scene must outlive this.
-  DrillReport(scene::Case& value, presenters::TouchScene& scene, double radius,
+  DrillReport(scene::Case& value, session::TouchScene& scene, double radius,
               const std::string& log, bool distances);
 
   /// The servo's tick, timed.
   template <typename Call>
-  const simulation::TickRecord& feel(Call call)
+  const session::TickRecord& feel(Call call)
   {
     return m_times.take(call);
   }
 
   /// Adds the tick, after its effect on the tissue. `removal`: if a removal law is in use.
-  void add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal = {});
+  void add(const session::TickRecord& record, const std::optional<TickRemoval>& removal = {});
 
   /// Call after the last tick: closes the log.
   void close();

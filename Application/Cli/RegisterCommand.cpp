@@ -6,7 +6,7 @@
 #include "Numbers.h"
 #include "RegistrationFiles.h"
 #include "petrous/Presenters/CaseRegistration.h"
-#include "petrous/Presenters/DrillSession.h"
+#include "petrous/Session/DrillSession.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 
@@ -128,7 +128,7 @@ void sign(const Context& context, const Options& options)
                      "what you saw");
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
-  scene::signOff(value, options.mr, options.signOff, presenters::utcNow());
+  scene::signOff(value, options.mr, options.signOff, session::utcNow());
   library.save(value);
   const scene::ImagePart& mr = *scene::findMr(value, options.mr);
   context.print("MR '" + mr.name + "': " + scene::registrationInWords(mr));

@@ -88,9 +88,9 @@ constexpr Benchmark kBenchmarks[] = {
            touchBenchmarkScenes(options.quick, options.data, progress.part(0.0, 0.1)));
      }},
     {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
-     { return simulation::runServoBenchmark(work, options.quick, progress); }},
+     { return session::runServoBenchmark(work, options.quick, progress); }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
-     { return simulation::runRemovalBenchmark(options.quick, progress); }},
+     { return session::runRemovalBenchmark(options.quick, progress); }},
     {"registration",
      [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      {

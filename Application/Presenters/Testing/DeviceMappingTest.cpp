@@ -39,7 +39,7 @@ TEST(DeviceMapping, TheHandNeverFeelsAStifferSpringThanTheDeviceRenders)
     for (const double scale : {0.05, 0.25, 0.5, 1.0, 2.0})
     {
       const auto device = motors(stiffness);
-      TouchSession::Setup setup;
+      session::TouchSession::Setup setup;
       DeviceMapping lead;
       lead.scale = scale;
       fit(setup, device, lead, false);
@@ -58,7 +58,7 @@ TEST(DeviceMapping, TheUsersLimitOnlyLowersTheDevices)
 {
   const auto most = [](std::optional<double> limit)
   {
-    TouchSession::Setup setup;
+    session::TouchSession::Setup setup;
     DeviceMapping lead;
     lead.forceLimit = limit;
     fit(setup, motors(1.0), lead, false);
@@ -75,7 +75,7 @@ TEST(DeviceMapping, AHandWithoutMotorsIsOnALeashOfItsThrust)
   const haptics::DeviceDescription cap;
   DeviceMapping lead;
   lead.thrust = 2.5;
-  TouchSession::Setup setup;
+  session::TouchSession::Setup setup;
   fit(setup, cap, lead, true);
   EXPECT_NEAR(setup.tool.coupling.stiffness *
                   static_cast<double>(parametersFor(cap, lead, camera(), {}).maxLead),
@@ -94,8 +94,8 @@ TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)
   lead.scale = 0.3;
   const auto parameters = parametersFor(motors(1.0), lead, camera(), {});
   const double* q = parameters.camera;
-  const simulation::PoseMapping::View view{{q[0], q[1], q[2], q[3]}, lead.scale};
-  simulation::PoseMapping mapping(centerFor(tool, hand, lead.scale, camera()));
+  const session::PoseMapping::View view{{q[0], q[1], q[2], q[3]}, lead.scale};
+  session::PoseMapping mapping(centerFor(tool, hand, lead.scale, camera()));
   EXPECT_LT((mapping.map({hand, Eigen::Quaterniond::Identity()}, view).position - tool).norm(),
             1e-12);
   // Moving the device to the right moves the tool to the picture's right, which is -x here.

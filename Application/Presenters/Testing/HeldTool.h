@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Presenters/TouchSession.h"
+#include "petrous/Session/TouchSession.h"
 
 namespace petrous::presenters::testing
 {
@@ -15,7 +15,7 @@ class HeldTool
 {
 public:
   explicit HeldTool(const Eigen::Vector3d& place,
-                    TouchTool::Mode mode = TouchTool::Mode::ThreeDof) // made at once
+                    session::TouchTool::Mode mode = session::TouchTool::Mode::ThreeDof) // made at once
     : device(place)
   {
     setup.tool.mode = mode;
@@ -32,7 +32,7 @@ public:
   void drill(bool on) { device.setButtons(on ? interaction::PointerDevice::kDrill : 0U); }
 
   interaction::PointerDevice device;
-  TouchSession::Setup setup;
+  session::TouchSession::Setup setup;
 };
 
 /// Calls `advance` repeatedly, as a window does, until it returns true; false after a minute.

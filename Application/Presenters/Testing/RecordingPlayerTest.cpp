@@ -12,7 +12,7 @@
 #include "BoneCase.h"
 #include "HeldTool.h"
 #include "petrous/Presenters/RecordingPlayer.h"
-#include "petrous/Presenters/PathDrill.h"
+#include "petrous/Session/PathDrill.h"
 #include "petrous/Presenters/Recordings.h"
 
 using namespace petrous;
@@ -26,21 +26,21 @@ using petrous::presenters::testing::until;
 namespace
 {
 
-class RecordingPlayerTest : public ::testing::TestWithParam<TouchTool::Mode>
+class RecordingPlayerTest : public ::testing::TestWithParam<session::TouchTool::Mode>
 {
 protected:
   void SetUp() override { std::filesystem::create_directories(folder); }
   void TearDown() override { std::filesystem::remove_all(folder); }
 
   // As in a window: drills, slides on, undoes while pressed, redoes.
-  void liveSession(scene::Case& value, TouchScene& scene)
+  void liveSession(scene::Case& value, session::TouchScene& scene)
   {
     HeldTool hand(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
     hand.setup.recording = file;
     // A burr that sinks into bone removes at once what it overlaps; it must not emerge below.
-    const bool sinks = GetParam() == TouchTool::Mode::ThreeDof;
+    const bool sinks = GetParam() == session::TouchTool::Mode::ThreeDof;
     const std::uint64_t states = sinks ? 1 : 8;
-    TouchSession session(value, scene, hand.device, hand.setup);
+    session::TouchSession session(value, scene, hand.device, hand.setup);
     std::uint64_t felt = 0; // number of the mask's state
     double thrust = 0.0;    // N
     std::size_t steps = 0;
@@ -97,15 +97,15 @@ protected:
   }
 
   // What is replayed on that case; the replay itself compares the forces.
-  simulation::RecordingReplay::Outcome replayed(scene::Case& value)
+  session::RecordingReplay::Outcome replayed(scene::Case& value)
   {
-    simulation::RecordingReader reader(file);
-    TouchScene scene(value, {}, reader.setup().scene.firstState);
+    session::RecordingReader reader(file);
+    session::TouchScene scene(value, {}, reader.setup().scene.firstState);
     RecordingPlayer replay(value, scene, reader, "session.ticks");
-    const simulation::TickRecord* recorded = nullptr;
+    const session::TickRecord* recorded = nullptr;
     while ((recorded = replay.next()))
     {
-      const simulation::TickRecord& felt = replay.feel();
+      const session::TickRecord& felt = replay.feel();
       differences += std::memcmp(recorded, &felt, sizeof felt) != 0;
       pressed += felt.thrust > 0.0;
     }
@@ -143,7 +143,7 @@ TEST_P(RecordingPlayerTest, OfALiveSessionIsTheSessionToTheLastBit)
 {
   scene::Case first = block();
   {
-    TouchScene scene(first);
+    session::TouchScene scene(first);
     liveSession(first, scene);
   }
   scene::Case second = block();
@@ -169,11 +169,11 @@ TEST_P(RecordingPlayerTest, GoesOnFromWhereASceneWasThatOthersHadUsed)
 {
   scene::Case first = block();
   scene::Case second = block();
-  TouchScene scene(first);
+  session::TouchScene scene(first);
   {
     // An earlier session, not recorded: the case and the mask's state numbers continue from it.
     HeldTool hand(Vector3d(5.0, 5.0, kTop + 2.5), GetParam());
-    TouchSession session(first, scene, hand.device, hand.setup);
+    session::TouchSession session(first, scene, hand.device, hand.setup);
     hand.drill(true);
     ASSERT_TRUE(until(
         [&]
@@ -196,7 +196,7 @@ TEST_P(RecordingPlayerTest, RefusesACaseThatIsNotAsItWas)
 {
   scene::Case first = block();
   {
-    TouchScene scene(first);
+    session::TouchScene scene(first);
     liveSession(first, scene);
   }
   const std::string done = refusal(first);
@@ -227,13 +227,13 @@ TEST_P(RecordingPlayerTest, RefusesACaseThatIsNotAsItWas)
 TEST_P(RecordingPlayerTest, OfAToolPathIsThePath)
 {
   scene::Case first = block();
-  std::vector<simulation::TickRecord> felt;
+  std::vector<session::TickRecord> felt;
   {
-    TouchScene scene(first);
-    PathDrill::Options options;
+    session::TouchScene scene(first);
+    session::PathDrill::Options options;
     options.tool.mode = GetParam();
     options.recording = file;
-    PathDrill drill(first, scene, options);
+    session::PathDrill drill(first, scene, options);
     // It starts inside, where the drill removes what the burr sweeps, comes out and presses again.
     for (int n = 0; n < 600; ++n)
     {
@@ -265,16 +265,16 @@ TEST_P(RecordingPlayerTest, OfAToolPathIsThePath)
 TEST_P(RecordingPlayerTest, SaysThatARecordingCannotBeBegun)
 {
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   HeldTool hand(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
   hand.setup.recording = folder / "missing" / "session.ticks";
-  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), simulation::RecordingError);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup), session::RecordingError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, RecordingPlayerTest,
-                         ::testing::Values(TouchTool::Mode::SixDof, TouchTool::Mode::ThreeDof),
+                         ::testing::Values(session::TouchTool::Mode::SixDof, session::TouchTool::Mode::ThreeDof),
                          [](const auto& mode)
-                         { return mode.param == TouchTool::Mode::SixDof ? "Six" : "Three"; });
+                         { return mode.param == session::TouchTool::Mode::SixDof ? "Six" : "Three"; });
 
 TEST(Recordings, HaveNamesOfTheirOwnBesideTheCases)
 {

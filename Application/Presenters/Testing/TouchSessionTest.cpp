@@ -21,12 +21,12 @@ class TouchSessionTest : public ::testing::Test
 {
 protected:
   scene::Case value = block();
-  TouchScene scene{value};
-  HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), TouchTool::Mode::SixDof};
-  TouchSession session{value, scene, hand.device, hand.setup};
+  session::TouchScene scene{value};
+  HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), session::TouchTool::Mode::SixDof};
+  session::TouchSession session{value, scene, hand.device, hand.setup};
 
   // One frame: applies the removal and feeds the device.
-  TouchSession::News frame()
+  session::TouchSession::News frame()
   {
     auto news = session.advance();
     if (news.record)
@@ -50,7 +50,7 @@ protected:
 
 TEST_F(TouchSessionTest, PressesOnTheBoneWithoutTakingAnyWhileTheDrillIsOff)
 {
-  simulation::TickRecord record;
+  session::TickRecord record;
   ASSERT_TRUE(until(
       [&]
       {
@@ -71,7 +71,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   ASSERT_TRUE(drillSome());
   EXPECT_TRUE(session.drilling());
   hand.drill(false);
-  TouchSession::News news;
+  session::TouchSession::News news;
   ASSERT_TRUE(until(
       [&]
       {
@@ -108,7 +108,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
   const auto step = [this](bool back)
   {
     back ? session.undo() : session.redo();
-    TouchSession::News news;
+    session::TouchSession::News news;
     EXPECT_TRUE(until(
         [&]
         {
@@ -196,13 +196,13 @@ struct Drilled
 Drilled drilledAt(double picturesPerSecond)
 {
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   ScriptedDevice device(Vector3d(6.0, 6.0, kTop + 2.2));
-  TouchSession::Setup setup;
+  session::TouchSession::Setup setup;
   setup.parameters.constantThrust = 1;
   setup.parameters.drillButtons = 1;
   setup.parameters.approach[2] = -5.0;
-  TouchSession session(value, scene, device, setup);
+  session::TouchSession session(value, scene, device, setup);
   Drilled drilled;
   for (bool over = false; !over;)
   {
@@ -250,11 +250,11 @@ TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)
     void send(const haptics::Wrench&) noexcept override {}
   };
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   Unplugged device;
-  TouchSession::Setup setup;
-  setup.tool.mode = TouchTool::Mode::ThreeDof;
-  TouchSession session(value, scene, device, setup);
+  session::TouchSession::Setup setup;
+  setup.tool.mode = session::TouchTool::Mode::ThreeDof;
+  session::TouchSession session(value, scene, device, setup);
   std::string fault;
   ASSERT_TRUE(until(
       [&]
@@ -268,23 +268,23 @@ TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)
 TEST(TouchSession, RefusesBadParameters)
 {
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   HeldTool hand(Vector3d(6.0, 6.0, 10.0));
   hand.setup.tool.burr.rpm = -1.0;
-  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
   hand.setup.tool.burr.rpm = 60000.0;
   hand.setup.parameters.thrust = 50.0;
-  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
 }
 
 TEST(TouchTool, IsHeldTheStifferWhereASetThrustPressesIt)
 {
-  using Mode = TouchTool::Mode;
+  using Mode = session::TouchTool::Mode;
   const haptics::ProxyParameters usual;
-  EXPECT_EQ(couplingFor(Mode::SixDof, std::nullopt).stiffness, usual.stiffness);
-  EXPECT_EQ(couplingFor(Mode::ThreeDof, 1.0).stiffness, usual.stiffness);
-  const haptics::ProxyParameters pressed = couplingFor(Mode::SixDof, 1.0);
-  EXPECT_EQ(pressed.stiffness, simulation::ConstantThrust::coupling(1.0).stiffness);
+  EXPECT_EQ(session::couplingFor(Mode::SixDof, std::nullopt).stiffness, usual.stiffness);
+  EXPECT_EQ(session::couplingFor(Mode::ThreeDof, 1.0).stiffness, usual.stiffness);
+  const haptics::ProxyParameters pressed = session::couplingFor(Mode::SixDof, 1.0);
+  EXPECT_EQ(pressed.stiffness, session::ConstantThrust::coupling(1.0).stiffness);
   EXPECT_GT(pressed.stiffness, 5.0 * usual.stiffness);
   EXPECT_GT(pressed.angularStiffness, usual.angularStiffness);
 }

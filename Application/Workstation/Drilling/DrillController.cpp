@@ -29,8 +29,8 @@ constexpr double kBeyond = 0.2;   // mm below the tissue's surface
 constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have been restored
 
 using haptics::DeviceVerdict;
-using simulation::ServoFault;
-using simulation::TickRecord;
+using session::ServoFault;
+using session::TickRecord;
 
 QString textOf(const presenters::PlaceReading& reading, const presenters::IntensityDisplay& display)
 {
@@ -242,13 +242,13 @@ bool DrillController::takeTool()
   QString why;
   try
   {
-    presenters::TouchSession::Setup setup;
+    session::TouchSession::Setup setup;
     setup.tool.burr = m_bar.burr();
     setup.cuts = m_tool == Tool::Burr;
     if (m_tool == Tool::Pointer)
     {
       setup.tool.burr.diameter = 2.0 * kPointerRadius;
-      setup.tool.mode = presenters::TouchTool::Mode::ThreeDof; // its shaft must not collide
+      setup.tool.mode = session::TouchTool::Mode::ThreeDof; // its shaft must not collide
     }
     haptics::Device& device = m_lead.prepare(setup);
     m_model.startTouch(device, setup);
@@ -328,7 +328,7 @@ void DrillController::frame()
   hear(m_model.advanceTouch());
 }
 
-void DrillController::hear(const presenters::TouchSession::News& news)
+void DrillController::hear(const session::TouchSession::News& news)
 {
   if (news.record)
     show(news);
@@ -345,7 +345,7 @@ void DrillController::hear(const presenters::TouchSession::News& news)
     m_devices.giveUp(whyLost());
 }
 
-void DrillController::show(const presenters::TouchSession::News& news)
+void DrillController::show(const session::TouchSession::News& news)
 {
   const TickRecord& record = *news.record;
   if (!m_model.drilling()) // for a stroke that may begin
@@ -409,7 +409,7 @@ QString DrillController::whyLost() const
   return why.isEmpty() ? tr("%1 gives no place any more").arg(name) : why;
 }
 
-void DrillController::showFault(const presenters::TouchSession::News& news)
+void DrillController::showFault(const session::TouchSession::News& news)
 {
   const TickRecord& record = *news.record;
   m_stall.see(record);

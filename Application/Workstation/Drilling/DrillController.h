@@ -8,7 +8,7 @@
 #include <QTimer>
 
 #include "ToolDriver.h"
-#include "petrous/Presenters/StallWatch.h"
+#include "petrous/Session/StallWatch.h"
 
 namespace petrous::workstation
 {
@@ -66,13 +66,13 @@ private:
   void applyBar();
   void deviceCame();
   void frame();
-  void hear(const presenters::TouchSession::News& news);
-  void show(const presenters::TouchSession::News& news);
-  void read(const simulation::TickRecord& record);
-  void showFault(const presenters::TouchSession::News& news);
-  QString whyStalled(const simulation::TickRecord& record) const;
+  void hear(const session::TouchSession::News& news);
+  void show(const session::TouchSession::News& news);
+  void read(const session::TickRecord& record);
+  void showFault(const session::TouchSession::News& news);
+  QString whyStalled(const session::TickRecord& record) const;
   QString whyLost() const;
-  bool isLost(const simulation::TickRecord& record);
+  bool isLost(const session::TickRecord& record);
   double toolRadius() const;
 
   presenters::WorkstationModel& m_model;
@@ -87,7 +87,7 @@ private:
   QElapsedTimer m_sinceTaken;
   QElapsedTimer m_sinceGone;
   QElapsedTimer m_sinceRead;
-  presenters::StallWatch m_stall;
+  session::StallWatch m_stall;
   QString m_fault; // as shown
   Tool m_tool = Tool::None;
   bool m_slicesFollow = true;

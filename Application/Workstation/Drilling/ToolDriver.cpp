@@ -16,9 +16,9 @@ constexpr double kSilence = 3.0; // s; a software-rendered frame can take one
 constexpr double kPedalDown = 0.5;
 } // namespace
 
-bool isPlaced(const simulation::TickRecord& record)
+bool isPlaced(const session::TickRecord& record)
 {
-  using simulation::ServoFault;
+  using session::ServoFault;
   const auto fault = static_cast<ServoFault>(record.fault);
   return record.input.now > 0.0 && fault != ServoFault::Device && fault != ServoFault::Clock &&
          fault != ServoFault::Parameters;
@@ -78,10 +78,10 @@ std::optional<double> ToolDriver::setThrust() const
 
 bool ToolDriver::outgrown() const
 {
-  return m_pointer && presenters::couplingFor(m_mode, setThrust()).stiffness != m_stiffness;
+  return m_pointer && session::couplingFor(m_mode, setThrust()).stiffness != m_stiffness;
 }
 
-haptics::Device& ToolDriver::prepare(presenters::TouchSession::Setup& setup)
+haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
 {
   m_pointer = nullptr;
   if (presenters::ActiveDevice* device = m_devices.device())
@@ -97,7 +97,7 @@ haptics::Device& ToolDriver::prepare(presenters::TouchSession::Setup& setup)
   }
   setup.center = m_model.value().ct.geometry.center();
   m_mode = setup.tool.mode;
-  setup.tool.coupling = presenters::couplingFor(m_mode, setThrust());
+  setup.tool.coupling = session::couplingFor(m_mode, setThrust());
   m_stiffness = setup.tool.coupling.stiffness;
   m_aim.begin();
   m_aim.apply(setup.parameters);
@@ -116,7 +116,7 @@ void ToolDriver::send()
 {
   if (!m_model.touching())
     return;
-  simulation::ServoParameters parameters;
+  session::ServoParameters parameters;
   if (m_pointer)
   {
     if (m_aim.wanted())
@@ -177,7 +177,7 @@ void ToolDriver::letGo()
   drill(false);
 }
 
-void ToolDriver::see(const simulation::TickRecord& record)
+void ToolDriver::see(const session::TickRecord& record)
 {
   if (m_pointer)
     seeByMouse(record);
@@ -190,7 +190,7 @@ void ToolDriver::see(const simulation::TickRecord& record)
   send();
 }
 
-void ToolDriver::seeByMouse(const simulation::TickRecord& record)
+void ToolDriver::seeByMouse(const session::TickRecord& record)
 {
   m_aim.see(record, m_pointer->see(record));
   const bool foot = record.input.pedal >= kPedalDown && m_cuts;

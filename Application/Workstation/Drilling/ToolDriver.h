@@ -26,7 +26,7 @@ public:
   void set(const interaction::AimSettings& settings, bool cuts);
 
   /// The device for a new touch session; adapts the setup, in which the tool is set already.
-  haptics::Device& prepare(presenters::TouchSession::Setup& setup);
+  haptics::Device& prepare(session::TouchSession::Setup& setup);
   bool byMouse() const noexcept { return m_pointer != nullptr; } ///< since `prepare`
 
   /// The mouse tool's coupling differs from what the current settings require.
@@ -47,7 +47,7 @@ public:
   /// The mouse button is pressed, and the burr has lifted (interaction::PointerToolController).
   bool lifted() const noexcept { return m_pointer && m_aim.lifted(); }
 
-  void see(const simulation::TickRecord& record); ///< of the running touch session
+  void see(const session::TickRecord& record); ///< of the running touch session
   void send();                                    ///< current camera, switches and settings
 
 private:
@@ -55,7 +55,7 @@ private:
   presenters::DeviceMapping lead() const;
   std::optional<double> setThrust() const; // N
   void press();
-  void seeByMouse(const simulation::TickRecord& record);
+  void seeByMouse(const session::TickRecord& record);
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
@@ -63,7 +63,7 @@ private:
   interaction::PointerToolController m_aim;
   std::unique_ptr<haptics::Device> m_mouse;        // of the running touch session
   interaction::PointerDevice* m_pointer = nullptr; // part of m_mouse
-  presenters::TouchTool::Mode m_mode = presenters::TouchTool::Mode::SixDof; // of the mouse's tool
+  session::TouchTool::Mode m_mode = session::TouchTool::Mode::SixDof; // of the mouse's tool
   double m_stiffness = 0.0;                                                 // N/mm, likewise
   std::optional<Eigen::Vector3d> m_place;     // of a device's tool, patient mm
   Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0}; // frame D, at the same time
@@ -73,6 +73,6 @@ private:
 };
 
 /// Whether a record's poses are valid.
-bool isPlaced(const simulation::TickRecord& record);
+bool isPlaced(const session::TickRecord& record);
 
 } // namespace petrous::workstation

@@ -96,7 +96,7 @@ void TouchOverlay::setCovered(double share)
   m_warning->SetPosition(kWarningAcross, kWarningUp - share);
 }
 
-bool TouchOverlay::update(const simulation::TickRecord& record)
+bool TouchOverlay::update(const session::TickRecord& record)
 {
   auto tool = m_view.update(record);
   if (tool)

@@ -31,7 +31,7 @@ public:
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_tool; }
 
   /// Returns true if the picture changed.
-  bool update(const simulation::TickRecord& record);
+  bool update(const session::TickRecord& record);
   /// UTF-8, several lines; empty: no reading. Likewise.
   bool setReading(const std::string& text);
   /// What the surgeon must see now, UTF-8, several lines, at the upper edge; likewise.

@@ -118,7 +118,7 @@ void SceneDisplay::setTool(const std::optional<rendering::ToolPose>& tool)
   redraw(true);
 }
 
-void SceneDisplay::setTouch(const simulation::TickRecord& record, double burrRadius, bool handpiece)
+void SceneDisplay::setTouch(const session::TickRecord& record, double burrRadius, bool handpiece)
 {
   if (m_follower)
     m_follower->setTouch(record, burrRadius, handpiece);

@@ -18,7 +18,7 @@
 class vtkGenericOpenGLRenderWindow;
 class vtkRenderer;
 
-namespace petrous::simulation
+namespace petrous::session
 {
 struct TickRecord;
 }
@@ -55,7 +55,7 @@ public:
   void setTool(const std::optional<rendering::ToolPose>& tool);
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }
   /// The tool with its force, from the servo; redrawn if it changed.
-  void setTouch(const simulation::TickRecord& record, double burrRadius, bool handpiece = true);
+  void setTouch(const session::TickRecord& record, double burrRadius, bool handpiece = true);
   /// What a pointer reads, several lines; after setTouch.
   void setReading(const QString& text);
   const QString& reading() const noexcept { return m_reading; }

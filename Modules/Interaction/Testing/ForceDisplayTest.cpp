@@ -23,11 +23,11 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 constexpr double kPixels = 4.0; // per mm
 
-simulation::TickRecord recordOf(const Vector3d& force, const Vector3d& tool = Vector3d::Zero())
+session::TickRecord recordOf(const Vector3d& force, const Vector3d& tool = Vector3d::Zero())
 {
-  simulation::TickRecord record;
-  record.proxy = simulation::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
-  record.wrench = simulation::WrenchValues::of({force, Vector3d::Zero()});
+  session::TickRecord record;
+  record.proxy = session::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
+  record.wrench = session::WrenchValues::of({force, Vector3d::Zero()});
   return record;
 }
 
@@ -50,7 +50,7 @@ public:
     display.setBarShown(false);
   }
 
-  Picture drawRecord(const simulation::TickRecord& record)
+  Picture drawRecord(const session::TickRecord& record)
   {
     display.update(record);
     return m_view.render(m_picture);
@@ -143,8 +143,8 @@ TEST(ForceDisplay, HidesAForceBelowAFiftiethOfANewton)
 TEST(ForceDisplay, ShowsNoForceThatIsNotGiven)
 {
   Scene scene;
-  simulation::TickRecord record = recordOf({2.0, 0.0, 0.0});
-  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  session::TickRecord record = recordOf({2.0, 0.0, 0.0});
+  record.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
   EXPECT_TRUE(difference(scene.drawRecord(record), scene.empty).empty());
   EXPECT_EQ(scene.display.force(), 0.0);
   record = recordOf({2.0, 0.0, 0.0});
@@ -279,9 +279,9 @@ TEST(ForceDisplay, RefusesBadLooks)
 // The force of a tissue's rim on a tool moved over it is not a pressing force.
 TEST(ForceDisplay, AHoveringToolHasNoForce)
 {
-  using Parameters = simulation::ServoParameters;
+  using Parameters = session::ServoParameters;
   ForceDisplay display;
-  simulation::TickRecord record = recordOf({0.0, 0.0, 1.2});
+  session::TickRecord record = recordOf({0.0, 0.0, 1.2});
   record.input.parameters.constantThrust = Parameters::kPointer | Parameters::kPressed;
   display.update(record);
   EXPECT_EQ(display.force(), 1.2);

@@ -8,7 +8,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/DeviceGuard.h"
-#include "petrous/Simulation/PoseMapping.h"
+#include "petrous/Session/PoseMapping.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
@@ -33,9 +33,9 @@ struct Hand
   {
   }
   PointerDevice& device;
-  simulation::PoseMapping mapping{kCenter};
+  session::PoseMapping mapping{kCenter};
   double now = 50.0;
-  simulation::TickRecord record;
+  session::TickRecord record;
   double fastest = 0.0;  // mm/s
   double quickest = 0.0; // rad/s
   bool moved = false;
@@ -47,10 +47,10 @@ struct Hand
     now += 0.001;
     const Pose before = record.input.device.pose();
     const DeviceReading reading = device.read(now);
-    record.input = simulation::TickInput::of(now, reading, {});
+    record.input = session::TickInput::of(now, reading, {});
     if (reading.health != DeviceHealth::Good)
       return;
-    record.mapped = simulation::PoseValues::of(mapping.map(reading.pose, {}));
+    record.mapped = session::PoseValues::of(mapping.map(reading.pose, {}));
     if (moved)
     {
       const haptics::Motion motion = haptics::motionBetween(before, reading.pose);
@@ -185,18 +185,18 @@ TEST(PointerDevice, LearnsNothingFromRecordsThatDoNotTell)
   device.want({kCenter, kHeading});
   hand.run(30);
   hand.record.mapped.position[0] += 5.0;
-  for (const auto fault : {simulation::ServoFault::Device, simulation::ServoFault::Clock,
-                           simulation::ServoFault::Parameters, simulation::ServoFault::Retreated})
+  for (const auto fault : {session::ServoFault::Device, session::ServoFault::Clock,
+                           session::ServoFault::Parameters, session::ServoFault::Retreated})
   {
-    simulation::TickRecord bad = hand.record;
+    session::TickRecord bad = hand.record;
     bad.fault = static_cast<std::uint8_t>(fault);
     EXPECT_FALSE(device.see(bad));
   }
-  simulation::TickRecord clutched = hand.record;
+  session::TickRecord clutched = hand.record;
   clutched.input.parameters.clutchButtons = PointerDevice::kFreeze;
   clutched.input.buttons = PointerDevice::kFreeze;
   EXPECT_FALSE(device.see(clutched));
-  simulation::TickRecord scaled = hand.record;
+  session::TickRecord scaled = hand.record;
   scaled.input.parameters.scale = 0.5;
   EXPECT_FALSE(device.see(scaled));
   EXPECT_TRUE(device.see(hand.record));

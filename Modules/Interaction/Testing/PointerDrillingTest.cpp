@@ -6,15 +6,15 @@
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Simulation/Servo.h"
+#include "petrous/Session/Servo.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
 using namespace petrous::interaction::testing;
 using Eigen::Vector3d;
 using Mode = AimSettings::Mode;
-using simulation::ServoFault;
-using simulation::TickRecord;
+using session::ServoFault;
+using session::TickRecord;
 
 namespace
 {
@@ -54,7 +54,7 @@ public:
       if (n % 16 == 0)
         frame();
       now += 0.001;
-      record = servo.tick(simulation::TickInput::of(now, device.read(now), parameters));
+      record = servo.tick(session::TickInput::of(now, device.read(now), parameters));
     }
     return record;
   }
@@ -65,10 +65,10 @@ public:
 
   std::shared_ptr<const volume::TissueField> tissue;
   haptics::ConstrainedProxy proxy;
-  simulation::Servo servo;
+  session::Servo servo;
   PointerDevice device;
   PointerToolController aim;
-  simulation::ServoParameters parameters;
+  session::ServoParameters parameters;
   double now = 10.0;
 
 private:
@@ -90,9 +90,9 @@ private:
     return std::make_shared<haptics::HapticField>(
         tissue, std::make_shared<volume::PublishedMask>(volume::CutMask(tissue.geometry())));
   }
-  static simulation::ServoSetup setup(const haptics::ConstrainedProxy& tool)
+  static session::ServoSetup setup(const haptics::ConstrainedProxy& tool)
   {
-    simulation::ServoSetup setup;
+    session::ServoSetup setup;
     setup.limits.maxForce = 10.0;
     setup.limits.maxTorque = 500.0;
     setup.burrPoints = tool.shell().burrCount;
@@ -262,7 +262,7 @@ TEST(PointerDrilling, ThePointerAtTheMenuPullsNoHarderThanTheThrust)
     ASSERT_LE(session.force().norm(), session.aim.settings().thrust) << n;
     ASSERT_EQ(session.fault(), ServoFault::None) << n;
   }
-  EXPECT_LT(besideLine(session.tool(), through({60.0, 80.0, 0.0})), simulation::Servo::kFarthest);
+  EXPECT_LT(besideLine(session.tool(), through({60.0, 80.0, 0.0})), session::Servo::kFarthest);
 }
 
 // Dragging with the button pressed over the rim of a cavity, in which the shaft holds the tool.

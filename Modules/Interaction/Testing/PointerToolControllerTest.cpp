@@ -16,7 +16,7 @@ using namespace petrous::interaction::testing;
 using Eigen::Vector3d;
 using Mode = AimSettings::Mode;
 using Press = PointerToolController::Press;
-using Parameters = simulation::ServoParameters;
+using Parameters = session::ServoParameters;
 
 namespace
 {
@@ -65,10 +65,10 @@ Vector3d shaft(const PointerToolController& aim)
   return aim.wanted()->rotation * Vector3d::UnitZ();
 }
 
-simulation::TickRecord recordAt(const Vector3d& tool)
+session::TickRecord recordAt(const Vector3d& tool)
 {
-  simulation::TickRecord record;
-  record.proxy = simulation::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
+  session::TickRecord record;
+  record.proxy = session::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
   return record;
 }
 
@@ -108,7 +108,7 @@ TEST(PointerToolController, PressesAlongTheLineOfSightByConstantThrust)
 {
   const Vector3d target(30.0, -20.0, 0.0);
   PointerToolController aim = aimAt(through(target), Mode::Surface);
-  simulation::ServoParameters parameters;
+  session::ServoParameters parameters;
   aim.apply(parameters);
   EXPECT_EQ(parameters.constantThrust, Parameters::kPointer);
   EXPECT_EQ(aim.buttons(), 0U);
@@ -131,7 +131,7 @@ TEST(PointerToolController, PressesAlongTheLineOfSightByConstantThrust)
 
 TEST(PointerToolController, GivesTheServoThePatientsAxes)
 {
-  simulation::ServoParameters parameters;
+  session::ServoParameters parameters;
   parameters.scale = 0.5;
   parameters.camera[0] = 0.0;
   parameters.camera[2] = 1.0;
@@ -161,7 +161,7 @@ TEST(PointerToolController, KeepsItsDepthPastTheEdgeOfTheTissue)
   EXPECT_FALSE(aim.meetsTissue());
   EXPECT_NEAR(place(aim).z(), height, 1e-9);
   EXPECT_LT(distanceToLine(place(aim), beyond), 1e-9);
-  simulation::ServoParameters parameters;
+  session::ServoParameters parameters;
   aim.apply(parameters);
   EXPECT_EQ(parameters.constantThrust, Parameters::kPointer); // it would fall
   aim.point(through({5.0, 0.0, 0.0}));
@@ -191,7 +191,7 @@ TEST(PointerToolController, LiftsWhereTheDepthLeapsUnderAPressedPointer)
     EXPECT_NEAR(place(aim).z(), height + aim.settings().lift, 1e-9);
     EXPECT_LT(distanceToLine(place(aim), beyond), 1e-9);
     EXPECT_EQ(aim.buttons(), 0U);
-    simulation::ServoParameters parameters;
+    session::ServoParameters parameters;
     aim.apply(parameters);
     EXPECT_EQ(parameters.constantThrust, Parameters::kPointer);
     EXPECT_EQ(parameters.pause, 1) << "a pedal would drill";

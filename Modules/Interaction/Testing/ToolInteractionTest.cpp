@@ -23,8 +23,8 @@ using Mode = AimSettings::Mode;
 namespace
 {
 
-constexpr int kHovers = simulation::ServoParameters::kPointer;
-constexpr int kPresses = kHovers | simulation::ServoParameters::kPressed;
+constexpr int kHovers = session::ServoParameters::kPointer;
+constexpr int kPresses = kHovers | session::ServoParameters::kPressed;
 
 /// A window with a trackball style, whose pointer controls the tool over a plane at z = 0.
 struct Program
@@ -337,14 +337,14 @@ TEST(ToolInteraction, GivesADeviceTheCamerasAxesScaleClutchAndDrill)
 {
   Program program;
   program.tool->PointerHandOff();
-  simulation::ServoParameters own;
+  session::ServoParameters own;
   own.forceGain = 2.0;
   program.tool->SetParameters(own);
   vtkCamera* camera = program.window.renderer->GetActiveCamera();
   camera->SetPosition(0.0, -200.0, 0.0); // right is x, up is z, back is -y
   camera->SetViewUp(0.0, 0.0, 1.0);
   program.tool->See({});
-  const simulation::ServoParameters& p = program.tool->GetParameters();
+  const session::ServoParameters& p = program.tool->GetParameters();
   const Eigen::Quaterniond axes(p.camera[0], p.camera[1], p.camera[2], p.camera[3]);
   expectNear(axes * Vector3d::UnitX(), Vector3d(1.0, 0.0, 0.0), 1e-9);
   expectNear(axes * Vector3d::UnitY(), Vector3d(0.0, 0.0, 1.0), 1e-9);
@@ -377,11 +377,11 @@ TEST(ToolInteraction, FollowsTheServosRecords)
   program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
   program.hand();
   // The servo re-anchored the tool 4 mm to the side, at another height.
-  simulation::TickRecord record;
-  record.input = simulation::TickInput::of(program.now, program.device.read(program.now), {});
+  session::TickRecord record;
+  record.input = session::TickInput::of(program.now, program.device.read(program.now), {});
   haptics::Pose held = record.input.device.pose();
   held.position += Vector3d(4.0, 0.0, 6.0);
-  record.mapped = record.proxy = simulation::PoseValues::of(held);
+  record.mapped = record.proxy = session::PoseValues::of(held);
   program.tool->See(record);
   const Vector3d wanted = program.aim.wanted()->position;
   EXPECT_NEAR(wanted.z(), held.position.z(), 1e-9);

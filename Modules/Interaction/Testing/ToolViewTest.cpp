@@ -11,8 +11,8 @@ using namespace petrous::interaction;
 using namespace petrous::interaction::testing;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using simulation::PoseValues;
-using simulation::TickRecord;
+using session::PoseValues;
+using session::TickRecord;
 
 namespace
 {
@@ -47,11 +47,11 @@ TEST(ToolView, ShowsNothingBeforeTheFirstSoundReading)
 {
   ToolView view(1.5);
   TickRecord record = recordOf({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0});
-  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  record.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
   EXPECT_FALSE(view.update(record));
   record.fault = 0;
   EXPECT_TRUE(view.update(record));
-  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  record.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
   EXPECT_TRUE(view.update(record)); // stays placed
 }
 

@@ -54,9 +54,9 @@ Vector3d colorOf(double force)
   return usual + std::min((force - 2.0) / 3.0, 1.0) * (strong - usual);
 }
 
-Vector3d forceIn(const simulation::TickRecord& record)
+Vector3d forceIn(const session::TickRecord& record)
 {
-  using Parameters = simulation::ServoParameters;
+  using Parameters = session::ServoParameters;
   const auto& set = record.input.parameters;
   // Forces on a hovering pointer's tool are not forces on the hand.
   const bool hovers = (set.constantThrust & Parameters::kPointer) != 0 &&
@@ -127,7 +127,7 @@ void ForceDisplay::setBarShown(bool shown)
   m_implementation->bar.setShown(shown);
 }
 
-void ForceDisplay::update(const simulation::TickRecord& record)
+void ForceDisplay::update(const session::TickRecord& record)
 {
   m_implementation->force = forceIn(record);
   m_implementation->place = record.proxy.pose().position;

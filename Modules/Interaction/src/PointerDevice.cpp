@@ -10,9 +10,9 @@ namespace petrous::interaction
 {
 
 using haptics::Pose;
-using simulation::PoseValues;
-using simulation::ServoFault;
-using simulation::TickRecord;
+using session::PoseValues;
+using session::ServoFault;
+using session::TickRecord;
 
 namespace
 {
@@ -36,7 +36,7 @@ bool within(double value, double most)
 bool tells(const TickRecord& record) noexcept
 {
   const auto fault = static_cast<ServoFault>(record.fault);
-  const simulation::ServoParameters& p = record.input.parameters;
+  const session::ServoParameters& p = record.input.parameters;
   const bool clutched = p.clutch || (record.input.buttons & p.clutchButtons) != 0;
   const bool plain = p.scale == 1.0 && std::abs(p.camera[0]) == 1.0;
   const bool ticked = record.input.now > 0.0; // otherwise not a record of a tick

@@ -74,8 +74,8 @@ void PointerToolController::setSurface(TissueQuery surface)
 
 void PointerToolController::setCamera(const core::CameraPose& camera)
 {
-  simulation::ServoParameters parameters;
-  simulation::setCamera(parameters, camera);
+  session::ServoParameters parameters;
+  session::setCamera(parameters, camera);
   const double* q = parameters.camera;
   m_screen = Quaterniond(q[0], q[1], q[2], q[3]);
   m_focal = camera.focalPoint;
@@ -222,9 +222,9 @@ void PointerToolController::home()
   update();
 }
 
-void PointerToolController::see(const simulation::TickRecord& record, bool takenUp)
+void PointerToolController::see(const session::TickRecord& record, bool takenUp)
 {
-  if (static_cast<simulation::ServoFault>(record.fault) == simulation::ServoFault::Device)
+  if (static_cast<session::ServoFault>(record.fault) == session::ServoFault::Device)
     m_tool.reset();
   else
   {
@@ -245,7 +245,7 @@ std::uint32_t PointerToolController::buttons() const noexcept
   return m_press == Press::Drill && !m_lifted ? PointerDevice::kDrill : 0U;
 }
 
-void PointerToolController::apply(simulation::ServoParameters& parameters) const
+void PointerToolController::apply(session::ServoParameters& parameters) const
 {
   parameters.camera[0] = 1.0;
   parameters.camera[1] = parameters.camera[2] = parameters.camera[3] = 0.0;
@@ -256,7 +256,7 @@ void PointerToolController::apply(simulation::ServoParameters& parameters) const
   parameters.clutchButtons = PointerDevice::kFreeze;
   const bool pressing = m_press != Press::None && m_meets && !m_lifted;
   const bool onSurface = m_settings.mode == AimSettings::Mode::Surface;
-  using Parameters = simulation::ServoParameters;
+  using Parameters = session::ServoParameters;
   parameters.pause = m_lifted ? 1 : parameters.pause;
   parameters.constantThrust = 0;
   if (onSurface)

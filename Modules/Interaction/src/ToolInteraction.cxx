@@ -129,14 +129,14 @@ bool vtkPetrousToolInteraction::GetDrilling() const
 }
 
 void vtkPetrousToolInteraction::SetParameters(
-    const petrous::simulation::ServoParameters& parameters)
+    const petrous::session::ServoParameters& parameters)
 {
-  petrous::simulation::check(parameters);
+  petrous::session::check(parameters);
   this->Base = parameters;
   this->Send();
 }
 
-void vtkPetrousToolInteraction::See(const petrous::simulation::TickRecord& record)
+void vtkPetrousToolInteraction::See(const petrous::session::TickRecord& record)
 {
   if (this->PointerHand && this->Aim && this->Device)
   {
@@ -324,7 +324,7 @@ void vtkPetrousToolInteraction::Send()
   else if (!this->PointerHand)
   {
     if (this->CurrentRenderer)
-      petrous::simulation::setCamera(this->Parameters,
+      petrous::session::setCamera(this->Parameters,
                                      petrous::interaction::cameraOf(*this->CurrentRenderer));
     this->Parameters.drill = this->Base.drill || this->GetDrilling() ? 1 : 0;
     this->Parameters.clutch = this->Base.clutch || this->FreezeKeyHeld ? 1 : 0;

@@ -268,7 +268,7 @@ void WorkstationModel::setIso(double hounsfield)
   if (!m_case || drilling() || m_case->iso == hounsfield)
     return;
   // Structures are unaffected.
-  std::optional<DrillSession> before;
+  std::optional<session::DrillSession> before;
   if (m_session || m_scene)
     before.emplace(session());
   forgetTissue();
@@ -360,7 +360,7 @@ std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
   return {};
 }
 
-DrillSession& WorkstationModel::session()
+session::DrillSession& WorkstationModel::session()
 {
   if (m_scene)
     return m_scene->drill();
@@ -418,7 +418,7 @@ std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::Pi
   return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
 }
 
-void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::Setup& setup)
+void WorkstationModel::startTouch(haptics::Device& device, const session::TouchSession::Setup& setup)
 {
   if (!m_case)
     return;
@@ -433,19 +433,19 @@ void WorkstationModel::startTouch(haptics::Device& device, const TouchSession::S
   if (!m_scene)
   {
     m_reader.reset();
-    m_scene = std::make_unique<TouchScene>(*m_case, session());
+    m_scene = std::make_unique<session::TouchScene>(*m_case, session());
     m_session.reset();
   }
-  TouchSession::Setup whole = setup;
+  session::TouchSession::Setup whole = setup;
   whole.catalogues = dissection::Catalogues::in(m_library.folder());
   if (m_journal)
     whole.journal = [journal = m_journal, measure = m_scene->drill().measurer()](
                         const dissection::Dissection& work) { journal->follow(work, measure); };
-  m_touch = std::make_unique<TouchSession>(*m_case, *m_scene, device, whole);
+  m_touch = std::make_unique<session::TouchSession>(*m_case, *m_scene, device, whole);
 }
 
 // Forwards the news to the case's observers.
-TouchSession::News WorkstationModel::hear(TouchSession::News news)
+session::TouchSession::News WorkstationModel::hear(session::TouchSession::News news)
 {
   if (m_journal)
     news.journalFault = m_journal->takeFailure();
@@ -462,22 +462,22 @@ TouchSession::News WorkstationModel::hear(TouchSession::News news)
   return news;
 }
 
-TouchSession::News WorkstationModel::advanceTouch()
+session::TouchSession::News WorkstationModel::advanceTouch()
 {
   if (!m_touch)
     return {};
   const bool before = drilling();
-  TouchSession::News news = hear(m_touch->advance());
+  session::TouchSession::News news = hear(m_touch->advance());
   if (drilling() && !before)
     notify(events.stateChanged);
   return news;
 }
 
-TouchSession::News WorkstationModel::stopTouch()
+session::TouchSession::News WorkstationModel::stopTouch()
 {
   if (!m_touch)
     return {};
-  TouchSession::News news = m_touch->stop();
+  session::TouchSession::News news = m_touch->stop();
   if (m_touch->failed()) // touched and rendered tissue may differ
   {
     m_reader.reset();

@@ -39,7 +39,7 @@ double usualScale(const haptics::DeviceDescription& device)
   return device.givesForce ? 0.5 : 0.25;
 }
 
-void fit(TouchSession::Setup& setup, const haptics::DeviceDescription& device,
+void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& device,
          const DeviceMapping& lead, bool endless)
 {
   setup.tool.coupling.stiffness = stiffnessFor(device, lead.scale);
@@ -62,12 +62,12 @@ void fit(TouchSession::Setup& setup, const haptics::DeviceDescription& device,
   setup.passivity = passivity;
 }
 
-simulation::ServoParameters parametersFor(const haptics::DeviceDescription& device,
+session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
                                           const DeviceMapping& lead, const core::CameraPose& camera,
                                           const DeviceSwitches& switches)
 {
-  simulation::ServoParameters parameters;
-  simulation::setCamera(parameters, camera);
+  session::ServoParameters parameters;
+  session::setCamera(parameters, camera);
   parameters.scale = lead.scale;
   parameters.forceGain = 1.0 / lead.scale;
   parameters.drillButtons = ActiveDevice::kDrill;
@@ -76,15 +76,15 @@ simulation::ServoParameters parametersFor(const haptics::DeviceDescription& devi
   parameters.drill = switches.drill ? 1 : 0;
   if (!device.givesForce)
     parameters.maxLead = static_cast<float>(lead.thrust / stiffnessFor(device, lead.scale));
-  simulation::check(parameters);
+  session::check(parameters);
   return parameters;
 }
 
 Eigen::Vector3d centerFor(const Eigen::Vector3d& tool, const Eigen::Vector3d& hand, double scale,
                           const core::CameraPose& camera)
 {
-  simulation::ServoParameters parameters;
-  simulation::setCamera(parameters, camera);
+  session::ServoParameters parameters;
+  session::setCamera(parameters, camera);
   const double* q = parameters.camera;
   return tool - scale * (Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * hand);
 }

@@ -31,11 +31,11 @@ std::string wayTo(std::uint64_t then, const scene::Case& value)
   return {};
 }
 
-void checkFit(const scene::Case& value, const TouchScene& scene,
-              const simulation::RecordingSetup& setup, const std::string& name)
+void checkFit(const scene::Case& value, const session::TouchScene& scene,
+              const session::RecordingSetup& setup, const std::string& name)
 {
-  const simulation::RecordedScene now = scene.fingerprint();
-  const simulation::RecordedScene& then = setup.scene;
+  const session::RecordedScene now = scene.fingerprint();
+  const session::RecordedScene& then = setup.scene;
   const auto refuse = [&name](const std::string& why)
   { throw core::InvalidParameter(name + ": " + why); };
   if (now.ct != then.ct)
@@ -54,13 +54,13 @@ void checkFit(const scene::Case& value, const TouchScene& scene,
   if (now.mask != then.mask)
     refuse("began on another dissection (" + strokes(then.applied) + ") than '" + value.name +
            "' has (" + strokes(value.applied()) + ")" + wayTo(then.applied, value));
-  const TouchTool tool = toolOf(setup);
+  const session::TouchTool tool = toolOf(setup);
   if (scene.servoOf(tool).burrPoints != setup.servo.burrPoints)
     refuse("was recorded by another version of this program, whose tool had other points");
 }
 
-const simulation::RecordingSetup& fitting(const scene::Case& value, const TouchScene& scene,
-                                          const simulation::RecordingSetup& setup,
+const session::RecordingSetup& fitting(const scene::Case& value, const session::TouchScene& scene,
+                                          const session::RecordingSetup& setup,
                                           const std::string& name)
 {
   checkFit(value, scene, setup, name);
@@ -69,19 +69,19 @@ const simulation::RecordingSetup& fitting(const scene::Case& value, const TouchS
 
 } // namespace
 
-TouchTool toolOf(const simulation::RecordingSetup& setup)
+session::TouchTool toolOf(const session::RecordingSetup& setup)
 {
   if (setup.degrees != 3 && setup.degrees != 6)
     throw core::InvalidParameter("recording: a tool of " + std::to_string(setup.degrees) +
                                  " degrees of freedom; this program has tools of 3 and of 6");
-  TouchTool tool;
+  session::TouchTool tool;
   tool.burr = setup.burr;
-  tool.mode = setup.degrees == 3 ? TouchTool::Mode::ThreeDof : TouchTool::Mode::SixDof;
+  tool.mode = setup.degrees == 3 ? session::TouchTool::Mode::ThreeDof : session::TouchTool::Mode::SixDof;
   tool.coupling = setup.proxy;
   return tool;
 }
 
-RecordingPlayer::RecordingPlayer(scene::Case& value, TouchScene& scene, simulation::RecordingReader& reader,
+RecordingPlayer::RecordingPlayer(scene::Case& value, session::TouchScene& scene, session::RecordingReader& reader,
                        const std::string& name, std::optional<core::CameraPose> camera)
   : m_proxy(scene.proxyOf(toolOf(fitting(value, scene, reader.setup(), name))))
   , m_servo(*m_proxy, reader.setup().servo)

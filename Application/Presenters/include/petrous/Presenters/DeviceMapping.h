@@ -4,7 +4,7 @@
 
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Haptics/Device.h"
-#include "petrous/Presenters/TouchSession.h"
+#include "petrous/Session/TouchSession.h"
 
 namespace petrous::presenters
 {
@@ -35,7 +35,7 @@ double usualScale(const haptics::DeviceDescription& device);
 
 /// Sets coupling, force limits and passivity, overwriting what `setup` had. `endless`: the device
 /// is rate-controlled, so its workspace is unbounded.
-void fit(TouchSession::Setup& setup, const haptics::DeviceDescription& device,
+void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& device,
          const DeviceMapping& lead, bool endless);
 
 /// Inputs that are held down now.
@@ -46,7 +46,7 @@ struct DeviceSwitches
 };
 
 /// Throws InvalidParameter for a degenerate camera.
-simulation::ServoParameters parametersFor(const haptics::DeviceDescription& device,
+session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
                                           const DeviceMapping& lead, const core::CameraPose& camera,
                                           const DeviceSwitches& switches);
 

@@ -13,8 +13,8 @@
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SceneAssembly.h"
-#include "petrous/Presenters/RemovedVolumeEstimator.h"
-#include "petrous/Presenters/TouchSession.h"
+#include "petrous/Session/RemovedVolumeEstimator.h"
+#include "petrous/Session/TouchSession.h"
 #include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
 
@@ -58,7 +58,7 @@ struct PreparedCase
     std::string why;      ///< one sentence
   };
   SceneAssembly assembly;
-  std::optional<DrillSession> drill;   ///< of a copy that is gone: only a template for another one
+  std::optional<session::DrillSession> drill;   ///< of a copy that is gone: only a template for another one
   std::vector<LeftOut> labels, meshes; ///< missing or damaged
   std::uint64_t parts = 0;             // of the model when it was copied
   std::uint64_t tissue = 0;            // likewise
@@ -213,19 +213,19 @@ public:
 
   /// Starts a touch session, ending the present one first. Reads the CT on first use (about a
   /// second for 512^3). The device must outlive the session. Throws as TouchSession does.
-  void startTouch(haptics::Device& device, const TouchSession::Setup& setup);
+  void startTouch(haptics::Device& device, const session::TouchSession::Setup& setup);
   bool touching() const noexcept { return m_touch != nullptr; }
   /// For operations that do not change the tissue; nullptr without a session. Another case, another
   /// threshold or other touchable structures end the session.
-  TouchSession* touch() noexcept { return m_touch.get(); }
+  session::TouchSession* touch() noexcept { return m_touch.get(); }
   bool drilling() const noexcept { return m_touch && m_touch->drilling(); }
 
   /// Once per frame: shows what was drilled since. The strokes are not saved yet.
-  TouchSession::News advanceTouch();
-  TouchSession::News stopTouch(); ///< see TouchSession; no effect without a session
+  session::TouchSession::News advanceTouch();
+  session::TouchSession::News stopTouch(); ///< see TouchSession; no effect without a session
 
 private:
-  DrillSession& session();
+  session::DrillSession& session();
   bool measureNearby(); ///< true when done
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
@@ -233,7 +233,7 @@ private:
   void leaveOut(const PreparedCase& done);
   void forgetTissue();
   void notifyMask(const std::vector<std::size_t>& bricks);
-  TouchSession::News hear(TouchSession::News news);
+  session::TouchSession::News hear(session::TouchSession::News news);
   void step(bool back);
   void followHistory();
   void setUnsaved(bool unsaved);
@@ -244,14 +244,14 @@ private:
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
   SceneAssembly m_assembly;
-  std::optional<DrillSession> m_session;      ///< made on demand, until there is m_scene
+  std::optional<session::DrillSession> m_session;      ///< made on demand, until there is m_scene
   std::shared_ptr<JournalThread> m_journal;   ///< shared with the removal thread
   std::optional<library::SavedState> m_saved; ///< none before the case is in the library
-  std::unique_ptr<TouchScene> m_scene;
-  std::unique_ptr<TouchSession> m_touch;      ///< after m_scene, which it uses
+  std::unique_ptr<session::TouchScene> m_scene;
+  std::unique_ptr<session::TouchSession> m_touch;      ///< after m_scene, which it uses
   std::unique_ptr<PointProbe> m_reader;      ///< made on demand; likewise
   std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; unaffected by removal
-  RemovedVolumeEstimator m_meter;
+  session::RemovedVolumeEstimator m_meter;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_leaving = false; ///< set by beginOpen: no tool can be taken up, its strokes would be lost

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 class vtkRenderer;
 
@@ -42,7 +42,7 @@ public:
   void setArrowShown(bool shown);
   void setBarShown(bool shown);
 
-  void update(const simulation::TickRecord& record);
+  void update(const session::TickRecord& record);
   double force() const noexcept; ///< N, as displayed
 
 private:

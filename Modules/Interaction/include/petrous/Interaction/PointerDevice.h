@@ -4,7 +4,7 @@
 
 #include "petrous/Core/SnapshotBuffer.h"
 #include "petrous/Haptics/Device.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 namespace petrous::interaction
 {
@@ -38,7 +38,7 @@ public:
     double silence = 0.5; ///< s without an update from the window, after which buttons are released
   };
 
-  /// center  mm, patient; as in simulation::ServoSetup
+  /// center  mm, patient; as in session::ServoSetup
   /// Throws InvalidParameter naming the first invalid value.
   PointerDevice(const Eigen::Vector3d& center, const Limits& limits);
   explicit PointerDevice(const Eigen::Vector3d& center = Eigen::Vector3d::Zero())
@@ -55,7 +55,7 @@ public:
 
   /// Takes the servo's latest record; call it once per frame, also as a sign of life. Returns true
   /// if the servo re-anchored the tool since the last call: see PointerToolController::see.
-  bool see(const simulation::TickRecord& record) noexcept;
+  bool see(const session::TickRecord& record) noexcept;
 
   const haptics::DeviceDescription& description() const noexcept override { return m_description; }
   haptics::DeviceReading read(double now) noexcept override;
@@ -64,7 +64,7 @@ public:
 private:
   struct Word
   {
-    simulation::PoseValues pose; // X_DT
+    session::PoseValues pose; // X_DT
     double pedal = 0.0;
     std::uint32_t buttons = 0;
     std::uint32_t ready = 0;

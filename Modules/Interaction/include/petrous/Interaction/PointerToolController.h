@@ -6,7 +6,7 @@
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Haptics/Pose.h"
 #include "petrous/Interaction/PickRay.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 namespace petrous::interaction
 {
@@ -36,7 +36,7 @@ struct AimSettings
   /// Depth change in mm of the tissue under a pressed pointer, deeper or higher than where it was
   /// last pressed, in (0, 100]. Beyond it the tissue counts as another surface, over an edge of
   /// bone or through a wall, and the tool lifts. maxFall exceeds the width of an air cell. maxRise
-  /// is the distance at which the servo would place the tool anew (simulation::Servo::kFarthest);
+  /// is the distance at which the servo would place the tool anew (session::Servo::kFarthest);
   /// the tool is not pulled up a wall.
   double maxFall = 5.0;
   double maxRise = 10.0;
@@ -99,7 +99,7 @@ public:
 
   /// Takes the servo's latest record. takenUp: result of PointerDevice::see; resets the depth to
   /// the tool's.
-  void see(const simulation::TickRecord& record, bool takenUp);
+  void see(const session::TickRecord& record, bool takenUp);
 
   /// X_PT; nullopt before the first ray.
   const std::optional<haptics::Pose>& wanted() const noexcept { return m_wanted; }
@@ -109,7 +109,7 @@ public:
 
   /// Sets camera, scale, approach, thrust and the button masks, and pauses while the tool is
   /// lifted, because a pedal may drill as well; other parameters are kept.
-  void apply(simulation::ServoParameters& parameters) const;
+  void apply(session::ServoParameters& parameters) const;
 
 private:
   PickRay shifted() const;

@@ -5,7 +5,7 @@
 #include <vtkInteractorObserver.h>
 #include <vtkNew.h>
 
-#include "petrous/Simulation/ServoParameters.h"
+#include "petrous/Session/ServoParameters.h"
 
 class vtkCallbackCommand;
 namespace petrous::interaction
@@ -14,7 +14,7 @@ class PointerToolController;
 class PointerDevice;
 enum class ToolKey;
 } // namespace petrous::interaction
-namespace petrous::simulation
+namespace petrous::session
 {
 struct TickRecord;
 }
@@ -65,13 +65,13 @@ public:
   bool GetDrilling() const;
 
   /// Sets the application's own parameters (gains, buttons, pause); throws InvalidParameter.
-  void SetParameters(const petrous::simulation::ServoParameters& parameters);
+  void SetParameters(const petrous::session::ServoParameters& parameters);
 
   /// The application's parameters combined with pointer, keys and camera.
-  const petrous::simulation::ServoParameters& GetParameters() const { return this->Parameters; }
+  const petrous::session::ServoParameters& GetParameters() const { return this->Parameters; }
 
   /// Takes the servo's latest record: the tool follows as tissue is removed.
-  void See(const petrous::simulation::TickRecord& record);
+  void See(const petrous::session::TickRecord& record);
 
   /// Releases button and keys, e.g. when the window loses the focus.
   void Release();
@@ -98,8 +98,8 @@ private:
 
   petrous::interaction::PointerToolController* Aim = nullptr;
   petrous::interaction::PointerDevice* Device = nullptr;
-  petrous::simulation::ServoParameters Base;
-  petrous::simulation::ServoParameters Parameters;
+  petrous::session::ServoParameters Base;
+  petrous::session::ServoParameters Parameters;
   bool PointerHand = true;
   bool DrillMode = false;
   bool ButtonHeld = false; // left

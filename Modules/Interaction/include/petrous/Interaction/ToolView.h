@@ -5,7 +5,7 @@
 #include <vtkNew.h>
 
 #include "petrous/Rendering/SceneContents.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 class vtkActor;
 class vtkLineSource;
@@ -31,7 +31,7 @@ public:
 
   /// For ScenePicture::setTool; nullopt until the servo has had a valid reading and placed the
   /// tool.
-  std::optional<rendering::ToolPose> update(const simulation::TickRecord& record);
+  std::optional<rendering::ToolPose> update(const session::TickRecord& record);
 
   double lag() const noexcept { return m_lag; } ///< mm, of the last record
 

@@ -8,7 +8,7 @@
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
-// Preceded by the constants that the C++ code defines (RayShader.cpp): kMostPlanes,
+// Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).

@@ -444,7 +444,7 @@ TEST(PointerToolController, RefusesBadSettingsAndLines)
   refused(&AimSettings::turn, nan);
   refused(&AimSettings::depthStep, 0.0);
   refused(&AimSettings::nudgeStep, 11.0);
-  refused(&AimSettings::fineOccupancy, 0.0);
+  refused(&AimSettings::fineFraction, 0.0);
   refused(&AimSettings::maxLead, nan);
   refused(&AimSettings::burrRadius, -1.0);
   refused(&AimSettings::lift, -0.1);

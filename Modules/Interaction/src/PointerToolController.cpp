@@ -41,7 +41,7 @@ const AimSettings& checked(const AimSettings& s)
   check(std::isfinite(s.turn), "the turn is not finite");
   check(within(s.depthStep, 0.0, 10.0, true), "a step of depth must lie within 0 to 10 mm");
   check(within(s.nudgeStep, 0.0, 10.0, true), "a step of the keys must lie within 0 to 10 mm");
-  check(within(s.fineOccupancy, 0.0, 1.0, true), "the share of a fine step must lie within 0 to 1");
+  check(within(s.fineFraction, 0.0, 1.0, true), "the share of a fine step must lie within 0 to 1");
   check(within(s.maxLead, 0.0, 50.0, true), "the lead must lie within 0 to 50 mm");
   check(within(s.maxFall, 0.0, 100.0, true), "the deepest fall must lie within 0 to 100 mm");
   check(within(s.maxRise, 0.0, 100.0, true), "the highest rise must lie within 0 to 100 mm");
@@ -185,7 +185,7 @@ void PointerToolController::wheel(double notches, bool fine)
   if (m_settings.mode != AimSettings::Mode::Depth || !m_place || !std::isfinite(notches))
     return;
   const Vector3d direction = m_line->direction;
-  double step = notches * m_settings.depthStep * (fine ? m_settings.fineOccupancy : 1.0);
+  double step = notches * m_settings.depthStep * (fine ? m_settings.fineFraction : 1.0);
   if (m_tool && step > 0.0)
   {
     const double lead = direction.dot(*m_place - *m_tool);
@@ -197,7 +197,7 @@ void PointerToolController::wheel(double notches, bool fine)
 
 void PointerToolController::nudge(double rightward, double upward, bool fine)
 {
-  const double step = m_settings.nudgeStep * (fine ? m_settings.fineOccupancy : 1.0);
+  const double step = m_settings.nudgeStep * (fine ? m_settings.fineFraction : 1.0);
   m_nudge += step * Eigen::Vector2d(rightward, upward);
   update();
 }

@@ -29,13 +29,13 @@ Action deepen(double steps)
 Action turn(double degrees)
 {
   return [=](PointerToolController& aim, bool fine)
-  { aim.turnBy(degrees * (fine ? aim.settings().fineOccupancy : 1.0)); };
+  { aim.turnBy(degrees * (fine ? aim.settings().fineFraction : 1.0)); };
 }
 
 Action tilt(double degrees)
 {
   return [=](PointerToolController& aim, bool fine)
-  { aim.tiltBy(degrees * (fine ? aim.settings().fineOccupancy : 1.0)); };
+  { aim.tiltBy(degrees * (fine ? aim.settings().fineFraction : 1.0)); };
 }
 
 void changeMode(PointerToolController& aim, bool)

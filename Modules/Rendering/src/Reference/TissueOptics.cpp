@@ -185,8 +185,8 @@ std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
   if (!grid.hullContains(voxel))
     return std::nullopt;
-  const double occupancy = volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
-  return occupancy < 1.0 ? std::optional(thicknessColor(occupancy)) : std::nullopt;
+  const double fraction = volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
+  return fraction < 1.0 ? std::optional(thicknessColor(fraction)) : std::nullopt;
 }
 
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,

@@ -30,7 +30,7 @@ struct AimSettings
 
   double depthStep = 0.25; ///< mm per notch or key, in (0, 10]; over half a typical CT voxel
   double nudgeStep = 0.25; ///< mm per key, in (0, 10]
-  double fineOccupancy = 0.2;  ///< fraction of a step while Shift is held, in (0, 1]
+  double fineFraction = 0.2;  ///< fraction of a step while Shift is held, in (0, 1]
   double maxLead = 5.0;   ///< mm that the wanted position leads the tool, in (0, 50]; limits force
 
   /// Depth change in mm of the tissue under a pressed pointer, deeper or higher than where it was

@@ -254,7 +254,7 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
 {
   float hit = 0.0;
   int events = 0;
-  while (outcome != kEnd && events < kMostEvents)
+  while (outcome != kEnd && events < kMaxEvents)
   {
     do
     {
@@ -270,7 +270,7 @@ void follow(inout Ray ray, int outcome, float facing, inout float depth)
         facing = -1.0;
       }
       ++events;
-    } while (outcome == kOn && events < kMostEvents);
+    } while (outcome == kOn && events < kMaxEvents);
 #if defined(PETROUS_MASK) || defined(PETROUS_LABELS)
     if (outcome == kOtherBricks)
       outcome = marchIn(ray, false);

@@ -102,13 +102,13 @@ uniform sampler2D depthTexture;
 #endif
 #ifdef PETROUS_CLIP
 uniform int planeCount;
-uniform vec4 planes[kMostPlanes]; // mm on the side that is kept, over voxels
+uniform vec4 planes[kMaxPlanes]; // mm on the side that is kept, over voxels
 #endif
 
 const int kAir = 0;
 const int kBone = 1;
 const int kStructure = 2; // + index
-const int kMostEvents = 512; // far more than a ray meets before it becomes opaque
+const int kMaxEvents = 512; // far more than a ray meets before it becomes opaque
 const float kOnSurface = 1e-5; // of f: tolerance of a surface point
 const int kFalsePositions = 5;
 const float kSummitDoubt = 1.0;

@@ -127,9 +127,9 @@ QSlider* PicturePanel::addFractionSlider(QFormLayout* form, const QString& name,
   auto* label = new QLabel;
   label->setMinimumWidth(fontMetrics().horizontalAdvance("100 %"));
   label->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  const auto tell = [label](int percent) { label->setText(tr("%1 %").arg(percent)); };
+  const auto notify = [label](int percent) { label->setText(tr("%1 %").arg(percent)); };
   notify(0);
-  connect(slider, &QSlider::valueChanged, label, tell);
+  connect(slider, &QSlider::valueChanged, label, notify);
   auto* row = new QHBoxLayout;
   row->addWidget(slider, 1);
   row->addWidget(label);

@@ -35,7 +35,7 @@ bool Application::notify(QObject* receiver, QEvent* event)
 }
 
 void guarded(const std::function<void()>& work,
-             const std::function<void(const QString&)>& tell) noexcept
+             const std::function<void(const QString&)>& notify) noexcept
 {
   try
   {

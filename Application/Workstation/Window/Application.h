@@ -25,9 +25,9 @@ signals:
 QString toString(const std::exception& error);
 
 /// Runs what must not throw: a thread's function, a callback of another library. Exceptions are
-/// passed to `tell` as text.
+/// passed to `notify` as text.
 void guarded(const std::function<void()>& work,
-             const std::function<void(const QString&)>& tell) noexcept;
+             const std::function<void(const QString&)>& notify) noexcept;
 
 /// As above, reporting via Application::faulted; thread-safe.
 void guarded(const std::function<void()>& work) noexcept;

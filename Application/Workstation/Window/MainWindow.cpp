@@ -277,14 +277,14 @@ void MainWindow::connectModel()
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
-  const auto tell = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };
-  connect(m_keeper, &CaseDocumentController::statusMessage, this, tell);
-  connect(m_thickness, &ThicknessController::statusMessage, this, tell);
-  connect(m_registration, &RegistrationController::statusMessage, this, tell);
+  const auto showMessage = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };
+  connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
+  connect(m_thickness, &ThicknessController::statusMessage, this, showMessage);
+  connect(m_registration, &RegistrationController::statusMessage, this, showMessage);
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
   connect(m_drill, &DrillController::tissueWanted, m_keeper, &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
-  connect(m_branches, &BranchController::statusMessage, this, tell);
+  connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_picture, &PictureController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
 }

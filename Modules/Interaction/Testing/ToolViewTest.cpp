@@ -4,7 +4,9 @@
 
 #include "Pixels.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Haptics/PointShell.h"
 #include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/ToolShape.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
@@ -26,6 +28,21 @@ TickRecord recordOf(const Vector3d& tool, const Vector3d& hand)
 }
 
 } // namespace
+
+TEST(ToolView, DrawsTheToolThatIsFelt)
+{
+  for (const double radius : {0.5, 1.0, 2.0, 3.5})
+  {
+    haptics::BurrShape felt;
+    felt.radius = radius;
+    rendering::ToolPose drawn;
+    drawn.radius = radius;
+    EXPECT_EQ(rendering::tool::shaftRadius(drawn), felt.resolvedShaftRadius());
+    EXPECT_EQ(rendering::tool::kShaftLength, felt.shaftLength);
+    EXPECT_EQ(rendering::tool::kHandpieceRadius, felt.handpieceRadius);
+    EXPECT_EQ(rendering::tool::kHandpieceLength, felt.handpieceLength);
+  }
+}
 
 TEST(ToolView, ShowsTheProxyNotTheHand)
 {

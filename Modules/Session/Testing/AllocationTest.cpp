@@ -10,7 +10,7 @@
 #include "petrous/Core/SnapshotBuffer.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
-#include "petrous/Session/DissectionReporter.h"
+#include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/ServoThread.h"
 #include "petrous/Session/SpscRing.h"
 
@@ -107,8 +107,8 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     LoopScene scene;
     const dissection::SweptSphere first{{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 2.0};
     dissection::Dissection seen = scene.work;
-    UpdateQueue mailbox;
-    DissectionReporter reporter(scene.work, mailbox);
+    UpdateQueue queue;
+    DissectionReporter reporter(scene.work, queue);
     DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, {}, {}));
     TickRecord record;
     record.input.now = 1.0;
@@ -127,7 +127,7 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     failAllocation(0);
     loop.endStroke();
     reporter.post();
-    DissectionUpdate mail = mailbox.take();
+    DissectionUpdate mail = queue.take();
     follow(mail, seen);
     const auto cut = scene.voxels();
     const auto dense = seen.mask().dense();

@@ -11,7 +11,7 @@
 
 #include "LoopScene.h"
 #include "petrous/Haptics/SimulatedDevice.h"
-#include "petrous/Session/DissectionReporter.h"
+#include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/ServoThread.h"
 
@@ -43,8 +43,8 @@ class Following : public ::testing::Test
 protected:
   LoopScene scene;
   dissection::Dissection seen = scene.work;
-  UpdateQueue mailbox;
-  DissectionReporter reporter{scene.work, mailbox};
+  UpdateQueue queue;
+  DissectionReporter reporter{scene.work, queue};
   DissectionLoop loop{scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, {}, {})};
   SpscRing<TickRecord> ring{1 << 15};
   std::size_t applied = 0, closed = 0; // according to the events
@@ -59,7 +59,7 @@ protected:
   void follow()
   {
     const auto before = seen.mask();
-    DissectionUpdate mail = mailbox.take();
+    DissectionUpdate mail = queue.take();
     const auto bricks = session::follow(mail, seen);
     EXPECT_TRUE(std::is_sorted(bricks.begin(), bricks.end()));
     for (std::size_t brick = 0; brick < before.brickCount(); ++brick)
@@ -82,22 +82,22 @@ protected:
 
 TEST(DissectionUpdate, HoldsTheLatestVersionOfABrickHoweverLongNobodyAsks)
 {
-  UpdateQueue mailbox;
+  UpdateQueue queue;
   std::vector<volume::CutMask::BrickVersion> made;
   for (std::uint16_t n = 0; n < 1000; ++n)
   {
     DissectionUpdate mail;
     made.push_back(version(n));
     mail.bricks[n % 3U] = made.back();
-    mailbox.post(mail);
+    queue.post(mail);
     EXPECT_TRUE(mail.empty());
   }
-  const DissectionUpdate mail = mailbox.take();
+  const DissectionUpdate mail = queue.take();
   ASSERT_EQ(mail.bricks.size(), 3u);
   EXPECT_EQ(mail.bricks.at(0), made[999]);
   EXPECT_EQ(mail.bricks.at(1), made[997]);
   EXPECT_EQ(mail.bricks.at(2), made[998]);
-  EXPECT_TRUE(mailbox.take().empty());
+  EXPECT_TRUE(queue.take().empty());
   // The intermediate versions are not held elsewhere.
   EXPECT_EQ(made[0].use_count(), 1);
   EXPECT_EQ(made[999].use_count(), 2);
@@ -105,17 +105,17 @@ TEST(DissectionUpdate, HoldsTheLatestVersionOfABrickHoweverLongNobodyAsks)
 
 TEST(DissectionUpdate, TellsStrokesThatTookNothingOnceInARow)
 {
-  UpdateQueue mailbox;
+  UpdateQueue queue;
   const auto stroke = std::make_shared<const dissection::Stroke>();
   for (int n = 0; n < 100; ++n)
   {
     DissectionUpdate mail;
     mail.events = {{Kind::StrokeBegun, nullptr}};
-    mailbox.post(mail);
+    queue.post(mail);
     mail.events = {{Kind::StrokeClosed, n == 50 ? stroke : nullptr}};
-    mailbox.post(mail);
+    queue.post(mail);
   }
-  const DissectionUpdate mail = mailbox.take();
+  const DissectionUpdate mail = queue.take();
   ASSERT_EQ(mail.events.size(), 6u);
   EXPECT_EQ(mail.events[1].stroke, nullptr);
   EXPECT_EQ(mail.events[2].kind, Kind::StrokeBegun);

@@ -10,12 +10,12 @@ namespace
 {
 
 template <class T>
-void change(T& value, const T& next, const std::function<void()>& tell)
+void change(T& value, const T& next, const std::function<void()>& notify)
 {
   if (value == next)
     return;
   value = next;
-  if (tell)
+  if (notify)
     notify();
 }
 

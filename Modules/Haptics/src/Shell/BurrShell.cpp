@@ -33,7 +33,7 @@ BurrShape checked(BurrShape shape)
 {
   check("the radius", shape.radius, 0.25, 5.0);
   if (shape.shaftRadius == 0.0)
-    shape.shaftRadius = std::min(0.6 * shape.radius, 1.2);
+    shape.shaftRadius = shape.resolvedShaftRadius();
   check("the shaft's radius", shape.shaftRadius, 0.01, shape.radius);
   check("the shaft's length", shape.shaftLength, 1.01 * shape.radius, 300.0);
   if (shape.handpieceRadius != 0.0)

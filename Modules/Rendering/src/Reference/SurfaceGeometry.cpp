@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "OpticalModel.h"
-#include "ToolShape.h"
+#include "petrous/Rendering/ToolShape.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -96,11 +96,11 @@ void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ra
   };
   add(meetSphere(ray, tool.center, tool.radius),
       tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
-  add(meetCylinder(ray, tool.center, axis, tool::kShaftLength, tool::kShaftRatio * tool.radius),
+  add(meetCylinder(ray, tool.center, axis, tool::kShaftLength, tool::shaftRadius(tool)),
       tool::kShaftColor);
   if (tool.handpiece)
     add(meetCylinder(ray, tool.center + tool::kShaftLength * axis, axis, tool::kHandpieceLength,
-                     tool::handpieceRadius(tool)),
+                     tool::kHandpieceRadius),
         tool::kHandpieceColor);
 }
 

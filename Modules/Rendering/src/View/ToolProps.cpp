@@ -12,7 +12,7 @@
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
 
-#include "ToolShape.h"
+#include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::rendering
 {
@@ -70,10 +70,10 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
     return;
   m_burr->SetRadius(tool->radius);
   // VTK's cylinders are centred and along y.
-  m_shaft->SetRadius(kShaftRatio * tool->radius);
+  m_shaft->SetRadius(shaftRadius(*tool));
   m_shaft->SetHeight(kShaftLength);
   m_shaft->SetCenter(0.0, 0.5 * kShaftLength, 0.0);
-  m_handpiece->SetRadius(handpieceRadius(*tool));
+  m_handpiece->SetRadius(kHandpieceRadius);
   m_handpiece->SetHeight(kHandpieceLength);
   m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
   const auto& burr = tool->drilling ? kDrillingColor : kBurrColor;

@@ -8,9 +8,9 @@ namespace petrous::session
 namespace
 {
 
-session::ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
+ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 {
-  session::ServoSetup setup = scene.servoOf(tool);
+  ServoSetup setup = scene.servoOf(tool);
   // A scripted path may jump; no user is at risk.
   setup.guard.speed = 1e9;
   setup.guard.angularSpeed = 1e9;
@@ -32,36 +32,36 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
   , m_recording(
         options.recording.empty()
             ? nullptr
-            : std::make_unique<session::RecordingWriter>(
+            : std::make_unique<RecordingWriter>(
                   options.recording, scene.recordingOf(options.tool, m_servo.setup(), "tool path")))
   , m_removal(scene.removalOf(options.tool.burr, options.catalogues))
   , m_loop(*value.dissection, *scene.mask(), m_removal->removalModel, scene.drill().protectedTissue(),
            hooks(scene, options))
   , m_approach(m_tissue)
 {
-  m_parameters.constantThrust = options.thrust ? session::ServoParameters::kPressed : 0;
+  m_parameters.constantThrust = options.thrust ? ServoParameters::kPressed : 0;
   m_parameters.thrust = options.thrust.value_or(1.0);
-  session::check(m_parameters);
+  check(m_parameters);
 }
 
-session::DissectionLoop::Hooks PathDrill::hooks(TouchScene& scene, const Options& options)
+DissectionLoop::Hooks PathDrill::hooks(TouchScene& scene, const Options& options)
 {
   auto hooks = scene.hooksOf(options.tool.burr, [camera = options.camera] { return camera; });
   hooks.changed = [this](const std::vector<std::size_t>& bricks)
   { m_changed.insert(m_changed.end(), bricks.begin(), bricks.end()); };
   if (m_recording)
-    hooks.edited = [this](const session::MaskEdit& edit) { m_recording->add(edit); };
+    hooks.edited = [this](const MaskEdit& edit) { m_recording->add(edit); };
   return hooks;
 }
 
-const session::TickRecord& PathDrill::feel(const dissection::ToolSample& sample) noexcept
+const TickRecord& PathDrill::feel(const dissection::ToolSample& sample) noexcept
 {
   haptics::DeviceReading reading;
   reading.time = sample.time;
   reading.pose = {sample.pose.translation(), sample.pose.rotation()};
   reading.health = haptics::DeviceHealth::Good;
   m_parameters.drill = sample.drill ? 1 : 0;
-  m_record = m_servo.tick(session::TickInput::of(sample.time, reading, m_parameters));
+  m_record = m_servo.tick(TickInput::of(sample.time, reading, m_parameters));
   return m_record;
 }
 

@@ -48,10 +48,10 @@ std::uint64_t printOf(const volume::CutMask& mask)
 
 } // namespace
 
-session::RecordedScene TouchScene::fingerprint() const
+RecordedScene TouchScene::fingerprint() const
 {
   const volume::TissueField& field = m_drill.field();
-  session::RecordedScene result;
+  RecordedScene result;
   core::Fingerprint ct;
   field.ct()->visit([&ct](const auto& volume) { add(ct, volume); });
   result.ct = ct.value();

@@ -8,7 +8,7 @@ namespace
 constexpr double kNoForce = 0.3; // s: contacts fluctuate from tick to tick
 }
 
-void StallWatch::see(const session::TickRecord& record)
+void StallWatch::see(const TickRecord& record)
 {
   if (record.drill == 0)
     return forget();
@@ -22,7 +22,7 @@ void StallWatch::see(const session::TickRecord& record)
     m_since = now;
   }
   m_stalls = now - m_since > kAfter;
-  if (session::isHeldOff(record))
+  if (isHeldOff(record))
   {
     m_heldAt = now;
     m_held = record.held;

@@ -17,7 +17,7 @@ haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double>
   // force.
   if (!thrust || mode == TouchTool::Mode::ThreeDof)
     return {};
-  return session::ConstantThrust::coupling(*thrust);
+  return ConstantThrust::coupling(*thrust);
 }
 
 TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState,
@@ -80,19 +80,19 @@ std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const
   return std::make_unique<haptics::ConstrainedProxy>(m_field, shellOf(tool), tool.coupling);
 }
 
-session::ServoSetup TouchScene::servoOf(const TouchTool& tool) const
+ServoSetup TouchScene::servoOf(const TouchTool& tool) const
 {
-  session::ServoSetup setup;
+  ServoSetup setup;
   setup.stiffness = tool.coupling.stiffness;
   setup.burrPoints = tool.mode == TouchTool::Mode::ThreeDof ? 1 : shellOf(tool).burrCount;
   return setup;
 }
 
-session::RecordingSetup TouchScene::recordingOf(const TouchTool& tool,
-                                                   const session::ServoSetup& servo,
+RecordingSetup TouchScene::recordingOf(const TouchTool& tool,
+                                                   const ServoSetup& servo,
                                                    const std::string& note) const
 {
-  session::RecordingSetup setup;
+  RecordingSetup setup;
   setup.note = note;
   setup.burr = tool.burr;
   setup.degrees = tool.mode == TouchTool::Mode::ThreeDof ? 3 : 6;
@@ -110,7 +110,7 @@ std::unique_ptr<CaseRemoval> TouchScene::removalOf(const dissection::Burr& burr,
                                        catalogues);
 }
 
-session::DissectionLoop::Begin
+DissectionLoop::Begin
 TouchScene::beginOf(const dissection::Burr& burr,
                     std::function<std::optional<core::CameraPose>()> camera)
 {
@@ -124,11 +124,11 @@ TouchScene::beginOf(const dissection::Burr& burr,
   };
 }
 
-session::DissectionLoop::Hooks
+DissectionLoop::Hooks
 TouchScene::hooksOf(const dissection::Burr& burr,
                     std::function<std::optional<core::CameraPose>()> camera)
 {
-  session::DissectionLoop::Hooks hooks;
+  DissectionLoop::Hooks hooks;
   hooks.begin = beginOf(burr, std::move(camera));
   hooks.close = [this](dissection::Dissection&) { m_drill.end(); };
   hooks.turn = [this](bool back)

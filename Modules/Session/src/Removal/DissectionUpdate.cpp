@@ -1,5 +1,6 @@
 #include "petrous/Session/DissectionUpdate.h"
 
+#include <exception>
 #include <iterator>
 #include <utility>
 
@@ -56,40 +57,127 @@ void DissectionUpdate::append(DissectionUpdate& next)
   next.recordingFault.clear();
 }
 
-void UpdateQueue::post(DissectionUpdate& mail)
+void UpdateQueue::post(DissectionUpdate& update)
 {
-  if (mail.empty())
+  if (update.empty())
     return;
   const std::lock_guard<std::mutex> lock(m_mutex);
-  m_mail.append(mail);
+  m_update.append(update);
 }
 
 DissectionUpdate UpdateQueue::take()
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  return std::exchange(m_mail, {});
+  return std::exchange(m_update, {});
 }
 
-std::vector<std::size_t> follow(DissectionUpdate& mail, dissection::Dissection& copy)
+DissectionReporter::DissectionReporter(const dissection::Dissection& work,
+                                       UpdateQueue& queue)
+  : m_work(work)
+  , m_queue(queue)
 {
-  if (mail.history)
+}
+
+DissectionLoop::Hooks DissectionReporter::listen(DissectionLoop::Begin begin,
+                                                 DissectionLoop::Edited edited, Complete complete)
+{
+  DissectionLoop::Hooks hooks;
+  hooks.begin = std::move(begin);
+  hooks.close = [this, complete = std::move(complete)](dissection::Dissection& work)
+  { close(work, complete); };
+  hooks.changed = [this](const std::vector<std::size_t>& bricks)
+  {
+    for (const std::size_t brick : bricks)
+      m_update.bricks[brick] = m_work.mask().brick(brick);
+  };
+  hooks.edited = [this, edited = std::move(edited)](const MaskEdit& edit)
+  {
+    if (edited)
+      edited(edit);
+    note(edit);
+  };
+  return hooks;
+}
+
+void DissectionReporter::close(dissection::Dissection& work, const Complete& complete)
+{
+  try
+  {
+    if (complete)
+      complete(work);
+  }
+  catch (const std::exception& error)
+  {
+    m_complaint = error.what();
+  }
+  m_closed = work.endStroke();
+}
+
+void DissectionReporter::note(const MaskEdit& edit)
+{
+  using Kind = DissectionEvent::Kind;
+  switch (edit.kind)
+  {
+  case MaskEdit::Kind::Begin:
+    m_update.events.push_back({Kind::StrokeBegun, nullptr});
+    break;
+  case MaskEdit::Kind::Cut:
+    break;
+  case MaskEdit::Kind::End:
+    m_update.events.push_back({Kind::StrokeClosed, std::exchange(m_closed, nullptr)});
+    break;
+  case MaskEdit::Kind::Undo:
+    m_update.events.push_back({Kind::Undone, nullptr});
+    break;
+  case MaskEdit::Kind::Redo:
+    m_update.events.push_back({Kind::Redone, nullptr});
+    break;
+  }
+}
+
+void DissectionReporter::note(const TickRecord& record)
+{
+  if (record.fault != 0)
+    m_update.fault = record;
+}
+
+void DissectionReporter::note(const std::string& recordingFault)
+{
+  m_update.recordingFault = recordingFault;
+}
+
+void DissectionReporter::post()
+{
+  if (!m_update.events.empty())
+    m_update.history = m_work;
+  m_queue.post(m_update);
+}
+
+std::string DissectionReporter::takeComplaint()
+{
+  return std::exchange(m_complaint, {});
+}
+
+std::vector<std::size_t> follow(DissectionUpdate& update, dissection::Dissection& copy)
+{
+  if (update.history)
   {
     // Likewise where the mask changed but no update could be written.
-    const volume::CutMask& now = mail.history->mask();
+    const volume::CutMask& now = update.history->mask();
     for (std::size_t brick = 0; brick < now.brickCount(); ++brick)
       if (now.brick(brick) != copy.mask().brick(brick))
-        mail.bricks.emplace(brick, now.brick(brick));
-    copy = *std::exchange(mail.history, std::nullopt);
+        update.bricks.emplace(brick, now.brick(brick));
+    copy = *std::exchange(update.history, std::nullopt);
   }
   std::vector<std::size_t> bricks;
-  bricks.reserve(mail.bricks.size());
-  for (auto& [brick, version] : mail.bricks)
+  bricks.reserve(update.bricks.size());
+  for (auto& [brick, version] : update.bricks)
   {
     bricks.push_back(brick);
     if (copy.mask().brick(brick) != version)
       copy.mask().setBrick(brick, std::move(version));
   }
-  mail.bricks.clear();
+  update.bricks.clear();
   copy.mask().takeDirty();
   return bricks;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -46,6 +47,12 @@ struct BurrShape
   double shaftLength = 30.0;     ///< mm from the burr's centre, in [1.01 radius, 300]
   double handpieceRadius = 6.0;  ///< mm, from the shaft's to 50; 0: none
   double handpieceLength = 60.0; ///< mm beyond the shaft, in [0.1, 300]
+
+  /// mm, with the default in place of 0.
+  double resolvedShaftRadius() const noexcept
+  {
+    return shaftRadius > 0.0 ? shaftRadius : std::min(0.6 * radius, 1.2);
+  }
 };
 
 /// Samples a burr, its shaft and handpiece. On the burr the spacing s satisfies the sagitta bound

@@ -25,7 +25,7 @@ struct CaseRemoval
 
   const dissection::TissueResistance resistance;
   dissection::RemovalDepthSolver search;
-  session::BurrRemovalModel removalModel;
+  BurrRemovalModel removalModel;
 };
 
 } // namespace petrous::session

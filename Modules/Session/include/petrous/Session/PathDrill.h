@@ -37,7 +37,7 @@ public:
   PathDrill(scene::Case& value, TouchScene& scene, const Options& options);
 
   /// The servo's tick: the force at this pose. The record is valid until the next tick.
-  const session::TickRecord& feel(const dissection::ToolSample& sample) noexcept;
+  const TickRecord& feel(const dissection::ToolSample& sample) noexcept;
 
   /// The tick's effect on the tissue: removal, begin and end of a stroke. Throws RecordingError if
   /// the disk is full.
@@ -47,7 +47,7 @@ public:
   void end();
 
   /// The removal model's results, and its inputs at the last tick.
-  const session::BurrRemovalModel& removal() const noexcept { return m_removal->removalModel; }
+  const BurrRemovalModel& removal() const noexcept { return m_removal->removalModel; }
 
   double radius() const noexcept { return m_radius; } ///< mm, of the burr
 
@@ -55,10 +55,10 @@ public:
   double swept() const noexcept { return m_sweptVolume; }
 
   /// nullptr if nothing is recorded.
-  const session::RecordingWriter* recording() const noexcept { return m_recording.get(); }
+  const RecordingWriter* recording() const noexcept { return m_recording.get(); }
 
 private:
-  session::DissectionLoop::Hooks hooks(TouchScene& scene, const Options& options);
+  DissectionLoop::Hooks hooks(TouchScene& scene, const Options& options);
   void sweep(const Eigen::Vector3d& at);
   void approach(const Eigen::Vector3d& place);
 
@@ -67,14 +67,14 @@ private:
   double m_radius; // mm
   bool m_turns;    // a burr that does not spin removes nothing, even when embedded
   std::unique_ptr<haptics::Proxy> m_proxy;
-  session::Servo m_servo;
-  std::unique_ptr<session::RecordingWriter> m_recording;
+  Servo m_servo;
+  std::unique_ptr<RecordingWriter> m_recording;
   std::unique_ptr<CaseRemoval> m_removal;
-  session::DissectionLoop m_loop;
-  session::ServoParameters m_parameters;
-  session::SurfaceApproach m_approach;
+  DissectionLoop m_loop;
+  ServoParameters m_parameters;
+  SurfaceApproach m_approach;
   std::uint64_t m_approached = 0; // the mask's state at the last approach
-  session::TickRecord m_record;
+  TickRecord m_record;
   std::optional<Eigen::Vector3d> m_swept; // where the drill was last embedded in tissue, mm
   std::vector<std::size_t> m_changed;     // bricks, while it sweeps
   double m_sweptVolume = 0.0;             // mm^3

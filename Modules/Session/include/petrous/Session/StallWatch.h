@@ -21,7 +21,7 @@ public:
   static constexpr double kLinger = 1.5; ///< s, shaft or handpiece remain reported after they last
                                          ///< held it, while it progresses
 
-  void see(const session::TickRecord& record);
+  void see(const TickRecord& record);
   void forget() noexcept { *this = StallWatch(); } ///< another tool
 
   /// TickRecord::kShaft, kHandpiece: what holds the burr off the bone; 0: nothing.

@@ -71,15 +71,15 @@ public:
   std::unique_ptr<haptics::Proxy> proxyOf(const TouchTool& tool) const;
 
   /// The servo's setup for that tool.
-  session::ServoSetup servoOf(const TouchTool& tool) const;
+  ServoSetup servoOf(const TouchTool& tool) const;
 
   /// Fingerprint of what can be touched now. Reads every voxel (0.1 s for 512^3).
-  session::RecordedScene fingerprint() const;
+  RecordedScene fingerprint() const;
 
   /// The header of a recording that begins now.
   /// servo  as the session has it
   /// note   for the reader: what kind of session
-  session::RecordingSetup recordingOf(const TouchTool& tool, const session::ServoSetup& servo,
+  RecordingSetup recordingOf(const TouchTool& tool, const ServoSetup& servo,
                                          const std::string& note) const;
 
   /// The burr's removal model, for a `loop` of its own, with resistances from `catalogues`. Loads
@@ -88,13 +88,13 @@ public:
                                          const dissection::Catalogues& catalogues) const;
 
   /// Metadata of a stroke that begins now; `camera` returns the viewpoint.
-  static session::DissectionLoop::Begin
+  static DissectionLoop::Begin
   beginOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
 
   /// Hooks for a dissection loop that cuts the case's own dissection: strokes are opened and added
   /// to the history as by a DrillSession, and the case follows undo and redo. Not for a loop that
-  /// cuts a fork of it (TouchDissection).
-  session::DissectionLoop::Hooks
+  /// cuts a fork of it (TouchSession).
+  DissectionLoop::Hooks
   hooksOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
 
 private:

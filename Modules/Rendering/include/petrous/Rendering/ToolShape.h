@@ -8,12 +8,13 @@
 namespace petrous::rendering::tool
 {
 
-// Similar to the haptic tool (haptics::BurrShape): a ball, a shaft of at most 0.6 of its radius for
-// 30 mm, then the handpiece.
-constexpr double kShaftRatio = 0.5;
-constexpr double kShaftLength = 30.0;     // mm from the burr's centre
-constexpr double kHandpieceLength = 90.0; // mm
-constexpr double kHandpieceRadius = 5.0;  // mm
+// The tool that is felt (haptics::BurrShape with its defaults): a ball, a shaft, a handpiece along
+// one axis. Lengths in mm, the shaft's from the burr's centre.
+constexpr double kShaftRatio = 0.6;     // of the burr's radius
+constexpr double kMaxShaftRadius = 1.2; // mm
+constexpr double kShaftLength = 30.0;
+constexpr double kHandpieceLength = 60.0;
+constexpr double kHandpieceRadius = 6.0;
 
 constexpr std::array<double, 3> kBurrColor{0.85, 0.72, 0.35};
 constexpr std::array<double, 3> kDrillingColor{1.0, 0.55, 0.15};
@@ -31,9 +32,10 @@ inline bool isShown(const ToolPose& pose)
          pose.axisToHand.allFinite();
 }
 
-inline double handpieceRadius(const ToolPose& pose)
+/// mm
+inline double shaftRadius(const ToolPose& pose)
 {
-  return std::max(kHandpieceRadius, pose.radius);
+  return std::min(kShaftRatio * pose.radius, kMaxShaftRadius);
 }
 
 } // namespace petrous::rendering::tool

@@ -59,8 +59,7 @@ protected:
   {
     const auto out = m_folder / ".stdout";
     const auto err = m_folder / ".stderr";
-    const char* preload =
-        std::getenv("PETROUS_TEST_PRELOAD"); // for the program, not for the test
+    const char* preload = std::getenv("PETROUS_TEST_PRELOAD"); // for the program, not for the test
     const std::string command = "PETROUS_LIBRARY=" + quoted(library()) +
                                 (preload ? " LD_PRELOAD=" + quoted(preload) : "") + " " +
                                 quoted(PETROUS_PROGRAM) + " " + arguments + " >" + quoted(out) +

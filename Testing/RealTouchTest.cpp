@@ -75,10 +75,10 @@ protected:
   {
     std::size_t ticks = 0;
     std::size_t pressed = 0;
-    std::size_t longest = 0;    // ticks of uninterrupted contact
-    double force = 0.0;         // N
-    std::size_t refilled = 0;   // ticks reporting tissue restored around the tool
-    std::size_t inside = 0;     // maximum number of consecutive such ticks
+    std::size_t longest = 0;  // ticks of uninterrupted contact
+    double force = 0.0;       // N
+    std::size_t refilled = 0; // ticks reporting tissue restored around the tool
+    std::size_t inside = 0;   // maximum number of consecutive such ticks
     double highest = -1e9; // maximum of f at any shell point in all other ticks: 0 is the surface
     double overCoupling = -1e9; // maximum excess of a wrench over the coupling's
   };

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "CommandRunner.h"
+#include "petrous/Session/BurrRemovalModel.h"
 #include "petrous/Session/RecordingReader.h"
 #include "petrous/Session/RecordingWriter.h"
-#include "petrous/Session/BurrRemovalModel.h"
 
 using namespace petrous::testing;
 
@@ -160,8 +160,8 @@ TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
   // r is the mean over the patch, here of about 1 mm radius: 2/3 mm from its centre.
   const auto arm = [](double degrees)
   {
-    return petrous::session::BurrRemovalModel::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
-                                                   2.0 / 3.0);
+    return petrous::session::BurrRemovalModel::armOf(
+        2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0, 2.0 / 3.0);
   };
   EXPECT_NEAR(drilled(75.0) / oblique, arm(75.0) / arm(60.0), 0.04);
   EXPECT_NEAR(drilled(90.0) / oblique, arm(90.0) / arm(60.0), 0.04);

@@ -97,7 +97,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     value.denseBone = scale.dense;
     if (!scale.calibrated)
       context.warn("the image is not in Hounsfield units; bone is taken to begin at " +
-                     fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
+                   fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
     return;
   }
   const double iso = parseNumbers(text, 1, "--iso").front();
@@ -231,10 +231,10 @@ void setSource(const Context& context, scene::Case& value, const std::string& as
     look.sourceImage = name;
     if (!mr->registered)
       context.warn("'" + name + "' is not registered with the CT; until it is, '" + part.name +
-                     "' is drawn in one colour");
+                   "' is drawn in one colour");
     if (!look.transfer || look.relative)
       context.warn("presets are made for CT; '" + part.name +
-                     "' is drawn in one colour until --tf gives it values of '" + name + "'");
+                   "' is drawn in one colour until --tf gives it values of '" + name + "'");
   }
 }
 
@@ -261,7 +261,7 @@ void setStiffness(const Context& context, scene::Case& value, const std::string&
     appearance::setStiffness(*look, stiffness);
   if (const auto& look = *part.looks.front(); stiffness > 0.0 && !(look.solid && look.touchable))
     context.warn("'" + part.name + "' is not felt" +
-                   (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
+                 (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
 }
 
 void setWarning(scene::Case& value, const std::string& assignment)

@@ -81,8 +81,8 @@ void listAppearance(const Context& context, const scene::Case& value)
   presenters::IntensityDisplay display = presenters::displayOf(value);
   display.decimals = std::max(display.decimals, 1);
   context.print("surface at " + display.text(value.iso) + ", dense bone at " +
-              display.text(value.denseBone) +
-              (display.hounsfield ? "" : " (not in Hounsfield units)"));
+                display.text(value.denseBone) +
+                (display.hounsfield ? "" : " (not in Hounsfield units)"));
   nlohmann::json bone = entry("ct", "bone", value.boneLook);
   nlohmann::json parts = nlohmann::json::array();
   for (const auto& part : value.labels)
@@ -91,11 +91,11 @@ void listAppearance(const Context& context, const scene::Case& value)
   for (const auto& mesh : value.meshes)
     parts.push_back(entry(mesh.name, "mesh", mesh.look));
   context.printJson({{"case", value.name},
-                {"iso_hu", value.iso},
-                {"dense_bone_hu", value.denseBone},
-                {"hounsfield", display.hounsfield},
-                {"bone", std::move(bone)},
-                {"parts", std::move(parts)}});
+                     {"iso_hu", value.iso},
+                     {"dense_bone_hu", value.denseBone},
+                     {"hounsfield", display.hounsfield},
+                     {"bone", std::move(bone)},
+                     {"parts", std::move(parts)}});
 }
 
 void listPresets(const Context& context)
@@ -110,8 +110,8 @@ void listPresets(const Context& context)
     j["name"] = look.preset;
     presets.push_back(std::move(j));
     context.print("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
-                (look.solid ? "" : " (a lumen)") + drilledAs(look) + yielding(look) + warned(look) +
-                ", " + valuesOf(look, {}));
+                  (look.solid ? "" : " (a lumen)") + drilledAs(look) + yielding(look) +
+                  warned(look) + ", " + valuesOf(look, {}));
   }
   context.printJson({{"presets", std::move(presets)}});
 }

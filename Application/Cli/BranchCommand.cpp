@@ -66,7 +66,7 @@ const Branch& branchOf(const scene::Case& value, const std::string& name)
 }
 
 void printRow(const Context& context, const std::string& what, const std::string& a,
-            const std::string& b)
+              const std::string& b)
 {
   char row[256];
   std::snprintf(row, sizeof row, "%-28s %20s %20s", what.c_str(), a.c_str(), b.c_str());
@@ -99,8 +99,8 @@ exposedBy(const Context& context, const scene::Case& value, const Branch& a, con
 
 // A row for each name of either side, 0 if one lacks it.
 void printRows(const Context& context, const std::string& before, const std::string& after,
-             const std::map<std::string, double>& a, const std::map<std::string, double>& b,
-             int digits)
+               const std::map<std::string, double>& a, const std::map<std::string, double>& b,
+               int digits)
 {
   std::map<std::string, std::pair<double, double>> rows;
   for (const auto& [name, number] : a)
@@ -109,7 +109,7 @@ void printRows(const Context& context, const std::string& before, const std::str
     rows[name].second = number;
   for (const auto& [name, numbers] : rows)
     printRow(context, before + name + after, fixed(numbers.first, digits),
-           fixed(numbers.second, digits));
+             fixed(numbers.second, digits));
 }
 
 std::map<std::string, double> volumesOf(const scene::StateSummary& summary)
@@ -128,8 +128,8 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   const auto ofB = scene::summaryOf(value, b.position);
   const std::size_t common = ofA.strokes - value.history.path(a.position, b.position).undone.size();
   printRow(context, "", a.name, b.name);
-  printRow(context, "strokes (" + std::to_string(common) + " in common)", std::to_string(ofA.strokes),
-         std::to_string(ofB.strokes));
+  printRow(context, "strokes (" + std::to_string(common) + " in common)",
+           std::to_string(ofA.strokes), std::to_string(ofB.strokes));
   printRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
   printRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
   const auto [openA, openB] = exposedBy(context, value, a, b);
@@ -137,7 +137,8 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   sides[0]["exposed_mm2"] = nlohmann::json(openA);
   sides[1]["exposed_mm2"] = nlohmann::json(openB);
-  context.printJson({{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
+  context.printJson(
+      {{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
 }
 
 void list(const Context& context, const scene::Case& value)
@@ -168,7 +169,8 @@ std::string change(scene::Case& value, const Options& options)
     scene::startBranch(value, name, options.after);
   else
     scene::startBranch(value, name);
-  return std::string(there ? "on branch " : "new branch ") + toString(value, value.history.branch());
+  return std::string(there ? "on branch " : "new branch ") +
+         toString(value, value.history.branch());
 }
 
 void branch(const Context& context, const Options& options)

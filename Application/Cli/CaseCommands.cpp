@@ -6,8 +6,8 @@
 #include "Numbers.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
-#include "petrous/Scene/ExposedSurfaces.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/ExposedSurfaces.h"
 
 namespace petrous::cli
 {
@@ -63,26 +63,26 @@ void printCase(const Context& context, const scene::Case& value)
   context.print("case '" + value.name + "'");
   const presenters::IntensityDisplay display = presenters::displayOf(value);
   context.print("  CT " + sizeText(value.ct.geometry) + ", " + display.number(value.ct.range.min) +
-              " to " + display.text(value.ct.range.max) +
-              (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
-              display.text(value.iso));
+                " to " + display.text(value.ct.range.max) +
+                (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
+                display.text(value.iso));
   for (const auto& mr : value.mr)
     context.print("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
-                scene::registrationInWords(mr));
+                  scene::registrationInWords(mr));
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
-      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " + s.look.preset +
-                  placeText(scene::placementOf(value, part)));
+      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
+                    s.look.preset + placeText(scene::placementOf(value, part)));
   for (const auto& mesh : value.meshes)
   {
     const scene::Placement place = scene::placementOf(value, mesh);
     const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+                  placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +
-              std::to_string(value.history.ahead()) + " to redo, " +
-              fixed(value.removedVolume(), 1) + " mm3 removed");
+                std::to_string(value.history.ahead()) + " to redo, " +
+                fixed(value.removedVolume(), 1) + " mm3 removed");
 }
 
 // What was accepted or assumed when the parts were read.
@@ -216,7 +216,7 @@ void addInfo(CLI::App& app, Context& context)
           for (const auto& surface : scene::exposedSurfaces(value, context.progress()))
           {
             context.print("  of '" + surface.name + "' laid open: " + fixed(surface.area, 1) +
-                        " mm2");
+                          " mm2");
             areas.push_back({{"label", surface.name}, {"area_mm2", surface.area}});
           }
         }

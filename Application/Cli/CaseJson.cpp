@@ -2,9 +2,9 @@
 
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::cli

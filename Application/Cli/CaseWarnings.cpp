@@ -15,8 +15,7 @@ void warnMissingPlaces(const Context& context, const scene::Case& value)
   const auto remark = [&context](const std::string& name, const scene::Placement& placement)
   {
     if (!placement.missing.empty())
-      context.warn("'" + name +
-                     "' is left out, as it is nowhere on the CT: " + placement.missing);
+      context.warn("'" + name + "' is left out, as it is nowhere on the CT: " + placement.missing);
   };
   for (const scene::LabelPart& part : value.labels)
   {

@@ -132,20 +132,21 @@ void doctor(const Context& context)
   {
     context.print("            version " + graphics->version);
     context.print("            volumes up to " + std::to_string(graphics->largestTexture3d) +
-                " voxels along an axis");
+                  " voxels along an axis");
     for (const auto& variant : graphics->variants)
       context.print("ray caster  " + joined(variant.features) +
-                  (variant.compiles ? "" : ": does not work: " + variant.error));
+                    (variant.compiles ? "" : ": does not work: " + variant.error));
   }
   context.print(std::string("display     ") + (hasDisplay ? "yes" : "none"));
   context.print("processors  " + std::to_string(std::thread::hardware_concurrency()));
   context.print("memory      " + fixed(total, 0) + " MiB, " + fixed(available, 0) + " MiB free");
   context.print("library     " + library.folder().string() + ", " + fixed(freeMiB, 0) +
-              " MiB free there");
+                " MiB free there");
   for (const auto& device : devices)
     context.print("device      " + device.title() + (device.advice.empty() ? ", ready" : ""));
   if (devices.empty())
-    context.print("devices     no SpaceMouse and no foot pedal is plugged in; drill with the mouse");
+    context.print(
+        "devices     no SpaceMouse and no foot pedal is plugged in; drill with the mouse");
   for (const auto& text : advice)
     context.print("* " + text.get<std::string>());
   nlohmann::json found = nlohmann::json::array();

@@ -141,13 +141,12 @@ double armAt(const session::PathDrill& session, const session::TickRecord& recor
                       : session::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
 }
 
-void printBalance(const Context& context, const session::PathDrill& session,
-                nlohmann::json& answer)
+void printBalance(const Context& context, const session::PathDrill& session, nlohmann::json& answer)
 {
   const session::RemovalBalance balance = session.removal().balance();
   context.print("the laws predict " + fixed(balance.predicted, 2) +
-              " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
-              " owed, " + fixed(balance.forfeited, 2) + " forfeited");
+                " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
+                " owed, " + fixed(balance.forfeited, 2) + " forfeited");
   answer["predicted_mm3"] = balance.predicted;
   answer["owed_mm3"] = balance.owed;
   answer["forfeited_mm3"] = balance.forfeited;
@@ -198,8 +197,8 @@ void play(const Context& context, const Options& options)
             {
               if (ticks++ % 256 == 0)
                 progress.report(0.9 * (tick.time - start) / length, "drilling");
-              const session::TickRecord& record = report.feel(
-                  [&]() -> const session::TickRecord& { return session.feel(tick); });
+              const session::TickRecord& record =
+                  report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
               session.cut(tick);
               journal->follow(*value.dissection);
               const session::RemovalBalance balance = session.removal().balance();
@@ -211,13 +210,13 @@ void play(const Context& context, const Options& options)
   report.close();
   save(context, library, value, report, opened, *journal, progress);
 
-  report.say(context);
+  report.print(context);
   nlohmann::json answer = report.json();
   printBalance(context, session, answer);
   if (const session::RecordingWriter* recording = session.recording())
   {
     context.print("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
-                " bytes");
+                  " bytes");
     answer["recording"] = {
         {"file", options.record}, {"ticks", recording->ticks()}, {"bytes", recording->bytes()}};
   }
@@ -259,7 +258,7 @@ void replay(const Context& context, const Options& options)
   if (outcome.equal())
     save(context, library, value, report, opened, *journal, progress);
 
-  report.say(context);
+  report.print(context);
   nlohmann::json answer = report.json();
   nlohmann::json first = nullptr;
   if (outcome.firstDifferent)

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "petrous/Dissection/RemovedVolume.h"
-#include "petrous/Session/TouchScene.h"
 #include "petrous/Session/TickRecord.h"
+#include "petrous/Session/TouchScene.h"
 
 namespace petrous::cli
 {
@@ -26,8 +26,7 @@ class DrillLog
 {
 public:
   /// Throws InvalidParameter naming the file if it cannot be written.
-  DrillLog(const std::filesystem::path& file, const scene::Case& value,
-           session::TouchScene& scene);
+  DrillLog(const std::filesystem::path& file, const scene::Case& value, session::TouchScene& scene);
 
   void add(const session::TickRecord& record, const std::optional<TickRemoval>& removal);
 

@@ -20,8 +20,7 @@ DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene, double 
     m_distances.emplace(value, radius);
 }
 
-void DrillReport::add(const session::TickRecord& record,
-                      const std::optional<TickRemoval>& removal)
+void DrillReport::add(const session::TickRecord& record, const std::optional<TickRemoval>& removal)
 {
   const haptics::Wrench wrench = record.wrench.wrench();
   m_force = std::max(m_force, wrench.linear.norm());
@@ -78,14 +77,14 @@ void DrillReport::print(const Context& context) const
   const Cut result = cut();
   if (m_inside > 0)
     context.warn("the tool stood in tissue for " + std::to_string(m_inside) +
-                   " ticks: there nothing is felt, and the drill takes what the burr sweeps");
+                 " ticks: there nothing is felt, and the drill takes what the burr sweeps");
   if (m_heldOff > 0)
-    context.warn(session::holderInWords(m_holder) +
-                   " lay on tissue and held the burr off for " + std::to_string(m_heldOff) +
-                   " ticks of drilling: give the tool another angle or more room");
-  context.print(std::to_string(result.strokes) + (result.strokes == 1 ? " stroke, " : " strokes, ") +
-              fixed(result.removed, 2) + " mm3 removed in " + std::to_string(m_times.count()) +
-              " ticks");
+    context.warn(session::holderInWords(m_holder) + " lay on tissue and held the burr off for " +
+                 std::to_string(m_heldOff) +
+                 " ticks of drilling: give the tool another angle or more room");
+  context.print(std::to_string(result.strokes) +
+                (result.strokes == 1 ? " stroke, " : " strokes, ") + fixed(result.removed, 2) +
+                " mm3 removed in " + std::to_string(m_times.count()) + " ticks");
   for (const auto& [name, volume] : result.structures)
     context.print("  of '" + name + "': " + fixed(volume, 2) + " mm3");
 }

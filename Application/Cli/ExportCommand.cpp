@@ -91,7 +91,7 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
       const auto placed = scene::labelsOnCt(value, part);
       if (!placed)
         context.warn("'" + structure.name + "' is written where its MR has it, not on the CT: " +
-                       scene::missingPlace(value, structure.name));
+                     scene::missingPlace(value, structure.name));
       const auto& source = *(placed ? placed : part.labels.get())->voxels;
       if (!voxels)
         voxels =

@@ -33,15 +33,15 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
           library.save(value);
         const std::size_t ahead = value.history.ahead();
         context.print(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
-                    std::to_string(value.applied()) + " done, " + std::to_string(ahead) +
-                    " to redo, " + fixed(value.removedVolume(), 1) + " mm3 removed");
+                      std::to_string(value.applied()) + " done, " + std::to_string(ahead) +
+                      " to redo, " + fixed(value.removedVolume(), 1) + " mm3 removed");
         context.printJson({{"case", value.name},
-                      {"branch", value.history.branch().name},
-                      {"steps", steps},
-                      {"strokes", value.strokes.size()},
-                      {"undo", value.applied()},
-                      {"redo", ahead},
-                      {"removed_mm3", value.removedVolume()}});
+                           {"branch", value.history.branch().name},
+                           {"steps", steps},
+                           {"strokes", value.strokes.size()},
+                           {"undo", value.applied()},
+                           {"redo", ahead},
+                           {"removed_mm3", value.removedVolume()}});
       });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("N", options->count, "How many strokes (1)");
@@ -73,8 +73,8 @@ void printHistory(const Context& context, const scene::Case& value)
       continue;
     const auto own = history.path(history.branch().tip, branch.tip).redone;
     context.print("branch " + branch.name + ": " +
-                (own.empty() ? "nothing of its own"
-                             : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
+                  (own.empty() ? "nothing of its own"
+                               : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
     for (const std::size_t n : own)
       printStroke(context, value, n, "          ");
   }
@@ -97,11 +97,11 @@ void addHistoryCommands(CLI::App& app, Context& context)
                     for (const auto& branch : value.history.branches())
                       branches.push_back(branchJson(value, branch));
                     context.printJson({{"case", value.name},
-                                  {"branch", value.history.branch().name},
-                                  {"branches", std::move(branches)},
-                                  {"strokes", strokesJson(value)},
-                                  {"undo", value.applied()},
-                                  {"redo", value.history.ahead()}});
+                                       {"branch", value.history.branch().name},
+                                       {"branches", std::move(branches)},
+                                       {"strokes", strokesJson(value)},
+                                       {"undo", value.applied()},
+                                       {"redo", value.history.ahead()}});
                   })
       ->add_option("CASE", *name)
       ->required();

@@ -15,7 +15,7 @@ struct Options
 };
 
 void printCases(const Context& context, const library::Library& library,
-              const std::vector<library::CaseSummary>& summaries)
+                const std::vector<library::CaseSummary>& summaries)
 {
   nlohmann::json cases = nlohmann::json::array();
   for (const auto& summary : summaries)
@@ -28,10 +28,10 @@ void printCases(const Context& context, const library::Library& library,
                      {"removed_mm3", summary.removed},
                      {"damaged", summary.damaged}});
     context.print(summary.name + "  " + summary.modified + "  " +
-                (summary.damaged ? "damaged: its manifest cannot be read"
-                                 : std::to_string(summary.structures) + " structures, " +
-                                       std::to_string(summary.strokes) + " strokes, " +
-                                       fixed(summary.removed, 1) + " mm3 removed"));
+                  (summary.damaged ? "damaged: its manifest cannot be read"
+                                   : std::to_string(summary.structures) + " structures, " +
+                                         std::to_string(summary.strokes) + " strokes, " +
+                                         fixed(summary.removed, 1) + " mm3 removed"));
   }
   if (cases.empty())
     context.print("no case in " + library.folder().string());
@@ -48,7 +48,7 @@ void verify(const Context& context, const library::Library& library)
     context.print(one.text);
   }
   context.print(std::to_string(found.cases) + " cases, " + std::to_string(found.objects) +
-              " objects, " + std::to_string(found.damaged.size()) + " damaged");
+                " objects, " + std::to_string(found.damaged.size()) + " damaged");
   context.printJson({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
   if (!found.damaged.empty())
     throw library::LibraryError(library::LibraryError::Reason::Damaged,
@@ -61,11 +61,12 @@ void collect(const Context& context, library::Library& library)
 {
   const library::Collected removed = library.collectGarbage();
   context.print(std::to_string(removed.objects) + " objects that no case needs were removed, " +
-              std::to_string(removed.bytes) + " bytes");
+                std::to_string(removed.bytes) + " bytes");
   library::DerivedCache derived(library::derivedFolder(library.folder()));
   const std::uintmax_t freed = derived.prune(0);
   context.print("derived data removed: " + fixed(1e-6 * static_cast<double>(freed), 1) + " MB");
-  context.printJson({{"removed", removed.objects}, {"bytes", removed.bytes}, {"derived_bytes", freed}});
+  context.printJson(
+      {{"removed", removed.objects}, {"bytes", removed.bytes}, {"derived_bytes", freed}});
 }
 
 void repair(const Context& context, library::Library& library)
@@ -129,7 +130,7 @@ void run(const Context& context, const Options& options)
     names(1, "delete NAME");
     library.remove(options.names[0]);
     context.print("case '" + options.names[0] +
-                "' is deleted; 'petrous library gc' frees what no other case needs");
+                  "' is deleted; 'petrous library gc' frees what no other case needs");
     context.printJson({{"case", options.names[0]}, {"deleted", true}});
   }
   else

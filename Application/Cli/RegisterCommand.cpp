@@ -6,9 +6,9 @@
 #include "Numbers.h"
 #include "RegistrationFiles.h"
 #include "petrous/Presenters/CaseRegistration.h"
-#include "petrous/Session/DrillSession.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Session/DrillSession.h"
 
 namespace petrous::cli
 {
@@ -116,7 +116,8 @@ void printError(const Context& context, const scene::Registration& how)
 {
   if (how.error)
     context.print("  error at " + how.error->place + ": median " + fixed(how.error->median, 2) +
-                ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) + " mm");
+                  ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) +
+                  " mm");
 }
 
 // A sign-off is for a result that was inspected, so it excludes every other action.
@@ -137,7 +138,7 @@ void sign(const Context& context, const Options& options)
 }
 
 void printOutcome(const Context& context, const scene::Case& value, const Options& options,
-                const presenters::RegistrationOutcome& outcome, bool wasSigned)
+                  const presenters::RegistrationOutcome& outcome, bool wasSigned)
 {
   const scene::Registration& how = outcome.how;
   if (outcome.failed)
@@ -147,15 +148,15 @@ void printOutcome(const Context& context, const scene::Case& value, const Option
     return;
   }
   context.print("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
-              nameOf(how.verdict) + ". " + how.text);
+                nameOf(how.verdict) + ". " + how.text);
   printError(context, how);
   if (!options.asIs)
     context.print("  " + fixed(outcome.fit.seconds, 1) + " s for the fit, " +
-                fixed(outcome.estimateSeconds, 1) + " s for the error");
+                  fixed(outcome.estimateSeconds, 1) + " s for the error");
   if (const auto names = scene::drawnOnMr(value, options.mr); !names.empty())
     context.print("  now on the CT: " + scene::listed(names));
   context.print(wasSigned ? "  the sign-off of the registration before is void"
-                        : "  not signed off: look at it, then register --sign-off NAME");
+                          : "  not signed off: look at it, then register --sign-off NAME");
 }
 
 void registerMr(const Context& context, const Options& options)

@@ -222,9 +222,9 @@ void render(const Context& context, const RenderOptions& options)
                         {"resources", result.resources}});
   if (!options.thickness.empty())
     context.print("bone is coloured by its thickness over '" + options.thickness +
-                "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
+                  "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
   context.print(options.out + ": " + options.size + ", " +
-              fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
+                fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
   context.printJson(result.report);
 }
 

@@ -36,12 +36,12 @@ void addSampleCommand(CLI::App& app, Context& context)
         phantom::writeSamplePatient(options->out, sample, context.progress());
         const std::filesystem::path out(options->out);
         context.print("The sample patient is in " + options->out +
-                    ": ct, mr, labels, meshes, truth.json");
+                      ": ct, mr, labels, meshes, truth.json");
         context.printJson({{"out", out.string()},
-                      {"ct", (out / "ct").string()},
-                      {"mr", (out / "mr").string()},
-                      {"labels", (out / "labels.seg.nrrd").string()},
-                      {"truth", (out / "truth.json").string()}});
+                           {"ct", (out / "ct").string()},
+                           {"mr", (out / "mr").string()},
+                           {"labels", (out / "labels.seg.nrrd").string()},
+                           {"truth", (out / "truth.json").string()}});
       });
   command->add_option("OUT", options->out, "A new or empty folder")->required();
   command->add_option("--spacing", options->spacing, "Voxel size of the CT, mm (0.3)");

@@ -92,9 +92,9 @@ void scan(const Context& context, const Options& options)
   for (const auto& note : result.notes)
     context.print("noted: " + note);
   context.printJson({{"series", std::move(list)},
-                {"unreadable", findingsJson(result.unreadable)},
-                {"notes", result.notes},
-                {"foreign_files", result.foreignFiles}});
+                     {"unreadable", findingsJson(result.unreadable)},
+                     {"notes", result.notes},
+                     {"foreign_files", result.foreignFiles}});
   if (const std::string complaint = complaintOf(result); options.strict && !complaint.empty())
     throw core::InvalidParameter(path + ": " + complaint);
 }

@@ -182,20 +182,20 @@ void slice(const Context& context, const SliceOptions& options)
   rendering::writePng(options.out, labelled(std::move(pixels), geometry, lines));
   if (mr && !mr->registered)
     context.warn("MR '" + mr->name +
-                   "' is not registered with the CT; it is shown where its own file puts it");
+                 "' is not registered with the CT; it is shown where its own file puts it");
   context.print(options.out + ": " + options.plane + ", " + options.size + ", " +
-              fixed(geometry.mmPerPixel(), 3) + " mm a pixel, " + fixed(elapsed, 1) + " ms");
+                fixed(geometry.mmPerPixel(), 3) + " mm a pixel, " + fixed(elapsed, 1) + " ms");
   context.printJson({{"case", value.name},
-                {"out", options.out},
-                {"plane", options.plane},
-                {"size", {width, height}},
-                {"center_mm", vectorJson(geometry.center())},
-                {"mm_per_pixel", geometry.mmPerPixel()},
-                {"milliseconds", elapsed},
-                {"window", {{"width", window.width}, {"level", window.level}}},
-                {"hounsfield", display.hounsfield},
-                {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
-                {"resources", residentResources(value)}});
+                     {"out", options.out},
+                     {"plane", options.plane},
+                     {"size", {width, height}},
+                     {"center_mm", vectorJson(geometry.center())},
+                     {"mm_per_pixel", geometry.mmPerPixel()},
+                     {"milliseconds", elapsed},
+                     {"window", {{"width", window.width}, {"level", window.level}}},
+                     {"hounsfield", display.hounsfield},
+                     {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
+                     {"resources", residentResources(value)}});
 }
 
 } // namespace

@@ -25,7 +25,7 @@ int openWorkstation(char** arguments)
             << (program.empty() ? "the workstation is not installed beside this program"
                                 : "the workstation cannot be started")
             << "; 'petrous --help' lists what the command line can do\n";
-  return 2;
+  return program.empty() ? 2 : 1;
 }
 
 // So are the benchmarks, which include their peers. Returns if they are not installed.
@@ -68,7 +68,8 @@ void addCommands(CLI::App& app, cli::Context& context)
   for (const char* name : kNotBuilt)
     context
         .addCommand(app, name, "Not built yet",
-                    [name] { throw cli::UsageError(std::string("'") + name + "' is not built yet"); })
+                    [name]
+                    { throw cli::UsageError(std::string("'") + name + "' is not built yet"); })
         ->allow_extras()
         ->group(""); // hidden from the help
 }

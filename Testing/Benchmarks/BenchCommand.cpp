@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
-#include "BenchPlot.h"
 #include "BenchCommand.h"
+#include "BenchPlot.h"
 #include "CutBenchmark.h"
 #include "DistanceBenchmark.h"
 #include "GrowthPlot.h"

@@ -12,9 +12,9 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kPlot = 610.0;  // px
-constexpr double kMin = 400.0; // px, of the column of names
-constexpr double kLetter = 6.2;  // px, approximate letter width
+constexpr double kPlot = 610.0; // px
+constexpr double kMin = 400.0;  // px, of the column of names
+constexpr double kLetter = 6.2; // px, approximate letter width
 constexpr double kRight = 30.0;
 constexpr double kTop = 110.0;
 constexpr double kRow = 24.0;

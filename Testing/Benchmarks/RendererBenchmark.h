@@ -11,7 +11,7 @@ namespace petrous::cli
 
 struct RendererBenchmarkOptions
 {
-  bool quick = false;         ///< 96^3, small pictures, few frames
+  bool quick = false;     ///< 96^3, small pictures, few frames
   std::vector<int> edges; ///< edge lengths of the phantom, voxels, 16 to 1024; empty: 256 and 512
   std::filesystem::path data; ///< folder with a real CT; empty: phantom only
 };

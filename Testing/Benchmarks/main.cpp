@@ -10,7 +10,7 @@ int main(int argc, char** argv)
   const bool version = words.size() == 1 && words.front() == "--version";
   if (cli::subcommandIn(words) != "bench" && !version)
     words.insert(words.begin(), "bench");
-  return cli::run({"petrous-bench", "The benchmarks of Petrous, each beside its peers.",
-                   cli::addBenchCommand},
-                  words);
+  return cli::run(
+      {"petrous-bench", "The benchmarks of Petrous, each beside its peers.", cli::addBenchCommand},
+      words);
 }

@@ -44,8 +44,9 @@ TEST(FindDevices, ListsOneSpaceMouseAndTheServers)
   EXPECT_EQ(found.devices[1].name, "SpaceMouse Compact");
   EXPECT_EQ(found.devices[1].id, "spacemouse");
   EXPECT_EQ(found.devices[1].advice, "");
-  const auto example = std::find_if(found.devices.begin(), found.devices.end(),
-                                    [](const InputDevice& input) { return input.id == "server-example"; });
+  const auto example =
+      std::find_if(found.devices.begin(), found.devices.end(),
+                   [](const InputDevice& input) { return input.id == "server-example"; });
   ASSERT_NE(example, found.devices.end());
   EXPECT_EQ(example->kind, InputDevice::Kind::Server);
   EXPECT_EQ(example->name, "example");

@@ -14,8 +14,9 @@ namespace petrous::presenters::testing
 class HeldTool
 {
 public:
-  explicit HeldTool(const Eigen::Vector3d& place,
-                    session::TouchTool::Mode mode = session::TouchTool::Mode::ThreeDof) // made at once
+  explicit HeldTool(
+      const Eigen::Vector3d& place,
+      session::TouchTool::Mode mode = session::TouchTool::Mode::ThreeDof) // made at once
     : device(place)
   {
     setup.tool.mode = mode;

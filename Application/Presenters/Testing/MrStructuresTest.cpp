@@ -6,8 +6,8 @@
 #include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/StructureSurfaces.h"
-#include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 
 using namespace petrous;

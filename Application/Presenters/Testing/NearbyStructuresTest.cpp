@@ -183,7 +183,7 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   EXPECT_TRUE(found.incomplete());
   EXPECT_FALSE(found.registration);
   EXPECT_EQ(toString(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
-                            "'T2', registered, its error unknown");
+                             "'T2', registered, its error unknown");
   NearbyStructure near;
   near.name = "facial_nerve";
   near.distance = 1.84;

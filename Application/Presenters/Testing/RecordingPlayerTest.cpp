@@ -12,8 +12,8 @@
 #include "BoneCase.h"
 #include "HeldTool.h"
 #include "petrous/Presenters/RecordingPlayer.h"
-#include "petrous/Session/PathDrill.h"
 #include "petrous/Presenters/Recordings.h"
+#include "petrous/Session/PathDrill.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -268,13 +268,16 @@ TEST_P(RecordingPlayerTest, SaysThatARecordingCannotBeBegun)
   session::TouchScene scene(value);
   HeldTool hand(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
   hand.setup.recording = folder / "missing" / "session.ticks";
-  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup), session::RecordingError);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+               session::RecordingError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, RecordingPlayerTest,
-                         ::testing::Values(session::TouchTool::Mode::SixDof, session::TouchTool::Mode::ThreeDof),
-                         [](const auto& mode)
-                         { return mode.param == session::TouchTool::Mode::SixDof ? "Six" : "Three"; });
+                         ::testing::Values(session::TouchTool::Mode::SixDof,
+                                           session::TouchTool::Mode::ThreeDof),
+                         [](const auto& mode) {
+                           return mode.param == session::TouchTool::Mode::SixDof ? "Six" : "Three";
+                         });
 
 TEST(Recordings, HaveNamesOfTheirOwnBesideTheCases)
 {

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "petrous/Presenters/RegistrationSession.h"
-#include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/CaseField.h"
 
 using namespace petrous;
 using namespace petrous::presenters;

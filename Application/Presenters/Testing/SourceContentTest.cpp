@@ -6,8 +6,8 @@
 
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
-#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/SourceContent.h"
 
 using namespace petrous;

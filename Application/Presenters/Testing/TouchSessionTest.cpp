@@ -271,10 +271,12 @@ TEST(TouchSession, RefusesBadParameters)
   session::TouchScene scene(value);
   HeldTool hand(Vector3d(6.0, 6.0, 10.0));
   hand.setup.tool.burr.rpm = -1.0;
-  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+               core::InvalidParameter);
   hand.setup.tool.burr.rpm = 60000.0;
   hand.setup.parameters.thrust = 50.0;
-  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+               core::InvalidParameter);
 }
 
 TEST(TouchTool, IsHeldTheStifferWhereASetThrustPressesIt)

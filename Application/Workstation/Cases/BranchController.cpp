@@ -88,7 +88,8 @@ void BranchController::goTo(const std::string& name)
   if (!m_model.hasCase() || name == m_model.value().history.branch().name)
     return;
   if (change([this, &name] { m_model.goToBranch(name); }))
-    emit statusMessage(tr("Approach %1").arg(lineOf(m_model.value(), m_model.value().history.branch(), 10)));
+    emit statusMessage(
+        tr("Approach %1").arg(lineOf(m_model.value(), m_model.value().history.branch(), 10)));
 }
 
 void BranchController::goOn(int steps)

@@ -85,14 +85,15 @@ QString listOf(const std::vector<SourceContent>& sources)
   QStringList items;
   for (const SourceContent& source : sources)
     items += CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
-                                           nameOf(source.path));
+                                                       nameOf(source.path));
   return items.join(", ");
 }
 
 } // namespace
 
-CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
-                       Banner& unsaved, Banner& loading, Banner& damaged)
+CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& model,
+                                               CaseSaver& saver, QWidget& window, Banner& unsaved,
+                                               Banner& loading, Banner& damaged)
   : m_model(model)
   , m_saver(saver)
   , m_window(window)
@@ -471,8 +472,8 @@ void CaseDocumentController::decide(const Sources& found)
     addParts(sources.parts, listOf(others));
 }
 
-void CaseDocumentController::makeCase(const std::string& name,
-                          std::function<presenters::CaseSources(const core::Progress&)> sources)
+void CaseDocumentController::makeCase(
+    const std::string& name, std::function<presenters::CaseSources(const core::Progress&)> sources)
 {
   if (!leaveCase())
     return;

@@ -32,7 +32,7 @@ class CaseDocumentController : public QObject
 public:
   /// `window` is the parent of dialogs and owns the banners.
   CaseDocumentController(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
-             Banner& unsaved, Banner& loading, Banner& damaged);
+                         Banner& unsaved, Banner& loading, Banner& damaged);
   ~CaseDocumentController() override;
 
   /// A case's name; or folders and files: a CT starts a case, anything else is added to it, or to
@@ -45,7 +45,7 @@ public:
 
   void save(); ///< and reports it
   void saveAs();
-  void prepare(); ///< the slow part of the open case (WorkstationModel::preparation)
+  void prepare();               ///< the slow part of the open case (WorkstationModel::preparation)
   void prepareUnlessUnderWay(); ///< as prepare, after it was stopped or failed
 
   /// Cancels imports, saves what is unsaved. Returns false if that failed, which the banner shows:
@@ -56,7 +56,7 @@ public:
 
 signals:
   void statusMessage(const QString& line); ///< for the status bar
-  void ready();                   ///< the case's structures are loaded
+  void ready();                            ///< the case's structures are loaded
 
 private:
   using Sources = std::vector<presenters::SourceContent>;

@@ -13,7 +13,8 @@ namespace petrous::workstation
 using presenters::DeviceMapping;
 using presenters::InputDevice;
 
-ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceToolBar& bar, WindowSettings& settings, QObject* parent)
+ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceToolBar& bar,
+                                               WindowSettings& settings, QObject* parent)
   : QObject(parent)
   , m_watcher(finder)
   , m_bar(bar)

@@ -21,7 +21,8 @@ class ActiveDeviceController : public QObject
 {
   Q_OBJECT
 public:
-  ActiveDeviceController(DeviceWatcher& finder, DeviceToolBar& bar, WindowSettings& settings, QObject* parent = nullptr);
+  ActiveDeviceController(DeviceWatcher& finder, DeviceToolBar& bar, WindowSettings& settings,
+                         QObject* parent = nullptr);
   ~ActiveDeviceController() override;
 
   presenters::ActiveDevice* device() const noexcept { return m_device.get(); } ///< null: the mouse

@@ -44,8 +44,8 @@ QDoubleSpinBox* numberBox(const char* name, const QString& suffix, double least,
 DeviceToolBar::DeviceToolBar(QWidget* parent)
   : QToolBar(tr("Device"), parent)
   , m_choice(new QComboBox)
-  , m_scale(numberBox("deviceScale", tr(" mm/mm"), DeviceMapping::kMinScale, DeviceMapping::kMaxScale,
-                      0.05, 2))
+  , m_scale(numberBox("deviceScale", tr(" mm/mm"), DeviceMapping::kMinScale,
+                      DeviceMapping::kMaxScale, 0.05, 2))
   , m_limit(numberBox("forceLimit", tr(" N"), 0.0, 200.0, 0.1, 1))
   , m_here(new QAction(tr("Bring the tool &here"), this))
 {
@@ -78,8 +78,10 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
             const InputDevice input = m_devices[static_cast<std::size_t>(row)]; // list may change
             emit chosen(input);
           });
-  connect(m_scale, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DeviceToolBar::leadChanged);
-  connect(m_limit, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DeviceToolBar::leadChanged);
+  connect(m_scale, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &DeviceToolBar::leadChanged);
+  connect(m_limit, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &DeviceToolBar::leadChanged);
   showDevices({}, InputDevice().id);
   showLead(nullptr, 1.0, 0.0);
 }
@@ -108,7 +110,8 @@ void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::
   }
 }
 
-void DeviceToolBar::showLead(const haptics::DeviceDescription* device, double scale, double forceLimit)
+void DeviceToolBar::showLead(const haptics::DeviceDescription* device, double scale,
+                             double forceLimit)
 {
   const QSignalBlocker quietScale(m_scale);
   const QSignalBlocker quietLimit(m_limit);

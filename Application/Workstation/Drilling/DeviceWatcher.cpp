@@ -10,9 +10,9 @@
 namespace petrous::workstation
 {
 
-using presenters::InputDevice;
-using presenters::DeviceList;
 using presenters::ActiveDevice;
+using presenters::DeviceList;
+using presenters::InputDevice;
 
 DeviceWatcher::DeviceWatcher(presenters::DeviceSources sources, int lookEvery, QObject* parent)
   : QObject(parent)

@@ -7,8 +7,8 @@
 #include <QAction>
 #include <QApplication>
 
-#include "DrillBar.h"
 #include "ActiveDeviceController.h"
+#include "DrillBar.h"
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -237,7 +237,8 @@ bool DrillController::takeTool()
     return false;
   }
   putAway(); // a session ended by a change of the tissue
-  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…") : tr("Taking up the pointer…"));
+  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
+                                          : tr("Taking up the pointer…"));
   QApplication::setOverrideCursor(Qt::WaitCursor);
   QString why;
   try
@@ -268,9 +269,10 @@ bool DrillController::takeTool()
     emit statusMessage(why);
     return false;
   }
-  emit statusMessage(m_lead.byMouse()
-                ? QString()
-                : tr("%1 leads the tool").arg(words(m_devices.device()->description().name)));
+  emit statusMessage(
+      m_lead.byMouse()
+          ? QString()
+          : tr("%1 leads the tool").arg(words(m_devices.device()->description().name)));
   m_lead.send();
   m_sinceTaken.start();
   m_frames.start();
@@ -335,7 +337,8 @@ void DrillController::hear(const session::TouchSession::News& news)
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
   if (!news.journalFault.empty())
-    emit statusMessage(tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
+    emit statusMessage(
+        tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
   if (!news.failure.empty())
   {
     releaseTool();

@@ -30,7 +30,7 @@ public:
                   ActiveDeviceController& devices, QObject* parent = nullptr);
 
   void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
-  void releaseTool();                    ///< no tool; ends an open stroke
+  void releaseTool();                ///< no tool; ends an open stroke
   void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< moves a device's tool in front of the view's centre
 
@@ -42,8 +42,8 @@ signals:
   void burrGone();                                              ///< put away
   /// nullptr if nothing was removed.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
-  void statusMessage(const QString& line);    ///< progress of slow operations, or errors
-  void faulted(const QString& line); ///< of the touch session; empty when it works again
+  void statusMessage(const QString& line); ///< progress of slow operations, or errors
+  void faulted(const QString& line);       ///< of the touch session; empty when it works again
 
 private:
   enum class Tool

@@ -24,7 +24,8 @@ bool isPlaced(const session::TickRecord& record)
          fault != ServoFault::Parameters;
 }
 
-ToolDriver::ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& devices)
+ToolDriver::ToolDriver(presenters::WorkstationModel& model, ThreeDView& view,
+                       ActiveDeviceController& devices)
   : m_model(model)
   , m_view(view)
   , m_devices(devices)

@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Presenters/DeviceMapping.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -19,7 +19,8 @@ class ThreeDView;
 class ToolDriver
 {
 public:
-  ToolDriver(presenters::WorkstationModel& model, ThreeDView& view, ActiveDeviceController& devices);
+  ToolDriver(presenters::WorkstationModel& model, ThreeDView& view,
+             ActiveDeviceController& devices);
 
   /// How the mouse controls a tool of that radius; the thrust applies to every device without force
   /// feedback. `cuts`: false for a pointer, for which no input starts the drill.
@@ -48,7 +49,7 @@ public:
   bool lifted() const noexcept { return m_pointer && m_aim.lifted(); }
 
   void see(const session::TickRecord& record); ///< of the running touch session
-  void send();                                    ///< current camera, switches and settings
+  void send();                                 ///< current camera, switches and settings
 
 private:
   Eigen::Vector3d placeLookedAt();
@@ -64,7 +65,7 @@ private:
   std::unique_ptr<haptics::Device> m_mouse;        // of the running touch session
   interaction::PointerDevice* m_pointer = nullptr; // part of m_mouse
   session::TouchTool::Mode m_mode = session::TouchTool::Mode::SixDof; // of the mouse's tool
-  double m_stiffness = 0.0;                                                 // N/mm, likewise
+  double m_stiffness = 0.0;                                           // N/mm, likewise
   std::optional<Eigen::Vector3d> m_place;     // of a device's tool, patient mm
   Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0}; // frame D, at the same time
   presenters::DeviceSwitches m_held;          // by button and keys

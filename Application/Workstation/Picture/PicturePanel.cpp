@@ -39,9 +39,10 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
 {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(10, 10, 10, 10);
-  m_bone = addFractionSlider(form, tr("&Bone opacity"),
-                    tr("Below 100 % the inside of the bone and the structures in it shine through"),
-                    "boneOpacity");
+  m_bone = addFractionSlider(
+      form, tr("&Bone opacity"),
+      tr("Below 100 % the inside of the bone and the structures in it shine through"),
+      "boneOpacity");
   connect(m_bone, &QSlider::valueChanged, this,
           [this]
           {
@@ -117,7 +118,7 @@ void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)
 }
 
 QSlider* PicturePanel::addFractionSlider(QFormLayout* form, const QString& name, const QString& tip,
-                                const QString& objectName)
+                                         const QString& objectName)
 {
   auto* slider = new QSlider(Qt::Horizontal);
   slider->setRange(0, 100);

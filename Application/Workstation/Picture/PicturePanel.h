@@ -28,7 +28,7 @@ public:
 
 private:
   QSlider* addFractionSlider(QFormLayout* form, const QString& name, const QString& tip,
-                    const QString& objectName);
+                             const QString& objectName);
   QDoubleSpinBox* addLength(QFormLayout* form, const QString& name, const QString& tip,
                             const QString& objectName, const QString& atZero, double largest);
   void addStereo(QFormLayout* form, bool quadBuffer);

@@ -100,8 +100,7 @@ private:
   std::unique_ptr<rendering::StereoPicture> m_stereo; // destroyed before m_picture
   rendering::SceneContents m_contents;                // of the last setContents, kept up to date
   rendering::LightSettings m_light;
-  std::unique_ptr<TouchOverlay>
-      m_touch; // while a tool is in use; destroyed before m_renderer
+  std::unique_ptr<TouchOverlay> m_touch; // while a tool is in use; destroyed before m_renderer
   QString m_reading, m_warning;
   double m_covered = 0.0; // fraction of the height, from the top
   QPointer<SceneDisplay> m_follower;

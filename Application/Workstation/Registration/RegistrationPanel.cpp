@@ -12,13 +12,13 @@
 #include <QSlider>
 #include <QVBoxLayout>
 
-#include "RegistrationTargetBox.h"
 #include "Application.h"
 #include "FoldBox.h"
 #include "HandlesBox.h"
 #include "LandmarksBox.h"
 #include "MetricCurve.h"
 #include "PanelButton.h"
+#include "RegistrationTargetBox.h"
 #include "Theme.h"
 
 namespace petrous::workstation

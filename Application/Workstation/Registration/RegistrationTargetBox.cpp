@@ -22,7 +22,8 @@ constexpr int kLargestBox = 250;
 constexpr int kFirstStructure = 2; // row of m_place
 } // namespace
 
-RegistrationTargetBox::RegistrationTargetBox(presenters::RegistrationSession& session, QWidget* parent)
+RegistrationTargetBox::RegistrationTargetBox(presenters::RegistrationSession& session,
+                                             QWidget* parent)
   : QWidget(parent)
   , m_session(session)
   , m_form(new QFormLayout(this))
@@ -36,7 +37,8 @@ RegistrationTargetBox::RegistrationTargetBox(presenters::RegistrationSession& se
   m_showing = false;
 }
 
-QComboBox* RegistrationTargetBox::addChoice(const QString& label, const char* name, const QString& tip)
+QComboBox* RegistrationTargetBox::addChoice(const QString& label, const char* name,
+                                            const QString& tip)
 {
   auto* box = new QComboBox;
   box->setObjectName(name);
@@ -44,7 +46,8 @@ QComboBox* RegistrationTargetBox::addChoice(const QString& label, const char* na
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(12);
   m_form->addRow(label, box);
-  connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &RegistrationTargetBox::choose);
+  connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &RegistrationTargetBox::choose);
   return box;
 }
 

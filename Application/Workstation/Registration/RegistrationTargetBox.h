@@ -17,7 +17,8 @@ class RegistrationTargetBox : public QWidget
 {
   Q_OBJECT
 public:
-  explicit RegistrationTargetBox(presenters::RegistrationSession& session, QWidget* parent = nullptr);
+  explicit RegistrationTargetBox(presenters::RegistrationSession& session,
+                                 QWidget* parent = nullptr);
 
   void refresh(); ///< updates the choices
 

@@ -9,8 +9,8 @@
 
 #include "Banner.h"
 #include "petrous/Imaging/LabelFile.h"
-#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Phantom/SamplePatient.h"
 
 using namespace petrous;
 using namespace petrous::workstation;

@@ -72,7 +72,7 @@ void BackgroundWork::end(Reply what)
 
 // The receiver may be slower than the task.
 void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fraction,
-                          const std::string& text)
+                            const std::string& text)
 {
   {
     const std::lock_guard<std::mutex> lock(latest->mutex);

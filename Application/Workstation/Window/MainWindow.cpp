@@ -17,6 +17,7 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include "ActiveDeviceController.h"
 #include "Application.h"
 #include "Banner.h"
 #include "BannerStack.h"
@@ -24,11 +25,10 @@
 #include "BurrWarnings.h"
 #include "CaseDocumentController.h"
 #include "CaseSaver.h"
-#include "DrillBar.h"
-#include "DrillController.h"
 #include "DeviceToolBar.h"
 #include "DeviceWatcher.h"
-#include "ActiveDeviceController.h"
+#include "DrillBar.h"
+#include "DrillController.h"
 #include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
@@ -106,8 +106,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_touch(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
   , m_saver(new CaseSaver(m_model))
-  , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner, *m_loadingBanner,
-                            *m_damageBanner))
+  , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
+                                        *m_loadingBanner, *m_damageBanner))
   , m_watcher(new DeviceWatcher(options.devices, options.lookForDevicesEvery, this))
   , m_devices(new ActiveDeviceController(*m_watcher, *m_deviceBar, *m_settings, this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_devices, this))
@@ -135,12 +135,12 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
 MainWindow::~MainWindow()
 {
   m_model.events = {};
-  m_drill->releaseTool();    // before the devices that control it
-  delete m_registration; // ends its threads
+  m_drill->releaseTool(); // before the devices that control it
+  delete m_registration;  // ends its threads
   delete m_drill;
   delete m_devices;
   delete m_nearby;  // queries the model when hidden
-  delete m_watcher;  // stops a server
+  delete m_watcher; // stops a server
   delete m_picture; // the surgeon's window follows the view
   delete m_keeper;  // its threads must not outlive the model
   delete m_saver;
@@ -277,12 +277,14 @@ void MainWindow::connectModel()
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
-  const auto showMessage = [this](const QString& line) { statusBar()->showMessage(line, kMessage); };
+  const auto showMessage = [this](const QString& line)
+  { statusBar()->showMessage(line, kMessage); };
   connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
   connect(m_thickness, &ThicknessController::statusMessage, this, showMessage);
   connect(m_registration, &RegistrationController::statusMessage, this, showMessage);
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
-  connect(m_drill, &DrillController::tissueWanted, m_keeper, &CaseDocumentController::prepareUnlessUnderWay);
+  connect(m_drill, &DrillController::tissueWanted, m_keeper,
+          &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_picture, &PictureController::statusMessage, this,

@@ -39,10 +39,10 @@ class WindowSettings;
 /// Options of the main window.
 struct WindowOptions
 {
-  bool quadBuffer = false;       ///< quad-buffered stereo is available (quadBufferOffered)
-  QString settings;              ///< an INI file; empty: the user's default
+  bool quadBuffer = false;           ///< quad-buffered stereo is available (quadBufferOffered)
+  QString settings;                  ///< an INI file; empty: the user's default
   presenters::DeviceSources devices; ///< none: mouse only
-  int lookForDevicesEvery = 1000;  ///< ms
+  int lookForDevicesEvery = 1000;    ///< ms
 };
 
 /// The workstation's main window: assembles model, views and panels and connects them.

@@ -8,8 +8,8 @@
 #include <QToolBar>
 #include <QToolButton>
 
-#include "DrillBar.h"
 #include "DeviceToolBar.h"
+#include "DrillBar.h"
 #include "petrous/Rendering/Stereo.h"
 
 namespace petrous::workstation

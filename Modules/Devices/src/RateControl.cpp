@@ -13,8 +13,8 @@ namespace
 {
 
 constexpr double kShortestRamp = 0.004; // s
-constexpr double kMaxRamp = 0.020;  // s
-constexpr double kMaxStep = 0.1;    // s
+constexpr double kMaxRamp = 0.020;      // s
+constexpr double kMaxStep = 0.1;        // s
 
 void require(double value, double least, double most, const char* name)
 {

@@ -19,7 +19,7 @@ constexpr double kFarthest = 2000.0; // mm; beyond the reach of any desktop devi
 // A hand moves below 5 m/s. Twice that, plus 20 mm for two samples in quick succession.
 constexpr double kMaxSpeed = 10000.0; // mm/s
 constexpr double kMaxStep = 20.0;     // mm
-constexpr double kBadFor = 0.1;        // s for which one bad pose counts
+constexpr double kBadFor = 0.1;       // s for which one bad pose counts
 
 // s; only differences are used. The servo's own clock may be simulated.
 double steadyNow() noexcept

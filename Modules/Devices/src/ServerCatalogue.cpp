@@ -32,7 +32,7 @@ std::string nameOf(const fs::path& program)
                                           c == '_';
                                  });
   return sound && !name.empty() && name.front() != '.' && name.size() <= kMaxLength ? name
-                                                                                  : std::string();
+                                                                                    : std::string();
 }
 
 bool mayRun(const fs::path& program)

@@ -38,14 +38,17 @@ struct Scene
           ct->at(i, j, k) = inside ? std::int16_t{50} : isBone(p) ? std::int16_t{1500} : elsewhere;
         }
     occupancy = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
-                                      [](std::uint16_t) { return true; });
+                                          [](std::uint16_t) { return true; });
     field.emplace(std::make_shared<const volume::IntensityVolume>(
                       std::shared_ptr<const volume::Volume<std::int16_t>>(ct)),
                   std::vector<volume::TissueField::SolidUnion>{occupancy}, nullptr,
                   volume::TissueField::Parameters{});
   }
 
-  double exposed(const volume::CutMask& mask) const { return exposedArea(*field, mask, *occupancy); }
+  double exposed(const volume::CutMask& mask) const
+  {
+    return exposedArea(*field, mask, *occupancy);
+  }
 
   std::shared_ptr<const volume::Volume<float>> occupancy;
   std::optional<volume::TissueField> field;

@@ -9,8 +9,8 @@
 #include "petrous/Dissection/RemovedVolume.h"
 
 using namespace petrous;
-using dissection::RemovalStep;
 using dissection::RemovalDepthSolver;
+using dissection::RemovalStep;
 using dissection::TissueResistance;
 using Eigen::Vector3d;
 
@@ -317,7 +317,8 @@ TEST(RemovalDepthSolver, RefusesABurrWithoutSize)
 {
   BoneBelow bone(0.3);
   EXPECT_THROW(RemovalDepthSolver(bone.tissue, bone.resistance, {}, 0.0), core::InvalidParameter);
-  EXPECT_THROW(RemovalDepthSolver(bone.tissue, bone.resistance, {}, std::nan("")), core::InvalidParameter);
+  EXPECT_THROW(RemovalDepthSolver(bone.tissue, bone.resistance, {}, std::nan("")),
+               core::InvalidParameter);
   EXPECT_THROW(TissueResistance(bone.tissue.ct(), {300.0, 300.0, 1.0, 1.0}, {}),
                core::InvalidParameter);
   EXPECT_THROW(TissueResistance(bone.tissue.ct(), {300.0, 1800.0, 0.0, 1.0}, {}),

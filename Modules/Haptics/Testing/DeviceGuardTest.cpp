@@ -258,8 +258,9 @@ TEST(DeviceGuard, SaysInWordsWhatIsWrongWithItsNumber)
   DeviceReading reading = at(99);
   reading.time = 0.1;
   reading.pose.position.y() = 50.0;
-  EXPECT_EQ(toString(meet(reading)), "The device's handle jumped by 50.0 mm from one reading to the "
-                                    "next, faster than a hand moves.");
+  EXPECT_EQ(toString(meet(reading)),
+            "The device's handle jumped by 50.0 mm from one reading to the "
+            "next, faster than a hand moves.");
   reading = at(99);
   reading.time = 0.03;
   EXPECT_EQ(toString(meet(reading)), "The device has sent nothing new for 70 ms.");

@@ -1,5 +1,5 @@
-#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ inline double air(const Eigen::Vector3d&)
 
 /// An occupancy on a grid whose 1/2 isosurface is the solid's surface.
 inline volume::TissueField::SolidUnion occupancyOf(const SignedDistance& solid,
-                                               const core::GridGeometry& grid)
+                                                   const core::GridGeometry& grid)
 {
   auto occupancy = std::make_shared<volume::Volume<float>>(grid);
   const core::Index3& n = grid.dims();
@@ -42,8 +42,9 @@ inline Scene softScene(const std::vector<SoftPart>& parts, const SignedDistance&
   const auto ct = scanOf(rigid, kSoftVoxel, half);
   std::vector<SoftStructure> soft;
   for (const SoftPart& part : parts)
-    soft.push_back({volume::makeDistanceMap(*occupancyOf(part.solid, ct->geometry()), ct->geometry()),
-                    part.stiffness});
+    soft.push_back(
+        {volume::makeDistanceMap(*occupancyOf(part.solid, ct->geometry()), ct->geometry()),
+         part.stiffness});
   return sceneOf(ct, {}, soft);
 }
 

@@ -4,8 +4,8 @@
 
 #include "Tissue.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
-#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Session/Servo.h"
 
 using namespace petrous;
@@ -302,7 +302,8 @@ TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
     settings.tilt = 80.0 * (n % 3) / 2.0;
     session.aim.setSettings(settings);
     session.aim.point(through({anywhere(random), anywhere(random), 0.0}));
-    session.aim.press(n % 4 == 3 ? PointerToolController::Press::Drill : PointerToolController::Press::None);
+    session.aim.press(n % 4 == 3 ? PointerToolController::Press::Drill
+                                 : PointerToolController::Press::None);
     for (int tick = 0; tick < 150; ++tick)
     {
       session.run(1);

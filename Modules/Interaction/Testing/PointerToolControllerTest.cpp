@@ -245,8 +245,9 @@ TEST(PointerToolController, FollowsTissueThatGivesWay)
 
 TEST(PointerToolController, NeverGoesBehindTheEye)
 {
-  const PointerToolController aim = aimAt(through({0.0, 0.0, 0.0}), Mode::Surface,
-                               [](const PickRay&) { return std::optional<double>(0.5); });
+  const PointerToolController aim =
+      aimAt(through({0.0, 0.0, 0.0}), Mode::Surface,
+            [](const PickRay&) { return std::optional<double>(0.5); });
   expectNear(place(aim), {0.0, 0.0, 200.0});
 }
 

@@ -11,8 +11,8 @@
 #include "Tissue.h"
 #include "Window.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Interaction/PointerToolController.h"
 
 using namespace petrous;
 using namespace petrous::interaction;

@@ -17,7 +17,7 @@ using session::TickRecord;
 namespace
 {
 
-constexpr double kMaxStep = 0.05; // s, max. time step after a pause of the servo
+constexpr double kMaxStep = 0.05;     // s, max. time step after a pause of the servo
 constexpr double kSamePlace = 1e-6;   // mm
 constexpr double kSameHeading = 1e-6; // rad
 

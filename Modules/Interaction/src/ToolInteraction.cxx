@@ -12,12 +12,12 @@
 
 #include "ToolKeys.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Interaction/PointerToolController.h"
 #include "petrous/Interaction/RendererPickRay.h"
 
-using petrous::interaction::PointerToolController;
 using petrous::interaction::PointerDevice;
+using petrous::interaction::PointerToolController;
 using petrous::interaction::ToolKey;
 
 vtkStandardNewMacro(vtkPetrousToolInteraction);
@@ -128,8 +128,7 @@ bool vtkPetrousToolInteraction::GetDrilling() const
   return this->DrillMode && (this->DrillKeyHeld || (this->ButtonHeld && !this->TouchOnly));
 }
 
-void vtkPetrousToolInteraction::SetParameters(
-    const petrous::session::ServoParameters& parameters)
+void vtkPetrousToolInteraction::SetParameters(const petrous::session::ServoParameters& parameters)
 {
   petrous::session::check(parameters);
   this->Base = parameters;
@@ -325,7 +324,7 @@ void vtkPetrousToolInteraction::Send()
   {
     if (this->CurrentRenderer)
       petrous::session::setCamera(this->Parameters,
-                                     petrous::interaction::cameraOf(*this->CurrentRenderer));
+                                  petrous::interaction::cameraOf(*this->CurrentRenderer));
     this->Parameters.drill = this->Base.drill || this->GetDrilling() ? 1 : 0;
     this->Parameters.clutch = this->Base.clutch || this->FreezeKeyHeld ? 1 : 0;
   }

@@ -121,7 +121,10 @@ public:
   }
 
 private:
-  std::string uid(const char* role) const { return imaging::deterministicUid(m_options.seed, role); }
+  std::string uid(const char* role) const
+  {
+    return imaging::deterministicUid(m_options.seed, role);
+  }
 
   void writeCt(const core::Progress& progress)
   {
@@ -141,7 +144,7 @@ private:
     if (m_options.tilt != 0.0)
       step = grid.step.col(2);
     imaging::writeDicomSeries(m_folder / "ct", volume::IntensityVolume(ct), series, step,
-                     progress.part(0.7, 1.0));
+                              progress.part(0.7, 1.0));
   }
 
   void writeMr(const core::Progress& progress)
@@ -170,7 +173,7 @@ private:
     series.windowCenter = 500.0;
     series.windowWidth = 1000.0;
     imaging::writeDicomSeries(m_folder / "mr", volume::IntensityVolume(mr), series, std::nullopt,
-                     progress.part(0.7, 1.0));
+                              progress.part(0.7, 1.0));
   }
 
   void writeLabels(const core::Progress& progress)

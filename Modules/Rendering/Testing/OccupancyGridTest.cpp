@@ -352,11 +352,11 @@ TEST(OccupancyGrid, SeesAShareThatCarriesIntoTheNextBrick)
     origin[axis] = 7.85;
     Index3 dims{1, 1, 1};
     dims[static_cast<std::size_t>(axis)] = 2;
-    auto occupancy = std::make_shared<volume::Volume<float>>(
+    auto inside = std::make_shared<volume::Volume<float>>(
         core::GridGeometry(dims, Vector3d::Ones(), origin), 1.0F);
-    occupancy->data()[0] = 0.48F;
+    inside->data()[0] = 0.48F;
     volume::LabelField labels;
-    labels.occupancy = occupancy;
+    labels.occupancy = inside;
     OccupancyGrid occupancy(*ct, 8);
     occupancy.rebuild({}, &labels, nullptr);
     Vector3d point(12.0, 12.0, 12.0);
@@ -372,10 +372,10 @@ TEST(OccupancyGrid, ReadsNewLabelsAndKeepsKnownOnes)
   OccupancyGrid occupancy(*ct, 8);
   const auto oneVoxel = [&](int at)
   {
-    auto occupancy = std::make_shared<volume::Volume<float>>(grid, 0.0F);
-    occupancy->at(at, at, at) = 0.8F;
+    auto inside = std::make_shared<volume::Volume<float>>(grid, 0.0F);
+    inside->at(at, at, at) = 0.8F;
     volume::LabelField labels;
-    labels.occupancy = occupancy;
+    labels.occupancy = inside;
     return labels;
   };
   const auto flagged = [&](int brick)

@@ -139,12 +139,12 @@ TEST(SurfaceGeometry, ShowTheToolWhereItIs)
     const auto hits = shapes.along({{-200.0, y, z}, {1.0, 0.0, 0.0}});
     return hits.empty() ? 0.0 : hits.front().distance;
   };
-  EXPECT_NEAR(distance(1.5, 0.0), 200.0 - 2.0, 1e-9);   // burr: 1.5, 2, 2.5
-  EXPECT_NEAR(distance(0.75, 10.0), 200.0 - 1.0, 1e-9); // shaft of half the burr's radius
-  EXPECT_NEAR(distance(3.0, 60.0), 200.0 - 4.0, 1e-9);  // handpiece of radius 5 mm
+  EXPECT_NEAR(distance(1.5, 0.0), 200.0 - 2.0, 1e-9);    // burr: 1.5, 2, 2.5
+  EXPECT_NEAR(distance(0.72, 10.0), 200.0 - 0.96, 1e-9); // shaft of radius 1.2 mm
+  EXPECT_NEAR(distance(3.6, 60.0), 200.0 - 4.8, 1e-9);   // handpiece of radius 6 mm
   EXPECT_EQ(distance(1.5, 10.0), 0.0);
-  EXPECT_EQ(distance(0.0, 121.0), 0.0); // beyond its end
+  EXPECT_EQ(distance(0.0, 91.0), 0.0); // beyond its end
   const auto end = shapes.along({{1.0, 0.0, 200.0}, {0.0, 0.0, -1.0}});
   ASSERT_EQ(end.size(), 1U);
-  EXPECT_NEAR(end[0].distance, 80.0, 1e-9);
+  EXPECT_NEAR(end[0].distance, 110.0, 1e-9);
 }

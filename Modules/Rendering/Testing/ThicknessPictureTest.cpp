@@ -117,7 +117,8 @@ TEST(ThicknessPicture, LeavesStructuresInTheirOwnColor)
   contents.materials.push_back(blue());
   EXPECT_EQ(countDifferentPixels(draw(thin(contents), slanting()), draw(contents, slanting())), 0U);
   auto lumen = std::make_shared<volume::LabelField>(*contents.labels);
-  lumen->occupancy = std::make_shared<const volume::Volume<float>>(lumen->occupancy->geometry(), 0.0F);
+  lumen->occupancy =
+      std::make_shared<const volume::Volume<float>>(lumen->occupancy->geometry(), 0.0F);
   contents.labels = lumen;
   contents.materials[1].lumen = true;
   const SceneContents colored = thin(contents);

@@ -242,8 +242,8 @@ TEST(CaseField, IsTheSameForHandAndEye)
       const Vector3d p(x, y, 4.1);
       const Vector3d voxel = eye->occupancy->geometry().voxelFromPatient(p);
       const double occupancy = eye->occupancy->geometry().hullContains(voxel)
-                               ? volume::sampleTrilinear(*eye->occupancy, voxel)
-                               : 0.0;
+                                   ? volume::sampleTrilinear(*eye->occupancy, voxel)
+                                   : 0.0;
       EXPECT_NEAR(hand.value(p), std::max(occupancy - 0.5, (-1000.0 - 300.0) / scene::kFieldScale),
                   1e-9);
     }
@@ -256,7 +256,8 @@ TEST(CaseField, ProtectsWhatMayNotBeDrilledAlsoWhereItIsALumen)
   value.labels[0].structures[0].look.drillable = false;
   const auto keep = scene::protectedTissue(value);
   ASSERT_EQ(keep.size(), 1u);
-  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep.occupancies()[0],
-                                           keep.occupancies()[0]->geometry().voxelFromPatient(kInside)),
-                   1.0);
+  EXPECT_DOUBLE_EQ(
+      volume::sampleTrilinear(*keep.occupancies()[0],
+                              keep.occupancies()[0]->geometry().voxelFromPatient(kInside)),
+      1.0);
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/StructureOccupancy.h"
 

@@ -21,7 +21,7 @@ std::size_t step(Case& value, std::size_t count, bool back)
 {
   dissection::History next = value.history;
   std::size_t steps = 0;
-  while (steps < count && (back ? next.back() : next.forth()))
+  while (steps < count && (back ? next.undo() : next.redo()))
     ++steps;
   if (steps > 0)
     follow(value, std::move(next));

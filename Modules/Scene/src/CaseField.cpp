@@ -63,7 +63,7 @@ std::vector<Wish> wishes(const Case& value, const Wanted& wanted)
 // Derived-data key of the union of these structures; loads no labels.
 std::optional<std::string> unionKey(const Case& value, const std::vector<Wish>& wished)
 {
-  DerivedKey key(value, "solid occupancy", volume::kLabelFieldVersion);
+  DerivedKey key(value, "solid share", volume::kLabelFieldVersion);
   for (const Wish& wish : wished)
   {
     key.add(*wish.part);
@@ -73,7 +73,7 @@ std::optional<std::string> unionKey(const Case& value, const std::vector<Wish>& 
 }
 
 std::shared_ptr<const volume::Volume<float>> cachedOccupancy(const Case& value,
-                                                       const std::optional<std::string>& key)
+                                                             const std::optional<std::string>& key)
 {
   const auto bytes = key ? value.derived->find(*key) : std::nullopt;
   return bytes ? volume::occupancyFrom(*bytes) : nullptr;
@@ -96,8 +96,8 @@ std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const Union
 }
 
 // Union of all wanted structures; lumens count as solid.
-UnionOccupancy unionOccupancy(const Case& value, const Wanted& wanted, const core::Progress& progress,
-                      bool regional)
+UnionOccupancy unionOccupancy(const Case& value, const Wanted& wanted,
+                              const core::Progress& progress, bool regional)
 {
   const std::vector<Wish> wished = wishes(value, wanted);
   if (wished.empty())
@@ -128,7 +128,8 @@ std::vector<volume::TissueField::SolidUnion> solidsOf(const Case& value, const W
                                                       const core::Progress& progress)
 {
   std::vector<volume::TissueField::SolidUnion> solids;
-  if (UnionOccupancy united = unionOccupancy(value, wanted, progress.part(0.0, 0.5), false); united.occupancy)
+  if (UnionOccupancy united = unionOccupancy(value, wanted, progress.part(0.0, 0.5), false);
+      united.occupancy)
     solids.push_back(std::move(united.occupancy));
   for (MeshSolid& mesh : meshSolids(value, wanted, progress.part(0.5, 1.0)))
     solids.push_back(std::move(mesh.occupancy));

@@ -21,7 +21,8 @@ exposedSurfaces(const Case& value, const std::vector<const volume::CutMask*>& ma
   const auto occupancies = structureOccupancies(value); // after the field, which voxelizes meshes
   for (std::size_t n = 0; n < occupancies.size(); ++n)
   {
-    const double done = 0.3 + 0.7 * static_cast<double>(n) / static_cast<double>(occupancies.size());
+    const double done =
+        0.3 + 0.7 * static_cast<double>(n) / static_cast<double>(occupancies.size());
     progress.report(done, "measuring what was laid open");
     const auto occupancy = occupancies[n].make();
     for (std::size_t m = 0; m < masks.size(); ++m)

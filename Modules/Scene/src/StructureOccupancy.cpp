@@ -26,7 +26,7 @@ core::GridGeometry grownGrid(const core::GridGeometry& grid, const core::IndexBo
 
 std::optional<std::string> keyOf(const Case& value, const LabelPart& part, std::uint16_t index)
 {
-  DerivedKey key(value, "structure occupancy", volume::kLabelFieldVersion);
+  DerivedKey key(value, "structure share", volume::kLabelFieldVersion);
   key.add(part);
   key.add(index);
   return key.text();
@@ -67,15 +67,15 @@ std::vector<StructureOccupancy> structureOccupancies(const Case& value)
         if (index != structure.index || boxes[n].empty())
           continue;
         occupancies.push_back({structure.name, placement.drawnOn, grid, grownGrid(grid, boxes[n]),
-                          [labels, index, box = boxes[n], derived = value.derived,
-                           key = keyOf(value, part, index)]
-                          { return keptOrMade(*labels, index, box, derived.get(), key); }});
+                               [labels, index, box = boxes[n], derived = value.derived,
+                                key = keyOf(value, part, index)]
+                               { return keptOrMade(*labels, index, box, derived.get(), key); }});
       }
   }
   for (const MeshPart& mesh : value.meshes)
     if (const auto solid = mesh.touch.resident(); solid && placementOf(value, mesh).missing.empty())
       occupancies.push_back({mesh.name, mesh.drawnOn, solid->geometry(), solid->geometry(),
-                        [solid] { return solid; }});
+                             [solid] { return solid; }});
   return occupancies;
 }
 

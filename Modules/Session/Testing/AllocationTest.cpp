@@ -109,7 +109,8 @@ TEST(DissectionLoop, WithoutMemoryAtAnyPointKeepsMaskAndHistoryTogether)
     dissection::Dissection seen = scene.work;
     UpdateQueue queue;
     DissectionReporter reporter(scene.work, queue);
-    DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, {}, {}));
+    DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {},
+                        reporter.listen({}, {}, {}));
     TickRecord record;
     record.input.now = 1.0;
     ASSERT_TRUE(loop.sweep(record, first));

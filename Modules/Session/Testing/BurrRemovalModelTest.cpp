@@ -248,8 +248,11 @@ TEST(BurrRemovalModel, TissuesShareTheWorkOfABite)
   setting.border = 0.0;
   LawScene scene(setting);
   double work = 0.0; // N mm
-  scene.drill(0.3, [&](const TickRecord&)
-              { work += scene.removalModel.thrust() * scene.removalModel.arm() * 2000.0 * kPi * setting.tick; });
+  scene.drill(0.3,
+              [&](const TickRecord&) {
+                work += scene.removalModel.thrust() * scene.removalModel.arm() * 2000.0 * kPi *
+                        setting.tick;
+              });
   const volume::CutMask before(scene.work.mask().geometry());
   const auto taken =
       dissection::measureRemoved(scene.tissue, before, scene.work.mask(), scene.work.openBricks(),
@@ -289,7 +292,8 @@ TEST(BurrRemovalModel, DrillsOnBeyondItsEquator)
     LawScene scene(setting);
     scene.drill(0.6);
     EXPECT_LT(scene.session.records.back().proxy.pose().position.z(), -0.6) << degrees;
-    EXPECT_LT(scene.removalModel.balance().forfeited, 0.02 * scene.removalModel.balance().predicted) << degrees;
+    EXPECT_LT(scene.removalModel.balance().forfeited, 0.02 * scene.removalModel.balance().predicted)
+        << degrees;
   }
 }
 

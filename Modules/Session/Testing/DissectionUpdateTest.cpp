@@ -11,8 +11,8 @@
 
 #include "LoopScene.h"
 #include "petrous/Haptics/SimulatedDevice.h"
-#include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/DissectionThread.h"
+#include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/ServoThread.h"
 
 using namespace petrous;
@@ -256,7 +256,8 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
     if (edit.kind == MaskEdit::Kind::Cut && ++cuts > 20)
       throw std::bad_alloc();
   };
-  DissectionLoop cutter(scene.work, *scene.mask, scene.removalModel, {}, reporter.listen({}, failing, {}));
+  DissectionLoop cutter(scene.work, *scene.mask, scene.removalModel, {},
+                        reporter.listen({}, failing, {}));
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);
   session.pedal = 1.0;

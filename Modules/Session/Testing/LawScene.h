@@ -8,9 +8,9 @@
 #include "Session.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/HapticField.h"
+#include "petrous/Session/BurrRemovalModel.h"
 #include "petrous/Session/ConstantThrust.h"
 #include "petrous/Session/DissectionLoop.h"
-#include "petrous/Session/BurrRemovalModel.h"
 #include "petrous/Session/SurfaceApproach.h"
 
 namespace petrous::session::testing

@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "BoneBlock.h"
-#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/RecordingReplay.h"

@@ -32,7 +32,8 @@ std::shared_ptr<const Volume<float>> occupancyOf(const Distance& distance)
     for (int j = 0; j < dims[1]; ++j)
       for (int i = 0; i < dims[0]; ++i)
         occupancy->at(i, j, k) = static_cast<float>(std::clamp(
-            0.5 - distance(occupancy->geometry().patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})) / 2.0,
+            0.5 -
+                distance(occupancy->geometry().patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})) / 2.0,
             0.0, 1.0));
   return occupancy;
 }

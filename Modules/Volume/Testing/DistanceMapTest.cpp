@@ -108,8 +108,8 @@ TEST(DistanceMap, IsTheDistanceOfAPlaneInLongVoxels)
 {
   const Vector3d normal = Vector3d(0.3, -0.5, 0.8).normalized();
   const auto grid = turnedGrid(25, {0.4, 0.4, 0.9});
-  const auto map =
-      makeDistanceMap(occupancyOf([&](const Vector3d& p) { return 0.1 - normal.dot(p); }, grid), grid);
+  const auto map = makeDistanceMap(
+      occupancyOf([&](const Vector3d& p) { return 0.1 - normal.dot(p); }, grid), grid);
   std::mt19937 random(5);
   int seen = 0;
   for (int n = 0; n < 5000; ++n)
@@ -160,7 +160,8 @@ TEST(DistanceMap, IsZeroOnTheSurfaceThatIsSeen)
       const auto inside = [&](const Vector3d& p)
       {
         const Vector3d voxel = occupancy->geometry().voxelFromPatient(p);
-        return occupancy->geometry().hullContains(voxel) && sampleTrilinear(*occupancy, voxel) > 0.5;
+        return occupancy->geometry().hullContains(voxel) &&
+               sampleTrilinear(*occupancy, voxel) > 0.5;
       };
       if (!inside(from) || inside(to))
         continue;
@@ -188,7 +189,7 @@ TEST(DistanceMap, ItsGradientIsItsOwn)
   const auto grid = turnedGrid(31, Vector3d::Constant(h));
   const auto map = makeDistanceMap(
       occupancyOf([](const Vector3d& p) { return std::min(ball(p, 3.0), 0.8 - std::abs(p.x())); },
-              grid),
+                  grid),
       grid);
   std::mt19937 random(4);
   for (int n = 0; n < 3000; ++n)
@@ -246,5 +247,6 @@ TEST(DistanceMap, KeepsToItsMemoryAndSaysNothingOfNothing)
   EXPECT_LE(coarse->bytes(), 20000 * sizeof(float));
   EXPECT_NEAR(coarse->depth({0.0, 2.0, 0.0}), 2.0, 0.1);
   EXPECT_NEAR(coarse->depth({0.0, 0.0, 4.0}), 0.0, 0.1);
-  EXPECT_EQ(makeDistanceMap(occupancyOf([](const Vector3d&) { return -3.0; }, grid), grid), nullptr);
+  EXPECT_EQ(makeDistanceMap(occupancyOf([](const Vector3d&) { return -3.0; }, grid), grid),
+            nullptr);
 }

@@ -118,8 +118,8 @@ double valueAt(const volume::Volume<float>& occupancy, const Vector3d& patient)
 
 // Where the occupancy falls below 0.5 along the direction, mm from `from`; negative if it does not
 // start inside.
-double crossing(const volume::Volume<float>& occupancy, const Vector3d& from, const Vector3d& direction,
-                double reach)
+double crossing(const volume::Volume<float>& occupancy, const Vector3d& from,
+                const Vector3d& direction, double reach)
 {
   if (!(valueAt(occupancy, from) > 0.5))
     return -1.0;
@@ -178,7 +178,8 @@ TEST(MeshSolid, HasASpheresSurfaceWithinATwentiethOfAVoxel)
     const auto occupancy = volume::solidOf(sphere(center, radius), kSpacing);
     ASSERT_TRUE(occupancy);
     for (int n = 0; n < 500; ++n)
-      EXPECT_NEAR(crossing(*occupancy, center, spread(n, 500), radius + 1.0), radius, 0.05 * kSpacing)
+      EXPECT_NEAR(crossing(*occupancy, center, spread(n, 500), radius + 1.0), radius,
+                  0.05 * kSpacing)
           << "radius " << radius;
   }
 }
@@ -424,11 +425,11 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
     EXPECT_GE(valueAt(*guard, p), 0.5);
     const Vector3d voxel = ct.voxelFromPatient(p);
     const volume::TrilinearCell cell(voxel, ct.dims());
-    plain = std::min(plain,
-                     cell.interpolate(
-                         [&](int i, int j, int k) {
-                           return valueAt(*occupancy, ct.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
-                         }));
+    plain = std::min(
+        plain, cell.interpolate(
+                   [&](int i, int j, int k) {
+                     return valueAt(*occupancy, ct.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
+                   }));
   }
   EXPECT_LT(plain, 0.5) << "voxels alone do not hold it";
   // Tissue farther away than a voxel diagonal remains drillable.
@@ -444,7 +445,8 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
              {guard->at(i + 1, j, k), guard->at(i, j + 1, k), guard->at(i, j, k + 1)})
           steepest = std::max(steepest, std::abs(other - guard->at(i, j, k)));
   EXPECT_LE(steepest, 0.5F + 1e-6F);
-  EXPECT_EQ(volume::protectionMaskOf(*occupancy, core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
+  EXPECT_EQ(volume::protectionMaskOf(*occupancy,
+                                     core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
             nullptr);
 }
 

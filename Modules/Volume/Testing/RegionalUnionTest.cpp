@@ -77,7 +77,8 @@ TEST(RegionalUnion, IsTheWholeUnionToTheBitWhereItIsAskedFor)
   {
     const auto regional = volume::RegionalUnion::make(sources);
     ASSERT_TRUE(regional);
-    ASSERT_TRUE(core::sameGrid(regional->occupancy()->geometry(), field->occupancy->geometry(), 0.0));
+    ASSERT_TRUE(
+        core::sameGrid(regional->occupancy()->geometry(), field->occupancy->geometry(), 0.0));
     core::IndexBox box;
     for (std::size_t a = 0; a < 3; ++a)
     {
@@ -85,7 +86,8 @@ TEST(RegionalUnion, IsTheWholeUnionToTheBitWhereItIsAskedFor)
       box.upper[a] = box.lower[a] + 1 + static_cast<int>(random() % 12);
     }
     regional->prepare(box);
-    EXPECT_EQ(different(*regional->occupancy(), *field->occupancy, box.intersected(full)), 0) << turn;
+    EXPECT_EQ(different(*regional->occupancy(), *field->occupancy, box.intersected(full)), 0)
+        << turn;
     EXPECT_LT(regional->preparedTiles(), regional->tiles() / 2);
   }
 }

@@ -35,7 +35,7 @@ public:
           voxels->at(i, j, k) = isIn(inVoxels(i, j, k), distance, touched) ? 1 : 0;
     m_voxels = voxels;
     m_occupancy = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
-                                        [](std::uint16_t) { return true; });
+                                            [](std::uint16_t) { return true; });
   }
 
   /// All positions below are in voxels from the centre.
@@ -48,7 +48,8 @@ public:
 
   Vector3d outward(const Vector3d& p) const
   {
-    return -volume::sampleGradient(*m_occupancy, m_occupancy->geometry().voxelFromPatient(0.3 * p), 1.0)
+    return -volume::sampleGradient(*m_occupancy, m_occupancy->geometry().voxelFromPatient(0.3 * p),
+                                   1.0)
                 .normalized();
   }
 

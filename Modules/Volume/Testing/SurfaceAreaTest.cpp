@@ -31,8 +31,8 @@ bool all(const Vector3d&, const Vector3d&)
 TEST(SurfaceArea, IsThatOfABallAndOfItsCap)
 {
   const core::GridGeometry grid = turnedGrid({45, 45, 23}, {0.3, 0.3, 0.6});
-  const auto occupancy = filled<float>(grid, [](const Vector3d& p)
-                                   { return std::clamp(0.5 + (4.0 - p.norm()) / 2.0, 0.0, 1.0); });
+  const auto occupancy = filled<float>(
+      grid, [](const Vector3d& p) { return std::clamp(0.5 + (4.0 - p.norm()) / 2.0, 0.0, 1.0); });
   EXPECT_NEAR(surfaceArea(*occupancy, all) / (4.0 * kPi * 16.0), 1.0, 0.01);
   const Vector3d pole = Vector3d(0.2, -0.7, 0.5).normalized();
   const double cap = surfaceArea(*occupancy,

@@ -26,7 +26,7 @@ constexpr double kFar = 1000.0;
 
 // Occupancy linear across the surface.
 std::shared_ptr<const Volume<float>> occupancyOf(const Distance& distance,
-                                             const core::GridGeometry& grid)
+                                                 const core::GridGeometry& grid)
 {
   return filled<float>(grid,
                        [&](const Vector3d& p) {
@@ -117,7 +117,8 @@ TEST(SurfaceDistance, IsThatOfARing)
 {
   const Distance ring = [](const Vector3d& p)
   { return std::hypot(std::hypot(p.x(), p.y()) - 6.0, p.z()) - 2.0; };
-  const SurfaceDistance surface(occupancyOf(ring, turnedGrid({49, 49, 49}, Vector3d::Constant(0.4))));
+  const SurfaceDistance surface(
+      occupancyOf(ring, turnedGrid({49, 49, 49}, Vector3d::Constant(0.4))));
   std::mt19937 random(7);
   for (int n = 0; n < 10000; ++n)
   {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 
-#include "SurfaceErrors.h"
 #include "SteppedSphere.h"
+#include "SurfaceErrors.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"

@@ -22,7 +22,7 @@ struct RegistrationPair
   /// CT patient point -> MR patient point, LPS mm; empty if the two have no common content.
   std::function<Vector3d(const Vector3d&)> truth;
   std::vector<Vector3d> targets; ///< CT patient points to be evaluated: the middle ears
-  bool exact = true; ///< false: nominal truth; judge by another program's optimum
+  bool exact = true;             ///< false: nominal truth; judge by another program's optimum
 };
 
 /// Distances from the ground truth, mm.

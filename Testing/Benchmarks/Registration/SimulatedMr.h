@@ -46,9 +46,9 @@ struct MrAcquisition
   /// Axes in the CT's patient frame: a tilted or oblique acquisition. Right-handed.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   core::RigidTransform mrFromCt; ///< patient motion between the scanners
-  double noise = 0.03; ///< Rician: standard deviation of both channels, relative to about 1
-  double bias = 0.2;             ///< relative variation of the coil sensitivity over the extent
-  double distortion = 0.0;       ///< maximum, mm, along the second axis (phase encoding, as in DWI)
+  double noise = 0.03;     ///< Rician: standard deviation of both channels, relative to about 1
+  double bias = 0.2;       ///< relative variation of the coil sensitivity over the extent
+  double distortion = 0.0; ///< maximum, mm, along the second axis (phase encoding, as in DWI)
   std::optional<LocalShift> local; ///< a displaced part, instead of the distortion
   std::uint64_t seed = 1;
 };

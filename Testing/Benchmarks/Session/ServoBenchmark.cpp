@@ -7,10 +7,10 @@
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/SimulatedDevice.h"
+#include "petrous/Session/BurrRemovalModel.h"
 #include "petrous/Session/DissectionLoop.h"
 #include "petrous/Session/RecordingReplay.h"
 #include "petrous/Session/RecordingWriter.h"
-#include "petrous/Session/BurrRemovalModel.h"
 
 namespace petrous::session
 {

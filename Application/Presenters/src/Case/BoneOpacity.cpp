@@ -9,7 +9,8 @@
 namespace petrous::presenters
 {
 
-appearance::StructureAppearance withOpacity(const appearance::StructureAppearance& bone, double opacity)
+appearance::StructureAppearance withOpacity(const appearance::StructureAppearance& bone,
+                                            double opacity)
 {
   opacity = std::clamp(opacity, 0.0, 1.0);
   appearance::StructureAppearance look = bone;

@@ -279,7 +279,8 @@ void WorkstationModel::setIso(double hounsfield)
   setUnsaved(true);
 }
 
-void WorkstationModel::setLook(const std::string& structure, const appearance::StructureAppearance& look)
+void WorkstationModel::setLook(const std::string& structure,
+                               const appearance::StructureAppearance& look)
 {
   if (!m_case || drilling())
     return;
@@ -418,7 +419,8 @@ std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::Pi
   return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
 }
 
-void WorkstationModel::startTouch(haptics::Device& device, const session::TouchSession::Setup& setup)
+void WorkstationModel::startTouch(haptics::Device& device,
+                                  const session::TouchSession::Setup& setup)
 {
   if (!m_case)
     return;

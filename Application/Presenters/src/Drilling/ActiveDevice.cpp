@@ -86,7 +86,8 @@ DeviceList findDevices(const DeviceSources& sources)
   return found;
 }
 
-ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& input, std::function<bool()> wanted)
+ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& input,
+                           std::function<bool()> wanted)
   : m_input(input)
 {
   if (input.kind == InputDevice::Kind::SpaceMouse)

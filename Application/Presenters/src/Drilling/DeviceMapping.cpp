@@ -10,9 +10,9 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr double kSoft = 0.2;            // N/mm: rendered by any device with force feedback
+constexpr double kSoft = 0.2;          // N/mm: rendered by any device with force feedback
 constexpr double kMinStiffness = 0.02; // N/mm: anything softer is unusable
-constexpr double kEndless = 1e9;         // mm
+constexpr double kEndless = 1e9;       // mm
 
 // N/mm, of the proxy's coupling.
 double stiffnessFor(const haptics::DeviceDescription& device, double scale)
@@ -63,8 +63,8 @@ void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& 
 }
 
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                          const DeviceMapping& lead, const core::CameraPose& camera,
-                                          const DeviceSwitches& switches)
+                                       const DeviceMapping& lead, const core::CameraPose& camera,
+                                       const DeviceSwitches& switches)
 {
   session::ServoParameters parameters;
   session::setCamera(parameters, camera);

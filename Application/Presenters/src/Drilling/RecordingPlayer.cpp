@@ -60,8 +60,8 @@ void checkFit(const scene::Case& value, const session::TouchScene& scene,
 }
 
 const session::RecordingSetup& fitting(const scene::Case& value, const session::TouchScene& scene,
-                                          const session::RecordingSetup& setup,
-                                          const std::string& name)
+                                       const session::RecordingSetup& setup,
+                                       const std::string& name)
 {
   checkFit(value, scene, setup, name);
   return setup;
@@ -76,13 +76,15 @@ session::TouchTool toolOf(const session::RecordingSetup& setup)
                                  " degrees of freedom; this program has tools of 3 and of 6");
   session::TouchTool tool;
   tool.burr = setup.burr;
-  tool.mode = setup.degrees == 3 ? session::TouchTool::Mode::ThreeDof : session::TouchTool::Mode::SixDof;
+  tool.mode =
+      setup.degrees == 3 ? session::TouchTool::Mode::ThreeDof : session::TouchTool::Mode::SixDof;
   tool.coupling = setup.proxy;
   return tool;
 }
 
-RecordingPlayer::RecordingPlayer(scene::Case& value, session::TouchScene& scene, session::RecordingReader& reader,
-                       const std::string& name, std::optional<core::CameraPose> camera)
+RecordingPlayer::RecordingPlayer(scene::Case& value, session::TouchScene& scene,
+                                 session::RecordingReader& reader, const std::string& name,
+                                 std::optional<core::CameraPose> camera)
   : m_proxy(scene.proxyOf(toolOf(fitting(value, scene, reader.setup(), name))))
   , m_servo(*m_proxy, reader.setup().servo)
   , m_loop(*value.dissection, *scene.mask(), m_removalModel, scene.drill().protectedTissue(),

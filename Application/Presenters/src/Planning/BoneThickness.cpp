@@ -27,8 +27,8 @@ std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& va
   }
   for (const scene::StructureOccupancy& occupancy : scene::structureOccupancies(value))
     if (occupancy.name == structure)
-      if (auto field =
-              volume::makeDistanceField(*occupancy.make(), kFarthestThickness, progress.part(0.3, 1.0)))
+      if (auto field = volume::makeDistanceField(*occupancy.make(), kFarthestThickness,
+                                                 progress.part(0.3, 1.0)))
         return field;
   if (there.empty())
     throw core::InvalidParameter("thickness: case '" + value.name + "' has no structures");

@@ -12,7 +12,8 @@ double SurfaceUncertainty::millimetres() const
   return std::hypot(0.5 * sliceSpacing(), registration.value_or(0.0));
 }
 
-SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureOccupancy& structure)
+SurfaceUncertainty uncertaintyOf(const scene::Case& value,
+                                 const scene::StructureOccupancy& structure)
 {
   SurfaceUncertainty result;
   result.voxel = structure.grid.spacing();

@@ -111,9 +111,9 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
     begin(task, fit.mrFromCt, Method::Landmarks);
     const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
     task.statusMessage = "The " + std::to_string(fit.residuals.size()) + " landmarks agree to " +
-                millimetres(fit.rms) + " (root mean square; pair " +
-                std::to_string(worst - fit.residuals.begin() + 1) + " least, " +
-                millimetres(*worst) + ").";
+                         millimetres(fit.rms) + " (root mean square; pair " +
+                         std::to_string(worst - fit.residuals.begin() + 1) + " least, " +
+                         millimetres(*worst) + ").";
     break;
   }
   case From::Given:

@@ -23,7 +23,7 @@ struct CellContent
   float volume = 0.0F;
   bool reckoned = false;
   bool empty = true;
-  alignas(16) CellValues occupancy{};      ///< tissue occupancy of each sub-cell, 0 to 1
+  alignas(16) CellValues occupancy{};  ///< tissue occupancy of each sub-cell, 0 to 1
   alignas(16) CellValues resistance{}; ///< N/mm^2; 0 where there is no tissue
 };
 

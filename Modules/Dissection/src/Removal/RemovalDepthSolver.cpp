@@ -13,13 +13,13 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kSkin = 0.02;   // voxels by which a search starts before the end of the last step
-constexpr double kBeside = 0.25; // voxels: lateral distance within which the last step is reused
-constexpr double kAim = 0.96;    // fraction of the work
-constexpr double kFinest = 1e-4; // voxels; twice a quantisation step of the mask
+constexpr double kSkin = 0.02;    // voxels by which a search starts before the end of the last step
+constexpr double kBeside = 0.25;  // voxels: lateral distance within which the last step is reused
+constexpr double kAim = 0.96;     // fraction of the work
+constexpr double kFinest = 1e-4;  // voxels; twice a quantisation step of the mask
 constexpr double kMinBite = 1e-3; // sub-cells; below this is rounding error of the float sums
-constexpr int kMaxTrials = 40;     // bisection alone needs 14
-constexpr double kAheadOf = 2.0;    // voxels, search distance for the first tissue
+constexpr int kMaxTrials = 40;    // bisection alone needs 14
+constexpr double kAheadOf = 2.0;  // voxels, search distance for the first tissue
 constexpr double kAheadStep = 0.25;
 
 double checkedRadius(double radius)
@@ -96,8 +96,9 @@ struct Bracket
 
 } // namespace
 
-RemovalDepthSolver::RemovalDepthSolver(const volume::TissueField& tissue, const TissueResistance& resistance,
-                       ProtectedTissue keep, double radius)
+RemovalDepthSolver::RemovalDepthSolver(const volume::TissueField& tissue,
+                                       const TissueResistance& resistance, ProtectedTissue keep,
+                                       double radius)
   : m_parts(std::make_unique<Parts>(tissue, resistance, std::move(keep), radius))
 {
 }
@@ -169,11 +170,12 @@ std::optional<RemovalStep> RemovalDepthSolver::find(const volume::CutMask& mask,
   p.known = true;
   p.end = at(depth);
   taken.patch.arm *= p.burr / p.radius; // the cut is wider than the burr, whose teeth do the work
-  return RemovalStep{{p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
+  return RemovalStep{
+      {p.end, p.end, p.radius}, depth, taken.volume, taken.work, taken.patch, capped};
 }
 
 std::optional<double> RemovalDepthSolver::ahead(const volume::CutMask& mask, const Vector3d& place,
-                                        const Vector3d& into) const
+                                                const Vector3d& into) const
 {
   const Parts& p = *m_parts;
   const core::GridGeometry& grid = p.tissue.geometry();

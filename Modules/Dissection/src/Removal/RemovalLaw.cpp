@@ -40,9 +40,9 @@ OrthogonalCutting::OrthogonalCutting(double specificEnergy, double friction, dou
   require(std::abs(rake) <= kSteepest, "the rake angle must lie within 60 degrees");
   const double slope = std::tan(rake);
   require(friction - slope >= kMinDifference,
-          "friction less the rake's tangent must be at least " + text(kMinDifference) +
-              ", it is " + text(friction - slope) + " (friction " + text(friction) + ", tangent " +
-              text(slope) + ")");
+          "friction less the rake's tangent must be at least " + text(kMinDifference) + ", it is " +
+              text(friction - slope) + " (friction " + text(friction) + ", tangent " + text(slope) +
+              ")");
   require(1.0 + friction * slope > 0.0,
           "1 + friction x the rake's tangent must be above 0, it is " +
               text(1.0 + friction * slope));

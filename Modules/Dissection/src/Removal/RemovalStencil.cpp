@@ -19,8 +19,8 @@ constexpr std::size_t kFewCells = 200;
 
 } // namespace
 
-RemovalStencil::RemovalStencil(const volume::TissueField& tissue, const TissueResistance& resistance,
-                       ProtectedTissue keep)
+RemovalStencil::RemovalStencil(const volume::TissueField& tissue,
+                               const TissueResistance& resistance, ProtectedTissue keep)
   : m_grid(tissue.geometry())
   , m_keep(std::move(keep))
   , m_tissue(tissue, resistance)
@@ -109,7 +109,7 @@ void RemovalStencil::gatherRow(const BurrCoverage& burr, int first, int j, int k
 }
 
 void RemovalStencil::gatherRun(const BurrCoverage& burr, int first, int j, int k, int count,
-                           std::size_t start)
+                               std::size_t start)
 {
   const std::uint16_t* now = &m_now[start];
   burr.row(first, j, k, count, m_row.data());
@@ -132,7 +132,7 @@ void RemovalStencil::gatherRun(const BurrCoverage& burr, int first, int j, int k
 }
 
 RemovalStencil::Corners RemovalStencil::cornersOf(const std::vector<std::uint16_t>& values,
-                                          std::uint32_t corner) const noexcept
+                                                  std::uint32_t corner) const noexcept
 {
   const auto row = static_cast<std::size_t>(m_dims[0]);
   const std::size_t slice = row * static_cast<std::size_t>(m_dims[1]);
@@ -248,7 +248,7 @@ void RemovalStencil::addToPatch(const Cell& cell, const Eigen::Vector3d& center,
 }
 
 RemovalStencil::Taken RemovalStencil::taken(const Eigen::Vector3d& place, double radius,
-                                    const Eigen::Vector3d& spindle)
+                                            const Eigen::Vector3d& spindle)
 {
   Taken taken;
   taken.work = work(place, radius);

@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "QuadratureSums.h"
 #include "BurrCoverage.h"
 #include "CellTissue.h"
 #include "PatchSums.h"
+#include "QuadratureSums.h"
 
 namespace petrous::dissection
 {
@@ -17,7 +17,7 @@ class RemovalStencil
 {
 public:
   RemovalStencil(const volume::TissueField& tissue, const TissueResistance& resistance,
-             ProtectedTissue keep);
+                 ProtectedTissue keep);
 
   /// Collects what the burr may change on its path. False if there is nothing.
   bool gather(const volume::CutMask& mask, const SweptSphere& way);

@@ -12,7 +12,7 @@ namespace petrous::dissection
 namespace
 {
 constexpr double kFarthest = 1e6;  // mm
-constexpr double kMaxTicks = 1e8; // more than a day at 1 kHz
+constexpr double kMaxTicks = 1e8;  // more than a day at 1 kHz
 constexpr double kSameTick = 1e-6; // fraction of a tick
 } // namespace
 

@@ -13,8 +13,8 @@ namespace petrous::haptics
 namespace
 {
 
-constexpr int kMaxSteps = 60; // of Newton's method
-constexpr int kMaxCuts = 40;  // of a line search
+constexpr int kMaxSteps = 60;  // of Newton's method
+constexpr int kMaxCuts = 40;   // of a line search
 constexpr double kFlat = 1e-6; // slope relative to that at the line's start that ends a search
 
 } // namespace
@@ -31,7 +31,7 @@ CompliantContactObjective<N>::CompliantContactObjective(std::size_t capacity)
 
 template <int N>
 bool CompliantContactObjective<N>::add(const Vector& whitened, double bound, double compliance,
-                             std::size_t row) noexcept
+                                       std::size_t row) noexcept
 {
   if (!m_rows.add(whitened, bound, row))
     return false;
@@ -207,7 +207,8 @@ void CompliantContactObjective<N>::takeForces(const Vector& y) noexcept
 }
 
 template <int N>
-typename CompliantContactObjective<N>::Vector CompliantContactObjective<N>::balance(const Vector& y) const noexcept
+typename CompliantContactObjective<N>::Vector
+CompliantContactObjective<N>::balance(const Vector& y) const noexcept
 {
   const Eigen::Index count = m_rows.count;
   Vector sum = m_v - y;

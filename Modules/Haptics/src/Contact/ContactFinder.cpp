@@ -18,20 +18,20 @@ constexpr double kClose = 0.002;     // voxels: a gap that needs no better estim
 constexpr double kExplained = 0.02;  // voxels: tolerance to the plane of a known contact
 constexpr std::size_t kMaxRefined = 16;
 constexpr std::size_t kMaxOnBall = 64; // deepest first; the sweep covers the others
-constexpr double kFarthest = 0.6;       // rad, from a shell point to the ball's contact
-constexpr double kAligned = 0.01;       // rad, residual of a found contact
-constexpr double kMisaligned = 0.05;    // rad, maximum residual accepted
+constexpr double kFarthest = 0.6;      // rad, from a shell point to the ball's contact
+constexpr double kAligned = 0.01;      // rad, residual of a found contact
+constexpr double kMisaligned = 0.05;   // rad, maximum residual accepted
 constexpr int kTurns = 4;
-constexpr double kAtHit = 0.1; // voxels: what stopped the tool is the actual surface, ripples
-                               // included
-constexpr double kDeepest = 0.05;          // voxels: largest penetration recovered in one motion
-constexpr std::size_t kMaxOnSolid = 128;  // near ones, in addition to those that stopped a motion
-constexpr std::size_t kMaxLooked = 1024;  // samples, nearest first; the sweep has all
+constexpr double kAtHit = 0.1;    // voxels: what stopped the tool is the actual surface, ripples
+                                  // included
+constexpr double kDeepest = 0.05; // voxels: largest penetration recovered in one motion
+constexpr std::size_t kMaxOnSolid = 128;   // near ones, in addition to those that stopped a motion
+constexpr std::size_t kMaxLooked = 1024;   // samples, nearest first; the sweep has all
 constexpr std::size_t kLooksInASample = 2; // field samples, at known contacts
-constexpr std::size_t kMaxSmooth = 24;    // whose tissue normal is examined
+constexpr std::size_t kMaxSmooth = 24;     // whose tissue normal is examined
 constexpr double kStretch = 1.0;           // voxels between two contacts of a line contact
-constexpr double kOnBall = 0.1;  // voxels: tolerance of a sample to the ball's contacts
-constexpr double kSmooth = 0.9;  // cosine between the normals of tissue and tool
+constexpr double kOnBall = 0.1;            // voxels: tolerance of a sample to the ball's contacts
+constexpr double kSmooth = 0.9;            // cosine between the normals of tissue and tool
 constexpr double kSameGap = 0.1; // voxels: the surface is smooth if its normal leads to it
 } // namespace
 

@@ -18,7 +18,8 @@ NormalizedConstraints<N>::NormalizedConstraints(std::size_t capacity)
 }
 
 template <int N>
-bool NormalizedConstraints<N>::add(const Vector& whitened, double limit, std::size_t callersRow) noexcept
+bool NormalizedConstraints<N>::add(const Vector& whitened, double limit,
+                                   std::size_t callersRow) noexcept
 {
   const double largest = whitened.cwiseAbs().maxCoeff();
   if (!(largest < kMaxLength))

@@ -18,9 +18,9 @@ constexpr double kFastStep = 1.5;    // voxels of the field: its maximum, for fa
 constexpr double kHandShare = 0.25;  // look-ahead as a fraction of the device's motion per tick
 constexpr float kSteepest = 1.05F;   // approximate bound on the slope of a map's depth, per mm
 constexpr double kFar = 1.5;         // mm: structures beyond are not examined point by point
-constexpr double kMinWay = 1e-12;  // mm
+constexpr double kMinWay = 1e-12;    // mm
 constexpr double kRounding = 1e-5;   // mm, tolerance of bounds
-constexpr int kMaxSteps = 8;        // per tick
+constexpr int kMaxSteps = 8;         // per tick
 constexpr double kCreep = 0.02;      // mm per tick beyond the device's motion
 constexpr double kAhead = 2.0;       // times the device's motion per tick, allowed for the tool
 constexpr double kWhole = 0.4999;    // of the mask's operand: nothing removed here
@@ -68,14 +68,14 @@ void SoftContacts::begin(const Pose& goal) noexcept
   m_spent = false;
   m_steps = 0;
   const double voxel = m_field.voxel();
-  m_step =
-      std::clamp(kHandShare * maxDisplacement(way, m_shell.reach), kStep * voxel, kFastStep * voxel);
+  m_step = std::clamp(kHandShare * maxDisplacement(way, m_shell.reach), kStep * voxel,
+                      kFastStep * voxel);
   m_left = kAhead * std::hypot(way.linear.norm(), m_lever * way.angular.norm()) + kCreep;
   m_goal = goal;
 }
 
 double SoftContacts::fractionOf(const Structure& structure, double linear,
-                             double angular) const noexcept
+                                double angular) const noexcept
 {
   const auto way = static_cast<float>(linear + kMinWay) + static_cast<float>(angular) * m_arm;
   const auto spare = (static_cast<float>(structure.least) - structure.bound).max(0.0F);

@@ -17,10 +17,10 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kMilli = 1000.0;    // N = kg mm/s^2 / 1000
-constexpr double kMaxLeap = 1.0; // s
-constexpr double kSlowest = 8.0;     // Hz, physiological tremor
-constexpr double kFastest = 12.0;    // Hz
+constexpr double kMilli = 1000.0; // N = kg mm/s^2 / 1000
+constexpr double kMaxLeap = 1.0;  // s
+constexpr double kSlowest = 8.0;  // Hz, physiological tremor
+constexpr double kFastest = 12.0; // Hz
 
 void check(bool holds, const char* what)
 {

@@ -80,7 +80,8 @@ HapticField::HapticField(const TissueField& tissue,
                 Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0)};
     const Eigen::Vector3d whole = solid.offset.array().round();
     solid.onGrid = (solid.fromCt - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kSameGrid &&
-                   (solid.offset - whole).cwiseAbs().maxCoeff() < kSameGrid && endsInAir(*occupancy);
+                   (solid.offset - whole).cwiseAbs().maxCoeff() < kSameGrid &&
+                   endsInAir(*occupancy);
     m_solids.push_back(std::move(solid));
   }
   TissueBricks bricks = keptBricks(tissue, kept);

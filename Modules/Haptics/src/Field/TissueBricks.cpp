@@ -155,8 +155,7 @@ private:
     int before, after;
   };
   static constexpr Range kValues{0, 2}, kAlong{-1, 2}, kAcross{-1, 3};
-  static constexpr std::size_t kPad =
-      4; // padding at both ends of the line, ignored by the maximum
+  static constexpr std::size_t kPad = 4; // padding at both ends of the line, ignored by the maximum
 
   // Maximum over each brick's range in the line.
   void reduceLine(Range range, float* out)

@@ -19,7 +19,8 @@ constexpr int kTissueBrick = 2; ///< voxels
 /// next to cortical bone's steep edges: with larger ones every point in it would count as near.
 struct TissueBricks
 {
-  static constexpr std::uint8_t kUnionHere = 0x80; ///< a union's occupancy is above 0 somewhere in it
+  static constexpr std::uint8_t kUnionHere =
+      0x80; ///< a union's occupancy is above 0 somewhere in it
   static constexpr int kMaxDistance = 31;
 
   core::Index3 dims;

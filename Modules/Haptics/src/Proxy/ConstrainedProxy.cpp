@@ -18,9 +18,9 @@ namespace
 // rows rarely costs another round.
 constexpr double kSkin = 0.01;
 constexpr double kSkinSlack = 0.3; // of the skin, which need not be recovered
-constexpr double kMaxLift = 0.05; // voxels, over a bump
-constexpr int kMaxStretches = 32; // sweeps per tick that end freely
-constexpr double kMinWay = 1e-6; // mm
+constexpr double kMaxLift = 0.05;  // voxels, over a bump
+constexpr int kMaxStretches = 32;  // sweeps per tick that end freely
+constexpr double kMinWay = 1e-6;   // mm
 
 constexpr ParameterCheck kCheck("constrained proxy");
 

@@ -16,16 +16,16 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kSkin = 0.01;     // voxels: height above the surface at which the centre aims
+constexpr double kSkin = 0.01;    // voxels: height above the surface at which the centre aims
 constexpr double kMaxLift = 0.05; // voxels, over a bump
-constexpr double kKept = 0.1; // voxels: a plane is reused within this distance of its origin
+constexpr double kKept = 0.1;     // voxels: a plane is reused within this distance of its origin
 constexpr std::size_t kMaxKept = 8;
-constexpr double kReach = 0.1;     // voxels: scale of the actual surface, ripples included
-constexpr double kWithin = 0.005;  // voxels: beyond the end of a sweep, to see what ended it
-constexpr double kAgainst = 0.02;  // cosine: minimum by which a normal opposes the motion
-constexpr double kAstray = 0.5;    // cosine: a normal this far along the motion is not used
-constexpr double kFlat = 1e-6;     // of f per voxel: below this the slope is meaningless
-constexpr double kMin = 1e-9;    // N: a smaller push is ignored
+constexpr double kReach = 0.1;    // voxels: scale of the actual surface, ripples included
+constexpr double kWithin = 0.005; // voxels: beyond the end of a sweep, to see what ended it
+constexpr double kAgainst = 0.02; // cosine: minimum by which a normal opposes the motion
+constexpr double kAstray = 0.5;   // cosine: a normal this far along the motion is not used
+constexpr double kFlat = 1e-6;    // of f per voxel: below this the slope is meaningless
+constexpr double kMin = 1e-9;     // N: a smaller push is ignored
 constexpr int kMaxStretches = 32; // sweeps per tick that end freely
 
 constexpr ParameterCheck kCheck("centre proxy");
@@ -75,7 +75,7 @@ ContactQp::Vector6 straight(const Vector3d& linear)
 } // namespace
 
 PointProxy::PointProxy(std::shared_ptr<const HapticField> field, const CentreBurr& burr,
-                         const ProxyParameters& parameters)
+                       const ProxyParameters& parameters)
   : m_parameters(kCheck(parameters))
   , m_sweep(kCheck.field(field), centreAlone(), parameters.sweepStep, parameters.bisections)
   , m_volume(std::make_unique<BurrVolume>(m_sweep.field(), checked(burr).radius, burr.points))
@@ -203,8 +203,8 @@ Vector3d PointProxy::solve(const Vector3d& wanted, double lift) noexcept
 // A sweep is limited to its number of chords, and so is the search for tissue.
 ShellSweep::Hit PointProxy::advance(const Vector3d& motion) noexcept
 {
-  const double most = static_cast<double>(ShellSweep::kMaxSteps) * m_parameters.sweepStep *
-                      m_sweep.field().voxel();
+  const double most =
+      static_cast<double>(ShellSweep::kMaxSteps) * m_parameters.sweepStep * m_sweep.field().voxel();
   m_sweep.addNear(std::min(motion.norm(), most), 0.0);
   return m_sweep.advance({motion, Vector3d::Zero()});
 }

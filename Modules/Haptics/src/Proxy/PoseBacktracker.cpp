@@ -7,7 +7,7 @@ namespace petrous::haptics
 
 namespace
 {
-constexpr double kTrailStep = 0.5;         // voxels
+constexpr double kTrailStep = 0.5;        // voxels
 constexpr std::size_t kMaxRetreat = 3000; // field samples per tick
 } // namespace
 
@@ -56,8 +56,9 @@ void PoseBacktracker::follow(const Pose& goal) noexcept
 void PoseBacktracker::remember() noexcept
 {
   const std::size_t last = (m_trailEnd + kTrail - 1) % kTrail;
-  if (m_trailLength > 0 && maxDisplacement(motionBetween(m_trail[last], m_sweep.pose()),
-                                      m_sweep.shell().reach) < kTrailStep * m_sweep.field().voxel())
+  if (m_trailLength > 0 &&
+      maxDisplacement(motionBetween(m_trail[last], m_sweep.pose()), m_sweep.shell().reach) <
+          kTrailStep * m_sweep.field().voxel())
     return;
   m_trail[m_trailEnd] = m_sweep.pose();
   m_trailEnd = (m_trailEnd + 1) % kTrail;

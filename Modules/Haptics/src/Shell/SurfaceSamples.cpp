@@ -16,17 +16,17 @@ constexpr double kSagitta = 0.02; // mm, of a thin tool between two samples of a
 constexpr float kFlat = 0.2F;     // of the slope: how much parallel edges of a cell may differ
 constexpr int kBulging = 2;       // lines per side of a cell that is not flat
 constexpr double kBulge = 0.15;   // mm: line spacing that is fine enough for curved cells
-constexpr int kMaxLines = 4;     // per side
+constexpr int kMaxLines = 4;      // per side
 constexpr int kRenewal = 16;      // ticks, of the handpiece after a cut
 // Voxels: lower limits of the margin, however expensive. The ball is searched again after each cut,
 // regardless of its motion.
 constexpr double kMin = 3.0;
 constexpr double kMinAfterCut = 1.0;
 constexpr double kMax = 32.0;   // voxels
-constexpr double kFirst = 4.0;   // voxels, initial
-constexpr double kShrink = 0.7;  // of the margin, if there are too many samples
+constexpr double kFirst = 4.0;  // voxels, initial
+constexpr double kShrink = 0.7; // of the margin, if there are too many samples
 constexpr int kMaxShrinks = 20; // then none are kept
-constexpr double kUsed = 0.75;   // of the margin: the next search begins
+constexpr double kUsed = 0.75;  // of the margin: the next search begins
 // Units, see SurfaceSamples::kUnit.
 constexpr std::size_t kBoxCost = 4;
 constexpr std::size_t kBrickCost = 24;

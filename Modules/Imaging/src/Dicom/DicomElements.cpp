@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr std::uint32_t kMaxKept = 4096; // bytes; all values used here are far shorter
-constexpr int kDeepest = 32;                 // nested sequences; malicious files may nest endlessly
+constexpr int kDeepest = 32;             // nested sequences; malicious files may nest endlessly
 
 constexpr Tag kItem = 0xfffee000;
 constexpr Tag kItemEnd = 0xfffee00d;

@@ -13,9 +13,9 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr double kSamePlace = 1e-3; // mm
+constexpr double kSamePlace = 1e-3;    // mm
 constexpr double kSameFraction = 0.01; // of the usual gap: closer slices share one position
-constexpr double kWholeGap = 0.05;  // a gap this close to a multiple lacks whole slices
+constexpr double kWholeGap = 0.05;     // a gap this close to a multiple lacks whole slices
 constexpr std::size_t kPlacesNamed = 3;
 constexpr std::size_t kPitchChange = 3; // wide gaps in a row that are a pitch change, not a loss
 

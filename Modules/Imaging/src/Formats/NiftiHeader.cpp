@@ -22,8 +22,8 @@ constexpr std::size_t kHeaderBytes = 348;
 constexpr std::size_t kDataOffset = 352;
 constexpr double kLargestOffset = 1e9;
 constexpr const char* kGzipStart = "\x1f\x8b";
-constexpr double kMaxQuaternion = 1.001; // squared norm; float32 and few digits round by less
-constexpr double kPlacementsDiffer = 0.1;    // mm between sform and qform; noted if exceeded
+constexpr double kMaxQuaternion = 1.001;  // squared norm; float32 and few digits round by less
+constexpr double kPlacementsDiffer = 0.1; // mm between sform and qform; noted if exceeded
 // NIfTI uses right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 

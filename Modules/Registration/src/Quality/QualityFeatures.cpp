@@ -105,8 +105,9 @@ double asideOf(const ImagePair& pair, const core::RigidTransform& mrFromCt,
 
 } // namespace
 
-QualityFeatures collectQualityFeatures(const ImagePair& pair, const PairFit& fit, const FitOptions& options,
-                         const Eigen::Vector3d& at, const core::Progress& progress)
+QualityFeatures collectQualityFeatures(const ImagePair& pair, const PairFit& fit,
+                                       const FitOptions& options, const Eigen::Vector3d& at,
+                                       const core::Progress& progress)
 {
   const core::RigidTransform& pose = fit.fit.mrFromCt;
   const double voxel = pair.scales.back();

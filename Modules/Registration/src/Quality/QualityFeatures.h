@@ -37,7 +37,8 @@ QualityVerdict judge(const QualityFeatures& evidence);
 
 /// Collects the features: repeated fits, local fits about the point, a search with the moving image
 /// mirrored. The error is that of the repeats, plus that of a ball about the point if displaced.
-QualityFeatures collectQualityFeatures(const ImagePair& pair, const PairFit& fit, const FitOptions& options,
-                         const Eigen::Vector3d& at, const core::Progress& progress);
+QualityFeatures collectQualityFeatures(const ImagePair& pair, const PairFit& fit,
+                                       const FitOptions& options, const Eigen::Vector3d& at,
+                                       const core::Progress& progress);
 
 } // namespace petrous::registration

@@ -37,7 +37,8 @@ Registration registerRigid(const volume::IntensityVolume& ct, const volume::Inte
     result.fit.seconds = since(begin);
 
     const auto fitted = Clock::now();
-    const QualityFeatures evidence = collectQualityFeatures(pair, fit, options, at, progress.part(0.5, 1.0));
+    const QualityFeatures evidence =
+        collectQualityFeatures(pair, fit, options, at, progress.part(0.5, 1.0));
     const QualityVerdict judgement = judge(evidence);
     result.error = evidence.error;
     result.verdict = judgement.verdict;

@@ -18,7 +18,7 @@ constexpr double kRadii[] = {10.0, 18.0, 30.0}; // mm
 constexpr double kReach = 9.0;                  // mm, maximum of the shifts tried
 constexpr double kStep = 2.0;                   // mm between the shifts
 constexpr std::size_t kClimbs = 6;              // optimizations from the best shifts
-constexpr double kMinOverlap = 0.7;           // of a ball with the MR
+constexpr double kMinOverlap = 0.7;             // of a ball with the MR
 constexpr int kLocalBins = 16;                  // a ball of 10 mm has 2,000 voxels
 constexpr std::size_t kDrawn = 9000;            // samples in the bounding box of a ball
 constexpr std::size_t kFewest = 500;            // required number of samples with a value
@@ -134,7 +134,7 @@ private:
 
   // The optima within reach; the information of a small remaining overlap may grow without bound.
   std::vector<Optimum> climbs(const MutualInformation& metric,
-                             const std::vector<core::RigidTransform>& starts) const
+                              const std::vector<core::RigidTransform>& starts) const
   {
     std::vector<Optimum> tops(starts.size());
     tbb::parallel_for(std::size_t{0}, starts.size(),

@@ -122,7 +122,7 @@ private:
 } // namespace
 
 Optimum maximize(const MutualInformation& metric, const core::RigidTransform& start,
-              const BfgsOptions& options, const EvaluationListener& listener)
+                 const BfgsOptions& options, const EvaluationListener& listener)
 {
   return Climber(metric, start, options, listener).climb();
 }

@@ -84,8 +84,9 @@ std::vector<core::RigidTransform> centredStarts(const ImagePair& pair)
 }
 
 std::vector<Candidate> searchCandidates(const ImagePair& pair,
-                                const std::vector<core::RigidTransform>& starts,
-                                const SearchOptions& options, const core::Progress& progress)
+                                        const std::vector<core::RigidTransform>& starts,
+                                        const SearchOptions& options,
+                                        const core::Progress& progress)
 {
   const LevelImage& moving = pair.moving.levels.front();
   const FixedSamples samples = drawSamples(pair.fixed.levels.front(), pair.fixed.content.front(),
@@ -120,7 +121,8 @@ std::vector<Candidate> searchCandidates(const ImagePair& pair,
 
   const auto better = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
   std::stable_sort(grid.begin(), grid.end(), better);
-  std::vector<Candidate> candidates(grid.begin(), grid.begin() + std::min(options.climbs, grid.size()));
+  std::vector<Candidate> candidates(grid.begin(),
+                                    grid.begin() + std::min(options.climbs, grid.size()));
   // The starts themselves are always optimized.
   for (const core::RigidTransform& start : starts)
     candidates.push_back({start, 0.0});
@@ -128,12 +130,13 @@ std::vector<Candidate> searchCandidates(const ImagePair& pair,
   climb.evaluations = 25;
   climb.change = 1e-4;
   climb.firstStep = 0.5 * pair.scales.front();
-  tbb::parallel_for(std::size_t{0}, candidates.size(),
-                    [&](std::size_t n)
-                    {
-                      const Optimum top = maximize(metric, candidates[n].pose, climb);
-                      candidates[n] = {top.pose, scored(top.information, top.overlap, samples.size())};
-                    });
+  tbb::parallel_for(
+      std::size_t{0}, candidates.size(),
+      [&](std::size_t n)
+      {
+        const Optimum top = maximize(metric, candidates[n].pose, climb);
+        candidates[n] = {top.pose, scored(top.information, top.overlap, samples.size())};
+      });
   progress.report(1.0, "coarse search");
 
   std::stable_sort(candidates.begin(), candidates.end(), better);

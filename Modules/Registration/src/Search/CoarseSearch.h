@@ -32,8 +32,9 @@ struct SearchOptions
 /// The score is sqrt(overlap) times information corrected for finite-sampling bias, so that a pose
 /// that pushes most of the fixed image out of the other does not win on the small remainder.
 std::vector<Candidate> searchCandidates(const ImagePair& pair,
-                                const std::vector<core::RigidTransform>& starts,
-                                const SearchOptions& options, const core::Progress& progress);
+                                        const std::vector<core::RigidTransform>& starts,
+                                        const SearchOptions& options,
+                                        const core::Progress& progress);
 
 /// Poses that align the centres, axes parallel: of the image content, and of mass.
 std::vector<core::RigidTransform> centredStarts(const ImagePair& pair);

@@ -4,8 +4,8 @@
 
 #include "BfgsOptimizer.h"
 #include "MutualInformation.h"
-#include "RigidParametrization.h"
 #include "PerturbedRepeats.h"
+#include "RigidParametrization.h"
 
 namespace petrous::registration
 {
@@ -86,9 +86,10 @@ namespace
 
 // Optimizes each candidate at one level; best first.
 std::vector<Optimum> climbLevel(const ImagePair& pair, std::size_t level,
-                               const MutualInformation& metric, const std::vector<Candidate>& candidates,
-                               const FitOptions& options, int& iterations,
-                               const core::Progress& progress, const MetricListener& listener)
+                                const MutualInformation& metric,
+                                const std::vector<Candidate>& candidates, const FitOptions& options,
+                                int& iterations, const core::Progress& progress,
+                                const MetricListener& listener)
 {
   BfgsOptions climb;
   climb.evaluations = options.schedule.evaluations;
@@ -117,8 +118,8 @@ std::vector<Optimum> climbLevel(const ImagePair& pair, std::size_t level,
 }
 
 std::vector<Candidate> candidatesOf(const ImagePair& pair, const FitOptions& options,
-                            const std::vector<core::RigidTransform>& starts,
-                            const core::Progress& progress)
+                                    const std::vector<core::RigidTransform>& starts,
+                                    const core::Progress& progress)
 {
   if (!options.search)
     return {{starts.front(), 0.0}};
@@ -147,8 +148,8 @@ PairFit fitPair(const ImagePair& pair, const FitOptions& options, const core::Pr
                     samplesAt(pair, level, options.schedule),
                     options.seed + 17 * static_cast<std::uint32_t>(level), options.schedule.bins);
     const MutualInformation metric(samples, pair.moving.levels[level], options.schedule.bins);
-    const std::vector<Optimum> tops =
-        climbLevel(pair, level, metric, candidates, options, result.fit.iterations, progress, listener);
+    const std::vector<Optimum> tops = climbLevel(pair, level, metric, candidates, options,
+                                                 result.fit.iterations, progress, listener);
     const Optimum& first = tops.front();
     result.fit.mrFromCt = pair.mrFromCt(first.pose);
     result.fit.metric = first.information;

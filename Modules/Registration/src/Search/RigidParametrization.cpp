@@ -36,7 +36,8 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& w)
 
 } // namespace
 
-RigidParametrization::RigidParametrization(const core::RigidTransform& base, const Eigen::Vector3d& centre, double radius)
+RigidParametrization::RigidParametrization(const core::RigidTransform& base,
+                                           const Eigen::Vector3d& centre, double radius)
   : m_base(base)
   , m_centre(centre)
   , m_radius(radius)
@@ -51,7 +52,7 @@ core::RigidTransform RigidParametrization::pose(const PoseVector& x) const
 }
 
 PoseVector RigidParametrization::gradient(const PoseVector& x, const Eigen::Vector3d& translation,
-                               const Eigen::Vector3d& rotation) const
+                                          const Eigen::Vector3d& rotation) const
 {
   PoseVector g;
   g.head<3>() = leftJacobian(x.head<3>() / m_radius).transpose() * rotation / m_radius;

@@ -18,7 +18,8 @@ class RigidParametrization
 {
 public:
   /// Zero is `base`; rotations are about the image of `centre` (fixed patient).
-  RigidParametrization(const core::RigidTransform& base, const Eigen::Vector3d& centre, double radius);
+  RigidParametrization(const core::RigidTransform& base, const Eigen::Vector3d& centre,
+                       double radius);
 
   core::RigidTransform pose(const PoseVector& x) const;
 

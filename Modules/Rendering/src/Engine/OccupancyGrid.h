@@ -95,7 +95,7 @@ private:
   std::vector<float> m_min; // of the CT, per brick; -inf if a voxel has no value
   std::vector<float> m_max;
   std::vector<Texel> m_texels;
-  std::vector<std::uint8_t> m_solid;                  // LabelBricks.h; empty: no labels
+  std::vector<std::uint8_t> m_solid;                      // LabelBricks.h; empty: no labels
   std::weak_ptr<const volume::Volume<float>> m_occupancy; // source of m_solid
   Rules m_rules;
 };

@@ -42,11 +42,12 @@ constexpr Part kParts[] = {
 std::string constants()
 {
   std::string text = "const int kMaxPlanes = " + std::to_string(kMaxPlanes) + ";\n";
-  const std::pair<const char*, double> reals[] = {{"kInteriorFacing", optics::kInteriorFacing},
-                                                  {"kWetShininess", optics::kWetShininess},
-                                                  {"kOccupancyThreshold", optics::kOccupancyThreshold},
-                                                  {"kSmoothOpacity", optics::kSmoothOpacity},
-                                                  {"kMarginPerDepth", volume::kMarginPerDepth}};
+  const std::pair<const char*, double> reals[] = {
+      {"kInteriorFacing", optics::kInteriorFacing},
+      {"kWetShininess", optics::kWetShininess},
+      {"kOccupancyThreshold", optics::kOccupancyThreshold},
+      {"kSmoothOpacity", optics::kSmoothOpacity},
+      {"kMarginPerDepth", volume::kMarginPerDepth}};
   for (const auto& [name, value] : reals)
   {
     text += std::string("const float ") + name + " = float(" + core::generalText(value, 9) + ");\n";

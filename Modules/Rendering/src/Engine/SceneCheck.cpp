@@ -61,8 +61,8 @@ void checkMaterials(const SceneContents& contents)
 void checkPlaneCount(const SceneContents& contents)
 {
   require(contents.clipping.size() <= kMaxPlanes, "at most " + std::to_string(kMaxPlanes) +
-                                                       " clipping planes can be drawn, not " +
-                                                       std::to_string(contents.clipping.size()));
+                                                      " clipping planes can be drawn, not " +
+                                                      std::to_string(contents.clipping.size()));
 }
 
 } // namespace petrous::rendering

@@ -15,8 +15,9 @@ constexpr double kParallel = 1e-14; // cosine below which a ray is parallel to a
 constexpr double kInset = 1e-9; // relative to the distance: keeps the ends inside despite rounding
 } // namespace
 
-ClippedRegion::ClippedRegion(const core::GridGeometry& grid, const std::optional<core::IndexBox>& crop,
-                     const std::vector<ClippingPlane>& planes)
+ClippedRegion::ClippedRegion(const core::GridGeometry& grid,
+                             const std::optional<core::IndexBox>& crop,
+                             const std::vector<ClippingPlane>& planes)
 {
   const core::IndexBox box = crop ? crop->intersected(grid.fullBox()) : grid.fullBox();
   for (std::size_t a = 0; a < 3; ++a)

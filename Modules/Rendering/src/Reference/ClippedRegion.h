@@ -14,7 +14,7 @@ namespace petrous::rendering
 struct RaySpan
 {
   double first = 0.0;
-  double last = -1.0;                  ///< < first: nowhere
+  double last = -1.0; ///< < first: nowhere
   /// Unit normal of the entry face; none: starts at the camera.
   std::optional<Eigen::Vector3d> face;
 };
@@ -26,7 +26,7 @@ class ClippedRegion
 public:
   /// Throws RenderingError BadContents for a plane without a normal.
   ClippedRegion(const core::GridGeometry& grid, const std::optional<core::IndexBox>& crop,
-            const std::vector<ClippingPlane>& planes);
+                const std::vector<ClippingPlane>& planes);
 
   RaySpan clip(const PixelRay& ray) const;
 

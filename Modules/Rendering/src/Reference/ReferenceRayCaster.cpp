@@ -10,9 +10,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "SurfaceGeometry.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
+#include "SurfaceGeometry.h"
 #include "TissueRay.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Rendering/RenderingError.h"

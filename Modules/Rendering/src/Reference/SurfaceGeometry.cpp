@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "OpticalModel.h"
-#include "petrous/Rendering/ToolShape.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::rendering
 {

@@ -59,7 +59,8 @@ double TissueOptics::occupancyAt(const Eigen::Vector3d& patient) const
   if (!m_occupancy)
     return 0.0;
   const Eigen::Vector3d voxel = m_occupancy->geometry().voxelFromPatient(patient);
-  return m_occupancy->geometry().hullContains(voxel) ? volume::sampleTrilinear(*m_occupancy, voxel) : 0.0;
+  return m_occupancy->geometry().hullContains(voxel) ? volume::sampleTrilinear(*m_occupancy, voxel)
+                                                     : 0.0;
 }
 
 std::size_t TissueOptics::indexAt(const Eigen::Vector3d& patient) const
@@ -185,7 +186,8 @@ std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
   if (!grid.hullContains(voxel))
     return std::nullopt;
-  const double fraction = volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
+  const double fraction =
+      volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
   return fraction < 1.0 ? std::optional(thicknessColor(fraction)) : std::nullopt;
 }
 

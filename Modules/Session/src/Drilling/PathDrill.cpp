@@ -35,8 +35,8 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
             : std::make_unique<RecordingWriter>(
                   options.recording, scene.recordingOf(options.tool, m_servo.setup(), "tool path")))
   , m_removal(scene.removalOf(options.tool.burr, options.catalogues))
-  , m_loop(*value.dissection, *scene.mask(), m_removal->removalModel, scene.drill().protectedTissue(),
-           hooks(scene, options))
+  , m_loop(*value.dissection, *scene.mask(), m_removal->removalModel,
+           scene.drill().protectedTissue(), hooks(scene, options))
   , m_approach(m_tissue)
 {
   m_parameters.constantThrust = options.thrust ? ServoParameters::kPressed : 0;

@@ -7,7 +7,7 @@ namespace petrous::session
 {
 
 const dissection::RemovedVolume& RemovedVolumeEstimator::soFar(const dissection::Dissection& work,
-                                                    const Measure& measure)
+                                                               const Measure& measure)
 {
   if (!work.strokeOpen() || work.changes() != m_stroke)
     m_removed = {};

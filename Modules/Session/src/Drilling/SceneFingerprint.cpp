@@ -62,7 +62,7 @@ RecordedScene TouchScene::fingerprint() const
   m_drill.protectedTissue().prepare({-everywhere, everywhere});
   core::Fingerprint tissue;
   tissue.add(field.parameters().scale);
-  for (const auto* structures : {&field.solids(), &m_drill.protectedTissue().shares()})
+  for (const auto* structures : {&field.solids(), &m_drill.protectedTissue().occupancies()})
   {
     tissue.add(structures->size());
     for (const auto& structure : *structures)

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Session/ConstantThrust.h"
@@ -88,9 +88,8 @@ ServoSetup TouchScene::servoOf(const TouchTool& tool) const
   return setup;
 }
 
-RecordingSetup TouchScene::recordingOf(const TouchTool& tool,
-                                                   const ServoSetup& servo,
-                                                   const std::string& note) const
+RecordingSetup TouchScene::recordingOf(const TouchTool& tool, const ServoSetup& servo,
+                                       const std::string& note) const
 {
   RecordingSetup setup;
   setup.note = note;
@@ -110,9 +109,8 @@ std::unique_ptr<CaseRemoval> TouchScene::removalOf(const dissection::Burr& burr,
                                        catalogues);
 }
 
-DissectionLoop::Begin
-TouchScene::beginOf(const dissection::Burr& burr,
-                    std::function<std::optional<core::CameraPose>()> camera)
+DissectionLoop::Begin TouchScene::beginOf(const dissection::Burr& burr,
+                                          std::function<std::optional<core::CameraPose>()> camera)
 {
   return [burr, camera = std::move(camera)]
   {
@@ -124,9 +122,8 @@ TouchScene::beginOf(const dissection::Burr& burr,
   };
 }
 
-DissectionLoop::Hooks
-TouchScene::hooksOf(const dissection::Burr& burr,
-                    std::function<std::optional<core::CameraPose>()> camera)
+DissectionLoop::Hooks TouchScene::hooksOf(const dissection::Burr& burr,
+                                          std::function<std::optional<core::CameraPose>()> camera)
 {
   DissectionLoop::Hooks hooks;
   hooks.begin = beginOf(burr, std::move(camera));

@@ -25,8 +25,7 @@ ServoSetup setupOf(const TouchScene& scene, const TouchSession::Setup& setup)
 }
 
 std::unique_ptr<SessionRecorder> recorderOf(const TouchScene& scene,
-                                                        const TouchSession::Setup& setup,
-                                                        const Servo& servo)
+                                            const TouchSession::Setup& setup, const Servo& servo)
 {
   if (setup.recording.empty())
     return nullptr;

@@ -21,10 +21,10 @@ constexpr std::size_t kMagicBytes = 8;
 constexpr std::uint32_t kFormatVersion = 2;
 constexpr std::uint32_t kBlockMark = 0x4B434C42; // "BLCK"
 constexpr std::uint32_t kEndMark = 0x21444E45;   // "END!"
-constexpr std::uint32_t kMaxTicks = 100000;     // per block
-constexpr std::uint32_t kMaxEdits = 100000;     // per block
+constexpr std::uint32_t kMaxTicks = 100000;      // per block
+constexpr std::uint32_t kMaxEdits = 100000;      // per block
 constexpr std::size_t kMarkBytes = 20;           // of a block's header, and of the end
-constexpr std::uint32_t kMaxSetup = 1 << 20;    // bytes
+constexpr std::uint32_t kMaxSetup = 1 << 20;     // bytes
 
 inline void putU32(std::vector<std::uint8_t>& to, std::uint32_t value)
 {

@@ -106,8 +106,8 @@ bool RecordingReader::next(RecordingBlock& block)
   // Incompressible data becomes slightly longer.
   const auto longest = [](std::size_t raw) { return 2 * raw + 1000; };
   if (getU32(head.data()) != kBlockMark || (tickCount == 0 && editCount == 0) ||
-      tickCount > kMaxTicks || editCount > kMaxEdits ||
-      tickBytes > longest(maxBytes(tickCount)) || editBytes > longest(maxEditBytes(editCount)))
+      tickCount > kMaxTicks || editCount > kMaxEdits || tickBytes > longest(maxBytes(tickCount)) ||
+      editBytes > longest(maxEditBytes(editCount)))
     corrupt(name + " does not begin as one does");
   if (!read(ticks, tickBytes) || !read(edits, editBytes))
     return false;

@@ -42,7 +42,8 @@ double rimOf(double spread) noexcept
 
 } // namespace
 
-BurrRemovalModel::BurrRemovalModel(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel)
+BurrRemovalModel::BurrRemovalModel(dissection::RemovalDepthSolver& search,
+                                   const dissection::Burr& burr, double voxel)
   : m_search(search)
   , m_speed(burr.rpm * 2.0 * kPi / 60.0)
   , m_voxel(voxel)

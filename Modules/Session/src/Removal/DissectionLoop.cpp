@@ -22,7 +22,8 @@ bool together(const TickRecord& record, const TickRecord& next)
 } // namespace
 
 DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
-                               RemovalModel& removalModel, dissection::ProtectedTissue keep, Hooks hooks)
+                               RemovalModel& removalModel, dissection::ProtectedTissue keep,
+                               Hooks hooks)
   : m_dissection(dissection)
   , m_mask(mask)
   , m_removalModel(removalModel)

@@ -71,8 +71,7 @@ DissectionUpdate UpdateQueue::take()
   return std::exchange(m_update, {});
 }
 
-DissectionReporter::DissectionReporter(const dissection::Dissection& work,
-                                       UpdateQueue& queue)
+DissectionReporter::DissectionReporter(const dissection::Dissection& work, UpdateQueue& queue)
   : m_work(work)
   , m_queue(queue)
 {
@@ -115,7 +114,6 @@ void DissectionReporter::close(dissection::Dissection& work, const Complete& com
 
 void DissectionReporter::note(const MaskEdit& edit)
 {
-  using Kind = DissectionEvent::Kind;
   switch (edit.kind)
   {
   case MaskEdit::Kind::Begin:

@@ -39,8 +39,8 @@ constexpr double kMaxWayBack = 30.0; // mm
 // Ripples and the skin between tool and tissue are some hundredths of a millimetre: a tool that
 // presses by less is on the surface only intermittently.
 constexpr double kMinPress = 0.04; // mm
-constexpr double kStiffest = 10.0;   // N/mm
-constexpr double kAngular = 10.0;    // mm^2/rad, ratio to the stiffness
+constexpr double kStiffest = 10.0; // N/mm
+constexpr double kAngular = 10.0;  // mm^2/rad, ratio to the stiffness
 
 // Fraction of the force that may pull sideways on a tool that is held back; a moving tool may be
 // led at up to this speed, and an excessive lead pulls for one tick only.

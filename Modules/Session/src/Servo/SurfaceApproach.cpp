@@ -10,8 +10,8 @@ using Eigen::Vector3d;
 
 namespace
 {
-constexpr double kSameWay = 0.05;  // of the distance
-constexpr double kMinWay = 1e-3; // mm: a position on the surface has a direction, too
+constexpr double kSameWay = 0.05; // of the distance
+constexpr double kMinWay = 1e-3;  // mm: a position on the surface has a direction, too
 } // namespace
 
 Vector3d SurfaceApproach::at(const Vector3d& place)

@@ -14,8 +14,8 @@ namespace
 constexpr double kBeside = 0.1;       // mm across the pick ray: the tool is above its target
 constexpr double kAnotherPlace = 0.5; // mm
 constexpr double kStill = 1e-4;       // mm per tick: no progress
-constexpr double kMinThrust = 0.1;  // N: a tool with zero thrust must move, too
-constexpr double kMaxTurn = 0.05;    // rad per tick, when held by tissue
+constexpr double kMinThrust = 0.1;    // N: a tool with zero thrust must move, too
+constexpr double kMaxTurn = 0.05;     // rad per tick, when held by tissue
 
 Vector3d atMost(const Vector3d& lead, double most) noexcept
 {

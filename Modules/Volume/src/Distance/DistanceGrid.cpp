@@ -59,7 +59,8 @@ DistanceGrid gridFor(const core::GridGeometry& occupancy, const core::IndexBox& 
 core::GridGeometry geometryOf(const DistanceGrid& grid, const core::GridGeometry& occupancy)
 {
   return {grid.dims, Eigen::Vector3d::Constant(grid.edge),
-          occupancy.patientFromVoxel(grid.origin.cwiseQuotient(occupancy.spacing())), occupancy.direction()};
+          occupancy.patientFromVoxel(grid.origin.cwiseQuotient(occupancy.spacing())),
+          occupancy.direction()};
 }
 
 } // namespace petrous::volume

@@ -55,8 +55,9 @@ SurfaceDistance::SurfaceDistance(std::shared_ptr<const Volume<float>> occupancy,
     throw core::InvalidParameter("surface distance: no occupancy given");
   for (const int n : m_occupancy->geometry().dims())
     if (n > std::numeric_limits<std::uint16_t>::max())
-      throw core::InvalidParameter("surface distance: an occupancy of more than 65535 voxels along one "
-                                   "axis");
+      throw core::InvalidParameter(
+          "surface distance: an occupancy of more than 65535 voxels along one "
+          "axis");
   for (const core::Index3& cell : OccupancySurface(*m_occupancy).crossedCells(progress))
     m_cells.push_back({static_cast<std::uint16_t>(cell[0]), static_cast<std::uint16_t>(cell[1]),
                        static_cast<std::uint16_t>(cell[2])});

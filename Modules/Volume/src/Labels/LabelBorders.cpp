@@ -177,7 +177,7 @@ void writeDepths(const Volume<std::uint8_t>& index, std::uint8_t own, const core
           continue;
         const double depth =
             SurfaceNet::depthOf(occupancy->at(i - source.lower[0] + 1, j - source.lower[1] + 1,
-                                          k - source.lower[2] + 1)) /
+                                              k - source.lower[2] + 1)) /
             kBorderReach;
         std::uint8_t& border = borders.at(i, j, k);
         border = static_cast<std::uint8_t>(

@@ -80,8 +80,8 @@ class IndexTile
 {
 public:
   IndexTile(const Volume<LabelRank>& ranks, const core::IndexBox& ranksTile,
-            const Volume<float>& occupancy, const core::IndexBox& occupancyTile, const LabelOrder& order,
-            const std::vector<Step>& near, const std::vector<Step>& far)
+            const Volume<float>& occupancy, const core::IndexBox& occupancyTile,
+            const LabelOrder& order, const std::vector<Step>& near, const std::vector<Step>& far)
     : m_ranks(ranks, ranksTile)
     , m_occupancy(occupancy, occupancyTile)
     , m_order(order)
@@ -186,8 +186,9 @@ private:
       const core::Index3 to{corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1};
       float sum = 0.0F;
       for (int end = 0; end < 8; ++end)
-        sum += occupancy[at + m_occupancy.stride({(end & 1) != 0 ? to[0] : 0, (end & 2) != 0 ? to[1] : 0,
-                                          (end & 4) != 0 ? to[2] : 0})];
+        sum += occupancy[at +
+                         m_occupancy.stride({(end & 1) != 0 ? to[0] : 0, (end & 2) != 0 ? to[1] : 0,
+                                             (end & 4) != 0 ? to[2] : 0})];
       if (sum > 8.0F * kThreshold)
         return true;
     }
@@ -225,9 +226,9 @@ bool fillInside(const LabelPriority& ranks, const core::Index3& offset, const co
 }
 
 // `offset` maps voxels of the occupancy to those of the ranks.
-std::shared_ptr<Volume<std::uint8_t>> makeIndex(const LabelPriority& ranks, const core::Index3& offset,
-                                                const Volume<float>& occupancy, const LabelOrder& order,
-                                                const core::Progress& progress)
+std::shared_ptr<Volume<std::uint8_t>>
+makeIndex(const LabelPriority& ranks, const core::Index3& offset, const Volume<float>& occupancy,
+          const LabelOrder& order, const core::Progress& progress)
 {
   const auto index = makeZeroVolume<std::uint8_t>(occupancy.geometry());
   const std::vector<Step> near = stepsWithin(1, occupancy.geometry().spacing());
@@ -284,7 +285,8 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
   std::array<bool, 256> solid{};
   for (LabelRank rank = 1; rank <= order.lastSolid; ++rank)
     solid[order.materialOfRank[rank]] = true;
-  field->borders = makeLabelBorders(*field->occupancy, *field->index, solid, progress.part(0.8, 1.0));
+  field->borders =
+      makeLabelBorders(*field->occupancy, *field->index, solid, progress.part(0.8, 1.0));
   field->hasSolid = ranks.hasSolid;
   field->hasLumen = ranks.hasLumen;
   progress.report(1.0, "structures");
@@ -292,8 +294,8 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
 }
 
 std::shared_ptr<Volume<float>> makeSolidOccupancy(const std::vector<LabelSource>& sources,
-                                              const core::Progress& progress,
-                                              std::size_t maxVoxels)
+                                                  const core::Progress& progress,
+                                                  std::size_t maxVoxels)
 {
   std::vector<LabelSource> solid = sources;
   for (LabelSource& source : solid)

@@ -25,7 +25,7 @@ LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
                                    "' has index 0, which means nothing");
     if (n > 0 && names[n].index == names[n - 1].index)
       throw core::InvalidParameter("label map: segments '" + names[n - 1].name + "' and '" +
-                                   names[n].name + "' occupancy index " +
+                                   names[n].name + "' share index " +
                                    std::to_string(names[n].index));
   }
 

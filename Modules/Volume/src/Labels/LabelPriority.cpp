@@ -191,8 +191,8 @@ bool LabelTiles::any(const core::IndexBox& voxels) const noexcept
   return false;
 }
 
-std::vector<LabelPriority> rankLabels(const std::vector<LabelSource>& sources, const LabelOrder& order,
-                                   const core::Progress& progress)
+std::vector<LabelPriority> rankLabels(const std::vector<LabelSource>& sources,
+                                      const LabelOrder& order, const core::Progress& progress)
 {
   const std::vector<Group> groups = groupByGrid(sources, order);
   std::vector<LabelPriority> result;

@@ -87,8 +87,8 @@ struct LabelPriority
 
 /// One entry for each grid of the sources, in their order; grids without a voxel of any source are
 /// omitted.
-std::vector<LabelPriority> rankLabels(const std::vector<LabelSource>& sources, const LabelOrder& order,
-                                   const core::Progress& progress);
+std::vector<LabelPriority> rankLabels(const std::vector<LabelSource>& sources,
+                                      const LabelOrder& order, const core::Progress& progress);
 
 /// Zero-initialised voxels that take memory only where other values are written.
 template <class T>

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kHalf = 0.5 - 1e-6; // a tie counts as inside
 constexpr double kAligned = 5e-3;    // voxels
-constexpr int kMaxSamples = 8;      // per axis, in a common voxel
+constexpr int kMaxSamples = 8;       // per axis, in a common voxel
 
 // ---- the common grid
 

@@ -29,7 +29,7 @@ OccupancySurface::OccupancySurface(const Volume<float>& occupancy)
 
 // The first axis runs fastest.
 std::array<double, 8> OccupancySurface::corners(const core::Index3& lower,
-                                            const core::Index3& upper) const noexcept
+                                                const core::Index3& upper) const noexcept
 {
   std::array<double, 8> values{};
   for (int n = 0; n < 8; ++n)
@@ -71,7 +71,8 @@ std::vector<core::Index3> OccupancySurface::crossedCells(const core::Progress& p
       const auto insideAt = [&](int i)
       {
         return int{m_occupancy.at(i, j, k) > 0.5F} + int{m_occupancy.at(i, j + 1, k) > 0.5F} +
-               int{m_occupancy.at(i, j, k + 1) > 0.5F} + int{m_occupancy.at(i, j + 1, k + 1) > 0.5F};
+               int{m_occupancy.at(i, j, k + 1) > 0.5F} +
+               int{m_occupancy.at(i, j + 1, k + 1) > 0.5F};
       };
       int before = insideAt(0);
       for (int i = 0; i + 1 < dims[0]; ++i)
@@ -109,7 +110,7 @@ std::vector<Eigen::Vector3f> OccupancySurface::points(const core::Progress& prog
 // Alternately projects onto the surface and slides along it towards the foot of the perpendicular.
 // Every point on the surface is an upper bound of the distance, so the minimum is kept.
 double OccupancySurface::refined(const Eigen::Vector3d& position,
-                             const Eigen::Vector3f& near) const noexcept
+                                 const Eigen::Vector3f& near) const noexcept
 {
   const double h = m_spacing.minCoeff();
   Eigen::Vector3d point = near.cast<double>();

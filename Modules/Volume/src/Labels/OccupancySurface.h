@@ -57,7 +57,8 @@ private:
 };
 
 template <class Visit>
-void OccupancySurface::forEachCrossing(const core::Index3& cell, int parts, const Visit& visit) const
+void OccupancySurface::forEachCrossing(const core::Index3& cell, int parts,
+                                       const Visit& visit) const
 {
   const std::array<double, 8> c = corners(cell, {cell[0] + 1, cell[1] + 1, cell[2] + 1});
   constexpr int most = kMaxParts + 1;

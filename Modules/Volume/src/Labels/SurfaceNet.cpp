@@ -473,8 +473,8 @@ void SurfaceNet::relax(const core::Progress& progress)
 }
 
 std::shared_ptr<Volume<float>> smoothedOccupancy(const Volume<std::uint8_t>& inside,
-                                             const core::Progress& progress,
-                                             const SurfaceNet::Wanted& wanted)
+                                                 const core::Progress& progress,
+                                                 const SurfaceNet::Wanted& wanted)
 {
   auto occupancy = makeZeroVolume<float>(inside.geometry());
   SurfaceNet net(inside, progress, wanted);

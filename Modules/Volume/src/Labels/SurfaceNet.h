@@ -135,7 +135,8 @@ private:
 
   std::vector<std::array<float, 2>> heightsIn(const core::IndexBox& tile) const;
   void writeDistances(Volume<float>& occupancy, const core::Progress& progress) const;
-  void writeDistancesIn(const core::IndexBox& tile, bool near, const OccupancyView& occupancy) const;
+  void writeDistancesIn(const core::IndexBox& tile, bool near,
+                        const OccupancyView& occupancy) const;
   void joinThin(const OccupancyView& occupancy, const std::vector<std::size_t>& thinPoints) const;
   void fitThin(const OccupancyView& occupancy, const core::IndexBox& target,
                const std::vector<std::size_t>& thinPoints) const;
@@ -170,7 +171,7 @@ private:
 
 /// The occupancy that the relaxed net of `inside` writes, on its grid.
 std::shared_ptr<Volume<float>> smoothedOccupancy(const Volume<std::uint8_t>& inside,
-                                             const core::Progress& progress,
-                                             const SurfaceNet::Wanted& wanted = {});
+                                                 const core::Progress& progress,
+                                                 const SurfaceNet::Wanted& wanted = {});
 
 } // namespace petrous::volume

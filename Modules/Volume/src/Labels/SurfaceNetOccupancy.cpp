@@ -19,7 +19,7 @@ namespace
 
 constexpr float kReach = 1.9F;     // voxels, radius within which a point counts
 constexpr int kSpan = 2;           // cells within that radius
-constexpr float kMin = 0.05F;    // minimum |distance| of any voxel, voxels
+constexpr float kMin = 0.05F;      // minimum |distance| of any voxel, voxels
 constexpr float kThinDepth = 0.3F; // voxels that touch others by an edge or a corner
 
 // Depth outside of a voxel next to such voxels, as a fraction of the sum of their depths (of the
@@ -104,7 +104,7 @@ void SurfaceNet::writeOccupancy(Volume<float>& occupancy, const core::Progress& 
   writeDistances(occupancy, progress);
   const core::IndexBox full = occupancy.geometry().fullBox();
   const OccupancyView all{full, occupancy.data(), full.upper[0],
-                      static_cast<std::ptrdiff_t>(full.upper[0]) * full.upper[1]};
+                          static_cast<std::ptrdiff_t>(full.upper[0]) * full.upper[1]};
   std::vector<std::uint8_t> thin(m_points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, thin.size(), 4096),
                     [&](const tbb::blocked_range<std::size_t>& range)
@@ -131,7 +131,7 @@ void SurfaceNet::writeOccupancyIn(const core::IndexBox& box, Volume<float>& occu
   const core::Index3 size = around.size();
   std::vector<float> values(around.count(), 0.0F);
   const OccupancyView view{around, values.data(), size[0],
-                       static_cast<std::ptrdiff_t>(size[0]) * size[1]};
+                           static_cast<std::ptrdiff_t>(size[0]) * size[1]};
   writeDistancesIn(around, true, view);
   std::vector<std::size_t> thinPoints;
   const core::IndexBox cells = grown(target, 2).intersected(full);
@@ -222,7 +222,8 @@ void SurfaceNet::writeDistances(Volume<float>& occupancy, const core::Progress& 
     tiles.row(point.cell[1] / LabelTiles::kEdge,
               point.cell[2] / LabelTiles::kEdge)[point.cell[0] / LabelTiles::kEdge] = 1;
   const core::IndexBox full = occupancy.geometry().fullBox();
-  const OccupancyView all{full, occupancy.data(), dims[0], static_cast<std::ptrdiff_t>(dims[0]) * dims[1]};
+  const OccupancyView all{full, occupancy.data(), dims[0],
+                          static_cast<std::ptrdiff_t>(dims[0]) * dims[1]};
   const auto writeTile = [&](const core::Index3&, const core::IndexBox& tile)
   {
     const bool near = tiles.any(grown(tile, kSpan));
@@ -291,7 +292,8 @@ std::uint8_t SurfaceNet::thinCorners(std::size_t point) const noexcept
 // Lifts voxels next to two or three that touch by an edge or a corner: enough to connect these, and
 // little enough to stay outside themselves. For a part of the occupancies, all but its outermost
 // voxels are valid.
-void SurfaceNet::joinThin(const OccupancyView& occupancy, const std::vector<std::size_t>& thinPoints) const
+void SurfaceNet::joinThin(const OccupancyView& occupancy,
+                          const std::vector<std::size_t>& thinPoints) const
 {
   struct Corners
   {
@@ -329,7 +331,8 @@ void SurfaceNet::joinThin(const OccupancyView& occupancy, const std::vector<std:
                 [&](int corner, float to)
                 {
                   if (!has(cell.corners, corner) && to > at(corner))
-                    lifts.emplace_back(voxelOf(cell.cell, corner), occupancyOf(std::min(to, -kMin)));
+                    lifts.emplace_back(voxelOf(cell.cell, corner),
+                                       occupancyOf(std::min(to, -kMin)));
                 });
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 256),

@@ -17,7 +17,7 @@ namespace
 using Eigen::Vector3d;
 
 constexpr int kMaxTouchTests = 16; // per axis, in a voxel of the source
-constexpr double kWhole = 0.52; // minimum occupancy halfway between voxels of a thin structure
+constexpr double kWhole = 0.52;    // minimum occupancy halfway between voxels of a thin structure
 
 class ThinStructures
 {

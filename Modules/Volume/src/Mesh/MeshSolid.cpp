@@ -26,7 +26,7 @@ constexpr double kWhole = 0.02;  // the same if memory is limited
 constexpr double kSharp = 0.08;  // of thickness times spacing: see MeshSolid.h
 constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, rather than the edge of something
 constexpr std::size_t kMaxSamples = 20000; // triangles at which thickness is measured
-constexpr double kGuarded = 0.501;          // stays above 0.5 when rounded to 16 bits
+constexpr double kGuarded = 0.501;         // stays above 0.5 when rounded to 16 bits
 
 const char* const kTask = "making a mesh touchable";
 
@@ -330,7 +330,7 @@ bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexce
 }
 
 std::shared_ptr<const Volume<float>> protectionMaskOf(const Volume<float>& solid,
-                                             const core::GridGeometry& grid)
+                                                      const core::GridGeometry& grid)
 {
   const core::GridGeometry& from = solid.geometry();
   const auto bounds = from.patientBounds();

@@ -38,8 +38,8 @@ inline bool operator==(const InputDevice& a, const InputDevice& b)
 struct DeviceList
 {
   std::vector<InputDevice> devices{InputDevice()}; ///< the mouse first
-  bool pedal = false;              ///< one is connected and can be opened
-  std::string pedalAdvice;         ///< what to do about an unusable one; usually empty
+  bool pedal = false;                              ///< one is connected and can be opened
+  std::string pedalAdvice; ///< what to do about an unusable one; usually empty
 };
 
 inline bool operator==(const DeviceList& a, const DeviceList& b)
@@ -68,7 +68,8 @@ public:
 
   /// Waits until a server is ready (up to 10 s) or `wanted` returns false. Throws
   /// devices::ServerError, InvalidParameter.
-  ActiveDevice(const DeviceSources& sources, const InputDevice& input, std::function<bool()> wanted = {});
+  ActiveDevice(const DeviceSources& sources, const InputDevice& input,
+               std::function<bool()> wanted = {});
   ~ActiveDevice() override; ///< stops the server: up to 0.7 s
 
   const InputDevice& input() const noexcept { return m_input; }

@@ -12,6 +12,7 @@ namespace petrous::presenters
 /// scaled by the ratio of the surface's opacity to that preset's: 1 - (1 - o)^(opacity / preset's).
 /// A user-defined transfer function is kept; only the surface changes then. Colour and flags are
 /// kept.
-appearance::StructureAppearance withOpacity(const appearance::StructureAppearance& bone, double opacity);
+appearance::StructureAppearance withOpacity(const appearance::StructureAppearance& bone,
+                                            double opacity);
 
 } // namespace petrous::presenters

@@ -36,10 +36,10 @@ struct RegistrationRequest
   core::RigidTransform given;                        ///< X_MC, CT to MR patient points
   /// How `given` was obtained; none: by hand, or by another program.
   std::optional<scene::Registration> givenBy;
-  bool lookAround = false; ///< also search around `given`, as far as from the header
-  bool asIs = false;       ///< no fit: placed by landmarks, user or frame of reference
-  std::optional<RegistrationPlace> at;    ///< none: see defaultPlace
-  std::string atStructure;                ///< or there, if `at` is empty; see placeOf
+  bool lookAround = false;             ///< also search around `given`, as far as from the header
+  bool asIs = false;                   ///< no fit: placed by landmarks, user or frame of reference
+  std::optional<RegistrationPlace> at; ///< none: see defaultPlace
+  std::string atStructure;             ///< or there, if `at` is empty; see placeOf
   std::optional<core::PatientBox> region; ///< CT patient box to fit in; none: everywhere
   std::string onto; ///< another, already registered MR to fit to; empty: the CT
   std::uint32_t seed = 1;

@@ -47,8 +47,8 @@ struct DeviceSwitches
 
 /// Throws InvalidParameter for a degenerate camera.
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                          const DeviceMapping& lead, const core::CameraPose& camera,
-                                          const DeviceSwitches& switches);
+                                       const DeviceMapping& lead, const core::CameraPose& camera,
+                                       const DeviceSwitches& switches);
 
 /// The centre (TouchSession::Setup) that brings the tool to `tool` (patient mm) while the device is
 /// at `hand` (frame D, mm). With the device at its origin: `tool` itself.

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "petrous/Session/TouchScene.h"
 #include "petrous/Session/RecordingReplay.h"
+#include "petrous/Session/TouchScene.h"
 
 namespace petrous::presenters
 {
@@ -32,7 +32,7 @@ public:
   /// Throws InvalidParameter describing how the case differs from its state when the recording
   /// began, and how to restore that.
   RecordingPlayer(scene::Case& value, session::TouchScene& scene, session::RecordingReader& reader,
-             const std::string& name, std::optional<core::CameraPose> camera = std::nullopt);
+                  const std::string& name, std::optional<core::CameraPose> camera = std::nullopt);
 
   /// Brings the mask to the state in effect at the next tick; returns that tick as recorded, or
   /// nullptr at the end. Throws RecordingError.
@@ -45,10 +45,7 @@ public:
   /// it.
   void follow() { m_replay.follow(); }
 
-  const session::RecordingReplay::Outcome& outcome() const noexcept
-  {
-    return m_replay.outcome();
-  }
+  const session::RecordingReplay::Outcome& outcome() const noexcept { return m_replay.outcome(); }
 
 private:
   std::unique_ptr<haptics::Proxy> m_proxy;

@@ -29,7 +29,8 @@ struct SurfaceUncertainty
   bool incomplete() const { return !drawnOn.empty() && !registration; }
 };
 
-SurfaceUncertainty uncertaintyOf(const scene::Case& value, const scene::StructureOccupancy& structure);
+SurfaceUncertainty uncertaintyOf(const scene::Case& value,
+                                 const scene::StructureOccupancy& structure);
 
 /// "voxels 0.20 x 0.20 x 0.60 mm, slices 0.60 mm apart", and if drawn on an MR: "; drawn on the MR
 /// 'T2', registered to 0.24 mm (p95) at the incus, 14 mm from here".

@@ -13,10 +13,10 @@
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SceneAssembly.h"
-#include "petrous/Session/RemovedVolumeEstimator.h"
-#include "petrous/Session/TouchSession.h"
 #include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Session/RemovedVolumeEstimator.h"
+#include "petrous/Session/TouchSession.h"
 
 namespace petrous::presenters
 {
@@ -58,7 +58,8 @@ struct PreparedCase
     std::string why;      ///< one sentence
   };
   SceneAssembly assembly;
-  std::optional<session::DrillSession> drill;   ///< of a copy that is gone: only a template for another one
+  std::optional<session::DrillSession>
+      drill;                           ///< of a copy that is gone: only a template for another one
   std::vector<LeftOut> labels, meshes; ///< missing or damaged
   std::uint64_t parts = 0;             // of the model when it was copied
   std::uint64_t tissue = 0;            // likewise
@@ -244,13 +245,13 @@ private:
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
   SceneAssembly m_assembly;
-  std::optional<session::DrillSession> m_session;      ///< made on demand, until there is m_scene
-  std::shared_ptr<JournalThread> m_journal;   ///< shared with the removal thread
-  std::optional<library::SavedState> m_saved; ///< none before the case is in the library
+  std::optional<session::DrillSession> m_session; ///< made on demand, until there is m_scene
+  std::shared_ptr<JournalThread> m_journal;       ///< shared with the removal thread
+  std::optional<library::SavedState> m_saved;     ///< none before the case is in the library
   std::unique_ptr<session::TouchScene> m_scene;
-  std::unique_ptr<session::TouchSession> m_touch;      ///< after m_scene, which it uses
-  std::unique_ptr<PointProbe> m_reader;      ///< made on demand; likewise
-  std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; unaffected by removal
+  std::unique_ptr<session::TouchSession> m_touch; ///< after m_scene, which it uses
+  std::unique_ptr<PointProbe> m_reader;           ///< made on demand; likewise
+  std::unique_ptr<NearbyStructures> m_nearby;     ///< likewise; unaffected by removal
   session::RemovedVolumeEstimator m_meter;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;

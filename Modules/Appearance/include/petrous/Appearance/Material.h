@@ -19,7 +19,7 @@ struct Material
   IntensitySource source = IntensitySource::Ct;
   float surfaceOpacity = 1.0F; ///< of the surface itself, 0 to 1; below 1 the interior is visible
   float shininess = 18.0F;     ///< specular exponent
-  bool lumen = false; ///< not rendered itself: it tints the bone that bounds it
+  bool lumen = false;          ///< not rendered itself: it tints the bone that bounds it
 };
 
 } // namespace petrous::appearance

@@ -27,7 +27,7 @@ struct StructureAppearance
   bool relative = false;   ///< values of `transfer` are mapped to the case's scale (onScale)
   std::string sourceImage; ///< the MR whose intensities `transfer` reads; empty: the CT
   float shininess = 18.0F; ///< specular exponent, 1 to 200
-  int priority = 90; ///< where structures overlap, the lowest number owns the voxel
+  int priority = 90;       ///< where structures overlap, the lowest number owns the voxel
 };
 
 constexpr float kSmallestShininess = 1.0F;

@@ -17,7 +17,8 @@
 
 #define PETROUS_DEVICE_MAGIC UINT64_C(0x3156454452544550) /* the bytes "PETRDEV1" */
 #define PETROUS_DEVICE_VERSION 1u
-#define PETROUS_DEVICE_SILENCE_NS INT64_C(50000000) /* motors off without a wrench for this long */
+#define PETROUS_DEVICE_SILENCE_NS INT64_C(50000000) /* motors off without a wrench for this long   \
+                                                     */
 
 /* petrous_state */
 enum
@@ -83,10 +84,10 @@ struct petrous_device_block
   uint32_t server_pid;
   uint32_t server_state;
   uint32_t flags;
-  uint64_t server_beat; /* incremented at least 100 times a second, by the SDK's thread */
-  double max_force;     /* N */
-  double max_torque;    /* N mm */
-  double max_stiffness; /* N/mm rendered stably */
+  uint64_t server_beat;         /* incremented at least 100 times a second, by the SDK's thread */
+  double max_force;             /* N */
+  double max_torque;            /* N mm */
+  double max_stiffness;         /* N/mm rendered stably */
   double max_angular_stiffness; /* N mm/rad */
   uint64_t reserved1;
   char name[64];   /* for display, UTF-8, zero-terminated */

@@ -28,7 +28,7 @@ public:
     std::string name;
     std::size_t tip = kStart;      ///< its last stroke
     std::size_t position = kStart; ///< current state on it, or the state when it was left
-    bool setAside = false; ///< created by drilling after an undo, and not renamed
+    bool setAside = false;         ///< created by drilling after an undo, and not renamed
   };
 
   /// One branch, without strokes.

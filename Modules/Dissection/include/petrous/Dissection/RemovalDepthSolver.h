@@ -67,7 +67,7 @@ public:
   /// keep    structures that are not drilled
   /// radius  of the burr, mm. Throws InvalidParameter if it is not above 0.
   RemovalDepthSolver(const volume::TissueField& tissue, const TissueResistance& resistance,
-             ProtectedTissue keep, double radius);
+                     ProtectedTissue keep, double radius);
   ~RemovalDepthSolver();
 
   /// Returns nullopt if the work is not positive or too little for a quantisation step of the mask,

@@ -72,10 +72,10 @@ private:
 
   std::array<ShellSweep::Hit, kMaxHits> m_hits; // latest stops since the tool last moved
   std::size_t m_hitCount = 0;
-  double m_lift = 0.0;              // mm, over the next bump
-  bool m_caught = false;            // the last tick made no progress
-  bool m_waits = false;             // for surface samples; continues in the next tick
-  std::uint64_t m_caughtIn = 0;     // number of the mask state of that tick
+  double m_lift = 0.0;                            // mm, over the next bump
+  bool m_caught = false;                          // the last tick made no progress
+  bool m_waits = false;                           // for surface samples; continues in the next tick
+  std::uint64_t m_caughtIn = 0;                   // number of the mask state of that tick
   std::unique_ptr<PoseBacktracker> m_backtracker; // moves m_sweep
   ProxyTick m_tick;
 };

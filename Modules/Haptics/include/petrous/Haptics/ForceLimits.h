@@ -34,7 +34,7 @@ public:
     double torqueSlew = 2e5;   ///< N mm/s, > 0
     double fadeIn = 0.1;       ///< s, > 0
     double fadeOut = 0.02;     ///< s, > 0
-    double maxStep = 0.01; ///< s, > 0
+    double maxStep = 0.01;     ///< s, > 0
   };
 
   /// Which limits the last call applied.

@@ -78,7 +78,7 @@ public:
   /// Throws InvalidParameter naming the first invalid value. The angular stiffness of `parameters`
   /// is not used.
   PointProxy(std::shared_ptr<const HapticField> field, const CentreBurr& burr,
-              const ProxyParameters& parameters = {});
+             const ProxyParameters& parameters = {});
   ~PointProxy() override;
 
   double pointForce() const noexcept { return m_pointForce; }  ///< f_0, N
@@ -121,10 +121,10 @@ private:
   std::array<Plane, kMaxHits> m_hits; // where sweeps of this tick ended, and some kept planes
   std::size_t m_hitCount = 0;
   std::array<Plane, kMaxHits + 1> m_rows; // of the last problem
-  std::size_t m_firstHit = 0;              // first row of m_hits
-  std::size_t m_planes = 0;                // rows that are planes: all but those of soft structures
-  std::unique_ptr<PoseBacktracker> m_backtracker;        // moves m_sweep
-  std::uint64_t m_number = 0;              // of the mask state in the last tick
+  std::size_t m_firstHit = 0;             // first row of m_hits
+  std::size_t m_planes = 0;               // rows that are planes: all but those of soft structures
+  std::unique_ptr<PoseBacktracker> m_backtracker; // moves m_sweep
+  std::uint64_t m_number = 0;                     // of the mask state in the last tick
   ProxyTick m_tick;
 };
 

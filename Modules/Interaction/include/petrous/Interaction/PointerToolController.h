@@ -28,10 +28,10 @@ struct AimSettings
   double turn =
       -40.0; ///< degrees on the screen from right (0) to up (90): a right hand, from below
 
-  double depthStep = 0.25; ///< mm per notch or key, in (0, 10]; over half a typical CT voxel
-  double nudgeStep = 0.25; ///< mm per key, in (0, 10]
-  double fineFraction = 0.2;  ///< fraction of a step while Shift is held, in (0, 1]
-  double maxLead = 5.0;   ///< mm that the wanted position leads the tool, in (0, 50]; limits force
+  double depthStep = 0.25;   ///< mm per notch or key, in (0, 10]; over half a typical CT voxel
+  double nudgeStep = 0.25;   ///< mm per key, in (0, 10]
+  double fineFraction = 0.2; ///< fraction of a step while Shift is held, in (0, 1]
+  double maxLead = 5.0; ///< mm that the wanted position leads the tool, in (0, 50]; limits force
 
   /// Depth change in mm of the tissue under a pressed pointer, deeper or higher than where it was
   /// last pressed, in (0, 100]. Beyond it the tissue counts as another surface, over an edge of

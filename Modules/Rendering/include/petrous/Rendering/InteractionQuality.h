@@ -15,7 +15,7 @@ class InteractionQuality
 {
 public:
   static constexpr double kSmallestScale = 0.15; ///< relative to the picture's edge
-  static constexpr double kMaxStep = 1.0;    ///< voxels
+  static constexpr double kMaxStep = 1.0;        ///< voxels
 
   /// Throws InvalidParameter unless 1 <= hz <= 240.
   explicit InteractionQuality(double hz = 30.0);

@@ -12,15 +12,15 @@ namespace petrous::rendering
 /// Documentation/benchmarks.
 struct RenderQuality
 {
-  double step = 0.5;         ///< sampling distance in units of the smallest CT spacing, 0.05 to 100
-  int bisections = 8;        ///< per step, where false position fails; 0 to 24
-  int brick = 4;             ///< edge length of a skippable brick, voxels: 4, 8 or 16
+  double step = 0.5;  ///< sampling distance in units of the smallest CT spacing, 0.05 to 100
+  int bisections = 8; ///< per step, where false position fails; 0 to 24
+  int brick = 4;      ///< edge length of a skippable brick, voxels: 4, 8 or 16
   /// Transmittance at which a ray terminates (0 to 1); the rest takes the mean colour so far
   double termination = 0.01;
-  int tableSize = 1024;      ///< entries of a pre-integrated table; 16 to 4096
-  int maskBits = 16;         ///< of the cut mask on the GPU: 8 or 16
-  double imageScale = 1.0;   ///< samples per pixel along each axis, 0.1 to 1
-  int largestTexture = 0;    ///< max. texels along an edge of a volume; 0: driver's limit
+  int tableSize = 1024;    ///< entries of a pre-integrated table; 16 to 4096
+  int maskBits = 16;       ///< of the cut mask on the GPU: 8 or 16
+  double imageScale = 1.0; ///< samples per pixel along each axis, 0.1 to 1
+  int largestTexture = 0;  ///< max. texels along an edge of a volume; 0: driver's limit
 
   /// Throws InvalidParameter naming the first value out of range.
   void validate() const;

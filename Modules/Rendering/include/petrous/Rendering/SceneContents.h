@@ -42,8 +42,8 @@ struct LightSettings
   double ambient = 0.16;   ///< ambient fraction of the surface colour
   double specular = 0.18;  ///< strength of the highlight, 0 to 1
   double shininess = 18.0; ///< of meshes and tools; tissues of the volume have their own
-  double falloff = 0.0; ///< mm from the light to half its intensity; 0: no attenuation
-  double wetness = 0.0; ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
+  double falloff = 0.0;    ///< mm from the light to half its intensity; 0: no attenuation
+  double wetness = 0.0;    ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
 };
 
 /// A second image in the same scene, sampled by the materials that ask for it.

@@ -63,8 +63,7 @@ struct StrokePart
   std::string object;
   std::size_t bytes = 0; ///< on disk
   dissection::StrokeInfo info;
-  std::shared_ptr<const dissection::Stroke>
-      stroke; ///< with its voxels; nullptr until loaded
+  std::shared_ptr<const dissection::Stroke> stroke; ///< with its voxels; nullptr until loaded
 };
 
 /// One patient's case as a value: its parts, their appearance, and what was drilled.

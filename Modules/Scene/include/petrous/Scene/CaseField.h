@@ -34,8 +34,9 @@ struct LabelSources
 /// ossicle, inner ear, tumour, cholesteatoma, dura, others, muscle, bone; among lumens, the ear
 /// canal before air cells. Loads the labels of these structures. Throws InvalidParameter for more
 /// than 255 structures.
-LabelSources labelSources(const Case& value,
-                          const std::function<bool(const appearance::StructureAppearance&)>& wanted);
+LabelSources
+labelSources(const Case& value,
+             const std::function<bool(const appearance::StructureAppearance&)>& wanted);
 
 /// volume::makeLabelField of these sources; read from and stored in the case's derived data.
 std::shared_ptr<const volume::LabelField> labelField(const Case& value, const LabelSources& sources,
@@ -53,7 +54,8 @@ struct MeshSolid
 /// and haptics. Voxels are computed on first use and cached with the case. Loads these meshes.
 /// Throws CancelledError.
 std::vector<MeshSolid>
-meshSolids(const Case& value, const std::function<bool(const appearance::StructureAppearance&)>& wanted,
+meshSolids(const Case& value,
+           const std::function<bool(const appearance::StructureAppearance&)>& wanted,
            const core::Progress& progress = {});
 
 /// All meshes of the case that may contain one of these points (patient LPS mm).

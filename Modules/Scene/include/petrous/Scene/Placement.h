@@ -14,8 +14,8 @@ namespace petrous::scene
 /// place in CT space: it is not rendered, touched, drilled or measured.
 struct Placement
 {
-  std::string drawnOn; ///< name of the MR; empty: in the CT's patient space
-  std::string missing; ///< why it has no place in CT space, to follow its name; or empty
+  std::string drawnOn;           ///< name of the MR; empty: in the CT's patient space
+  std::string missing;           ///< why it has no place in CT space, to follow its name; or empty
   core::RigidTransform mrFromCt; ///< of the MR, if it has a place
 };
 

@@ -36,16 +36,17 @@ public:
   /// back (by its shaft, by protected tissue) does not drill on by itself. The remaining work is
   /// owed, at most kMaxOwed.
   static constexpr double kVoxelsAhead = 0.25; ///< voxels
-  static constexpr double kMinAhead = 0.1;   ///< mm
-  static constexpr double kMaxOwed = 0.05; ///< s of work at the present rate
+  static constexpr double kMinAhead = 0.1;     ///< mm
+  static constexpr double kMaxOwed = 0.05;     ///< s of work at the present rate
 
   /// A bite that would advance the burr by less waits for more work, at most kMaxWait.
   static constexpr double kMinAdvance = 0.005; ///< voxels
-  static constexpr double kMaxWait = 0.02;   ///< s of work at the present rate
+  static constexpr double kMaxWait = 0.02;     ///< s of work at the present rate
 
   /// search  for this burr; must outlive this
   /// Throws InvalidParameter if the spindle's speed is negative.
-  BurrRemovalModel(dissection::RemovalDepthSolver& search, const dissection::Burr& burr, double voxel);
+  BurrRemovalModel(dissection::RemovalDepthSolver& search, const dissection::Burr& burr,
+                   double voxel);
 
   void press(const TickRecord& record, double seconds) override;
   std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) override;

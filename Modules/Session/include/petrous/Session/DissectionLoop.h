@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "petrous/Dissection/Dissection.h"
-#include "petrous/Session/RemovalModel.h"
 #include "petrous/Session/MaskEdit.h"
+#include "petrous/Session/RemovalModel.h"
 #include "petrous/Volume/PublishedMask.h"
 
 namespace petrous::session
@@ -37,8 +37,9 @@ public:
   };
 
   /// All must outlive this; `mask` must have been published from dissection.mask().
-  DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask, RemovalModel& removalModel,
-                 dissection::ProtectedTissue keep = {}, Hooks hooks = {});
+  DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
+                 RemovalModel& removalModel, dissection::ProtectedTissue keep = {},
+                 Hooks hooks = {});
 
   /// Processes one tick; true if tissue was removed.
   bool step(const TickRecord& record);

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "petrous/Dissection/ToolPath.h"
-#include "petrous/Session/TouchScene.h"
 #include "petrous/Session/DissectionLoop.h"
 #include "petrous/Session/RecordingWriter.h"
 #include "petrous/Session/Servo.h"
 #include "petrous/Session/SurfaceApproach.h"
+#include "petrous/Session/TouchScene.h"
 
 namespace petrous::session
 {

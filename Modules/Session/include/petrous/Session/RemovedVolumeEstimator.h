@@ -19,7 +19,7 @@ public:
   /// What the open stroke of a copy has removed; called in the other thread.
   using Measure = std::function<dissection::RemovedVolume(const dissection::Dissection&)>;
 
-  static constexpr double kEvery = 0.25;  ///< s, minimum between starts of two measurements
+  static constexpr double kEvery = 0.25; ///< s, minimum between starts of two measurements
   static constexpr double kMaxShare = 4; ///< minimum interval in durations of a measurement
 
   /// At most some tenths of a second old; empty while no stroke is open. Never blocks.

@@ -45,19 +45,19 @@ struct TickRecord
 {
   std::uint64_t number = 0; ///< tick number, from 0
   TickInput input;
-  PoseValues mapped;   ///< the device as mapped to the patient, X_PT
-  PoseValues proxy;    ///< the tool, X_PT; origin at the burr's centre
+  PoseValues mapped; ///< the device as mapped to the patient, X_PT
+  PoseValues proxy;  ///< the tool, X_PT; origin at the burr's centre
   /// On the hand, about the tool's origin, patient axes, before limits. Sum of the contacts, except
   /// for pointer and pressed tools: limited to the thrust and, where tissue holds the tool, the
   /// coupling's force, which the contacts may not fully account for.
   WrenchValues wrench;
-  WrenchValues output; ///< as sent to the device, frame D
-  double thrust = 0.0; ///< N, sum over the burr's contacts
+  WrenchValues output;                   ///< as sent to the device, frame D
+  double thrust = 0.0;                   ///< N, sum over the burr's contacts
   double burrForce[3] = {0.0, 0.0, 0.0}; ///< N, of the burr's contacts on the tool, patient axes
-  double contactRadius = 0.0;  ///< mm, of the burr's contacts from the spindle axis,
-                               ///< thrust-weighted
-  double elevation = 0.0;      ///< rad, of the spindle above the contact's tangent plane
-  double penetration = 0.0;    ///< mm
+  double contactRadius = 0.0;            ///< mm, of the burr's contacts from the spindle axis,
+                                         ///< thrust-weighted
+  double elevation = 0.0;                ///< rad, of the spindle above the contact's tangent plane
+  double penetration = 0.0;              ///< mm
   double verdictValue = 0.0;   ///< haptics::DeviceGuard::Judgement::value of a bad reading
   std::uint64_t maskState = 0; ///< number of the mask state used (volume::MaskState)
   std::uint16_t contacts = 0;  ///< active contacts

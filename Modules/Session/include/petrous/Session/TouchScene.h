@@ -10,8 +10,8 @@
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
 #include "petrous/Session/CaseRemoval.h"
-#include "petrous/Session/DrillSession.h"
 #include "petrous/Session/DissectionLoop.h"
+#include "petrous/Session/DrillSession.h"
 #include "petrous/Session/Recording.h"
 #include "petrous/Session/Servo.h"
 
@@ -80,7 +80,7 @@ public:
   /// servo  as the session has it
   /// note   for the reader: what kind of session
   RecordingSetup recordingOf(const TouchTool& tool, const ServoSetup& servo,
-                                         const std::string& note) const;
+                             const std::string& note) const;
 
   /// The burr's removal model, for a `loop` of its own, with resistances from `catalogues`. Loads
   /// what the case's tissues need. Throws InvalidParameter.
@@ -88,14 +88,14 @@ public:
                                          const dissection::Catalogues& catalogues) const;
 
   /// Metadata of a stroke that begins now; `camera` returns the viewpoint.
-  static DissectionLoop::Begin
-  beginOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
+  static DissectionLoop::Begin beginOf(const dissection::Burr& burr,
+                                       std::function<std::optional<core::CameraPose>()> camera);
 
   /// Hooks for a dissection loop that cuts the case's own dissection: strokes are opened and added
   /// to the history as by a DrillSession, and the case follows undo and redo. Not for a loop that
   /// cuts a fork of it (TouchSession).
-  DissectionLoop::Hooks
-  hooksOf(const dissection::Burr& burr, std::function<std::optional<core::CameraPose>()> camera);
+  DissectionLoop::Hooks hooksOf(const dissection::Burr& burr,
+                                std::function<std::optional<core::CameraPose>()> camera);
 
 private:
   scene::Case& m_case;

@@ -56,7 +56,7 @@ public:
   struct News
   {
     std::optional<TickRecord> record; ///< the latest; none before the first tick
-    std::vector<std::size_t> bricks;              ///< of the mask that changed, sorted
+    std::vector<std::size_t> bricks;  ///< of the mask that changed, sorted
     std::vector<std::shared_ptr<const dissection::Stroke>> strokes; ///< closed; nullptr: empty
     std::vector<bool> steps;    ///< history steps; true: undo, false: redo
     std::string fault;          ///< the latest, one sentence; empty if there is none

@@ -41,10 +41,7 @@ public:
                      const Eigen::Vector3d& sight, double thrust, double dt) noexcept;
 
   /// The tool cannot get out of the tissue that holds it.
-  bool stuck() const noexcept
-  {
-    return (m_byShaft && m_idle > kIdleTicks) || m_trying > kMaxTicks;
-  }
+  bool stuck() const noexcept { return (m_byShaft && m_idle > kIdleTicks) || m_trying > kMaxTicks; }
 
   /// Call when the tool was placed elsewhere.
   void forget() noexcept;

@@ -74,7 +74,7 @@ std::shared_ptr<const LabelField> makeLabelField(const std::vector<LabelSource>&
 /// at a fraction of the time and memory. Returns nullptr if no source has a voxel. Throws as
 /// makeLabelField.
 std::shared_ptr<Volume<float>> makeSolidOccupancy(const std::vector<LabelSource>& sources,
-                                              const core::Progress& progress = {},
-                                              std::size_t maxVoxels = kMaxLabelVoxels);
+                                                  const core::Progress& progress = {},
+                                                  std::size_t maxVoxels = kMaxLabelVoxels);
 
 } // namespace petrous::volume

@@ -92,6 +92,6 @@ bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexce
 /// union, so that the mask has no steeper walls than a cut. Returns nullptr if the solid reaches no
 /// voxel of the grid.
 std::shared_ptr<const Volume<float>> protectionMaskOf(const Volume<float>& solid,
-                                             const core::GridGeometry& grid);
+                                                      const core::GridGeometry& grid);
 
 } // namespace petrous::volume

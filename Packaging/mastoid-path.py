@@ -20,7 +20,7 @@ BEHIND, ABOVE = 8.0, 5.0  # centre of the window from the centre of the scan: +y
 WINDOW = 9.0               # edge of the window
 ROW, STEP = 1.5, 0.5       # between rows, and between points of a row
 RADIUS = 2.0               # of the burr: the command's default
-DEPTHS = (1.5, 3.0, 4.5)   # of the burr's tip below the cortex, one a layer
+DEPTHS = (1.5, 3.0, 4.5)   # of the burr's tip below the cortex, one per layer
 LIFT = 6.0                 # above the cortex between layers
 FEED = 6.0                 # mm/s
 TILT = math.radians(40.0)  # of the shaft above the horizontal: a burr cuts with its side
@@ -88,7 +88,7 @@ def main(program, library, case, out):
         sys.exit(f"mastoid-path: {case}: no bone behind the ear canal")
 
     turn = math.pi / 4 - TILT / 2
-    # Takes the shaft's +z to the lateral side, and up.
+    # Rotates the shaft's +z to lateral and up.
     heading = [math.cos(turn), 0.0, side * math.sin(turn), 0.0]
     time, previous, rows = 0.0, None, []
 
@@ -101,7 +101,7 @@ def main(program, library, case, out):
                      *(f"{q:.9f}" for q in heading), drill])
 
     for depth in DEPTHS:
-        height = RADIUS - depth  # of the burr's centre over the cortex
+        height = RADIUS - depth  # of the burr's centre above the cortex
         first, last = sweep[0], sweep[-1]
         move(first[0] + side * LIFT, first[1], first[2], 0)
         for x, y, z in sweep:
@@ -119,5 +119,5 @@ if __name__ == "__main__":
         sys.exit(__doc__)
     try:
         main(*sys.argv[1:])
-    except subprocess.CalledProcessError as error:  # the program has said what is wrong
+    except subprocess.CalledProcessError as error:  # the program has printed the error
         sys.exit(error.returncode)

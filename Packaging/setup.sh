@@ -1,7 +1,7 @@
-# Set-up shared by Packaging/run and Packaging/test; sourced by them.
+# Set-up shared by Packaging/run, Packaging/test and Packaging/deb, which source it.
 #
-# Everything here writes to stderr and is quiet when there is nothing to do, so that the output
-# of `Packaging/run ARGS...` is that of `petrous ARGS...` alone.
+# Everything here writes to stderr and prints nothing if there is nothing to do, so that the output
+# of `Packaging/run ARGS...` is that of `petrous ARGS...`.
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$top/build/release
@@ -18,12 +18,12 @@ fail()
   exit 1
 }
 
-# Packages of dependencies.txt that are not installed, one a line.
+# Prints the packages of dependencies.txt that are not installed, one per line.
 missing_packages()
 {
   local wanted
   wanted=$(sed -e 's/#.*//' "$top/Packaging/dependencies.txt" | awk 'NF { print $1 }')
-  # dpkg-query fails where it knows nothing of a package: then that package is missing.
+  # dpkg-query fails for an unknown package, which is then missing.
   { dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null || true; } |
     awk -v wanted="$wanted" '
       $1 == "installed" { here[$2] = 1 }
@@ -55,7 +55,7 @@ install_packages()
   fi
 
   say "Installing $(wc -w <<<"$missing") packages (log: $log) ..."
-  # A source that does not answer is no fault as long as the packages can be had.
+  # An unreachable source is not an error if the packages are available otherwise.
   "${as_root[@]}" apt-get update </dev/null >"$log" 2>&1 || true
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=300 $missing \
@@ -63,8 +63,8 @@ install_packages()
     fail "apt-get could not install the missing packages (is there a network?): $(grep -m1 '^E: ' "$log" || tail -n1 "$log")"
 }
 
-# configure [-DNAME=VALUE...]: runs cmake where it has not run, or not with these settings.
-# Changed CMakeLists.txt files are ninja's business.
+# configure [-DNAME=VALUE...]: runs cmake unless it has already run with these settings. Changed
+# CMakeLists.txt files are handled by ninja.
 configure()
 {
   local stamp=$build/petrous-configured fresh=() log=$top/build/configure.log
@@ -91,7 +91,7 @@ compile()
     fail "the build failed"
 }
 
-# One set-up at a time in a checkout; the lock ends with unlock, or with the process.
+# One set-up at a time per checkout; the lock is released by unlock or when the process ends.
 lock()
 {
   mkdir -p "$top/build" || fail "cannot write to $top/build"

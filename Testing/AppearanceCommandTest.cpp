@@ -10,7 +10,7 @@ namespace
 
 constexpr int kSize = 48;
 
-// A cube of voxels as NRRD; `valueAt` gives the one at a squared distance from the centre.
+// Writes a cube of voxels as NRRD; `valueAt` maps the squared distance from the centre to a value.
 template <class T, class ValueAt>
 std::filesystem::path writeCube(const std::filesystem::path& path, const char* type, double spacing,
                                 const ValueAt& valueAt)
@@ -45,7 +45,7 @@ std::filesystem::path writeHead(const std::filesystem::path& path)
       });
 }
 
-// A ball of bone in air as a micro-CT scanner may write it: not in Hounsfield units.
+// A ball of bone in air in a micro-CT scanner's units, not in Hounsfield units.
 std::filesystem::path writeMicroCt(const std::filesystem::path& path)
 {
   std::mt19937 noise(1);
@@ -71,7 +71,7 @@ protected:
          quoted(cochlea) + " --mesh incus=" + quoted(m_folder / "incus.obj"));
   }
 
-  /// A file with this text; returns its quoted path.
+  /// Writes a file with this text; returns its quoted path.
   std::string file(const std::string& name, const std::string& text) const
   {
     std::ofstream(m_folder / name) << text;
@@ -252,7 +252,7 @@ TEST_F(AppearanceCommand, FindsBoneInAnImageWithoutHounsfieldUnits)
   const auto outcome = run("appearance micro --iso auto --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto list = nlohmann::json::parse(outcome.out);
-  // Halfway between air at 13000 and bone at 41000, by a quarter of the way at most.
+  // Halfway between air at 13000 and bone at 41000, within a quarter of the range.
   EXPECT_NEAR(list["iso_hu"].get<double>(), 27000.0, 7000.0);
   EXPECT_NEAR(list["dense_bone_hu"].get<double>(), 42000.0, 1500.0);
   EXPECT_NE(outcome.err.find("not in Hounsfield units"), std::string::npos) << outcome.err;

@@ -16,7 +16,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
 {
   const auto out = m_folder / "figures";
   const auto report = json("bench renderer --quick --edge 24 --out " + quoted(out));
-  // The commit that the figures were made on; "unknown" outside of a git checkout.
+  // The commit the figures were measured on; "unknown" outside of a git checkout.
   const std::string commit = report.at("commit");
   EXPECT_TRUE(std::regex_match(commit, std::regex("[0-9a-f]{12}(-dirty)?|unknown"))) << commit;
   std::set<std::string> peers, varied, marked;
@@ -40,13 +40,13 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
       if (setting.at("default").get<bool>())
         marked.insert(setting.at("varied"));
     }
-    // Truth from mathematics: a plane and a ball, whatever the size of the phantom.
+    // Analytic truth: a plane and a ball, independent of the phantom's size.
     if (scene == "slanting plane" || scene == "ball of 24 mm")
     {
       ++surfaces;
       EXPECT_LE(point.at("error").get<double>(), 0.05) << scene;
     }
-    // While the camera moves: how fast, at worst, and how coarse.
+    // During camera motion: frame rate, worst frame, and picture scale.
     if (scene.find(", interactive ") != std::string::npos)
     {
       ++interactive;
@@ -55,7 +55,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
       EXPECT_GT(extra.at("smallest_scale").get<double>(), 0.0) << scene;
       EXPECT_LE(extra.at("smallest_scale").get<double>(), 1.0) << scene;
     }
-    // A picture after an edit is the picture made anew, to the pixel.
+    // A picture after an edit equals one drawn from scratch, pixel by pixel.
     if (scene.find("a 4 mm burr") != std::string::npos)
     {
       ++surfaces;
@@ -72,7 +72,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
 }
 
-// The law, and the balls that were cut, are the truth; whole voxels follow neither thrust nor law.
+// The law and the removed balls are the truth; whole-voxel deletion follows neither thrust nor law.
 TEST_F(BenchCommand, MeasuresRemovalBesideTheLawAndWholeVoxels)
 {
   const auto out = m_folder / "figures";
@@ -110,7 +110,7 @@ TEST_F(BenchCommand, MeasuresRemovalBesideTheLawAndWholeVoxels)
   }
   EXPECT_EQ(scenes.size(), 5U);
   EXPECT_EQ(peers, 5);
-  // Six voxels of 0.2 mm a tick.
+  // Six voxels of 0.2 mm per tick.
   EXPECT_NEAR(peerRates["1.0"], 6.0 * 0.008 / 1e-3, 0.5);
   EXPECT_NEAR(peerRates["2.0"], 6.0 * 0.008 / 2e-3, 0.5);
   for (const char* name : {"removal.json", "removal.svg", "removal-5.svg"})

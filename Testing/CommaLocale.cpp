@@ -1,5 +1,5 @@
-// Preloaded into programs that are tested under a decimal comma: puts them into the environment's
-// locale from their first line on, for C and for C++, as a program that uses the modules may.
+// Preloaded into programs under test with a decimal comma: sets the environment's locale for C and
+// C++ before main, as a program using the modules may do.
 
 #include <clocale>
 #include <cstdio>
@@ -20,7 +20,7 @@ struct CommaLocale
     {
       std::locale::global(std::locale(""));
     }
-    catch (const std::runtime_error&) // there is none of that name
+    catch (const std::runtime_error&) // no such locale
     {
     }
     if (std::strcmp(std::localeconv()->decimal_point, ",") == 0)

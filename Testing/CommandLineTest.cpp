@@ -20,7 +20,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-// A cube of bone, 30 mm wide round (-35, 0, 0), in air; NRRD as any program writes it.
+// A cube of bone, 30 mm wide around (-35, 0, 0), in air; written as plain NRRD.
 std::filesystem::path writeBone(const std::filesystem::path& folder)
 {
   constexpr int n = 100;
@@ -62,7 +62,7 @@ TEST_F(CommandLine, GoesFromThePhantomToADrilledSavedCase)
   for (const auto& structure : truth["structures"])
     for (const auto& label : info["labels"])
     {
-      // A structure much larger than the voxel of 1 mm, so that counting voxels measures it.
+      // A structure much larger than the 1 mm voxels, so that counting voxels measures its volume.
       if (label["name"] != structure["name"] || structure["volume_mm3"] < 1000.0)
         continue;
       EXPECT_NEAR(label["volume_mm3"].get<double>() / structure["volume_mm3"].get<double>(), 1.0,
@@ -132,7 +132,7 @@ TEST_F(CommandLine, KeepsApproachesSideBySide)
   const double first = drill({-35, 0, 0}, "");
   const double second = drill({-35, 8, 0}, "");
   json("undo bone");
-  const double other = drill({-35, 0, 8}, " --diameter 5"); // the second stays, set aside
+  const double other = drill({-35, 0, 8}, " --diameter 5"); // keeps the second, set aside
   json("branch bone 'from above' --from 1");
   const double above = drill({-35, -8, 0}, "");
 
@@ -148,7 +148,7 @@ TEST_F(CommandLine, KeepsApproachesSideBySide)
   EXPECT_DOUBLE_EQ(both["compare"][1]["removed_mm3"], first + second);
   EXPECT_NE(run("branch bone --compare main main~1").out.find("main~1"), std::string::npos);
 
-  // The voxels are those of the branch that one is on.
+  // The voxels are those of the current branch.
   const auto mask = [this](const std::string& branch)
   {
     json("branch bone '" + branch + "'");
@@ -189,7 +189,7 @@ TEST_F(CommandLine, ProbesTheFieldThatIsDrilled)
   EXPECT_GT(points[0]["f"], 0.0);
   EXPECT_EQ(points[0]["hu"], 1500.0);
   EXPECT_LT(points[1]["f"], 0.0);
-  // The surface lies where -1000 + 2500 w = 300, w = 0.52 of the voxel between 14.7 and 15.3.
+  // The surface is where -1000 + 2500 w = 300, w = 0.52 of the voxel between 14.7 and 15.3.
   EXPECT_NEAR(points[1]["distance_mm"].get<double>(), 20.0 - (15.3 - 0.6 * 0.52), 0.02);
   EXPECT_NEAR(points[1]["normal"][2].get<double>(), 1.0, 1e-3);
   EXPECT_TRUE(points[2]["hu"].is_null());
@@ -215,7 +215,7 @@ TEST_F(CommandLine, ExportsWhatOtherProgramsOpen)
               what);
     EXPECT_GT(std::filesystem::file_size(m_folder / file), 500u) << file;
   }
-  // What is exported comes in again, voxel for voxel.
+  // Exported files can be imported again, voxel by voxel.
   json("new again --ct " + quoted(m_folder / "ct.nrrd") + " --labels " +
        quoted(m_folder / "labels.seg.nrrd"));
   const auto a = json("info ear");
@@ -352,7 +352,7 @@ TEST_F(CommandLine, ReferenceEngineWritesDepthAlongEachRay)
   EXPECT_TRUE(std::isnan(corner));
 }
 
-// What --help shows: each subcommand, and each of its options that takes a value.
+// From --help: each subcommand, and each of its options with a value.
 TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
 {
   const auto matches = [](const std::string& text, const char* pattern)
@@ -413,7 +413,7 @@ TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
   json("library delete pipe");
   EXPECT_EQ(json("library list")["cases"].size(), 1u);
   EXPECT_EQ(std::filesystem::file_size(library() / "cases/ear.json"), before);
-  // Nor is one replaced by what is written.
+  // Nor does output replace one.
   expectRefused("probe ear --points " + quoted(writePath({0, 0, 0}, {1, 0, 0})) + " --out " +
                     quoted(pipe),
                 4, "regular file");
@@ -436,7 +436,7 @@ TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
   EXPECT_NE(json("appearance 'right ear' --list")["iso_hu"], 500.0);
   expectRefused("library rename 'left ear' 'right ear'", 4, "is there already");
   expectRefused("library delete ear", 3, "no case 'ear'");
-  // By hand, as a technician does it.
+  // Manually, as a technician would.
   std::filesystem::copy(library() / "cases/left ear.json", library() / "cases/by hand.json");
   json("appearance 'by hand' --iso 600");
   EXPECT_EQ(json("appearance 'left ear' --list")["iso_hu"], 500.0);
@@ -513,7 +513,7 @@ TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
   const auto strict = run("scan --json --strict " + tilted);
   EXPECT_EQ(strict.code, 3);
   EXPECT_NE(strict.err.find("1 of 1 series not ok"), std::string::npos) << strict.err;
-  // The one object on stdout is the answer.
+  // stdout contains exactly one object, the answer.
   EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "refused");
 }
 
@@ -550,7 +550,7 @@ TEST_F(CommandLine, CtrlCEndsItByTheSignalAndLeavesNothing)
   ASSERT_EQ(::posix_spawn(&process, PETROUS_PROGRAM, &actions, nullptr, arguments.data(), environ),
             0);
   posix_spawn_file_actions_destroy(&actions);
-  // Its handler stands once SIGINT is among the caught signals of the process.
+  // Its handler is installed once SIGINT is among the process's caught signals.
   const auto handled = [process]
   {
     std::ifstream file("/proc/" + std::to_string(process) + "/status");

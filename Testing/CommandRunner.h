@@ -38,7 +38,7 @@ inline std::string quoted(const std::filesystem::path& path)
   return "'" + path.string() + "'";
 }
 
-/// Runs the petrous program as a user does, with a library and a scratch folder of its own.
+/// Runs the petrous program as a user would, with its own library and scratch folder.
 class CommandLine : public ::testing::Test
 {
 protected:
@@ -59,8 +59,7 @@ protected:
   {
     const auto out = m_folder / ".stdout";
     const auto err = m_folder / ".stderr";
-    const char* preload =
-        std::getenv("PETROUS_TEST_PRELOAD"); // into the program, not into the test
+    const char* preload = std::getenv("PETROUS_TEST_PRELOAD"); // for the program, not for the test
     const std::string command = "PETROUS_LIBRARY=" + quoted(library()) +
                                 (preload ? " LD_PRELOAD=" + quoted(preload) : "") + " " +
                                 quoted(PETROUS_PROGRAM) + " " + arguments + " >" + quoted(out) +
@@ -69,7 +68,7 @@ protected:
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(out), textOf(err)};
   }
 
-  /// With --json; the run must succeed.
+  /// Runs with --json; the run must succeed.
   nlohmann::json json(const std::string& arguments) const
   {
     const Outcome outcome = run(arguments + " --json");
@@ -77,7 +76,7 @@ protected:
     return nlohmann::json::parse(outcome.out, nullptr, false);
   }
 
-  /// Refused with this code, and one line on stderr that contains `words`.
+  /// Expects this exit code and one line on stderr containing `words`.
   void expectRefused(const std::string& arguments, int code, const std::string& words) const
   {
     const Outcome outcome = run(arguments);
@@ -88,18 +87,18 @@ protected:
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
   }
 
-  /// A small phantom patient in patient/, made once a test.
+  /// Creates a small phantom patient in patient/, once per test.
   void makePatient(const std::string& options = "--dims 64,64,60 --spacing 1.0") const
   {
     const Outcome outcome = run("sample " + quoted(m_folder / "patient") + " " + options);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
 
-  /// A straight path through `from` to `to` (LPS mm), drill on all the way, one second.
+  /// A straight path from `from` to `to` (LPS mm), drilling all the way, one second.
   std::filesystem::path writePath(const std::array<double, 3>& from,
                                   const std::array<double, 3>& to) const
   {
-    // The shaft, +z of the tool, points back along the way: w = 1 + z . a, v = z x a.
+    // The shaft, +z of the tool, points backwards along the path: w = 1 + z . a, v = z x a.
     std::array<double, 3> back{from[0] - to[0], from[1] - to[1], from[2] - to[2]};
     const double length = std::hypot(back[0], back[1], back[2]);
     std::array<double, 4> q{1.0 + back[2] / length, -back[1] / length, back[0] / length, 0.0};
@@ -122,8 +121,7 @@ protected:
 
   std::filesystem::path library() const { return m_folder / "library"; }
 
-  /// Every file of the library with its content, without its lock, its index and what can be made
-  /// again (derived/).
+  /// All files of the library with their content, except lock, index and derived data (derived/).
   std::map<std::string, std::string> libraryContent() const
   {
     std::map<std::string, std::string> files;

@@ -1,4 +1,4 @@
-// What is kept between commands changes no answer, and is made again where it is gone or damaged.
+// Data cached between commands change no answer, and are rebuilt when missing or damaged.
 
 #include "CommandRunner.h"
 
@@ -48,9 +48,9 @@ protected:
 
 TEST_F(DerivedDataCommand, ProbesTheSameWhetherSomethingIsKeptOrNot)
 {
-  const std::string regional = probed(); // nothing but what the points need
+  const std::string regional = probed(); // only the region needed for the points
   ASSERT_NE(regional.find('\n'), std::string::npos);
-  // A drill makes the whole, and leaves it for the next command.
+  // Drilling builds all of it and stores it for the next command.
   const auto path = writePath({-50, 0, 0}, {-48, 0, 0});
   ASSERT_EQ(run("drill ear --path " + quoted(path)).code, 0);
   ASSERT_EQ(run("undo ear 9").code, 0);

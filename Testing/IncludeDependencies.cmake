@@ -1,39 +1,41 @@
-# Holds every #include against what its module declares and against the table of modules.
+# Checks every #include against its module's declared dependencies and the module table.
 #
 #   cmake -D TREE=<source tree> -D DECLARED=<file> -P IncludeDependencies.cmake
 #
-# DECLARED sets PETROUS_MODULES and PETROUS_DEPENDS_<Name>, the DEPENDS of each
-# petrous_add_module. Modules that the preset leaves out are not declared and not read.
-# Every violation is one line: file, line number, what is missing or forbidden.
+# DECLARED sets PETROUS_MODULES and PETROUS_DEPENDS_<Name>, the DEPENDS of each petrous_add_module.
+# Modules omitted by the preset are not declared and not read. Each violation is one line: file,
+# line number, what is missing or forbidden.
 cmake_minimum_required(VERSION 3.25)
 
-# What a module may depend on. Arrows point down only: a row names no module above it.
+# Permitted dependencies of modules, strictly downwards: a row names no module above it.
 set(allowed_Core)
 set(allowed_Volume Core)
 set(allowed_Appearance Core Volume)
 set(allowed_Imaging Core Volume)
+set(allowed_Phantom Core Volume Imaging)
 set(allowed_Registration Core Volume)
 set(allowed_Haptics Core Volume)
 set(allowed_Devices Core Volume Haptics)
 set(allowed_Dissection Core Volume)
-set(allowed_Simulation Core Volume Haptics Dissection)
 set(allowed_Scene Core Volume Appearance Dissection)
+set(allowed_Session Core Volume Haptics Dissection Scene)
 set(allowed_Library Core Volume Appearance Dissection Scene Imaging)
 set(allowed_Rendering Core Volume Appearance)
 set(allowed_Interaction
-  Core Volume Appearance Haptics Dissection Simulation Scene Rendering)
-# The application's view models: made like a module, and free of Qt (no toolkit below).
+  Core Volume Appearance Haptics Dissection Session Scene Rendering)
+# The application's view models: built like a module, and independent of Qt (no toolkit below).
 set(allowed_Presenters
-  Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library
-  Rendering Interaction)
+  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Session Scene
+  Library Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
-  Core Volume Appearance Imaging Registration Haptics Devices Dissection Simulation Scene Library
-  Rendering Interaction Presenters)
+  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Session Scene
+  Library Rendering Interaction Presenters)
 
-# The toolkits whose headers a module may see; a module that is not named here sees none. Qt
-# belongs to the application alone.
+# The toolkits whose headers a module may include; modules not listed here include none. Qt is
+# reserved for the application.
 set(toolkits_Imaging ITK GDCM)
+set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
 set(toolkits_Library GDCM)
 set(toolkits_Rendering VTK)
@@ -43,7 +45,7 @@ set(violations)
 
 # violation(<file> <text of the #include> <message>)
 function(violation file include message)
-  # The line number, looked up only here: the lines before the match are counted.
+  # The line number is determined only here, by counting the lines before the match.
   file(READ ${file} text)
   string(FIND "${text}" "${include}" at)
   string(SUBSTRING "${text}" 0 ${at} before)
@@ -54,7 +56,7 @@ function(violation file include message)
   set(violations ${violations} "${file}:${line}: ${message}" PARENT_SCOPE)
 endfunction()
 
-# Sets <result> to the toolkit that a header's name belongs to, or to nothing.
+# Sets <result> to the toolkit of a header's name, or to nothing.
 function(toolkit_of header result)
   set(toolkit)
   if(header MATCHES "^vtk[A-Za-z0-9_]*\\.h$")
@@ -69,7 +71,7 @@ function(toolkit_of header result)
   set(${result} "${toolkit}" PARENT_SCOPE)
 endfunction()
 
-# Sets <result> to the #include lines of a file, without their line ends.
+# Sets <result> to the #include lines of a file, without line ends.
 function(includes_of file result)
   file(READ ${file} text)
   string(REGEX MATCHALL "#[ \t]*include[ \t]*[<\"][^>\"\n]+[>\"]" includes "${text}")

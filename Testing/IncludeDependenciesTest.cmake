@@ -1,10 +1,10 @@
-# Tests IncludeDependencies.cmake on small trees that are written here: a tree that keeps the
-# rules must pass, and each single violation must fail with its file, line and reason.
+# Tests IncludeDependencies.cmake on small generated trees: a tree that follows the rules must pass,
+# and each single violation must fail with its file, line and reason.
 #
 #   cmake -D WORK=<scratch folder> -P IncludeDependenciesTest.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# A tree that keeps the rules; Haptics stands for a module that the preset leaves out.
+# A tree that follows the rules; Haptics represents a module omitted by the preset.
 function(write_sound_tree)
   file(REMOVE_RECURSE ${WORK})
   file(WRITE ${WORK}/declared.cmake
@@ -32,7 +32,7 @@ function(run_script)
   set(out "${out}" PARENT_SCOPE)
 endfunction()
 
-# The sound tree with one file changed must be refused, saying `expected`.
+# The valid tree with one file changed must be rejected with `expected`.
 function(expect_failure expected file content)
   write_sound_tree()
   file(WRITE ${WORK}/${file} "${content}")

@@ -1,14 +1,14 @@
-# Numbers are written and read by Core/NumberText.h, which knows no locale: no source of a module or
-# of the application calls what follows LC_NUMERIC or the global std::locale.
+# Numbers are written and read by Core/NumberText.h, which is locale-independent: no source of a
+# module or of the application uses functions that depend on LC_NUMERIC or the global std::locale.
 #
 #   cmake -D TREE=<top> -P LocaleFreeNumbers.cmake
 #
-# It first shows itself what it must see.
+# Starts with a self-test.
 
-# Puts what is wrong with a source's text into `result`; empty: nothing.
+# Sets `result` to the violation in a source's text; empty: none.
 function(violation text result)
   set(${result} "" PARENT_SCOPE)
-  # ';' and brackets mean something to CMake's lists
+  # ';' and brackets have a meaning in CMake lists
   string(REPLACE "[" " " text "${text}")
   string(REPLACE "]" " " text "${text}")
   string(REGEX REPLACE "//[^\n]*" "" text "${text}")
@@ -24,7 +24,7 @@ function(violation text result)
       return()
     endif()
   endforeach()
-  # a stream that only takes a file's bytes is none of numbers
+  # streams used only for raw file content do not format numbers
   if(text MATCHES "[^i]o?stringstream [a-z]" AND
      NOT text MATCHES "imbue\\(std::locale::classic\\(\\)\\)|rdbuf\\(\\)")
     set(${result} "a stream without imbue(std::locale::classic()) follows the locale" PARENT_SCOPE)

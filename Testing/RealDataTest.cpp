@@ -7,7 +7,7 @@ using petrous::testing::textOf;
 namespace
 {
 
-// The whole path on real CT, where the data stand beside the project.
+// The complete workflow on real CT, if the data are available beside the project.
 class RealData : public CommandLine
 {
 protected:
@@ -37,7 +37,7 @@ protected:
       return textOf(m_folder / name);
     };
     const auto whole = render("whole.png");
-    // Into the side that is looked at, as deep as the handpiece lets the burr.
+    // Into the visible side, as deep as the handpiece permits.
     auto from = middle;
     auto to = middle;
     from[0] += middle[0] > 10.0 ? 100.0 : -100.0;

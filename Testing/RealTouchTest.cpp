@@ -8,11 +8,11 @@
 #include "CommandRunner.h"
 #include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Library/Library.h"
-#include "petrous/Presenters/HandReplay.h"
-#include "petrous/Presenters/TouchSession.h"
+#include "petrous/Presenters/RecordingPlayer.h"
+#include "petrous/Session/TouchSession.h"
 
 using namespace petrous;
-using petrous::simulation::TickRecord;
+using petrous::session::TickRecord;
 using petrous::testing::CommandLine;
 using petrous::testing::quoted;
 using petrous::testing::textOf;
@@ -22,7 +22,7 @@ namespace
 
 constexpr double kRadius = 2.0; // mm, of the burr
 
-// A burr that is dragged over the mastoid of a real CT (Visible Human, left side).
+// A burr dragged over the mastoid of a real CT (Visible Human, left side).
 class RealTouch : public CommandLine
 {
 protected:
@@ -38,9 +38,9 @@ protected:
     json("new ear --ct " + quoted(series) + " --roi 285,335,245,290,1095,1160");
   }
 
-  // An ellipse of 12 by 20 mm over the mastoid, whose surface lies at x = 310 to 320 mm, once in
-  // 4 s and up to some 4 mm deep for a burr that would not be held; the hand turns to and fro by
-  // 20 degrees. The first half second comes down from beside the head.
+  // An ellipse of 12 by 20 mm over the mastoid, whose surface is at x = 310 to 320 mm, once in 4 s
+  // and up to about 4 mm deep for an unconstrained burr; the device rotates to and fro by 20
+  // degrees. The first half second approaches from beside the head.
   static haptics::Pose handAt(double t)
   {
     const double turn = 2.0 * std::acos(-1.0) * t / 4.0;
@@ -53,7 +53,7 @@ protected:
   }
   static constexpr double kLength = 8.0; // s
 
-  // Drill on from 2 to 6 s, with a pause.
+  // Drills from 2 to 6 s, with a pause.
   std::filesystem::path path(bool drill) const
   {
     std::ofstream file(m_folder / "path.csv");
@@ -75,17 +75,17 @@ protected:
   {
     std::size_t ticks = 0;
     std::size_t pressed = 0;
-    std::size_t longest = 0;    // ticks of unbroken contact
-    double force = 0.0;         // N
-    std::size_t refilled = 0;   // ticks that say that tissue came back round the tool
-    std::size_t inside = 0;     // most such ticks in a row
-    double highest = -1e9;      // f at any shell point in any other tick: 0 is the surface
-    double overCoupling = -1e9; // how much a wrench exceeds what the spring can give
+    std::size_t longest = 0;  // ticks of uninterrupted contact
+    double force = 0.0;       // N
+    std::size_t refilled = 0; // ticks reporting tissue restored around the tool
+    std::size_t inside = 0;   // maximum number of consecutive such ticks
+    double highest = -1e9; // maximum of f at any shell point in all other ticks: 0 is the surface
+    double overCoupling = -1e9; // maximum excess of a wrench over the coupling's
   };
 
-  // Contacts only take from the spring (Gauss' principle): with K = diag(k, k_a) and u from tool to
-  // hand, sqrt(W' K^-1 W) <= sqrt(u' K u), in sqrt(N mm). A tick is a row of motions, each of which
-  // may end at contacts, so u is the longer one of where it began and where it ended.
+  // Contacts can only reduce the spring (Gauss' principle): with K = diag(k, k_a) and u from tool
+  // to device, sqrt(W' K^-1 W) <= sqrt(u' K u), in sqrt(N mm). A tick is a sequence of motions,
+  // each of which may end at contacts, so u is the longer of those at its beginning and its end.
   static double hardness(const haptics::Wrench& wrench, const haptics::ProxyParameters& k)
   {
     return std::sqrt(wrench.linear.squaredNorm() / k.stiffness +
@@ -99,16 +99,16 @@ protected:
                      k.angularStiffness * u.angular.squaredNorm());
   }
 
-  // Plays the recording in this process and looks at every tick. f is asked of the field that the
-  // picture shares, not of the one that the tool felt.
+  // Replays the recording in this process and checks every tick. f is taken from the field shared
+  // with the picture, not from the one used for the haptics.
   Felt examined(const std::filesystem::path& file)
   {
     library::Library library(this->library());
     scene::Case value = library.open("ear");
     library.loadDissection(value);
-    simulation::RecordingReader reader(file);
-    presenters::TouchScene scene(value, {}, reader.setup().scene.firstState);
-    presenters::HandReplay replay(value, scene, reader, "session.ticks");
+    session::RecordingReader reader(file);
+    session::TouchScene scene(value, {}, reader.setup().scene.firstState);
+    presenters::RecordingPlayer replay(value, scene, reader, "session.ticks");
     const auto& shell = scene.shellOf(presenters::toolOf(reader.setup())).points;
     EXPECT_GT(shell.size(), 100u);
     Felt result;
@@ -123,9 +123,9 @@ protected:
       const haptics::Pose tool = felt.proxy.pose();
       ++result.ticks;
       if (!hasBefore && felt.fault != 0)
-        continue; // the hand is not there yet
-      // The way out of tissue that an undo brought back is bounded in each tick's work.
-      const bool inside = felt.fault == static_cast<std::uint8_t>(simulation::ServoFault::Inside);
+        continue; // the device is not valid yet
+      // Leaving tissue restored by an undo is limited by each tick's work.
+      const bool inside = felt.fault == static_cast<std::uint8_t>(session::ServoFault::Inside);
       enclosed = inside ? enclosed + 1 : 0;
       result.refilled += inside;
       result.inside = std::max(result.inside, enclosed);
@@ -203,11 +203,11 @@ TEST_F(RealTouch, ALiveSessionOverTheMastoidIsPlayedAgainByTheCommand)
   const auto file = m_folder / "live.ticks";
   double removed = 0.0;
   {
-    // The library's case is read and not saved: it stays as the recording begins.
+    // The library's case is read but not saved: it keeps the state at the start of the recording.
     library::Library library(this->library());
     scene::Case value = library.open("ear");
     library.loadDissection(value);
-    presenters::TouchScene scene(value);
+    session::TouchScene scene(value);
     haptics::SimulatedDevice::Hand tremor;
     tremor.tremor = 0.05;
     double start = -1.0;
@@ -219,15 +219,15 @@ TEST_F(RealTouch, ALiveSessionOverTheMastoidIsPlayedAgainByTheCommand)
           return handAt(now - start);
         },
         tremor, {});
-    presenters::TouchSession::Setup setup;
+    session::TouchSession::Setup setup;
     setup.tool.burr.diameter = 2.0 * kRadius;
     setup.recording = file;
-    simulation::ServoParameters parameters;
-    presenters::TouchSession session(value, scene, device, setup);
+    session::ServoParameters parameters;
+    session::TouchSession session(value, scene, device, setup);
     const auto until = [&](double seconds)
     {
       const auto ticks = static_cast<std::uint64_t>(1000.0 * seconds);
-      // Frames of a window at 60 Hz; a machine that is held up loses ticks, not the test.
+      // Frames at 60 Hz; a stalled machine loses ticks, but the test does not fail.
       for (int n = 0; session.state().ticks < ticks && n < 4000; ++n)
       {
         EXPECT_EQ(session.advance().recordingFault, "");
@@ -238,7 +238,7 @@ TEST_F(RealTouch, ALiveSessionOverTheMastoidIsPlayedAgainByTheCommand)
     parameters.drill = 1;
     session.setParameters(parameters);
     until(3.0);
-    session.undo(); // in contact, and with the drill on
+    session.undo(); // in contact, while drilling
     until(4.0);
     parameters.drill = 0;
     session.setParameters(parameters);

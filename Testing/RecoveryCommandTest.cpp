@@ -10,7 +10,7 @@ using namespace petrous::testing;
 namespace
 {
 
-// A block of bone whose face towards +x lies at x = 10 mm.
+// A block of bone whose +x face is at x = 10 mm.
 class RecoveryCommand : public CommandLine
 {
 protected:
@@ -30,7 +30,7 @@ protected:
     json("new bone --ct " + quoted(m_folder / "bone.nrrd"));
   }
 
-  // Into the bone for 8 s, off for 1 s, and again beside it, for two minutes.
+  // Into the bone for 8 s, off for 1 s, and again next to it, for two minutes.
   std::filesystem::path writeSession() const
   {
     std::ofstream file(m_folder / "session.csv");
@@ -53,7 +53,7 @@ protected:
 
   std::filesystem::path journal() const { return library() / "cases/bone.journal"; }
 
-  // A command, and `beside` run once the case is being drilled.
+  // Runs a command, and `beside` once the case is being drilled.
   template <class Beside>
   Outcome besides(const std::string& arguments, const Beside& beside) const
   {
@@ -77,7 +77,8 @@ protected:
     return outcome;
   }
 
-  // The drill command, killed once its journal has grown to `bytes`. False: it ended before.
+  // Runs the drill command and kills it once its journal has reached `bytes`. False if it ended
+  // before.
   bool killDrill(const std::filesystem::path& session, std::uintmax_t bytes) const
   {
     const pid_t child = ::fork();
@@ -190,7 +191,7 @@ TEST_F(RecoveryCommand, AKilledDrillComesBackAfterAChange)
 {
   const auto session = writeSession();
   ASSERT_TRUE(killDrill(session, 3000));
-  // As a program that does not know of journals leaves it: the journal is moved away for a moment.
+  // As left by a program that does not know of journals: the journal is moved away temporarily.
   std::filesystem::rename(journal(), m_folder / "journal");
   json("appearance bone --iso 350");
   std::filesystem::rename(m_folder / "journal", journal());
@@ -230,8 +231,8 @@ TEST_F(RecoveryCommand, OneFlippedBitOfTheCtIsToldBeforeAnythingIsDrilledOrWritt
   EXPECT_EQ(libraryContent(), before);
 }
 
-// The CT is held against its hash behind the command's back: whatever the command does, it must not
-// be done before that.
+// The CT is checked against its hash in parallel with the command, which must not finish before the
+// check.
 TEST_F(RecoveryCommand, NothingIsSavedOrSaidOfADamagedCt)
 {
   std::filesystem::path object;

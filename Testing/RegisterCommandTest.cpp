@@ -31,7 +31,7 @@ protected:
     json("new ear --ct " + quoted(m_patient / "ct") + " --mr T2=" + quoted(m_patient / "mr"));
   }
 
-  // The truth's motion as pairs of points.
+  // The true motion as point pairs.
   std::filesystem::path writeLandmarks(const std::string& lastRow = {}) const
   {
     const auto path = m_folder / "pairs.csv";
@@ -52,7 +52,7 @@ protected:
     return path;
   }
 
-  // A block in the middle of the MR's grid.
+  // A block at the centre of the MR's grid.
   std::filesystem::path writeLabelOnMr() const
   {
     const auto& mr = m_truth["mr"];
@@ -75,7 +75,7 @@ protected:
     return path;
   }
 
-  // How far the middle of the ear lands from where it should, mm.
+  // Distance of the transformed ear centre from its true position, mm.
   double offAt(const nlohmann::json& transform) const
   {
     const auto& c = m_truth["center_mm"];
@@ -213,7 +213,7 @@ TEST_F(RegisterCommand, AnMrOnWhichSomethingWasDrawnIsKept)
   json("register ear --mr T2 --as-is --transform " + quoted(m_patient / "truth.json"));
   info = json("info ear");
   EXPECT_EQ(info["labels"][0]["placed"], true);
-  // The middle of the MR's grid is the middle of the ear, moved.
+  // The centre of the MR's grid is the moved centre of the ear.
   const auto points = m_folder / "points.csv";
   const auto& c = m_truth["center_mm"];
   std::ofstream(points) << "x_mm,y_mm,z_mm\n" << c[0] << ',' << c[1] << ',' << c[2] << '\n';

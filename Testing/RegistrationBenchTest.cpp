@@ -18,7 +18,7 @@ using Point = std::array<double, 3>;
 class RegistrationBench : public CommandLine
 {
 protected:
-  // A folder of RIRE's: header and big-endian voxels.
+  // A RIRE folder: header and big-endian voxels.
   void writeImage(const fs::path& folder, const std::array<int, 3>& dims, const Point& spacing,
                   const std::function<double(const Point&)>& value) const
   {
@@ -40,7 +40,7 @@ protected:
   }
 };
 
-// A motion like RIRE's: a turn about z, then a shift, all in mm from the first voxels.
+// A motion as in RIRE: a rotation about z, then a translation, all in mm from the first voxels.
 constexpr double kTurn = 0.07;
 constexpr Point kShift{4.0, -3.0, 2.5};
 
@@ -57,7 +57,7 @@ Point movedBack(const Point& q)
   return {c * x + s * y, -s * x + c * y, q[2] - kShift[2]};
 }
 
-// A skull with a brain, ventricles and a sinus, no two sides alike. Tissue: 0 air to 4.
+// An asymmetric skull with a brain, ventricles and a sinus. Tissue: 0 air to 4.
 int tissue(const Point& p)
 {
   const auto within = [&p](double x, double y, double z, double a, double b, double c)
@@ -132,7 +132,7 @@ TEST_F(RegistrationBench, RegistersAFolderOfRireAndComparesWithItsTruth)
                 3, "nowhere");
 }
 
-// Each part with few pairs of a small phantom: that they run, that what must hold holds.
+// Each part with few pairs of a small phantom: checks that it runs and that its invariants hold.
 TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
 {
   const auto out = m_folder / "figures";
@@ -161,7 +161,7 @@ TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
         ++processes;
         EXPECT_GT(point.at("extra").at("processor_s").get<double>(), 0.0);
       }
-      // The motion of a phantom patient is known: within 0.2 voxel of the MR.
+      // The true motion of a phantom patient is known: within 0.2 voxel of the MR.
       EXPECT_LT(point.at("extra").at("mr_voxels").get<double>(), 0.2) << setting.dump();
     }
   }

@@ -59,8 +59,8 @@ std::optional<PublishedPair> published(const std::string& name)
   return pair;
 }
 
-// elastix 5.0.1 comes to 0.09 mm at the targets of the first, 0.92 of the second (whose truth is
-// good to about that), and ends 1.16 mm from the nominal truth of the third.
+// elastix 5.0.1 has an error of 0.09 mm at the targets of the first, 0.92 of the second (whose
+// truth is accurate to about that), and ends 1.16 mm from the nominal truth of the third.
 TEST(RegistrationData, RealHeadAgainstAnMrSimulatedFromIt)
 {
   const auto pair = published("ct_mr_sim");
@@ -73,8 +73,8 @@ TEST(RegistrationData, RealHeadAgainstAnMrSimulatedFromIt)
   EXPECT_LT(result.error.p95, 0.6);
 }
 
-// A ball about the ear lies elsewhere in the MR, which the fit of the whole head does not follow:
-// the error stated must reach where the ear is. The same pairs without it are good.
+// A ball around the ear is displaced in the MR, which the fit of the whole head does not follow:
+// the stated error must cover the ear. The same pairs without the displacement are good.
 TEST(RegistrationData, AnEarThatLiesElsewhereThanTheHeadIsTold)
 {
   const auto pair = published("ct_mr_sim");
@@ -116,7 +116,7 @@ TEST(RegistrationData, AnEarThatLiesElsewhereThanTheHeadIsTold)
   }
 }
 
-// The lower part of the CT and the upper one of the MR.
+// The lower part of the CT and the upper part of the MR.
 TEST(RegistrationData, DoesNotPushTogetherWhatSharesAPartOfItsHeight)
 {
   const auto pair = published("ct_mr_sim");
@@ -151,7 +151,7 @@ TEST(RegistrationData, AverageHeads)
     GTEST_SKIP() << "no registration/ct_mr_template in PETROUS_DATA";
   const Registration result = registerRigid(*pair->fixed, *pair->moving, {}, pair->targets[0]);
   EXPECT_LT(pair->worst(result.fit.mrFromCt), 1.5);
-  // Two different averages, symmetric both: a person must look.
+  // Two different symmetric averages: needs review by a person.
   EXPECT_EQ(result.verdict, Verdict::Doubtful) << result.text;
 }
 

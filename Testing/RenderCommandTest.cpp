@@ -9,7 +9,7 @@ using namespace petrous::testing;
 namespace
 {
 
-// A ball of bone of 15 mm round (10, -20, 30), 32 voxels of 1.5 mm.
+// A ball of bone of 15 mm around (10, -20, 30), 32 voxels of 1.5 mm.
 constexpr double kCenter[3] = {10.0, -20.0, 30.0};
 constexpr double kRadius = 15.0;
 
@@ -29,7 +29,7 @@ protected:
         }
     write("ball.nrrd", "float", voxels);
     json("new ball --ct " + quoted(m_folder / "ball.nrrd"));
-    json("appearance ball --iso 300"); // not what its few grey values suggest
+    json("appearance ball --iso 300"); // overrides the value suggested from its few grey values
   }
 
   static constexpr int edge = 32;
@@ -54,7 +54,7 @@ protected:
                static_cast<std::streamsize>(voxels.size() * sizeof(T)));
   }
 
-  // A ball of 12 mm in the ball, as a structure.
+  // A ball of 12 mm inside the ball, as a structure.
   void addNerve()
   {
     std::vector<unsigned char> inside;
@@ -72,7 +72,7 @@ protected:
     return m_folder / "camera.json";
   }
 
-  // 100 mm before the ball's centre, from the patient's right.
+  // 100 mm from the ball's centre, from the patient's right.
   std::filesystem::path fromTheRight()
   {
     return camera(R"({"position_mm":[-90,-20,30],"focal_point_mm":[10,-20,30],)"
@@ -84,7 +84,7 @@ protected:
     return "render ball --size 64x48 --out " + quoted(m_folder / "p.png") + " " + options;
   }
 
-  // Of the picture's pixel, mm.
+  // At the picture's pixel, mm.
   float depthAt(int column, int row)
   {
     const std::string npy = textOf(m_folder / "d.npy");
@@ -110,7 +110,7 @@ TEST_F(RenderCommand, TellsWhatRanAndWhatItCost)
   EXPECT_TRUE(answer["gl_renderer"].is_string());
   EXPECT_TRUE(answer["notes"].empty());
 
-  // The camera that it tells is one that it takes, and draws the same.
+  // The reported camera is accepted as input and gives the same picture.
   const std::string picture = textOf(m_folder / "p.png");
   json(render("--camera " + quoted(camera(answer["camera"].dump()))));
   EXPECT_EQ(textOf(m_folder / "p.png"), picture);
@@ -127,7 +127,7 @@ TEST_F(RenderCommand, BothEnginesMeasureTheSameDepth)
     EXPECT_NEAR(depthAt(32, 24), 100.0 - kRadius, 0.1) << engine; // the ray nearest to the axis
     EXPECT_TRUE(std::isnan(depthAt(0, 0))) << engine;
   }
-  // In stereo it is that of the camera itself, in between.
+  // In stereo it is the camera's own depth, between the eyes.
   json(render(options + "gpu --stereo side-by-side"));
   EXPECT_NEAR(depthAt(32, 24), 100.0 - kRadius, 0.1);
 }
@@ -140,7 +140,7 @@ TEST_F(RenderCommand, StereoIsTheSameFromBothEngines)
   EXPECT_EQ(answer["stereo"]["convergence_mm"], 90.0);
   EXPECT_EQ(json(render("--engine reference --stereo interleaved" + eyes))["stereo"]["mode"],
             "interleaved");
-  // By the angle between the eyes of a microscope, 5.5 degrees, at the focal point, 100 mm away.
+  // From a microscope's angle between the eyes, 5.5 degrees, at the focal point, 100 mm away.
   const auto usual = json(render("--stereo side-by-side --camera " + quoted(fromTheRight())));
   EXPECT_NEAR(usual["stereo"]["eye_separation_mm"].get<double>(), 9.6, 0.05);
   EXPECT_EQ(usual["size"], (std::vector<int>{64, 48}));
@@ -165,9 +165,9 @@ TEST_F(RenderCommand, NamesACameraFileThatIsNoCamera)
         head + R"("position_mm":[1e999,-20,30],)" + angle,
         head + R"("position_mm":[1e300,-20,30],)" + angle,
         head + R"("position_mm":[null,-20,30],)" + angle,
-        head + R"("position_mm":[10,-20,30],)" + angle,           // looks nowhere
-        head + R"("position_mm":[10,-20,300],)" + angle,          // along view_up
-        head + R"("position_mm":[0,-20,30],"view_angle_deg":0})", // sees nothing
+        head + R"("position_mm":[10,-20,30],)" + angle,           // no viewing direction
+        head + R"("position_mm":[10,-20,300],)" + angle,          // parallel to view_up
+        head + R"("position_mm":[0,-20,30],"view_angle_deg":0})", // zero view angle
         head + R"("position_mm":[0,-20,30],"parallel_scale_mm":-1})", std::string("[]"),
         std::string()})
     expectRefused(render("--camera " + quoted(camera(text))), 3, "camera.json");
@@ -177,7 +177,7 @@ TEST_F(RenderCommand, CutsByPlanesAndBoxes)
 {
   const std::string options =
       "--camera " + quoted(fromTheRight()) + " --depth " + quoted(m_folder / "d.npy") + " ";
-  // What stays is the far half.
+  // The far half remains.
   json(render(options + "--clip 10,-20,30,2,0,0"));
   EXPECT_NEAR(depthAt(32, 24), 100.0, 0.1);
   json(render(options + "--roi 13,40,-60,60,-60,90"));
@@ -234,7 +234,7 @@ TEST_F(RenderCommand, InfoTellsWhatWasLaidOpenWhereItIsAskedFor)
 {
   addNerve();
   EXPECT_TRUE(json("info ball --exposed")["dissection"]["exposed"].empty());
-  // From the right to 11 mm from the middle with a burr of 6 mm: 4 mm into the structure.
+  // From the right to 11 mm from the centre with a burr of 6 mm: 4 mm into the structure.
   const auto path = m_folder / "slow.csv";
   std::ofstream(path) << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n0," << kCenter[0] - 25.0 << ','
                       << kCenter[1] << ',' << kCenter[2] << ",1,0,0,0,1\n8," << kCenter[0] - 11.0
@@ -258,7 +258,7 @@ TEST_F(RenderCommand, DoctorNamesTheRayCastersVariants)
   EXPECT_NE(run("doctor").out.find("ray caster"), std::string::npos);
 }
 
-// No driver at all: libEGL is told to look for one where there is none.
+// No driver at all: libEGL searches in a place without drivers.
 TEST_F(RenderCommand, WithoutOpenGLNamesTheReferenceEngine)
 {
   const auto plain = m_folder / "empty";

@@ -54,7 +54,7 @@ TEST_F(SliceCommand, FindsAStructuresCentre)
   const auto report = json(slice("--plane axial --at sigmoid_sinus --field-of-view 40"));
   const auto corner = json(slice("--plane axial --at -10,0,0 --field-of-view 40"));
   EXPECT_NE(report["center_mm"], corner["center_mm"]);
-  // Within the phantom.
+  // Inside the phantom.
   for (int a = 0; a < 3; ++a)
     EXPECT_LT(std::abs(report["center_mm"][a].get<double>() - truth["center_mm"][a].get<double>()),
               32.0);
@@ -96,7 +96,7 @@ TEST_F(SliceCommand, RefusesWhatCannotBeInOneLine)
 
 TEST_F(SliceCommand, OutsideOfTheCtIsAnError)
 {
-  // The phantom's CT is 64 mm wide; what lies beside it has no grey.
+  // The phantom's CT is 64 mm wide; the slice does not intersect it.
   expectRefused(slice("--plane axial --at -1000,0,0 --field-of-view 40"), 2,
                 "does not meet the CT");
   expectRefused(slice("--plane axial --at -30,0,1e6"), 2, "patient LPS");

@@ -1,4 +1,4 @@
-# The top level of the tree holds what the layout names and nothing else.
+# Checks that the top level of the tree contains exactly what the layout lists.
 #
 #   cmake -D TREE=<source tree> -P TopLevel.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 set(required
   .ci .clang-format .clang-tidy .gitignore Application CHANGELOG.md CMakeLists.txt
   CMakePresets.json Documentation LICENSE Modules Packaging README.md Resources Testing)
-# Not part of the project, but at home in a checkout.
+# Not part of the project, but expected in a checkout.
 set(tolerated .cache .git build CMakeUserPresets.json)
 
 file(GLOB entries RELATIVE ${TREE} ${TREE}/* ${TREE}/.*)

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "CommandRunner.h"
-#include "petrous/Simulation/RecordingReader.h"
-#include "petrous/Simulation/RecordingWriter.h"
-#include "petrous/Simulation/RemovalFeed.h"
+#include "petrous/Session/BurrRemovalModel.h"
+#include "petrous/Session/RecordingReader.h"
+#include "petrous/Session/RecordingWriter.h"
 
 using namespace petrous::testing;
 
@@ -15,7 +15,7 @@ namespace
 
 using Row = std::map<std::string, double>;
 
-// Bone below z = 0.13 mm, a plane between the voxels of 0.4 mm, 300 HU there, 400 HU a mm.
+// Bone below z = 0.13 mm, a plane between the voxels of 0.4 mm: 300 HU there, slope 400 HU/mm.
 class TouchCommand : public CommandLine
 {
 protected:
@@ -52,7 +52,7 @@ protected:
     return m_folder / "other.nrrd";
   }
 
-  // A structure "pad" of ten voxels' height on the bone.
+  // A structure "pad", ten voxels high, on the bone.
   void writePad() const
   {
     std::ofstream file(m_folder / "pad.nrrd", std::ios::binary);
@@ -68,8 +68,8 @@ protected:
         }
   }
 
-  // Down from 5 mm above the surface to a device height, in 0.5 s, and 0.5 s there.
-  // Down within half a second, and held there.
+  // Down from 5 mm above the surface to a device height within 0.5 s, held there for `hold`
+  // seconds.
   std::filesystem::path press(double height, bool drill, double hold = 0.5)
   {
     std::ofstream file(m_folder / "press.csv");
@@ -125,7 +125,7 @@ TEST_F(TouchCommand, HoldsTheToolAtTheSurfaceAndSaysTheForce)
   EXPECT_NEAR(last.at("fz_n"), 1.0, 0.03);
   EXPECT_NEAR(std::hypot(last.at("fx_n"), last.at("fy_n")), 0.0, 0.02);
   EXPECT_NEAR(last.at("thrust_n"), last.at("fz_n"), 1e-6);
-  EXPECT_NEAR(last.at("theta_rad"), std::acos(-1.0) / 2.0, 0.05); // the spindle stands upright
+  EXPECT_NEAR(last.at("theta_rad"), std::acos(-1.0) / 2.0, 0.05); // the spindle is upright
   for (const Row& row : rows)
   {
     ASSERT_GE(row.at("pz_mm"), kTop + 2.0 - 0.05 * 0.4);
@@ -133,10 +133,10 @@ TEST_F(TouchCommand, HoldsTheToolAtTheSurfaceAndSaysTheForce)
   }
 }
 
-// The place lies above the bone, and the shaft along it: the way to the bone is the bone's normal.
+// The place is above the bone, the shaft parallel to it: the approach is along the bone's normal.
 TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
 {
-  const auto drilled = [this](double degrees) // of the shaft from the normal
+  const auto drilled = [this](double degrees) // angle of the shaft from the normal
   {
     const double half = degrees * std::acos(-1.0) / 360.0;
     std::ofstream file(m_folder / "flat.csv");
@@ -150,24 +150,24 @@ TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
                 0.02 * answer["predicted_mm3"].template get<double>());
     EXPECT_LE(answer["max_force_n"], 1.0 + 1e-9);
     EXPECT_EQ(answer["held_off_ticks"], 0);
-    // What the burr took beside the shaft's root is known to the shaft within 16 ticks.
+    // Within 16 ticks the shaft has contact data of what the burr removed next to its root.
     EXPECT_LE(answer["held_by_shaft_ticks"], 40) << "of 400";
     json("undo plane");
     return answer["predicted_mm3"].template get<double>();
   };
   const double oblique = drilled(60.0);
   EXPECT_GT(oblique, 1.0);
-  // r is the mean over the patch, here one of about 1 mm in radius: 2/3 mm from its middle.
+  // r is the mean over the patch, here of about 1 mm radius: 2/3 mm from its centre.
   const auto arm = [](double degrees)
   {
-    return petrous::simulation::RemovalFeed::armOf(2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0,
-                                                   2.0 / 3.0);
+    return petrous::session::BurrRemovalModel::armOf(
+        2.0, (90.0 - degrees) * std::acos(-1.0) / 180.0, 2.0 / 3.0);
   };
   EXPECT_NEAR(drilled(75.0) / oblique, arm(75.0) / arm(60.0), 0.04);
   EXPECT_NEAR(drilled(90.0) / oblique, arm(90.0) / arm(60.0), 0.04);
 }
 
-// The shaft points down: it lies on the bone, and the burr hangs in the air.
+// The shaft points down: it rests on the bone, and the burr is in the air.
 TEST_F(TouchCommand, SaysThatTheShaftHoldsTheBurrOff)
 {
   const double half = std::acos(-1.0) / 3.0; // 120 degrees from the normal
@@ -199,12 +199,12 @@ TEST_F(TouchCommand, KeepsTheCentreOutInThreeDegreesOfFreedom)
 }
 
 // A pad of 0.5 N/mm on the bone, up to z = 4 mm: the coupling of 1 N/mm and the pad are two springs
-// in a row.
+// in series.
 TEST_F(TouchCommand, PressesASoftStructureInAsItsStiffnessSays)
 {
   writePad();
   json("add plane --labels pad=" + quoted(m_folder / "pad.nrrd"));
-  const double depth = 1.0; // of the hand below contact, which is at z = 6
+  const double depth = 1.0; // of the device below contact, which is at z = 6
   json(drill(press(6.0 - depth, false), ""));
   EXPECT_NEAR(log("log.csv").back().at("fz_n"), depth, 0.03) << "rigid until it is told";
   json("appearance plane --stiffness pad=0.5");
@@ -222,7 +222,7 @@ TEST_F(TouchCommand, PressesASoftStructureInAsItsStiffnessSays)
     for (std::size_t n = 1; n < rows.size(); ++n)
       ASSERT_LT(std::abs(rows[n].at("fz_n") - rows[n - 1].at("fz_n")), 0.01);
   }
-  // All the way through to the bone, which stops it as ever.
+  // All the way through to the bone, which stops it as usual.
   json(drill(press(0.13, false), ""));
   for (const Row& row : log("log.csv"))
     ASSERT_GE(row.at("pz_mm"), kTop + 2.0 - 0.05 * 0.4);
@@ -246,7 +246,7 @@ TEST_F(TouchCommand, DrillsASoftStructure)
 
 TEST_F(TouchCommand, PressesWithTheThrustThatIsAsked)
 {
-  // The path stays above the surface: place and heading only.
+  // The path stays above the surface: position and orientation only.
   json(drill(press(2.5, false), " --thrust 1.5"));
   const auto rows = log("log.csv");
   EXPECT_NEAR(rows.back().at("thrust_n"), 1.5, 0.015);
@@ -261,7 +261,7 @@ TEST_F(TouchCommand, DrillsWhatItIsPressedOnAndTheSameEveryTime)
   const auto rows = log("log.csv");
   EXPECT_NEAR(rows.back().at("removed_mm3"), first["removed_mm3"].get<double>(),
               0.02 * first["removed_mm3"].get<double>());
-  // The hole goes at most as deep as the hand: a cap of 1 mm of a ball of 2 mm.
+  // The hole is at most as deep as the device: a cap of 1 mm of a ball of 2 mm radius.
   const double cap = std::acos(-1.0) * (2.0 - 1.0 / 3.0);
   EXPECT_LT(first["removed_mm3"], 1.02 * cap);
   EXPECT_GT(first["removed_mm3"], 0.8 * cap);
@@ -286,7 +286,7 @@ TEST_F(TouchCommand, RemovesNothingThatItDoesNotTouch)
 
 TEST_F(TouchCommand, ABurrThatStandsStillRemovesNothing)
 {
-  for (const double height : {1.13, -1.0}) // pressed on bone, and led through it
+  for (const double height : {1.13, -1.0}) // pressed on bone, and dragged through it
     EXPECT_EQ(json(drill(press(height, true), " --rpm 0"))["removed_mm3"], 0.0);
   std::ofstream inside(m_folder / "inside.csv");
   inside
@@ -327,7 +327,7 @@ TEST_F(TouchCommand, PlaysARecordingAgainToTheLastBit)
   for (const std::string mode : {"6dof", "3dof"})
   {
     const auto file = m_folder / (mode + ".ticks");
-    const bool logged = mode == "6dof"; // it takes its time
+    const bool logged = mode == "6dof"; // writing takes time
     const auto log = [&](const char* name)
     { return logged ? " --log " + quoted(m_folder / name) : std::string(); };
     const auto first = json("drill plane --path " + quoted(press(1.13, true)) + " --mode " + mode +
@@ -346,7 +346,7 @@ TEST_F(TouchCommand, PlaysARecordingAgainToTheLastBit)
       EXPECT_EQ(again[key], first[key]) << key;
     if (logged)
     {
-      // But for what the law made of the ticks: a replay does its cuts again as they were.
+      // Except for the removal law's values: a replay repeats the cuts as recorded.
       const auto rows = [&](const char* name)
       {
         std::vector<Row> result = this->log(name);
@@ -369,11 +369,11 @@ TEST_F(TouchCommand, SaysWhereAReplayDiffersAndLeavesTheCase)
   const auto file = m_folder / "hand.ticks";
   json("drill plane --path " + quoted(press(1.13, true)) + " --record " + quoted(file));
   json("undo plane");
-  // As another program might have felt it: one bit of the force of one tick.
+  // As computed by another program: one bit of the force of one tick.
   {
-    petrous::simulation::RecordingReader reader(file);
-    petrous::simulation::RecordingWriter writer(m_folder / "other.ticks", reader.setup());
-    petrous::simulation::RecordingBlock block;
+    petrous::session::RecordingReader reader(file);
+    petrous::session::RecordingWriter writer(m_folder / "other.ticks", reader.setup());
+    petrous::session::RecordingBlock block;
     while (reader.next(block))
     {
       for (const auto& edit : block.edits)
@@ -441,7 +441,7 @@ TEST_F(TouchCommand, PlaysARecordingThatWasCutShortUpToThere)
   EXPECT_EQ(answer["ticks"], 2000);
   EXPECT_EQ(answer["replay"]["complete"], false);
   EXPECT_EQ(answer["replay"]["equal"], true);
-  // A byte that was changed is no shorter file.
+  // A changed byte is not the same as a truncated file.
   std::string bad = whole;
   bad[bad.size() / 2] = static_cast<char>(bad[bad.size() / 2] ^ 1);
   std::ofstream(file, std::ios::binary) << bad;

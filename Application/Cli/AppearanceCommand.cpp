@@ -16,7 +16,7 @@ namespace petrous::cli
 namespace
 {
 
-using appearance::StructureLook;
+using appearance::StructureAppearance;
 
 struct Options
 {
@@ -33,11 +33,11 @@ struct Options
   }
 };
 
-/// What goes by one name in the case: a structure, a mesh, both, or bone.
+/// Everything of one name in the case: a structure, a mesh, both, or bone.
 struct Part
 {
   std::string name;
-  std::vector<StructureLook*> looks;
+  std::vector<StructureAppearance*> looks;
   bool bone = false;
   bool meshOnly = false;
 };
@@ -72,8 +72,8 @@ std::string lookedAtParts(const scene::Case& value)
   return there;
 }
 
-/// "PART=VALUE" in its two halves. A name may have an '=' in it, so the first split that names a
-/// part counts.
+/// Splits "PART=VALUE". A name may contain '=', so the first split whose left side names a part is
+/// used.
 std::pair<Part, std::string> split(scene::Case& value, const std::string& assignment,
                                    const std::string& usage)
 {
@@ -96,8 +96,8 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     value.iso = scale.iso;
     value.denseBone = scale.dense;
     if (!scale.calibrated)
-      context.remark("the image is not in Hounsfield units; bone is taken to begin at " +
-                     fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
+      context.warn("the image is not in Hounsfield units; bone is taken to begin at " +
+                   fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
     return;
   }
   const double iso = parseNumbers(text, 1, "--iso").front();
@@ -110,7 +110,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   value.iso = iso;
 }
 
-// Of all parts but this one.
+// Colours of all other parts.
 std::vector<std::array<float, 3>> otherColors(const scene::Case& value, const std::string& part)
 {
   std::vector<std::array<float, 3>> colors;
@@ -127,17 +127,17 @@ std::vector<std::array<float, 3>> otherColors(const scene::Case& value, const st
 void setPreset(scene::Case& value, const std::string& assignment)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
-  const StructureLook preset = appearance::StructurePresets::builtIn().preset(name);
+  const StructureAppearance preset = appearance::StructurePresets::builtIn().preset(name);
   if (part.bone && !preset.solid)
     throw core::InvalidParameter("preset '" + preset.preset +
                                  "' is that of a lumen and cannot be the look of bone");
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::applyPreset(*look, preset);
-  // What is no known structure has a colour of its own, as when it came to the case.
+  // An unknown structure gets a distinct colour, as when it was added to the case.
   if (preset.preset == appearance::StructurePresets::builtIn().lookFor({}).preset)
   {
     const auto color = appearance::distinctColor(otherColors(value, part.name));
-    for (StructureLook* look : part.looks)
+    for (StructureAppearance* look : part.looks)
       appearance::setColor(*look, color);
   }
 }
@@ -160,7 +160,7 @@ void setTransfer(scene::Case& value, const std::string& assignment)
       throw core::InvalidParameter(what.find(path) == std::string::npos ? path + ": " + what
                                                                         : what);
     }
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
   {
     look->transfer = transfer;
     look->relative = false;
@@ -192,7 +192,7 @@ void setColors(scene::Case& value, const std::string& assignment)
 {
   const auto [part, text] = split(value, assignment, "--color PART=r,g,b");
   const auto color = parseColor(text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setColor(*look, color);
 }
 
@@ -202,7 +202,7 @@ void setOpacity(scene::Case& value, const std::string& assignment)
   const double opacity = parseNumbers(text, 1, "--opacity").front();
   if (opacity < 0.0 || opacity > 1.0)
     throw UsageError("--opacity: goes from 0 to 1, not " + text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     look->opacity = static_cast<float>(opacity);
 }
 
@@ -211,7 +211,7 @@ void setSource(const Context& context, scene::Case& value, const std::string& as
   const auto [part, name] = split(value, assignment, "--source PART=ct|MRNAME");
   if (part.meshOnly)
     throw core::InvalidParameter("'" + part.name + "' is a mesh and reads no image");
-  StructureLook& look = *part.looks.front();
+  StructureAppearance& look = *part.looks.front();
   const scene::ImagePart* mr = scene::findMr(value, name);
   if (name == "ct")
     look.sourceImage.clear();
@@ -230,23 +230,23 @@ void setSource(const Context& context, scene::Case& value, const std::string& as
   {
     look.sourceImage = name;
     if (!mr->registered)
-      context.remark("'" + name + "' is not registered with the CT; until it is, '" + part.name +
-                     "' is drawn in one colour");
+      context.warn("'" + name + "' is not registered with the CT; until it is, '" + part.name +
+                   "' is drawn in one colour");
     if (!look.transfer || look.relative)
-      context.remark("presets are made for CT; '" + part.name +
-                     "' is drawn in one colour until --tf gives it values of '" + name + "'");
+      context.warn("presets are made for CT; '" + part.name +
+                   "' is drawn in one colour until --tf gives it values of '" + name + "'");
   }
 }
 
 void setPartFlags(const Context& context, scene::Case& value, const std::string& assignment)
 {
   const auto [part, flags] = split(value, assignment, "--flags PART=shown,touchable,drillable");
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setFlags(*look, flags);
   if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
     return;
   value.boneLook.touchable = value.boneLook.drillable = true;
-  context.remark("bone stays touchable and drillable; of its flags only 'shown' can be changed");
+  context.warn("bone stays touchable and drillable; of its flags only 'shown' can be changed");
 }
 
 void setStiffness(const Context& context, scene::Case& value, const std::string& assignment)
@@ -257,11 +257,11 @@ void setStiffness(const Context& context, scene::Case& value, const std::string&
   const double stiffness = text == "rigid" ? 0.0 : parseNumbers(text, 1, "--stiffness").front();
   if (text != "rigid" && (stiffness < appearance::kSoftest || stiffness > appearance::kStiffest))
     throw UsageError("--stiffness: goes from 0.001 to 100 N/mm, or is 'rigid', not " + text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setStiffness(*look, stiffness);
   if (const auto& look = *part.looks.front(); stiffness > 0.0 && !(look.solid && look.touchable))
-    context.remark("'" + part.name + "' is not felt" +
-                   (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
+    context.warn("'" + part.name + "' is not felt" +
+                 (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
 }
 
 void setWarning(scene::Case& value, const std::string& assignment)
@@ -273,11 +273,11 @@ void setWarning(scene::Case& value, const std::string& assignment)
   const double distance = text == "none" ? 0.0 : parseNumbers(text, 1, "--warn").front();
   if (!(distance >= 0.0 && distance <= appearance::kFarthestWarning))
     throw UsageError("--warn: goes from 0 to 50 mm, or is 'none', not " + text);
-  for (StructureLook* look : part.looks)
+  for (StructureAppearance* look : part.looks)
     appearance::setWarning(*look, distance);
 }
 
-// What the drill meets there.
+// Sets the tissue that the drill meets.
 void setTissue(const Context& context, scene::Case& value, const std::string& assignment)
 {
   const auto [part, text] = split(value, assignment, "--tissue PART=MATERIAL|bone");
@@ -286,11 +286,11 @@ void setTissue(const Context& context, scene::Case& value, const std::string& as
                                  "tissue of their own");
   const std::string tissue = text == "bone" ? std::string() : text;
   if (!tissue.empty())
-    dissection::MaterialCatalogue::builtIn().material(tissue); // refuses what it does not know
-  for (StructureLook* look : part.looks)
+    dissection::MaterialCatalogue::builtIn().material(tissue); // throws for unknown materials
+  for (StructureAppearance* look : part.looks)
     look->tissue = tissue;
   if (!tissue.empty() && !part.looks.front()->solid)
-    context.remark("'" + part.name + "' is a lumen: the drill meets nothing in it");
+    context.warn("'" + part.name + "' is a lumen: the drill meets nothing in it");
 }
 
 void run(const Context& context, const Options& options)
@@ -310,7 +310,7 @@ void run(const Context& context, const Options& options)
   scene::Case value = library.open(options.name);
   if (!options.iso.empty())
     setIso(context, value, options.iso);
-  // A preset first, then what deviates from it.
+  // A preset first, then deviations from it.
   for (const std::string& assignment : options.set)
     setPreset(value, assignment);
   for (const std::string& assignment : options.tf)

@@ -5,7 +5,7 @@
 
 #include "CaseJson.h"
 #include "Numbers.h"
-#include "petrous/Appearance/LookMaterial.h"
+#include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -16,10 +16,10 @@ namespace petrous::cli
 namespace
 {
 
-using appearance::StructureLook;
+using appearance::StructureAppearance;
 
-/// The points as they lie among the intensities of an image.
-std::string valuesOf(const StructureLook& look, const volume::IntensityScale& scale)
+/// The control points in the intensities of an image.
+std::string valuesOf(const StructureAppearance& look, const volume::IntensityScale& scale)
 {
   if (!look.transfer)
     return "one colour";
@@ -41,22 +41,22 @@ std::string hex(const std::array<float, 3>& color)
   return text;
 }
 
-std::string yielding(const StructureLook& look)
+std::string yielding(const StructureAppearance& look)
 {
   return look.stiffness > 0.0 ? ", " + nlohmann::json(look.stiffness).dump() + " N/mm" : "";
 }
 
-std::string warned(const StructureLook& look)
+std::string warned(const StructureAppearance& look)
 {
   return look.warning > 0.0 ? ", warned of at " + fixed(look.warning, 1) + " mm" : "";
 }
 
-std::string drilledAs(const StructureLook& look)
+std::string drilledAs(const StructureAppearance& look)
 {
   return look.tissue.empty() ? "" : ", drilled as " + look.tissue;
 }
 
-std::string describe(const StructureLook& look, const volume::IntensityScale& scale)
+std::string describe(const StructureAppearance& look, const volume::IntensityScale& scale)
 {
   return look.preset + " " + hex(look.color) + ", " + appearance::flagsOf(look) +
          (look.solid ? "" : ", a lumen") + drilledAs(look) + yielding(look) + warned(look) +
@@ -70,19 +70,19 @@ void listAppearance(const Context& context, const scene::Case& value)
 {
   const auto entry = [&context, scale = value.intensityScale()](const std::string& name,
                                                                 const std::string& kind,
-                                                                const StructureLook& look)
+                                                                const StructureAppearance& look)
   {
     nlohmann::json j = lookJson(look);
     j["name"] = name;
     j["kind"] = kind;
-    context.say("  " + name + " (" + kind + "): " + describe(look, scale));
+    context.print("  " + name + " (" + kind + "): " + describe(look, scale));
     return j;
   };
   presenters::IntensityDisplay display = presenters::displayOf(value);
   display.decimals = std::max(display.decimals, 1);
-  context.say("surface at " + display.text(value.iso) + ", dense bone at " +
-              display.text(value.denseBone) +
-              (display.hounsfield ? "" : " (not in Hounsfield units)"));
+  context.print("surface at " + display.text(value.iso) + ", dense bone at " +
+                display.text(value.denseBone) +
+                (display.hounsfield ? "" : " (not in Hounsfield units)"));
   nlohmann::json bone = entry("ct", "bone", value.boneLook);
   nlohmann::json parts = nlohmann::json::array();
   for (const auto& part : value.labels)
@@ -90,18 +90,18 @@ void listAppearance(const Context& context, const scene::Case& value)
       parts.push_back(entry(structure.name, "structure", structure.look));
   for (const auto& mesh : value.meshes)
     parts.push_back(entry(mesh.name, "mesh", mesh.look));
-  context.give({{"case", value.name},
-                {"iso_hu", value.iso},
-                {"dense_bone_hu", value.denseBone},
-                {"hounsfield", display.hounsfield},
-                {"bone", std::move(bone)},
-                {"parts", std::move(parts)}});
+  context.printJson({{"case", value.name},
+                     {"iso_hu", value.iso},
+                     {"dense_bone_hu", value.denseBone},
+                     {"hounsfield", display.hounsfield},
+                     {"bone", std::move(bone)},
+                     {"parts", std::move(parts)}});
 }
 
 void listPresets(const Context& context)
 {
   nlohmann::json presets = nlohmann::json::array();
-  for (const StructureLook& look : appearance::StructurePresets::builtIn().all())
+  for (const StructureAppearance& look : appearance::StructurePresets::builtIn().all())
   {
     nlohmann::json j = lookJson(look);
     j.erase("preset");
@@ -109,11 +109,11 @@ void listPresets(const Context& context)
     j.erase("source");
     j["name"] = look.preset;
     presets.push_back(std::move(j));
-    context.say("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
-                (look.solid ? "" : " (a lumen)") + drilledAs(look) + yielding(look) + warned(look) +
-                ", " + valuesOf(look, {}));
+    context.print("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
+                  (look.solid ? "" : " (a lumen)") + drilledAs(look) + yielding(look) +
+                  warned(look) + ", " + valuesOf(look, {}));
   }
-  context.give({{"presets", std::move(presets)}});
+  context.printJson({{"presets", std::move(presets)}});
 }
 
 } // namespace petrous::cli

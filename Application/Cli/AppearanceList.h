@@ -6,10 +6,10 @@
 namespace petrous::cli
 {
 
-/// Says each part of a case with its look and flags, and gives them as JSON.
+/// Prints each part of a case with its appearance and flags, or as JSON.
 void listAppearance(const Context& context, const scene::Case& value);
 
-/// The same of the catalogue of looks.
+/// As above, for the catalogue of presets.
 void listPresets(const Context& context);
 
 } // namespace petrous::cli

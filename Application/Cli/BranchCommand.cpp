@@ -33,7 +33,7 @@ std::string strokesInWords(std::size_t count)
   return std::to_string(count) + (count == 1 ? " stroke" : " strokes");
 }
 
-std::string inWords(const scene::Case& value, const Branch& branch)
+std::string toString(const scene::Case& value, const Branch& branch)
 {
   const auto summary = scene::summaryOf(value, branch.position);
   const std::size_t ahead = value.history.lineTo(branch.tip).size() - summary.strokes;
@@ -61,16 +61,16 @@ const Branch& branchOf(const scene::Case& value, const std::string& name)
   if (const Branch* branch = value.history.find(name))
     return *branch;
   dissection::History history = value.history;
-  history.goTo(name); // says which there are
+  history.goTo(name); // throws, listing the branches
   return value.history.branch();
 }
 
-void sayRow(const Context& context, const std::string& what, const std::string& a,
-            const std::string& b)
+void printRow(const Context& context, const std::string& what, const std::string& a,
+              const std::string& b)
 {
   char row[256];
   std::snprintf(row, sizeof row, "%-28s %20s %20s", what.c_str(), a.c_str(), b.c_str());
-  context.say(row);
+  context.print(row);
 }
 
 dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
@@ -82,7 +82,7 @@ dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
   return work;
 }
 
-// mm^2 of each structure that each branch has laid open, by name.
+// mm^2 of each structure exposed by each branch, by name.
 std::array<std::map<std::string, double>, 2>
 exposedBy(const Context& context, const scene::Case& value, const Branch& a, const Branch& b)
 {
@@ -97,10 +97,10 @@ exposedBy(const Context& context, const scene::Case& value, const Branch& a, con
   return areas;
 }
 
-// A row for each name that either side has, 0 where one has it not.
-void sayRows(const Context& context, const std::string& before, const std::string& after,
-             const std::map<std::string, double>& a, const std::map<std::string, double>& b,
-             int digits)
+// A row for each name of either side, 0 if one lacks it.
+void printRows(const Context& context, const std::string& before, const std::string& after,
+               const std::map<std::string, double>& a, const std::map<std::string, double>& b,
+               int digits)
 {
   std::map<std::string, std::pair<double, double>> rows;
   for (const auto& [name, number] : a)
@@ -108,8 +108,8 @@ void sayRows(const Context& context, const std::string& before, const std::strin
   for (const auto& [name, number] : b)
     rows[name].second = number;
   for (const auto& [name, numbers] : rows)
-    sayRow(context, before + name + after, fixed(numbers.first, digits),
-           fixed(numbers.second, digits));
+    printRow(context, before + name + after, fixed(numbers.first, digits),
+             fixed(numbers.second, digits));
 }
 
 std::map<std::string, double> volumesOf(const scene::StateSummary& summary)
@@ -126,28 +126,29 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   const Branch& b = branchOf(value, options.compared[1]);
   const auto ofA = scene::summaryOf(value, a.position);
   const auto ofB = scene::summaryOf(value, b.position);
-  const std::size_t common = ofA.strokes - value.history.way(a.position, b.position).back.size();
-  sayRow(context, "", a.name, b.name);
-  sayRow(context, "strokes (" + std::to_string(common) + " in common)", std::to_string(ofA.strokes),
-         std::to_string(ofB.strokes));
-  sayRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
-  sayRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
+  const std::size_t common = ofA.strokes - value.history.path(a.position, b.position).undone.size();
+  printRow(context, "", a.name, b.name);
+  printRow(context, "strokes (" + std::to_string(common) + " in common)",
+           std::to_string(ofA.strokes), std::to_string(ofB.strokes));
+  printRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
+  printRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
   const auto [openA, openB] = exposedBy(context, value, a, b);
-  sayRows(context, "exposed ", ", mm2", openA, openB, 1);
+  printRows(context, "exposed ", ", mm2", openA, openB, 1);
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   sides[0]["exposed_mm2"] = nlohmann::json(openA);
   sides[1]["exposed_mm2"] = nlohmann::json(openB);
-  context.give({{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
+  context.printJson(
+      {{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
 }
 
 void list(const Context& context, const scene::Case& value)
 {
   for (const Branch& branch : value.history.branches())
-    context.say((&branch == &value.history.branch() ? "* " : "  ") + inWords(value, branch));
-  context.give(allJson(value));
+    context.print((&branch == &value.history.branch() ? "* " : "  ") + toString(value, branch));
+  context.printJson(allJson(value));
 }
 
-// What is done, in words.
+// Makes the change; returns its description.
 std::string change(scene::Case& value, const Options& options)
 {
   const std::string& name = options.name;
@@ -168,7 +169,8 @@ std::string change(scene::Case& value, const Options& options)
     scene::startBranch(value, name, options.after);
   else
     scene::startBranch(value, name);
-  return std::string(there ? "on branch " : "new branch ") + inWords(value, value.history.branch());
+  return std::string(there ? "on branch " : "new branch ") +
+         toString(value, value.history.branch());
 }
 
 void branch(const Context& context, const Options& options)
@@ -194,8 +196,8 @@ void branch(const Context& context, const Options& options)
   }
   const std::string done = change(value, options);
   library.save(value);
-  context.say(done);
-  context.give(allJson(value));
+  context.print(done);
+  context.printJson(allJson(value));
 }
 
 } // namespace

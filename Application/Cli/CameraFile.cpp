@@ -15,7 +15,7 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kFarthest = 1e7; // mm: nothing of a patient lies farther, and squares stay finite
+constexpr double kFarthest = 1e7; // mm: beyond any patient, and squares stay finite
 
 Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
 {
@@ -64,7 +64,7 @@ core::CameraPose readCamera(const std::string& path)
     else
       camera.viewAngle = json.at("view_angle_deg").get<double>();
   }
-  catch (const nlohmann::json::exception&) // also for NaN and Infinity, which JSON does not know
+  catch (const nlohmann::json::exception&) // also for NaN and Infinity, which JSON lacks
   {
     throw core::InvalidParameter(
         path + ": no camera; it must be {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"

@@ -1,13 +1,13 @@
 #include <algorithm>
 
 #include "CaseJson.h"
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/ExposedSurfaces.h"
-#include "petrous/Scene/LayMr.h"
 
 namespace petrous::cli
 {
@@ -58,46 +58,46 @@ std::string sizeText(const core::GridGeometry& grid)
          " voxels of " + fixed(h[0], 3) + " x " + fixed(h[1], 3) + " x " + fixed(h[2], 3) + " mm";
 }
 
-void sayCase(const Context& context, const scene::Case& value)
+void printCase(const Context& context, const scene::Case& value)
 {
-  context.say("case '" + value.name + "'");
+  context.print("case '" + value.name + "'");
   const presenters::IntensityDisplay display = presenters::displayOf(value);
-  context.say("  CT " + sizeText(value.ct.geometry) + ", " + display.number(value.ct.range.min) +
-              " to " + display.text(value.ct.range.max) +
-              (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
-              display.text(value.iso));
+  context.print("  CT " + sizeText(value.ct.geometry) + ", " + display.number(value.ct.range.min) +
+                " to " + display.text(value.ct.range.max) +
+                (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
+                display.text(value.iso));
   for (const auto& mr : value.mr)
-    context.say("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
-                scene::registrationInWords(mr));
+    context.print("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
+                  scene::registrationInWords(mr));
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
-      context.say("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " + s.look.preset +
-                  placeText(scene::placementOf(value, part)));
+      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
+                    s.look.preset + placeText(scene::placementOf(value, part)));
   for (const auto& mesh : value.meshes)
   {
     const scene::Placement place = scene::placementOf(value, mesh);
     const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
-    context.say("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+    context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
+                  placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
-  context.say("  " + std::to_string(value.applied()) + " strokes done, " +
-              std::to_string(value.history.ahead()) + " to redo, " +
-              fixed(value.removedVolume(), 1) + " mm3 removed");
+  context.print("  " + std::to_string(value.applied()) + " strokes done, " +
+                std::to_string(value.history.ahead()) + " to redo, " +
+                fixed(value.removedVolume(), 1) + " mm3 removed");
 }
 
 // What was accepted or assumed when the parts were read.
-void remarkNotes(const Context& context, const scene::Case& value)
+void warnNotes(const Context& context, const scene::Case& value)
 {
   const auto remark = [&context](const auto& part)
   {
     for (const std::string& note : part.notes)
-      context.remark(part.name + ": " + note);
+      context.warn(part.name + ": " + note);
   };
   remark(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), remark);
   for (const auto& part : value.labels)
     for (const std::string& note : part.notes)
-      context.remark(
+      context.warn(
           (part.structures.size() == 1 ? part.structures.front().name : std::string("labels")) +
           ": " + note);
   std::for_each(value.meshes.begin(), value.meshes.end(), remark);
@@ -133,9 +133,9 @@ void addNew(CLI::App& app, Context& context)
         const core::Progress progress = context.progress();
         scene::Case value = presenters::buildCase(options->name, sources, progress.part(0.0, 0.8));
         library.save(value, progress.part(0.8, 1.0));
-        remarkNotes(context, value);
-        sayCase(context, value);
-        context.give(infoJson(value));
+        warnNotes(context, value);
+        printCase(context, value);
+        context.printJson(infoJson(value));
       });
   command->add_option("CASE", options->name, "Name of the new case")->required();
   command->add_option("--ct", options->ct, "DICOM folder, or NIfTI, NRRD or MetaImage file")
@@ -144,7 +144,7 @@ void addNew(CLI::App& app, Context& context)
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command->add_option("--roi", options->roi, "Part of the CT to load, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
-  // In the contract, not built yet: refused when asked for, not offered.
+  // Specified, but not implemented yet: refused if used, and hidden.
   command->add_flag("--repair", options->repair)->group("");
   options->parts.addTo(*command);
 }
@@ -168,9 +168,9 @@ void addAdd(CLI::App& app, Context& context)
         scene::Case value = library.open(options->name);
         presenters::addParts(value, sources, context.progress());
         library.save(value);
-        remarkNotes(context, value);
-        sayCase(context, value);
-        context.give(infoJson(value));
+        warnNotes(context, value);
+        printCase(context, value);
+        context.printJson(infoJson(value));
       });
   command->add_option("CASE", options->name)->required();
   options->parts.addTo(*command);
@@ -191,8 +191,8 @@ void addRemove(CLI::App& app, Context& context)
                            scene::Case value = library.open(options->name);
                            scene::removePart(value, options->part);
                            library.save(value);
-                           sayCase(context, value);
-                           context.give(infoJson(value));
+                           printCase(context, value);
+                           context.printJson(infoJson(value));
                          });
   command->add_option("CASE", options->name)->required();
   command->add_option("--part", options->part, "Its name")->type_name("NAME")->required();
@@ -209,21 +209,21 @@ void addInfo(CLI::App& app, Context& context)
         const library::Library library = context.openLibrary();
         scene::Case value = library.open(*name);
         nlohmann::json areas = nlohmann::json::array();
-        sayCase(context, value);
+        printCase(context, value);
         if (*exposed)
         {
           library.loadDissection(value);
           for (const auto& surface : scene::exposedSurfaces(value, context.progress()))
           {
-            context.say("  of '" + surface.name + "' laid open: " + fixed(surface.area, 1) +
-                        " mm2");
+            context.print("  of '" + surface.name + "' laid open: " + fixed(surface.area, 1) +
+                          " mm2");
             areas.push_back({{"label", surface.name}, {"area_mm2", surface.area}});
           }
         }
         nlohmann::json info = infoJson(value);
         if (*exposed)
           info["dissection"]["exposed"] = std::move(areas);
-        context.give(info);
+        context.printJson(info);
       });
   command->add_option("CASE", *name)->required();
   command->add_flag("--exposed", *exposed,

@@ -2,9 +2,9 @@
 
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
@@ -34,7 +34,7 @@ json gridJson(const core::GridGeometry& grid)
           {"direction", directionJson(grid.direction())}};
 }
 
-json lookJson(const appearance::StructureLook& look)
+json lookJson(const appearance::StructureAppearance& look)
 {
   json transfer;
   if (look.transfer)
@@ -62,7 +62,7 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
   {
     return scene::untouchable(value, mesh);
   }
-  catch (const core::Error& error) // the rest of the case can be told all the same
+  catch (const core::Error& error) // the rest of the case can still be reported
   {
     return error.what();
   }
@@ -105,7 +105,7 @@ json registrationJson(const scene::ImagePart& mr)
 namespace
 {
 
-// Only what was drawn on an MR says so.
+// Only for what was drawn on an MR.
 void addPlace(json& part, const scene::Placement& place)
 {
   if (place.drawnOn.empty())

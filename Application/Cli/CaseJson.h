@@ -21,31 +21,32 @@ nlohmann::json gridJson(const core::GridGeometry& grid);
 /// preset, color, opacity, flags, solid, shininess, priority, stiffness_n_per_mm (null: rigid),
 /// source ("ct" or an MR's name) and transfer: null, or {"relative", "points"} as a --tf file has
 /// them.
-nlohmann::json lookJson(const appearance::StructureLook& look);
+nlohmann::json lookJson(const appearance::StructureAppearance& look);
 
-/// Why the hand does not feel a mesh (scene::untouchable), or the mesh's file cannot be read; empty
-/// when it does feel it.
+/// Why a mesh is not touchable (scene::untouchable), or its file cannot be read; empty if it is
+/// touchable.
 std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh);
 
 /// 16 numbers, row-major.
 nlohmann::json transformJson(const core::RigidTransform& transform);
 
-/// How an MR came to lie on the CT; null where it does not.
+/// How an MR was registered to the CT; null if it is not.
 nlohmann::json registrationJson(const scene::ImagePart& mr);
 
-/// What `petrous info` gives.
+/// Output of `petrous info`.
 nlohmann::json infoJson(const scene::Case& value);
 
 /// [{"label", "volume_mm3"}].
 nlohmann::json touchedJson(const std::vector<dissection::TouchedStructure>& structures);
 
-/// What `petrous history` gives of the strokes. Numbers count from 1; parent 0 is untouched bone.
+/// The strokes as in the output of `petrous history`. Numbers start at 1; parent 0 is untouched
+/// bone.
 nlohmann::json strokesJson(const scene::Case& value);
 
-/// A branch and what it took, up to where it stands.
+/// A branch and what it removed, up to its current position.
 nlohmann::json branchJson(const scene::Case& value, const dissection::History::Branch& branch);
 
-/// Voxels and bricks of the case that are in memory now, in bytes.
+/// Memory of the case's resident voxels and bricks, bytes.
 std::map<std::string, std::size_t> residentResources(const scene::Case& value);
 
 } // namespace petrous::cli

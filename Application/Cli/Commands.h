@@ -8,8 +8,8 @@ namespace petrous::cli
 // Each adds its subcommands to the program; the context must outlive the parse.
 void addSampleCommand(CLI::App& app, Context& context);
 void addScanCommand(CLI::App& app, Context& context);
-void addCaseCommands(CLI::App& app, Context& context);
-void addLibraryCommand(CLI::App& app, Context& context); ///< new, add, remove, info, library
+void addCaseCommands(CLI::App& app, Context& context); ///< new, add, remove, info
+void addLibraryCommand(CLI::App& app, Context& context);
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);
@@ -19,7 +19,6 @@ void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, histo
 void addBranchCommand(CLI::App& app, Context& context);
 void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
-void addBenchCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
 
 } // namespace petrous::cli

@@ -15,8 +15,8 @@ namespace petrous::cli
 namespace
 {
 
-// A signal handler can reach nothing else. Constant-initialised, and never destroyed: it is there
-// whenever the signal comes.
+// A signal handler can reach nothing else. Constant-initialized and never destroyed, so it is valid
+// whenever the signal arrives.
 core::CancelToken interrupted;
 static_assert(std::is_trivially_destructible_v<core::CancelToken>);
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -31,7 +31,7 @@ std::shared_ptr<const core::CancelToken> interruptToken()
   return {std::shared_ptr<void>(), &interrupted};
 }
 
-// A second Ctrl+C ends the process at once.
+// A second Ctrl+C kills the process at once.
 void watchInterrupt()
 {
   struct sigaction action = {};
@@ -65,7 +65,7 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
       {
         m_parsing.reset();
         run();
-        refuseDamaged(); // nothing was said
+        refuseDamaged(); // if nothing was printed
       });
   return command;
 }
@@ -83,7 +83,7 @@ library::Library Context::openLibrary() const
       [this](const std::string& words)
       {
         m_notices.push_back(words);
-        remark(words);
+        warn(words);
       });
   m_opened = library;
   return library;
@@ -107,14 +107,14 @@ std::filesystem::path Context::libraryFolder() const
   throw UsageError("no home folder for the library; give --library DIR");
 }
 
-void Context::say(const std::string& line) const
+void Context::print(const std::string& line) const
 {
   refuseDamaged();
   if (!m_json && !m_quiet)
     std::cout << line << '\n';
 }
 
-void Context::give(const nlohmann::json& object) const
+void Context::printJson(const nlohmann::json& object) const
 {
   refuseDamaged();
   if (!m_json)
@@ -132,7 +132,7 @@ std::string jsonText(nlohmann::json object)
   return object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-void Context::remark(const std::string& line) const
+void Context::warn(const std::string& line) const
 {
   if (!m_quiet)
     std::cerr << line << '\n';

@@ -25,7 +25,7 @@ double memoryMiB(const std::string& key)
   return 0.0;
 }
 
-// The nearest folder that exists: where the library would be made.
+// The nearest existing folder: where the library would be created.
 std::filesystem::path existingFolder(std::filesystem::path path)
 {
   path = std::filesystem::absolute(path);
@@ -127,27 +127,28 @@ void doctor(const Context& context)
   if (available < 2048.0)
     advise("less than 2 GiB of memory are free; load only the ear with --roi");
 
-  context.say("OpenGL      " + (graphics ? graphics->renderer : std::string("none")));
+  context.print("OpenGL      " + (graphics ? graphics->renderer : std::string("none")));
   if (graphics)
   {
-    context.say("            version " + graphics->version);
-    context.say("            volumes up to " + std::to_string(graphics->largestTexture3d) +
-                " voxels along an axis");
+    context.print("            version " + graphics->version);
+    context.print("            volumes up to " + std::to_string(graphics->largestTexture3d) +
+                  " voxels along an axis");
     for (const auto& variant : graphics->variants)
-      context.say("ray caster  " + joined(variant.features) +
-                  (variant.compiles ? "" : ": does not work: " + variant.error));
+      context.print("ray caster  " + joined(variant.features) +
+                    (variant.compiles ? "" : ": does not work: " + variant.error));
   }
-  context.say(std::string("display     ") + (hasDisplay ? "yes" : "none"));
-  context.say("processors  " + std::to_string(std::thread::hardware_concurrency()));
-  context.say("memory      " + fixed(total, 0) + " MiB, " + fixed(available, 0) + " MiB free");
-  context.say("library     " + library.folder().string() + ", " + fixed(freeMiB, 0) +
-              " MiB free there");
+  context.print(std::string("display     ") + (hasDisplay ? "yes" : "none"));
+  context.print("processors  " + std::to_string(std::thread::hardware_concurrency()));
+  context.print("memory      " + fixed(total, 0) + " MiB, " + fixed(available, 0) + " MiB free");
+  context.print("library     " + library.folder().string() + ", " + fixed(freeMiB, 0) +
+                " MiB free there");
   for (const auto& device : devices)
-    context.say("device      " + device.title() + (device.advice.empty() ? ", ready" : ""));
+    context.print("device      " + device.title() + (device.advice.empty() ? ", ready" : ""));
   if (devices.empty())
-    context.say("devices     no SpaceMouse and no foot pedal is plugged in; drill with the mouse");
+    context.print(
+        "devices     no SpaceMouse and no foot pedal is plugged in; drill with the mouse");
   for (const auto& text : advice)
-    context.say("* " + text.get<std::string>());
+    context.print("* " + text.get<std::string>());
   nlohmann::json found = nlohmann::json::array();
   for (const auto& device : devices)
     found.push_back({{"name", device.title()}, {"ready", device.advice.empty()}});
@@ -160,7 +161,7 @@ void doctor(const Context& context)
                  {"library_free_mib", freeMiB},
                  {"devices", std::move(found)},
                  {"advice", std::move(advice)}});
-  context.give(report);
+  context.printJson(report);
 }
 
 } // namespace

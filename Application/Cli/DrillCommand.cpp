@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "DrillReport.h"
 #include "Numbers.h"
@@ -10,8 +10,8 @@
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Presenters/CasePicture.h"
-#include "petrous/Presenters/HandReplay.h"
-#include "petrous/Presenters/PathDrill.h"
+#include "petrous/Presenters/RecordingPlayer.h"
+#include "petrous/Session/PathDrill.h"
 
 namespace petrous::cli
 {
@@ -50,31 +50,31 @@ dissection::Burr burrFrom(const Options& options)
   return burr;
 }
 
-presenters::PathDrill::Options toolFrom(const Options& options)
+session::PathDrill::Options toolFrom(const Options& options)
 {
-  presenters::PathDrill::Options result;
+  session::PathDrill::Options result;
   result.tool.burr = burrFrom(options);
   if (options.mode != "6dof" && options.mode != "3dof")
     throw UsageError("--mode: '6dof' or '3dof', not '" + options.mode + "'");
-  result.tool.mode = options.mode == "3dof" ? presenters::TouchTool::Mode::ThreeDof
-                                            : presenters::TouchTool::Mode::SixDof;
+  result.tool.mode = options.mode == "3dof" ? session::TouchTool::Mode::ThreeDof
+                                            : session::TouchTool::Mode::SixDof;
   if (options.thrust && !(*options.thrust > 0.0 && *options.thrust <= 20.0))
     throw UsageError("--thrust: must lie above 0 and within 20 N");
   result.thrust = options.thrust;
-  result.tool.coupling = presenters::couplingFor(result.tool.mode, result.thrust);
+  result.tool.coupling = session::couplingFor(result.tool.mode, result.thrust);
   return result;
 }
 
-void checkTool(const Options& options, const simulation::RecordingSetup& recorded)
+void checkTool(const Options& options, const session::RecordingSetup& recorded)
 {
-  // Only what was asked for by name.
+  // Checks only options given explicitly.
   const auto refuse = [&](const std::string& asked)
   {
-    throw core::InvalidParameter(options.replay + ": was recorded with a " + inWords(recorded) +
+    throw core::InvalidParameter(options.replay + ": was recorded with a " + toString(recorded) +
                                  ", not with " + asked);
   };
-  const presenters::PathDrill::Options tool = toolFrom(options);
-  const bool three = tool.tool.mode == presenters::TouchTool::Mode::ThreeDof;
+  const session::PathDrill::Options tool = toolFrom(options);
+  const bool three = tool.tool.mode == session::TouchTool::Mode::ThreeDof;
   if (options.given("--burr") && tool.tool.burr.kind != recorded.burr.kind)
     refuse("--burr " + options.kind);
   if (options.given("--diameter") && tool.tool.burr.diameter != recorded.burr.diameter)
@@ -86,7 +86,7 @@ void checkTool(const Options& options, const simulation::RecordingSetup& recorde
     refuse("--mode " + options.mode);
 }
 
-// What is named by an option counts before what lies in the library.
+// Files given by an option override those of the library.
 dissection::Catalogues cataloguesFrom(const Options& options, const std::filesystem::path& folder)
 {
   if (options.materials.empty() && options.burrs.empty())
@@ -102,7 +102,7 @@ void openCase(const Context& context, library::Library& library, const std::stri
   library.loadDissection(value);
   value.ct.volume.get();
   library.checkVoxels(value, progress);
-  remarkMissingPlaces(context, value);
+  warnMissingPlaces(context, value);
 }
 
 void save(const Context& context, library::Library& library, scene::Case& value,
@@ -110,12 +110,12 @@ void save(const Context& context, library::Library& library, scene::Case& value,
           const core::Progress& progress)
 {
   if (!report.changed())
-    return context.remark("nothing was cut; the case is as it was");
+    return context.warn("nothing was cut; the case is as it was");
   try
   {
     const std::string words = library.saveDrilled(value, opened, progress.part(0.9, 1.0));
     if (!words.empty())
-      context.remark(words);
+      context.warn(words);
   }
   catch (const core::CancelledError&)
   {
@@ -128,35 +128,34 @@ void save(const Context& context, library::Library& library, scene::Case& value,
                                          "; what was drilled is kept in the case's journal and "
                                          "comes back when the case is opened next");
   }
-  catch (...) // no memory, say
+  catch (...) // such as out of memory
   {
     journal.leave();
     throw;
   }
 }
 
-double armAt(const presenters::PathDrill& session, const simulation::TickRecord& record)
+double armAt(const session::PathDrill& session, const session::TickRecord& record)
 {
   return record.drill ? session.removal().arm()
-                      : simulation::RemovalFeed::armOf(session.radius(), record.elevation, 0.0);
+                      : session::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
 }
 
-void sayBalance(const Context& context, const presenters::PathDrill& session,
-                nlohmann::json& answer)
+void printBalance(const Context& context, const session::PathDrill& session, nlohmann::json& answer)
 {
-  const simulation::RemovalBalance balance = session.removal().balance();
-  context.say("the laws predict " + fixed(balance.predicted, 2) +
-              " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
-              " owed, " + fixed(balance.forfeited, 2) + " forfeited");
+  const session::RemovalBalance balance = session.removal().balance();
+  context.print("the laws predict " + fixed(balance.predicted, 2) +
+                " mm3: " + fixed(balance.removed, 2) + " removed, " + fixed(balance.owed, 2) +
+                " owed, " + fixed(balance.forfeited, 2) + " forfeited");
   answer["predicted_mm3"] = balance.predicted;
   answer["owed_mm3"] = balance.owed;
   answer["forfeited_mm3"] = balance.forfeited;
   answer["swept_mm3"] = session.swept();
 }
 
-// What is drilled outlives a kill; a command that ends otherwise leaves no journal.
+// What is drilled survives a kill; a command that ends otherwise leaves no journal.
 std::unique_ptr<library::Journal> journalOf(const library::Library& library,
-                                            const scene::Case& value, presenters::TouchScene& touch)
+                                            const scene::Case& value, session::TouchScene& touch)
 {
   const auto measured = [&touch](const dissection::Dissection& work)
   {
@@ -173,7 +172,7 @@ std::unique_ptr<library::Journal> journalOf(const library::Library& library,
 
 void play(const Context& context, const Options& options)
 {
-  presenters::PathDrill::Options tool = toolFrom(options);
+  session::PathDrill::Options tool = toolFrom(options);
   std::ifstream file = core::openInput(options.path, kLargestInput);
   const auto path = dissection::ToolPath::read(file, options.path);
 
@@ -185,9 +184,9 @@ void play(const Context& context, const Options& options)
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
   tool.catalogues = cataloguesFrom(options, library.folder());
-  presenters::TouchScene touch(value, progress, 0, true);
+  session::TouchScene touch(value, progress, 0, true);
   const auto journal = journalOf(library, value, touch);
-  presenters::PathDrill session(value, touch, tool);
+  session::PathDrill session(value, touch, tool);
   DrillReport report(value, touch, 0.5 * tool.tool.burr.diameter, options.log, context.json());
 
   std::size_t ticks = 0;
@@ -198,11 +197,11 @@ void play(const Context& context, const Options& options)
             {
               if (ticks++ % 256 == 0)
                 progress.report(0.9 * (tick.time - start) / length, "drilling");
-              const simulation::TickRecord& record = report.feel(
-                  [&]() -> const simulation::TickRecord& { return session.feel(tick); });
+              const session::TickRecord& record =
+                  report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
               session.cut(tick);
               journal->follow(*value.dissection);
-              const simulation::RemovalBalance balance = session.removal().balance();
+              const session::RemovalBalance balance = session.removal().balance();
               report.add(record, TickRemoval{record.thrust > 0.0 ? armAt(session, record) : 0.0,
                                              balance.removed + session.swept(), balance.predicted});
             });
@@ -211,23 +210,23 @@ void play(const Context& context, const Options& options)
   report.close();
   save(context, library, value, report, opened, *journal, progress);
 
-  report.say(context);
+  report.print(context);
   nlohmann::json answer = report.json();
-  sayBalance(context, session, answer);
-  if (const simulation::RecordingWriter* recording = session.recording())
+  printBalance(context, session, answer);
+  if (const session::RecordingWriter* recording = session.recording())
   {
-    context.say("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
-                " bytes");
+    context.print("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
+                  " bytes");
     answer["recording"] = {
         {"file", options.record}, {"ticks", recording->ticks()}, {"bytes", recording->bytes()}};
   }
-  context.give(answer);
+  context.printJson(answer);
 }
 
 void replay(const Context& context, const Options& options)
 {
-  core::InputFile(options.replay); // says which file is not there
-  simulation::RecordingReader reader(options.replay);
+  core::InputFile(options.replay); // throws, naming a missing file
+  session::RecordingReader reader(options.replay);
   checkTool(options, reader.setup());
 
   library::Library library = context.openLibrary();
@@ -236,9 +235,9 @@ void replay(const Context& context, const Options& options)
   openCase(context, library, options.caseName, value, progress);
   const library::SavedState opened = value;
   const auto camera = presenters::currentCamera(value);
-  presenters::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
+  session::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);
-  presenters::HandReplay session(value, touch, reader, options.replay, camera);
+  presenters::RecordingPlayer session(value, touch, reader, options.replay, camera);
   DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
 
   std::size_t ticks = 0;
@@ -246,29 +245,29 @@ void replay(const Context& context, const Options& options)
   {
     if (ticks++ % 256 == 0)
       progress.report(0.5, "playing the recording");
-    const simulation::TickRecord& record =
-        report.feel([&]() -> const simulation::TickRecord& { return session.feel(); });
+    const session::TickRecord& record =
+        report.feel([&]() -> const session::TickRecord& { return session.feel(); });
     session.follow();
     journal->follow(*value.dissection);
     report.add(record);
   }
   report.close();
-  const simulation::RecordingReplay::Outcome& outcome = session.outcome();
+  const session::RecordingReplay::Outcome& outcome = session.outcome();
   if (!outcome.warning.empty())
-    context.remark(outcome.warning);
+    context.warn(outcome.warning);
   if (outcome.equal())
     save(context, library, value, report, opened, *journal, progress);
 
-  report.say(context);
+  report.print(context);
   nlohmann::json answer = report.json();
   nlohmann::json first = nullptr;
   if (outcome.firstDifferent)
     first = *outcome.firstDifferent;
-  answer["replay"] = {{"file", options.replay},         {"tool", inWords(reader.setup())},
+  answer["replay"] = {{"file", options.replay},         {"tool", toString(reader.setup())},
                       {"session", reader.setup().note}, {"equal", outcome.equal()},
                       {"complete", reader.complete()},  {"different_ticks", outcome.different},
                       {"first_different_tick", first},  {"difference", outcome.difference}};
-  context.give(answer);
+  context.printJson(answer);
   if (!outcome.equal())
     throw core::Error(
         core::Fault::Internal,
@@ -277,7 +276,7 @@ void replay(const Context& context, const Options& options)
             (outcome.firstDifferent ? ", first tick " + std::to_string(*outcome.firstDifferent)
                                     : std::string()) +
             "): " + outcome.difference + "; the case is as it was");
-  context.say("the replay is the recording, bit for bit");
+  context.print("the replay is the recording, bit for bit");
 }
 
 } // namespace

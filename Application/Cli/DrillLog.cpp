@@ -17,13 +17,13 @@ void write(std::ostream& stream, const double (&values)[count])
     stream << ',' << value;
 }
 
-void write(std::ostream& stream, const simulation::PoseValues& pose)
+void write(std::ostream& stream, const session::PoseValues& pose)
 {
   write(stream, pose.position);
   write(stream, pose.rotation);
 }
 
-void write(std::ostream& stream, const simulation::WrenchValues& wrench)
+void write(std::ostream& stream, const session::WrenchValues& wrench)
 {
   write(stream, wrench.force);
   write(stream, wrench.torque);
@@ -32,7 +32,7 @@ void write(std::ostream& stream, const simulation::WrenchValues& wrench)
 } // namespace
 
 DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
-                   presenters::TouchScene& scene)
+                   session::TouchScene& scene)
   : m_name(file.string())
   , m_file(core::outputTarget(file))
   , m_case(value)
@@ -61,7 +61,7 @@ void DrillLog::measure()
   m_before = now;
 }
 
-void DrillLog::add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal)
+void DrillLog::add(const session::TickRecord& record, const std::optional<TickRemoval>& removal)
 {
   if (!removal)
     measure();

@@ -6,32 +6,31 @@
 #include <optional>
 
 #include "petrous/Dissection/RemovedVolume.h"
-#include "petrous/Presenters/TouchScene.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
+#include "petrous/Session/TouchScene.h"
 
 namespace petrous::cli
 {
 
-/// What the removal laws made of a tick.
+/// Output of the removal laws for a tick.
 struct TickRemoval
 {
-  double arm = 0.0;       ///< mm, of the contact from the spindle's axis, as the law took it
-  double removed = 0.0;   ///< mm^3 until then, with what was swept
-  double predicted = 0.0; ///< mm^3 until then
+  double arm = 0.0;       ///< mm, distance of the contact from the spindle axis, as used by the law
+  double removed = 0.0;   ///< mm^3 so far, including what was swept
+  double predicted = 0.0; ///< mm^3 so far
 };
 
-/// `drill --log`: one row a tick. Where no law is at work (a replay), the volume that is gone is
-/// measured tick by tick, which takes its time.
+/// `drill --log`: one row per tick. Without a removal law (a replay), the removed volume is
+/// measured tick by tick, which is slow.
 class DrillLog
 {
 public:
-  /// Throws FileError-like InvalidParameter naming the file when it cannot be written.
-  DrillLog(const std::filesystem::path& file, const scene::Case& value,
-           presenters::TouchScene& scene);
+  /// Throws InvalidParameter naming the file if it cannot be written.
+  DrillLog(const std::filesystem::path& file, const scene::Case& value, session::TouchScene& scene);
 
-  void add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal);
+  void add(const session::TickRecord& record, const std::optional<TickRemoval>& removal);
 
-  /// Throws when not everything could be written.
+  /// Throws InvalidParameter if not everything could be written.
   void close();
 
 private:
@@ -40,7 +39,7 @@ private:
   std::string m_name;
   std::ofstream m_file;
   const scene::Case& m_case;
-  presenters::TouchScene& m_scene;
+  session::TouchScene& m_scene;
   volume::CutMask m_before;
   double m_removed = 0.0; // mm^3
 };

@@ -8,7 +8,7 @@
 namespace petrous::cli
 {
 
-DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, double radius,
+DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene, double radius,
                          const std::string& log, bool distances)
   : m_case(value)
   , m_position(value.history.position())
@@ -20,16 +20,15 @@ DrillReport::DrillReport(scene::Case& value, presenters::TouchScene& scene, doub
     m_distances.emplace(value, radius);
 }
 
-void DrillReport::add(const simulation::TickRecord& record,
-                      const std::optional<TickRemoval>& removal)
+void DrillReport::add(const session::TickRecord& record, const std::optional<TickRemoval>& removal)
 {
   const haptics::Wrench wrench = record.wrench.wrench();
   m_force = std::max(m_force, wrench.linear.norm());
   m_torque = std::max(m_torque, wrench.angular.norm());
   m_penetration = std::max(m_penetration, record.penetration);
-  m_shaft += (record.held & simulation::TickRecord::kShaft) != 0;
-  m_handpiece += (record.held & simulation::TickRecord::kHandpiece) != 0;
-  if (simulation::isHeldOff(record))
+  m_shaft += (record.held & session::TickRecord::kShaft) != 0;
+  m_handpiece += (record.held & session::TickRecord::kHandpiece) != 0;
+  if (session::isHeldOff(record))
   {
     ++m_heldOff;
     m_holder |= record.held;
@@ -37,7 +36,7 @@ void DrillReport::add(const simulation::TickRecord& record,
   m_inside += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
   if (m_log)
     m_log->add(record, removal);
-  using simulation::ServoFault;
+  using session::ServoFault;
   const auto fault = static_cast<ServoFault>(record.fault);
   m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
                           fault != ServoFault::Parameters);
@@ -56,7 +55,7 @@ bool DrillReport::changed() const
   return m_case.history.position() != m_position || m_case.strokes.size() != m_before;
 }
 
-// Of the strokes that were made here and stand.
+// Of the strokes made here that are applied.
 DrillReport::Cut DrillReport::cut() const
 {
   Cut result;
@@ -73,21 +72,21 @@ DrillReport::Cut DrillReport::cut() const
   return result;
 }
 
-void DrillReport::say(const Context& context) const
+void DrillReport::print(const Context& context) const
 {
   const Cut result = cut();
   if (m_inside > 0)
-    context.remark("the tool stood in tissue for " + std::to_string(m_inside) +
-                   " ticks: there nothing is felt, and the drill takes what the burr sweeps");
+    context.warn("the tool stood in tissue for " + std::to_string(m_inside) +
+                 " ticks: there nothing is felt, and the drill takes what the burr sweeps");
   if (m_heldOff > 0)
-    context.remark(simulation::holderInWords(m_holder) +
-                   " lay on tissue and held the burr off for " + std::to_string(m_heldOff) +
-                   " ticks of drilling: give the tool another angle or more room");
-  context.say(std::to_string(result.strokes) + (result.strokes == 1 ? " stroke, " : " strokes, ") +
-              fixed(result.removed, 2) + " mm3 removed in " + std::to_string(m_times.count()) +
-              " ticks");
+    context.warn(session::holderInWords(m_holder) + " lay on tissue and held the burr off for " +
+                 std::to_string(m_heldOff) +
+                 " ticks of drilling: give the tool another angle or more room");
+  context.print(std::to_string(result.strokes) +
+                (result.strokes == 1 ? " stroke, " : " strokes, ") + fixed(result.removed, 2) +
+                " mm3 removed in " + std::to_string(m_times.count()) + " ticks");
   for (const auto& [name, volume] : result.structures)
-    context.say("  of '" + name + "': " + fixed(volume, 2) + " mm3");
+    context.print("  of '" + name + "': " + fixed(volume, 2) + " mm3");
 }
 
 nlohmann::json DrillReport::json()

@@ -12,35 +12,35 @@
 namespace petrous::cli
 {
 
-/// What `drill` says of what was felt and cut, be it along a path or played again.
+/// Report of `drill`: forces and removal, along a path or in a replay.
 class DrillReport
 {
 public:
   /// radius     of the burr, mm
   /// log        the file of `--log`, or empty
-  /// distances  how near the burr comes to each labelled structure is asked for
+  /// distances  whether the minimum distance of the burr to each labelled structure is computed
   /// Case and scene must outlive this.
-  DrillReport(scene::Case& value, presenters::TouchScene& scene, double radius,
-              const std::string& log, bool distances);
+  DrillReport(scene::Case& value, session::TouchScene& scene, double radius, const std::string& log,
+              bool distances);
 
   /// The servo's tick, timed.
   template <typename Call>
-  const simulation::TickRecord& feel(Call call)
+  const session::TickRecord& feel(Call call)
   {
     return m_times.take(call);
   }
 
-  /// The tick, once what follows it in the tissue is done. `removal`: where a law is at work.
-  void add(const simulation::TickRecord& record, const std::optional<TickRemoval>& removal = {});
+  /// Adds the tick, after its effect on the tissue. `removal`: if a removal law is in use.
+  void add(const session::TickRecord& record, const std::optional<TickRemoval>& removal = {});
 
-  /// After the last tick: closes the log.
+  /// Call after the last tick: closes the log.
   void close();
 
-  /// Something was cut, taken back or brought back.
+  /// Whether something was removed, undone or redone.
   bool changed() const;
 
-  /// The report in words, and its JSON object.
-  void say(const Context& context) const;
+  /// The report as text, and as a JSON object.
+  void print(const Context& context) const;
   nlohmann::json json();
 
 private:
@@ -56,18 +56,18 @@ private:
   scene::Case& m_case;
   std::optional<DrillLog> m_log;
   std::optional<presenters::StructureDistances> m_distances;
-  std::size_t m_position; // when it began
-  std::size_t m_before;   // strokes there were then
-  bool m_placed = false;  // the hand has taken up the tool
+  std::size_t m_position; // at the start
+  std::size_t m_before;   // number of strokes at the start
+  bool m_placed = false;  // the device controls the tool
   core::TickTimes m_times;
-  double m_force = 0.0;       // N, the hardest of all ticks
+  double m_force = 0.0;       // N, maximum of all ticks
   double m_torque = 0.0;      // N mm
   double m_penetration = 0.0; // mm
-  std::size_t m_inside = 0;   // ticks of which the tool spent the whole in tissue
+  std::size_t m_inside = 0;   // ticks in which the tool was in tissue throughout
   std::size_t m_shaft = 0;    // ticks in which it pressed on tissue
   std::size_t m_handpiece = 0;
-  std::size_t m_heldOff = 0; // ticks of drilling in which they carried most of the force
-  std::uint8_t m_holder = 0; // then
+  std::size_t m_heldOff = 0; // drilling ticks with most of the force on these
+  std::uint8_t m_holder = 0; // which of them
 };
 
 } // namespace petrous::cli

@@ -35,8 +35,8 @@ T rounded(double value)
     return static_cast<T>(value);
 }
 
-// The CT as it is left: untouched voxels keep their value, removed ones are air, and between them
-// the value is capped so that the surface at `iso` is the cut surface of f.
+// The CT after removal: untouched voxels keep their value, removed ones are air, and in between the
+// value is capped so that the surface at `iso` is the cut surface of f.
 template <class T>
 volume::Volume<T> dissected(const volume::Volume<T>& ct, const volume::CutMask& mask, double iso)
 {
@@ -76,8 +76,8 @@ const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& na
   throw UsageError("export mr: give --part NAME; there are: " + there);
 }
 
-// All structures of maps that share a grid in one map, numbered in their order; where two overlap
-// the earlier one stays.
+// All structures of label maps that share a grid, merged into one map and numbered in order; where
+// two overlap the earlier one is kept.
 volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
                               const std::string& only)
 {
@@ -90,8 +90,8 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
         continue;
       const auto placed = scene::labelsOnCt(value, part);
       if (!placed)
-        context.remark("'" + structure.name + "' is written where its MR has it, not on the CT: " +
-                       scene::missingPlace(value, structure.name));
+        context.warn("'" + structure.name + "' is written where its MR has it, not on the CT: " +
+                     scene::missingPlace(value, structure.name));
       const auto& source = *(placed ? placed : part.labels.get())->voxels;
       if (!voxels)
         voxels =
@@ -120,7 +120,7 @@ void exportCase(const Context& context, const Options& options)
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
-  // What is mapped for the file must be what was stored.
+  // Voxels mapped for the file must be what was stored.
   const auto checked = [&](const scene::ImagePart& image)
   {
     auto volume = image.volume.get();
@@ -155,8 +155,8 @@ void exportCase(const Context& context, const Options& options)
   else
     throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + options.what +
                      "'");
-  context.say(options.out + ": " + options.what + " of '" + value.name + "'");
-  context.give({{"case", value.name}, {"what", options.what}, {"out", options.out}});
+  context.print(options.out + ": " + options.what + " of '" + value.name + "'");
+  context.printJson({{"case", value.name}, {"what", options.what}, {"out", options.out}});
 }
 
 } // namespace

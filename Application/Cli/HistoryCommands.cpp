@@ -28,26 +28,26 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
         scene::Case value = library.open(options->caseName);
         const std::size_t steps = step(value, static_cast<std::size_t>(options->count));
         if (steps == 0)
-          context.remark("nothing to " + name + " in case '" + value.name + "'");
+          context.warn("nothing to " + name + " in case '" + value.name + "'");
         else
           library.save(value);
         const std::size_t ahead = value.history.ahead();
-        context.say(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
-                    std::to_string(value.applied()) + " done, " + std::to_string(ahead) +
-                    " to redo, " + fixed(value.removedVolume(), 1) + " mm3 removed");
-        context.give({{"case", value.name},
-                      {"branch", value.history.branch().name},
-                      {"steps", steps},
-                      {"strokes", value.strokes.size()},
-                      {"undo", value.applied()},
-                      {"redo", ahead},
-                      {"removed_mm3", value.removedVolume()}});
+        context.print(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
+                      std::to_string(value.applied()) + " done, " + std::to_string(ahead) +
+                      " to redo, " + fixed(value.removedVolume(), 1) + " mm3 removed");
+        context.printJson({{"case", value.name},
+                           {"branch", value.history.branch().name},
+                           {"steps", steps},
+                           {"strokes", value.strokes.size()},
+                           {"undo", value.applied()},
+                           {"redo", ahead},
+                           {"removed_mm3", value.removedVolume()}});
       });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("N", options->count, "How many strokes (1)");
 }
 
-void sayStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)
+void printStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)
 {
   const auto& info = value.strokes[n].info;
   std::string line = std::to_string(n + 1) + state + info.startedAt + "  " +
@@ -55,28 +55,28 @@ void sayStroke(const Context& context, const scene::Case& value, std::size_t n, 
                      ", " + fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
   for (const auto& touched : info.structures)
     line += "; " + touched.name + " " + fixed(touched.volume, 2) + " mm3";
-  context.say(line + (info.recovered ? "; recovered" : ""));
+  context.print(line + (info.recovered ? "; recovered" : ""));
 }
 
-void sayHistory(const Context& context, const scene::Case& value)
+void printHistory(const Context& context, const scene::Case& value)
 {
   const dissection::History& history = value.history;
   if (value.strokes.empty())
-    return context.say("no stroke yet");
-  context.say("branch " + history.branch().name + ":");
+    return context.print("no stroke yet");
+  context.print("branch " + history.branch().name + ":");
   const auto line = history.lineTo(history.branch().tip);
   for (std::size_t n = 0; n < line.size(); ++n)
-    sayStroke(context, value, line[n], n < value.applied() ? "  done    " : "  undone  ");
+    printStroke(context, value, line[n], n < value.applied() ? "  done    " : "  undone  ");
   for (const auto& branch : history.branches())
   {
     if (&branch == &history.branch())
       continue;
-    const auto own = history.way(history.branch().tip, branch.tip).forth;
-    context.say("branch " + branch.name + ": " +
-                (own.empty() ? "nothing of its own"
-                             : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
+    const auto own = history.path(history.branch().tip, branch.tip).redone;
+    context.print("branch " + branch.name + ": " +
+                  (own.empty() ? "nothing of its own"
+                               : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
     for (const std::size_t n : own)
-      sayStroke(context, value, n, "          ");
+      printStroke(context, value, n, "          ");
   }
 }
 
@@ -92,16 +92,16 @@ void addHistoryCommands(CLI::App& app, Context& context)
                   [name, &context]
                   {
                     const scene::Case value = context.openLibrary().open(*name);
-                    sayHistory(context, value);
+                    printHistory(context, value);
                     nlohmann::json branches = nlohmann::json::array();
                     for (const auto& branch : value.history.branches())
                       branches.push_back(branchJson(value, branch));
-                    context.give({{"case", value.name},
-                                  {"branch", value.history.branch().name},
-                                  {"branches", std::move(branches)},
-                                  {"strokes", strokesJson(value)},
-                                  {"undo", value.applied()},
-                                  {"redo", value.history.ahead()}});
+                    context.printJson({{"case", value.name},
+                                       {"branch", value.history.branch().name},
+                                       {"branches", std::move(branches)},
+                                       {"strokes", strokesJson(value)},
+                                       {"undo", value.applied()},
+                                       {"redo", value.history.ahead()}});
                   })
       ->add_option("CASE", *name)
       ->required();

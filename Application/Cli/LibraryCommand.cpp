@@ -14,8 +14,8 @@ struct Options
   std::vector<std::string> names;
 };
 
-void sayCases(const Context& context, const library::Library& library,
-              const std::vector<library::CaseSummary>& summaries)
+void printCases(const Context& context, const library::Library& library,
+                const std::vector<library::CaseSummary>& summaries)
 {
   nlohmann::json cases = nlohmann::json::array();
   for (const auto& summary : summaries)
@@ -27,15 +27,15 @@ void sayCases(const Context& context, const library::Library& library,
                      {"strokes", summary.strokes},
                      {"removed_mm3", summary.removed},
                      {"damaged", summary.damaged}});
-    context.say(summary.name + "  " + summary.modified + "  " +
-                (summary.damaged ? "damaged: its manifest cannot be read"
-                                 : std::to_string(summary.structures) + " structures, " +
-                                       std::to_string(summary.strokes) + " strokes, " +
-                                       fixed(summary.removed, 1) + " mm3 removed"));
+    context.print(summary.name + "  " + summary.modified + "  " +
+                  (summary.damaged ? "damaged: its manifest cannot be read"
+                                   : std::to_string(summary.structures) + " structures, " +
+                                         std::to_string(summary.strokes) + " strokes, " +
+                                         fixed(summary.removed, 1) + " mm3 removed"));
   }
   if (cases.empty())
-    context.say("no case in " + library.folder().string());
-  context.give({{"library", library.folder().string()}, {"cases", std::move(cases)}});
+    context.print("no case in " + library.folder().string());
+  context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
 }
 
 void verify(const Context& context, const library::Library& library)
@@ -45,11 +45,11 @@ void verify(const Context& context, const library::Library& library)
   for (const auto& one : found.damaged)
   {
     damaged.push_back({{"object", one.object}, {"cases", one.cases}, {"text", one.text}});
-    context.say(one.text);
+    context.print(one.text);
   }
-  context.say(std::to_string(found.cases) + " cases, " + std::to_string(found.objects) +
-              " objects, " + std::to_string(found.damaged.size()) + " damaged");
-  context.give({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
+  context.print(std::to_string(found.cases) + " cases, " + std::to_string(found.objects) +
+                " objects, " + std::to_string(found.damaged.size()) + " damaged");
+  context.printJson({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
   if (!found.damaged.empty())
     throw library::LibraryError(library::LibraryError::Reason::Damaged,
                                 library.folder().string() + ": " +
@@ -60,20 +60,21 @@ void verify(const Context& context, const library::Library& library)
 void collect(const Context& context, library::Library& library)
 {
   const library::Collected removed = library.collectGarbage();
-  context.say(std::to_string(removed.objects) + " objects that no case needs were removed, " +
-              std::to_string(removed.bytes) + " bytes");
+  context.print(std::to_string(removed.objects) + " objects that no case needs were removed, " +
+                std::to_string(removed.bytes) + " bytes");
   library::DerivedCache derived(library::derivedFolder(library.folder()));
   const std::uintmax_t freed = derived.prune(0);
-  context.say("derived data removed: " + fixed(1e-6 * static_cast<double>(freed), 1) + " MB");
-  context.give({{"removed", removed.objects}, {"bytes", removed.bytes}, {"derived_bytes", freed}});
+  context.print("derived data removed: " + fixed(1e-6 * static_cast<double>(freed), 1) + " MB");
+  context.printJson(
+      {{"removed", removed.objects}, {"bytes", removed.bytes}, {"derived_bytes", freed}});
 }
 
 void repair(const Context& context, library::Library& library)
 {
   const std::vector<std::string> done = library.repair();
   for (const std::string& line : done)
-    context.say(line);
-  context.give({{"done", done}});
+    context.print(line);
+  context.printJson({{"done", done}});
 }
 
 void run(const Context& context, const Options& options)
@@ -88,12 +89,12 @@ void run(const Context& context, const Options& options)
   if (action == "list")
   {
     names(0, "list");
-    sayCases(context, library, library.list());
+    printCases(context, library, library.list());
   }
   else if (action == "search")
   {
     names(1, "search TEXT");
-    sayCases(context, library, library.search(options.names[0]));
+    printCases(context, library, library.search(options.names[0]));
   }
   else if (action == "verify")
   {
@@ -114,23 +115,23 @@ void run(const Context& context, const Options& options)
   {
     names(2, "rename A B");
     library.rename(options.names[0], options.names[1]);
-    context.say("case '" + options.names[0] + "' is now '" + options.names[1] + "'");
-    context.give({{"case", options.names[1]}, {"was", options.names[0]}});
+    context.print("case '" + options.names[0] + "' is now '" + options.names[1] + "'");
+    context.printJson({{"case", options.names[1]}, {"was", options.names[0]}});
   }
   else if (action == "copy")
   {
     names(2, "copy A B");
     library.copy(options.names[0], options.names[1], context.progress());
-    context.say("case '" + options.names[1] + "' is a copy of '" + options.names[0] + "'");
-    context.give({{"case", options.names[1]}, {"from", options.names[0]}});
+    context.print("case '" + options.names[1] + "' is a copy of '" + options.names[0] + "'");
+    context.printJson({{"case", options.names[1]}, {"from", options.names[0]}});
   }
   else if (action == "delete")
   {
     names(1, "delete NAME");
     library.remove(options.names[0]);
-    context.say("case '" + options.names[0] +
-                "' is deleted; 'petrous library gc' frees what no other case needs");
-    context.give({{"case", options.names[0]}, {"deleted", true}});
+    context.print("case '" + options.names[0] +
+                  "' is deleted; 'petrous library gc' frees what no other case needs");
+    context.printJson({{"case", options.names[0]}, {"deleted", true}});
   }
   else
     throw UsageError("library: '" + action +

@@ -9,20 +9,20 @@
 namespace petrous::cli
 {
 
-/// Exactly `count` finite numbers with commas between them; UsageError naming `option` otherwise.
+/// Exactly `count` finite numbers separated by commas; otherwise throws UsageError naming `option`.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count,
                                  const std::string& option);
 
-/// "x0,x1,y0,y1,z0,z1", each first number the smaller one; UsageError naming `option` otherwise.
+/// "x0,x1,y0,y1,z0,z1", minimum before maximum; otherwise throws UsageError naming `option`.
 core::PatientBox parseBox(const std::string& text, const std::string& option);
 
-/// A whole number that fits an int; UsageError naming `option` otherwise.
+/// An integer within the range of int; otherwise throws UsageError naming `option`.
 int toInt(double value, const std::string& option);
 
-/// "800x600": 8 to 8192 pixels each; UsageError otherwise.
+/// "800x600": 8 to 8192 pixels each; otherwise throws UsageError.
 std::pair<int, int> parseSize(const std::string& text);
 
-/// A number for people: `digits` after the point.
+/// A number as text with `digits` decimals.
 std::string fixed(double value, int digits);
 
 } // namespace petrous::cli

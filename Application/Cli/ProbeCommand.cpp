@@ -1,5 +1,5 @@
 #include "CaseJson.h"
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "PointsFile.h"
 #include "petrous/Core/NumberText.h"
@@ -13,10 +13,10 @@ namespace petrous::cli
 namespace
 {
 
-// How far a surface is looked for, mm.
+// Search distance for a surface, mm.
 constexpr double kReach = 20.0;
 
-// Round a point, mm, where its surface mostly lies: what is there is worked out for all at once.
+// Region around a point, mm, that usually contains its surface: evaluated for all points at once.
 constexpr double kNear = 3.0;
 
 std::string structureAt(const scene::Case& value, const std::vector<scene::MeshSolid>& meshes,
@@ -40,7 +40,7 @@ std::string structureAt(const scene::Case& value, const std::vector<scene::MeshS
         return structure.name;
   }
   for (const scene::MeshSolid& mesh : meshes)
-    if (volume::isInside(*mesh.share, p))
+    if (volume::isInside(*mesh.occupancy, p))
       return mesh.part->name;
   return {};
 }
@@ -57,7 +57,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
-  remarkMissingPlaces(context, value);
+  warnMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
   const auto meshes = scene::meshSolidsAt(value, points, progress.part(0.2, 0.4));
@@ -104,8 +104,8 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   if (!out.empty())
     core::writeFile(out, csv);
   else
-    context.say(csv.substr(0, csv.size() - 1));
-  context.give({{"case", value.name}, {"points", std::move(rows)}});
+    context.print(csv.substr(0, csv.size() - 1));
+  context.printJson({{"case", value.name}, {"points", std::move(rows)}});
 }
 
 } // namespace

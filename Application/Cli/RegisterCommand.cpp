@@ -6,9 +6,9 @@
 #include "Numbers.h"
 #include "RegistrationFiles.h"
 #include "petrous/Presenters/CaseRegistration.h"
-#include "petrous/Presenters/DrillSession.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Session/DrillSession.h"
 
 namespace petrous::cli
 {
@@ -81,7 +81,7 @@ nlohmann::json orNull(const std::optional<double>& value)
   return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
 }
 
-// The contract's keys, and what stands beside them.
+// The specified keys, and additional ones.
 nlohmann::json answerJson(const scene::Case& value, const std::string& mr,
                           const core::RigidTransform& transform, const scene::Registration& how,
                           const char* verdict)
@@ -112,14 +112,15 @@ nlohmann::json answerJson(const scene::Case& value, const std::string& mr,
           {"resources", residentResources(value)}};
 }
 
-void sayError(const Context& context, const scene::Registration& how)
+void printError(const Context& context, const scene::Registration& how)
 {
   if (how.error)
-    context.say("  error at " + how.error->place + ": median " + fixed(how.error->median, 2) +
-                ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) + " mm");
+    context.print("  error at " + how.error->place + ": median " + fixed(how.error->median, 2) +
+                  ", p95 " + fixed(how.error->p95, 2) + ", max " + fixed(how.error->max, 2) +
+                  " mm");
 }
 
-// A signature is for what somebody has looked at, so nothing else happens beside it.
+// A sign-off is for a result that was inspected, so it excludes every other action.
 void sign(const Context& context, const Options& options)
 {
   if (!options.init.empty() || !options.transform.empty() || options.asIs || !options.at.empty() ||
@@ -128,34 +129,34 @@ void sign(const Context& context, const Options& options)
                      "what you saw");
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
-  scene::signOff(value, options.mr, options.signOff, presenters::utcNow());
+  scene::signOff(value, options.mr, options.signOff, session::utcNow());
   library.save(value);
   const scene::ImagePart& mr = *scene::findMr(value, options.mr);
-  context.say("MR '" + mr.name + "': " + scene::registrationInWords(mr));
-  context.give(
+  context.print("MR '" + mr.name + "': " + scene::registrationInWords(mr));
+  context.printJson(
       answerJson(value, mr.name, mr.mrFromCt, *mr.registration, nameOf(mr.registration->verdict)));
 }
 
-void sayOutcome(const Context& context, const scene::Case& value, const Options& options,
-                const presenters::RegistrationOutcome& outcome, bool wasSigned)
+void printOutcome(const Context& context, const scene::Case& value, const Options& options,
+                  const presenters::RegistrationOutcome& outcome, bool wasSigned)
 {
   const scene::Registration& how = outcome.how;
   if (outcome.failed)
   {
-    context.say("MR '" + options.mr + "': failed. " + how.text);
-    context.say("  the case is as it was");
+    context.print("MR '" + options.mr + "': failed. " + how.text);
+    context.print("  the case is as it was");
     return;
   }
-  context.say("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
-              nameOf(how.verdict) + ". " + how.text);
-  sayError(context, how);
+  context.print("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
+                nameOf(how.verdict) + ". " + how.text);
+  printError(context, how);
   if (!options.asIs)
-    context.say("  " + fixed(outcome.fit.seconds, 1) + " s for the fit, " +
-                fixed(outcome.estimateSeconds, 1) + " s for the error");
+    context.print("  " + fixed(outcome.fit.seconds, 1) + " s for the fit, " +
+                  fixed(outcome.estimateSeconds, 1) + " s for the error");
   if (const auto names = scene::drawnOnMr(value, options.mr); !names.empty())
-    context.say("  now on the CT: " + scene::listed(names));
-  context.say(wasSigned ? "  the sign-off of the registration before is void"
-                        : "  not signed off: look at it, then register --sign-off NAME");
+    context.print("  now on the CT: " + scene::listed(names));
+  context.print(wasSigned ? "  the sign-off of the registration before is void"
+                          : "  not signed off: look at it, then register --sign-off NAME");
 }
 
 void registerMr(const Context& context, const Options& options)
@@ -181,7 +182,7 @@ void registerMr(const Context& context, const Options& options)
     presenters::accept(value, options.mr, outcome);
     library.save(value, progress.part(0.98, 1.0));
   }
-  sayOutcome(context, value, options, outcome, wasSigned);
+  printOutcome(context, value, options, outcome, wasSigned);
   nlohmann::json answer = answerJson(value, options.mr, outcome.mrFromCt, outcome.how,
                                      outcome.failed ? "failed" : nameOf(outcome.how.verdict));
   answer["seconds"] = outcome.fit.seconds;
@@ -189,7 +190,7 @@ void registerMr(const Context& context, const Options& options)
   answer["iterations"] = outcome.fit.iterations;
   answer["overlap"] = orNull(outcome.fit.overlap);
   answer["curve"] = std::move(curve);
-  context.give(answer);
+  context.printJson(answer);
 }
 
 } // namespace

@@ -4,7 +4,7 @@
 
 #include "CameraFile.h"
 #include "CaseJson.h"
-#include "CaseRemarks.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "RenderOptions.h"
@@ -24,11 +24,11 @@ namespace
 
 using rendering::StereoMode;
 
-// What came of it.
+// Output of a rendering.
 struct Result
 {
   rendering::Picture picture;
-  std::optional<rendering::DepthImage> depth; // from the camera in the middle
+  std::optional<rendering::DepthImage> depth; // from the central camera
   std::map<std::string, std::size_t> resources;
   nlohmann::json report;
 };
@@ -55,7 +55,7 @@ rendering::Picture together(std::vector<rendering::Picture> pictures, StereoMode
                               : rendering::composeStereo(pictures[0], pictures[1], mode);
 }
 
-// Nothing of the CT in the scene: no ray was cast.
+// No CT in the scene: no ray was cast.
 rendering::DepthImage depthOf(const rendering::ScenePicture& picture, const Shot& shot)
 {
   rendering::DepthImage depth = picture.depth();
@@ -169,7 +169,7 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
   }
 }
 
-// The scale of the colours, for who reads the picture.
+// The colour scale, for the picture's reader.
 nlohmann::json thicknessJson(const RenderOptions& options)
 {
   if (options.thickness.empty())
@@ -198,7 +198,7 @@ void render(const Context& context, const RenderOptions& options)
               {"convergence_mm", geometry.convergence}};
   }
   library.loadDissection(value);
-  remarkMissingPlaces(context, value);
+  warnMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));
   if (!options.thickness.empty())
@@ -209,7 +209,7 @@ void render(const Context& context, const RenderOptions& options)
   if (result.depth)
     rendering::writeNpy(options.depth, *result.depth);
   for (const auto& note : result.report.at("notes"))
-    context.remark(note.get<std::string>());
+    context.warn(note.get<std::string>());
   for (const auto& [name, bytes] : residentResources(value))
     result.resources.emplace(name, bytes);
   result.report.update({{"case", value.name},
@@ -221,11 +221,11 @@ void render(const Context& context, const RenderOptions& options)
                         {"out", options.out},
                         {"resources", result.resources}});
   if (!options.thickness.empty())
-    context.say("bone is coloured by its thickness over '" + options.thickness +
-                "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
-  context.say(options.out + ": " + options.size + ", " +
-              fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
-  context.give(result.report);
+    context.print("bone is coloured by its thickness over '" + options.thickness +
+                  "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
+  context.print(options.out + ": " + options.size + ", " +
+                fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
+  context.printJson(result.report);
 }
 
 } // namespace

@@ -12,7 +12,7 @@
 namespace petrous::cli
 {
 
-/// The words of `petrous render`.
+/// The options of `petrous render`.
 struct RenderOptions
 {
   std::string caseName, out, size = "800x600", view, camera, stereo = "none", engine = "gpu", depth;
@@ -24,7 +24,7 @@ struct RenderOptions
   double wetness = 0.0;
 };
 
-/// What a picture is taken with.
+/// Size, camera and stereo mode of a picture.
 struct Shot
 {
   int width = 0;
@@ -36,10 +36,10 @@ struct Shot
 
 void addRenderOptions(CLI::App& command, RenderOptions& options);
 
-/// All that needs no case: size and way of stereo. Throws UsageError for what cannot be.
+/// Everything that needs no case: size and stereo mode. Throws UsageError for invalid values.
 Shot parseShot(const RenderOptions& options);
 
-/// What the case shows, under the lamp and with the planes and the box of the options.
+/// The case's scene, with the options' lamp, planes and box.
 rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value);
 
 } // namespace petrous::cli

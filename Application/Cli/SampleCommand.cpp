@@ -1,7 +1,7 @@
 #include "Commands.h"
 
 #include "Numbers.h"
-#include "petrous/Imaging/SamplePatient.h"
+#include "petrous/Phantom/SamplePatient.h"
 
 namespace petrous::cli
 {
@@ -13,7 +13,7 @@ void addSampleCommand(CLI::App& app, Context& context)
     std::string out;
     std::optional<double> spacing;
     std::string dims;
-    double noise = imaging::SampleOptions{}.noise;
+    double noise = phantom::SampleOptions{}.noise;
     double tilt = 0.0;
     std::uint64_t seed = 1;
   };
@@ -22,7 +22,7 @@ void addSampleCommand(CLI::App& app, Context& context)
       app, "sample", "Write the built-in phantom patient",
       [options, &context]
       {
-        imaging::SampleOptions sample;
+        phantom::SampleOptions sample;
         sample.spacing = options->spacing;
         if (!options->dims.empty())
         {
@@ -33,15 +33,15 @@ void addSampleCommand(CLI::App& app, Context& context)
         sample.noise = options->noise;
         sample.tilt = options->tilt;
         sample.seed = options->seed;
-        imaging::writeSamplePatient(options->out, sample, context.progress());
+        phantom::writeSamplePatient(options->out, sample, context.progress());
         const std::filesystem::path out(options->out);
-        context.say("The sample patient is in " + options->out +
-                    ": ct, mr, labels, meshes, truth.json");
-        context.give({{"out", out.string()},
-                      {"ct", (out / "ct").string()},
-                      {"mr", (out / "mr").string()},
-                      {"labels", (out / "labels.seg.nrrd").string()},
-                      {"truth", (out / "truth.json").string()}});
+        context.print("The sample patient is in " + options->out +
+                      ": ct, mr, labels, meshes, truth.json");
+        context.printJson({{"out", out.string()},
+                           {"ct", (out / "ct").string()},
+                           {"mr", (out / "mr").string()},
+                           {"labels", (out / "labels.seg.nrrd").string()},
+                           {"truth", (out / "truth.json").string()}});
       });
   command->add_option("OUT", options->out, "A new or empty folder")->required();
   command->add_option("--spacing", options->spacing, "Voxel size of the CT, mm (0.3)");

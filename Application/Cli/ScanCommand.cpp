@@ -41,10 +41,10 @@ json seriesJson(const imaging::DicomSeries& series)
   return entry;
 }
 
-void sayFindings(const Context& context, const std::vector<imaging::Finding>& findings)
+void printFindings(const Context& context, const std::vector<imaging::Finding>& findings)
 {
   for (const auto& finding : findings)
-    context.say(std::string("    ") + imaging::kindName(finding.kind) + ": " + finding.text);
+    context.print(std::string("    ") + imaging::kindName(finding.kind) + ": " + finding.text);
 }
 
 struct Options
@@ -53,7 +53,7 @@ struct Options
   bool strict = false;
 };
 
-// What --strict does not let pass; empty where every series is sound.
+// Why --strict fails; empty if every series is sound.
 std::string complaintOf(const imaging::ScanResult& result)
 {
   std::size_t unsound = 0;
@@ -71,7 +71,7 @@ void scan(const Context& context, const Options& options)
   const std::string& path = options.path;
   const auto result = imaging::scanDicom(path, context.progress());
   if (result.series.empty() && result.unreadable.empty())
-    imaging::chooseSeries(result, path); // says what was found instead
+    imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
   for (const auto& series : result.series)
   {
@@ -83,18 +83,18 @@ void scan(const Context& context, const Options& options)
       line += " of " + std::to_string(grid->dims()[0]) + " x " + std::to_string(grid->dims()[1]) +
               ", " + fixed(grid->spacing()[0], 3) + " x " + fixed(grid->spacing()[1], 3) + " x " +
               fixed(grid->spacing()[2], 3) + " mm";
-    context.say(line + "  " + series.uid);
-    sayFindings(context, series.geometry.findings);
+    context.print(line + "  " + series.uid);
+    printFindings(context, series.geometry.findings);
     for (const auto& note : series.geometry.notes)
-      context.say("    noted: " + note);
+      context.print("    noted: " + note);
   }
-  sayFindings(context, result.unreadable);
+  printFindings(context, result.unreadable);
   for (const auto& note : result.notes)
-    context.say("noted: " + note);
-  context.give({{"series", std::move(list)},
-                {"unreadable", findingsJson(result.unreadable)},
-                {"notes", result.notes},
-                {"foreign_files", result.foreignFiles}});
+    context.print("noted: " + note);
+  context.printJson({{"series", std::move(list)},
+                     {"unreadable", findingsJson(result.unreadable)},
+                     {"notes", result.notes},
+                     {"foreign_files", result.foreignFiles}});
   if (const std::string complaint = complaintOf(result); options.strict && !complaint.empty())
     throw core::InvalidParameter(path + ": " + complaint);
 }

@@ -7,7 +7,7 @@
 #include "Place.h"
 #include "SlicePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 namespace petrous::cli
 {
@@ -84,7 +84,7 @@ SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int
   return {plane, at, *options.fieldOfView / width, width, height};
 }
 
-// Whether any pixel of the slice lies among the CT's voxels.
+// Whether any pixel of the slice is within the CT's voxels.
 bool meets(const SliceGeometry& slice, const core::GridGeometry& grid)
 {
   const Eigen::Array3d last(grid.dims()[0] - 1, grid.dims()[1] - 1, grid.dims()[2] - 1);
@@ -98,7 +98,7 @@ bool meets(const SliceGeometry& slice, const core::GridGeometry& grid)
   return false;
 }
 
-// "covers x -60 to 60, y -40 to 80, z 0 to 75 mm": the box about the CT, patient LPS.
+// "covers x -60 to 60, y -40 to 80, z 0 to 75 mm": the CT's bounding box, patient LPS.
 std::string coverageOf(const core::GridGeometry& grid)
 {
   const core::PatientBox box = grid.patientBounds();
@@ -181,21 +181,21 @@ void slice(const Context& context, const SliceOptions& options)
   context.refuseDamaged();
   rendering::writePng(options.out, labelled(std::move(pixels), geometry, lines));
   if (mr && !mr->registered)
-    context.remark("MR '" + mr->name +
-                   "' is not registered with the CT; it is shown where its own file puts it");
-  context.say(options.out + ": " + options.plane + ", " + options.size + ", " +
-              fixed(geometry.mmPerPixel(), 3) + " mm a pixel, " + fixed(elapsed, 1) + " ms");
-  context.give({{"case", value.name},
-                {"out", options.out},
-                {"plane", options.plane},
-                {"size", {width, height}},
-                {"center_mm", vectorJson(geometry.center())},
-                {"mm_per_pixel", geometry.mmPerPixel()},
-                {"milliseconds", elapsed},
-                {"window", {{"width", window.width}, {"level", window.level}}},
-                {"hounsfield", display.hounsfield},
-                {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
-                {"resources", residentResources(value)}});
+    context.warn("MR '" + mr->name +
+                 "' is not registered with the CT; it is shown where its own file puts it");
+  context.print(options.out + ": " + options.plane + ", " + options.size + ", " +
+                fixed(geometry.mmPerPixel(), 3) + " mm a pixel, " + fixed(elapsed, 1) + " ms");
+  context.printJson({{"case", value.name},
+                     {"out", options.out},
+                     {"plane", options.plane},
+                     {"size", {width, height}},
+                     {"center_mm", vectorJson(geometry.center())},
+                     {"mm_per_pixel", geometry.mmPerPixel()},
+                     {"milliseconds", elapsed},
+                     {"window", {{"width", window.width}, {"level", window.level}}},
+                     {"hounsfield", display.hounsfield},
+                     {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
+                     {"resources", residentResources(value)}});
 }
 
 } // namespace

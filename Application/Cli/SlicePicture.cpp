@@ -28,7 +28,7 @@ void fill(rendering::Picture& picture, int left, int top, int right, int bottom,
                     3 * (static_cast<std::ptrdiff_t>(row) * picture.width + column));
 }
 
-// Text over a bar with its ends, at the lower right.
+// Text above a bar with end marks, at the lower right.
 void addScaleBar(rendering::Picture& picture, double mmPerPixel)
 {
   const double length = presenters::scaleBarLength(0.28 * picture.width * mmPerPixel);

@@ -9,8 +9,8 @@
 namespace petrous::cli
 {
 
-/// The slice with the letters of the patient's directions, a scale bar, its plane's name and the
-/// lines of text beneath that.
+/// The slice with orientation letters, a scale bar, its plane's name and the lines of text beneath
+/// that.
 rendering::Picture labelled(presenters::SlicePixels pixels, const presenters::SliceGeometry& slice,
                             const std::vector<std::string>& lines);
 

@@ -1,191 +1,48 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <csignal>
 #include <iostream>
-#include <new>
-#include <sstream>
 
 #include <unistd.h>
 
 #include "Commands.h"
-#include "petrous/Core/Error.h"
+#include "Program.h"
 
 namespace
 {
 
 using namespace petrous;
 
-enum ExitCode
-{
-  kDone = 0,
-  kOurFault = 1,
-  kUsage = 2,
-  kBadInput = 3,
-  kRefused = 4
-};
-
-// Named in the contract of the command line; their issues come later.
+// Specified command-line names, not implemented yet.
 constexpr std::array<const char*, 5> kNotBuilt{"archive", "restore", "send", "receive", "nodes"};
 
-struct Failure
-{
-  const char* kind; ///< as --json names it
-  int exitCode;
-};
-
-constexpr Failure kUsageFailure{"usage", kUsage};
-constexpr Failure kRefusal{"refused", kRefused};
-constexpr Failure kInternalFailure{"internal", kOurFault};
-constexpr Failure kInterruption{"interrupted", 128 + SIGINT};
-
-Failure failureOf(core::Fault fault)
-{
-  switch (fault)
-  {
-  case core::Fault::BadInput:
-    return {"bad-input", kBadInput};
-  case core::Fault::Refused:
-    return kRefusal;
-  case core::Fault::Cancelled:
-    return kInterruption;
-  case core::Fault::Internal:
-    break;
-  }
-  return kInternalFailure;
-}
-
-// With --json the one object on stdout says what failed, unless the answer itself stands there.
-int complain(const std::string& text, const Failure& failure, bool json)
-{
-  std::cerr << "petrous: " << text << '\n';
-  if (json)
-    std::cout << cli::jsonText(
-                     {{"error",
-                       {{"kind", failure.kind}, {"text", text}, {"exit_code", failure.exitCode}}}})
-              << std::flush;
-  if (failure.exitCode != kInterruption.exitCode)
-    return failure.exitCode;
-  // A shell stops a loop of commands only where the process ended by the signal itself.
-  std::signal(SIGINT, SIG_DFL);
-  std::raise(SIGINT);
-  return failure.exitCode;
-}
-
-bool isBlank(const std::string& text)
-{
-  return text.find_first_not_of(" \t") == std::string::npos;
-}
-
-// Nobody leaves an option out by giving it nothing, as a script does whose variable is not set, nor
-// means the next option by its value. Also of both sides of NAME=VALUE.
-std::string emptyValue(const std::string& value, bool pair)
-{
-  if (isBlank(value))
-    return "the value is empty; give one, or leave it out";
-  if (value.size() > 2 && value.compare(0, 2, "--") == 0 &&
-      std::isalpha(static_cast<unsigned char>(value[2])) != 0)
-    return "a value is missing before '" + value + "'";
-  const bool oneSided = pair && (value.front() == '=' || value.back() == '=');
-  return oneSided ? "'" + value + "' is empty on one side of '='" : "";
-}
-
-// Of every option and argument of the program and of every subcommand.
-void refuseEmptyValues(CLI::App& app)
-{
-  const auto all = [](const auto*) { return true; };
-  for (CLI::Option* option : app.get_options(all))
-    if (option->get_items_expected_max() > 0)
-    {
-      const bool pair = option->get_type_name().find('=') != std::string::npos;
-      // first, before other checks speak of a range
-      option->transform(
-          CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
-    }
-  for (CLI::App* command : app.get_subcommands(all))
-    refuseEmptyValues(*command);
-}
-
-// "--option=" with nothing behind it would take the next word for its value.
-std::string optionWithoutValue(const std::vector<std::string>& words)
-{
-  for (const std::string& word : words)
-  {
-    if (word == "--")
-      break;
-    if (word.size() > 3 && word.compare(0, 2, "--") == 0 && word.find('=') == word.size() - 1)
-      return word.substr(0, word.size() - 1);
-  }
-  return {};
-}
-
-// Items that are nothing are dropped from a list before anybody could look at them.
-std::string listWithGap(CLI::App& command, const std::vector<std::string>& words)
-{
-  for (const CLI::Option* option : command.get_options([](const auto*) { return true; }))
-    for (std::size_t n = 0; option->get_delimiter() != '\0' && n < words.size(); ++n)
-    {
-      const std::string name = option->get_name();
-      std::string list;
-      if (words[n] == name && n + 1 < words.size())
-        list = words[n + 1];
-      else if (words[n].compare(0, name.size() + 1, name + "=") == 0)
-        list = words[n].substr(name.size() + 1);
-      else
-        continue;
-      if (isBlank(list)) // told as of any option
-        continue;
-      std::istringstream items(list + option->get_delimiter());
-      for (std::string item; std::getline(items, item, option->get_delimiter());)
-        if (isBlank(item))
-          return name;
-    }
-  return {};
-}
-
-// The window is a program of its own: the command starts without Qt.
+// The window is a separate program, so that the command starts without Qt.
 int openWorkstation(char** arguments)
 {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto folder = self.parent_path();
-  for (const auto& candidate :
-       {folder / "petrous-workstation", folder / "../Workstation/petrous-workstation"})
-    if (std::filesystem::exists(candidate))
-    {
-      ::execv(candidate.c_str(), arguments);
-      return complain(candidate.string() + ": cannot be started", kInternalFailure, false);
-    }
-  return complain("the workstation is not installed beside this program; 'petrous --help' lists "
-                  "what the command line can do",
-                  kUsageFailure, false);
+  const auto program = cli::programBeside("petrous-workstation", "../Workstation");
+  if (!program.empty())
+    ::execv(program.c_str(), arguments);
+  std::cerr << "petrous: "
+            << (program.empty() ? "the workstation is not installed beside this program"
+                                : "the workstation cannot be started")
+            << "; 'petrous --help' lists what the command line can do\n";
+  return program.empty() ? 2 : 1;
 }
 
-// `help` and `help COMMAND` are `--help` and `COMMAND --help`.
-std::vector<std::string> wordsOf(int argc, char** argv)
+// So are the benchmarks, which include their peers. Returns if they are not installed.
+void runBenchmarks(std::vector<std::string> words)
 {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty() || words.front() != "help")
-    return words;
-  words.erase(words.begin());
-  words.push_back("--help");
-  return words;
-}
-
-// The first word that is neither an option nor the value of --library.
-std::string subcommandIn(const std::vector<std::string>& words)
-{
-  for (std::size_t n = 0; n < words.size(); ++n)
-    if (words[n] == "--library")
-      ++n;
-    else if (words[n].empty() || words[n][0] != '-')
-      return words[n];
-  return {};
+  const std::string program =
+      cli::programBeside("petrous-bench", "../../Testing/Benchmarks").string();
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  if (!program.empty())
+    ::execv(program.c_str(), arguments.data());
 }
 
 void addCommands(CLI::App& app, cli::Context& context)
 {
-  context.addOptions(app);
   cli::addSampleCommand(app, context);
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
@@ -199,49 +56,22 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addBranchCommand(app, context);
   cli::addExportCommand(app, context);
   cli::addRegisterCommand(app, context);
-  cli::addBenchCommand(app, context);
+  context
+      .addCommand(app, "bench", "Benchmarks: run time against error (the package petrous-bench)",
+                  []
+                  {
+                    throw cli::UsageError("bench: petrous-bench is not installed beside this "
+                                          "program; install the package petrous-bench");
+                  })
+      ->allow_extras();
   cli::addDoctorCommand(app, context);
-}
-
-int runCommand(std::vector<std::string> words, cli::Context& context)
-{
-  CLI::App app("Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
-               "Without arguments the workstation opens.",
-               "petrous");
-  app.set_version_flag("--version", "petrous " PETROUS_VERSION);
-  app.require_subcommand(1);
-  app.footer(std::string("'petrous help COMMAND' tells more of one.\n") + cli::kExitCodes);
-  addCommands(app, context);
-  const std::string name = subcommandIn(words);
-  if (std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end())
-    throw cli::UsageError("'" + name + "' is not built yet");
-  const auto isNamed = [&name](const CLI::App* command) { return command->get_name() == name; };
-  if (!name.empty() && app.get_subcommands(isNamed).empty())
-    throw cli::UsageError("unknown subcommand '" + name + "'; see 'petrous --help'");
-  if (const std::string option = optionWithoutValue(words); !option.empty())
-    throw cli::UsageError(option + ": the value is empty; give one, or leave it out");
-  if (!name.empty())
-    if (const std::string option = listWithGap(*app.get_subcommand(name), words); !option.empty())
-      throw cli::UsageError(option + ": a value of its list is empty; give one, or leave it out");
-  refuseEmptyValues(app);
-  try
-  {
-    std::reverse(words.begin(), words.end()); // as CLI11 takes them
-    app.parse(std::move(words));
-  }
-  catch (const CLI::Success& asked) // --help, --version
-  {
-    return app.exit(asked);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    throw cli::UsageError(std::string(error.what()) + "; see 'petrous --help'");
-  }
-  std::cout.flush();
-  if (!std::cout)
-    throw core::Error(core::Fault::Refused,
-                      "the answer could not be written to stdout (a full disk?)");
-  return kDone;
+  for (const char* name : kNotBuilt)
+    context
+        .addCommand(app, name, "Not built yet",
+                    [name]
+                    { throw cli::UsageError(std::string("'") + name + "' is not built yet"); })
+        ->allow_extras()
+        ->group(""); // hidden from the help
 }
 
 } // namespace
@@ -250,39 +80,12 @@ int main(int argc, char** argv)
 {
   if (argc < 2)
     return openWorkstation(argv);
-  const std::vector<std::string> words = wordsOf(argc, argv);
-  cli::Context context;
-  // A line that does not parse is answered in JSON too.
-  const auto fail = [&](const std::string& text, const Failure& failure)
-  {
-    const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
-    return complain(text, failure, json && !context.gave());
-  };
-  try
-  {
-    return runCommand(words, context);
-  }
-  catch (const cli::UsageError& error)
-  {
-    return fail(error.what(), kUsageFailure);
-  }
-  catch (const core::Error& error)
-  {
-    return fail(error.what(), failureOf(error.fault()));
-  }
-  catch (const std::filesystem::filesystem_error& error)
-  {
-    return fail(error.path1().string() + ": cannot be read or written; check that it is there "
-                                         "and its permissions",
-                kRefusal);
-  }
-  catch (const std::bad_alloc&)
-  {
-    return fail("not enough memory; close other programs, or load less with --roi", kRefusal);
-  }
-  catch (const std::exception&)
-  {
-    // Texts of other libraries may carry patient data; they stay out.
-    return fail("an unexpected fault; the library is as it was before", kInternalFailure);
-  }
+  const std::vector<std::string> words = cli::wordsOf(argc, argv);
+  if (cli::subcommandIn(words) == "bench")
+    runBenchmarks(words);
+  return cli::run({"petrous",
+                   "Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
+                   "Without arguments the workstation opens.",
+                   addCommands},
+                  words);
 }

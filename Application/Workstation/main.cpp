@@ -20,19 +20,19 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
   QString folder = parser.value("library");
   if (folder.isEmpty())
     folder = qEnvironmentVariable("PETROUS_LIBRARY");
-  if (folder.isEmpty()) // the same place as the petrous command
+  if (folder.isEmpty()) // the same default as the petrous command
     folder = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
   return QFile::encodeName(folder).toStdString();
 }
 
-petrous::presenters::HandSources handSources()
+petrous::presenters::DeviceSources deviceSources()
 {
-  petrous::presenters::HandSources sources;
+  petrous::presenters::DeviceSources sources;
   try
   {
     sources.hid = std::make_shared<const petrous::devices::HidLibrary>();
   }
-  catch (const petrous::devices::HidError&) // the mouse is left; 'petrous doctor' says why
+  catch (const petrous::devices::HidError&) // the mouse remains; 'petrous doctor' reports why
   {
   }
   sources.serverFolders = petrous::devices::serverFolders();
@@ -68,7 +68,7 @@ int main(int argc, char** argv)
 
   workstation::WindowOptions options;
   options.quadBuffer = workstation::quadBufferOffered();
-  options.hands = handSources();
+  options.devices = deviceSources();
   workstation::MainWindow window(library::Library(libraryFolder(parser)), options);
   window.show();
   workstation::guarded([&] { window.begin(parser.positionalArguments().value(0)); });

@@ -1,6 +1,6 @@
 include(GoogleTest)
 
-# What every target of ours gets: the language level, warnings, sanitizers.
+# Common settings of all targets: language level, warnings, sanitizers.
 function(petrous_target_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE
@@ -14,7 +14,7 @@ function(petrous_target_defaults target)
 endfunction()
 
 # petrous_add_tests(<target> SOURCES file... [LINK target...] [LABELS label...])
-# One executable; each GoogleTest case becomes a CTest test of its own.
+# One executable; each GoogleTest case becomes a separate CTest test.
 function(petrous_add_tests target)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
@@ -25,9 +25,9 @@ function(petrous_add_tests target)
   target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest_main)
   set(data_dir "${PETROUS_DATA_DIR}")
   if(PETROUS_SANITIZE MATCHES "thread")
-    # Debian's libtbb is not instrumented: the sanitizer does not see how it hands work to its
-    # threads and takes all of it for races. On one processor the pool has no other thread;
-    # threads of our own are judged all the same.
+    # Debian's libtbb is not instrumented: the sanitizer does not see the synchronization with its
+    # worker threads and reports races. On a single processor the pool has no worker threads; our
+    # own threads are still checked.
     set_target_properties(${target} PROPERTIES CROSSCOMPILING_EMULATOR "taskset;--cpu-list;0")
   endif()
   gtest_discover_tests(${target}
@@ -39,25 +39,31 @@ function(petrous_add_tests target)
 endfunction()
 
 # petrous_add_module(<Name>
-#   SOURCES file...            the library's sources
+#   SOURCES file...            the library's sources, src/<Part>/<Name>.cpp
 #   DEPENDS Module...          modules whose public headers it includes
-#   EXTERNAL target...         libraries that its public headers show
+#   EXTERNAL target...         libraries that its public headers use
 #   PRIVATE_EXTERNAL target... libraries that only its sources use
 #   TESTS file...              GoogleTest sources labelled 'unit'
 #   RENDER_TESTS file...       GoogleTest sources labelled 'render' (draw off-screen)
-#   DATA_TESTS file...         GoogleTest sources labelled 'data' (real files beside the project)
-#   BENCHMARKS file...         sources of the module's part of `petrous bench`)
-# The declared DEPENDS are what Testing/IncludeDependencies.cmake holds the #includes against.
+#   DATA_TESTS file...         GoogleTest sources labelled 'data' (real files beside the project))
+# The declared DEPENDS are checked against the #includes by Testing/IncludeDependencies.cmake.
 function(petrous_add_module name)
   cmake_parse_arguments(ARG "" ""
-    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;RENDER_TESTS;DATA_TESTS;BENCHMARKS" ${ARGN})
+    "SOURCES;DEPENDS;EXTERNAL;PRIVATE_EXTERNAL;TESTS;RENDER_TESTS;DATA_TESTS" ${ARGN})
   set(target Petrous${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Petrous::${name} ALIAS ${target})
   petrous_target_defaults(${target})
+  # Private headers are included by name only, from any part.
+  set(parts src)
+  foreach(source IN LISTS ARG_SOURCES)
+    get_filename_component(part ${source} DIRECTORY)
+    list(APPEND parts ${part})
+  endforeach()
+  list(REMOVE_DUPLICATES parts)
   target_include_directories(${target}
     PUBLIC include
-    PRIVATE src)
+    PRIVATE ${parts})
   list(TRANSFORM ARG_DEPENDS PREPEND Petrous:: OUTPUT_VARIABLE modules)
   target_link_libraries(${target}
     PUBLIC ${modules} ${ARG_EXTERNAL}
@@ -73,15 +79,7 @@ function(petrous_add_module name)
     if(ARG_${files})
       petrous_add_tests(${target}${suffix} SOURCES ${ARG_${files}} LABELS ${label}
         LINK Petrous::${name} ${ARG_PRIVATE_EXTERNAL})
-      target_include_directories(${target}${suffix} PRIVATE src Testing)
+      target_include_directories(${target}${suffix} PRIVATE ${parts} Testing)
     endif()
   endforeach()
-  if(ARG_BENCHMARKS)
-    add_library(${target}Benchmarks STATIC ${ARG_BENCHMARKS})
-    add_library(Petrous::${name}Benchmarks ALIAS ${target}Benchmarks)
-    petrous_target_defaults(${target}Benchmarks)
-    target_include_directories(${target}Benchmarks PUBLIC Benchmarks)
-    target_link_libraries(${target}Benchmarks
-      PUBLIC Petrous::${name} PRIVATE ${ARG_PRIVATE_EXTERNAL})
-  endif()
 endfunction()

@@ -1,6 +1,6 @@
 # petrous_embed_resource(<target> <name> <file>)
-# Makes <name>.h with `constexpr std::string_view k<name>` from a text file under Resources, so
-# that the program finds it wherever it is installed.
+# Generates <name>.h with `constexpr std::string_view k<name>` from a text file under Resources, so
+# that the program does not depend on where it is installed.
 function(petrous_embed_resource target name file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} PETROUS_RESOURCE_TEXT)

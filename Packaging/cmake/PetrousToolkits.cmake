@@ -1,5 +1,5 @@
-# ITK, GDCM and VTK as targets with SYSTEM includes, so that only the modules that link them see
-# them and their headers raise no warnings of ours.
+# ITK, GDCM and VTK as targets with SYSTEM includes, so that only modules that link them can include
+# them, and their headers cause no warnings.
 
 find_package(ITK 5.2 REQUIRED COMPONENTS
   ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKImageGrid ITKTransform
@@ -9,14 +9,14 @@ target_include_directories(petrous_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(petrous_itk INTERFACE ${ITK_LIBRARIES})
 add_library(Petrous::itk ALIAS petrous_itk)
 
-# ITK's own series reader, only as the peer of the import benchmark.
+# ITK's series reader, only as peer of the import benchmark.
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKIOGDCM)
 add_library(petrous_itk_gdcm INTERFACE)
 target_include_directories(petrous_itk_gdcm SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(petrous_itk_gdcm INTERFACE ${ITK_LIBRARIES})
 add_library(Petrous::itk_gdcm ALIAS petrous_itk_gdcm)
 
-# ITK's own registration, only as a peer of the registration benchmark.
+# ITK's registration, only as peer of the registration benchmark.
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKRegistrationMethodsv4)
 add_library(petrous_itk_registration INTERFACE)
 target_include_directories(petrous_itk_registration SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})

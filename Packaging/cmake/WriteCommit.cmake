@@ -1,6 +1,6 @@
-# Writes OUT, a source that defines petrous::cli::kCommit: the commit that TREE stands on, with
-# "-dirty" where its files differ from it, "unknown" where TREE is no git checkout. OUT is touched
-# only where that changed.
+# Writes OUT, a source file that defines petrous::cli::kCommit: the commit checked out in TREE, with
+# "-dirty" if files differ from it, "unknown" if TREE is not a git checkout. OUT is written only if
+# it changes.
 set(commit unknown)
 find_program(GIT git)
 if(GIT)

@@ -10,7 +10,7 @@ namespace petrous::presenters::testing
 
 constexpr double kTop = 6.0; ///< mm, z; bone lies below
 
-/// A block of bone of 12 mm, in air above kTop.
+/// A 12 mm block of bone, air above kTop.
 inline scene::Case block()
 {
   scene::Case value;

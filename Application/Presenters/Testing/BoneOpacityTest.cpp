@@ -7,11 +7,11 @@
 #include "petrous/Appearance/StructurePresets.h"
 
 using namespace petrous;
-using appearance::StructureLook;
+using appearance::StructureAppearance;
 
 namespace
 {
-StructureLook preset(const char* name)
+StructureAppearance preset(const char* name)
 {
   return appearance::StructurePresets::builtIn().preset(name);
 }
@@ -19,23 +19,23 @@ StructureLook preset(const char* name)
 
 TEST(BoneOpacity, MeetsThePresetsOnItsWay)
 {
-  const StructureLook start = appearance::boneLook();
-  const StructureLook translucent = preset("bone-translucent");
-  const StructureLook there =
+  const StructureAppearance start = appearance::boneLook();
+  const StructureAppearance translucent = preset("bone-translucent");
+  const StructureAppearance there =
       presenters::withOpacity(start, static_cast<double>(translucent.opacity));
   ASSERT_EQ(there.transfer->points().size(), translucent.transfer->points().size());
   for (std::size_t i = 0; i < there.transfer->points().size(); ++i)
     EXPECT_NEAR(there.transfer->points()[i].opacity, translucent.transfer->points()[i].opacity,
                 1e-6F);
-  const StructureLook back = presenters::withOpacity(there, 1.0);
+  const StructureAppearance back = presenters::withOpacity(there, 1.0);
   EXPECT_TRUE(*back.transfer == *start.transfer);
   EXPECT_EQ(back.opacity, 1.0F);
 }
 
 TEST(BoneOpacity, TwiceAsOpaqueIsTwiceTheExtinction)
 {
-  const StructureLook translucent = preset("bone-translucent");
-  const StructureLook look = presenters::withOpacity(
+  const StructureAppearance translucent = preset("bone-translucent");
+  const StructureAppearance look = presenters::withOpacity(
       appearance::boneLook(), 2.0 * static_cast<double>(translucent.opacity));
   const double once = -std::log(1.0 - translucent.transfer->points().back().opacity);
   EXPECT_NEAR(-std::log(1.0 - look.transfer->points().back().opacity), 2.0 * once, 1e-6);
@@ -43,16 +43,16 @@ TEST(BoneOpacity, TwiceAsOpaqueIsTwiceTheExtinction)
 
 TEST(BoneOpacity, LeavesOwnValuesColourAndFlags)
 {
-  StructureLook own = appearance::boneLook();
+  StructureAppearance own = appearance::boneLook();
   own.transfer = appearance::TransferFunction::constant({0.2F, 0.3F, 0.4F}, 0.3F);
   own.relative = false;
   own.drillable = false;
-  const StructureLook half = presenters::withOpacity(own, 0.5);
+  const StructureAppearance half = presenters::withOpacity(own, 0.5);
   EXPECT_TRUE(*half.transfer == *own.transfer);
   EXPECT_EQ(half.opacity, 0.5F);
   EXPECT_FALSE(half.drillable);
 
-  StructureLook green = appearance::boneLook();
+  StructureAppearance green = appearance::boneLook();
   setColor(green, {0.1F, 0.9F, 0.1F});
   EXPECT_EQ(presenters::withOpacity(green, 0.3).color, green.color);
 }

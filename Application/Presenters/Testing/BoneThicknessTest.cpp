@@ -16,7 +16,7 @@ namespace
 const Vector3d kNerve(6.0, 6.0, 3.0);
 constexpr double kRadius = 1.8;
 
-// A ball of a structure in the block of bone.
+// A spherical structure in the block of bone.
 scene::Case nerveInBone()
 {
   scene::Case value = presenters::testing::block();
@@ -47,7 +47,7 @@ TEST(BoneThickness, IsTheDistanceToTheStructure)
     {
       const Vector3d voxel = field->geometry().voxelFromPatient(kNerve + (kRadius + away) * way);
       ASSERT_TRUE(field->geometry().hullContains(voxel));
-      // The surface of a ball of voxels lies within a fifth of one of the ball's.
+      // The surface of a voxelized sphere is within a fifth of a voxel of the sphere.
       EXPECT_NEAR(volume::sampleTrilinear(*field, voxel), away, 0.06 + 0.04);
     }
 }

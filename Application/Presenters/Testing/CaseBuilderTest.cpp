@@ -147,7 +147,7 @@ TEST_F(CaseBuilder, PutsACaseTogether)
 
 TEST_F(CaseBuilder, PutsTheSurfaceWhereBoneIsInUnitsOfItsOwn)
 {
-  // A dry bone of 16 bits without calibration: a ball of 42000 in air of 8000.
+  // An uncalibrated 16-bit dry bone: a sphere of 42000 in air of 8000.
   const core::GridGeometry grid({40, 40, 40}, Vector3d::Constant(0.05), Vector3d::Zero());
   auto scan = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{8000});
   for (int k = 0; k < 40; ++k)
@@ -257,7 +257,7 @@ TEST_F(CaseBuilder, StructuresWithoutANameDifferInColour)
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
 }
 
-// Labels and MR on the grid of the CT, written in three frames: all lie where the CT lies.
+// Labels and MR on the CT's grid, written in three frames: all coincide with the CT.
 TEST_F(CaseBuilder, PutsImagesAndLabelsOfEveryNrrdSpaceInOnePlace)
 {
   const std::pair<const char*, const char*> frames[] = {
@@ -417,7 +417,7 @@ TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)
     }
     EXPECT_TRUE(value.meshes.empty());
   }
-  // A vertex that no triangle has is not of the surface.
+  // A vertex without a triangle is not part of the surface.
   std::ofstream(m_folder / "incus.obj", std::ios::app) << "v 0 0 90000\n";
   presenters::PartSources more;
   more.meshes = {{"", m_folder / "incus.obj"}};

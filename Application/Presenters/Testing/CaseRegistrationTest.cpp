@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "petrous/Imaging/Phantom.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -33,27 +33,27 @@ core::RigidTransform turned(double degrees, const Vector3d& shift)
           shift};
 }
 
-// A CT of the phantom, its T2, and a second MR in the same frame of reference as the T2 that lies
-// on it but for `moved`.
+// A CT of the phantom, its T2, and a second MR in the T2's frame of reference, aligned with it up
+// to `moved`.
 class CaseRegistration : public ::testing::Test
 {
 protected:
   static scene::ImagePart scan(const std::string& name, const core::RigidTransform& mrFromCt,
-                               double spacing, imaging::Phantom::Modality modality)
+                               double spacing, phantom::Phantom::Modality modality)
   {
-    imaging::ScanSettings settings;
+    phantom::ScanSettings settings;
     settings.modality = modality;
     settings.noise = 10.0;
     settings.seed = name.size();
     settings.patientFromScan = mrFromCt.inverse();
-    const auto grid = around(mrFromCt * imaging::Phantom::center(),
+    const auto grid = around(mrFromCt * phantom::Phantom::center(),
                              static_cast<int>(std::lround(56.0 / spacing)), spacing);
     scene::ImagePart part;
     part.name = name;
     part.geometry = grid;
     part.volume = std::make_shared<const volume::IntensityVolume>(
         std::make_shared<const volume::Volume<std::int16_t>>(
-            imaging::samplePhantom(imaging::Phantom(), grid, settings)));
+            phantom::samplePhantom(phantom::Phantom(), grid, settings)));
     part.range = part.volume.get()->range();
     return part;
   }
@@ -62,18 +62,18 @@ protected:
   {
     scene::Case value;
     value.name = "ear";
-    value.ct = scan("ct", {}, 0.7, imaging::Phantom::Modality::Ct);
-    value.mr.push_back(scan("T2", motion(), 0.8, imaging::Phantom::Modality::Mr));
-    value.mr.push_back(scan("DWI", moved * motion(), 1.4, imaging::Phantom::Modality::Mr));
+    value.ct = scan("ct", {}, 0.7, phantom::Phantom::Modality::Ct);
+    value.mr.push_back(scan("T2", motion(), 0.8, phantom::Phantom::Modality::Mr));
+    value.mr.push_back(scan("DWI", moved * motion(), 1.4, phantom::Phantom::Modality::Mr));
     value.mr[0].frameOfReference = value.mr[1].frameOfReference = std::string(64, 'f');
     return value;
   }
 
-  static core::RigidTransform motion() { return imaging::Phantom().mrFromCt(); }
+  static core::RigidTransform motion() { return phantom::Phantom().mrFromCt(); }
 
   static double off(const core::RigidTransform& found, const core::RigidTransform& truth)
   {
-    const Vector3d center = imaging::Phantom::center();
+    const Vector3d center = phantom::Phantom::center();
     return (found * center - truth * center).norm();
   }
 
@@ -81,7 +81,7 @@ protected:
   {
     scene::Registration how;
     how.verdict = scene::Registration::Verdict::Good;
-    how.error = scene::RegistrationError{imaging::Phantom::center(), "the ear", 0.1, 0.3, 0.4};
+    how.error = scene::RegistrationError{phantom::Phantom::center(), "the ear", 0.1, 0.3, 0.4};
     return how;
   }
 
@@ -112,10 +112,10 @@ TEST_F(CaseRegistration, StatesItsErrorAtTheMiddleEar)
   request.given = motion();
   RegistrationPlace place = defaultPlace(value, request);
   EXPECT_EQ(place.words, "the centre of what both images show");
-  EXPECT_LT((place.point - imaging::Phantom::center()).norm(), 1.0);
-  request.region = {imaging::Phantom::center(), imaging::Phantom::center() + Vector3d::Constant(9)};
+  EXPECT_LT((place.point - phantom::Phantom::center()).norm(), 1.0);
+  request.region = {phantom::Phantom::center(), phantom::Phantom::center() + Vector3d::Constant(9)};
   place = defaultPlace(value, request);
-  EXPECT_LT((place.point - imaging::Phantom::center() - Vector3d::Constant(4.5)).norm(), 1e-6);
+  EXPECT_LT((place.point - phantom::Phantom::center() - Vector3d::Constant(4.5)).norm(), 1e-6);
   request.given = {Eigen::Quaterniond::Identity(), Vector3d::Constant(900)};
   EXPECT_EQ(defaultPlace(value, request).words, "the centre of the CT");
 
@@ -132,7 +132,7 @@ TEST_F(CaseRegistration, StatesItsErrorAtTheMiddleEar)
   EXPECT_EQ(place.words, "the middle of 'incus'");
   EXPECT_LT((place.point - value.ct.geometry.patientFromVoxel({7.0, 8.0, 9.0})).norm(), 1e-9);
 
-  value.labels.back().drawnOn = "T2"; // which is nowhere yet
+  value.labels.back().drawnOn = "T2"; // which is not placed yet
   EXPECT_EQ(defaultPlace(value, request).words, "the middle of 'tympanic_cavity'");
   EXPECT_THROW(placeOf(value, "incus"), core::InvalidParameter);
   EXPECT_THROW(placeOf(value, "zebra"), core::InvalidParameter);
@@ -145,7 +145,7 @@ TEST_F(CaseRegistration, GoesToTheCtThroughAnotherMr)
   RegistrationRequest request;
   request.mr = "DWI";
   request.onto = "T2";
-  request.at = RegistrationPlace{imaging::Phantom::center(), "the ear"};
+  request.at = RegistrationPlace{phantom::Phantom::center(), "the ear"};
   try
   {
     registerMr(value, request);
@@ -196,7 +196,7 @@ TEST_F(CaseRegistration, SaysWhereTheFrameOfReferenceIsContradicted)
   RegistrationRequest request;
   request.mr = "DWI";
   request.onto = "T2";
-  request.at = RegistrationPlace{imaging::Phantom::center(), "the ear"};
+  request.at = RegistrationPlace{phantom::Phantom::center(), "the ear"};
   const RegistrationOutcome outcome = registerMr(value, request);
   ASSERT_FALSE(outcome.failed) << outcome.how.text;
   EXPECT_LT(off(outcome.mrFromCt, moved * motion()), 0.5);
@@ -215,7 +215,7 @@ TEST_F(CaseRegistration, LaysWhereLandmarksPutItAndGoesFromThere)
   for (const Vector3d& step :
        {Vector3d(12, 0, 0), Vector3d(0, 10, 0), Vector3d(0, 0, 11), Vector3d(-9, -3, 2)})
     request.landmarks.push_back(
-        {imaging::Phantom::center() + step, shaken * (imaging::Phantom::center() + step)});
+        {phantom::Phantom::center() + step, shaken * (phantom::Phantom::center() + step)});
   request.asIs = true;
   RegistrationOutcome outcome = registerMr(value, request);
   EXPECT_LT(off(outcome.mrFromCt, shaken), 1e-9);
@@ -251,7 +251,7 @@ TEST_F(CaseRegistration, AFailureLeavesTheCase)
   accept(value, "T2", outcome);
   EXPECT_FALSE(value.mr[0].registered);
 
-  request.from = From::Given; // by hand it can be laid all the same
+  request.from = From::Given; // manual registration still works
   request.given = motion();
   request.asIs = true;
   const RegistrationOutcome byHand = registerMr(value, request);
@@ -277,7 +277,7 @@ TEST_F(CaseRegistration, StopsWhenAskedTo)
   EXPECT_TRUE(last) << "the last good state";
 }
 
-// Many fits run at the same time then, each of them in many threads.
+// Many fits then run concurrently, each multithreaded.
 TEST_F(CaseRegistration, StopsWhileItEstimatesTheErrorToo)
 {
   const scene::Case value = makeCase({});
@@ -341,7 +341,7 @@ TEST_F(CaseRegistration, GoesOnFromWhereTheMrLiesAndSaysHowItCameThere)
   EXPECT_NE(outcome.how.text.find("from where the landmarks put it"), std::string::npos)
       << outcome.how.text;
 
-  // The end of that is no place that landmarks put it.
+  // The result is not a placement by landmarks.
   request.given = outcome.mrFromCt;
   request.givenBy = outcome.how;
   request.asIs = true;
@@ -372,7 +372,7 @@ TEST_F(CaseRegistration, APlaceIsAPointOfTheCtInItsCoordinates)
 {
   const scene::Case value = makeCase({});
   const RegistrationPlace place =
-      placeAt(value, imaging::Phantom::center() + Vector3d(0.0, 0.0, -0.04));
+      placeAt(value, phantom::Phantom::center() + Vector3d(0.0, 0.0, -0.04));
   EXPECT_EQ(place.words.front(), '(');
   EXPECT_EQ(place.words.find("-0.0"), std::string::npos) << place.words;
   EXPECT_THROW(placeAt(value, {0.0, 0.0, 900.0}), core::InvalidParameter);

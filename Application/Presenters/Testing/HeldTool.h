@@ -5,17 +5,18 @@
 #include <thread>
 
 #include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Presenters/TouchSession.h"
+#include "petrous/Session/TouchSession.h"
 
 namespace petrous::presenters::testing
 {
 
-/// A tool that is pressed down (towards -z) on a place, as a window would do it.
+/// A tool pressed down (towards -z) at a point, as a window would do it.
 class HeldTool
 {
 public:
-  explicit HeldTool(const Eigen::Vector3d& place,
-                    TouchTool::Mode mode = TouchTool::Mode::ThreeDof) // made at once
+  explicit HeldTool(
+      const Eigen::Vector3d& place,
+      session::TouchTool::Mode mode = session::TouchTool::Mode::ThreeDof) // made at once
     : device(place)
   {
     setup.tool.mode = mode;
@@ -26,16 +27,16 @@ public:
     setup.parameters.constantThrust = 1;
     setup.parameters.drillButtons = interaction::PointerDevice::kDrill;
     setup.parameters.approach[2] = -5.0;
-    setup.tool.burr.rpm = 600000.0; // ten times as fast: the tests need not wait
+    setup.tool.burr.rpm = 600000.0; // ten times as fast, to shorten the tests
   }
 
   void drill(bool on) { device.setButtons(on ? interaction::PointerDevice::kDrill : 0U); }
 
   interaction::PointerDevice device;
-  TouchSession::Setup setup;
+  session::TouchSession::Setup setup;
 };
 
-/// Calls `advance` as a window does until it says true; false after a minute.
+/// Calls `advance` repeatedly, as a window does, until it returns true; false after a minute.
 inline bool until(const std::function<bool()>& advance)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);

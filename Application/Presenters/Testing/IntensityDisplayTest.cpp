@@ -12,7 +12,7 @@ using namespace petrous::presenters;
 namespace
 {
 
-// Of an image whose air is 0, bone `iso` and dense bone `dense`.
+// An image whose air is 0, bone `iso` and dense bone `dense`.
 scene::Case caseOf(double iso, double dense, double least, double most)
 {
   scene::Case value;
@@ -22,7 +22,7 @@ scene::Case caseOf(double iso, double dense, double least, double most)
   return value;
 }
 
-// The darkest and the brightest value that a window tells apart.
+// The darkest and the brightest value that a window distinguishes.
 std::pair<double, double> ends(const GreyWindow& window)
 {
   return {window.level - 0.5 * window.width, window.level + 0.5 * window.width};
@@ -41,7 +41,7 @@ TEST(IntensityDisplay, IsInHounsfieldUnitsWhereTheImageIsCalibrated)
   EXPECT_EQ(display.least, -500.0);
   EXPECT_EQ(display.most, 2500.0);
   EXPECT_EQ(display.step, 1.0);
-  // Another threshold does not move the grey.
+  // Another threshold does not change the grey window.
   const IntensityDisplay high = displayOf(caseOf(2800.0, 1800.0, -1024.0, 3071.0));
   EXPECT_EQ(ends(high.bone), std::pair(-1300.0, 2700.0));
   EXPECT_EQ(high.most, 2800.0);
@@ -49,7 +49,7 @@ TEST(IntensityDisplay, IsInHounsfieldUnitsWhereTheImageIsCalibrated)
 
 TEST(IntensityDisplay, FollowsAConeBeamImageThatCountsFromZero)
 {
-  // 1 HU is 14 of it: bone at 18,200, dense bone at 39,200, water at 14,000.
+  // 1 HU is 14 units: bone at 18,200, dense bone at 39,200, water at 14,000.
   const IntensityDisplay display = displayOf(caseOf(18200.0, 39200.0, 0.0, 56000.0));
   EXPECT_FALSE(display.hounsfield);
   EXPECT_NEAR(display.unit, 14.0, 1e-9);
@@ -80,7 +80,7 @@ TEST(IntensityDisplay, ShowsAnImageWhoseThresholdLiesAboveDenseBone)
   EXPECT_NEAR(display.unit, 14.0, 1e-9);
   EXPECT_NEAR(ends(display.bone).first, 0.0, 1e-6);
   EXPECT_NEAR(ends(display.bone).second, 51800.0, 1e-6);
-  // One value throughout has no range to follow.
+  // A constant image has no range.
   EXPECT_GT(displayOf(caseOf(7.0, 8.0, 7.0, 7.0)).bone.width, 0.0);
 }
 

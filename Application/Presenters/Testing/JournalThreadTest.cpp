@@ -37,7 +37,7 @@ protected:
     std::filesystem::remove_all(killed);
   }
 
-  // The library as a program that is killed now leaves it.
+  // The library as left by a program that is killed now.
   std::string reopened(scene::Case& value) const
   {
     std::filesystem::remove_all(killed);
@@ -95,7 +95,7 @@ TEST_F(JournalThreadTest, BringsBackTheStrokesOfAProgramThatWasKilled)
   EXPECT_EQ(reopened(again), "");
   EXPECT_EQ(voxels(again), voxels(model.value()));
 
-  // An undo with nothing in the hand, and one with the tool.
+  // An undo without a tool, and one with the tool.
   model.stopTouch();
   model.undo();
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.applied() == 0; }));
@@ -129,7 +129,7 @@ TEST_F(JournalThreadTest, HasAPartOfAStrokeThatIsOpenForLong)
                journalled();
       }));
   EXPECT_TRUE(model.drilling());
-  scene::Case again; // the file may be half written as yet
+  scene::Case again; // the file may still be partly written
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
   EXPECT_GT(again.strokes[0].info.removed, 0.0);
   EXPECT_FALSE(again.dissection->mask().untouched());
@@ -146,7 +146,7 @@ TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
   value.dissection->beginStroke({});
   value.dissection->cut({{6.0, 6.0, kTop}, {6.0, 6.0, kTop}, 1.0});
   const auto stroke = value.dissection->endStroke();
-  // Nothing can be made where the library was.
+  // Nothing can be created at the library's path.
   const std::filesystem::path away = folder.string() + "-away";
   std::filesystem::rename(folder, away);
   journal.follow(*value.dissection);
@@ -180,7 +180,7 @@ TEST_F(JournalThreadTest, GoesOnInTheLibraryThatTheCaseWasSavedTo)
   ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
   ASSERT_TRUE(until([&] { return std::filesystem::exists(elsewhere / "cases/block.journal"); }));
   std::filesystem::remove_all(folder);
-  std::filesystem::rename(elsewhere, folder); // what was open stays open
+  std::filesystem::rename(elsewhere, folder); // open files stay open
   scene::Case again;
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 2; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
@@ -206,8 +206,8 @@ TEST_F(JournalThreadTest, HasWhatWasDrilledWhileTheImportWasStored)
   EXPECT_EQ(voxels(again), voxels(model.value()));
 }
 
-// The journal told by the thread that cuts, then by the window: the states are of two dissections,
-// whose counts of changes say nothing of each other.
+// The journal is fed by the removal thread, then by the window: the states belong to two
+// dissections, whose change counters are unrelated.
 TEST_F(JournalThreadTest, HasAnUndoThatFollowsManyStepsOfTheTool)
 {
   WorkstationModel model{library::Library(folder)};

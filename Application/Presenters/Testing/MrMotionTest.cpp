@@ -18,7 +18,7 @@ const core::RigidTransform kSome{
     Vector3d(11, -4, 7)};
 }
 
-// Where a point of the MR is seen over the CT: the inverse of X_MC.
+// Where a point of the MR appears on the CT: the inverse of X_MC.
 TEST(MrMotion, ShiftMovesThePictureByTheMillimetresGiven)
 {
   const Vector3d inMr(3, 9, -20);
@@ -32,7 +32,7 @@ TEST(MrMotion, TurnLeavesItsCentreAndTurnsTheRestRightHanded)
   const Vector3d about(5, 6, 7);
   const auto after = turned(kSome, Vector3d::UnitZ(), 90.0, about);
   EXPECT_LT((after.inverse() * (kSome * about) - about).norm(), 1e-12);
-  // Ten millimetres to the left of it go ten millimetres behind it: x to y about z.
+  // Ten millimetres to the left of it go to ten millimetres behind it: x to y about z.
   const Vector3d left = about + Vector3d(10, 0, 0);
   const Vector3d seen = after.inverse() * (kSome * left);
   EXPECT_LT((seen - about - Vector3d(0, 10, 0)).norm(), 1e-12);
@@ -60,7 +60,7 @@ TEST(LandmarkList, PairsAPointOfTheCtWithTheNextOfTheMr)
   list.addMr({1, 1, 1}); // there is no CT point for it
   EXPECT_TRUE(list.rows().empty());
   list.addCt({0, 0, 0});
-  list.addCt({5, 0, 0}); // changed their mind
+  list.addCt({5, 0, 0}); // replaces the first
   ASSERT_EQ(list.rows().size(), 1U);
   EXPECT_EQ(list.pairs(), 0U);
   EXPECT_FALSE(list.residual(0, {}).has_value());

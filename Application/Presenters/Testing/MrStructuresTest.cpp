@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "petrous/Imaging/Phantom.h"
-#include "petrous/Presenters/PlaceReader.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/StructureSurfaces.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
 #include "petrous/Scene/Placement.h"
 
 using namespace petrous;
@@ -25,29 +25,29 @@ core::GridGeometry around(const Vector3d& center, const core::Index3& dims, doub
   return {dims, Vector3d::Constant(spacing), center - half};
 }
 
-// The phantom as its MR sees it: structures sampled on the MR's own upright grid, each voxel where
-// the known motion takes it.
+// The phantom as seen by its MR: structures sampled on the MR's own axis-aligned grid, each voxel
+// mapped by the known motion.
 class MrStructures : public ::testing::Test
 {
 protected:
   static void SetUpTestSuite()
   {
-    s_phantom = std::make_unique<imaging::Phantom>();
+    s_phantom = std::make_unique<phantom::Phantom>();
     const core::RigidTransform motion = s_phantom->mrFromCt();
     const core::GridGeometry grid =
-        around(motion * imaging::Phantom::center(), {100, 100, 90}, kMrVoxel);
+        around(motion * phantom::Phantom::center(), {100, 100, 90}, kMrVoxel);
     const Eigen::Matrix4d back = motion.matrix().inverse();
     const Eigen::Matrix3d turn = back.topLeftCorner<3, 3>();
     const Eigen::Vector4d first = back * grid.origin().homogeneous();
     const core::GridGeometry seen(grid.dims(), grid.spacing(), first.head<3>(), turn);
-    volume::LabelMap map = imaging::labelPhantom(*s_phantom, seen);
+    volume::LabelMap map = phantom::labelPhantom(*s_phantom, seen);
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
     std::copy_n(map.voxels->data(), map.voxels->size(), voxels->data());
     map.voxels = voxels;
 
     scene::Case value;
     value.name = "ear";
-    value.ct.geometry = around(imaging::Phantom::center(), {100, 100, 90}, 0.4);
+    value.ct.geometry = around(phantom::Phantom::center(), {100, 100, 90}, 0.4);
     value.ct.volume = std::make_shared<const volume::IntensityVolume>(
         std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry,
                                                              std::int16_t{-1000}));
@@ -76,7 +76,7 @@ protected:
     s_phantom.reset();
   }
 
-  // The farthest that the centre of a voxel of a structure is outside the phantom's own structure.
+  // The maximum distance of a structure's voxel centre outside the phantom's own structure.
   static double farthestOutside(const scene::Case& value)
   {
     double farthest = 0.0;
@@ -93,10 +93,10 @@ protected:
     return farthest;
   }
 
-  static std::unique_ptr<imaging::Phantom> s_phantom;
+  static std::unique_ptr<phantom::Phantom> s_phantom;
   static std::unique_ptr<scene::Case> s_case;
 };
-std::unique_ptr<imaging::Phantom> MrStructures::s_phantom;
+std::unique_ptr<phantom::Phantom> MrStructures::s_phantom;
 std::unique_ptr<scene::Case> MrStructures::s_case;
 
 } // namespace
@@ -107,7 +107,7 @@ TEST_F(MrStructures, LandOnTheCtWithinAVoxel)
   scene::layMr(value, "T2", s_phantom->mrFromCt(), {});
   EXPECT_LT(farthestOutside(value), 0.1 * kMrVoxel);
 
-  // The other way round: the surface of the phantom's structure is that of the label.
+  // Conversely, the surface of the phantom's structure is that of the label.
   StructureSurfaces surfaces(value);
   const auto bounds = value.ct.geometry.patientBounds();
   std::size_t compared = 0;
@@ -151,12 +151,12 @@ TEST_F(MrStructures, AreFeltReadAndDrawnWhereTheyLand)
 
   scene::layMr(value, "T2", s_phantom->mrFromCt(), {});
   const volume::TissueField field = scene::tissueField(value);
-  PlaceReader reader(value, field);
+  PointProbe reader(value, field);
   for (const char* name : {"cochlea", "facial_nerve"})
   {
     const std::size_t index = s_phantom->indexOf(name);
     const auto& structure = s_phantom->structures()[index];
-    // The deepest point of a coarse search.
+    // Deepest point, by a coarse search.
     Vector3d deepest = structure.lower;
     double depth = 0.0;
     for (double x = structure.lower[0]; x < structure.upper[0]; x += 0.4)

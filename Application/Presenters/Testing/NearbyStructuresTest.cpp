@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -19,10 +19,10 @@ const Vector3d kNerve(4.0, -3.0, 10.0);
 const Vector3d kVessel(16.0, -3.0, 10.0);
 constexpr double kVoxel = 0.4;          // mm
 constexpr double kSlice = 0.8;          // mm
-constexpr double kRadius = 3.0;         // mm, of both balls
-constexpr double kBias = 0.25 * kSlice; // the smoothed surface of voxels lies so near to the ball's
+constexpr double kRadius = 3.0;         // mm, of both spheres
+constexpr double kBias = 0.25 * kSlice; // distance of the smoothed voxel surface from the sphere
 
-// Two balls in slices that are twice as far apart as the pixels.
+// Two spheres in slices spaced twice the pixel size.
 scene::Case balls()
 {
   scene::Case value;
@@ -72,7 +72,7 @@ TEST(NearbyStructures, TellDistancesOfTheBurrsBallTheNearestFirst)
   EXPECT_NEAR(near[0].distance, 7.0 - kRadius - 2.0, kBias);
   EXPECT_EQ(near[1].name, "carotid");
   EXPECT_NEAR(near[1].distance, (place - kVessel).norm() - kRadius - 2.0, kBias);
-  // Half of what lies between two slices.
+  // Half the slice spacing.
   EXPECT_NEAR(near[0].uncertainty.millimetres(), 0.5 * kSlice, 1e-12);
   EXPECT_EQ(nearby.around(value, place, 2.0, 4.0).size(), 1U) << "the other one is too far";
 }
@@ -92,13 +92,13 @@ TEST(NearbyStructures, WarnWithinTheDistanceAndTellOfATouch)
   EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Warned);
   EXPECT_EQ(stateAt(kRadius + 1.0 - 0.3), State::Touched);
   EXPECT_EQ(stateAt(0.0), State::Touched);
-  // For the warnings alone nothing farther is asked for.
+  // For warnings only, nothing farther is searched.
   const auto alone = [&](double away)
   { return nearby.around(value, kNerve + Vector3d(0.0, away, 0.0), 1.0, 0.0).size(); };
   EXPECT_EQ(alone(kRadius + 1.0 + 2.3), 0U);
   EXPECT_EQ(alone(kRadius + 1.0 + 1.7), 1U);
   EXPECT_EQ(alone(kRadius + 1.0 - 0.3), 1U);
-  value.labels[0].structures[0].look.warning = 0.0; // the case's present word counts
+  value.labels[0].structures[0].look.warning = 0.0; // the case's current value is used
   EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Clear);
 }
 
@@ -133,7 +133,7 @@ TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
 TEST(NearbyStructures, ALumenIsOpenedAndNotInjured)
 {
   scene::Case value = balls();
-  appearance::StructureLook& look = value.labels[0].structures[1].look;
+  appearance::StructureAppearance& look = value.labels[0].structures[1].look;
   look.solid = false;
   value.strokes = {stroke("carotid", 0.5), stroke("facial_nerve", 0.001)};
   value.history = dissection::History::line(2, 2);
@@ -147,7 +147,7 @@ TEST(NearbyStructures, ALumenIsOpenedAndNotInjured)
   const std::string warnings = warningsOf(within());
   EXPECT_EQ(warnings.find("carotid"), std::string::npos) << warnings;
   EXPECT_NE(warnings.find("injured, under 0.01 mm³"), std::string::npos) << warnings;
-  look.warning = 1.0; // somebody wants to know
+  look.warning = 1.0; // a warning distance is set
   EXPECT_EQ(within().front().state, State::Touched);
   EXPECT_NE(warningsOf(within()).find("carotid touched"), std::string::npos);
 }
@@ -169,7 +169,7 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   SurfaceUncertainty found = uncertainty();
   EXPECT_TRUE(found.drawnOn.empty());
   EXPECT_FALSE(found.incomplete());
-  EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart");
+  EXPECT_EQ(toString(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart");
 
   scene::ImagePart mr;
   mr.name = "T2";
@@ -182,13 +182,13 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   EXPECT_EQ(found.drawnOn, "T2");
   EXPECT_TRUE(found.incomplete());
   EXPECT_FALSE(found.registration);
-  EXPECT_EQ(inWords(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
-                            "'T2', registered, its error unknown");
+  EXPECT_EQ(toString(found), "voxels 0.40 x 0.40 x 0.80 mm, slices 0.80 mm apart; drawn on the MR "
+                             "'T2', registered, its error unknown");
   NearbyStructure near;
   near.name = "facial_nerve";
   near.distance = 1.84;
   near.uncertainty = found;
-  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.4; registration's error unknown");
+  EXPECT_EQ(toString(near), "facial nerve 1.8 mm ± 0.4; registration's error unknown");
 
   scene::Registration how;
   how.error = scene::RegistrationError{kNerve + Vector3d(0.0, 0.0, 14.0), "the incus", 0.1, 0.3, 1};
@@ -197,12 +197,12 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   EXPECT_FALSE(found.incomplete());
   EXPECT_NEAR(found.millimetres(), 0.5, 1e-12);
   near.uncertainty = found;
-  EXPECT_EQ(inWords(near), "facial nerve 1.8 mm ± 0.5");
-  EXPECT_NE(inWords(found).find("'T2', registered to 0.30 mm (p95) at the incus, 14 mm from here"),
+  EXPECT_EQ(toString(near), "facial nerve 1.8 mm ± 0.5");
+  EXPECT_NE(toString(found).find("'T2', registered to 0.30 mm (p95) at the incus, 14 mm from here"),
             std::string::npos)
-      << inWords(found);
+      << toString(found);
 
-  value.labels[0].drawnOn = ""; // somebody said that it is the CT's
+  value.labels[0].drawnOn = ""; // declared to be the CT's
   EXPECT_TRUE(uncertainty().drawnOn.empty());
 }
 

@@ -21,7 +21,7 @@ core::CameraPose fromBehind()
 TEST(OrbitCamera, TurnsWhatIsInFrontToTheRight)
 {
   const auto next = presenters::turned(fromBehind(), 90.0, 0.0);
-  // Screen right is forward x up = (0,-1,0) x (0,0,1) = (-1,0,0); the camera goes to the left.
+  // Screen right is forward x up = (0,-1,0) x (0,0,1) = (-1,0,0); the camera moves to the left.
   EXPECT_LT((next.position - Vector3d(100, 0, 0)).norm(), 1e-9);
   EXPECT_LT((next.viewUp - Vector3d(0, 0, 1)).norm(), 1e-9);
 }

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petrous/Imaging/Phantom.h"
+#include "petrous/Phantom/Phantom.h"
 #include "petrous/Presenters/PlaneSamples.h"
 #include "petrous/Presenters/SliceOverlay.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
 using Eigen::Vector3d;
-using imaging::Phantom;
+using phantom::Phantom;
 
 namespace
 {
@@ -29,13 +29,13 @@ struct EarPair
 
   EarPair()
   {
-    const auto scan = [this](const core::GridGeometry& grid, const imaging::ScanSettings& settings)
+    const auto scan = [this](const core::GridGeometry& grid, const phantom::ScanSettings& settings)
     {
       return std::make_unique<const volume::IntensityVolume>(
           std::make_shared<const volume::Volume<std::int16_t>>(
-              imaging::samplePhantom(phantom, grid, settings)));
+              phantom::samplePhantom(phantom, grid, settings)));
     };
-    imaging::ScanSettings settings;
+    phantom::ScanSettings settings;
     ct = scan(centred({130, 130, 5}, 0.35, Phantom::center()), settings);
     settings.modality = Phantom::Modality::Mr;
     settings.noise = 12.0;
@@ -43,8 +43,8 @@ struct EarPair
     mr = scan(centred({90, 90, 30}, 0.6, phantom.mrFromCt() * Phantom::center()), settings);
   }
 
-  // Median distance, mm, from the CT's contours of bone to where the MR changes most across them
-  // (within 2 mm, and where it changes at all).
+  // Median distance, mm, from the CT's bone contours to the maximum MR gradient across them (within
+  // 2 mm, and where there is a gradient).
   double misfit(const core::RigidTransform& mrFromCt) const
   {
     const SliceGeometry slice(SliceOrientation::Axial, Phantom::center(), 0.15, 280, 280);
@@ -88,13 +88,13 @@ struct EarPair
 
 } // namespace
 
-// Truth is the motion that the phantom was scanned with.
+// The ground truth is the motion with which the phantom was scanned.
 TEST(SliceOverlay, PutsTheMrsBordersOnTheCtsContoursWithTheKnownMotionOnly)
 {
   const EarPair pair;
   const core::RigidTransform motion = pair.phantom.mrFromCt();
   const double best = pair.misfit(motion);
-  EXPECT_LT(best, 0.4); // two thirds of an MR voxel; other borders lie within 2 mm as well
+  EXPECT_LT(best, 0.4); // two thirds of an MR voxel; other edges lie within 2 mm as well
   EXPECT_GT(pair.misfit({}), 2.0 * best);
   EXPECT_GT(pair.misfit(motion.inverse()), 2.0 * best);
   for (int side = 0; side < 4; ++side)

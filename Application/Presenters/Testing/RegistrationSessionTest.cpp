@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "petrous/Presenters/RegistrationSession.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -79,7 +79,7 @@ protected:
     return part;
   }
 
-  // Takes it as the window does.
+  // Applies the outcome as the window does.
   bool lay(RegistrationSession::Way way)
   {
     return session.take(registerMr(model.value(), session.request(way)));
@@ -150,13 +150,13 @@ TEST_F(RegistrationSessionTest, FitsTheLandmarksThatWerePickedAndTellsWhatIsLeft
 {
   const core::RigidTransform truth{
       Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Vector3d(1, 2, 3).normalized())), {0.2, -0.3, 0.1}};
-  session.shift({0.3, 0, 0}); // points are picked over an MR that lies somewhere
+  session.shift({0.3, 0, 0}); // points are picked on an MR at an arbitrary pose
   for (const Vector3d& ct : {Vector3d(3, 0, 0), Vector3d(0, 3, 0), Vector3d(0, 0, 3)})
   {
     model.setCrosshair(ct);
     session.addLandmark();
     EXPECT_TRUE(session.landmarks().waitsForMr());
-    // The crosshair goes to where that point of the MR is seen now.
+    // The crosshair moves to where that point of the MR appears now.
     const Vector3d seen = t2().mrFromCt.inverse() * (truth * ct);
     model.setCrosshair(seen);
     ASSERT_LT((model.crosshair() - seen).norm(), 1e-9) << "the test needs it within the CT";
@@ -348,7 +348,7 @@ TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMad
   const auto solid = [this]
   {
     const auto all = scene::meshSolids(model.value(), [](const auto&) { return true; });
-    return all.empty() ? Vector3d(1e9, 0, 0) : all.front().share->geometry().center();
+    return all.empty() ? Vector3d(1e9, 0, 0) : all.front().occupancy->geometry().center();
   };
   session.shift({1, 0, 0});
   const Vector3d tumour = middle("tumour");

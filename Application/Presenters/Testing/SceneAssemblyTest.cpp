@@ -18,7 +18,7 @@ std::shared_ptr<const volume::IntensityVolume> air()
       std::make_shared<const volume::Volume<std::int16_t>>(kGrid, std::int16_t{-1000}));
 }
 
-// Two overlapping slabs of 8 voxels, "low" and "high", in maps of their own, and a third elsewhere.
+// Two overlapping slabs of 8 voxels, "low" and "high", in separate maps, and a third elsewhere.
 scene::Case slabs()
 {
   scene::Case value;
@@ -45,7 +45,7 @@ scene::Case slabs()
   return value;
 }
 
-appearance::StructureLook& look(scene::Case& value, const char* name)
+appearance::StructureAppearance& look(scene::Case& value, const char* name)
 {
   return scene::findStructure(value, name)->look;
 }
@@ -170,7 +170,7 @@ TEST(SceneAssembly, DrawsTheFirstRegisteredMrThatALookAsksFor)
     look(value, name).transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
   EXPECT_EQ(sceneContents(value).second.volume, nullptr);
   look(value, "low").sourceImage = "t1";  // not registered
-  look(value, "high").sourceImage = "t3"; // and t2 is not asked for
+  look(value, "high").sourceImage = "t3"; // and t2 is not referred to
   const auto contents = sceneContents(value);
   EXPECT_NE(contents.second.volume, nullptr);
   EXPECT_EQ(contents.second.secondFromCt.translation(), Vector3d(1.0, 2.0, 3.0));

@@ -50,7 +50,7 @@ double mrAt(const Vector3d& patient) // in the MR's own frame
   return 500.0 + patient.dot(Vector3d(-4, 1, 2));
 }
 
-// A CT of a plane of HU, and an MR of another plane that lies turned and moved.
+// A CT with a linear HU ramp, and an MR with another ramp, rotated and translated.
 struct Pair
 {
   core::GridGeometry grid{{40, 40, 20}, Vector3d(0.5, 0.5, 1.0), Vector3d(-10, -10, -10)};
@@ -170,7 +170,7 @@ TEST(SliceOverlay, BlendShowsTheMrWhereItsTransformPutsIt)
         const Vector3d patient = slice.patientFromPixel(column, row);
         const double ct = grey(ctAt(patient), kCtWindow);
         const double mr = grey(mrAt(pair.mrFromCt * patient), pair.overlay.window);
-        // The tint takes nothing of red.
+        // The tint leaves red unchanged.
         EXPECT_NEAR(pixels.at(column, row)[0], (1.0 - opacity) * ct + opacity * mr, 1.6);
         if (opacity == 0.5)
           EXPECT_LT(pixels.at(column, row)[2], pixels.at(column, row)[0]);
@@ -211,7 +211,7 @@ TEST(SliceOverlay, BoardShowsCtAndMrByTurnsAndLiesStillInThePatient)
 TEST(SliceOverlay, EdgesOfTheCtLieOverTheMrAlone)
 {
   Pair pair;
-  // A ball of bone in air.
+  // A sphere of bone in air.
   const Vector3d center = pair.grid.center();
   pair.value.ct.volume = imageOf(pair.grid, [&](const Vector3d& p)
                                  { return 300.0 - 1000.0 * ((p - center).norm() - 6.0); });
@@ -279,7 +279,7 @@ TEST(SliceOverlay, ShowsAnMrOfASingleSliceWithinItsOwnThickness)
 
 TEST(MrWindow, ShowsTheHeadAndNotTheBackground)
 {
-  // Three quarters of noise near zero, the rest evenly from 200 to 1000, in any unit.
+  // Three quarters noise near zero, the rest evenly from 200 to 1000, in any unit.
   for (const double unit : {1.0, 1e-3})
   {
     const core::GridGeometry grid({100, 100, 4}, Vector3d::Ones(), Vector3d::Zero());

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// HU = 2 x + 3 y + 5 z in patient mm: trilinear sampling of it is exact on every grid.
+// HU = 2 x + 3 y + 5 z in patient mm: trilinear sampling is exact on every grid.
 double plane(const Vector3d& patient)
 {
   return patient.dot(Vector3d(2, 3, 5));
@@ -45,7 +45,7 @@ Eigen::Matrix3d flipped() // left-handed, axes exchanged
   return direction;
 }
 
-// Every pixel in the hull has the grey of the plane at its patient point; the others are outside.
+// Every pixel in the hull has the ramp's grey at its patient point; the others are outside.
 void expectPlane(const core::GridGeometry& grid, SliceOrientation orientation)
 {
   const scene::Case value = planeCase(grid);
@@ -139,8 +139,8 @@ TEST(SliceGeometry, HasThePatientsRightOnThePicturesLeft)
   EXPECT_EQ(letters(SliceOrientation::Coronal), "RLSI");
   EXPECT_EQ(letters(SliceOrientation::Sagittal), "APSI");
   const SliceGeometry axial(SliceOrientation::Axial, {1, 2, 3}, 0.5, 11, 11);
-  EXPECT_LT(axial.patientFromPixel(0, 5).x(), 1.0); // LPS: x falls towards the right
-  EXPECT_LT(axial.patientFromPixel(5, 0).y(), 2.0); // y falls towards anterior
+  EXPECT_LT(axial.patientFromPixel(0, 5).x(), 1.0); // LPS: x decreases towards the right
+  EXPECT_LT(axial.patientFromPixel(5, 0).y(), 2.0); // y decreases towards anterior
   EXPECT_EQ(axial.patientFromPixel(5, 5), Vector3d(1, 2, 3));
 }
 
@@ -198,7 +198,7 @@ TEST(SlicePresenter, ShowsInRedWhereLessThanHalfIsLeft)
   value.dissection = std::make_shared<dissection::Dissection>(grid);
   const SliceGeometry slice(SliceOrientation::Coronal, {19.5, 20, 19.5}, 1.0, 40, 40);
   const GreyWindow white{1.0, -1000.0};
-  const SlicePresenter presenter(value); // made before the cut: it sees the mask as it stands
+  const SlicePresenter presenter(value); // made before the cut: it sees the current mask
   EXPECT_EQ(presenter.draw(slice, white).at(20, 20)[1], 255);
   value.dissection->beginStroke({});
   value.dissection->cut({{20, 20, 20}, {20, 20, 20}, 6.0});

@@ -6,8 +6,8 @@
 
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
-#include "petrous/Imaging/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/SourceContent.h"
 
 using namespace petrous;
@@ -19,7 +19,7 @@ namespace
 
 const core::GridGeometry kGrid({24, 20, 16}, Vector3d::Constant(0.5), Vector3d::Zero());
 
-// A voxel's value from where it is, -1 to 1 in each axis.
+// A voxel's value from its position, -1 to 1 in each axis.
 template <class T, class Value>
 std::shared_ptr<const volume::Volume<T>> filled(const Value& value)
 {
@@ -83,7 +83,7 @@ TEST(Content, UnitsOfTheirOwnAreInDoubt)
   EXPECT_EQ(contentOf<std::uint16_t>(coneBeam), Content::Image);
 }
 
-// An MR of 8 bits behind a mask: few values, many of them 0.
+// A masked 8-bit MR: few values, many of them 0.
 TEST(Content, AnMrOfEightBitsIsNoLabelMap)
 {
   std::mt19937 random(7);
@@ -105,7 +105,7 @@ TEST(Content, FewWholeNumbersInPatchesAreLabels)
     return std::floor(5.99 * (0.5 * at.x() + 0.5)) + 6.0 * std::floor(4.99 * (0.5 * at.y() + 0.5));
   };
   EXPECT_EQ(contentOf<std::int16_t>(thirty), Content::Labels);
-  // A nerve as thin as a voxel, askew, whose voxels touch at corners only.
+  // A nerve one voxel thin, oblique, whose voxels touch only at corners.
   const auto thread = [](const Vector3d& at)
   {
     const int i = static_cast<int>(std::lround(11.5 * (at.x() + 1.0)));
@@ -120,9 +120,9 @@ TEST(Content, FewWholeNumbersInPatchesAreLabels)
 
 TEST_F(SourceContent, IsKnownOfEachKindOfFile)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(m_folder, options);
+  phantom::writeSamplePatient(m_folder, options);
   EXPECT_EQ(at("ct"), Content::Ct);
   EXPECT_EQ(at("mr"), Content::Mr);
   EXPECT_EQ(at("labels.seg.nrrd"), Content::Labels);
@@ -140,9 +140,9 @@ TEST_F(SourceContent, IsKnownOfEachKindOfFile)
 
 TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(m_folder, options);
+  phantom::writeSamplePatient(m_folder, options);
   std::filesystem::create_directory(m_folder / "visit");
   std::filesystem::rename(m_folder / "ct", m_folder / "visit" / "ct");
   std::filesystem::rename(m_folder / "mr", m_folder / "visit" / "mr");
@@ -153,6 +153,6 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
   EXPECT_GT(found.series[0].slices, 10u);
   EXPECT_EQ(found.series[0].folder, "ct");
   EXPECT_EQ(found.series[1].folder, "mr");
-  EXPECT_EQ(found.series[0].taken, "20200101 1200"); // as the writer has it
+  EXPECT_EQ(found.series[0].taken, "20200101 1200"); // as written by the test
   EXPECT_EQ(found.series[0].patientPosition, "HFS");
 }

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Voxels of 0.5 mm: a plate that fills z < 5 mm, and a ball of 4 mm about (30, 30, 30).
+// Voxels of 0.5 mm: a plate that fills z < 5 mm, and a sphere of 4 mm radius about (30, 30, 30).
 const Vector3d kBall(30.0, 30.0, 30.0);
 constexpr double kBallRadius = 4.0;
 constexpr double kPlate = 5.0;
@@ -50,7 +50,7 @@ TEST(StructureDistances, AreThoseOfTheNearestPlaceOnTheWay)
   const scene::Case value = twoStructures();
   StructureDistances distances(value, kRadius);
   EXPECT_TRUE(distances.smallest().empty());
-  // To and fro over the plate, nearest in the middle of the way: 3 mm above it.
+  // Back and forth over the plate, closest in the middle of the path: 3 mm above it.
   double plate = 1e9, ball = 1e9;
   for (int n = 0; n <= 4000; ++n)
   {
@@ -65,7 +65,7 @@ TEST(StructureDistances, AreThoseOfTheNearestPlaceOnTheWay)
   ASSERT_EQ(smallest.size(), 2u);
   EXPECT_NEAR(smallest.at("plate"), plate, 0.05);
   EXPECT_GT(ball, 3.0);
-  EXPECT_NEAR(smallest.at("ball"), ball, 0.1 + 0.05); // its voxels are half a millimetre
+  EXPECT_NEAR(smallest.at("ball"), ball, 0.1 + 0.05); // its voxels are 0.5 mm
 }
 
 TEST(StructureDistances, AreZeroWhereTheBallReachesIn)
@@ -76,7 +76,7 @@ TEST(StructureDistances, AreZeroWhereTheBallReachesIn)
   EXPECT_NEAR(distances.smallest().at("plate"), 0.5, 0.01);
   distances.add({20.0, 20.0, kPlate + kRadius - 0.5});
   EXPECT_EQ(distances.smallest().at("plate"), 0.0);
-  distances.add(kBall); // deep in it, farther from the surface than its own radius
+  distances.add(kBall); // deep inside, farther from the surface than its own radius
   EXPECT_EQ(distances.smallest().at("ball"), 0.0);
 }
 

@@ -13,10 +13,10 @@ const Vector3d kBall(4.0, -3.0, 10.0);
 const Vector3d kOther(16.0, -3.0, 10.0);
 constexpr double kVoxel = 0.4;  // mm
 constexpr double kRadius = 3.0; // mm
-// The smoothed surface of voxels lies within a fifth of one of the ball's.
+// The smoothed voxel surface is within a fifth of a voxel of the sphere.
 constexpr double kBias = 0.2 * kVoxel;
 
-// Two balls, of indices 3 and 7, on a grid that is turned about z.
+// Two spheres, with indices 3 and 7, on a grid rotated about z.
 scene::Case balls()
 {
   scene::Case value;

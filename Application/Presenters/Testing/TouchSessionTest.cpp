@@ -21,19 +21,19 @@ class TouchSessionTest : public ::testing::Test
 {
 protected:
   scene::Case value = block();
-  TouchScene scene{value};
-  HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), TouchTool::Mode::SixDof};
-  TouchSession session{value, scene, hand.device, hand.setup};
+  session::TouchScene scene{value};
+  HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), session::TouchTool::Mode::SixDof};
+  session::TouchSession session{value, scene, hand.device, hand.setup};
 
-  // Cuts, and looks at what comes.
-  TouchSession::News frame()
+  // One frame: applies the removal and feeds the device.
+  session::TouchSession::News frame()
   {
     auto news = session.advance();
     if (news.record)
       hand.device.see(*news.record);
     return news;
   }
-  // Half a millimetre deep: the first bites only shave what partial voxels there are.
+  // Half a millimetre deep: the first bites only shave partial voxels.
   bool drillSome()
   {
     hand.drill(true);
@@ -50,7 +50,7 @@ protected:
 
 TEST_F(TouchSessionTest, PressesOnTheBoneWithoutTakingAnyWhileTheDrillIsOff)
 {
-  simulation::TickRecord record;
+  session::TickRecord record;
   ASSERT_TRUE(until(
       [&]
       {
@@ -71,7 +71,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   ASSERT_TRUE(drillSome());
   EXPECT_TRUE(session.drilling());
   hand.drill(false);
-  TouchSession::News news;
+  session::TouchSession::News news;
   ASSERT_TRUE(until(
       [&]
       {
@@ -86,7 +86,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   EXPECT_EQ(news.strokes.front()->info.camera->position, camera.position);
   ASSERT_EQ(value.strokes.size(), 1u);
   EXPECT_EQ(value.applied(), 1u);
-  EXPECT_TRUE(session.stop().strokes.empty()); // it is closed already
+  EXPECT_TRUE(session.stop().strokes.empty()); // already closed
 }
 
 TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
@@ -98,7 +98,7 @@ TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
       {
         if (const auto record = frame().record; record && record->drill)
           lowest = std::min(lowest, record->proxy.pose().position.z());
-        return lowest < kTop + 1.0; // a millimetre below where it first touched
+        return lowest < kTop + 1.0; // a millimetre below the first contact
       }));
 }
 
@@ -108,7 +108,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
   const auto step = [this](bool back)
   {
     back ? session.undo() : session.redo();
-    TouchSession::News news;
+    session::TouchSession::News news;
     EXPECT_TRUE(until(
         [&]
         {
@@ -120,7 +120,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
   };
   step(true);
   EXPECT_EQ(value.applied(), 0u);
-  // The drill is still held: the branch goes on with the next stroke.
+  // The drill is still on: the branch continues with the next stroke.
   ASSERT_TRUE(until(
       [this]
       {
@@ -142,7 +142,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
         const auto record = frame().record;
         return record && record->fault == 0 && std::abs(record->thrust - 1.0) < 0.1;
       }));
-  session.redo(); // there is none
+  session.redo(); // there is nothing to redo
   const auto news = session.stop();
   EXPECT_TRUE(news.steps.empty());
   EXPECT_EQ(value.applied(), 1u);
@@ -164,7 +164,7 @@ TEST_F(TouchSessionTest, StopClosesTheStrokeAndEndsTheServo)
 namespace
 {
 
-// Led at 6 mm/s over the bone, with the drill on from 0.3 s to 0.9 s after the first reading.
+// Moves at 6 mm/s over the bone, with the drill on from 0.3 s to 0.9 s after the first reading.
 class ScriptedDevice final : public haptics::Device
 {
 public:
@@ -190,19 +190,19 @@ private:
 struct Drilled
 {
   double rate = 0.0;        // mm^3/s
-  std::uint64_t states = 0; // of the mask, that the servo felt
+  std::uint64_t states = 0; // mask states seen by the servo
 };
 
 Drilled drilledAt(double picturesPerSecond)
 {
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   ScriptedDevice device(Vector3d(6.0, 6.0, kTop + 2.2));
-  TouchSession::Setup setup;
+  session::TouchSession::Setup setup;
   setup.parameters.constantThrust = 1;
   setup.parameters.drillButtons = 1;
   setup.parameters.approach[2] = -5.0;
-  TouchSession session(value, scene, device, setup);
+  session::TouchSession session(value, scene, device, setup);
   Drilled drilled;
   for (bool over = false; !over;)
   {
@@ -227,9 +227,9 @@ TEST(TouchSession, DrillsAtTheSameRateHoweverSeldomPicturesAreDrawn)
   for (const double picturesPerSecond : {5.0, 1.5})
   {
     const Drilled seldom = drilledAt(picturesPerSecond);
-    // The way of a burr that slides in its groove is never the same twice.
+    // The path of a burr sliding in its groove is not reproducible.
     EXPECT_NEAR(seldom.rate, often.rate, 0.12 * often.rate) << picturesPerSecond << " Hz";
-    EXPECT_GT(seldom.states, 100u); // 3 pictures, and 1, while it drilled
+    EXPECT_GT(seldom.states, 100u); // 3 frames, and 1, while it drilled
   }
   EXPECT_GT(often.rate, 0.5);
 }
@@ -250,11 +250,11 @@ TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)
     void send(const haptics::Wrench&) noexcept override {}
   };
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   Unplugged device;
-  TouchSession::Setup setup;
-  setup.tool.mode = TouchTool::Mode::ThreeDof;
-  TouchSession session(value, scene, device, setup);
+  session::TouchSession::Setup setup;
+  setup.tool.mode = session::TouchTool::Mode::ThreeDof;
+  session::TouchSession session(value, scene, device, setup);
   std::string fault;
   ASSERT_TRUE(until(
       [&]
@@ -262,29 +262,31 @@ TEST(TouchSession, SaysInWordsThatTheDeviceIsGone)
         fault = session.advance().fault;
         return !fault.empty();
       }));
-  EXPECT_EQ(fault, haptics::inWords(haptics::DeviceVerdict::Disconnected));
+  EXPECT_EQ(fault, haptics::toString(haptics::DeviceVerdict::Disconnected));
 }
 
 TEST(TouchSession, RefusesBadParameters)
 {
   scene::Case value = block();
-  TouchScene scene(value);
+  session::TouchScene scene(value);
   HeldTool hand(Vector3d(6.0, 6.0, 10.0));
   hand.setup.tool.burr.rpm = -1.0;
-  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+               core::InvalidParameter);
   hand.setup.tool.burr.rpm = 60000.0;
   hand.setup.parameters.thrust = 50.0;
-  EXPECT_THROW(TouchSession(value, scene, hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+               core::InvalidParameter);
 }
 
 TEST(TouchTool, IsHeldTheStifferWhereASetThrustPressesIt)
 {
-  using Mode = TouchTool::Mode;
+  using Mode = session::TouchTool::Mode;
   const haptics::ProxyParameters usual;
-  EXPECT_EQ(couplingFor(Mode::SixDof, std::nullopt).stiffness, usual.stiffness);
-  EXPECT_EQ(couplingFor(Mode::ThreeDof, 1.0).stiffness, usual.stiffness);
-  const haptics::ProxyParameters pressed = couplingFor(Mode::SixDof, 1.0);
-  EXPECT_EQ(pressed.stiffness, simulation::ConstantThrust::coupling(1.0).stiffness);
+  EXPECT_EQ(session::couplingFor(Mode::SixDof, std::nullopt).stiffness, usual.stiffness);
+  EXPECT_EQ(session::couplingFor(Mode::ThreeDof, 1.0).stiffness, usual.stiffness);
+  const haptics::ProxyParameters pressed = session::couplingFor(Mode::SixDof, 1.0);
+  EXPECT_EQ(pressed.stiffness, session::ConstantThrust::coupling(1.0).stiffness);
   EXPECT_GT(pressed.stiffness, 5.0 * usual.stiffness);
   EXPECT_GT(pressed.angularStiffness, usual.angularStiffness);
 }

@@ -16,7 +16,7 @@ TEST(ViewSettings, TellsOnlyWhatChanged)
   settings.events.stereoChanged = [&stereos] { ++stereos; };
   settings.setWetness(0.5);
   settings.setWetness(0.5);
-  settings.setFalloff(0.0); // as it was
+  settings.setFalloff(0.0); // unchanged
   EXPECT_EQ(lights, 1);
   settings.setStereo(StereoMode::Anaglyph);
   settings.setStereo(StereoMode::Anaglyph);

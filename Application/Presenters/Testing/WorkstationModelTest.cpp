@@ -10,7 +10,7 @@
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -61,7 +61,7 @@ protected:
     model.stopTouch();
     EXPECT_FALSE(model.touching());
   }
-  static interaction::SightLine line() { return {{6, 6, 30}, {0, 0, -1}}; }
+  static interaction::PickRay line() { return {{6, 6, 30}, {0, 0, -1}}; }
 
   std::filesystem::path folder;
 };
@@ -307,7 +307,7 @@ TEST_F(WorkstationModelTest, BoneCanBeHiddenAndMadeTranslucent)
   model.open("block");
   int changes = 0;
   model.events.appearanceChanged = [&changes] { ++changes; };
-  appearance::StructureLook look = model.value().boneLook;
+  appearance::StructureAppearance look = model.value().boneLook;
   look.opacity = 0.4F;
   model.setBoneLook(look);
   EXPECT_EQ(changes, 1);
@@ -322,7 +322,7 @@ TEST_F(WorkstationModelTest, BoneCanBeHiddenAndMadeTranslucent)
 namespace
 {
 
-// A ball of "tumour" above the block.
+// A sphere of "tumour" above the block.
 scene::LabelPart ballOf(const core::GridGeometry& grid, const std::string& name)
 {
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
@@ -368,7 +368,7 @@ TEST_F(WorkstationModelTest, ShowsTheCtUntilItsStructuresAreLoaded)
   EXPECT_EQ(shown, 1);
   EXPECT_TRUE(model.sceneContents().labels);
   ASSERT_TRUE(model.surfaceAt(line()));
-  EXPECT_NEAR(model.surfaceAt(line())->z(), 0.3 * 34, 0.3); // of the ball
+  EXPECT_NEAR(model.surfaceAt(line())->z(), 0.3 * 34, 0.3); // of the sphere
   model.startTouch(hand.device, hand.setup);
   EXPECT_TRUE(model.touching());
 }
@@ -461,7 +461,7 @@ TEST_F(WorkstationModelTest, NothingIsDrilledInADamagedCtAndNothingIsStoredOfIt)
     HeldTool hand({6, 6, 8.5});
     EXPECT_THROW(model.startTouch(hand.device, hand.setup), library::LibraryError);
   }
-  // Stored elsewhere it would be whole by the hash of what it is now.
+  // Stored elsewhere it would be valid by the hash of its current content.
   WorkstationModel model{library::Library(folder / "library")};
   model.opened(ReadCase::from(model.library(), "block"));
   EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), library::LibraryError);
@@ -517,7 +517,7 @@ TEST_F(WorkstationModelTest, AStructureThatCannotBeReadIsLeftOutAndStaysAsItIs)
   EXPECT_TRUE(model.sceneContents().labels);
   model.readPlace({6, 6, 5});
   stroke(model);
-  model.undo(); // it went where the tumour is
+  model.undo(); // the stroke was at the tumour's position
   model.setIso(500.0);
   EXPECT_TRUE(model.surfaceAt(line()));
   EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), core::Error) << "not without it";
@@ -545,7 +545,7 @@ TEST_F(WorkstationModelTest, NoToolIsTakenUpInACaseThatIsLeft)
   model.beginLeave();
   EXPECT_FALSE(model.touching());
   EXPECT_THROW(model.startTouch(hand.device, hand.setup), core::InvalidParameter);
-  model.notOpened(); // it stays
+  model.notOpened(); // the case stays
   stroke(model);
   model.beginLeave();
   model.close();

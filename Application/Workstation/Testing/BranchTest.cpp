@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <QInputDialog>
 #include <QLineEdit>
@@ -12,7 +12,7 @@ using namespace petrous::workstation;
 namespace
 {
 
-class Branches : public HandTest
+class Branches : public DeviceTest
 {
 protected:
   QMenu& menu()
@@ -46,7 +46,7 @@ protected:
                          dialog->accept();
                        });
     QTest::keyClick(&window(), Qt::Key_B, Qt::ControlModifier);
-    // Where no window manager gives the window its keys back.
+    // In case no window manager returns the keyboard focus to the window.
     window().activateWindow();
     EXPECT_TRUE(QTest::qWaitForWindowActive(&window()));
   }
@@ -66,7 +66,7 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   ASSERT_EQ(value().applied(), 1u);
   const double removed = value().removedVolume();
   ASSERT_GT(removed, 0.0);
-  // To main, by its key in the menu.
+  // To main, by its shortcut in the menu.
   emit menu().aboutToShow();
   menu().actions().at(4)->trigger();
   EXPECT_EQ(value().history.branch().name, "main");
@@ -74,7 +74,7 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   EXPECT_TRUE(std::as_const(*value().dissection).mask().untouched());
   EXPECT_EQ(lines().size(), 2);
   EXPECT_TRUE(lines().at(1).startsWith("&2  other: 1 stroke, ")) << lines().at(1).toStdString();
-  // The next one, by key: round to the other.
+  // The next one by key: wraps around to the other.
   QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
   EXPECT_EQ(value().history.branch().name, "other");
   EXPECT_EQ(value().removedVolume(), removed);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 class Damage : public GuiTest
 {
 protected:
-  // One bit of an object of the library.
+  // Flips one bit of a library object.
   void flipBit(const std::string& object) const
   {
     const fs::path file = folder() / "library/objects" / object;
@@ -61,14 +61,14 @@ TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)
   EXPECT_TRUE(window().model().ready());
   drill(600);
   EXPECT_EQ(library().open("ball").strokes.size(), 1u);
-  // Of another case nothing is told.
+  // Nothing is reported for another case.
   auto* close = banner().findChild<QPushButton*>("dismissDamage");
   ASSERT_TRUE(close);
   close->click();
   EXPECT_FALSE(banner().isVisible());
 }
 
-// Whoever stopped the preparation, and takes up a tool, wants it after all.
+// Taking up a tool after stopping the preparation resumes it.
 TEST_F(Damage, APreparationThatWasStoppedIsDoneForATool)
 {
   saveBall("ball");
@@ -84,13 +84,13 @@ TEST_F(Damage, APreparationThatWasStoppedIsDoneForATool)
                        cancel->click();
                    });
   stop.start(0);
-  for (int n = 0; n < 10 && window().model().ready(); ++n) // it may be over before it is stopped
+  for (int n = 0; n < 10 && window().model().ready(); ++n) // it may finish before it is stopped
   {
     window().begin("ball");
     EXPECT_TRUE(settled());
   }
   stop.stop();
-  QApplication::setActiveWindow(&window()); // after the boxes that showed how far it was
+  QApplication::setActiveWindow(&window()); // after the progress dialogs
   drill(600);
   EXPECT_EQ(library().open("ball").strokes.size(), 1u);
 }

@@ -12,7 +12,7 @@ class DecimalPointTest : public GuiTest
 {
 };
 
-// Run once more under a decimal comma.
+// Run once more under a locale with a decimal comma.
 TEST_F(DecimalPointTest, NumbersHaveAPointAndATypedCommaBecomesOne)
 {
   openWindow();

@@ -53,7 +53,7 @@ TEST_F(Drill, UndoBringsThePictureBackAndRedoTheHole)
   openWindow();
   const QImage whole = picture();
   drill(700, 20);
-  QTest::keyClick(&view(), Qt::Key_D); // the tool leaves the picture
+  QTest::keyClick(&view(), Qt::Key_D); // hides the tool
   const QImage drilled = picture();
   ASSERT_GT(differentPixels(whole, drilled, 12), 100);
   ASSERT_TRUE(action("Undo")->isEnabled());
@@ -137,7 +137,7 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   QTest::keyClick(&view(), Qt::Key_D);
   QTest::keyClick(&view(), Qt::Key_M);
   const QPoint middle = view().rect().center();
-  QTest::mouseMove(&view(), middle + QPoint(3, 0)); // the pointer may be there since the last test
+  QTest::mouseMove(&view(), middle + QPoint(3, 0)); // the pointer may be there from the last test
   QTest::mouseMove(&view(), middle);
   ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
   QTest::qWait(200);
@@ -148,7 +148,7 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
                       Qt::NoModifier, Qt::NoScrollPhase, false);
     QApplication::sendEvent(&view(), &wheel);
   };
-  turn(12); // 3 mm: through the air before the bone, and beyond its surface
+  turn(12); // 3 mm: through the air in front of the bone, and below its surface
   EXPECT_EQ(view().picture().camera().position, before.position);
   EXPECT_TRUE(window().model().value().dissection->mask().untouched());
   QTest::keyPress(&view(), Qt::Key_Space);
@@ -161,7 +161,7 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   EXPECT_NE(view().picture().camera().position, before.position);
 }
 
-// It is tied to the hand otherwise where a set thrust presses it and where the wheel does.
+// The coupling differs between a set thrust and the wheel.
 TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
 {
   saveBall("ball");
@@ -211,7 +211,7 @@ TEST_F(Drill, TheButtonShowsWhetherTheWheelLeads)
   EXPECT_GT(differentPixels(off, button->grab().toImage(), 20), off.width() * off.height() / 3);
 }
 
-// The burr lies in a hole of its own size, and the pointer goes on over untouched bone and away.
+// The burr is in a hole of its own size, and the pointer moves on over untouched bone and away.
 TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
 {
   saveBall("ball");
@@ -241,7 +241,7 @@ TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
   EXPECT_TRUE(faults.filter("inside tissue").isEmpty()) << faults.join('/').toStdString();
 }
 
-// Beyond the edge nobody sees where the burr would go: it lifts there, at all four edges alike.
+// Beyond the edge the burr's target is invisible: it lifts there, at all four edges alike.
 TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
 {
   saveBall("ball");
@@ -259,7 +259,7 @@ TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
   int pressed = 0;
   int atMiddle = 0;
   QObject::connect(&view(), &ThreeDView::drillPressed, &window(), [&] { ++pressed; });
-  const auto look = [&](const interaction::SightLine& line)
+  const auto look = [&](const interaction::PickRay& line)
   { atMiddle += (line.direction - middleLine.direction).norm() < 0.01; };
   QObject::connect(&view(), &ThreeDView::drillHeld, &window(), look);
   QObject::connect(&view(), &ThreeDView::pointed, &window(), look);
@@ -282,7 +282,7 @@ TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
     move(outside);
     EXPECT_FALSE(view().drilling());
     EXPECT_TRUE(strokeEnds());
-    move(inside); // with the button held still
+    move(inside); // with the button still held
     EXPECT_FALSE(view().drilling());
     EXPECT_EQ(pressed, 0);
     EXPECT_EQ(atMiddle, 0) << "the burr leapt to the middle";
@@ -296,7 +296,7 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   saveBall("ball");
   openWindow();
   auto other = library().open("ball");
-  library().save(other); // somebody else
+  library().save(other); // by another program
   auto* banner = window().findChild<Banner*>("unsavedBanner");
   EXPECT_FALSE(banner->isVisible());
   drill(500);
@@ -307,19 +307,19 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_EQ(window().model().value().strokes.size(), 1u);
   EXPECT_TRUE(library().open("ball").strokes.empty());
 
-  // Nothing lies over the window, which goes on; the next stroke fails to be saved as well.
+  // No modal dialog blocks the window; the next stroke cannot be saved either.
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
   drill(300, 40);
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
   EXPECT_EQ(window().findChildren<Banner*>("unsavedBanner").size(), 1);
 
-  // Quitting does not lose it, and does not ask in a box either.
+  // Quitting does not lose it, and shows no dialog either.
   auto* quit = banner->findChild<QPushButton*>("quitUnsaved");
   EXPECT_FALSE(quit->isVisible());
   EXPECT_FALSE(window().close());
   EXPECT_TRUE(quit->isVisible());
 
-  // Now the work goes under another name.
+  // Saves under another name.
   QTimer answer;
   QObject::connect(&answer, &QTimer::timeout, &answer,
                    [&answer]
@@ -328,7 +328,7 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
                      if (!ask)
                        return;
                      answer.stop();
-                     ask->accept(); // with the name that is offered
+                     ask->accept(); // with the name offered
                    });
   answer.start(20);
   banner->findChild<QPushButton*>("saveAsOther")->click();
@@ -338,7 +338,7 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_TRUE(window().close());
 }
 
-// A picture that is pushed down slips under a mouse that rests, and the burr with it.
+// A view that is pushed down would move under a resting mouse, and the burr with it.
 TEST_F(Drill, ABannerMovesNoPictureWhileTheToolIsInTheHandAndWidensNoWindow)
 {
   saveBall("ball");
@@ -369,7 +369,7 @@ TEST_F(Drill, ABannerMovesNoPictureWhileTheToolIsInTheHandAndWidensNoWindow)
   EXPECT_TRUE(waitFor([&] { return view().geometry() == before; }));
 }
 
-// Another program that holds the library's lock, or a slow disk.
+// Another program holding the library's lock, or a slow disk.
 TEST_F(Drill, NoStrokeWaitsForTheDisk)
 {
   saveBall("ball");
@@ -400,7 +400,7 @@ TEST_F(Drill, NoStrokeWaitsForTheDisk)
   ASSERT_EQ(::flock(lock, LOCK_UN), 0);
   EXPECT_TRUE(settled());
   EXPECT_EQ(library().open("ball").strokes.size(), 2u);
-  // What came after is saved when the window closes, which waits for it.
+  // Later changes are saved when the window closes, which waits for it.
   closeWindow();
   EXPECT_EQ(library().open("ball").applied(), 1u);
   ::close(lock);

@@ -17,7 +17,7 @@ GuiTest::~GuiTest() = default;
 
 std::filesystem::path GuiTest::folder() const
 {
-  // Of a process that a test has started: the test's.
+  // In a process started by a test: the test's folder.
   return qEnvironmentVariable("PETROUS_GUI_FOLDER", m_folder.path()).toStdString();
 }
 
@@ -74,13 +74,13 @@ void GuiTest::openWindow(const QString& what)
 {
   WindowOptions options;
   options.settings = m_folder.filePath("settings.conf");
-  options.hands = hands;
-  options.lookForHandsEvery = 50;
+  options.devices = devices;
+  options.lookForDevicesEvery = 50;
   m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
   m_window->show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(m_window.get()));
-  QApplication::setActiveWindow(m_window.get()); // no window manager does it; keys need it
+  QApplication::setActiveWindow(m_window.get()); // needed for key events without a window manager
   m_window->begin(what);
   QTest::qWait(50);
   EXPECT_TRUE(settled());
@@ -100,7 +100,7 @@ ThreeDView& GuiTest::view()
 QAction* GuiTest::action(const QString& text)
 {
   for (QAction* candidate : m_window->findChildren<QAction*>())
-    // Menus and tool bars have actions of their own, without a key.
+    // Menus and tool bars have actions of their own, without a shortcut.
     if (candidate->text().remove('&') == text && !candidate->shortcut().isEmpty())
       return candidate;
   ADD_FAILURE() << "no action " << text.toStdString();
@@ -109,9 +109,9 @@ QAction* GuiTest::action(const QString& text)
 
 QImage GuiTest::picture()
 {
-  QTest::qWait(600); // the fine picture comes 300 ms after the last move
+  QTest::qWait(600); // fine rendering starts 300 ms after the last motion
   const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
-  if (!pictures.isEmpty()) // for the eye
+  if (!pictures.isEmpty()) // for visual inspection
   {
     static int number = 0;
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();

@@ -18,7 +18,7 @@
 namespace petrous::workstation
 {
 
-/// A window on a library of its own. The patient is a ball of bone, 12 mm in radius, at
+/// A window on a library of its own. The patient is a sphere of bone, 12 mm in radius, at
 /// kBallCenter, with a structure "nerve" inside.
 class GuiTest : public ::testing::Test
 {
@@ -29,25 +29,25 @@ protected:
   static const Eigen::Vector3d kBallCenter;
   static constexpr double kBallRadius = 12.0;
 
-  std::filesystem::path folder() const; ///< empty, goes with the test
+  std::filesystem::path folder() const; ///< initially empty, removed with the test
   library::Library library() const;
   static scene::Case ballCase(const std::string& name);
   void saveBall(const std::string& name); ///< into the library
 
-  presenters::HandSources hands; ///< of the windows to come; none to begin with
+  presenters::DeviceSources devices; ///< of windows opened later; initially none
   void openWindow(const QString& what = {});
   void closeWindow();
   MainWindow& window() { return *m_window; }
   ThreeDView& view();
-  QAction* action(const QString& text); ///< by its words, without the ampersand
-  QImage picture();                     ///< of the 3D view, when it has come to rest
+  QAction* action(const QString& text); ///< by its text, without the ampersand
+  QImage picture();                     ///< of the 3D view, when static
 
   void drop(const QMimeData& data);
   void dropPath(const std::filesystem::path& path);
   /// Drills from the view's middle for `milliseconds`, moving right by `pixels`.
   void drill(int milliseconds, int pixels = 0);
-  bool strokeEnds(); ///< after the drill was let go: it is cut in a thread of its own, and saved
-  bool settled();    ///< nothing is read or written any more
+  bool strokeEnds(); ///< after the drill was released: removed in a separate thread, and saved
+  bool settled();    ///< nothing is being read or written
 
   /// Calls `react` with the next message box (polling), which must close it.
   void onMessage(const std::function<void(QMessageBox&)>& react);

@@ -9,8 +9,8 @@
 
 #include "Banner.h"
 #include "petrous/Imaging/LabelFile.h"
-#include "petrous/Imaging/SamplePatient.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Phantom/SamplePatient.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -31,15 +31,15 @@ TEST_F(Import, ADroppedFileIsOnTheScreenAndInTheLibrary)
   const QImage image = picture();
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
 
-  dropPath(file); // once more: a case of its own
+  dropPath(file); // again: a case of its own
   ASSERT_TRUE(waitFor([this] { return library().contains("Left ear  2 2"); }));
 }
 
 TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.0;
-  imaging::writeSamplePatient(folder() / "sample", options);
+  phantom::writeSamplePatient(folder() / "sample", options);
   openWindow();
   dropPath(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
@@ -52,9 +52,9 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
 
 TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(folder() / "visit", options);
+  phantom::writeSamplePatient(folder() / "visit", options);
   fs::remove_all(folder() / "visit" / "labels");
   openWindow();
   QStringList offered;
@@ -119,7 +119,7 @@ TEST_F(Import, AFolderWithoutImagesIsRefusedInOneLine)
 TEST_F(Import, CancelLeavesNoCase)
 {
   openWindow();
-  window().findChild<QPushButton*>("primary")->click(); // the sample patient takes seconds
+  window().findChild<QPushButton*>("primary")->click(); // making the sample patient takes seconds
   QProgressDialog* progress = nullptr;
   ASSERT_TRUE(waitFor(
       [&]
@@ -150,12 +150,12 @@ namespace
 // The patient at 1.5 mm, in `folder`.
 void writePatient(const fs::path& folder)
 {
-  imaging::SampleOptions options;
+  phantom::SampleOptions options;
   options.spacing = 1.5;
-  imaging::writeSamplePatient(folder, options);
+  phantom::writeSamplePatient(folder, options);
 }
 
-// Clicks the button of the next box whose words contain `button`; what the box says.
+// Clicks the button of the next message box whose text contains `button`; returns the box's text.
 QString answered(const std::function<void(const std::function<void(QMessageBox&)>&)>& onMessage,
                  const QString& button, const std::function<void()>& act)
 {
@@ -207,7 +207,7 @@ TEST_F(Import, LabelsAndMeshesComeToTheOpenCaseAndCanBeDropped)
   EXPECT_TRUE(window().model().ready());
   EXPECT_EQ(view().picture().camera().position, camera.position);
   EXPECT_FALSE(library().open("ct").labels.empty());
-  // "No" is no.
+  // Cancelling has no effect.
   const auto parts = window().model().value().meshes.size();
   answered([this](const auto& react) { onMessage(react); }, "Cancel",
            [this] { dropPath(folder() / "sample" / "meshes" / "facial_nerve.obj"); });
@@ -251,7 +251,7 @@ TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
   EXPECT_TRUE(library().list().empty());
 }
 
-// An MR or a cone beam as a plain file: nobody can tell.
+// An MR or a cone beam as a plain file: undetermined.
 TEST_F(Import, InDoubtTheUserIsAsked)
 {
   saveBall("ball");
@@ -271,7 +271,7 @@ TEST_F(Import, InDoubtTheUserIsAsked)
   const fs::path file = plain("t2.nrrd");
   openWindow();
   QString text;
-  onMessage( // what it is, and then whether it is to be added
+  onMessage( // what it is, and then whether to add it
       [this, &text](QMessageBox& box)
       {
         text = box.text();
@@ -308,7 +308,7 @@ TEST_F(Import, ACtBeginsACaseAndTheOpenOneIsSafe)
   EXPECT_TRUE(waitFor([this] { return window().model().value().applied() == 0; }));
   EXPECT_TRUE(window().model().unsaved());
   dropPath(file);
-  dropPath(file); // while it is looked at
+  dropPath(file); // while it is being examined
   ASSERT_TRUE(waitFor([this] { return window().model().value().name == "ear"; }));
   EXPECT_TRUE(settled());
   const auto ball = library().open("ball");
@@ -333,7 +333,7 @@ TEST_F(Import, FilesThatAreDroppedTogetherMakeOneCase)
   EXPECT_EQ(saved.meshes.size(), 1u);
 }
 
-// A file's name may be a patient's; nobody else would know what the structure is.
+// A file name may be a patient's; only the user knows what the structure is.
 TEST_F(Import, AStructureWithoutANameIsAskedForOne)
 {
   saveBall("ball");
@@ -362,12 +362,12 @@ TEST_F(Import, AStructureWithoutANameIsAskedForOne)
   EXPECT_TRUE(settled());
 }
 
-// What was assumed of a file stays on the screen until it was read.
+// What was assumed about a file stays visible until acknowledged.
 TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
 {
   const fs::path file = folder() / "beam.nrrd";
   auto image = std::make_shared<volume::Volume<std::int16_t>>(ballCase("x").ct.geometry);
-  for (std::size_t n = 0; n < image->size(); ++n) // counts from 0: no Hounsfield units
+  for (std::size_t n = 0; n < image->size(); ++n) // starts at 0: no Hounsfield units
     image->data()[n] = static_cast<std::int16_t>(n % 64 < 32 ? n % 97 : 2000 + n * 7919 % 3001);
   imaging::writeVolume(file, *image);
   openWindow();

@@ -12,7 +12,7 @@ namespace
 
 constexpr const char* kClosed = "a stroke is closed";
 
-// A window in a process of its own, so that it can be killed while it drills.
+// A window in a separate process, so that it can be killed while drilling.
 class Killed : public GuiTest
 {
 protected:
@@ -40,7 +40,7 @@ protected:
            m_victim.state() == QProcess::Running;
   }
 
-  // Opens the case, and gives what the user is told; nothing where they are told nothing.
+  // Opens the case and returns the message shown; empty if there is none.
   QString reopened()
   {
     QString told;
@@ -62,7 +62,7 @@ protected:
 
 } // namespace
 
-// No test: what the next one kills. It ends by itself when nobody does.
+// Not a test: the process killed by the next one. Ends by itself otherwise.
 TEST_F(Killed, DISABLED_WindowThatDrills)
 {
   openWindow("ball");
@@ -92,7 +92,7 @@ TEST_F(Killed, AWindowLosesOnlyWhatItsJournalDoesNotHoldYet)
   QByteArray output;
   ASSERT_TRUE(waitForVictim([&] { return (output += m_victim.readAll()).contains(kClosed); }))
       << output.toStdString();
-  // What is drilled now goes to the journal every 4.5 seconds; its head is there before.
+  // The open stroke is written to the journal every 4.5 seconds; the header is there before.
   const std::uintmax_t head = 1024;
   const std::uintmax_t before = journalled();
   ASSERT_TRUE(waitForVictim([&] { return journalled() > before + head; })) << output.toStdString();
@@ -105,7 +105,7 @@ TEST_F(Killed, AWindowLosesOnlyWhatItsJournalDoesNotHoldYet)
   EXPECT_FALSE(strokes[0].info.recovered);
   EXPECT_TRUE(strokes[1].info.recovered);
   EXPECT_GT(strokes[1].info.removed, strokes[0].info.removed);
-  // It is on the screen, can be undone, and is told once.
+  // It is shown, can be undone, and is reported once.
   EXPECT_EQ(window().model().value().applied(), 2u);
   const QImage drilled = picture();
   action("Undo")->trigger();

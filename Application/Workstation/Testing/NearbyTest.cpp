@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <QDockWidget>
 #include <QLabel>
@@ -13,7 +13,7 @@ using namespace petrous::workstation;
 namespace
 {
 
-class Nearby : public HandTest
+class Nearby : public DeviceTest
 {
 protected:
   QDockWidget& dock() { return *window().findChild<QDockWidget*>("nearbyDock"); }
@@ -65,11 +65,11 @@ TEST_F(Nearby, TellsHowFarTheBurrIs)
   QTest::keyClick(&window(), Qt::Key_F7);
   takeUpBurr();
   ASSERT_TRUE(listed());
-  QTest::qWait(500); // until it rests
+  QTest::qWait(500); // until it is at rest
   EXPECT_EQ(cell(NearbyModel::Name), "nerve");
   const QStringList distance = cell(NearbyModel::Distance).split(' ');
   ASSERT_EQ(distance.size(), 4) << cell(NearbyModel::Distance).toStdString();
-  // The nerve is a ball of 4 mm about the middle, the burr one of 2 mm.
+  // The nerve is a sphere of 4 mm about the centre, the burr one of 2 mm.
   EXPECT_NEAR(distance[0].toDouble(), (tool() - kBallCenter).norm() - 4.0 - 2.0, 0.3);
   EXPECT_EQ(cell(NearbyModel::Note), "clear");
   QTest::keyClick(&view(), Qt::Key_D);
@@ -110,7 +110,7 @@ TEST_F(Nearby, ListsWhatIsInjuredAndWhatWasRemoved)
   EXPECT_FALSE(removed->text().startsWith("Removed: 0.0 "));
 }
 
-// While the drill is on: volumes change within the stroke, and the warning stands in the picture.
+// While drilling: volumes change within the stroke, and the warning is shown in the view.
 TEST_F(Nearby, FollowsAStrokeThatIsStillDrilled)
 {
   saveBall("ball");

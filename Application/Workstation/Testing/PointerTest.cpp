@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-class Pointer : public HandTest
+class Pointer : public DeviceTest
 {
 protected:
   void pointAt(const QPoint& pixel)
@@ -25,10 +25,10 @@ protected:
     QTest::mouseMove(&view(), pixel);
   }
 
-  // The slices go through it.
+  // The slices follow it.
   Vector3d tip() { return window().model().crosshair(); }
 
-  // What the command says of the same place.
+  // Output of the command for the same point.
   QJsonObject probed(const Vector3d& place)
   {
     const auto file = folder() / "points.csv";
@@ -59,7 +59,7 @@ TEST_F(Pointer, ReadsAtItsTipWhatTheCommandReadsThere)
     pointAt(view().rect().center() + aside);
     ASSERT_TRUE(hasTool());
     ASSERT_TRUE(waitFor([this] { return !view().display().reading().isEmpty(); }));
-    QTest::qWait(1500); // until it rests, and half a second more
+    QTest::qWait(1500); // until it is at rest, and half a second more
     const QStringList read = view().display().reading().split('\n');
     const QJsonObject truth = probed(tip());
     ASSERT_TRUE(truth.contains("hu"));
@@ -96,7 +96,7 @@ TEST_F(Pointer, ModelAndCommandAgreeAtAnyPlace)
     if (reading.surface)
     {
       EXPECT_NEAR(*reading.surface, truth["distance_mm"].toDouble(), 1e-9);
-      EXPECT_NEAR(*reading.surface, offset.norm() - kBallRadius, 0.1); // the ball itself
+      EXPECT_NEAR(*reading.surface, offset.norm() - kBallRadius, 0.1); // the sphere itself
     }
   }
   EXPECT_EQ(model.readPlace(kBallCenter).structure, "nerve");
@@ -139,7 +139,7 @@ TEST_F(Pointer, OneToolIsInTheHand)
   QTest::keyClick(&view(), Qt::Key_P);
   EXPECT_FALSE(action("Drill")->isChecked());
   EXPECT_TRUE(action("Pointer")->isChecked());
-  // The left button turns the patient, as it does with no tool.
+  // The left button rotates the patient, as without a tool.
   const auto before = view().picture().camera().position;
   const QPoint middle = view().rect().center();
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);

@@ -14,13 +14,13 @@
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
 #include "SliceView.h"
-#include "petrous/Imaging/Phantom.h"
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
 using Eigen::Vector3d;
-using imaging::Phantom;
+using phantom::Phantom;
 
 namespace
 {
@@ -39,7 +39,7 @@ protected:
     value.mr.front().name = "T2";
     library().save(value);
     openWindow("ear");
-    picture(); // until it has come to rest
+    picture(); // until it is at rest
   }
 
   scene::ImagePart scan(Phantom::Modality modality, const core::RigidTransform& motion,
@@ -48,14 +48,14 @@ protected:
     const Vector3d center = motion * Phantom::center();
     const core::GridGeometry grid({64, 64, 56}, Vector3d::Constant(spacing),
                                   center - 0.5 * spacing * Vector3d(63, 63, 55));
-    imaging::ScanSettings settings;
+    phantom::ScanSettings settings;
     settings.modality = modality;
     settings.patientFromScan = motion.inverse();
     scene::ImagePart part;
     part.geometry = grid;
     part.volume = std::make_shared<const volume::IntensityVolume>(
         std::make_shared<const volume::Volume<std::int16_t>>(
-            imaging::samplePhantom(phantom, grid, settings)));
+            phantom::samplePhantom(phantom, grid, settings)));
     part.range = part.volume.get()->range();
     return part;
   }
@@ -66,7 +66,7 @@ protected:
     return *window().findChild<Widget*>(name);
   }
   void click(const char* name) { find<QAbstractButton>(name).click(); }
-  /// Begins a registration and cancels it; `react` meets the question that comes.
+  /// Starts a registration and cancels it; `react` handles the message box.
   void stop(const std::function<void(QMessageBox&)>& react)
   {
     click("register");
@@ -130,7 +130,7 @@ TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
   QTest::keyClick(&view(), Qt::Key_V);
   EXPECT_EQ(axial(), mrAlone);
   picture();
-  QTest::keyClick(&view(), Qt::Key_O); // back to where it was
+  QTest::keyClick(&view(), Qt::Key_O); // back to the initial mode
   EXPECT_EQ(axial(), ct);
   std::vector<QImage> ways;
   for (int n = 0; n < 3; ++n)
@@ -250,7 +250,7 @@ TEST_F(RegistrationWindow, TheSlicesShowTheRegionThatCountsWhileThePanelIsOpen)
   EXPECT_NEAR(changed.height(), edge, 5.0);
   EXPECT_NEAR(changed.center().x(), middle.x(), 3.0);
   EXPECT_NEAR(changed.center().y(), middle.y(), 3.0);
-  showPanel(); // away
+  showPanel(); // hides it
   EXPECT_EQ(axial(), whole);
 }
 
@@ -263,7 +263,7 @@ TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
   QTest::keyClick(&slice, Qt::Key_Right, Qt::AltModifier | Qt::ShiftModifier);
   EXPECT_TRUE(mr().registered);
   EXPECT_TRUE(state().contains("by hand")) << state().toStdString();
-  // The picture goes to its right, the patient's left: what lay at p lies at p + 1 mm.
+  // The overlay moves to the picture's right, the patient's left: what was at p is at p + 1 mm.
   EXPECT_LT((mr().mrFromCt * Vector3d(1, 0, 0)).norm(), 1e-9);
   EXPECT_NE(axial(), before);
   QTest::keyClick(&slice, Qt::Key_Down, Qt::AltModifier);
@@ -271,7 +271,7 @@ TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
   QTest::keyClick(&slice, Qt::Key_PageDown, Qt::AltModifier);
   EXPECT_NEAR(Eigen::AngleAxisd(mr().mrFromCt.rotation()).angle(), 0.1 * 3.14159265 / 180.0, 1e-9);
   find<QComboBox>("nudgeStep").setCurrentIndex(1);
-  click("handle30"); // to the feet
+  click("handle30"); // inferior
   ASSERT_TRUE(waitFor([this] { return find<QLabel>("liveMetric").text().contains("by hand"); }))
       << find<QLabel>("liveMetric").text().toStdString();
   for (int n = 0; n < 4; ++n)
@@ -291,7 +291,7 @@ TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
     const Vector3d ct = Phantom::center() + off;
     model.setCrosshair(ct);
     QTest::keyClick(&view(), Qt::Key_K);
-    model.setCrosshair(truth * ct); // not registered: the MR is seen where its file puts it
+    model.setCrosshair(truth * ct); // not registered: the MR appears as in its header
     QTest::keyClick(&view(), Qt::Key_K);
   }
   auto& rows = *find<QTableView>("landmarks").model();

@@ -1,4 +1,4 @@
-#include "HandTest.h"
+#include "DeviceTest.h"
 
 #include <QDoubleSpinBox>
 #include <QSlider>
@@ -11,7 +11,7 @@ using namespace petrous::workstation;
 namespace
 {
 
-class Settings : public HandTest
+class Settings : public DeviceTest
 {
 protected:
   template <class Widget>
@@ -36,9 +36,9 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   auto& stereo = widget<QComboBox>("stereoMode");
   stereo.setCurrentIndex(stereo.findText("Anaglyph (red-cyan)"));
   choose("SpaceMouse Compact");
-  ASSERT_TRUE(waitFor([this] { return widget<QDoubleSpinBox>("handScale").isVisible(); }));
-  EXPECT_EQ(widget<QDoubleSpinBox>("handScale").value(), 0.25);
-  widget<QDoubleSpinBox>("handScale").setValue(0.4);
+  ASSERT_TRUE(waitFor([this] { return widget<QDoubleSpinBox>("deviceScale").isVisible(); }));
+  EXPECT_EQ(widget<QDoubleSpinBox>("deviceScale").value(), 0.25);
+  widget<QDoubleSpinBox>("deviceScale").setValue(0.4);
   closeWindow();
 
   openWindow();
@@ -51,8 +51,8 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_EQ(view().display().stereo(), rendering::StereoMode::Anaglyph);
   EXPECT_EQ(choice().currentText(), "Mouse");
   choose("SpaceMouse Compact");
-  ASSERT_TRUE(waitFor([this] { return widget<QDoubleSpinBox>("handScale").isVisible(); }));
-  EXPECT_EQ(widget<QDoubleSpinBox>("handScale").value(), 0.4);
+  ASSERT_TRUE(waitFor([this] { return widget<QDoubleSpinBox>("deviceScale").isVisible(); }));
+  EXPECT_EQ(widget<QDoubleSpinBox>("deviceScale").value(), 0.4);
 }
 
 TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
@@ -67,7 +67,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
   EXPECT_EQ(view.light().falloff, 0.0);
   EXPECT_EQ(view.light().wetness, 0.0);
   EXPECT_EQ(view.stereo(), rendering::StereoMode::None);
-  EXPECT_EQ(view.rig().eyeSeparation, 0.0); // held within its limits, as a user's number is
+  EXPECT_EQ(view.rig().eyeSeparation, 0.0); // clamped to its limits, as a user's value is
   EXPECT_FALSE(settings.thrust());
   openWindow();
 }

@@ -56,7 +56,7 @@ protected:
   static ThreeDView& surgeonView() { return *surgeonWindow()->findChild<ThreeDView*>(); }
 };
 
-// Mean of the bright part, of red: the ball.
+// Mean red of the bright part: the ball.
 double brightness(const QImage& image)
 {
   double sum = 0.0;
@@ -89,7 +89,7 @@ TEST_F(PictureView, SideBySideShowsEachEyeAWholePicture)
   const QImage both = picture();
   ASSERT_EQ(both.size(), plain.size());
   const int whole = pixelsUnlikeTheCorner(plain);
-  // The ball is as large for each eye as for one, and round; what differs are the letters.
+  // The ball is as large for each eye as in mono, and round; only the letters differ.
   EXPECT_NEAR(pixelsUnlikeTheCorner(half(both, false)), whole, 0.05 * whole);
   EXPECT_NEAR(pixelsUnlikeTheCorner(half(both, true)), whole, 0.05 * whole);
   EXPECT_GT(differentPixels(half(both, false), half(both, true)), whole / 20);
@@ -103,7 +103,7 @@ TEST_F(PictureView, InterleavingTakesRowsByTurns)
   control<QDoubleSpinBox>("eyeSeparation").setValue(20.0);
   chooseStereo(StereoMode::Interleaved);
   const QImage image = picture();
-  // The ball's left edge jumps from row to row, where the eyes see it at different places.
+  // The ball's left edge alternates between rows, by the disparity.
   const auto edge = [&image](int y)
   {
     int x = 0;
@@ -122,7 +122,7 @@ TEST_F(PictureView, AnaglyphColoursTheEdges)
   chooseStereo(StereoMode::Anaglyph);
   const QImage image = picture();
   const QRgb background = image.pixel(0, 0);
-  int red = 0; // seen by the left eye alone
+  int red = 0; // seen by the left eye only
   int cyan = 0;
   for (int x = 0; x < image.width(); ++x)
   {
@@ -144,7 +144,7 @@ TEST_F(PictureView, MenuAndPanelShowTheSameStereo)
   stereoAction(StereoMode::SideBySide)->trigger();
   EXPECT_EQ(control<QComboBox>("stereoMode").currentData().toInt(),
             static_cast<int>(StereoMode::SideBySide));
-  // No driver here offers two buffers, so nothing promises them.
+  // No driver here supports quad-buffered stereo, so it is not offered.
   EXPECT_EQ(control<QComboBox>("stereoMode").findData(static_cast<int>(StereoMode::QuadBuffer)),
             -1);
 }
@@ -158,7 +158,7 @@ TEST_F(PictureView, APointerSideBySideLooksThroughTheEyeOfItsHalf)
     QTest::mouseDClick(&view(), Qt::LeftButton, Qt::NoModifier, {column, middle.y()});
     const Eigen::Vector3d offset = window().model().crosshair() - kBallCenter;
     EXPECT_NEAR(offset.norm(), kBallRadius, 0.1);
-    EXPECT_LT(offset.x(), -11.0); // the middle of either picture is the middle of the ball
+    EXPECT_LT(offset.x(), -11.0); // the centre of either picture is the centre of the ball
   }
 }
 
@@ -184,7 +184,7 @@ TEST_F(PictureView, TheBoneSliderLetsTheStructureShine)
   control<QSlider>("boneOpacity").setValue(5);
   ASSERT_TRUE(waitFor([this] { return window().model().value().boneLook.opacity < 0.06F; }));
   const QImage clear = picture();
-  // The nerve in the middle is green, what is beside it is bone.
+  // The nerve in the middle is green, bone is beside it.
   const QRgb middle = clear.pixel(clear.rect().center());
   EXPECT_GT(qGreen(middle), qRed(middle) + 20);
   const QRgb before = opaque.pixel(opaque.rect().center());
@@ -213,12 +213,12 @@ TEST_F(PictureView, TheSurgeonsWindowShowsTheSceneAndEscapeClosesIt)
   ASSERT_TRUE(surgeonWindow());
   ASSERT_TRUE(QTest::qWaitForWindowExposed(surgeonWindow()));
   picture();
-  EXPECT_EQ(view().display().stereo(), StereoMode::None); // for those who stand by
+  EXPECT_EQ(view().display().stereo(), StereoMode::None); // mono, for bystanders
   EXPECT_EQ(surgeonView().display().stereo(), StereoMode::SideBySide);
   const QImage shown = surgeonView().grabFramebuffer();
   EXPECT_GT(pixelsUnlikeTheCorner(half(shown, true)), shown.width() * shown.height() / 50);
 
-  // What happens in one is seen in the other.
+  // Changes in one window show in the other.
   QTest::keyClick(&window(), Qt::Key_2);
   EXPECT_LT((surgeonView().picture().camera().position - view().picture().camera().position).norm(),
             1e-9);
@@ -237,14 +237,14 @@ TEST_F(PictureView, TheSurgeonDrillsInTheirOwnWindow)
   action("Surgeon's window")->trigger();
   ASSERT_TRUE(surgeonWindow());
   ASSERT_TRUE(QTest::qWaitForWindowExposed(surgeonWindow()));
-  surgeonWindow()->resize(500, 400); // small: drawn on the processor here
+  surgeonWindow()->resize(500, 400); // small: software-rendered here
   action("Drill")->trigger();
   QTest::qWait(100);
   ThreeDView& surgeon = surgeonView();
   ASSERT_TRUE(surgeon.drillMode());
   const QPoint middle = surgeon.rect().center();
   QTest::mouseMove(&surgeon, middle);
-  // A busy machine drills less in the same time.
+  // A busy machine removes less in the same time.
   const auto removed = [this] { return window().model().value().removedVolume(); };
   for (int n = 0; n < 20 && removed() <= 0.1; ++n)
   {

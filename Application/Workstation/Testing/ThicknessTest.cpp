@@ -15,7 +15,7 @@ namespace
 class Thickness : public GuiTest
 {
 protected:
-  // The nerve is a ball of 9.5 mm in one of bone of 12 mm.
+  // The nerve is a sphere of 9.5 mm in one of bone of 12 mm.
   void saveThinBall()
   {
     scene::Case value = ballCase("ball");
@@ -58,7 +58,7 @@ TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
   EXPECT_EQ(legend().structure(), "nerve");
   const QImage colored = picture();
   EXPECT_GT(differentPixels(before, colored, 20), 5000);
-  // 2.5 mm, half of the scale: red, under a lamp; beside the highlight in the ball's middle.
+  // 2.5 mm, half of the scale: red, with shading; beside the highlight at the ball's centre.
   const QPoint center = colored.rect().center();
   int radius = 0;
   while (center.x() + radius < colored.width() &&

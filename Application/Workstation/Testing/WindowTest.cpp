@@ -62,14 +62,14 @@ TEST_F(Window, ASentenceEndsWithAFullStop)
 TEST_F(Window, OpensTheLatestCaseAndShowsItsBone)
 {
   saveBall("older");
-  QTest::qWait(1100); // the library's clock has seconds
+  QTest::qWait(1100); // the library's timestamps have a resolution of 1 s
   saveBall("ball");
   openWindow();
   ASSERT_TRUE(window().model().hasCase());
   EXPECT_EQ(window().windowTitle(), QString::fromUtf8("ball — Petrous"));
   const QImage image = picture();
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
-  // A ball in the middle: bone there, none in the corners.
+  // A ball in the centre: bone there, none in the corners.
   EXPECT_NE(image.pixel(image.rect().center()), image.pixel(0, 0));
 }
 
@@ -198,7 +198,7 @@ TEST_F(Window, TheThresholdTakesTheBoneAway)
   EXPECT_EQ(library().open("ball").iso, 2400.0);
 }
 
-// Cone beam: 14 for each HU, water at 14,000.
+// Cone beam: 14 units per HU, water at 14,000.
 TEST_F(Window, AnImageThatIsNotInHounsfieldUnitsHasGreyAndAThresholdThatReachesIt)
 {
   scene::Case value = ballCase("cone beam");
@@ -208,7 +208,7 @@ TEST_F(Window, AnImageThatIsNotInHounsfieldUnitsHasGreyAndAThresholdThatReachesI
     own->data()[n] = static_cast<std::uint16_t>(14000 + 14 * hounsfield->data()[n]);
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::uint16_t>>(own));
-  own->data()[0] = 60000; // metal; the image's brightest value is white
+  own->data()[0] = 60000; // metal; the image's maximum is white
   value.ct.range = {0.0, 60000.0};
   value.iso = 18200.0;
   value.denseBone = 35000.0;
@@ -291,7 +291,7 @@ TEST_F(Window, WhatAThreadThrowsIsToldToo)
   EXPECT_TRUE(waitFor([banner] { return banner->text().contains("memory"); }));
 }
 
-// The open one too: it is renamed under the window, which goes on with it, and closed when deleted.
+// The open one too: it is renamed while open, and closed when deleted.
 TEST_F(Window, CasesAreRenamedAndDeletedWhereTheyAreChosen)
 {
   saveBall("first");
@@ -300,7 +300,7 @@ TEST_F(Window, CasesAreRenamedAndDeletedWhereTheyAreChosen)
   ASSERT_TRUE(settled());
   drill(300);
   ASSERT_TRUE(strokeEnds());
-  // Answers to the dialogs in turn, each when it stands.
+  // Reacts to the dialogs in turn, each when it is open.
   const auto inList = [](const std::function<void(QDialog&, QTreeWidget&)>& act)
   {
     auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());

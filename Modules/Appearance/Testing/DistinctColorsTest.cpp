@@ -33,8 +33,9 @@ enum class Sight
   Deutan
 };
 
-// CIE L*a*b* under D65, of the colour as dichromats see it by Vienot, Brettel and Mollon (Color
-// Research and Application 24(4), 1999): another model and another space than the palette's own.
+// CIE L*a*b* (D65) of the colour as seen by dichromats according to Vienot, Brettel and Mollon
+// (Color Research and Application 24(4), 1999): a model and a colour space independent of those of
+// the palette.
 Triple labOf(const Color& color, Sight sight)
 {
   Triple rgb{linear(double(color[0])), linear(double(color[1])), linear(double(color[2]))};
@@ -55,8 +56,8 @@ Triple labOf(const Color& color, Sight sight)
   return {116.0 * xyz[1] - 16.0, 500.0 * (xyz[0] - xyz[1]), 200.0 * (xyz[1] - xyz[2])};
 }
 
-// Smallest CIE 1976 colour difference of two of them.
-double leastDifference(const std::vector<Color>& colors, Sight sight)
+// Smallest CIE 1976 colour difference between any two of them.
+double minDifference(const std::vector<Color>& colors, Sight sight)
 {
   double least = 1e9;
   for (std::size_t a = 0; a < colors.size(); ++a)
@@ -79,7 +80,7 @@ std::vector<Color> palette(std::size_t count)
 
 } // namespace
 
-// Okabe and Ito's palette (2008), without black: what is published for colour-blind readers.
+// Okabe and Ito's palette (2008), without black: published for colour-blind readers.
 TEST(DistinctColors, SevenAreAsDistinctToTheColourBlindAsThePublishedPalette)
 {
   std::vector<Color> published;
@@ -94,7 +95,7 @@ TEST(DistinctColors, SevenAreAsDistinctToTheColourBlindAsThePublishedPalette)
                          static_cast<float>(rgb[2]) / 255.0F});
   const auto colors = palette(published.size());
   for (const Sight sight : {Sight::Protan, Sight::Deutan})
-    EXPECT_GE(leastDifference(colors, sight), leastDifference(published, sight))
+    EXPECT_GE(minDifference(colors, sight), minDifference(published, sight))
         << static_cast<int>(sight);
 }
 
@@ -102,9 +103,9 @@ TEST(DistinctColors, SixtyDifferByMoreThanTheEyeNeeds)
 {
   const auto colors = palette(60);
   constexpr double kNoticed = 2.3; // just noticeable difference (Mahy et al. 1994)
-  EXPECT_GT(leastDifference(colors, Sight::Normal), 3.0 * kNoticed);
-  EXPECT_GT(leastDifference(colors, Sight::Protan), kNoticed);
-  EXPECT_GT(leastDifference(colors, Sight::Deutan), kNoticed);
+  EXPECT_GT(minDifference(colors, Sight::Normal), 3.0 * kNoticed);
+  EXPECT_GT(minDifference(colors, Sight::Protan), kNoticed);
+  EXPECT_GT(minDifference(colors, Sight::Deutan), kNoticed);
 }
 
 TEST(DistinctColors, NoneIsTakenForANerveOrAVessel)
@@ -112,13 +113,13 @@ TEST(DistinctColors, NoneIsTakenForANerveOrAVessel)
   const auto presets = petrous::appearance::StructurePresets::builtIn();
   for (const Color& color : palette(20))
     for (const char* name : {"nerve", "artery", "vein", "bone"})
-      EXPECT_GT(leastDifference({color, presets.preset(name).color}, Sight::Normal), 10.0) << name;
+      EXPECT_GT(minDifference({color, presets.preset(name).color}, Sight::Normal), 10.0) << name;
 }
 
 TEST(DistinctColors, KeepsClearOfWhatIsTaken)
 {
   const auto colors = palette(12);
-  // Whatever else is there, the same colours lead to the same one.
+  // The result depends only on the colours taken.
   EXPECT_EQ(distinctColor({colors.begin(), colors.begin() + 5}), colors[5]);
   EXPECT_EQ(palette(12), colors);
 }

@@ -108,7 +108,7 @@ TEST(StructurePresets, FindsAPresetByItsNameOrByAWord)
 
 TEST(StructurePresets, EachTissueHasATransferFunctionThatFollowsTheCase)
 {
-  for (const StructureLook& look : StructurePresets::builtIn().all())
+  for (const StructureAppearance& look : StructurePresets::builtIn().all())
     if (look.preset != "other")
     {
       ASSERT_TRUE(look.transfer.has_value()) << look.preset;
@@ -127,7 +127,7 @@ TEST(StructurePresets, WhatMustNotBeHurtWinsOverlapsAndLumensLose)
     EXPECT_GT(presets.preset(name).priority, last) << name;
     last = presets.preset(name).priority;
   }
-  for (const StructureLook& look : presets.all())
+  for (const StructureAppearance& look : presets.all())
   {
     if (!look.solid)
     {
@@ -139,7 +139,7 @@ TEST(StructurePresets, WhatMustNotBeHurtWinsOverlapsAndLumensLose)
 TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
 {
   const TransferFunction bone = *boneLook().transfer;
-  // Cellular bone at the surface's 300 HU, cortical bone 1100 HU above.
+  // Cellular bone at the surface's 300 HU, cortical bone 1100 HU higher.
   EXPECT_FLOAT_EQ(float(bone.at(300.0).color[2]), 0.42F);
   EXPECT_FLOAT_EQ(float(bone.at(1400.0).color[2]), 0.74F);
   EXPECT_LT(bone.at(300.0).specular, bone.at(1400.0).specular);
@@ -147,10 +147,10 @@ TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
   EXPECT_EQ(boneLook().opacity, 1.0F);
 }
 
-// None of the values that are known is measured on these structures: nothing yields by itself.
+// No known stiffness was measured on these structures: none is elastic by default.
 TEST(StructurePresets, YieldOnlyWhereTheCatalogueSaysHow)
 {
-  for (const StructureLook& look : StructurePresets::builtIn().all())
+  for (const StructureAppearance& look : StructurePresets::builtIn().all())
     EXPECT_EQ(look.stiffness, 0.0) << look.preset;
   const auto catalogue = [](const std::string& stiffness)
   {
@@ -162,7 +162,7 @@ TEST(StructurePresets, YieldOnlyWhereTheCatalogueSaysHow)
   const StructurePresets presets(catalogue("0.25"));
   EXPECT_EQ(presets.lookFor("jelly_left").stiffness, 0.25);
   EXPECT_EQ(presets.lookFor("bone").stiffness, 0.0);
-  StructureLook look;
+  StructureAppearance look;
   applyPreset(look, presets.preset("jelly"));
   EXPECT_EQ(look.stiffness, 0.25);
   for (const char* wrong : {"-1", "0.0001", "1000", "\"soft\""})
@@ -176,7 +176,7 @@ TEST(StructurePresets, WarnOfWhatMustNotBeTouched)
   EXPECT_EQ(presets.lookFor("sigmoid sinus").warning, 2.0);
   EXPECT_EQ(presets.lookFor("cochlea").warning, 1.0);
   EXPECT_EQ(boneLook().warning, 0.0);
-  StructureLook look;
+  StructureAppearance look;
   applyPreset(look, presets.preset("nerve"));
   EXPECT_EQ(look.warning, 2.0);
   for (const double wrong : {-0.1, 50.1, std::nan("")})
@@ -184,9 +184,9 @@ TEST(StructurePresets, WarnOfWhatMustNotBeTouched)
   EXPECT_EQ(look.warning, 2.0);
 }
 
-TEST(StructureLook, FlagsGoThereAndBack)
+TEST(StructureAppearance, FlagsGoThereAndBack)
 {
-  StructureLook look;
+  StructureAppearance look;
   for (const std::string flags : {"shown", "shown,drillable", "touchable", "none"})
   {
     setFlags(look, flags);

@@ -19,7 +19,7 @@ using Color = std::array<float, 3>;
 constexpr std::size_t kSights = 4; // normal, protan, deutan, tritan
 constexpr std::array<double, kSights> kWeights{1.0, 1.6, 1.6, 2.5};
 
-// Linear sRGB as the sight has it; severity 1 in the supplement of Machado et al.
+// Linear sRGB as perceived; severity 1 in the supplement of Machado et al.
 constexpr std::array<Matrix, kSights> kSight{
     Matrix{Triple{1.0, 0.0, 0.0}, Triple{0.0, 1.0, 0.0}, Triple{0.0, 0.0, 1.0}},
     Matrix{Triple{0.152286, 1.052583, -0.204868}, Triple{0.114503, 0.786281, 0.099216},
@@ -84,7 +84,7 @@ double distance(const Seen& a, const Seen& b)
   return least;
 }
 
-// To be seen on black slices and on bone, and to be a colour at all.
+// Distinguishable from black slices and from bone, and sufficiently saturated.
 bool isOffered(const Seen& color)
 {
   const Triple& lab = color.front();

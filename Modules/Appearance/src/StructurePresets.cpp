@@ -16,9 +16,9 @@ namespace
 
 using nlohmann::json;
 
-StructureLook lookFrom(const json& entry)
+StructureAppearance lookFrom(const json& entry)
 {
-  StructureLook look;
+  StructureAppearance look;
   look.preset = entry.at("name").get<std::string>();
   look.color = entry.at("color").get<std::array<float, 3>>();
   look.opacity = entry.at("opacity").get<float>();
@@ -68,7 +68,7 @@ std::string plainWords(std::string name)
   return name;
 }
 
-// Runs of letters or digits, in lower case; a capital after a small letter begins a new one.
+// Runs of letters or digits, in lower case; split also at camelCase boundaries.
 std::vector<std::string> wordsOf(const std::string& name)
 {
   std::vector<std::string> words(1);
@@ -113,10 +113,10 @@ StructurePresets::StructurePresets(std::string_view text)
     for (const auto& entry : catalogue.value("first", json::array()))
     {
       const auto name = entry.at("preset").get<std::string>();
-      const StructureLook* look = find(name);
+      const StructureAppearance* look = find(name);
       if (!look)
         throw core::InvalidParameter("structure presets: 'first' names no preset '" + name + "'");
-      // "other" stands behind the last of the presets.
+      // "other" has the index after the last preset.
       const auto index =
           look == &m_other ? m_presets.size() : static_cast<std::size_t>(look - m_presets.data());
       first.push_back({entry.at("words").get<std::vector<std::string>>(), index});
@@ -130,33 +130,34 @@ StructurePresets::StructurePresets(std::string_view text)
   }
 }
 
-const StructureLook* StructurePresets::find(const std::string& name) const
+const StructureAppearance* StructurePresets::find(const std::string& name) const
 {
   const auto found = std::find_if(m_presets.begin(), m_presets.end(),
                                   [&name](const auto& look) { return look.preset == name; });
   return found != m_presets.end() ? &*found : name == m_other.preset ? &m_other : nullptr;
 }
 
-const StructureLook* StructurePresets::lookByWord(const std::string& structureName) const
+const StructureAppearance* StructurePresets::lookByWord(const std::string& structureName) const
 {
   const std::string name = " " + plainWords(structureName) + " ";
   for (const Words& entry : m_words)
     for (const std::string& word : entry.words)
-      // At a word's start: "mastoid", not "sternocleidomastoid".
+      // At the start of a word: "mastoid", not "sternocleidomastoid".
       if (name.find(" " + word) != std::string::npos)
         return entry.preset < m_presets.size() ? &m_presets[entry.preset] : &m_other;
   return nullptr;
 }
 
-StructureLook StructurePresets::lookFor(const std::string& structureName) const
+StructureAppearance StructurePresets::lookFor(const std::string& structureName) const
 {
-  const StructureLook* look = lookByWord(structureName);
+  const StructureAppearance* look = lookByWord(structureName);
   return look ? *look : m_other;
 }
 
 std::string StructurePresets::knownWords(const std::string& name) const
 {
-  // A catalogue's word may be a stem: "cerebell" of "cerebellum". Surnames go on otherwise.
+  // A catalogue word may be a stem ("cerebell" of "cerebellum"), followed by one of these endings
+  // only, so that surnames do not match.
   const auto is = [](const std::string& word, const std::string& known)
   {
     static const char* const kEndings[] = {"s",  "es", "i",   "y",   "al",  "ar",  "ae",  "um",
@@ -188,27 +189,27 @@ std::string StructurePresets::knownWords(const std::string& name) const
   return isStructure ? result : std::string();
 }
 
-StructureLook StructurePresets::preset(const std::string& name) const
+StructureAppearance StructurePresets::preset(const std::string& name) const
 {
-  const StructureLook* look = find(name);
+  const StructureAppearance* look = find(name);
   if (!look)
     look = lookByWord(name);
   if (look)
     return *look;
   std::string there;
-  for (const StructureLook& preset : all())
+  for (const StructureAppearance& preset : all())
     there += (there.empty() ? "" : ", ") + preset.preset;
   throw core::InvalidParameter("there is no preset '" + name + "'; there are " + there);
 }
 
-std::vector<StructureLook> StructurePresets::all() const
+std::vector<StructureAppearance> StructurePresets::all() const
 {
-  std::vector<StructureLook> presets = m_presets;
+  std::vector<StructureAppearance> presets = m_presets;
   presets.push_back(m_other);
   return presets;
 }
 
-StructureLook boneLook()
+StructureAppearance boneLook()
 {
   return StructurePresets::builtIn().preset("bone");
 }

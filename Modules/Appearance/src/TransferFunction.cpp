@@ -43,15 +43,15 @@ void check(const std::vector<ControlPoint>& points)
 
 using nlohmann::json;
 
-// A file with more is no transfer function; each would cost the renderer.
-constexpr std::size_t kMostPoints = 1024;
+// More points are certainly not a transfer function, and each costs the renderer.
+constexpr std::size_t kMaxPoints = 1024;
 
 [[noreturn]] void refuseJson(const std::string& what)
 {
   throw core::InvalidParameter("transfer function: " + what);
 }
 
-// A misspelled key would silently mean something else.
+// A misspelled key would otherwise be ignored silently.
 void checkKeys(const json& object, std::initializer_list<const char*> known,
                const std::string& where)
 {
@@ -94,7 +94,7 @@ ControlPoint pointIn(const json& j, const std::string& where)
   return point;
 }
 
-// The double that is written as shortly as the float is: 0.9, not 0.8999999761581421.
+// The double with the shortest representation of the float: 0.9, not 0.8999999761581421.
 double shortest(float value)
 {
   return core::parseDouble(core::exactText(value)).value_or(value);
@@ -149,7 +149,7 @@ TransferFunction TransferFunction::fromJson(std::string_view text)
   {
     j = json::parse(text);
   }
-  catch (const json::parse_error& error) // its words quote the file
+  catch (const json::parse_error& error) // error.what() would quote the file
   {
     const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
     refuseJson("not JSON; look at line " +
@@ -163,9 +163,9 @@ TransferFunction TransferFunction::fromJson(std::string_view text)
     refuseJson("must be {\"points\": [{\"value\": 300, \"color\": [r, g, b], \"opacity\": 0.2, "
                "\"specular\": 0.5}, ...]}");
   checkKeys(j, {"points"}, "");
-  if (j["points"].size() > kMostPoints)
+  if (j["points"].size() > kMaxPoints)
     refuseJson("has " + std::to_string(j["points"].size()) + " points; at most " +
-               std::to_string(kMostPoints) + " are taken");
+               std::to_string(kMaxPoints) + " are taken");
   std::vector<ControlPoint> points;
   for (const json& point : j["points"])
     points.push_back(pointIn(point, "point " + std::to_string(points.size() + 1) + ": "));

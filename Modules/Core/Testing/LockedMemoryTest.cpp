@@ -23,7 +23,7 @@ namespace
 constexpr std::size_t kBytes = 4 << 20;
 constexpr std::size_t kPage = 4096;
 
-// A file on the disk that holds the tests, mapped as the library maps a CT.
+// A file on the disk of the test directory, mapped as the library maps a CT.
 class MappedFile
 {
 public:
@@ -45,15 +45,15 @@ public:
 
   LockedMemory::Range range() const { return {m_start, kBytes}; }
 
-  // What the system does to a page that is short of memory.
+  // Pages the file out, as the system does under memory pressure.
   void pageOut() const
   {
-    faultsOfReading(); // only what is mapped goes
+    faultsOfReading(); // only mapped pages are paged out
     madvise(m_start, kBytes, MADV_RANDOM);
     static_cast<void>(madvise(m_start, kBytes, MADV_PAGEOUT));
   }
 
-  // Major faults of reading it all, no page beside another.
+  // Major faults while all pages are read, in non-sequential order.
   long faultsOfReading() const
   {
     const long before = majorPageFaults();
@@ -91,7 +91,7 @@ TEST(LockedMemory, AReaderHasNoMajorFaultWhateverIsPagedOut)
   EXPECT_GT(file.faultsOfReading(), 0) << "it is given back";
 }
 
-// What the system says of the process: kB that are locked.
+// VmLck: locked memory of the process in kB.
 TEST(LockedMemory, APageIsLockedUntilTheLastThatWantsItEnds)
 {
   const auto lockedKb = []
@@ -112,7 +112,7 @@ TEST(LockedMemory, APageIsLockedUntilTheLastThatWantsItEnds)
   if (!whole->locked() || lockedKb() <= before)
     GTEST_SKIP() << "nothing may be locked here";
   const long pageKb = static_cast<long>(kPage / 1024);
-  // Two that share a page in their middle, not on its borders.
+  // Two ranges that share a page, with borders inside pages.
   auto first =
       std::make_unique<LockedMemory>(std::vector<LockedMemory::Range>{{bytes + 10, 2 * kPage}});
   auto second = std::make_unique<LockedMemory>(
@@ -126,7 +126,7 @@ TEST(LockedMemory, APageIsLockedUntilTheLastThatWantsItEnds)
   EXPECT_EQ(lockedKb(), before);
 }
 
-// In a process of a user who may lock nothing.
+// In a process of a user who may not lock memory.
 TEST(LockedMemory, BringsInWhatItMayNotLock)
 {
   const MappedFile file;

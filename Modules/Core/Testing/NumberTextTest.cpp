@@ -14,7 +14,7 @@ namespace petrous::core
 namespace
 {
 
-// Germany's way with numbers, for streams: 1.234,5.
+// German number format for streams: 1.234,5.
 class Comma : public std::numpunct<char>
 {
   char do_decimal_point() const override { return ','; }

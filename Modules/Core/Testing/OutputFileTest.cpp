@@ -100,7 +100,7 @@ TEST_F(OutputFile, AStepThatFailsLeavesTheOldFile)
   EXPECT_EQ(reasonOf(m_file), Reason::DiskFull);
 }
 
-// The file is there by then: an exception would be a lie.
+// The file is in place by then: an exception would be wrong.
 TEST_F(OutputFile, DoesNotThrowAfterTheRename)
 {
   SystemCalls::fail("fsync", 2, EIO);

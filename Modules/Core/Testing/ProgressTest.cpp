@@ -75,7 +75,7 @@ TEST(Lazy, TriesAgainAfterAFailure)
 
 TEST(Lazy, IsPeekedAtWhileItIsMade)
 {
-  std::future<std::shared_ptr<const int>> peeked; // outlives the maker, for which it would wait
+  std::future<std::shared_ptr<const int>> peeked; // outlives the maker: waits when destroyed
   std::future_status status = std::future_status::timeout;
   Lazy<int> lazy;
   lazy = Lazy<int>(Lazy<int>::Maker(

@@ -14,7 +14,7 @@ using petrous::core::SnapshotBuffer;
 namespace
 {
 
-// Every word carries the same number, so a value that was put together from two writes shows.
+// Every word carries the same number, so that a torn value is detected.
 struct Repeated
 {
   std::array<std::uint64_t, 24> words{};

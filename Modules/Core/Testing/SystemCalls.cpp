@@ -21,7 +21,7 @@ int killingCall = 0;
 std::atomic<int> calls{0};
 std::atomic<int> callsOfName{0};
 
-// Whether the call is to fail; errno is then set.
+// Whether the call is to fail; sets errno.
 bool refused(const char* name)
 {
   const int n = ++calls;

@@ -24,7 +24,7 @@ TEST(TickTimes, SetsTheWallApartFromTheProcessor)
   TickTimes times;
   for (const int length : {1, 1, 1, 20})
     times.take([length] { std::this_thread::sleep_for(milliseconds(length)); });
-  // Sleeping takes no less than it is told, and next to nothing of the processor.
+  // A sleep lasts at least as long as requested and uses almost no CPU time.
   EXPECT_GE(times.wall(1.0), 0.020);
   EXPECT_GE(times.wall(0.0), 0.001);
   EXPECT_LE(times.wall(0.5), times.wall(1.0));

@@ -33,7 +33,7 @@ std::optional<double> number(const std::string& text)
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// Positions of the wanted columns in the header's line.
+// Positions of the requested columns in the header line.
 std::vector<std::size_t> findColumns(const std::string& line, const std::string& name,
                                      const std::vector<std::string>& columns)
 {

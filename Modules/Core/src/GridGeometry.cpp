@@ -13,9 +13,9 @@ namespace petrous::core
 
 namespace
 {
-// DICOM decimal strings keep six digits and more; beyond this the axes are bent, not rounded.
+// DICOM decimal strings keep six digits or more; beyond this the axes are skewed, not rounded.
 constexpr double kOrthonormalTolerance = 1e-4;
-// Rounding slack when a position is compared with a voxel centre, in voxels.
+// Rounding tolerance when a position is compared with a voxel centre, in voxels.
 constexpr double kVoxelSlack = 1e-9;
 } // namespace
 

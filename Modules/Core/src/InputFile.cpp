@@ -76,7 +76,7 @@ InputFileError::InputFileError(Reason why, const std::filesystem::path& path,
 InputFile::InputFile(const std::filesystem::path& path, std::uintmax_t limit)
   : m_path(path)
 {
-  // First by name: opening alone can do something to a device.
+  // Stat before open: opening a device can have side effects.
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0)
     failOpening(errno, path);

@@ -15,8 +15,8 @@ namespace petrous::core
 namespace
 {
 
-// The system's locks do not nest, and hold whole pages: so each page's are counted here. Runs of
-// pages that are locked as often as each other, by their first page; what ends one begins another.
+// mlock does not nest and works on whole pages, so locks are counted per page. Runs of pages with
+// equal lock count, keyed by their first page; a run ends where the next begins.
 class PageLocks
 {
 public:
@@ -26,7 +26,7 @@ public:
     return locks;
   }
 
-  /// False, and nothing is locked, where the system does not allow it.
+  /// Returns false, and locks nothing, if the system does not permit it.
   bool lock(std::uintptr_t from, std::uintptr_t to)
   {
     const std::lock_guard<std::mutex> guard(m_mutex);
@@ -34,7 +34,7 @@ public:
     const auto last = split(to);
     if (mlock(reinterpret_cast<const void*>(from), to - from) != 0)
     {
-      // What it did lock of the range, and nobody else has, is given back.
+      // Undo a partial lock of pages that nobody else has locked.
       unlockFree(first, last);
       join();
       return false;
@@ -92,7 +92,7 @@ std::size_t pageBytes() noexcept
   return static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-// The pages that a range touches.
+// The pages that overlap a range.
 std::pair<std::uintptr_t, std::uintptr_t> pagesOf(const LockedMemory::Range& range) noexcept
 {
   const std::size_t page = pageBytes();
@@ -115,7 +115,7 @@ LockedMemory::LockedMemory(std::vector<Range> ranges)
     const auto [from, to] = pagesOf(range);
     if (PageLocks::ofProcess().lock(from, to))
       m_locked.push_back(range);
-    // Also what is locked: the system may map a page at its first touch only.
+    // Also if locked: the system may map a page only at its first access.
     const auto* bytes = static_cast<const volatile unsigned char*>(range.start);
     for (std::size_t at = 0; at < range.bytes; at += page)
       static_cast<void>(bytes[at]);

@@ -10,12 +10,12 @@ namespace
 {
 
 // The largest double has 309 digits before the point.
-constexpr std::size_t kLongest = 512;
+constexpr std::size_t kMaxLength = 512;
 
 template <class T, class... Form>
 std::string written(T value, Form... form)
 {
-  std::array<char, kLongest> text{};
+  std::array<char, kMaxLength> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, form...);
   return {text.data(), end.ptr};
 }
@@ -35,7 +35,7 @@ std::optional<T> parse(std::string_view text)
     return std::nullopt;
   if (end.ec == std::errc())
     return value;
-  // Too small for the type is zero, as everywhere; too large is no number.
+  // Underflow gives zero, as in strtod; overflow is not a number.
   if (text.front() == '-')
     text.remove_prefix(1);
   const std::size_t exponent = text.find_first_of("eE");

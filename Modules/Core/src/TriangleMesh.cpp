@@ -14,7 +14,7 @@ double TriangleMesh::signedVolume() const
 {
   if (vertices.empty())
     return 0.0;
-  // Relative to one vertex: far from the origin the terms would cancel badly.
+  // Relative to one vertex, to avoid cancellation far from the origin.
   const Eigen::Vector3d base = vertices.front().cast<double>();
   double sixfold = 0.0;
   for (const auto& t : triangles)

@@ -1,11 +1,11 @@
-/* The smallest whole device server, and the partner of the tests.
+/* Minimal complete device server, also used by the tests.
  *
  *   petrous-device-example [--radius MM] [--period S] [--compliance MM/N] [--record FILE] BLOCK
  *
- * In place of a vendor's SDK it has a simulated handle that goes round in a circle and gives way to
- * the force by compliance * force. --record writes each wrench that the motors get to FILE, one
- * line each: time in s, tick, force in N, torque in N mm. A server for a real device keeps `main`
- * and replaces the three functions whose names begin with `device_`.
+ * Instead of a vendor's SDK it has a simulated handle that moves in a circle, displaced by
+ * compliance * force. --record writes each wrench applied by the motors to FILE, one per line: time
+ * in s, tick, force in N, torque in N mm. A server for a real device keeps `main` and replaces the
+ * three functions whose names begin with `device_`.
  */
 #define _GNU_SOURCE
 
@@ -24,7 +24,7 @@
 #include "petrous/Devices/DeviceServerExchange.h"
 
 static const int64_t tick_ns = 1000000;
-static const int64_t alone_ns = INT64_C(5000000000); /* Petrous has gone without a word */
+static const int64_t alone_ns = INT64_C(5000000000); /* Petrous is gone without notice */
 
 static volatile sig_atomic_t asked_to_end = 0;
 
@@ -48,7 +48,7 @@ struct device
   double radius;     /* mm */
   double period;     /* s */
   double compliance; /* mm/N */
-  double force[3];   /* what the motors hold, N */
+  double force[3];   /* applied by the motors, N */
   int64_t start_ns;
   FILE* record;
 };
@@ -115,7 +115,7 @@ static struct petrous_device_block* open_block(const char* name)
     fprintf(stderr, "petrous-device-example: %s: %s\n", name, strerror(errno));
     return NULL;
   }
-  /* Stated even to a Petrous of another version, so that it can name the mismatch. */
+  /* Set for any version of Petrous, so that it can report the mismatch. */
   __atomic_store_n(&block->server_version, PETROUS_DEVICE_VERSION, __ATOMIC_RELEASE);
   if (__atomic_load_n(&block->magic, __ATOMIC_ACQUIRE) != PETROUS_DEVICE_MAGIC ||
       __atomic_load_n(&block->version, __ATOMIC_ACQUIRE) != PETROUS_DEVICE_VERSION)
@@ -160,7 +160,7 @@ static void serve(struct petrous_device_block* block, struct device* device)
       wake.tv_nsec -= 1000000000;
       ++wake.tv_sec;
     }
-    /* After a long stop do not make up for the ticks that were missed. */
+    /* After a long pause do not make up for missed ticks. */
     if (now - ((int64_t)wake.tv_sec * 1000000000 + wake.tv_nsec) > 100 * tick_ns)
       clock_gettime(CLOCK_MONOTONIC, &wake);
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, NULL);

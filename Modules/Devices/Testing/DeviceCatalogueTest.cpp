@@ -18,7 +18,7 @@ using namespace petrous::devices::testing;
 namespace
 {
 
-// An empty file in the place of a hidraw node.
+// An empty file in place of a hidraw node.
 class Node
 {
 public:
@@ -36,7 +36,7 @@ private:
   std::string m_path;
 };
 
-// Root may open everything, so a test of permission runs as somebody else.
+// Root may open everything, so tests of permissions run as another user.
 class NotRoot
 {
 public:

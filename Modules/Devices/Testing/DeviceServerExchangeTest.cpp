@@ -62,7 +62,7 @@ TEST(DeviceServerExchange, KeepsTheReaderFromAPoseWhoseWriterDiedAndHealsWithThe
   petrous_device_block block{};
   petrous_device_pose pose{};
   petrous_device_put(&block.pose_sequence, block.pose, &pose);
-  block.pose_sequence += 1; // as a writer leaves it that is killed among the words
+  block.pose_sequence += 1; // as left by a writer killed between the words
   EXPECT_EQ(petrous_device_get(&block.pose_sequence, block.pose, &pose), 0U);
   pose.position[0] = 4.0;
   petrous_device_put(&block.pose_sequence, block.pose, &pose);
@@ -89,7 +89,7 @@ TEST(DeviceServerExchange, NeverGivesHalfAPoseBesideAWriter)
             pose.reserved[3] = pose.time_ns;
             petrous_device_put(&block.pose_sequence, block.pose, &pose);
           }
-          // A reader of one slot starves beside a writer that never pauses; a device does.
+          // A reader of one slot starves next to a writer that never pauses; a device does pause.
           std::this_thread::sleep_for(std::chrono::microseconds(1));
         }
       });

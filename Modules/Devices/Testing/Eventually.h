@@ -6,8 +6,8 @@
 namespace petrous::devices::testing
 {
 
-/// Whether `condition` comes true before `seconds` have passed; looks once a millisecond. The limit
-/// is there to end a test that fails, and is far above what a busy machine needs.
+/// Whether `condition` becomes true within `seconds`; polls once per millisecond. The limit only
+/// ends a failing test, and is far above what a busy machine needs.
 template <typename Condition>
 bool eventually(Condition condition, double seconds = 20.0)
 {
@@ -22,7 +22,7 @@ bool eventually(Condition condition, double seconds = 20.0)
   return condition();
 }
 
-/// s since the clock's epoch, as the servo's clock.
+/// s since the clock's epoch, as on the servo's clock.
 inline double steadySeconds()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

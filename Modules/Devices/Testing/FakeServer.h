@@ -16,11 +16,11 @@
 namespace petrous::devices::testing
 {
 
-/// A device server on a thread of the test, which may say whatever a broken one would.
+/// A device server on a thread of the test, which can imitate any broken one.
 class FakeServer
 {
 public:
-  /// `describe` is called on the block before it is said to be ready.
+  /// `describe` is called on the block before its state becomes ready.
   explicit FakeServer(const std::string& name,
                       std::function<void(petrous_device_block&)> describe = {},
                       std::uint32_t version = PETROUS_DEVICE_VERSION)
@@ -37,14 +37,14 @@ public:
       ::munmap(m_block, sizeof(petrous_device_block));
   }
 
-  /// The pose that is sent from now on, 1000 times a second.
+  /// The pose sent from now on, at 1 kHz.
   void setPose(const petrous_device_pose& pose)
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     m_pose = pose;
   }
 
-  /// Stops poses and beats, or lets them go on.
+  /// Stops or resumes poses and heartbeats.
   void setSilent(bool silent) { m_silent = silent; }
 
   void say(std::uint32_t state, const char* error)

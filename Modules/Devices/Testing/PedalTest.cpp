@@ -25,7 +25,7 @@ Pedal::Options quick()
   return options;
 }
 
-// A pedal of our own making: id 4, one switch, pressure 100 to 900 in two bytes.
+// A made-up pedal: ID 4, one switch, pressure 100 to 900 in two bytes.
 PedalLayout pressurePedal()
 {
   PedalLayout layout;
@@ -42,7 +42,7 @@ PedalLayout pressurePedal()
   return layout;
 }
 
-// A hand that stands still, presses its own pedal by a third and holds button 0.
+// A device at rest with its own pedal pressed to a third and button 0 held.
 class StillHand final : public haptics::Device
 {
 public:

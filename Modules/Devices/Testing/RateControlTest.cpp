@@ -29,7 +29,7 @@ SpaceMouseState deflection(int axis, int counts)
   return state;
 }
 
-// `seconds` of ticks of 1 ms with a report every `period` ms; ends at the time that it returns.
+// `seconds` of ticks of 1 ms with a report every `period` ms; returns the end time.
 double hold(RateControl& rate, const SpaceMouseState& state, double start, int milliseconds,
             int period = 10)
 {
@@ -64,7 +64,7 @@ TEST(RateControl, TurnsAboutTheAxisOfTheFrameByRateTimesTime)
 {
   RateControl rate(plain());
   rate.advance(0.999);
-  // The cap's z points down: a right-handed turn about it is one to the right about "up".
+  // The cap's z points down: a right-handed rotation about it is clockwise seen from above.
   hold(rate, deflection(5, 350), 1.0, 501);
   const Eigen::Vector3d turned = haptics::rotationVector(rate.advance(1.5).rotation);
   EXPECT_NEAR(turned.y(), -2.0 * 0.5, 0.03);
@@ -108,7 +108,7 @@ TEST(RateControl, HasNoStepInSpeedBetweenReports)
   rate.advance(-0.001);
   double last = 0.0;
   double greatest = 0.0;
-  // A cap that goes to its stop in 160 ms, reported every 16 ms in steps of 4 mm/s.
+  // A cap moved to its stop in 160 ms, reported every 16 ms in steps of 4 mm/s.
   for (int i = 0; i < 200; ++i)
   {
     const double now = 0.001 * i;
@@ -121,7 +121,7 @@ TEST(RateControl, HasNoStepInSpeedBetweenReports)
     last = speed;
   }
   EXPECT_NEAR(last, 40.0, 1e-9);
-  // 4 mm/s spread over 16 ms are 0.25 a tick; without the ramp it would be 4 at once.
+  // 4 mm/s spread over 16 ms are 0.25 per tick; without the ramp it would be 4 at once.
   EXPECT_LT(greatest, 0.35);
 }
 

@@ -22,7 +22,7 @@ using haptics::DeviceReading;
 namespace
 {
 
-// Ticks of 1 ms or more, each a read and a send, until `condition` of the reading holds.
+// Ticks of at least 1 ms, each a read and a send, until `condition` holds for the reading.
 template <typename Condition>
 bool servoUntil(ServedDevice& device, const haptics::Wrench& wrench, Condition condition)
 {
@@ -54,7 +54,7 @@ TEST(ServedDevice, ExchangesPosesAndWrenchesWithTheExampleServer)
       servoUntil(device, {}, [&](const DeviceReading&) { return device.exchange().poses >= 500; }));
   const DeviceReading reading = device.read(steadySeconds());
   EXPECT_EQ(reading.health, DeviceHealth::Good);
-  // The example's handle goes round at 20 mm, turned about z by the angle of its place.
+  // The example's handle moves on a circle of 20 mm, rotated about z by its angle on it.
   EXPECT_NEAR(distanceFromAxis(reading, 0.0), 20.0, 1e-9);
   const Eigen::Vector3d ahead = reading.pose.rotation * Eigen::Vector3d(20.0, 0.0, 0.0);
   EXPECT_NEAR((ahead - reading.pose.position).norm(), 0.0, 1e-9);
@@ -71,11 +71,11 @@ TEST(ServedDevice, DeliversTheForceAndTheServerDropsItWhenTheServoFallsSilent)
   ServedDevice device(exampleFor("force"));
   haptics::Wrench push;
   push.linear = {2.0, 0.0, 0.0};
-  // Compliance 1 mm/N: under 2 N the circle's centre lies at x = 2.
+  // Compliance 1 mm/N: under 2 N the circle's centre is at x = 2.
   EXPECT_TRUE(servoUntil(device, push,
                          [](const DeviceReading& reading)
                          { return std::abs(distanceFromAxis(reading, 2.0) - 20.0) < 1e-9; }));
-  // Reads go on, but nothing is sent.
+  // Reading continues, but nothing is sent.
   EXPECT_TRUE(eventually(
       [&]
       {
@@ -207,14 +207,15 @@ TEST(ServedDevice, CallsAJumpFasterThanAnyHandFaultyAndThenTakesTheNewPlace)
   FakeServer server(options.name);
   server.setPose(FakeServer::poseAt(0.0, 0.0, 0.0));
   ServedDevice device(options);
-  // A simulated clock, so that a busy machine makes no difference: it stands while the pose jumps.
+  // A simulated clock, so that load on the machine does not matter: it stands still while the pose
+  // jumps.
   double now = 100.0;
   const auto healthAfter = [&](double seconds) { return device.read(now += seconds).health; };
   ASSERT_TRUE(eventually([&] { return healthAfter(0.0) == DeviceHealth::Good; }));
   server.setPose(FakeServer::poseAt(900.0, 0.0, 0.0));
   ASSERT_TRUE(eventually([&] { return healthAfter(0.0) == DeviceHealth::Faulty; }));
   EXPECT_EQ(device.read(now).pose.position.x(), 0.0);
-  // A read between two messages of the server holds the last good pose.
+  // A read between two messages of the server returns the last good pose.
   EXPECT_TRUE(eventually(
       [&]
       {

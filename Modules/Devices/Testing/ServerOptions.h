@@ -10,7 +10,7 @@
 namespace petrous::devices::testing
 {
 
-/// Options with a name that no other run of the tests has.
+/// Options with a name that is unique to this test run.
 inline ServedDevice::Options optionsFor(const std::string& name)
 {
   ServedDevice::Options options;

@@ -71,7 +71,7 @@ TEST(SpaceMouseDevice, StandsStillAfterTheCapIsReleasedWithoutBeingStale)
   hid.playAll(std::string(kPlug) + "await cap\n" + kFullRight + "wait 8\n" + kReleased);
   double last = -1.0;
   int still = 0;
-  // 50 ticks of a simulated clock without any motion, one tick a read.
+  // 50 ticks of a simulated clock without motion, one per read.
   double now = 0.0;
   EXPECT_TRUE(eventually(
       [&]
@@ -113,7 +113,7 @@ TEST(SpaceMouseDevice, GoesOnByItselfAfterUnpluggingAndPluggingIn)
   hid.play(kPlug);
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
   EXPECT_EQ(hid.opened("cap"), 2);
-  // The pose stays where it was, and the old deflection is forgotten.
+  // The pose is unchanged, and the old deflection is discarded.
   EXPECT_EQ(device.read(steadySeconds()).pose.position, gone.pose.position);
   hid.play("report cap 03 02 00\n");
   EXPECT_TRUE(

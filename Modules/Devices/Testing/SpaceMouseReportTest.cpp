@@ -19,7 +19,7 @@ SpaceMouseReport decode(const std::vector<unsigned char>& bytes, SpaceMouseState
 
 } // namespace
 
-// Bytes seen from a SpaceNavigator on a USB trace.
+// Bytes from a USB trace of a SpaceNavigator.
 TEST(SpaceMouseReport, ReadsTheReportsOfASpaceNavigator)
 {
   SpaceMouseState state;
@@ -131,6 +131,6 @@ TEST(SpaceMouseReport, TurnsTheCapsAxesIntoRightUpAndTowardsTheUser)
   EXPECT_EQ(state.translation(), Eigen::Vector3d(0, 0, 1));
   state.axes = {0, 0, 350, 0, 0, 0}; // pressed down
   EXPECT_EQ(state.translation(), Eigen::Vector3d(0, -1, 0));
-  state.axes = {0, 0, 0, 0, 0, -175}; // half a turn rate to the left, seen from above
+  state.axes = {0, 0, 0, 0, 0, -175}; // half the turn rate to the left, seen from above
   EXPECT_EQ(state.rotation(), Eigen::Vector3d(0, 0.5, 0));
 }

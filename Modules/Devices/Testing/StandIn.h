@@ -12,7 +12,7 @@
 namespace petrous::devices::testing
 {
 
-/// The stand-in hidapi under control of a test; begins and ends with nothing plugged in.
+/// Controls the stand-in hidapi for a test; starts and ends with nothing connected.
 class StandIn
 {
 public:
@@ -33,7 +33,7 @@ public:
 
   const std::shared_ptr<const HidLibrary>& library() const { return m_library; }
 
-  /// Goes on at once; the script plays beside the test.
+  /// Returns at once; the script plays concurrently.
   void play(const std::string& script)
   {
     ASSERT_EQ(function<int(const char*)>("standin_play")(script.c_str()), 0)

@@ -7,26 +7,26 @@
 namespace petrous::devices
 {
 
-/// The shared memory of one device server, made, mapped and in the end removed by us. It stays
-/// mapped at one place while the servers behind it come and go, so that the servo's thread never
-/// meets memory that has gone. A lock on the file tells a block in use from one left by a crash.
+/// Shared memory of one device server, created, mapped and finally removed by Petrous. It stays
+/// mapped at the same address while servers come and go, so that the servo thread never accesses
+/// unmapped memory. A file lock distinguishes a block in use from one left by a crash.
 class DeviceBlock
 {
 public:
-  /// Throws InvalidParameter for a bad name; ServerError when the block is in use or cannot be
-  /// made.
+  /// Throws InvalidParameter for an invalid name; ServerError if the block is in use or cannot be
+  /// created.
   explicit DeviceBlock(const std::string& name);
   ~DeviceBlock();
   DeviceBlock(const DeviceBlock&) = delete;
   DeviceBlock& operator=(const DeviceBlock&) = delete;
 
-  /// What shm_open takes: "/petrous-device-NAME".
+  /// Name for shm_open: "/petrous-device-NAME".
   const std::string& path() const noexcept { return m_path; }
 
   petrous_device_block* operator->() const noexcept { return m_block; }
   petrous_device_block& operator*() const noexcept { return *m_block; }
 
-  /// Clears what the last server said; only while there is none.
+  /// Clears the fields of the last server; only while there is none.
   void forgetServer() noexcept;
 
 private:

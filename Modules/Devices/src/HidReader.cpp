@@ -11,7 +11,7 @@ namespace petrous::devices
 namespace
 {
 
-constexpr int kReadMilliseconds = 100; // how long the end of the thread may take
+constexpr int kReadMilliseconds = 100; // upper limit on the time to stop the thread
 
 } // namespace
 
@@ -61,7 +61,7 @@ void HidReader::run()
         read(*connection);
       }
     }
-    catch (const std::exception&) // no memory: out of the thread it would end the program
+    catch (const std::exception&) // out of memory: escaping the thread would terminate the program
     {
       setProblem("cannot be read");
     }

@@ -14,12 +14,12 @@
 namespace petrous::devices
 {
 
-/// A thread that waits for one kind of HID device, reads it while it is plugged in, and waits again
-/// when it has gone. So a device may be plugged in, pulled and plugged in again at any time.
+/// A thread that waits for one kind of HID device, reads it while it is connected, and waits again
+/// when it is gone. Devices are therefore hot-pluggable.
 class HidReader
 {
 public:
-  /// Called on the reader's thread; they must not throw.
+  /// Called on the reader thread; must not throw.
   struct Calls
   {
     std::function<bool(const HidInterface&)> matches;
@@ -29,14 +29,14 @@ public:
   };
 
   /// what       for messages: "SpaceMouse"
-  /// lookEvery  s between two looks at what is plugged in
+  /// lookEvery  s between two enumerations of connected devices
   HidReader(std::shared_ptr<const HidLibrary> library, std::string what, double lookEvery,
             Calls calls);
   ~HidReader();
   HidReader(const HidReader&) = delete;
   HidReader& operator=(const HidReader&) = delete;
 
-  /// Why nothing comes, in words; empty while a device is read.
+  /// Why no device is read, for display; empty while one is.
   std::string problem() const;
 
 private:

@@ -13,8 +13,8 @@ namespace
 {
 
 constexpr double kShortestRamp = 0.004; // s
-constexpr double kLongestRamp = 0.020;  // s
-constexpr double kLongestStep = 0.1;    // s
+constexpr double kMaxRamp = 0.020;      // s
+constexpr double kMaxStep = 0.1;        // s
 
 void require(double value, double least, double most, const char* name)
 {
@@ -71,9 +71,9 @@ void RateControl::rampTo(const haptics::Motion& rate, double now, double duratio
 
 void RateControl::setDeflection(const SpaceMouseState& state, double now) noexcept
 {
-  // The longer of the last two intervals: translation and rotation may come as a pair of reports,
-  // one right behind the other.
-  const double interval = std::clamp(now - m_reportTime, kShortestRamp, kLongestRamp);
+  // The longer of the last two intervals: translation and rotation may arrive as a pair of reports
+  // in immediate succession.
+  const double interval = std::clamp(now - m_reportTime, kShortestRamp, kMaxRamp);
   rampTo(rateOf(state), now, std::max(interval, m_interval));
   m_interval = interval;
   m_reportTime = now;
@@ -96,11 +96,11 @@ bool RateControl::silent(double now) const noexcept
 const haptics::Pose& RateControl::advance(double now) noexcept
 {
   if (silent(now) && (!m_to.linear.isZero(0.0) || !m_to.angular.isZero(0.0)))
-    rampTo({}, now, kLongestRamp);
+    rampTo({}, now, kMaxRamp);
 
   const haptics::Motion rate = rateAt(now);
-  // The mean of both ends: exact for a straight ramp.
-  const double step = std::clamp(now - m_now, 0.0, kLongestStep);
+  // The mean of both ends: exact for a linear ramp.
+  const double step = std::clamp(now - m_now, 0.0, kMaxStep);
   if (m_now > -1e9 && step > 0.0)
   {
     const haptics::Motion mean{0.5 * (m_rate.linear + rate.linear),

@@ -15,13 +15,13 @@ namespace
 
 using haptics::DeviceHealth;
 
-constexpr double kFarthest = 2000.0; // mm; no desk device reaches so far
-// A hand moves below 5 m/s. Twice that, and 20 mm for two samples that come close together.
-constexpr double kMostSpeed = 10000.0; // mm/s
-constexpr double kMostStep = 20.0;     // mm
-constexpr double kBadFor = 0.1;        // s that one bad pose taints
+constexpr double kFarthest = 2000.0; // mm; beyond the reach of any desktop device
+// A hand moves below 5 m/s. Twice that, plus 20 mm for two samples in quick succession.
+constexpr double kMaxSpeed = 10000.0; // mm/s
+constexpr double kMaxStep = 20.0;     // mm
+constexpr double kBadFor = 0.1;       // s for which one bad pose counts
 
-// s; only differences are used. The servo's own clock may be a simulated one.
+// s; only differences are used. The servo's own clock may be simulated.
 double steadyNow() noexcept
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -33,7 +33,7 @@ bool possible(const haptics::Pose& pose) noexcept
   return pose.finite() && pose.position.norm() <= kFarthest && norm > 0.9 && norm < 1.1;
 }
 
-// `value`, not longer than `limit`; zero where it is not finite or there are no motors for it.
+// `value` limited to length `limit`; zero if it is not finite or the device cannot render it.
 Eigen::Vector3d within(const Eigen::Vector3d& value, bool gives, double limit) noexcept
 {
   const double norm = value.norm();
@@ -70,7 +70,7 @@ haptics::DeviceReading ServedDevice::read(double now) noexcept
     m_epoch = epoch;
     m_hasPose = false;
     m_badUntil = -1.0;
-    // What lies in the block now is the last server's.
+    // The block still contains the last server's pose.
     petrous_device_pose old;
     m_sequence = petrous_device_get(&m_watch->block().pose_sequence, m_watch->block().pose, &old);
   }
@@ -96,7 +96,7 @@ void ServedDevice::takePose(double now) noexcept
   if (good)
   {
     pose.rotation.normalize();
-    const double reach = kMostStep + kMostSpeed * std::max(0.0, now - m_poseTime);
+    const double reach = kMaxStep + kMaxSpeed * std::max(0.0, now - m_poseTime);
     good = !m_hasPose || (pose.position - m_lastPose.position).norm() <= reach;
     m_lastPose = pose;
     m_hasPose = true;

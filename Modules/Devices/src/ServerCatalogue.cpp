@@ -16,9 +16,9 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr char kPrefix[] = "petrous-device-";
-constexpr std::size_t kLongest = 48;
+constexpr std::size_t kMaxLength = 48;
 
-// Empty where a server cannot be called so.
+// Empty if it is not a valid server name.
 std::string nameOf(const fs::path& program)
 {
   std::string name = program.filename().string();
@@ -31,8 +31,8 @@ std::string nameOf(const fs::path& program)
                                           (c >= '0' && c <= '9') || c == '.' || c == '-' ||
                                           c == '_';
                                  });
-  return sound && !name.empty() && name.front() != '.' && name.size() <= kLongest ? name
-                                                                                  : std::string();
+  return sound && !name.empty() && name.front() != '.' && name.size() <= kMaxLength ? name
+                                                                                    : std::string();
 }
 
 bool mayRun(const fs::path& program)

@@ -10,11 +10,11 @@ namespace petrous::devices
 namespace
 {
 
-// What no device for a hand exceeds; the strongest that are sold give about 40 N and 15 N/mm.
-constexpr double kMostForce = 200.0;          // N
-constexpr double kMostTorque = 20000.0;       // N mm
-constexpr double kMostStiffness = 100.0;      // N/mm
-constexpr double kMostAngularStiffness = 1e6; // N mm/rad
+// Limits for hand-held devices; the strongest on the market give about 40 N and 15 N/mm.
+constexpr double kMaxForce = 200.0;          // N
+constexpr double kMaxTorque = 20000.0;       // N mm
+constexpr double kMaxStiffness = 100.0;      // N/mm
+constexpr double kMaxAngularStiffness = 1e6; // N mm/rad
 
 double number(const double& field)
 {
@@ -60,10 +60,10 @@ haptics::DeviceDescription serverDescription(const petrous_device_block& block, 
   description.maxAngularStiffness = number(block.max_angular_stiffness);
 
   fault.clear();
-  check(description.maxForce, kMostForce, "force", "N", fault);
-  check(description.maxTorque, kMostTorque, "torque", "N mm", fault);
-  check(description.maxStiffness, kMostStiffness, "stiffness", "N/mm", fault);
-  check(description.maxAngularStiffness, kMostAngularStiffness, "angular stiffness", "N mm/rad",
+  check(description.maxForce, kMaxForce, "force", "N", fault);
+  check(description.maxTorque, kMaxTorque, "torque", "N mm", fault);
+  check(description.maxStiffness, kMaxStiffness, "stiffness", "N/mm", fault);
+  check(description.maxAngularStiffness, kMaxAngularStiffness, "angular stiffness", "N mm/rad",
         fault);
   return description;
 }

@@ -8,10 +8,10 @@
 namespace petrous::devices
 {
 
-/// A text of the block as one printable line, whatever lies there.
+/// A text field of the block as one printable line, for any content.
 std::string serverText(const char* field, std::size_t size);
 
-/// What the server says of its device. Empty `fault`, or why there is no such device.
+/// The server's description of its device. `fault` is empty, or the reason why it is impossible.
 haptics::DeviceDescription serverDescription(const petrous_device_block& block, std::string& fault);
 
 bool same(const haptics::DeviceDescription& a, const haptics::DeviceDescription& b);

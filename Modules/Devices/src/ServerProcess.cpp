@@ -48,7 +48,7 @@ std::optional<std::string> ServerProcess::start(const std::vector<std::string>& 
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
-  // A servo or a library may have blocked or ignored signals; the server begins afresh.
+  // The parent may have blocked or ignored signals; the server starts with defaults.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   sigset_t none;

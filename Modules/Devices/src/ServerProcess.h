@@ -14,22 +14,24 @@ class ServerProcess
 {
 public:
   ServerProcess() = default;
-  /// Kills what still runs.
+  /// Kills the process if it still runs.
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;
 
-  /// Starts `command`, found on the PATH, with `block` as a further argument; nothing, or why not.
+  /// Starts `command`, searched on PATH, with `block` as last argument. Returns nullopt or the
+  /// error.
   std::optional<std::string> start(const std::vector<std::string>& command,
                                    const std::string& block);
 
   bool runs() const noexcept { return m_pid > 0; }
   pid_t pid() const noexcept { return m_pid; }
 
-  /// Once it has ended, how, in words: "was killed by signal 9 (Killed)". Does not wait.
+  /// How the process ended, e.g. "was killed by signal 9 (Killed)"; nullopt while it runs. Does not
+  /// wait.
   std::optional<std::string> ended();
 
-  /// Waits until it ends, `seconds` at most.
+  /// Waits for the process to end, at most `seconds`.
   bool waitForEnd(double seconds);
 
   void signal(int number) noexcept;

@@ -20,10 +20,10 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr auto kPeriod = std::chrono::milliseconds(10);
 constexpr auto kAsk = std::chrono::milliseconds(50);
-// A longer pause was ours (a debugger, a laptop asleep) and says nothing of the server.
-constexpr double kLongestStep = 0.05; // s
-constexpr int kMostFailures = 5;
-constexpr double kSettled = 10.0; // s; a server that ran so long may fail anew
+// A longer pause was ours (a debugger, a suspended laptop) and does not count against the server.
+constexpr double kMaxStep = 0.05; // s
+constexpr int kMaxFailures = 5;
+constexpr double kSettled = 10.0; // s; a server that ran this long may fail anew
 
 std::string seconds(double value)
 {
@@ -57,7 +57,7 @@ ServerWatch::~ServerWatch()
 
 haptics::DeviceDescription ServerWatch::awaitReady()
 {
-  // A little longer than the watch's own limit, so that its words are the ones that are thrown.
+  // Slightly longer than the watch's own limit, so that its message is the one thrown.
   const auto end = Clock::now() + Seconds(m_options.startTimeout + 1.0);
   std::unique_lock<std::mutex> lock(m_mutex);
   const auto answered = [this] { return m_description || m_reason; };
@@ -80,7 +80,7 @@ ServedDevice::Status ServerWatch::status() const
 
 void ServerWatch::run()
 {
-  // No memory: out of the thread it would end the program, and the next beat tries again.
+  // Out of memory: escaping the thread would terminate the program; the next beat tries again.
   const auto attempt = [](const auto& what)
   {
     try
@@ -99,7 +99,7 @@ void ServerWatch::run()
   {
     lock.unlock();
     const auto now = Clock::now();
-    attempt([&] { look(std::min(Seconds(now - last).count(), kLongestStep)); });
+    attempt([&] { look(std::min(Seconds(now - last).count(), kMaxStep)); });
     last = now;
     lock.lock();
   }
@@ -132,7 +132,7 @@ void ServerWatch::lookAfterProcess()
 {
   if (const auto end = m_process.ended())
   {
-    // Why it hung or was refused says more than that it was killed for it.
+    // Why it hung or was refused is more informative than that it was killed for it.
     const std::uint32_t version = __atomic_load_n(&m_block->server_version, __ATOMIC_ACQUIRE);
     if (version != 0 && version != PETROUS_DEVICE_VERSION)
       fail(Reason::VersionMismatch, "speaks version " + std::to_string(version) +
@@ -144,7 +144,7 @@ void ServerWatch::lookAfterProcess()
     setLink(Link::Gone);
     m_failures = m_sinceBegin > kSettled ? 1 : m_failures + 1;
     m_untilStart = 0.1 * (1 << m_failures);
-    if (m_options.restart && m_failures >= kMostFailures)
+    if (m_options.restart && m_failures >= kMaxFailures)
       fail(Reason::Ended, *end + "; that was the " + std::to_string(m_failures) +
                               "th time in a row, and it is not started again");
   }
@@ -155,7 +155,7 @@ void ServerWatch::lookAfterProcess()
 bool ServerWatch::mayRestart() const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  return m_options.restart && m_description && m_failures < kMostFailures;
+  return m_options.restart && m_description && m_failures < kMaxFailures;
 }
 
 void ServerWatch::lookForProcess()
@@ -277,7 +277,7 @@ void ServerWatch::giveUpOn(Link link, Reason reason, const std::string& words)
 {
   fail(reason, words);
   setLink(link);
-  // A server that hangs cannot be asked; one of ours is ended, so that it can be started again.
+  // A hung server cannot be asked to end; one of ours is killed so that it can be restarted.
   if (link == Link::Hung && mayRestart())
     m_process.signal(SIGKILL);
 }

@@ -15,21 +15,21 @@
 namespace petrous::devices
 {
 
-/// Looks after one server from a thread of its own, 100 times a second: starts it, beats for
-/// Petrous, reads its description, and notices when it ends, hangs or is of the wrong version.
+/// Supervises one server from a thread of its own, at 100 Hz: starts it, sends Petrous' heartbeat,
+/// reads its description, and detects when it ends, hangs or is of the wrong version.
 class ServerWatch
 {
 public:
   enum class Link : std::uint32_t
   {
     Starting,
-    Up,     ///< has described itself; its state says the rest
+    Up,     ///< has described itself; see its state
     Gone,   ///< no process
-    Hung,   ///< does not beat
-    Refused ///< other version, or a description that there cannot be
+    Hung,   ///< no heartbeat
+    Refused ///< other version, or an impossible description
   };
 
-  /// Makes the block and starts the thread.
+  /// Creates the block and starts the thread.
   explicit ServerWatch(const ServedDevice::Options& options);
 
   /// Ends the server.
@@ -40,9 +40,9 @@ public:
 
   ServedDevice::Status status() const;
 
-  // For the servo's thread: atomics only.
+  // For the servo thread: atomics only.
   Link link() const noexcept { return m_link.load(std::memory_order_acquire); }
-  /// Another number for each start of a server.
+  /// A different number for each start of a server.
   std::uint64_t epoch() const noexcept { return m_epoch.load(std::memory_order_acquire); }
   petrous_device_block& block() noexcept { return *m_block; }
 
@@ -71,16 +71,16 @@ private:
   std::atomic<std::uint64_t> m_epoch{0};
   std::atomic<int> m_pid{0};
 
-  // Of the watching thread.
+  // Watch thread only.
   ServerProcess m_process;
   std::uint64_t m_beat = 0;
   double m_silence = 0.0;    // s since the last beat
   double m_sinceBegin = 0.0; // s since the start of this server
   double m_untilStart = 0.0; // s
-  int m_failures = 0;        // since it last ran for long
-  bool m_accepted = false;   // this server's description
+  int m_failures = 0;        // since it last ran for kSettled
+  bool m_accepted = false;   // this server's description was accepted
 
-  mutable std::mutex m_mutex; // for what follows; never taken by the servo's thread
+  mutable std::mutex m_mutex; // for the members below; never taken by the servo thread
   std::condition_variable m_wake;
   bool m_stop = false;
   std::optional<haptics::DeviceDescription> m_description;

@@ -25,7 +25,7 @@ SpaceMouseDevice::SpaceMouseDevice(std::shared_ptr<const HidLibrary> library,
   {
     m_incoming.state = {};
     m_incoming.connected = true;
-    ++m_incoming.reports; // so that the servo sees the zero deflection even of a quick replug
+    ++m_incoming.reports; // so that the servo sees the zero deflection even after a quick replug
     m_buffer.write(m_incoming);
   };
   calls.report = [this](const unsigned char* bytes, std::size_t size) { take(bytes, size); };

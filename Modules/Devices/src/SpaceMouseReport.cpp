@@ -9,9 +9,9 @@ namespace petrous::devices
 namespace
 {
 
-constexpr int kFarthest = 1024; // counts; beyond it is no deflection but garbage
+constexpr int kFarthest = 1024; // counts; larger values are invalid
 
-// `count` axes from `bytes` into `axes`; false, with nothing changed, for garbage.
+// `count` axes from `bytes` into `axes`; false and unchanged if invalid.
 bool readAxes(const unsigned char* bytes, std::size_t count, std::int16_t* axes) noexcept
 {
   std::array<std::int16_t, 6> read{};

@@ -31,7 +31,7 @@ void drill(Dissection& work, const Vector3d& from, const Vector3d& to, double ra
 
 } // namespace
 
-// Whatever way one takes through the tree, a state is the same to the bit as when it was drilled.
+// Whatever the path through the tree, a state is bit-identical to when it was drilled.
 TEST(Dissection, UndoThenRedoRestoresEveryVoxelInTenThousandRandomSequences)
 {
   const core::GridGeometry grid({20, 18, 17}, Vector3d::Constant(0.3), Vector3d::Zero());
@@ -144,9 +144,9 @@ TEST(Dissection, ADamagedStrokeIsRefusedAndNothingChanges)
   drill(work, {5, 5, 5}, {7, 5, 5});
   drill(work, {5, 6, 5}, {7, 6, 5});
   auto strokes = work.strokes();
-  strokes[1] = strokes[0]; // takes what is gone already
+  strokes[1] = strokes[0]; // removes what is already gone
   History start = work.history();
-  while (start.back())
+  while (start.undo())
   {
   }
   Dissection again(kGrid, strokes, start);
@@ -173,7 +173,7 @@ TEST(Dissection, WhatWasTakenElsewhereIsTakenAgainWithinAStroke)
   EXPECT_TRUE(other.mask().untouched());
 }
 
-// 1,000 strokes of 10 mm at 0.15 mm would be 128 GB as copies of a mask of 512^3.
+// 1,000 strokes of 10 mm at 0.15 mm would be 128 GB as copies of a 512^3 mask.
 TEST(Dissection, KeepsStrokesPacked)
 {
   const core::GridGeometry grid({128, 128, 128}, Vector3d::Constant(0.15), Vector3d::Zero());

@@ -16,11 +16,11 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kVoxel = 0.25; // mm
-constexpr double kBall = 4.0;   // mm, radius of the structure, about 0
+constexpr double kBall = 4.0;   // mm, radius of the structure, centred at 0
 const core::GridGeometry kGrid({81, 81, 81}, Vector3d::Constant(kVoxel),
                                Vector3d::Constant(-40 * kVoxel));
 
-// The structure, of index 2, is soft: it is tissue as a label only. Round it bone where `isBone`.
+// The structure (index 2) is soft: tissue by its label only. Bone around it where `isBone`.
 struct Scene
 {
   template <class IsBone>
@@ -37,17 +37,20 @@ struct Scene
           voxels->at(i, j, k) = inside ? 2 : 0;
           ct->at(i, j, k) = inside ? std::int16_t{50} : isBone(p) ? std::int16_t{1500} : elsewhere;
         }
-    share = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
-                                      [](std::uint16_t) { return true; });
+    occupancy = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
+                                          [](std::uint16_t) { return true; });
     field.emplace(std::make_shared<const volume::IntensityVolume>(
                       std::shared_ptr<const volume::Volume<std::int16_t>>(ct)),
-                  std::vector<volume::TissueField::SolidUnion>{share}, nullptr,
+                  std::vector<volume::TissueField::SolidUnion>{occupancy}, nullptr,
                   volume::TissueField::Parameters{});
   }
 
-  double exposed(const volume::CutMask& mask) const { return exposedArea(*field, mask, *share); }
+  double exposed(const volume::CutMask& mask) const
+  {
+    return exposedArea(*field, mask, *occupancy);
+  }
 
-  std::shared_ptr<const volume::Volume<float>> share;
+  std::shared_ptr<const volume::Volume<float>> occupancy;
   std::optional<volume::TissueField> field;
 };
 
@@ -56,7 +59,7 @@ bool everywhere(const Vector3d&)
   return true;
 }
 
-// All that lies above z = height is taken.
+// Removes everything above z = height.
 volume::CutMask flatCut(double height)
 {
   volume::CutMask mask(kGrid);
@@ -94,10 +97,10 @@ TEST(ExposedArea, IsTheCapThatAFlatCutLaysOpen)
     EXPECT_NEAR(scene.exposed(flatCut(height)) / capAbove(height), 1.0, 0.03) << height;
 }
 
-// A ball of the burr that lies outside the structure but for a cap: where spheres of radii R and r,
-// d apart, meet, the plane of their circle lies (d^2 + R^2 - r^2) / 2d from R's centre. All of the
-// surface in the burr is cut; a rim is laid open that is not yet: 0.5 mm before it the burr has
-// been.
+// A burr outside the structure except for a cap: where spheres of radii R and r, d apart,
+// intersect, the plane of their circle is (d^2 + R^2 - r^2) / 2d from R's centre. All of the
+// surface inside the burr is cut; beyond it a rim is exposed without being cut, where the burr has
+// removed the 0.5 mm in front of it.
 TEST(ExposedArea, IsTheCapThatABurrReaches)
 {
   const Scene scene(everywhere);
@@ -120,22 +123,22 @@ TEST(ExposedArea, LeavesOutWhatAShellOfBoneStillCovers)
 
 TEST(ExposedArea, LeavesOutWhatLayOpenBefore)
 {
-  // Bone below z = 1 only: above it the ball was bare. Between the voxels at 0.75 and 1 the CT goes
-  // through the threshold at 0.87.
+  // Bone below z = 1 only: above it the ball was bare. Between the voxels at 0.75 and 1 the CT
+  // crosses the threshold at 0.87.
   const Scene scene([](const Vector3d& p) { return p.z() < 0.9; });
-  // Below the ball's middle the normal points down: with the bone cut at -1, 0.5 mm before the
+  // Below the equator the normal points down: with the bone cut at -1, the 0.5 mm in front of the
   // surface are free above z + 0.5 z / R = -1.
   const double lower = -1.0 / (1.0 + kCover / kBall);
   EXPECT_NEAR(scene.exposed(flatCut(-1.0)) / (capAbove(lower) - capAbove(0.87)), 1.0, 0.03);
   EXPECT_LT(scene.exposed(flatCut(2.0)), 0.5) << "no bone was there";
 }
 
-// 1.2 mm of soft tissue without a label lie on the ball, then bone. A flat cut takes the bone over
-// the directions whose ray meets the bone's surface above it.
+// A layer of 1.2 mm of unlabelled soft tissue on the ball, then bone. A flat cut removes the bone
+// in the directions whose ray meets the bone's surface above it.
 TEST(ExposedArea, SeesThroughAThinLayerOfSoftTissue)
 {
   constexpr double inner = 5.2; // mm, of the bone's voxels
-  // Between one of 40 HU and one of 1500 HU the CT crosses the threshold a third of a voxel early.
+  // Between voxels of 40 HU and 1500 HU the CT crosses the threshold a third of a voxel early.
   constexpr double surface = inner - (0.5 - 260.0 / 1460.0) * kVoxel;
   const auto bone = [](double from)
   { return [from](const Vector3d& p) { return p.norm() > from; }; };

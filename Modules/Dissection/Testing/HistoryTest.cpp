@@ -47,27 +47,27 @@ TEST(History, BeginsOnMainWithNothing)
   EXPECT_EQ(history.applied(), 0u);
   EXPECT_EQ(history.ahead(), 0u);
   EXPECT_EQ(history.next(), kStart);
-  EXPECT_FALSE(history.back());
-  EXPECT_FALSE(history.forth());
+  EXPECT_FALSE(history.undo());
+  EXPECT_FALSE(history.redo());
 }
 
 TEST(History, UndoAndRedoGoAlongTheBranch)
 {
   History history = drilled(3);
-  EXPECT_TRUE(history.back());
-  EXPECT_TRUE(history.back());
+  EXPECT_TRUE(history.undo());
+  EXPECT_TRUE(history.undo());
   EXPECT_EQ(history.applied(), 1u);
   EXPECT_EQ(history.ahead(), 2u);
   EXPECT_EQ(history.next(), 1u);
-  EXPECT_TRUE(history.forth());
+  EXPECT_TRUE(history.redo());
   EXPECT_EQ(history.lineTo(history.position()), (Line{0, 1}));
 }
 
 TEST(History, DrillingAfterAnUndoKeepsTheUndoneUnderANameOfItsOwn)
 {
   History history = drilled(3);
-  history.back();
-  history.back();
+  history.undo();
+  history.undo();
   EXPECT_EQ(history.add(), 3u);
   EXPECT_EQ(history.branch().name, "main");
   EXPECT_EQ(history.lineTo(history.position()), (Line{0, 3}));
@@ -85,10 +85,10 @@ TEST(History, ALineThatABranchLeadsToGetsNoSecondName)
   History history = drilled(3);
   history.start("far", 2);
   history.goTo("main");
-  history.back();
+  history.undo();
   history.add();
   EXPECT_EQ(history.branches().size(), 2u);
-  history.back();
+  history.undo();
   history.add();
   EXPECT_EQ(history.branches().size(), 3u) << "this one nothing else leads to";
 }
@@ -102,9 +102,9 @@ TEST(History, ABranchBeginsAtAnyEarlierState)
   EXPECT_EQ(history.ahead(), 0u);
   history.add();
   EXPECT_EQ(history.lineTo(4), (Line{0, 1, 4}));
-  const auto way = history.way(4, 3);
-  EXPECT_EQ(way.back, (Line{4}));
-  EXPECT_EQ(way.forth, (Line{2, 3}));
+  const auto path = history.path(4, 3);
+  EXPECT_EQ(path.undone, (Line{4}));
+  EXPECT_EQ(path.redone, (Line{2, 3}));
   history.start("from nothing", kStart);
   EXPECT_EQ(history.applied(), 0u);
 }
@@ -112,7 +112,7 @@ TEST(History, ABranchBeginsAtAnyEarlierState)
 TEST(History, ABranchIsFoundAsItWasLeft)
 {
   History history = drilled(4);
-  history.back();
+  history.undo();
   history.start("other", kStart);
   history.add();
   history.goTo("main");
@@ -158,8 +158,8 @@ TEST(History, RefusesWhatContradictsItself)
   EXPECT_THROW(History::line(2, 3), core::InvalidParameter);
 }
 
-// Every stroke that was ever made is led to by a branch, and the way between two states is right,
-// whatever one does.
+// Under random operations every stroke remains reachable from a branch, and the path between any
+// two states is correct.
 TEST(History, LosesNoStrokeInRandomUse)
 {
   std::mt19937 random(3);
@@ -175,7 +175,7 @@ TEST(History, LosesNoStrokeInRandomUse)
         break;
       case 2:
       case 3:
-        random() % 3 ? history.back() : history.forth();
+        random() % 3 ? history.undo() : history.redo();
         break;
       case 4:
         history.start(std::to_string(n), random() % (history.size() + 1) - 1);
@@ -191,13 +191,13 @@ TEST(History, LosesNoStrokeInRandomUse)
     const std::size_t from = random() % (history.size() + 1) - 1;
     const std::size_t to = random() % (history.size() + 1) - 1;
     Line line = history.lineTo(from);
-    const auto way = history.way(from, to);
-    for (const std::size_t stroke : way.back)
+    const auto path = history.path(from, to);
+    for (const std::size_t stroke : path.undone)
     {
       ASSERT_EQ(line.back(), stroke);
       line.pop_back();
     }
-    line.insert(line.end(), way.forth.begin(), way.forth.end());
+    line.insert(line.end(), path.redone.begin(), path.redone.end());
     EXPECT_EQ(line, history.lineTo(to));
   }
 }

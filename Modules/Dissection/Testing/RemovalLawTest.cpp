@@ -59,8 +59,8 @@ std::string thrown(const std::function<void()>& call)
 
 } // namespace
 
-// The force triangle itself: thrust and cutting force are the sum of the normal and friction forces
-// on the tool's face, with friction = mu normal.
+// The force triangle: thrust and cutting force are the sum of the normal and friction forces on the
+// tool face, with friction = mu normal.
 TEST(RemovalLaw, CuttingForceClosesTheForceTriangle)
 {
   std::mt19937 random(3);
@@ -71,7 +71,7 @@ TEST(RemovalLaw, CuttingForceClosesTheForceTriangle)
     const double rake = (60.0 * share(random) - 45.0) * kDegree;
     const double friction = 1.5 * share(random);
     const double thrust = 0.1 + 10.0 * share(random);
-    if (friction - std::tan(rake) < OrthogonalCutting::kLeastDifference ||
+    if (friction - std::tan(rake) < OrthogonalCutting::kMinDifference ||
         1.0 + friction * std::tan(rake) <= 0.0)
       continue;
     const double cutting = OrthogonalCutting(3e9, friction, rake).cuttingForce(thrust);
@@ -95,13 +95,13 @@ TEST(RemovalLaw, CuttingSpendsTheWorkOfTheCuttingForce)
 
 TEST(RemovalLaw, RatesAreThoseOfTheTable)
 {
-  // 5 mm burr, 70,000 turns a minute, 1 N, friction 0.5, rake -10 degrees.
+  // 5 mm burr, 70,000 rpm, 1 N, friction 0.5, rake -10 degrees.
   const auto cutting = [](double energy)
   { return kMm3 * OrthogonalCutting(energy, 0.5, -10 * kDegree).rate(1.0, 2.5e-3, turns(70000)); };
   EXPECT_NEAR(cutting(150e6), 165.0, 1.0);
   EXPECT_NEAR(cutting(2e9), 12.0, 0.5);
   EXPECT_NEAR(cutting(5e9), 5.0, 0.1);
-  // Diamond, 4 mm, 60,000 turns a minute, 417 MPa, 1 N.
+  // Diamond, 4 mm, 60,000 rpm, 417 MPa, 1 N.
   const auto diamond = [](double k)
   { return kMm3 * AbrasiveWear(417e6, k).rate(1.0, 2e-3, turns(60000)); };
   EXPECT_NEAR(diamond(0.05), 0.50, 0.005);

@@ -12,7 +12,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 const core::GridGeometry kGrid({50, 50, 50}, Vector3d::Constant(0.2), Vector3d::Constant(-4.9));
 
-// Bone below z = 0, air above, the surface exactly there.
+// Bone below z = 0, air above, with the surface exactly at 0.
 volume::TissueField halfSpace()
 {
   auto v = std::make_shared<volume::Volume<std::int16_t>>(kGrid);
@@ -41,7 +41,7 @@ TEST(RemovedVolume, CountsOnlyTissueNotAir)
 
 TEST(RemovedVolume, IsRightForAShallowBite)
 {
-  // A cap of depth 0.1 mm: where voxel times coverage is three times too much.
+  // A cap of depth 0.1 mm: here voxel volume times coverage is three times too large.
   const volume::CutMask before(kGrid);
   volume::CutMask mask = before;
   const Vector3d c(0.03, 0.05, 1.9);

@@ -13,7 +13,7 @@ namespace
 
 const core::GridGeometry kGrid({64, 64, 64}, Vector3d::Constant(0.3), Vector3d::Zero());
 
-// What a stroke of overlapping cuts changed.
+// Deltas of a stroke of overlapping cuts.
 std::vector<dissection::BrickDelta> someDeltas()
 {
   volume::CutMask mask(kGrid);
@@ -26,11 +26,11 @@ std::vector<dissection::BrickDelta> someDeltas()
   return deltas;
 }
 
-volume::CutMask applied(const std::vector<std::uint8_t>& bytes, dissection::Way way,
+volume::CutMask applied(const std::vector<std::uint8_t>& bytes, dissection::Step step,
                         volume::CutMask mask)
 {
   dissection::BrickDraft draft(mask);
-  dissection::applyDeltas(bytes, way, draft);
+  dissection::applyDeltas(bytes, step, draft);
   for (auto& delta : draft.take())
     mask.setBrick(delta.brick, delta.after);
   return mask;
@@ -38,7 +38,7 @@ volume::CutMask applied(const std::vector<std::uint8_t>& bytes, dissection::Way 
 
 volume::CutMask applied(const std::vector<std::uint8_t>& bytes)
 {
-  return applied(bytes, dissection::Way::Forth, volume::CutMask(kGrid));
+  return applied(bytes, dissection::Step::Redo, volume::CutMask(kGrid));
 }
 
 } // namespace
@@ -54,10 +54,10 @@ TEST(StrokeCodec, GivesEveryVoxelBack)
   ASSERT_EQ(bricks, deltas.size());
   for (const auto& delta : deltas)
     EXPECT_EQ(*after.brick(delta.brick), *delta.after);
-  EXPECT_TRUE(applied(bytes, dissection::Way::Back, after).untouched());
+  EXPECT_TRUE(applied(bytes, dissection::Step::Undo, after).untouched());
 }
 
-// Every 16-bit value, and no likeness from voxel to voxel.
+// Every 16-bit value, without correlation between voxels.
 TEST(StrokeCodec, GivesNoiseBack)
 {
   std::mt19937 random(5);
@@ -77,8 +77,8 @@ TEST(StrokeCodec, GivesNoiseBack)
   for (const auto& delta : deltas)
     mask.setBrick(delta.brick, delta.before);
   const auto bytes = dissection::encodeDeltas(deltas);
-  const auto after = applied(bytes, dissection::Way::Forth, mask);
-  const auto back = applied(bytes, dissection::Way::Back, after);
+  const auto after = applied(bytes, dissection::Step::Redo, mask);
+  const auto back = applied(bytes, dissection::Step::Undo, after);
   for (const auto& delta : deltas)
   {
     EXPECT_EQ(*after.brick(delta.brick), *delta.after);
@@ -129,24 +129,24 @@ TEST(StrokeCodec, RefusesAStrokeOfAnotherGrid)
 {
   const auto bytes = dissection::encodeDeltas(someDeltas());
   const core::GridGeometry small({20, 20, 20}, Vector3d::Constant(0.3), Vector3d::Zero());
-  EXPECT_THROW(applied(bytes, dissection::Way::Forth, volume::CutMask(small)),
+  EXPECT_THROW(applied(bytes, dissection::Step::Redo, volume::CutMask(small)),
                core::InvalidParameter);
 }
 
 TEST(StrokeCodec, RefusesToGiveBackWhatWasNotTaken)
 {
   const auto bytes = dissection::encodeDeltas(someDeltas());
-  EXPECT_THROW(applied(bytes, dissection::Way::Back, volume::CutMask(kGrid)),
+  EXPECT_THROW(applied(bytes, dissection::Step::Undo, volume::CutMask(kGrid)),
                core::InvalidParameter);
 }
 
 TEST(StrokeCodec, RefusesVoxelsBeyondTheGrid)
 {
-  // Bricks of 16 reach beyond 20 voxels.
+  // Bricks of 16 extend beyond 20 voxels.
   const core::GridGeometry grid({20, 20, 20}, Vector3d::Constant(0.3), Vector3d::Zero());
   const volume::CutMask mask(grid);
   for (int axis = 0; axis < 3; ++axis)
-    for (const int at : {3, 4, 15}) // 19 is the last one
+    for (const int at : {3, 4, 15}) // 19 is the last voxel
     {
       core::Index3 voxel{0, 0, 0};
       voxel[static_cast<std::size_t>(axis)] = at;
@@ -159,9 +159,9 @@ TEST(StrokeCodec, RefusesVoxelsBeyondTheGrid)
           dissection::encodeDeltas({{mask.brickIndex(position), nullptr, std::move(after)}});
       dissection::BrickDraft draft(mask);
       if (at == 3)
-        EXPECT_NO_THROW(dissection::applyDeltas(bytes, dissection::Way::Forth, draft));
+        EXPECT_NO_THROW(dissection::applyDeltas(bytes, dissection::Step::Redo, draft));
       else
-        EXPECT_THROW(dissection::applyDeltas(bytes, dissection::Way::Forth, draft),
+        EXPECT_THROW(dissection::applyDeltas(bytes, dissection::Step::Redo, draft),
                      core::InvalidParameter)
             << axis << ' ' << at;
     }

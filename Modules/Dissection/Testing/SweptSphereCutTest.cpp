@@ -39,7 +39,7 @@ double removed(const core::GridGeometry& grid, const dissection::SweptSphere& bu
   return dissection::measureRemoved(solidBone(grid), before, mask, bricks, {}).total;
 }
 
-// Distance from the centre at which the interpolated mask passes 1/2 along a direction.
+// Distance from the centre at which the interpolated mask crosses 1/2 along a direction.
 double surfaceAlong(const volume::CutMask& mask, const Vector3d& center, const Vector3d& direction)
 {
   double in = 0.0;
@@ -75,7 +75,7 @@ TEST(SweptSphereCut, CapsuleIsRightWithinHalfAPercent)
   EXPECT_NEAR(removed(cube(40, 0.3), {from, to, 2.0}) / truth, 1.0, 0.005);
 }
 
-// Voxels on the very line of the way, where the correction has no bound of its own.
+// Voxels exactly on the path's line, where the curvature correction is unbounded.
 TEST(SweptSphereCut, LeavesNothingOnALineOfVoxelsThatTheBurrGoesAlong)
 {
   volume::CutMask mask(core::GridGeometry({50, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero()));

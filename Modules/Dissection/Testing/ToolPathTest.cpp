@@ -57,7 +57,7 @@ TEST(ToolPath, DrillHoldsUntilTheNextRow)
 
 TEST(ToolPath, SwitchesTheDrillAtItsRowAlsoBetweenTwoTicks)
 {
-  // On from 0.5 to 0.6 s, at one tick a second; the tool moves on afterwards.
+  // On from 0.5 to 0.6 s, at one tick per second; the tool moves on afterwards.
   const auto ticks = ticksOf(pathOf("0,0,0,0,1,0,0,0,0\n0.5,5,0,0,1,0,0,0,1\n"
                                     "0.6,6,0,0,1,0,0,0,0\n2,20,0,0,1,0,0,0,0\n"),
                              1);
@@ -78,7 +78,7 @@ TEST(ToolPath, RefusesAPathWithoutEnd)
 
 TEST(ToolPath, TurnsOnTheShortArc)
 {
-  // -q is the same rotation as q: the way between them is none.
+  // -q is the same rotation as q: no rotation in between.
   const auto ticks = ticksOf(pathOf("0,0,0,0,1,0,0,0,0\n1,0,0,0,-1,0,0,0,0\n"), 2);
   EXPECT_LT(ticks[1].pose.rotation().angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
 }

@@ -11,13 +11,14 @@
 namespace petrous::haptics::testing
 {
 
-/// Signed distance to a solid, mm, positive inside, at a patient point.
+/// Signed distance to a solid at a patient point, mm, positive inside.
 using SignedDistance = std::function<double(const Eigen::Vector3d&)>;
 
 constexpr double kIso = 300.0;
-constexpr double kPerMillimetre = 400.0; ///< HU a mm of distance, as int16 voxels hold it
+constexpr double kPerMillimetre = 400.0; ///< HU per mm of distance, within the range of int16
+                                         ///< voxels
 
-/// A CT whose iso surface is the solid's.
+/// A CT whose isosurface is the solid's surface.
 inline std::shared_ptr<const volume::IntensityVolume> scanOn(const core::GridGeometry& grid,
                                                              const SignedDistance& solid)
 {
@@ -35,7 +36,7 @@ inline std::shared_ptr<const volume::IntensityVolume> scanOn(const core::GridGeo
       std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
 }
 
-/// The same on an axis-aligned cube of `half` mm round the origin.
+/// The same on an axis-aligned cube of `half` mm about the origin.
 inline std::shared_ptr<const volume::IntensityVolume> scanOf(const SignedDistance& solid, double h,
                                                              double half)
 {
@@ -87,7 +88,7 @@ inline SignedDistance torus(double major, double minor, const Eigen::Vector3d& a
   };
 }
 
-/// Two walls that meet in a valley along `along`; each rises at `angle` (rad) from the floor.
+/// Two walls that meet in a valley along `along`, each rising at `angle` (rad) from the floor.
 inline SignedDistance wedge(double angle, const Eigen::Matrix3d& turn)
 {
   const Eigen::Vector3d a = turn * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
@@ -101,7 +102,7 @@ inline SignedDistance plate(const Eigen::Vector3d& normal, double thickness)
   return [n, thickness](const Eigen::Vector3d& p) { return 0.5 * thickness - std::abs(n.dot(p)); };
 }
 
-/// A plain ball as a shell: an even spiral of points, for tests that need no shaft.
+/// A plain ball as a shell: an even spiral of points, for tests without a shaft.
 inline PointShell ballShell(double radius, std::size_t count)
 {
   PointShell shell;

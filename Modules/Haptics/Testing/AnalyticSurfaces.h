@@ -13,17 +13,17 @@
 namespace petrous::haptics::testing
 {
 
-/// A surface on which the pose of a ball that is pressed into it is known exactly.
+/// A surface for which the pose of a ball pressed into it is known exactly.
 struct AnalyticSurface
 {
   std::string name;
   SignedDistance distance;
 
-  /// Where the centre of a ball comes to stand for a goal: the place nearest to the goal at which
-  /// the ball touches tissue but does not enter it.
+  /// Constrained position of the centre of a ball for a goal: the point nearest to the goal at
+  /// which the ball touches tissue without entering it.
   std::function<Eigen::Vector3d(const Eigen::Vector3d& goal, double radius)> held;
 
-  /// A goal that wanders along the surface with s, `depth` mm below where the ball would touch.
+  /// A goal that moves along the surface with s, `depth` mm below the ball's first contact.
   std::function<Eigen::Vector3d(double s, double radius, double depth)> goal;
 };
 
@@ -41,7 +41,7 @@ inline AnalyticSurface planeSurface(const Eigen::Matrix3d& turn)
           }};
 }
 
-/// A ball of bone, 3 mm.
+/// A ball of bone, radius 3 mm.
 inline AnalyticSurface ballSurface(const Eigen::Matrix3d& turn)
 {
   constexpr double bone = 3.0;
@@ -56,7 +56,7 @@ inline AnalyticSurface ballSurface(const Eigen::Matrix3d& turn)
           }};
 }
 
-/// A ring of bone, 4 mm from its axis to the middle of its tube of 1.5 mm.
+/// A torus of bone, radii 4 mm and 1.5 mm.
 inline AnalyticSurface torusSurface(const Eigen::Matrix3d& turn)
 {
   constexpr double ring = 4.0;
@@ -80,8 +80,8 @@ inline AnalyticSurface torusSurface(const Eigen::Matrix3d& turn)
           }};
 }
 
-/// A valley of two walls that rise at 0.6 rad from its floor; the goal wanders from one to the
-/// other and along it.
+/// A valley of two walls rising at 0.6 rad from its floor; the goal moves from one to the other and
+/// along it.
 inline AnalyticSurface wedgeSurface(const Eigen::Matrix3d& turn)
 {
   constexpr double rise = 0.6;

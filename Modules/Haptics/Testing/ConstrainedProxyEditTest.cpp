@@ -15,7 +15,7 @@ namespace
 constexpr double kVoxel = 0.3;
 constexpr double kRadius = 1.0;
 const Pose kAbove = poseAt({0.0, 0.0, 2.5});
-const Pose kPressed = poseAt({0.0, 0.0, -1.5}); // 2.5 mm below where it touches bone
+const Pose kPressed = poseAt({0.0, 0.0, -1.5}); // 2.5 mm below first contact with bone
 
 Scene bone()
 {
@@ -47,7 +47,7 @@ TEST(ConstrainedProxy, GivesNoForceWhileItIsPlacedInTissueUntilItIsFree)
       ASSERT_FALSE(wasFree);
       ASSERT_TRUE(forceless(tick));
       ASSERT_GT(deep, 0.0);
-      // The ball's lowest point, of 300; deeper than the ball nothing is told.
+      // The ball's lowest point, of 300; no depth beyond the ball's radius is reported.
       ASSERT_NEAR(tick.penetration, std::min(kRadius - goal.position.z(), kRadius), 0.02);
       ASSERT_EQ(tick.pose.position, goal.position) << "it goes where the hand goes";
       continue;
@@ -64,7 +64,7 @@ TEST(ConstrainedProxy, GivesNoForceWhileItIsPlacedInTissueUntilItIsFree)
   EXPECT_EQ(proxy.step(kPressed).status, ProxyStatus::Contact);
 }
 
-// The cavity is a ball of 1.6 mm: the burr of 1 mm sinks until it touches its floor.
+// The cavity is a ball of 1.6 mm: the burr of 1 mm sinks until it touches the floor.
 TEST(ConstrainedProxy, SinksIntoTheHoleThatIsCutUnderIt)
 {
   Scene scene = bone();
@@ -87,8 +87,8 @@ TEST(ConstrainedProxy, SinksIntoTheHoleThatIsCutUnderIt)
       height = std::min(height, tick.pose.position.z());
     }
   }
-  // Floor of the last cut at z = -1.6; the mask's edge is a ramp one voxel wide about the ball, its
-  // interpolation is off by at most h^2/(8 r) each way.
+  // Floor of the last cut at z = -1.6; the mask's edge is a ramp one voxel wide around the ball,
+  // its interpolation error is at most h^2/(8 r) to either side.
   EXPECT_NEAR(height, -1.6 + kRadius, 0.05 * kVoxel + 3.0 * kVoxel * kVoxel / 8.0 / 1.6);
 }
 
@@ -113,7 +113,7 @@ TEST(ConstrainedProxy, GoesBackOnItsPathWhenTissueComesBackRoundIt)
   EXPECT_NEAR(next.pose.position.z(), kRadius, 0.05 * kVoxel);
 }
 
-// Placed in the hole, there is no path back.
+// Placed in the hole: there is no path back.
 TEST(ConstrainedProxy, GivesNoForceWhenTissueComesBackAndNoWayOutIsKnown)
 {
   Scene scene = bone();
@@ -123,7 +123,7 @@ TEST(ConstrainedProxy, GivesNoForceWhenTissueComesBackAndNoWayOutIsKnown)
   ConstrainedProxy proxy(scene.field, shell);
   proxy.place(poseAt(centre));
   EXPECT_EQ(proxy.step(poseAt(centre)).status, ProxyStatus::Free);
-  for (int t = 0; t < 5; ++t) // all of the ball is near: a tick makes part of the way
+  for (int t = 0; t < 5; ++t) // all of the ball is near: a tick makes part of the motion
     proxy.step(poseAt({0.0, 0.0, -3.0}));
   EXPECT_EQ(proxy.step(poseAt({0.0, 0.0, -3.0})).status, ProxyStatus::Contact);
   cutBall(scene, centre, 1.6, true);
@@ -137,8 +137,8 @@ TEST(ConstrainedProxy, GivesNoForceWhenTissueComesBackAndNoWayOutIsKnown)
   EXPECT_EQ(proxy.step(kPressed).status, ProxyStatus::Contact);
 }
 
-// Whatever is cut and undone while the hand moves: no force from within tissue, and no pose in
-// tissue with contact.
+// For any cuts and undos while the device moves: no force from inside tissue, and no pose in tissue
+// with contact.
 TEST(ConstrainedProxy, IsNeverHeldInTissueWhileCutsAreMadeAndUndone)
 {
   Scene scene = bone();

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A grid of at least `half` mm round the origin on every side.
+// A grid of at least `half` mm around the origin on every side.
 core::GridGeometry gridOf(const Vector3d& spacing, const Matrix3d& direction, double half)
 {
   core::Index3 dims;
@@ -51,8 +51,8 @@ Matrix3d turned()
 
 } // namespace
 
-// Planes are exact in any grid of trilinear cells; curved bone is off by the sagitta of the longest
-// side, s^2/(8 r), wherever that side lies along it.
+// Planes are exact in any grid of trilinear cells; the error on curved bone is the sagitta of the
+// longest side, s^2/(8 r), whatever its direction.
 TEST(ConstrainedProxy, HoldsABallOnPlanesOfLongVoxels)
 {
   const Vector3d spacing(0.2, 0.2, 1.0);
@@ -101,7 +101,7 @@ TEST(ConstrainedProxy, FeelsTheSameInAGridThatIsTurnedInThePatient)
     }
 }
 
-// Bone that goes on beyond the scan ends at the hull of the voxel centres: a box, for the hand.
+// Bone that continues beyond the scan ends at the hull of the voxel centres: a box for the tool.
 TEST(ConstrainedProxy, RestsOnTheFacesOfAScanThatCutsThroughBone)
 {
   const double h = 0.4;
@@ -127,8 +127,8 @@ TEST(ConstrainedProxy, RestsOnTheFacesOfAScanThatCutsThroughBone)
           continue;
         ASSERT_EQ(tick.status, ProxyStatus::Contact);
         worst = std::max(worst, std::abs(tick.pose.position.dot(out) - half[axis] - radius));
-        // Beyond the grid there is no gradient: the shell's own normal says which way is out, and
-        // its points are up to 0.12 rad from the ball's true contact.
+        // Outside the grid there is no gradient: the shell's own normal gives the outward
+        // direction, and its points are up to 0.12 rad from the ball's true contact.
         ASSERT_LT((tick.wrench.linear.normalized() - out).norm(), 0.12);
       }
       EXPECT_LE(worst, 0.05 * h);

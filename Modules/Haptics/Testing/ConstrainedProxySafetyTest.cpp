@@ -19,12 +19,12 @@ struct Walk
 {
   int touched = 0;  ///< ticks in contact
   int crossed = 0;  ///< ticks with a shell point beyond the plate
-  int inside = 0;   ///< ticks that gave up contact
+  int inside = 0;   ///< ticks without contact, inside tissue
   double deep = -1; ///< largest f at a shell point
   double worstSum = 0.0;
 };
 
-// Random ticks over a plate of the given thickness; all points stay in the grid.
+// Random ticks over a plate of the given thickness; all points stay inside the grid.
 Walk walkOnPlate(const Vector3d& toward, double thickness, double offset, unsigned seed, int ticks)
 {
   const double h = 0.3;
@@ -46,14 +46,14 @@ Walk walkOnPlate(const Vector3d& toward, double thickness, double offset, unsign
     const ProxyTick& tick = proxy.step(hand.tick());
     walk.touched += tick.contactCount > 0;
     walk.inside += tick.status == ProxyStatus::Inside;
-    if (tick.contactCount < ProxyTick::kMostContacts)
+    if (tick.contactCount < ProxyTick::kMaxContacts)
       walk.worstSum = std::max(walk.worstSum, sumError(tick));
     double lowest = std::numeric_limits<double>::max();
     for (const Vector3d& point : shell.points)
     {
       const Vector3d p = tick.pose * point;
       lowest = std::min(lowest, normal.dot(p) - offset);
-      // What is more than a voxel from the plate is air.
+      // Farther than a voxel from the plate there is air.
       if (std::abs(normal.dot(p) - offset) < 0.5 * thickness + 2.0 * h)
         walk.deep = std::max(walk.deep, scene.tissue->value(p));
     }
@@ -82,7 +82,7 @@ TEST(ConstrainedProxy, NeverEntersOrCrossesAThinPlateWhateverTheHandDoes)
     }
 }
 
-// A plate of 0.6 voxels that the samples do show, and ticks of 20 voxels.
+// A plate of 0.6 voxels, visible to the samples, and ticks of 20 voxels.
 TEST(ConstrainedProxy, StopsAtAWallThinnerThanItsStep)
 {
   const double h = 0.3;
@@ -105,7 +105,7 @@ TEST(ConstrainedProxy, StopsAtAWallThinnerThanItsStep)
   }
 }
 
-// Rotation alone: the hand's end of the tool moves by many voxels a tick, its tip by none.
+// Rotation only: the handle end of the tool moves by many voxels per tick, its tip does not move.
 TEST(ConstrainedProxy, StopsALongToolThatIsTurnedIntoAWall)
 {
   const double h = 0.4;
@@ -131,7 +131,7 @@ TEST(ConstrainedProxy, StopsALongToolThatIsTurnedIntoAWall)
     else
     {
       EXPECT_GT(turned, 0.02);
-      // The handpiece meets the wall at 8 mm within the scanned cube, 44 to 76 mm from the tip.
+      // The wall is 8 mm from the tool's axis, within the scanned cube 44 to 76 mm from the tip.
       EXPECT_LT(turned, 0.05);
       EXPECT_LT(tick->wrench.angular.y(), -1.0) << "it is turned back";
     }
@@ -159,10 +159,10 @@ TEST(ConstrainedProxy, DoesNotCreepAtRest)
   EXPECT_EQ(proxy.step(goal).status, ProxyStatus::Contact);
 }
 
-// Still bone gives the hand no energy: over a closed way of the goal, in either direction, the
-// hand's work is not below zero by more than the peak force lifts over the ripple of height that
-// is allowed, 0.02 h. The force is taken as it changes from tick to tick (trapezoids), so that what
-// is left is the renderer's and not that of a hand that feels it a tick late.
+// Static bone gives the hand no energy: over a closed path of the goal, in either direction, the
+// hand's work is not below zero by more than the peak force times the allowed ripple of height,
+// 0.02 h. The force is integrated as it changes from tick to tick (trapezoidal rule), so that the
+// rest is due to the renderer and not to a delay of one tick.
 TEST(ConstrainedProxy, ReturnsNoMoreEnergyThanTheHandPutIn)
 {
   const double radius = 1.5;

@@ -44,7 +44,7 @@ class OnSurface : public ::testing::TestWithParam<bool>
 
 } // namespace
 
-// Bounds as PHYSICS' first oracle has them: bias 0.05 h, ripple 0.02 h, 1 degree in the mean.
+// Bounds: bias 0.05 h, ripple 0.02 h, mean angle 1 degree.
 TEST_P(OnSurface, HoldsABallWithinAFractionOfAVoxel)
 {
   const double radius = 2.0;
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(ConstrainedProxy, OnSurface, ::testing::Bool(),
                          [](const auto& tilted)
                          { return std::string(tilted.param ? "Tilted" : "AxisAligned"); });
 
-// A ball without friction turns nothing, however its points lie.
+// A frictionless ball receives no torque, however its points are arranged.
 TEST(ConstrainedProxy, GivesABallNoTorque)
 {
   const double radius = 2.0;
@@ -85,7 +85,7 @@ TEST(ConstrainedProxy, GivesABallNoTorque)
   EXPECT_LE(errors.worstTorque, 1e-6);
 }
 
-// Half the voxel, at most half of what it is allowed to be off: the error in millimetres falls.
+// At half the voxel size, at most half the allowed error: the error in millimetres decreases.
 TEST(ConstrainedProxy, ComesNearerToTheSurfaceWithSmallerVoxels)
 {
   const double radius = 2.0;

@@ -69,7 +69,7 @@ TEST(ConstrainedProxy, RefusesAShellWithoutPointsOrNormalsAndNoField)
   EXPECT_THROW(ConstrainedProxy(nullptr, pointShell()), petrous::core::InvalidParameter);
 }
 
-// Equation 1 with M = K: the wrench is the contacts', whatever touches where.
+// Equation 1 with M = K: the wrench is the contacts', for any contacts.
 TEST(ConstrainedProxy, GivesTheSumOfItsContactsForcesAndTorques)
 {
   const double h = 0.3;
@@ -90,7 +90,7 @@ TEST(ConstrainedProxy, GivesTheSumOfItsContactsForcesAndTorques)
     }
     ++pressed;
     several += tick.contactCount > 1;
-    ASSERT_LT(tick.contactCount, ProxyTick::kMostContacts);
+    ASSERT_LT(tick.contactCount, ProxyTick::kMaxContacts);
     ASSERT_LE(sumError(tick), 1e-9);
     double thrust = 0.0;
     for (std::size_t n = 0; n < tick.contactCount; ++n)
@@ -130,7 +130,7 @@ TEST(ConstrainedProxy, StaysWithoutForceAtAGoalThatIsNoNumber)
   EXPECT_EQ(proxy.step(poseAt({0.0, 0.0, 0.0})).status, ProxyStatus::Contact);
 }
 
-// q and -q are the same rotation; devices hand over either.
+// q and -q are the same rotation; devices may send either.
 TEST(ConstrainedProxy, TakesAQuaternionOfEitherSign)
 {
   const Scene scene = floorScene();
@@ -213,8 +213,8 @@ TEST(ConstrainedProxy, LeavesTheGridAndComesBackToTheBone)
   EXPECT_NEAR(proxy.pose().position.z(), 1.0, 0.05 * h);
 }
 
-// A tick's work is bounded; the way that it did not make is made by those that follow, and the tool
-// comes to rest where one tick without a bound puts it.
+// The work of a tick is bounded; following ticks make the rest of the motion, and the tool comes to
+// rest where a single unbounded tick puts it.
 TEST(ConstrainedProxy, MakesAWayTooLongForOneTickInThoseThatFollow)
 {
   const double h = 0.3;
@@ -245,7 +245,7 @@ TEST(ConstrainedProxy, MakesAWayTooLongForOneTickInThoseThatFollow)
   }
   EXPECT_GT(ticks, 3);
   EXPECT_LT(ticks, 400);
-  // What is over the bound: the last stretch, where every point may be looked at a few times.
+  // Beyond the bound: the last stretch, where every point may be examined a few times.
   EXPECT_LT(most, 400u + 6u * 800u);
   EXPECT_LT((inTicks.pose().position - atOnce.pose().position).norm(), 0.02 * h);
   EXPECT_NEAR(inTicks.step(goal).wrench.linear.norm(), atOnce.step(goal).wrench.linear.norm(),

@@ -15,8 +15,8 @@ namespace
 using Vector6 = ContactQp::Vector6;
 using Status = ContactQp::Status;
 
-// The solution by trying every set of active rows: that set's rows hold with equality, the others
-// at least, and no multiplier is negative. For up to about ten rows.
+// Solution by trying every set of active rows: that set's rows hold with equality, the others as
+// inequalities, and no multiplier is negative. For up to about ten rows.
 std::optional<Vector6> bruteForce(const QpProblem& problem)
 {
   const std::size_t count = problem.rows.size();
@@ -131,7 +131,7 @@ TEST(ContactQpOptimality, FulfilsTheKktConditionsWithStiffnessesAThousandApart)
     expectSolved(family, 500, 1, 60, 30.0);
 }
 
-// Cartilage beside a soft coupling, and far beyond: the springs' Hessian is ill-conditioned.
+// Cartilage beside a soft coupling, and far stiffer: the springs' Hessian is ill-conditioned.
 TEST(ContactQpOptimality, FulfilsTheKktConditionsWithHardSprings)
 {
   QpProblemSource source(41);
@@ -153,7 +153,7 @@ TEST(ContactQpOptimality, HoldsABallInAHoleOfFourHundredRows)
   expectSolved(QpFamily::Hole, 100, 400, 400, 1.0);
 }
 
-// The wrench that the hand feels is the contacts' own, to rounding.
+// The wrench on the hand is the contacts' own, to rounding.
 TEST(ContactQpOptimality, GivesAWrenchThatIsTheSumOfItsThrusts)
 {
   for (const QpFamily family : {QpFamily::Random, QpFamily::BurrPatch, QpFamily::Hole,

@@ -54,7 +54,7 @@ TEST(ContactQp, StopsAtAPlaneAndPressesWithTheCouplingsForce)
   EXPECT_NEAR(qp.lambda(0), 2.5 * 0.75, 1e-12);
 }
 
-// A contact at a lever arm turns the tool: both springs give way in proportion.
+// A contact at a lever arm rotates the tool: both springs deflect in proportion.
 TEST(ContactQp, SharesAContactBetweenTranslationAndRotation)
 {
   QpProblem problem{kCoupling, six(0, 0, -1), {}, {}, {}};
@@ -88,7 +88,7 @@ TEST(ContactQp, LetsFourHundredSpringsPressAtOnce)
     ASSERT_NEAR(qp.lambda(i), 1.0 / (1.0 + together) / 50.0, 1e-14);
 }
 
-// Closed form: the motion ends where both walls hold, at the wedge's edge.
+// Closed form: the motion ends where both walls hold, at the edge of the wedge.
 TEST(ContactQp, ComesToRestAtTheEdgeOfAWedge)
 {
   for (const double angle : {0.3, 1e-2, 1e-4})
@@ -101,13 +101,13 @@ TEST(ContactQp, ComesToRestAtTheEdgeOfAWedge)
     ASSERT_EQ(qp.solve(six(0.2, 0.7, -1.0)), Status::Solved);
     EXPECT_NEAR(qp.solution()[0], 0.0, 1e-9);
     EXPECT_NEAR(qp.solution()[1], 0.7, 1e-9);
-    // A wall keeps to 1e-10; the edge is 1 / s of that away.
+    // A wall is satisfied to 1e-10; the edge is accurate to 1 / s of that.
     EXPECT_NEAR(qp.solution()[2], -0.01, 1e-10 / s);
     EXPECT_NEAR(qp.lambda(0) * s + qp.lambda(1) * s, 0.99, 1e-6);
   }
 }
 
-// What a tick at rest brings: motions far below a rounding of anything else.
+// Motions of a tick at rest: far below the rounding of other values.
 TEST(ContactQp, StopsTinyMotionsToo)
 {
   for (const double way : {0.0, 1e-9, 1e-30, 1e-90, 1e-200, 1e-320})
@@ -183,7 +183,7 @@ TEST(ContactQp, StaysWhereRowsContradictEachOther)
   ASSERT_TRUE(zero.add(Vector6::Zero(), 0.01));
   expectRefused(zero);
 
-  // Three walls round a ball that is too large for them, and soft tissue besides.
+  // Three walls around a ball too large for them, and soft tissue as well.
   ContactQp ring(4, kCoupling);
   for (int i = 0; i < 3; ++i)
     ASSERT_TRUE(ring.add(six(std::cos(2.1 * i), std::sin(2.1 * i), 0), 0.01));

@@ -9,8 +9,8 @@
 namespace petrous::haptics::testing
 {
 
-/// Lowers the mask to what a burr at `centre` leaves, with an edge one voxel wide, or raises it to
-/// untouched there; publishes it as the dissection does.
+/// Lowers the mask to what a burr at `centre` leaves, with an edge one voxel wide, or restores it
+/// there to untouched; publishes it as the dissection does.
 inline void cutBall(Scene& scene, const Eigen::Vector3d& centre, double radius, bool raise = false)
 {
   volume::CutMask& mask = *scene.mask;

@@ -28,7 +28,7 @@ DeviceReading at(int tick)
   return reading;
 }
 
-// Hands the guard sound readings of ticks [from, to) and returns the last judgement.
+// Feeds the guard valid readings of ticks [from, to) and returns the last judgement.
 Judgement feed(DeviceGuard& guard, int from, int to)
 {
   Judgement last;
@@ -37,7 +37,7 @@ Judgement feed(DeviceGuard& guard, int from, int to)
   return last;
 }
 
-// A guard that has been good up to tick 99, then meets this one reading at tick 100.
+// A guard that was good up to tick 99 receives this one reading at tick 100.
 Judgement meet(const DeviceReading& reading)
 {
   DeviceGuard guard;
@@ -81,7 +81,7 @@ TEST(DeviceGuard, NamesEachFaultAndHoldsTheLastGoodPose)
   const auto expect = [](const DeviceReading& reading, DeviceVerdict verdict)
   {
     const Judgement judgement = meet(reading);
-    EXPECT_EQ(judgement.verdict, verdict) << inWords(judgement);
+    EXPECT_EQ(judgement.verdict, verdict) << toString(judgement);
     EXPECT_FALSE(judgement.usable);
     EXPECT_EQ(judgement.pose.position, at(99).pose.position);
     EXPECT_EQ(judgement.pose.rotation.coeffs(), Eigen::Quaterniond::Identity().coeffs());
@@ -143,7 +143,7 @@ TEST(DeviceGuard, TheOtherSignOfAQuaternionIsNoJump)
 TEST(DeviceGuard, TheFastestHandPassesAndAFasterOneDoesNot)
 {
   DeviceReading reading = at(100);
-  reading.pose.position = at(99).pose.position + Vector3d(0, 4.99, 0); // 5 m/s is 5 mm a tick
+  reading.pose.position = at(99).pose.position + Vector3d(0, 4.99, 0); // 5 m/s is 5 mm per tick
   EXPECT_EQ(meet(reading).verdict, DeviceVerdict::Good);
   reading.pose.position = at(99).pose.position + Vector3d(0, 5.01, 0);
   EXPECT_EQ(meet(reading).verdict, DeviceVerdict::Jump);
@@ -258,22 +258,23 @@ TEST(DeviceGuard, SaysInWordsWhatIsWrongWithItsNumber)
   DeviceReading reading = at(99);
   reading.time = 0.1;
   reading.pose.position.y() = 50.0;
-  EXPECT_EQ(inWords(meet(reading)), "The device's handle jumped by 50.0 mm from one reading to the "
-                                    "next, faster than a hand moves.");
+  EXPECT_EQ(toString(meet(reading)),
+            "The device's handle jumped by 50.0 mm from one reading to the "
+            "next, faster than a hand moves.");
   reading = at(99);
   reading.time = 0.03;
-  EXPECT_EQ(inWords(meet(reading)), "The device has sent nothing new for 70 ms.");
+  EXPECT_EQ(toString(meet(reading)), "The device has sent nothing new for 70 ms.");
   reading.time = 0.09;
-  EXPECT_EQ(inWords(meet(reading)), "The device's clock went back by 9.0 ms.");
+  EXPECT_EQ(toString(meet(reading)), "The device's clock went back by 9.0 ms.");
   reading.time = 0.16;
-  EXPECT_EQ(inWords(meet(reading)), "The device's clock is 60 ms ahead of the computer's.");
+  EXPECT_EQ(toString(meet(reading)), "The device's clock is 60 ms ahead of the computer's.");
   reading = at(100);
   reading.pose.rotation.coeffs() *= 2.0;
-  EXPECT_EQ(inWords(meet(reading)),
+  EXPECT_EQ(toString(meet(reading)),
             "The device sent a rotation that is none: its quaternion's length is 2.");
   for (int verdict = 0; verdict <= static_cast<int>(DeviceVerdict::Faulty); ++verdict)
   {
-    const std::string words = inWords(static_cast<DeviceVerdict>(verdict));
+    const std::string words = toString(static_cast<DeviceVerdict>(verdict));
     EXPECT_EQ(words.find("unknown"), std::string::npos) << verdict;
     EXPECT_EQ(words.back(), '.');
   }

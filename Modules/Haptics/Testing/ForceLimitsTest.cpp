@@ -17,7 +17,7 @@ namespace
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Limits wide() // so that one limit can be looked at alone
+Limits wide() // to test one limit at a time
 {
   Limits limits;
   limits.maxForce = 10.0;
@@ -27,7 +27,7 @@ Limits wide() // so that one limit can be looked at alone
   return limits;
 }
 
-// Limits that have let force in for a second, with their clock.
+// Limits after one second with force enabled, with their clock.
 struct Running
 {
   explicit Running(const Limits& limits = wide())
@@ -96,7 +96,7 @@ TEST(ForceLimits, ChangesNoFasterThanTheSlewRate)
     ASSERT_NEAR(out.linear.norm(), std::min(5.0, 0.1 * n), 1e-9);
     ASSERT_NEAR(out.linear.dot(Vector3d(0, 0.6, 0.8)), out.linear.norm(), 1e-12);
     ASSERT_NEAR(out.angular.x(), std::min(50.0, 2.0 * n), 1e-9);
-    if (n != 50) // there rounding decides
+    if (n != 50) // rounding decides there
     {
       ASSERT_EQ(limits.is.notes().slewed, n < 50) << n;
     }
@@ -161,7 +161,7 @@ TEST(ForceLimits, FadesInOverATenthOfASecond)
 TEST(ForceLimits, FallsToZeroInTwentyMillisecondsAfterAFault)
 {
   Limits slow = wide();
-  slow.forceSlew = 10.0; // by which alone the fall would take half a second
+  slow.forceSlew = 10.0; // by itself the fall would take half a second
   Running limits(slow);
   for (int n = 0; n < 1000; ++n)
     limits.tick({{0, 5, 0}, {0, 0, 20}});
@@ -295,9 +295,9 @@ TEST(ForceLimits, RefusesLimitsThatMakeNoSense)
   for (const double bad : {-1.0, kNan, kInfinity})
     for (const auto value :
          {&Limits::maxForce, &Limits::maxTorque, &Limits::forceSlew, &Limits::torqueSlew,
-          &Limits::fadeIn, &Limits::fadeOut, &Limits::longestStep})
+          &Limits::fadeIn, &Limits::fadeOut, &Limits::maxStep})
       refuses(value, bad);
   for (const auto value : {&Limits::forceSlew, &Limits::torqueSlew, &Limits::fadeIn,
-                           &Limits::fadeOut, &Limits::longestStep})
+                           &Limits::fadeOut, &Limits::maxStep})
     refuses(value, 0.0);
 }

@@ -22,12 +22,12 @@ double between(Random& random, double low, double high)
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// A grid that is turned in the patient, with noise for bone, a union on a grid of its own and a
-// mask with some bricks cut.
+// A grid rotated in the patient, with noise for bone, a union on a grid of its own and a mask with
+// some bricks cut.
 struct Mixed
 {
   std::shared_ptr<volume::IntensityVolume> ct;
-  volume::TissueField::SolidUnion share;
+  volume::TissueField::SolidUnion occupancy;
   std::shared_ptr<volume::CutMask> mask;
   std::shared_ptr<volume::PublishedMask> published;
   std::shared_ptr<volume::TissueField> tissue;
@@ -48,16 +48,16 @@ Mixed mixed(Random& random)
   scene.ct = std::make_shared<volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
   const core::GridGeometry own({20, 22, 18}, {0.5, 0.35, 0.4}, grid.center());
-  auto share = std::make_shared<volume::Volume<float>>(own);
-  // Nothing on its border, as label fields have a margin.
-  std::fill_n(share->data(), share->size(), 0.0F);
+  auto occupancy = std::make_shared<volume::Volume<float>>(own);
+  // Zero on its border, as label fields have a margin.
+  std::fill_n(occupancy->data(), occupancy->size(), 0.0F);
   for (int k = 1; k < own.dims()[2] - 1; ++k)
     for (int j = 1; j < own.dims()[1] - 1; ++j)
       for (int i = 1; i < own.dims()[0] - 1; ++i)
-        share->at(i, j, k) = static_cast<float>(between(random, 0.0, 1.0));
-  scene.share = share;
+        occupancy->at(i, j, k) = static_cast<float>(between(random, 0.0, 1.0));
+  scene.occupancy = occupancy;
   scene.mask = std::make_shared<volume::CutMask>(grid);
-  // Some balls are cut out, with the ramp of a cut: 1/2 over a voxel diagonal.
+  // Some balls are removed, with the ramp of a cut: 1/2 over a voxel diagonal.
   std::vector<std::pair<Eigen::Vector3d, double>> balls;
   for (int n = 0; n < 8; ++n)
     balls.emplace_back(grid.patientFromVoxel({between(random, 0, 44), between(random, 0, 37),
@@ -86,7 +86,7 @@ Mixed mixed(Random& random)
   }
   scene.published = std::make_shared<volume::PublishedMask>(*scene.mask);
   scene.tissue = std::make_shared<volume::TissueField>(
-      scene.ct, std::vector<volume::TissueField::SolidUnion>{share}, scene.mask,
+      scene.ct, std::vector<volume::TissueField::SolidUnion>{occupancy}, scene.mask,
       volume::TissueField::Parameters{kIso, 1000.0});
   return scene;
 }
@@ -101,7 +101,7 @@ Eigen::Vector3d randomVoxel(Random& random, const core::GridGeometry& grid, doub
 
 } // namespace
 
-// What is seen is what is touched: the servo's f is the f of eye and drill.
+// The servo's f equals the f of renderer and drill.
 TEST(HapticField, IsTheTissueFieldAwayFromTheGridsBorder)
 {
   Random random(3);

@@ -9,10 +9,10 @@
 namespace petrous::haptics::testing
 {
 
-/// How far a motion and its multipliers are from the conditions of Karush, Kuhn and Tucker, which
-/// for this convex problem are those of the solution. Lengths are M^1/2 a and rows are scaled to
-/// unit length; all is relative to the root of twice the objective at a = 0, plus the largest
-/// bound above 0.
+/// Deviation of a motion and its multipliers from the Karush-Kuhn-Tucker conditions, which for this
+/// convex problem characterise the solution. Lengths are M^1/2 a and rows are scaled to unit
+/// length; all values are relative to the root of twice the objective at a = 0, plus the largest
+/// positive bound.
 struct KktError
 {
   double primal = 0.0;          ///< largest b - J a - c lambda
@@ -23,7 +23,7 @@ struct KktError
   double worst() const { return std::max({primal, dual, stationarity, complementarity}); }
 };
 
-/// `lambda(i)` gives the multiplier of row i. What is not a number counts as infinitely wrong.
+/// `lambda(i)` is the multiplier of row i. NaN counts as an infinite error.
 template <class Lambda>
 KktError kktError(const QpProblem& problem, const QpProblem::Vector6& a, const Lambda& lambda)
 {

@@ -36,7 +36,7 @@ core::TriangleMesh box(const Vector3d& size)
   return mesh;
 }
 
-// An octahedron whose triangles are halved again and again on the sphere.
+// An octahedron, repeatedly subdivided on the sphere.
 core::TriangleMesh ball(double radius, int halvings)
 {
   core::TriangleMesh mesh;
@@ -69,7 +69,7 @@ core::TriangleMesh ball(double radius, int halvings)
   return mesh;
 }
 
-// Farthest of random places on the triangles from the shell: never above the truth.
+// Farthest of random points on the triangles from the shell: never above the true value.
 double farthestSeen(const PointShell& shell, const core::TriangleMesh& mesh, int each)
 {
   std::mt19937 random(3);
@@ -88,7 +88,7 @@ double farthestSeen(const PointShell& shell, const core::TriangleMesh& mesh, int
   return worst;
 }
 
-// Distance of the holes of an even triangular lattice of so many points.
+// Radius of the holes of a regular triangular lattice of that many points.
 double idealSpacing(double area, std::size_t count)
 {
   return std::sqrt(area / static_cast<double>(count) * 2.0 / std::sqrt(27.0));
@@ -123,7 +123,7 @@ TEST(PointShell, KeepsTheCornersAndEdgesOfAMesh)
     EXPECT_EQ(nearest(shell, vertex.cast<double>()), 0.0);
   for (double x = -5.0; x <= 5.0; x += 0.1)
   {
-    double along = 10.0; // to the points that lie on this edge
+    double along = 10.0; // to the points on this edge
     for (const auto& p : shell.points)
       if (std::hypot(p.y() - 3.0, p.z() - 2.0) < 1e-6)
         along = std::min(along, std::abs(p.x() - x));
@@ -176,7 +176,7 @@ TEST(PointShell, TheSameMeshGivesTheSamePoints)
 
 TEST(PointShell, FlatTrianglesOfAMeshAreNoHindrance)
 {
-  // A corner is cut in two by a vertex on an edge: the triangle between has no area.
+  // A vertex on an edge bisects a corner: the triangle in between has no area.
   core::TriangleMesh mesh = box({2.0, 2.0, 2.0});
   const auto extra = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.emplace_back(0.0f, -1.0f, -1.0f); // in the middle of the edge 0-1

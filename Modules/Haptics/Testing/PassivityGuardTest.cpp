@@ -38,8 +38,8 @@ SimulatedDevice::Hand lightHand()
   return hand;
 }
 
-// What happens when a rendered spring, sampled at 1 kHz, is struck: largest extents after the
-// stroke and at the end, mm or rad, and whether the guard ever changed a bit.
+// Response of a rendered spring, sampled at 1 kHz, to an impact: largest excursions after it and at
+// the end, mm or rad, and whether the guard ever changed a bit.
 struct Outcome
 {
   double first = 0.0;
@@ -52,7 +52,7 @@ Outcome strike(PassivityGuard* guard, bool turning, double seconds, Environment 
 {
   SimulatedDevice device([](double) { return Pose(); }, lightHand(), {});
   device.read(0.0);
-  // Short, so that the spring is all but relaxed when the guard begins.
+  // Short, so that the spring is nearly relaxed when the guard starts.
   device.send(turning ? Wrench{{0, 0, 0}, {0, 450.0, 0}} : Wrench{{5.0, 0, 0}, {0, 0, 0}});
   device.read(0.001);
   Outcome outcome;
@@ -82,7 +82,7 @@ auto spring(double stiffness, double angularStiffness = 0.0)
   };
 }
 
-// A wall in x < 0.5 mm behind which the hand wants to be.
+// A wall in x < 0.5 mm; the hand's target is behind it.
 Wrench wall(const Pose& pose)
 {
   const double depth = 0.5 - pose.position.x();
@@ -146,7 +146,7 @@ TEST(PassivityGuard, ADamperPassesToTheLastBit)
   double v = 0.0;
   for (int n = 0; n < 10000; ++n)
   {
-    // The force is against the motion of the step before and the step after: v keeps its sign.
+    // The force opposes the motion of the steps before and after: v keeps its sign.
     v = n % 500 == 0 ? push(random) : 0.99 * v;
     const Wrench wanted{{n % 500 == 0 ? 0.0 : -0.005 * v, 0, 0}, {0, 0, 0}};
     const Wrench out = guard.apply(wanted, along(x), 0.001 * n);
@@ -157,8 +157,8 @@ TEST(PassivityGuard, ADamperPassesToTheLastBit)
 
 TEST(PassivityGuard, DampsAForceThatPushesTheHandAlong)
 {
-  // 1 N along a motion of 0.1 mm a tick gives 0.1 N mm a tick; 0.05 are allowed. At 100 mm/s and
-  // 1 ms a damping of alpha takes 10 alpha, so 0.005 N s/mm pays 0.05 N mm with 0.5 N.
+  // 1 N along a motion of 0.1 mm per tick gives 0.1 N mm per tick; 0.05 are allowed. At 100 mm/s
+  // and 1 ms a damping of alpha dissipates 10 alpha, so 0.005 N s/mm pays 0.05 N mm with 0.5 N.
   PassivityGuard guard;
   const Wrench wanted{{1, 0, 0}, {0, 0, 0}};
   EXPECT_EQ(guard.apply(wanted, along(0.0), 0.000).linear.x(), 1.0);

@@ -28,8 +28,8 @@ Vector3d randomDirection(std::mt19937& random)
   return Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-// How much farther the ball reaches than the burr's points do, in the worst of 10^4 directions
-// that the shaft does not hide: what a plane pressed against it is felt too low by.
+// How much farther the ball reaches than the burr's points, in the worst of 10^4 directions not
+// hidden by the shaft: the error in height when pressed against a plane.
 double worstDeficit(const PointShell& shell, double radius, double shaftRadius)
 {
   std::mt19937 random(5);
@@ -80,7 +80,8 @@ TEST(PointShell, BurrTakesHardlyMorePointsThanAnEvenLattice)
 {
   BurrShape shape;
   const PointShell shell = makeBurrShell(shape, 0.3);
-  // Cells s^2 sqrt(3)/2 with s^2 = 6 R 0.02 voxel on the sphere less what the shaft hides.
+  // Cells s^2 sqrt(3)/2 with s^2 = 6 R 0.02 voxel on the sphere without the part that the shaft
+  // hides.
   const double area = 2.0 * kPi * 2.0 * (2.0 + 1.6);
   const double ideal = area / (6.0 * 2.0 * 0.02 * 0.3 * std::sqrt(0.75));
   EXPECT_GT(static_cast<double>(shell.burrCount), ideal);

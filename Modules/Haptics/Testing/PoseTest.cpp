@@ -108,7 +108,7 @@ TEST(Pose, MotionTurnsInTheOuterFrame)
 {
   const Pose from{{1, 2, 3}, rotationFrom({0.5 * kPi, 0, 0})};
   const Pose to = moved(from, {{0, 0, 4}, {0, 0, 0.5 * kPi}});
-  // The body's y axis pointed along the outer z, and a turn about z leaves it there.
+  // The body's y axis points along the outer z; a rotation about z does not change it.
   EXPECT_LE((to.rotation * Vector3d(0, 1, 0) - Vector3d(0, 0, 1)).norm(), 1e-15);
   EXPECT_LE((to.rotation * Vector3d(1, 0, 0) - Vector3d(0, 1, 0)).norm(), 1e-15);
   EXPECT_EQ(to.position, Vector3d(1, 2, 7));

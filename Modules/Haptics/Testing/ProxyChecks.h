@@ -6,8 +6,8 @@
 #include "CutBall.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 
-// What the tests of the proxy share. Truth of "inside" is volume::TissueField, the field of eye and
-// drill, and not the servo's own.
+// Shared by the tests of proxies. Ground truth of "inside" is volume::TissueField, the field of
+// renderer and drill, not the servo's own.
 namespace petrous::haptics::testing
 {
 
@@ -45,7 +45,7 @@ inline PointShell shortBurr(double radius, double reach, double h, std::size_t b
   return makeBurrShell(shape, h, budget);
 }
 
-/// A hand that moves as it likes within a ball, at up to 1 m/s and 10 rad/s at 1 kHz.
+/// Random motion within a ball, at up to 1 m/s and 10 rad/s at 1 kHz.
 class RandomHand
 {
 public:
@@ -85,8 +85,8 @@ private:
   Pose m_goal;
   double m_within; // mm
   long m_ticks = 0;
-  Eigen::Vector3d m_velocity{0.0, 0.0, 0.0}; // mm a tick
-  Eigen::Vector3d m_turning{0.0, 0.0, 0.0};  // rad a tick
+  Eigen::Vector3d m_velocity{0.0, 0.0, 0.0}; // mm per tick
+  Eigen::Vector3d m_turning{0.0, 0.0, 0.0};  // rad per tick
 };
 
 } // namespace petrous::haptics::testing

@@ -55,7 +55,8 @@ TEST(ProxyQp, IsContactQpWithoutSprings)
     EXPECT_NEAR(both.lambda(n), plain.lambda(n), 1e-9);
 }
 
-// One spring k against the coupling K, pressed by D: F = K k / (K + k) D, by one row as by many.
+// One spring k against the coupling K, compressed by D: F = K k / (K + k) D, for any number of
+// rows.
 TEST(ProxyQp, CountsASpringOnceHoweverManyRowsItHas)
 {
   const double k = 0.5;
@@ -74,7 +75,7 @@ TEST(ProxyQp, CountsASpringOnceHoweverManyRowsItHas)
   }
 }
 
-// The solution is a minimum of what it says it minimises: no motion nearby does better.
+// The solution minimises the stated objective: no nearby motion does better.
 TEST(ProxyQp, FindsTheLeastEnergyOfHandAndSprings)
 {
   std::mt19937 random(9);
@@ -132,7 +133,7 @@ TEST(ProxyQp, FindsTheLeastEnergyOfHandAndSprings)
         ASSERT_GE(energy(other), least - 1e-9);
       }
     }
-    // The rows' forces are the springs' and balance the coupling.
+    // The rows' forces equal the springs' and balance the coupling.
     Vector6 sum = -kCoupling.cwiseProduct(found - wanted);
     for (std::size_t n = 0; n < walls.size(); ++n)
       sum += qp.lambda(n) * walls[n].row;
@@ -154,7 +155,7 @@ TEST(ProxyQp, FindsTheLeastEnergyOfHandAndSprings)
 TEST(ProxyQp, TakesNoMoreSpringsThanItHas)
 {
   ProxyQp qp(8, kCoupling, true);
-  EXPECT_TRUE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMostSprings - 1, 1.0));
-  EXPECT_FALSE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMostSprings, 1.0));
+  EXPECT_TRUE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMaxSprings - 1, 1.0));
+  EXPECT_FALSE(qp.addSoft(six(0, 0, 1, 0, 0, 0), 0.1, kMaxSprings, 1.0));
   EXPECT_THROW(ProxyQp(0, kCoupling, true), core::InvalidParameter);
 }

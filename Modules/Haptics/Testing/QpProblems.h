@@ -12,7 +12,7 @@
 namespace petrous::haptics::testing
 {
 
-/// One problem of ContactQp, with its names.
+/// One problem of ContactQp.
 struct QpProblem
 {
   using Vector6 = ContactQp::Vector6;
@@ -29,28 +29,28 @@ struct QpProblem
   void addContact(const Eigen::Vector3d& n, const Eigen::Vector3d& r, double gap,
                   double compliance = 0.0);
 
-  /// Puts the rows in place of those that `qp` had.
+  /// Replaces the rows of `qp`.
   void fill(ContactQp& qp) const;
 };
 
-/// With the problem's rows, and room for one more.
+/// Contains the problem's rows, and room for one more.
 ContactQp solverOf(const QpProblem& problem);
 
 enum class QpFamily
 {
   Random,     ///< contacts anywhere
   BurrPatch,  ///< a burr on bone: normals on a cap, small gaps
-  Duplicates, ///< copies of a few contacts, moved by 1e-12 to 1e-3
+  Duplicates, ///< copies of a few contacts, displaced by 1e-12 to 1e-3
   Coplanar,   ///< a flat tool on a plane: rank 3
   Wedge,      ///< between opposing walls, parallel or 1e-3 to 0.1 rad from it
   Hole,       ///< a ball that fills a spherical hole
-  Identical,  ///< one contact again and again
-  Lattice,    ///< rows of small whole numbers: ties, exact dependence, rows of zeros
-  Violated,   ///< a = 0 does not fulfil the rows, another motion does
+  Identical,  ///< the same contact repeated
+  Lattice,    ///< rows of small integers: ties, exact dependence, zero rows
+  Violated,   ///< a = 0 violates the rows, another motion satisfies them
   Soft,       ///< contacts anywhere, half of them compliant, some inside
   SoftPatch,  ///< a burr sunk into soft tissue over bone
   Slit,       ///< between opposing walls 1e-9 to 1e-3 rad from parallel
-  Dependent   ///< rows within 1e-14 to 1e-2 of fewer dimensions
+  Dependent   ///< rows within 1e-14 to 1e-2 of a lower-dimensional subspace
 };
 
 constexpr std::array<QpFamily, 13> kQpFamilies{
@@ -61,14 +61,13 @@ constexpr std::array<QpFamily, 13> kQpFamilies{
 
 std::string nameOf(QpFamily family);
 
-/// Families with rows nearer than 1e-5 to dependence, which ContactQp keeps to 1e-7.
+/// Families with rows nearer than 1e-5 to linear dependence, which ContactQp satisfies to 1e-7.
 inline bool isNearlyDependent(QpFamily family)
 {
   return family == QpFamily::Slit || family == QpFamily::Dependent;
 }
 
-/// Problems that have a solution; in all families but Violated it is known that a = 0 fulfils the
-/// rigid rows.
+/// Feasible problems; in all families but Violated a = 0 satisfies the rigid rows.
 class QpProblemSource
 {
 public:
@@ -82,7 +81,7 @@ public:
   QpProblem make(QpFamily family, int count, double spread = 1.0);
 
   double uniform(double low, double high);
-  double power(double low, double high); ///< 10^x with x uniform
+  double power(double low, double high); ///< 10^x, x uniform
   int whole(int low, int high);
   Eigen::Vector3d direction();
 

@@ -10,7 +10,7 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/PointShell.h"
 
-// What the tests of burrs and of meshes share.
+// Shared by the tests of burrs and meshes.
 namespace petrous::haptics::checks
 {
 
@@ -37,7 +37,7 @@ inline void expectConsistent(const PointShell& shell, std::size_t budget)
   EXPECT_DOUBLE_EQ(shell.reach, reach);
 }
 
-/// The message of the InvalidParameter that `call` throws; empty where it throws none.
+/// The message of the InvalidParameter thrown by `call`; empty if none is thrown.
 template <typename Call>
 std::string refusal(Call call)
 {

@@ -35,7 +35,7 @@ struct Sweeping
   const volume::MaskState* state;
 };
 
-// Bone with caves, all of its surfaces curved, thicknesses from nothing to some voxels.
+// Bone with caves, all of its surfaces curved, of thicknesses from zero to several voxels.
 SignedDistance caves()
 {
   return [](const Vector3d& p)
@@ -61,7 +61,7 @@ TEST(ShellSweep, StopsWherePlaneTouchesPoint)
     ASSERT_TRUE(hit.any);
     EXPECT_EQ(hit.point, 0U);
     EXPECT_LT((hit.direction + normal).norm(), 1e-9);
-    // Bisection to 2^-10 of a chord, and the plane within the scan's rounding.
+    // Bisection to 2^-10 of a chord, and the plane to the scan's rounding.
     EXPECT_NEAR(hit.free * way, start, 0.01 * kVoxel);
     EXPECT_NEAR(normal.dot(one.sweep.pose().position), start - hit.free * way, 1e-9);
     EXPECT_LE(scene.tissue->value(one.sweep.pose().position), 0.0);
@@ -86,14 +86,14 @@ TEST(ShellSweep, GoesNoFartherThanItsChordsReach)
   const Scene scene = sceneOf(scanOf(plane(Vector3d::UnitZ()), kVoxel, 6.0));
   Sweeping one(scene, pointShell());
   one.sweep.moveTo(poseAt({0.0, 0.0, 3.0}));
-  const double reach = ShellSweep::kMostSteps * 0.5 * kVoxel;
+  const double reach = ShellSweep::kMaxSteps * 0.5 * kVoxel;
   const ShellSweep::Hit hit = one.advance({Vector3d(0.0, 0.0, 4.0 * reach), Vector3d::Zero()});
   EXPECT_FALSE(hit.any);
   EXPECT_NEAR(hit.free, 0.25, 1e-12);
   EXPECT_NEAR(one.sweep.pose().position.z(), 3.0 + reach, 1e-9);
 }
 
-// A wall of a single layer of voxels, at every phase of the chords and for every chord allowed.
+// A wall of a single layer of voxels, at every phase of the chords and for every allowed chord.
 TEST(ShellSweep, MeetsAWallThinnerThanItsChord)
 {
   const double thickness = 0.6 * kVoxel;
@@ -116,7 +116,7 @@ TEST(ShellSweep, MeetsAWallByRotationAlone)
   const double arm = 5.0;
   PointShell shell = pointShell();
   shell.points = {Vector3d(arm, 0.0, 0.0)};
-  // A sheet across the point's way, 30 degrees on.
+  // A sheet across the point's path, after 30 degrees.
   const Vector3d along(std::cos(M_PI / 6.0), std::sin(M_PI / 6.0), 0.0);
   const Vector3d across(-along.y(), along.x(), 0.0);
   const Scene scene = sceneOf(scanOf(plate(across, 1.2 * kVoxel), kVoxel, 6.5));
@@ -128,8 +128,8 @@ TEST(ShellSweep, MeetsAWallByRotationAlone)
   EXPECT_NEAR(angle, M_PI / 6.0 - std::asin(0.6 * kVoxel / arm), 0.1 * kVoxel / arm);
 }
 
-// The way that was made is looked at a hundred times as finely: where it was free, it was free but
-// for grazes shorter than h/16, and where it stopped there is tissue.
+// The path made is resampled a hundred times as finely: where it was free, it is free except for
+// grazes shorter than h/16, and where it stopped there is tissue.
 TEST(ShellSweep, AgreesWithAFineLookAtItsWay)
 {
   const Scene scene = sceneOf(scanOf(caves(), kVoxel, 6.0));
@@ -149,10 +149,10 @@ TEST(ShellSweep, AgreesWithAFineLookAtItsWay)
     const Motion motion{1.0 * draw().normalized(), 0.5 * draw().normalized()};
     const ShellSweep::Hit hit = one.advance(motion);
     ASSERT_LE(deepest(*scene.tissue, shell, one.sweep.pose()), 0.0);
-    const double way = longestWay(motion, shell.reach);
-    // A graze of h/16 reaches as deep as half of it times the slope of the field (0.4 by the
-    // three sines' steepest, 400 HU a mm over 1000 HU of scale), and the path's arc is off its
-    // chord by chord^2 / (8 arm).
+    const double way = maxDisplacement(motion, shell.reach);
+    // A graze of h/16 reaches a depth of half of it times the slope of the field (0.4 by the
+    // maximum of the three sines, 400 HU per mm over a scale of 1000 HU), and the path's arc
+    // deviates from its chord by chord^2 / (8 arm).
     const double allowed = 1.6 * 0.4 * (kVoxel / 32.0 + 0.25 * kVoxel * kVoxel / 8.0 / 0.6);
     const int looks = static_cast<int>(hit.free * way / (0.02 * kVoxel));
     for (int look = 0; look <= looks; ++look)
@@ -165,15 +165,15 @@ TEST(ShellSweep, AgreesWithAFineLookAtItsWay)
       continue;
     }
     ++hits;
-    // A little further the point that stopped it is in tissue. Where the chord was free and the
-    // arc is not, a tenth of the way is given back.
+    // A little further the point that stopped it is in tissue. Where the chord was free and the arc
+    // is not, a tenth of the motion is given back.
     bool entered = false;
     const int most = 40 + static_cast<int>(0.1 * hit.free * way / (0.01 * kVoxel));
     for (int look = 1; look <= most && !entered; ++look)
     {
       const Pose further = moved(start, motion, hit.free + look * 0.01 * kVoxel / way);
       if (hit.point ==
-          ShellSweep::kNoPoint) // a place of the tissue's surface that went into the tool
+          ShellSweep::kNoPoint) // a point of the tissue's surface that entered the tool
       {
         const Vector3d p = further.rotation.conjugate() * (hit.place - further.position);
         const bool inShaft = p.z() > 0.0 && p.z() < shell.solid.shaftEnd &&
@@ -200,7 +200,7 @@ TEST(ShellSweep, FindsEveryPointThatIsNearTissue)
   one.sweep.moveTo({});
   for (int n = 0; n < 300; ++n)
   {
-    // On from where it is: what was far and is remembered as such may be near now.
+    // Continue from here: points remembered as far may be near now.
     const Motion motion{0.2 * draw(), 0.1 * draw()};
     one.advance(motion);
     const double distance = 0.3 * kVoxel;

@@ -30,7 +30,7 @@ Pose alongX(double time)
   return {{20.0 * time, 0, 0}, Eigen::Quaterniond::Identity()};
 }
 
-// x(t) of an oscillator at rest at 0 on which a constant force acts from t = 0 on.
+// x(t) of an oscillator at rest at 0, with a constant force acting from t = 0 on.
 double stepResponse(double force, double mass, double stiffness, double damping, double time)
 {
   const double rate = std::sqrt(stiffness / mass);
@@ -41,7 +41,7 @@ double stepResponse(double force, double mass, double stiffness, double damping,
                     (std::cos(swing * time) + decay / swing * std::sin(swing * time)));
 }
 
-// A device that reads 1000 times a second from 0 on.
+// A device read at 1 kHz from t = 0 on.
 struct Handled
 {
   explicit Handled(SimulatedDevice::Target target, const Hand& hand = {}, const Faults& faults = {})
@@ -136,7 +136,7 @@ TEST(SimulatedDevice, FollowsASteadyHandWithoutLag)
 
 TEST(SimulatedDevice, TremorHasItsAmplitudeInItsBand)
 {
-  Hand stiff; // so that the handle is where the hand wants it
+  Hand stiff; // so that the handle is at the hand's target
   stiff.mass = 0.01;
   stiff.stiffness = 100.0;
   stiff.damping = 0.01;
@@ -154,7 +154,7 @@ TEST(SimulatedDevice, TremorHasItsAmplitudeInItsBand)
     for (const auto& p : seen)
       power += p[axis] * p[axis] / count;
     EXPECT_NEAR(std::sqrt(power), 0.08, 0.004);
-    // Fourier sums under a Hann window, in steps of its resolution.
+    // Fourier sums with a Hann window, in steps of its resolution.
     double inside = 0.0;
     double outside = 0.0;
     for (double hertz = 1.0; hertz < 30.0; hertz += 0.1)

@@ -1,5 +1,5 @@
-#include "petrous/Haptics/CentreProxy.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
+#include "petrous/Haptics/PointProxy.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-constexpr double kCreep = 0.02; // mm a tick that a tool may go beyond twice the hand's motion
+constexpr double kCreep = 0.02; // mm per tick that a tool may move beyond twice the device's motion
 
 ProxyParameters coupling(double stiffness)
 {
@@ -31,7 +31,7 @@ const ProxyTick& settle(ConstrainedProxy& proxy, const Pose& goal, int ticks = 2
   return proxy.step(goal);
 }
 
-// A rod of points, 2 `half` long, along x.
+// A rod of points, length 2 `half`, along x.
 PointShell rod(double half, int count)
 {
   PointShell shell;
@@ -46,7 +46,7 @@ PointShell rod(double half, int count)
 } // namespace
 
 // One contact, D the goal's depth, d the tool's: the coupling pulls with K (D - d) and the tissue
-// pushes back with k d. At rest both are F = K k / (K + k) D.
+// pushes back with k d. At rest both equal F = K k / (K + k) D.
 TEST(SoftContacts, IsTwoSpringsInARow)
 {
   const double radius = 4.0;
@@ -67,7 +67,7 @@ TEST(SoftContacts, IsTwoSpringsInARow)
         EXPECT_EQ(tick.status, ProxyStatus::Contact);
         ASSERT_EQ(tick.contactCount, 1U);
         EXPECT_TRUE(tick.contacts[0].soft);
-        // 1 %, and what 0.02 voxel of the surface's height make.
+        // 1 %, plus the effect of 0.02 voxel in the surface's height.
         const double allowed = (0.01 + 0.02 * kSoftVoxel / depth) * force;
         EXPECT_NEAR(tick.contacts[0].thrust, force, allowed);
         EXPECT_LT((tick.wrench.linear - force * out).norm(), 3.0 * allowed);
@@ -111,14 +111,14 @@ TEST(SoftContacts, FeelsABurrOnABallAlongTheirCentres)
       continue;
     ASSERT_EQ(tick.contactCount, 1U);
     ASSERT_NEAR(tick.wrench.linear.norm(), 0.2, 0.006);
-    // The tool is behind the hand, but for that its force is radial.
+    // The tool lags behind the goal; apart from that its force is radial.
     ASSERT_LT((tick.wrench.linear.normalized() - tick.pose.position.normalized()).norm(), 0.03);
     ASSERT_LT(tick.wrench.angular.norm(), 0.01);
     ASSERT_LT(sumError(tick), 1e-9);
   }
 }
 
-// A rod that lies flat rests flat: its points share one spring, and its ends share the force.
+// A rod lying flat rests flat: its points share one spring, and its ends share the force.
 TEST(SoftContacts, LetsARodLieFlat)
 {
   const Vector3d out = Vector3d::UnitZ();
@@ -136,7 +136,7 @@ TEST(SoftContacts, LetsARodLieFlat)
       ASSERT_LT(tick.wrench.angular.norm(), 0.02);
       ASSERT_LT(tick.pose.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.002);
     }
-    // And a rod that the hand tilts presses with its lower end alone.
+    // A tilted rod presses with its lower end only.
     const ProxyTick& tick = settle(
         proxy,
         poseAt({0.0, 0.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(0.2, -Vector3d::UnitY()))),
@@ -150,7 +150,7 @@ TEST(SoftContacts, ComesInWithoutAJump)
 {
   const Vector3d out = Vector3d(0.1, 0.2, 0.9).normalized();
   const Scene scene = softScene({{plane(out), 0.5}});
-  for (const double speed : {0.01, 0.1, 1.0}) // mm a tick
+  for (const double speed : {0.01, 0.1, 1.0}) // mm per tick
   {
     SCOPED_TRACE(speed);
     ConstrainedProxy proxy(scene.field, ballShell(1.5, 400));
@@ -186,7 +186,7 @@ TEST(SoftContacts, RisesUpToTheMiddle)
   }
 }
 
-// Two structures side by side are two springs: on the seam a burr presses both.
+// Two adjacent structures are two springs: on the seam a burr presses both.
 TEST(SoftContacts, SlidesAcrossTheSeamOfTwoStructures)
 {
   const auto half = [](double side)
@@ -239,13 +239,13 @@ TEST(SoftContacts, IsStoppedByTheBoneBehindIt)
   }
 }
 
-// Rigid structures inside and beside soft ones stay what they are.
+// Rigid structures inside and beside soft ones are unaffected.
 TEST(SoftContacts, LeavesARigidStructureInsideItRigid)
 {
   const auto ct = scanOf(air, kSoftVoxel, 6.0);
-  const auto stone = shareOf(ball(1.0), ct->geometry());
+  const auto stone = occupancyOf(ball(1.0), ct->geometry());
   std::vector<SoftStructure> soft{
-      {volume::makeDistanceMap(*shareOf(ball(3.0), ct->geometry()), ct->geometry()), 0.1}};
+      {volume::makeDistanceMap(*occupancyOf(ball(3.0), ct->geometry()), ct->geometry()), 0.1}};
   const Scene scene = sceneOf(ct, {stone}, soft);
   ConstrainedProxy proxy(scene.field, pointShell());
   proxy.place(poseAt({0.0, 0.0, 4.0}));
@@ -287,7 +287,7 @@ TEST(SoftContacts, LetsAToolThroughAThinLayerWithoutAKick)
     }
 }
 
-// The hand presses, slides and lets go, in many ways: what it gets back is no more than it gave.
+// The hand presses, slides and releases in many ways: it never gets back more than it put in.
 TEST(SoftContacts, GivesNoEnergyOverClosedCycles)
 {
   const Scene scene = softScene(
@@ -311,7 +311,7 @@ TEST(SoftContacts, GivesNoEnergyOverClosedCycles)
       proxy.place(poseAt(goal(0)));
       Vector3d before = Vector3d::Zero();
       double given = 0.0; // mJ, by the hand
-      // The second round begins and ends in the same state.
+      // The second cycle begins and ends in the same state.
       for (int t = 1; t <= 4000; ++t)
       {
         const Vector3d force = proxy.step(poseAt(goal(t))).wrench.linear;
@@ -357,7 +357,7 @@ TEST(SoftContacts, PassesWhatWasCutAwayWithoutForce)
   EXPECT_LT((tick.pose.position - goal.position).norm(), 2e-3);
 }
 
-// Where a burr has been, tissue begins at what it left.
+// After a cut, tissue begins at the cut surface.
 TEST(SoftContacts, BeginsAtTheSurfaceOfACut)
 {
   Scene scene = softScene({{plane(Vector3d::UnitZ(), 3.0), 0.5}});
@@ -383,8 +383,8 @@ TEST(SoftContacts, BeginsAtTheSurfaceOfACut)
   EXPECT_GT(before, 1.0 / 3.0);
 }
 
-// Whatever the hand does: no step into bone, a force that is the coupling's, and one that changes
-// no faster than hand and tool move.
+// For any motion of the device: no step into bone, a force equal to the coupling's, and one that
+// changes no faster than device and tool move.
 TEST(SoftContacts, AreSteadyUnderARandomHand)
 {
   const double turnLever = std::sqrt(20.0); // mm, of the default coupling
@@ -427,8 +427,8 @@ TEST(SoftContacts, AreSteadyUnderARandomHand)
   }
 }
 
-// The three-degrees-of-freedom burr meets them as the six-degrees-of-freedom ball does.
-TEST(SoftContacts, HoldACentreProxyAsABall)
+// The 3-DOF burr interacts with them as the 6-DOF ball does.
+TEST(SoftContacts, HoldAPointProxyAsABall)
 {
   const double radius = 1.5;
   const std::vector<Scene> scenes{
@@ -438,7 +438,7 @@ TEST(SoftContacts, HoldACentreProxyAsABall)
   {
     SCOPED_TRACE(n);
     ConstrainedProxy six(scenes[n].field, ballShell(radius, 800));
-    CentreProxy three(scenes[n].field, {radius, 1000, 0.0});
+    PointProxy three(scenes[n].field, {radius, 1000, 0.0});
     six.place(poseAt({0.3, 0.2, 4.5}));
     three.place(poseAt({0.3, 0.2, 4.5}));
     double most = 0.0;
@@ -461,11 +461,11 @@ TEST(SoftContacts, HoldACentreProxyAsABall)
   }
 }
 
-TEST(SoftContacts, LetACentreProxyThroughAThinLayerWithoutAKick)
+TEST(SoftContacts, LetAPointProxyThroughAThinLayerWithoutAKick)
 {
   const double half = 0.6;
   const Scene scene = softScene({{[&](const Vector3d& p) { return half - std::abs(p.z()); }, 3.0}});
-  CentreProxy proxy(scene.field, {1.0, 1000, 1.0});
+  PointProxy proxy(scene.field, {1.0, 1000, 1.0});
   proxy.place(poseAt({0.0, 0.0, 3.0}));
   double before = 0.0;
   double most = 0.0;
@@ -484,7 +484,7 @@ TEST(SoftContacts, LetACentreProxyThroughAThinLayerWithoutAKick)
 TEST(SoftContacts, RefusesAStiffnessOutOfItsDomain)
 {
   const auto ct = scanOf(air, 1.0, 5.0);
-  const auto map = volume::makeDistanceMap(*shareOf(ball(2.0), ct->geometry()), ct->geometry());
+  const auto map = volume::makeDistanceMap(*occupancyOf(ball(2.0), ct->geometry()), ct->geometry());
   EXPECT_NO_THROW(sceneOf(ct, {}, {{map, 1.0}}));
   EXPECT_THROW(sceneOf(ct, {}, {{map, 0.0}}), core::InvalidParameter);
   EXPECT_THROW(sceneOf(ct, {}, {{map, std::nan("")}}), core::InvalidParameter);

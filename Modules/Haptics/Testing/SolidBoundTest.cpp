@@ -25,24 +25,24 @@ Scene cellularBone(double h)
                         [](const Vector3d& p) { return std::min(cells(p), -p.z()); }));
 }
 
-// What a tick may cost: its own bound, the search's, and of the last stretch every point and every
-// sample that the tool may meet a few times.
+// Maximum cost of a tick: its own bound, the search's, and, for the last stretch, every point and
+// every sample that the tool may meet a few times.
 std::size_t bound(const PointShell& shell)
 {
-  return static_cast<std::size_t>(ProxyParameters().samples) + SurfaceSamples::kMostWork +
-         2 * shell.points.size() + SurfaceSamples::kMostSamples / SurfaceSamples::kUnit;
+  return static_cast<std::size_t>(ProxyParameters().samples) + SurfaceSamples::kMaxWork +
+         2 * shell.points.size() + SurfaceSamples::kMaxSamples / SurfaceSamples::kUnit;
 }
 
 } // namespace
 
-// Drawn along and turned over the bone in which it lies; 1 m/s is a hand that jerks.
+// Moved along and rotated over the bone that it lies on; 1 m/s is a jerk of the hand.
 TEST(SolidBound, HandpieceOnCellularBoneCostsNoMoreAtAnySpeed)
 {
   const BurrShape shape;
   for (const double h : {0.1, 0.3})
   {
     const Scene scene = cellularBone(h);
-    for (const double speed : {0.02, 1.0}) // m/s, mm a tick
+    for (const double speed : {0.02, 1.0}) // m/s, i.e. mm per tick
     {
       SCOPED_TRACE(::testing::Message() << "h " << h << ", " << speed << " m/s");
       const PointShell& shell = sharedShell(shape, h);
@@ -67,17 +67,17 @@ TEST(SolidBound, HandpieceOnCellularBoneCostsNoMoreAtAnySpeed)
         way += (tick.pose.position - before).norm();
         if (t % 200 == 199)
         {
-          EXPECT_LE(deepestBone(scene, shape, 1.2, tick.pose, 3.0), kMost);
+          EXPECT_LE(deepestBone(scene, shape, 1.2, tick.pose, 3.0), kMax);
         }
       }
       EXPECT_LE(most, bound(shell));
-      EXPECT_LE(told, kMost);
+      EXPECT_LE(told, kMax);
       EXPECT_GT(way, 2.0) << "it must go on";
     }
   }
 }
 
-// A tool that is led through the bone from outside, and one that is put into it.
+// A tool led through the bone from outside, and one placed inside it.
 TEST(SolidBound, AToolInTissueCostsNoMore)
 {
   const double h = 0.2;
@@ -97,7 +97,7 @@ TEST(SolidBound, AToolInTissueCostsNoMore)
   EXPECT_LE(most, bound(shell));
 }
 
-// Where the search is not at its end the tool waits, and goes on later.
+// While the search is unfinished the tool waits, and continues later.
 TEST(SolidBound, WaitsForWhatWasNotLookedAt)
 {
   const double h = 0.1;
@@ -110,9 +110,9 @@ TEST(SolidBound, WaitsForWhatWasNotLookedAt)
   for (int t = 0; t < 400; ++t)
   {
     tick = &proxy.step(pose(4.0)); // at once
-    ASSERT_LE(tick->penetration, kMost);
+    ASSERT_LE(tick->penetration, kMax);
   }
-  EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 3.0), kMost);
+  EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 3.0), kMax);
   EXPECT_EQ(tick->status, ProxyStatus::Contact);
   EXPECT_NEAR((tick->pose * Vector3d(0.0, 0.0, 60.0)).z(), 6.0, 0.3);
 }

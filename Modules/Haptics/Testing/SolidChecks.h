@@ -5,14 +5,14 @@
 
 #include "ProxyChecks.h"
 
-// What the tests of tools that are solids share: bone thinner than the points of a shell are apart,
-// and the truth of how deep the tool stands in it.
+// Shared by the tests of solid tools: bone thinner than the spacing of a shell's points, and the
+// true depth of the tool in it.
 namespace petrous::haptics::testing
 {
 
-constexpr double kMost = 0.05; // mm, of bone in the tool
+constexpr double kMax = 0.05; // mm, of bone in the tool
 
-/// How deep a point lies in ball, shaft and handpiece, mm; the shapes as BurrShape says them.
+/// Depth of a point in ball, shaft and handpiece, mm; shapes as in BurrShape.
 inline double depthIn(const BurrShape& shape, double shaftRadius, const Eigen::Vector3d& p)
 {
   const double across = std::hypot(p.x(), p.y());
@@ -26,8 +26,8 @@ inline double depthIn(const BurrShape& shape, double shaftRadius, const Eigen::V
   return depth;
 }
 
-/// Truth: the tissue of the interpolated field in the cells of a grid, looked at `perVoxel` times a
-/// voxel.
+/// Ground truth: tissue of the interpolated field in the cells of a grid, sampled `perVoxel` times
+/// per voxel.
 inline double deepestIn(const core::GridGeometry& grid, const Scene& scene, const BurrShape& shape,
                         double shaftRadius, const Pose& pose, double perVoxel)
 {
@@ -36,7 +36,7 @@ inline double deepestIn(const core::GridGeometry& grid, const Scene& scene, cons
   const double step = 1.0 / perVoxel;
   double deepest = 0.0;
   Eigen::Vector3d v;
-  // Voxels that may hold bone first, then their insides.
+  // Voxels that may contain bone first, then their interior.
   for (v.z() = 0.0; v.z() < last.z(); v.z() += 1.0)
     for (v.y() = 0.0; v.y() < last.y(); v.y() += 1.0)
       for (v.x() = 0.0; v.x() < last.x(); v.x() += 1.0)
@@ -94,7 +94,7 @@ inline SignedDistance plateOnEdge(double thickness,
   };
 }
 
-/// Made once for all tests.
+/// Built once for all tests.
 inline const PointShell& sharedShell(const BurrShape& shape, double h)
 {
   static std::map<std::tuple<double, double, double, double, double>, PointShell> shells;
@@ -111,13 +111,13 @@ inline const Eigen::Quaterniond kAlongX =
 struct Dragged
 {
   double deepest = 0.0; // mm, truth
-  double told = 0.0;    // mm, greatest penetration of the ticks
-  double stretch = 0.0; // mm, of the hand from the tool at the end
+  double told = 0.0;    // mm, largest penetration reported
+  double stretch = 0.0; // mm, distance of goal and tool at the end
 };
 
-/// The tool lies along x and is drawn down over the bone by 3 mm in 300 ticks; `at` is the place of
-/// its axis, from the burr's centre, that is above the origin. `truth`: the grid in whose cells the
-/// tissue is looked at.
+/// The tool is parallel to x and lowered onto the bone by 3 mm in 300 ticks; `at` is the position
+/// on its axis, from the burr's centre, that is above the origin. `truth`: the grid in whose cells
+/// tissue is sampled.
 inline Dragged drag(const Scene& scene, const BurrShape& shape, double radius, double at,
                     double perVoxel = 8.0, const core::GridGeometry* truth = nullptr)
 {
@@ -140,7 +140,7 @@ inline Dragged drag(const Scene& scene, const BurrShape& shape, double radius, d
       result.deepest =
           std::max(result.deepest, deepestIn(truth ? *truth : scene.field->geometry(), scene, shape,
                                              shaftRadius, tick.pose, perVoxel));
-    result.stretch = longestWay(motionBetween(tick.pose, pose(start - 0.01 * t)), at);
+    result.stretch = maxDisplacement(motionBetween(tick.pose, pose(start - 0.01 * t)), at);
   }
   return result;
 }

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A needle of that width, up to z = 0.
+// A needle of the given width, up to z = 0.
 SignedDistance spike(double width, const Matrix3d& turn = Matrix3d::Identity())
 {
   return [=](const Vector3d& at)
@@ -38,8 +38,8 @@ TEST(SolidTool, ShaftDoesNotSinkIntoAPlateOnEdge)
         const Scene scene =
             sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), plateOnEdge(thickness)));
         const Dragged result = drag(scene, shape, 1.2, at);
-        EXPECT_LE(result.deepest, kMost);
-        EXPECT_LE(result.told, kMost);
+        EXPECT_LE(result.deepest, kMax);
+        EXPECT_LE(result.told, kMax);
       }
     }
 }
@@ -64,8 +64,8 @@ TEST(SolidTool, ShaftDoesNotSinkIntoObliquePlatesRidgesAndSpikes)
       SCOPED_TRACE(::testing::Message() << name << ", h " << h);
       const Scene scene = sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.2, 0.4, 0.1}), bone));
       const Dragged result = drag(scene, shape, 1.2, 10.2, 6.0);
-      EXPECT_LE(result.deepest, kMost);
-      EXPECT_LE(result.told, kMost);
+      EXPECT_LE(result.deepest, kMax);
+      EXPECT_LE(result.told, kMax);
     }
   }
 }
@@ -81,8 +81,8 @@ TEST(SolidTool, BurrDoesNotTakeASpikeBetweenItsPoints)
       const Scene scene =
           sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), spike(1.5 * h)));
       const Dragged result = drag(scene, shape, 3.5, across, 6.0);
-      EXPECT_LE(result.deepest, kMost);
-      EXPECT_LE(result.told, kMost);
+      EXPECT_LE(result.deepest, kMax);
+      EXPECT_LE(result.told, kMax);
     }
 }
 
@@ -96,8 +96,8 @@ TEST(SolidTool, HandpieceDoesNotSinkIntoAThinPlate)
       const Scene scene =
           sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), plateOnEdge(0.6)));
       const Dragged result = drag(scene, shape, 6.0, at);
-      EXPECT_LE(result.deepest, kMost);
-      EXPECT_LE(result.told, kMost);
+      EXPECT_LE(result.deepest, kMax);
+      EXPECT_LE(result.told, kMax);
     }
 }
 
@@ -117,13 +117,13 @@ TEST(SolidTool, HandpiecesFaceDoesNotSinkOverASpike)
     const ProxyTick* tick = nullptr;
     for (int t = 1; t <= 300; ++t)
       tick = &proxy.step(pose(0.5 - 0.01 * t));
-    EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 8.0), kMost);
-    EXPECT_LE(tick->penetration, kMost);
+    EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 8.0), kMax);
+    EXPECT_LE(tick->penetration, kMax);
   }
 }
 
-// A roof under the shaft, `lever` from the burr's centre. The exact answer is the least energy of
-// the coupling at which the axis is one radius from the ridge.
+// A ridge under the shaft, `lever` from the burr's centre. The exact solution is the minimum energy
+// of the coupling with the axis one radius from the ridge.
 TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
 {
   const double h = 0.3;
@@ -151,7 +151,7 @@ TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
     // Force on the tool `force` along the axis' normal, in equilibrium with the springs.
     double low = 0.0;
     double high = 2.0;
-    double angle = 0.0; // of the tool's far end up
+    double angle = 0.0; // of the tool's far end, upwards
     for (int n = 0; n < 60; ++n)
     {
       const double force = 0.5 * (low + high);
@@ -174,7 +174,7 @@ TEST(SolidTool, ARidgeUnderTheShaftTurnsTheToolAsItShould)
   }
 }
 
-// What stops the tool pushes it: the wrench of the contacts balances the coupling.
+// Whatever stops the tool is rendered: the wrench of the contacts balances the coupling.
 TEST(SolidTool, WhateverStopsTheToolIsFelt)
 {
   const double h = 0.2;
@@ -209,7 +209,7 @@ TEST(SolidTool, WhateverStopsTheToolIsFelt)
     const Motion stretch = motionBetween(tick->pose, pose(0.0));
     EXPECT_GT(stretch.linear.norm(), 0.05) << "the bone must hold it";
     EXPECT_LT((tick->wrench.linear + stretch.linear).norm(), 0.05 * stretch.linear.norm() + 0.02);
-    EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 4.0), kMost);
-    EXPECT_LE(tick->penetration, kMost);
+    EXPECT_LE(deepestBone(scene, shape, 1.2, tick->pose, 4.0), kMax);
+    EXPECT_LE(tick->penetration, kMax);
   }
 }

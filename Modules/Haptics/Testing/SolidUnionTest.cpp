@@ -14,20 +14,20 @@ namespace
 
 using Solid = volume::TissueField::SolidUnion;
 
-// A smoothed union as makeSmoothedUnion has it: 1/2 + d / (2 sqrt(3)), d in its voxels.
+// A smoothed union as from makeSmoothedUnion: 1/2 + d / (2 sqrt(3)), d in its voxels.
 Solid unionOn(const core::GridGeometry& grid, const SignedDistance& structure)
 {
-  auto share = std::make_shared<volume::Volume<float>>(grid);
+  auto occupancy = std::make_shared<volume::Volume<float>>(grid);
   const core::Index3& n = grid.dims();
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
       {
         const double d = structure(grid.patientFromVoxel({double(i), double(j), double(k)}));
-        share->at(i, j, k) = static_cast<float>(
+        occupancy->at(i, j, k) = static_cast<float>(
             std::clamp(0.5 + d / (2.0 * std::sqrt(3.0) * grid.minSpacing()), 0.0, 1.0));
       }
-  return share;
+  return occupancy;
 }
 
 double air(const Vector3d&)
@@ -43,7 +43,7 @@ core::GridGeometry turnedBox(const Vector3d& half, double h, const Matrix3d& tur
 
 } // namespace
 
-// What lies between the voxels of the CT is felt all the same.
+// Features between the voxels of the CT are felt as well.
 TEST(SolidUnion, ShaftDoesNotSinkIntoAThinStructureOnAFinerGrid)
 {
   const double h = 0.4;
@@ -65,13 +65,13 @@ TEST(SolidUnion, ShaftDoesNotSinkIntoAThinStructureOnAFinerGrid)
       const core::GridGeometry grid = turnedBox({1.5, 1.5, 2.0}, fine, turn);
       const Scene scene = sceneOf(ct, {unionOn(grid, structure)});
       const Dragged result = drag(scene, shape, 1.2, 10.2, 4.0, &grid);
-      EXPECT_LE(result.deepest, kMost);
-      EXPECT_LE(result.told, kMost);
+      EXPECT_LE(result.deepest, kMax);
+      EXPECT_LE(result.told, kMax);
       EXPECT_GT(result.stretch, 1.0) << "the structure must hold it";
     }
 }
 
-// Coarser than the CT, as a structure drawn on an MR.
+// Coarser than the CT, like a structure segmented on MR.
 TEST(SolidUnion, ShaftDoesNotSinkIntoAStructureOnACoarserGrid)
 {
   const Matrix3d turn =
@@ -80,12 +80,12 @@ TEST(SolidUnion, ShaftDoesNotSinkIntoAStructureOnACoarserGrid)
   const auto ct = scanOn(boxOf({2.0, 2.0, 4.0}, 0.2, {0.31, 0.13, 0.47}), air);
   const Scene scene = sceneOf(ct, {unionOn(grid, plateOnEdge(1.0))});
   const Dragged result = drag(scene, {}, 1.2, 10.2, 4.0);
-  EXPECT_LE(result.deepest, kMost);
-  EXPECT_LE(result.told, kMost);
+  EXPECT_LE(result.deepest, kMax);
+  EXPECT_LE(result.told, kMax);
   EXPECT_GT(result.stretch, 1.0) << "the structure must hold it";
 }
 
-// Truth: volume::TissueField, in which each operand is interpolated by itself.
+// Ground truth: volume::TissueField, in which each operand is interpolated separately.
 TEST(SolidUnion, SamplesLieOnTheSurface)
 {
   const double h = 0.3;
@@ -133,7 +133,7 @@ TEST(SolidUnion, SamplesLieOnTheSurface)
         const Vector3d voxel = box.voxelFromPatient(place);
         const double border =
             0.25 * std::min(voxel.minCoeff(), (last - voxel).minCoeff()); // of the scan
-        // On the face of the scan f jumps to air.
+        // On the face of the scan f is discontinuous.
         const Vector3d nearer = voxel.cwiseMax(1e-4).cwiseMin(last - Vector3d::Constant(1e-4));
         const double f = scene.tissue->value(box.patientFromVoxel(nearer));
         EXPECT_NEAR(std::min(f, border), 0.0, 2e-3) << voxel.transpose();
@@ -144,7 +144,7 @@ TEST(SolidUnion, SamplesLieOnTheSurface)
   }
 }
 
-// The surface that is nearest to the tool decides alone at which height it rests.
+// Only the surface nearest to the tool determines the height at which it rests.
 TEST(SolidUnion, RestsOnBoneAsIfNoStructureLayBelow)
 {
   const double h = 0.3;

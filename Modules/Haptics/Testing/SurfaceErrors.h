@@ -6,21 +6,20 @@
 namespace petrous::haptics::testing
 {
 
-/// How far a proxy's pose and force are from the truth on a surface.
+/// Deviation of a proxy's pose and force from the exact solution on a surface.
 struct SurfaceErrors
 {
-  double bias = 0.0;      ///< mm, mean height above the true place, along the true force
-  double ripple = 0.0;    ///< mm, rms of that height about its mean
-  double distance = 0.0;  ///< mm, rms distance of the ball's centre from its true place
-  double meanAngle = 0.0; ///< degrees between force and true force
+  double bias = 0.0;      ///< mm, mean height above the exact position, along the exact force
+  double ripple = 0.0;    ///< mm, RMS of that height about its mean
+  double distance = 0.0;  ///< mm, RMS distance of the ball's centre from its exact position
+  double meanAngle = 0.0; ///< degrees between force and exact force
   double maxAngle = 0.0;
   double worstSum = 0.0;    ///< |wrench - sum of the contacts' thrusts|, relative
-  double worstTorque = 0.0; ///< N mm about the ball's centre; the truth is 0, without friction
-  int ticks = 0;            ///< that were in contact
+  double worstTorque = 0.0; ///< N mm about the ball's centre; exactly 0 without friction
+  int ticks = 0;            ///< ticks in contact
 };
 
-/// |wrench - sum of (lambda n, lambda r x n)| / |wrench|, or a thousandth (N, N mm) if that is
-/// more.
+/// |wrench - sum of (lambda n, lambda r x n)| / max(|wrench|, 1e-3), N and N mm.
 inline double sumError(const ProxyTick& tick)
 {
   Wrench sum;
@@ -35,9 +34,9 @@ inline double sumError(const ProxyTick& tick)
          std::max(size, 1e-3);
 }
 
-/// Lets a ball down from 1 mm above the surface to a goal 1 mm below, which then wanders for
-/// `ticks`, each `pace` further in s (some millimetres a unit). `step(goal)` does a tick; the first
-/// goal is free.
+/// Lowers a ball from 1 mm above the surface to a goal 1 mm below, which then moves for `ticks`,
+/// each `pace` further in s (some millimetres per unit). `step(goal)` makes a tick; the first goal
+/// is free.
 template <typename Step>
 SurfaceErrors followSurface(const AnalyticSurface& surface, double radius, int ticks, double pace,
                             Step step)

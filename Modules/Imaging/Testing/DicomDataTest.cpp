@@ -1,4 +1,4 @@
-// Real files that nobody here made (label "data"): geometry, verdicts and voxels of whole series.
+// Third-party files (label "data"): geometry, verdicts and voxels of whole series.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -31,7 +31,7 @@ protected:
     m_root = folder;
   }
 
-  /// The part of the data below `name`; skips the test where it was not unpacked.
+  /// The part of the data below `name`; skips the test if it was not unpacked.
   fs::path part(const fs::path& name) const { return m_root / name; }
 
   fs::path m_root;
@@ -89,7 +89,8 @@ bool hasPydicom()
   return !run("/usr/bin/python3 -c 'import pydicom, numpy; print(1)' 2>/dev/null").empty();
 }
 
-/// Sum and CRC of the int16 values, the slices sorted along row x column, by pydicom and numpy.
+/// Sum and CRC of the int16 values, slices sorted along row x column, computed with pydicom and
+/// numpy.
 std::string peerChecksum(const fs::path& folder)
 {
   const test::TemporaryFolder work;
@@ -223,7 +224,7 @@ TEST_F(DicomData, HeadFirstSupineAndProneLieInOnePatientFrame)
     const DicomSeries series = only(folder);
     EXPECT_EQ(series.geometry.verdict, Verdict::Ok) << name;
     EXPECT_EQ(series.geometry.grid->dims(), (core::Index3{256, 256, 35}));
-    // Sagittal: rows to the back, columns down, slices from left to right.
+    // Sagittal: rows point posteriorly, columns inferiorly, slices from left to right.
     Eigen::Matrix3d axes;
     axes << 0, 0, -1, 1, 0, 0, 0, -1, 0;
     EXPECT_TRUE(series.geometry.grid->direction().isApprox(axes, 1e-9));
@@ -255,7 +256,7 @@ TEST_F(DicomData, TwelveBitsAreMaskedAndSignExtended)
 {
   const fs::path folder = part("dicom_odd/dcm_qa_12bit/dcm_qa_12bit/In");
   PETROUS_NEEDS(folder);
-  // Three files of one place: each is read as a stack of its own, beside a copy moved up.
+  // Three files at one position: each is read as a stack of its own, with a shifted copy.
   DicomSeries series = only(folder);
   ASSERT_EQ(series.geometry.slices.size(), 3U);
   const auto rangeOf = [&](const std::string& name)

@@ -115,7 +115,7 @@ TEST(DicomReader, ChoosesTheSmallestTypeThatHoldsTheRealValues)
     return readFolder(folder.path()).voxels().index();
   };
   EXPECT_EQ(typeIndex([](int, TestSlice&) {}), 0U);
-  // 16 bits signed and -1024 could leave int16, but these do not
+  // 16 bits signed and -1024 could exceed int16, but these do not
   EXPECT_EQ(typeIndex([](int, TestSlice& s) { s.intercept = -1024; }), 0U);
   EXPECT_EQ(typeIndex(
                 [](int, TestSlice& s)
@@ -229,7 +229,7 @@ TEST(DicomReader, KeepsTissueThatTheHeaderCallsPadding)
   EXPECT_EQ(notes.size(), 1U);
 }
 
-// The sum of the largest value and the intercept does not fit 32 bits (seen by the sanitizer).
+// The sum of the largest value and the intercept exceeds 32 bits (found by the sanitizer).
 TEST(DicomReader, RescalesTheLargestValuesOf32Bits)
 {
   for (const double slope : {1.0, 3.0})
@@ -259,7 +259,7 @@ TEST(DicomReader, CropsToTheRegionAndReadsOnlyItsSlices)
               [](int k, TestSlice& s) { s.cell = [k](int i, int j) { return ramp(i, j, k); }; });
   const IntensityVolume whole = readFolder(folder.path());
   const ScanResult result = scanDicom(folder.path(), {});
-  fs::remove(folder.path() / "s9.dcm"); // not needed for the region
+  fs::remove(folder.path() / "s9.dcm"); // outside the region
   ReadOptions options;
   options.roi =
       core::PatientBox(Eigen::Vector3d(-9.3, 21.2, 1.1), Eigen::Vector3d(-8.5, 22.3, 2.4));

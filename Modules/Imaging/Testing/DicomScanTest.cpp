@@ -269,11 +269,11 @@ TEST(DicomScan, DoesNotFollowAFolderLinkThatLeadsOut)
   EXPECT_EQ(result.series[1].files, 1U) << "links to files are as good as files";
   ASSERT_EQ(result.notes.size(), 2U);
   EXPECT_NE(result.notes[0].find("'out' leads to a folder elsewhere"), std::string::npos);
-  // A link that is named itself is what the user wants.
+  // A link that is given explicitly is followed.
   EXPECT_EQ(scanDicom(folder.path() / "out", {}).series.front().files, 3U);
 }
 
-// Without its file the volume would be a slice shorter, and nothing else would tell.
+// Without this file the volume would be one slice shorter, with no other indication.
 TEST(DicomScan, NamesALostFirstOrLastSlice)
 {
   for (const int k : {0, 4})
@@ -351,7 +351,7 @@ TEST(DicomScan, ALostSliceSaysNothingOfASeriesInAnotherFolder)
         << series.uid;
 }
 
-/// A user whom access rights bind.
+/// Runs as a user to whom file permissions apply.
 class AsNobody
 {
 public:
@@ -415,7 +415,7 @@ TEST(DicomScan, NeverWaitsForAPipe)
   EXPECT_THROW(scanDicom("/dev/zero", {}), DicomError);
 }
 
-/// The kinds of what is wrong with six slices, each shaped by `change`.
+/// The kinds of findings for six slices, each modified by `change`.
 std::vector<FindingKind> kindsOf(const std::function<void(int, TestSlice&)>& change)
 {
   const TemporaryFolder folder;
@@ -446,7 +446,7 @@ TEST(DicomScan, TellsPatientsOfOneSeriesApart)
   EXPECT_EQ(blocks(0x00100020, "LO", "DOE17", "doe17 "), Kinds());
   EXPECT_EQ(kindsOf([](int k, TestSlice& s) { s.studyUid = k < 4 ? "1.2.3" : "1.2.4"; }),
             Kinds{FindingKind::MixedStudies});
-  // Without a UID, a folder's objects are taken as one series.
+  // Without a UID, the objects of a folder are treated as one series.
   EXPECT_EQ(kindsOf(
                 [](int k, TestSlice& s)
                 {
@@ -473,7 +473,7 @@ TEST(DicomScan, TellsAcquisitionsAndKernelsApart)
         });
   };
   const Kinds mixed{FindingKind::MixedAcquisitions};
-  // Each of the two fills the gaps of the other: the stack is even, and of half the spacing.
+  // Each of the two fills the gaps of the other: the stack is evenly spaced at half the spacing.
   EXPECT_EQ(with(0x00200012, "IS", {"1", "2", "1", "2", "1", "2"}), mixed);
   EXPECT_EQ(with(0x00200012, "IS", {"1", "1", "2", "2", "1", "1"}), mixed);
   EXPECT_EQ(with(0x00200012, "IS", {"1", "1", "1", "2", "2", "2"}), Kinds()) << "steps";

@@ -18,8 +18,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A file of the archives' folder (PETROUS_DATA_ARCHIVES) or of the unpacked one (PETROUS_DATA);
-/// empty where neither holds it.
+/// A file in the archives folder (PETROUS_DATA_ARCHIVES) or in the unpacked one (PETROUS_DATA);
+/// empty if in neither.
 fs::path dataFile(const std::string& name)
 {
   for (const char* variable : {"PETROUS_DATA_ARCHIVES", "PETROUS_DATA"})
@@ -51,15 +51,15 @@ TEST(FilesData, HeadAndNeckAtlasHasItsPlaceAndItsNames)
   const volume::LabelMap map = readLabelFile(path);
   const auto& grid = map.voxels->geometry();
   EXPECT_EQ(grid.dims(), (core::Index3{255, 255, 229}));
-  // By hand from its header: origin (124.0234375, 124.0234375, -159.6028), steps -0.9765625,
-  // -0.9765625, 1.4000244 mm, so voxel (100, 200, 50) lies at
+  // Computed by hand from its header: origin (124.0234375, 124.0234375, -159.6028), steps
+  // -0.9765625, -0.9765625, 1.4000244 mm, so voxel (100, 200, 50) lies at
   EXPECT_NEAR(grid.patientFromVoxel({100.0, 200.0, 50.0})[0], 26.3671875, 1e-9);
   EXPECT_NEAR(grid.patientFromVoxel({100.0, 200.0, 50.0})[1], -71.2890625, 1e-9);
   EXPECT_NEAR(grid.patientFromVoxel({100.0, 200.0, 50.0})[2], -89.6015616, 1e-6);
   ASSERT_NE(find(map, "mandible"), nullptr);
   EXPECT_EQ(find(map, "mandible")->index, 25);
   EXPECT_NEAR(find(map, "mandible")->color[0], 220.0F / 255.0F, 1e-6F);
-  // The right clavicle lies on the patient's right: LPS x below 0 on average.
+  // The right clavicle is on the patient's right: LPS x below 0 on average.
   const volume::Segment* clavicle = find(map, "right_clavicle");
   ASSERT_NE(clavicle, nullptr);
   double x = 0.0;
@@ -86,13 +86,13 @@ void expectTemplate(const fs::path& path, double slope)
   EXPECT_TRUE(grid.patientFromVoxel({10.0, 20.0, 30.0}).isApprox(Eigen::Vector3d(-70, 86, -12)));
   EXPECT_TRUE(
       std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.volume->voxels()));
-  // Every value is a whole number from 0 to 255 times the slope, and both ends occur near.
+  // Every value is an integer from 0 to 255 times the slope, and values near both ends occur.
   const auto range = image.volume->range();
   EXPECT_GE(range.min, 0.0);
   EXPECT_LE(range.max, 255.0 * slope * (1.0 + 1e-6));
   EXPECT_GT(range.max, 100.0 * slope);
 
-  // ITK, another program, has the same voxels in the same place.
+  // ITK, independently, gives the same voxels at the same position.
   ItkReader itk(path, ItkReader::Format::Nifti);
   ASSERT_TRUE(itk.readHeader());
   for (unsigned a = 0; a < 3; ++a)
@@ -143,7 +143,7 @@ TEST(FilesData, EveryNiftiLiesWhereItkPutsIt)
     }
     catch (const FileError& error)
     {
-      // Colour pictures and volumes over time are the only ones that have no place in a scene.
+      // Only colour pictures and time series are not supported in a scene.
       EXPECT_EQ(error.reason, FileError::Reason::Unsupported) << error.what();
       const std::string what = error.what();
       EXPECT_TRUE(entry.path().string().find("rgb") != std::string::npos ||

@@ -107,7 +107,7 @@ TEST(ImageFile, ReadsNiftiAsLps)
 {
   const TestFolder folder;
   TestNifti nifti = shortNifti();
-  // First axis to the left, second to the front, third up; RAS mm.
+  // First axis to the left, second anterior, third up; RAS mm.
   nifti.srow = {-2.0F, 0.0F, 0.0F, 90.0F, 0.0F, 3.0F, 0.0F, -126.0F, 0.0F, 0.0F, 4.0F, -72.0F};
   nifti.pixdim = {1.0F, 2.0F, 3.0F, 4.0F, 1.0F, 1.0F, 1.0F, 1.0F};
   for (const bool packed : {false, true})
@@ -130,7 +130,7 @@ TEST(ImageFile, ReadsTheQformByTheStandard)
   TestNifti nifti = shortNifti();
   nifti.sform = 0;
   nifti.qform = 1;
-  // 90 degrees about z: x goes to y; qfac -1 mirrors the third axis.
+  // 90 degrees about z: x maps to y; qfac -1 mirrors the third axis.
   const float s = std::sqrt(0.5F);
   nifti.quaternion = {0.0F, 0.0F, s};
   nifti.pixdim = {-1.0F, 2.0F, 3.0F, 4.0F, 1.0F, 1.0F, 1.0F, 1.0F};
@@ -190,12 +190,12 @@ TEST(ImageFile, RefusesShearWithTheMillimetresAtStake)
   TestNifti nifti = shortNifti();
   nifti.dims = {3, 101, 101, 11, 1, 1, 1, 1};
   nifti.voxels.assign(std::size_t{2} * 101 * 101 * 11, '\0');
-  nifti.srow[8 + 1] = 0.1F; // z leans along y, 5.7 degrees
+  nifti.srow[8 + 1] = 0.1F; // z sheared along y by 5.7 degrees
   const Refusal refusal =
       refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); });
   expectRefused(refusal, Reason::NoGeometry, "degrees");
   EXPECT_NE(refusal.text.find(" mm"), std::string::npos);
-  nifti.srow[8 + 1] = 5e-4F; // costs less than 0.1 mm: straightened and noted
+  nifti.srow[8 + 1] = 5e-4F; // below 0.1 mm: orthogonalized and noted
   const auto image = readImageFile(putFile(folder / "b.nii", nifti.bytes()));
   EXPECT_TRUE(noted(image, "straightened"));
   const auto& grid = image.volume->geometry();
@@ -281,7 +281,7 @@ TEST(ImageFile, RefusesVoxelsThatAreNotFinite)
                 Reason::Unsupported, "1 voxels that are not finite");
 }
 
-// By hand, from the definition of each frame: a voxel (1, 1, 1) lies at (10.5, 20.25, 32) of the
+// By hand, from the definition of each space: voxel (1, 1, 1) lies at (10.5, 20.25, 32) in the
 // file's own frame.
 TEST(ImageFile, PutsEveryNrrdSpaceWhereItsNameSays)
 {
@@ -304,7 +304,7 @@ TEST(ImageFile, PutsEveryNrrdSpaceWhereItsNameSays)
     EXPECT_TRUE(at.isApprox(place, 1e-12)) << space << ": " << at.transpose();
     EXPECT_EQ(noted(image, "not a patient's"), space[0] == 's' || space[0] == '3') << space;
   }
-  // Left and right would be a guess.
+  // Left and right would be ambiguous.
   for (const char* space : {"3D-left-handed", "left-posterior-inferior", "somewhere"})
     expectRefused(refusalOf(
                       [&]
@@ -319,7 +319,7 @@ TEST(ImageFile, PutsEveryNrrdSpaceWhereItsNameSays)
 TEST(ImageFile, PutsTurnedAxesOfEveryNrrdSpaceWhereTheyPoint)
 {
   const TestFolder folder;
-  // First axis down, second to the back (of LPS), third to the left; voxel (3, 2, 1).
+  // First axis down, second posterior (in LPS), third to the left; voxel (3, 2, 1).
   const char* directions = "(0, 0, -2) (0, 0.5, 0) (0.25, 0, 0)";
   const Eigen::Vector3d inFile(10.0 + 0.25, 20.0 + 1.0, 30.0 - 6.0);
   const std::pair<const char*, Eigen::Vector3d> signs[] = {
@@ -376,7 +376,7 @@ TEST(ImageFile, ReadsNrrdWithTimeSkipsAndText)
       Reason::Unsupported, "gzip");
 }
 
-/// Two gzip members, as pigz and bgzip write.
+/// Two gzip members, as written by pigz and bgzip.
 std::string gzipped(const TestFolder& folder, const std::string& bytes, std::size_t members)
 {
   std::string all;
@@ -386,7 +386,7 @@ std::string gzipped(const TestFolder& folder, const std::string& bytes, std::siz
   return all;
 }
 
-// Flipped bits that leave a valid stream are known by the checksum behind it alone.
+// Flipped bits that leave a valid stream are detected only by the checksum after it.
 TEST(ImageFile, NoticesEveryFlippedBitInGzipVoxels)
 {
   const TestFolder folder;
@@ -418,12 +418,13 @@ TEST(ImageFile, NoticesEveryFlippedBitInGzipVoxels)
       for (std::size_t n = 0; n < kFlips; ++n)
       {
         std::string spoilt = packed;
-        // Behind the ten bytes of the header, of which some mean nothing, to the trailer's end.
+        // From after the ten-byte header, part of which is not significant, to the end of the
+        // trailer.
         const std::size_t at = 10 + n * (packed.size() - 11) / (kFlips - 1);
         spoilt[at] = static_cast<char>(spoilt[at] ^ (1 << n % 8));
         putFile(folder / name, start + spoilt);
         refused += refusalOf([&] { readImageFile(folder / name); }).thrown ? 1 : 0;
-        // A region of interest is no reason to trust the rest.
+        // A region of interest does not skip verification of the rest.
         const bool part = refusalOf([&] { readImageFile(folder / name, first); }).thrown;
         EXPECT_TRUE(part || !isNrrd) << n;
       }
@@ -509,7 +510,7 @@ TEST(ImageFile, ReadsCompressedMetaImageAndChecksItsEnd)
   const auto image = readImageFile(putFile(folder / "a.mha", meta + packed));
   EXPECT_EQ(image.volume->at(3, 2, 1), 23);
   EXPECT_TRUE(image.notes.empty());
-  // The first axis runs along y, the second against x.
+  // The first axis runs along y, the second along -y.
   EXPECT_TRUE(image.volume->geometry()
                   .patientFromVoxel({1.0, 1.0, 0.0})
                   .isApprox(Eigen::Vector3d(-3.0, 3.0, 3.0)));
@@ -551,7 +552,7 @@ TEST(ImageFile, AppliesTheRescaleOfMetaImageAndComparesItsAxes)
     expectRefused(
         refusalOf([&] { read(std::string("ElementToIntensityFunctionSlope = ") + slope + "\n"); }),
         Reason::Unreadable, "slope");
-  // The first axis comes from the front (A), the second from the left (L), the third from below.
+  // The first axis starts anterior (A), the second at the left (L), the third inferior.
   EXPECT_TRUE(read("AnatomicalOrientation = ALI\n").notes.empty());
   EXPECT_TRUE(noted(read("AnatomicalOrientation = RAI\n"), "ALI"));
 }
@@ -688,7 +689,7 @@ TEST(ImageFile, NamesWhatIsWrongWithAPath)
   EXPECT_EQ(refusal.text.find("Doe"), std::string::npos); // no text of the file in a message
 }
 
-// Each would be waited for, or read, for ever.
+// Each of these would block, or be read, forever.
 TEST(ImageFile, RefusesPipesAndDevicesOfEveryFormat)
 {
   const TestFolder folder;
@@ -708,7 +709,7 @@ TEST(ImageFile, RefusesPipesAndDevicesOfEveryFormat)
   header.insert(header.find("endian"), "data file: a.nii\n");
   expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nhdr", header)); }),
                 Reason::NotFound);
-  // A table of names beside the labels is a convenience only.
+  // A name table next to the labels is optional.
   EXPECT_NO_THROW(readLabelFile(
       putFile(folder / "b.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24))))));
 }

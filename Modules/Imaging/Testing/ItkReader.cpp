@@ -53,9 +53,9 @@ std::optional<Component> componentOf(itk::IOComponentEnum type)
   }
 }
 
-// While it lives, streams that are made have a decimal point and no grouping: MetaIO reads by them,
-// and they follow the global std::locale, which no thread has of its own. Where that is so already,
-// nothing happens.
+// During its lifetime, newly created streams have a decimal point and no grouping: MetaIO relies on
+// it, and streams use the global std::locale, which cannot be set per thread. Does nothing if this
+// already holds.
 class PlainStreams
 {
 public:
@@ -63,7 +63,7 @@ public:
   {
     const auto& numbers = std::use_facet<std::numpunct<char>>(m_before);
     m_changed = numbers.decimal_point() != '.' || !numbers.grouping().empty();
-    if (m_changed) // without a name: the C library's locale stays
+    if (m_changed) // unnamed: leaves the C library's locale unchanged
       std::locale::global(std::locale(m_before, new std::numpunct<char>));
   }
   ~PlainStreams()

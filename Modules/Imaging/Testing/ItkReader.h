@@ -13,8 +13,8 @@
 namespace petrous::imaging
 {
 
-/// ITK's reader of one file, to compare with, behind a wall: ITK 5.2 brings an Eigen of its own,
-/// which must not meet ours in one source.
+/// ITK's reader of one file, as reference, isolated in its own source: ITK 5.2 includes its own
+/// Eigen, which must not meet ours in one translation unit.
 class ItkReader
 {
 public:
@@ -30,22 +30,22 @@ public:
   ItkReader(const ItkReader&) = delete;
   ItkReader& operator=(const ItkReader&) = delete;
 
-  /// Must come first; what follows is valid where it returns true.
+  /// Must be called first; the other members are valid if it returns true.
   bool readHeader();
 
-  const std::vector<std::uint64_t>& dims() const noexcept ///< as many as the file counts
+  const std::vector<std::uint64_t>& dims() const noexcept ///< as stored in the file
   {
     return m_dims;
   }
-  std::size_t components() const;             ///< numbers a voxel
-  std::optional<Component> component() const; ///< nothing for a type that is not read
+  std::size_t components() const;             ///< numbers per voxel
+  std::optional<Component> component() const; ///< nullopt for an unsupported type
 
-  /// As ITK gives them, LPS, for axes 0 to 2.
+  /// As returned by ITK, LPS, for axes 0 to 2.
   std::array<double, 3> axis(unsigned index) const;
   double spacing(unsigned index) const;
   double origin(unsigned index) const;
 
-  /// The voxels of the box, further axes 1 long. Only MetaImage reads less than the whole file.
+  /// The voxels of the box, further axes 1 long. Only MetaImage supports reading part of a file.
   bool read(const std::array<int, 3>& lower, const std::array<int, 3>& size, void* memory);
 
 private:

@@ -167,7 +167,7 @@ TEST(LabelFile, ReadsNamesAndColoursOfSlicersSegmentation)
 TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
 {
   const TestFolder folder;
-  // Two layers side by side in each voxel.
+  // Two layers interleaved in each voxel.
   std::vector<std::uint8_t> values(24, 0);
   values[0] = 1;          // layer 0, voxel 0
   values[1] = 1;          // layer 1, voxel 0: overlaps
@@ -194,7 +194,7 @@ TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
   expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
 }
 
-// By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) of the file's own frame.
+// By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) in the file's own frame.
 TEST(LabelFile, LiesWhereEverySpaceSays)
 {
   const TestFolder folder;
@@ -250,7 +250,7 @@ TEST(LabelFile, TakesNamesFromATableBesideIt)
   EXPECT_NE(find(readLabelFile(path), "label 4"), nullptr);
 
   putFile(folder / "OtherThing.ctbl", "4 wrong 1 2 3 255\n");
-  EXPECT_EQ(find(readLabelFile(path), "wrong"), nullptr); // shares no word
+  EXPECT_EQ(find(readLabelFile(path), "wrong"), nullptr); // no common word
   std::filesystem::remove(folder / "OtherThing.ctbl");
 
   putFile(folder / "BrainAtlas-colors.ctbl",
@@ -265,7 +265,7 @@ TEST(LabelFile, TakesNamesFromATableBesideIt)
 
   putFile(folder / "HeadAtlas-labels.label",
           "# ITK-SNAP\n    4  255  128 0   1  1  1  \"the anvil\"\n");
-  EXPECT_NE(find(readLabelFile(path), "the anvil"), nullptr); // its own name goes first
+  EXPECT_NE(find(readLabelFile(path), "the anvil"), nullptr); // its own table wins
 }
 
 TEST(LabelFile, ParsesTablesLineByLine)

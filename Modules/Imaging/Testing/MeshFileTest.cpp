@@ -13,7 +13,7 @@ namespace
 
 using Reason = FileError::Reason;
 
-/// A box from (10, 20, 30), 2 x 3 x 4 mm: volume 24 mm^3, faces outwards.
+/// A box from (10, 20, 30), 2 x 3 x 4 mm: volume 24 mm^3, faces oriented outwards.
 const char* const kBoxObj = "# a box of quadrangles\n"
                             "v 10 20 30\nv 12 20 30\nv 12 23 30\nv 10 23 30\n"
                             "v 10 20 34\nv 12 20 34\nv 12 23 34\nv 10 23 34\n"
@@ -43,7 +43,7 @@ TEST(MeshFile, ReadsObjPolygonsAndEveryFormOfCorner)
   std::string dos(kBoxObj);
   for (std::size_t at = 0; (at = dos.find('\n', at)) != dos.npos; at += 2)
     dos.insert(at, "\r");
-  dos.replace(dos.find("\\\r"), 2, ""); // a joined line of its own kind
+  dos.replace(dos.find("\\\r"), 2, ""); // the continued line is joined
   dos.replace(dos.find("\n -2"), 4, " -2");
   expectBox(readMesh(putFile(folder / "dos.OBJ", dos)));
 }
@@ -100,7 +100,7 @@ TEST(MeshFile, TurnsRasIntoLpsAndNotesIt)
   const auto lps = loadMesh(putFile(folder / "lps.obj", "# 3D Slicer output. SPACE=LPS\n" + body));
   EXPECT_EQ(ras.mesh.vertices[1], Eigen::Vector3f(-4.0F, -2.0F, 3.0F));
   EXPECT_EQ(lps.mesh.vertices[1], Eigen::Vector3f(4.0F, 2.0F, 3.0F));
-  EXPECT_EQ(ras.mesh.triangles, lps.mesh.triangles); // a half turn keeps the outside outside
+  EXPECT_EQ(ras.mesh.triangles, lps.mesh.triangles); // a half turn preserves orientation
   EXPECT_EQ(ras.notes.size(), 1U);
   EXPECT_TRUE(lps.notes.empty());
   const core::TriangleMesh box = boxOf(folder);

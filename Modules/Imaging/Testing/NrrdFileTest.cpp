@@ -46,7 +46,7 @@ void expectRoundTrip(std::optional<double> padding)
   ASSERT_TRUE(std::holds_alternative<std::shared_ptr<const volume::Volume<T>>>(back->voxels()));
   const auto& map = *std::get<std::shared_ptr<const volume::Volume<T>>>(back->voxels());
   EXPECT_EQ(map.geometry().dims(), grid.dims());
-  EXPECT_EQ(map.geometry().spacing(), grid.spacing()); // to the bit
+  EXPECT_EQ(map.geometry().spacing(), grid.spacing()); // bit-exact
   EXPECT_EQ(map.geometry().origin(), grid.origin());
   EXPECT_EQ(map.geometry().direction(), grid.direction());
   EXPECT_EQ(back->padding(), padding);
@@ -115,7 +115,7 @@ TEST(NrrdFile, RefusesHeadersOfOtherWritersAndContradictions)
   {
     std::string bytes = whole;
     bytes.replace(bytes.find(from), from.size(), to);
-    // The padding keeps the voxels where they were.
+    // The padding keeps the voxels at their offset.
     const std::size_t pad = bytes.find("# ", bytes.find("petrous_direction"));
     if (to.size() > from.size())
       bytes.erase(pad + 1, to.size() - from.size());
@@ -164,7 +164,7 @@ TEST(VolumeFile, ItkReadsEveryFormatWhereItLies)
     ASSERT_TRUE(itk.readHeader()) << name;
     for (unsigned a = 0; a < 3; ++a)
     {
-      // NIfTI keeps float32.
+      // NIfTI stores float32.
       EXPECT_NEAR(itk.spacing(a), grid.spacing()[a], 1e-6) << name;
       EXPECT_NEAR(itk.origin(a), grid.origin()[a], 1e-5) << name;
       for (unsigned row = 0; row < 3; ++row)
@@ -220,7 +220,7 @@ TEST(VolumeFile, RefusesOtherNamesAndNamesTheAllowedOnes)
 
 TEST(VolumeFile, SaysThatThereIsNoRoomAndLeavesNothing)
 {
-  // A limit on the size of files stands for a full disk: the write stops half way.
+  // A file size limit simulates a full disk: the write stops half way.
   const TestFolder folder;
   const core::GridGeometry grid({64, 64, 64}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
   const volume::Volume<std::uint16_t> voxels(grid, 7);

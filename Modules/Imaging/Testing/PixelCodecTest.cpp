@@ -1,4 +1,4 @@
-// Compressed pixels, written by GDCM's own encoders from the same uncompressed files.
+// Compressed pixels, written by GDCM's encoders from the same uncompressed files.
 #include <fstream>
 #include <iterator>
 
@@ -34,7 +34,7 @@ std::uint32_t ramp(int i, int j, int k)
   return static_cast<std::uint32_t>(17 * i + 31 * j + 101 * k);
 }
 
-/// Writes `from` again in another transfer syntax.
+/// Writes `from` in another transfer syntax.
 void compress(const fs::path& from, const fs::path& to, gdcm::TransferSyntax::TSType syntax)
 {
   gdcm::ImageReader reader;
@@ -109,7 +109,7 @@ TEST_P(PixelCodec, RefusesACodestreamOfAnotherSize)
   EXPECT_THROW(readFolder(folder.path()), DicomError);
 }
 
-/// What the program and the libraries in it write on the error stream meanwhile.
+/// Output on stderr by the program and its libraries during the action.
 template <class Action>
 std::string saidDuring(const Action& action)
 {
@@ -118,7 +118,7 @@ std::string saidDuring(const Action& action)
   return testing::internal::GetCapturedStderr();
 }
 
-// The libraries' own words may quote the file, and stand between those of this program.
+// The libraries' messages may quote the file, and would mix with those of this program.
 TEST_P(PixelCodec, SaysNothingOfItsOwnAboutSpoiltBytes)
 {
   const TemporaryFolder folder;

@@ -113,7 +113,7 @@ TEST(SeriesGeometry, PlacesEverySliceOfAnObliqueStackWhereItsFileSays)
 TEST(SeriesGeometry, FollowsANormalThatPointsDown)
 {
   Eigen::Matrix3d axes;
-  axes << 1, 0, 0, 0, -1, 0, 0, 0, -1; // rows to the left, columns to the front
+  axes << 1, 0, 0, 0, -1, 0, 0, 0, -1; // rows to the left, columns anterior
   const SeriesGeometry series = assess(stack(5, 2.0, axes));
   ASSERT_EQ(series.verdict, Verdict::Ok);
   EXPECT_GT(series.grid->direction().determinant(), 0.0);
@@ -162,7 +162,7 @@ TEST(SeriesGeometry, RefusesJitterAboveATenthOfAMillimetreInThickSlices)
 
 TEST(SeriesGeometry, StatesTheMillimetresOfAGantryTilt)
 {
-  // Tilt t about the patient's x axis; the table moves along z by 1.25 mm a slice.
+  // Tilt t about the patient's x axis; the table advances 1.25 mm in z per slice.
   const double tilt = 12.0 * M_PI / 180.0;
   Eigen::Matrix3d axes = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()).toRotationMatrix();
   Headers slices = stack(41, 1.0, axes);

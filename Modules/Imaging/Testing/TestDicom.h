@@ -17,7 +17,7 @@
 namespace petrous::imaging::test
 {
 
-/// A folder that is gone after the test.
+/// Temporary folder, removed after the test.
 class TemporaryFolder
 {
 public:
@@ -41,7 +41,8 @@ private:
   std::filesystem::path m_path;
 };
 
-/// One slice, written byte by byte as PS3.10 says: a truth that shares no code with the reader.
+/// One slice, written byte by byte according to PS3.10: a reference that shares no code with the
+/// reader.
 struct TestSlice
 {
   int columns = 8;
@@ -62,9 +63,9 @@ struct TestSlice
   bool bigEndian = false;
   bool marker = true; ///< preamble, DICM and group 2
   bool pixels = true;
-  std::string extra;  ///< elements written as they are behind the first group
-  std::string syntax; ///< names another one than the bytes follow
-  /// The cell of a pixel, unused bits and all.
+  std::string extra;  ///< encoded elements appended after the first group
+  std::string syntax; ///< declares another one than is used
+  /// The cell of a pixel, including unused bits.
   std::function<std::uint32_t(int i, int j)> cell = [](int, int) { return 0U; };
 
   void append(std::string& out, std::uint32_t number, int bytes) const
@@ -157,7 +158,7 @@ struct TestSlice
   }
 };
 
-/// `count` slices 0.5 mm apart; `change` shapes slice k before it is written.
+/// `count` slices 0.5 mm apart; `change` modifies slice k before it is written.
 inline void writeSeries(
     const std::filesystem::path& folder, int count,
     const std::function<void(int k, TestSlice&)>& change = [](int, TestSlice&) {})

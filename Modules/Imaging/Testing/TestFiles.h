@@ -18,7 +18,7 @@
 namespace petrous::imaging
 {
 
-/// A folder that goes away with the test.
+/// Temporary folder, removed after the test.
 class TestFolder
 {
 public:
@@ -78,7 +78,7 @@ std::string bytesOf(const std::vector<T>& values)
   return bytes;
 }
 
-/// The reason and the message of the FileError that `action` throws.
+/// Reason and message of the FileError thrown by `action`.
 struct Refusal
 {
   bool thrown = false;

@@ -21,17 +21,17 @@ namespace
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
-constexpr double kPixels = 4.0; // a millimetre
+constexpr double kPixels = 4.0; // per mm
 
-simulation::TickRecord recordOf(const Vector3d& force, const Vector3d& tool = Vector3d::Zero())
+session::TickRecord recordOf(const Vector3d& force, const Vector3d& tool = Vector3d::Zero())
 {
-  simulation::TickRecord record;
-  record.proxy = simulation::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
-  record.wrench = simulation::WrenchValues::of({force, Vector3d::Zero()});
+  session::TickRecord record;
+  record.proxy = session::PoseValues::of({tool, Eigen::Quaterniond::Identity()});
+  record.wrench = session::WrenchValues::of({force, Vector3d::Zero()});
   return record;
 }
 
-/// Looks down in parallel: right is x, up is y.
+/// Parallel projection from above: right is x, up is y.
 class Scene
 {
 public:
@@ -50,7 +50,7 @@ public:
     display.setBarShown(false);
   }
 
-  Picture drawRecord(const simulation::TickRecord& record)
+  Picture drawRecord(const session::TickRecord& record)
   {
     display.update(record);
     return m_view.render(m_picture);
@@ -68,13 +68,13 @@ private:
   rendering::OffscreenView m_view;
 };
 
-// What stands at so many pixels from the lower left corner.
+// The pixel at an offset from the lower left corner.
 const std::uint8_t* at(const Picture& picture, int x, int y)
 {
   return picture.pixel(x, picture.height - 1 - y);
 }
 
-// How many pixels of the bar's column are filled from its foot.
+// Height of the filled part of the bar, pixels.
 int filled(const Picture& picture)
 {
   const std::uint8_t* foot = at(picture, 21, 16);
@@ -97,9 +97,10 @@ TEST(ForceDisplay, DrawsTheForceFromTheToolInItsDirectionAndLength)
     const auto pixels = difference(scene.draw(force, tool), scene.empty);
     ASSERT_GT(pixels.size(), 50U);
     const Vector2d start = kPixels * tool.head<2>();
-    const Vector2d seen = kPixels * 10.0 * force.head<2>(); // 10 mm a newton
+    const Vector2d seen = kPixels * 10.0 * force.head<2>(); // 10 mm/N
     const Reach arrow = reach(pixels, start, seen);
-    // The end of a cone is thinner than a pixel; its foot, and the shaft's, lean to the viewer.
+    // The cone's apex is thinner than a pixel; its base and the shaft's are tilted towards the
+    // viewer.
     const double lean = kPixels * 0.4 * std::abs(force.z()) / force.norm();
     EXPECT_NEAR(arrow.most, seen.norm(), 2.5) << force.transpose();
     EXPECT_NEAR(arrow.least, -lean, 1.0) << force.transpose();
@@ -142,8 +143,8 @@ TEST(ForceDisplay, HidesAForceBelowAFiftiethOfANewton)
 TEST(ForceDisplay, ShowsNoForceThatIsNotGiven)
 {
   Scene scene;
-  simulation::TickRecord record = recordOf({2.0, 0.0, 0.0});
-  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  session::TickRecord record = recordOf({2.0, 0.0, 0.0});
+  record.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
   EXPECT_TRUE(difference(scene.drawRecord(record), scene.empty).empty());
   EXPECT_EQ(scene.display.force(), 0.0);
   record = recordOf({2.0, 0.0, 0.0});
@@ -171,7 +172,7 @@ TEST(ForceDisplay, IsSeenOverTissueAndTool)
   EXPECT_EQ(places(covered, 4.0), seen);
   EXPECT_EQ(places(covered, -5.0), seen); // inside the block
 
-  // The handpiece lies between it and the eye.
+  // The handpiece is between it and the camera.
   rendering::SceneContents held;
   held.tool = rendering::ToolPose{{-3.0, 0.0, 4.0}, {0.0, 0.0, 1.0}, 2.0, false};
   Scene hidden(held);
@@ -194,7 +195,7 @@ TEST(ForceDisplay, ColoursByMagnitude)
   const Eigen::Vector3i light = color(0.3);
   const Eigen::Vector3i usual = color(2.0);
   const Eigen::Vector3i strong = color(5.0);
-  EXPECT_GT(light[2], light[0]); // blue, amber, red, ever darker
+  EXPECT_GT(light[2], light[0]); // blue, amber, red, increasingly dark
   EXPECT_GT(usual[1], usual[2] + 40);
   EXPECT_GT(strong[0], strong[1] + 80);
   EXPECT_GT(light.sum(), usual.sum());
@@ -275,12 +276,12 @@ TEST(ForceDisplay, RefusesBadLooks)
   refused(&ForceLook::pixels, 0.0);
 }
 
-// What the tissue's rim pulls at a tool that is led over it is nothing that presses.
+// The force of a tissue's rim on a tool moved over it is not a pressing force.
 TEST(ForceDisplay, AHoveringToolHasNoForce)
 {
-  using Parameters = simulation::ServoParameters;
+  using Parameters = session::ServoParameters;
   ForceDisplay display;
-  simulation::TickRecord record = recordOf({0.0, 0.0, 1.2});
+  session::TickRecord record = recordOf({0.0, 0.0, 1.2});
   record.input.parameters.constantThrust = Parameters::kPointer | Parameters::kPressed;
   display.update(record);
   EXPECT_EQ(display.force(), 1.2);

@@ -9,8 +9,8 @@
 namespace petrous::interaction::testing
 {
 
-/// Centres of the pixels that differ between two pictures, in pixels from the picture's middle,
-/// rightward and upward.
+/// Centres of the pixels that differ between two pictures, in pixels from the picture's centre,
+/// right and up.
 inline std::vector<Eigen::Vector2d> difference(const rendering::Picture& a,
                                                const rendering::Picture& b)
 {
@@ -27,7 +27,7 @@ inline std::vector<Eigen::Vector2d> difference(const rendering::Picture& a,
   return pixels;
 }
 
-/// How far a set of pixels reaches along a direction and across it, from a start.
+/// Extent of a set of pixels along and across a direction, from a start point.
 struct Reach
 {
   double least = 1e9, most = -1e9, aside = 0.0;

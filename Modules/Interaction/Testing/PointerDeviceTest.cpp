@@ -8,7 +8,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/DeviceGuard.h"
-#include "petrous/Simulation/HandMapping.h"
+#include "petrous/Session/PoseMapping.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
@@ -33,9 +33,9 @@ struct Hand
   {
   }
   PointerDevice& device;
-  simulation::HandMapping mapping{kCenter};
+  session::PoseMapping mapping{kCenter};
   double now = 50.0;
-  simulation::TickRecord record;
+  session::TickRecord record;
   double fastest = 0.0;  // mm/s
   double quickest = 0.0; // rad/s
   bool moved = false;
@@ -47,10 +47,10 @@ struct Hand
     now += 0.001;
     const Pose before = record.input.device.pose();
     const DeviceReading reading = device.read(now);
-    record.input = simulation::TickInput::of(now, reading, {});
+    record.input = session::TickInput::of(now, reading, {});
     if (reading.health != DeviceHealth::Good)
       return;
-    record.mapped = simulation::PoseValues::of(mapping.map(reading.pose, {}));
+    record.mapped = session::PoseValues::of(mapping.map(reading.pose, {}));
     if (moved)
     {
       const haptics::Motion motion = haptics::motionBetween(before, reading.pose);
@@ -93,7 +93,7 @@ TEST(PointerDevice, BringsTheToolWhereItIsWanted)
   const Pose first{kCenter + Vector3d(3.0, 4.0, -7.0), kHeading};
   device.want(first);
   hand.tick();
-  expectAt(hand.tool(), first); // at once: there was no hand before
+  expectAt(hand.tool(), first); // immediate: no pose before
   const Pose next{kCenter + Vector3d(-2.0, 9.0, 1.0), Quaterniond::Identity()};
   device.want(next);
   hand.run(400);
@@ -132,7 +132,7 @@ TEST(PointerDevice, MakesALeapOfThePointerAMotionOfAHand)
                  Quaterniond(AngleAxisd(2.0, Vector3d::UnitX()))};
   device.want(far);
   hand.run(250);
-  // 75 mm of 90 and all but the settling of 2 rad at 8 rad/s.
+  // 75 mm of 90, and 2 rad at 8 rad/s except for settling.
   EXPECT_NEAR((hand.tool().position - kCenter).norm(), 75.0, 1e-6);
   EXPECT_NEAR(hand.fastest, 300.0, 1e-6);
   EXPECT_LE(hand.quickest, 8.0 + 1e-6);
@@ -143,7 +143,7 @@ TEST(PointerDevice, MakesALeapOfThePointerAMotionOfAHand)
 
 TEST(PointerDevice, GlidesBetweenTheWordsOfAWindow)
 {
-  // 60 words a second of 2 mm each: 120 mm/s. Steps of a bare word would be 2000 mm/s.
+  // 60 updates per second of 2 mm each: 120 mm/s. Applied as steps they would give 2000 mm/s.
   PointerDevice device(kCenter);
   Hand hand(device);
   for (int n = 0; n < 1000; ++n)
@@ -165,7 +165,7 @@ TEST(PointerDevice, ComesBackUnderThePointerAfterTheToolWasTakenUpAnew)
   hand.run(30);
   EXPECT_FALSE(device.see(hand.record));
 
-  // Tissue came back: the servo holds the tool 4 mm away, turned.
+  // Tissue was restored: the servo holds the tool 4 mm away, rotated.
   const Pose held{wanted.position + Vector3d(0.0, 0.0, 4.0),
                   Quaterniond(AngleAxisd(0.3, Vector3d::UnitY())) * kHeading};
   hand.mapping.hold(hand.record.input.device.pose(), {}, held);
@@ -175,7 +175,7 @@ TEST(PointerDevice, ComesBackUnderThePointerAfterTheToolWasTakenUpAnew)
   EXPECT_FALSE(device.see(hand.record));
   hand.run(400);
   expectAt(hand.tool(), wanted);
-  EXPECT_FALSE(device.see(hand.record)); // learnt in one go, also while it moved
+  EXPECT_FALSE(device.see(hand.record)); // detected at once, even while moving
 }
 
 TEST(PointerDevice, LearnsNothingFromRecordsThatDoNotTell)
@@ -185,18 +185,18 @@ TEST(PointerDevice, LearnsNothingFromRecordsThatDoNotTell)
   device.want({kCenter, kHeading});
   hand.run(30);
   hand.record.mapped.position[0] += 5.0;
-  for (const auto fault : {simulation::ServoFault::Device, simulation::ServoFault::Clock,
-                           simulation::ServoFault::Parameters, simulation::ServoFault::Retreated})
+  for (const auto fault : {session::ServoFault::Device, session::ServoFault::Clock,
+                           session::ServoFault::Parameters, session::ServoFault::Retreated})
   {
-    simulation::TickRecord bad = hand.record;
+    session::TickRecord bad = hand.record;
     bad.fault = static_cast<std::uint8_t>(fault);
     EXPECT_FALSE(device.see(bad));
   }
-  simulation::TickRecord clutched = hand.record;
+  session::TickRecord clutched = hand.record;
   clutched.input.parameters.clutchButtons = PointerDevice::kFreeze;
   clutched.input.buttons = PointerDevice::kFreeze;
   EXPECT_FALSE(device.see(clutched));
-  simulation::TickRecord scaled = hand.record;
+  session::TickRecord scaled = hand.record;
   scaled.input.parameters.scale = 0.5;
   EXPECT_FALSE(device.see(scaled));
   EXPECT_TRUE(device.see(hand.record));
@@ -214,7 +214,7 @@ TEST(PointerDevice, ReleasesButtonsOfAWindowThatHangs)
   EXPECT_EQ(device.read(now += 0.1).buttons, 0U);
   EXPECT_EQ(device.read(now).pedal, 0.0);
   EXPECT_EQ(device.read(now).health, DeviceHealth::Good);
-  device.see({}); // a frame was drawn
+  device.see({}); // a frame
   EXPECT_EQ(device.read(now += 0.001).buttons, PointerDevice::kDrill | PointerDevice::kFreeze);
 }
 
@@ -233,7 +233,7 @@ TEST(PointerDevice, StaysInPlaceOverASleepAndABackwardClock)
   device.want({kCenter, kHeading});
   device.read(10.0);
   device.want({kCenter + Vector3d(500.0, 0.0, 0.0), kHeading});
-  EXPECT_LE(device.read(3600.0).pose.position.norm(), 25.0 + 1e-9); // 0.05 s of it count
+  EXPECT_LE(device.read(3600.0).pose.position.norm(), 25.0 + 1e-9); // at most 0.05 s of it count
   const Pose there = device.read(3600.001).pose;
   EXPECT_EQ(device.read(3000.0).pose.position, there.position);
   EXPECT_EQ(device.read(std::numeric_limits<double>::quiet_NaN()).pose.position, there.position);
@@ -272,7 +272,7 @@ TEST(PointerDevice, TakesWordsFromAnotherThread)
       {
         for (int n = 1; n <= 20000; ++n)
         {
-          // Words whose parts belong together: y = 2 x.
+          // Updates whose parts must stay consistent: y = 2 x.
           device.want({kCenter + Vector3d(0.001 * n, 0.002 * n, 0.0), Quaterniond::Identity()});
           device.see({});
         }

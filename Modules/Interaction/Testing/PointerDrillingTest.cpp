@@ -4,17 +4,17 @@
 
 #include "Tissue.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
-#include "petrous/Interaction/PointerAim.h"
 #include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Simulation/Servo.h"
+#include "petrous/Interaction/PointerToolController.h"
+#include "petrous/Session/Servo.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
 using namespace petrous::interaction::testing;
 using Eigen::Vector3d;
 using Mode = AimSettings::Mode;
-using simulation::ServoFault;
-using simulation::TickRecord;
+using session::ServoFault;
+using session::TickRecord;
 
 namespace
 {
@@ -24,12 +24,12 @@ constexpr double kVoxel = 0.5;
 const Vector3d kEye(0.0, 0.0, 150.0);
 const Vector3d kCenter(40.0, -40.0, 40.0); // of the device
 
-SightLine through(const Vector3d& point)
+PickRay through(const Vector3d& point)
 {
   return {kEye, (point - kEye).normalized()};
 }
 
-/// A pointer, a servo and a block of bone below z = 0: 1000 ticks a second, a frame every 16.
+/// A pointer, a servo and a block of bone below z = 0: 1000 ticks per second, one frame per 16.
 class Session
 {
 public:
@@ -38,7 +38,7 @@ public:
     , proxy(haptic(*tissue), haptics::makeBurrShell(shape(), kVoxel, 700))
     , servo(proxy, setup(proxy))
     , device(kCenter)
-    , aim([this](const SightLine& line) { return firstTissue(*tissue, line); }, settings(mode))
+    , aim([this](const PickRay& line) { return firstTissue(*tissue, line); }, settings(mode))
   {
     core::CameraPose camera;
     camera.position = kEye;
@@ -54,7 +54,7 @@ public:
       if (n % 16 == 0)
         frame();
       now += 0.001;
-      record = servo.tick(simulation::TickInput::of(now, device.read(now), parameters));
+      record = servo.tick(session::TickInput::of(now, device.read(now), parameters));
     }
     return record;
   }
@@ -65,10 +65,10 @@ public:
 
   std::shared_ptr<const volume::TissueField> tissue;
   haptics::ConstrainedProxy proxy;
-  simulation::Servo servo;
+  session::Servo servo;
   PointerDevice device;
-  PointerAim aim;
-  simulation::ServoParameters parameters;
+  PointerToolController aim;
+  session::ServoParameters parameters;
   double now = 10.0;
 
 private:
@@ -90,9 +90,9 @@ private:
     return std::make_shared<haptics::HapticField>(
         tissue, std::make_shared<volume::PublishedMask>(volume::CutMask(tissue.geometry())));
   }
-  static simulation::ServoSetup setup(const haptics::ConstrainedProxy& tool)
+  static session::ServoSetup setup(const haptics::ConstrainedProxy& tool)
   {
-    simulation::ServoSetup setup;
+    session::ServoSetup setup;
     setup.limits.maxForce = 10.0;
     setup.limits.maxTorque = 500.0;
     setup.burrPoints = tool.shell().burrCount;
@@ -114,18 +114,18 @@ public:
   TickRecord record;
 };
 
-// Into a hole at `mouth`; then the button is let go.
+// Drills a hole at `mouth`, then releases the button.
 void drillInto(Session& session, const Vector3d& mouth)
 {
   session.aim.point(through(mouth));
   session.run(100);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   session.run(600);
   ASSERT_LT(session.tool().z(), -2.5);
-  session.aim.press(PointerAim::Press::None);
+  session.aim.press(PointerToolController::Press::None);
 }
 
-double besideLine(const Vector3d& point, const SightLine& line)
+double besideLine(const Vector3d& point, const PickRay& line)
 {
   return (point - line.origin).cross(line.direction).norm();
 }
@@ -135,7 +135,7 @@ double besideLine(const Vector3d& point, const SightLine& line)
 TEST(PointerDrilling, HoversOverTheBoneWithoutForce)
 {
   Session session(Mode::Surface);
-  const SightLine line = through({3.0, -2.0, 0.0});
+  const PickRay line = through({3.0, -2.0, 0.0});
   session.aim.point(line);
   const TickRecord& record = session.run(300);
   EXPECT_EQ(session.fault(), ServoFault::None);
@@ -153,10 +153,10 @@ TEST(PointerDrilling, DrillsWithTheSetThrustUnderThePointer)
     AimSettings settings = session.aim.settings();
     settings.thrust = thrust;
     session.aim.setSettings(settings);
-    const SightLine line = through({3.0, -2.0, 0.0});
+    const PickRay line = through({3.0, -2.0, 0.0});
     session.aim.point(line);
     session.run(100);
-    session.aim.press(PointerAim::Press::Drill);
+    session.aim.press(PointerToolController::Press::Drill);
     const TickRecord& record = session.run(500);
     EXPECT_EQ(session.fault(), ServoFault::None);
     EXPECT_EQ(record.drill, 1);
@@ -165,7 +165,7 @@ TEST(PointerDrilling, DrillsWithTheSetThrustUnderThePointer)
     EXPECT_NEAR(session.tool().z(), kRadius, 0.05 * kVoxel);
     EXPECT_LT(besideLine(session.tool(), line), 0.1);
 
-    session.aim.press(PointerAim::Press::None);
+    session.aim.press(PointerToolController::Press::None);
     session.run(300);
     EXPECT_EQ(session.force().norm(), 0.0);
     EXPECT_NEAR(session.tool().z(), kRadius + 1.0, 0.02);
@@ -177,7 +177,7 @@ TEST(PointerDrilling, FollowsThePointerOverTheBoneWhileItDrills)
   Session session(Mode::Surface);
   session.aim.point(through({-5.0, 0.0, 0.0}));
   session.run(100);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   session.run(200);
   for (int n = 0; n <= 50; ++n)
   {
@@ -211,10 +211,10 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   session.run(100);
   session.aim.wheel(10.0, false);
   session.run(300);
-  session.now += 0.3; // the machine slept; the tool is taken up where it is, without force
+  session.now += 0.3; // after a suspend: the tool is re-anchored where it is, without force
   session.run(1);
   EXPECT_EQ(session.fault(), ServoFault::Stalled);
-  const SightLine line = through({4.0, 3.0, 0.0});
+  const PickRay line = through({4.0, 3.0, 0.0});
   session.aim.point(line);
   session.run(400);
   EXPECT_EQ(session.fault(), ServoFault::None);
@@ -225,7 +225,7 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   EXPECT_NEAR(session.force().z(), 1.0, 0.05);
 }
 
-// The burr lies in a hole of its own size; without the button the pointer goes where it likes.
+// The burr is in a hole of its own size; without the button the pointer is free to leave.
 TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
 {
   for (const double way : {4.0, 7.0, 9.5})
@@ -234,7 +234,7 @@ TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
     const Vector3d mouth(-4.0, 0.0, 0.0);
     Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
     drillInto(session, mouth);
-    const SightLine line = through({way - 4.0, 1.0, 0.0});
+    const PickRay line = through({way - 4.0, 1.0, 0.0});
     session.aim.point(line);
     double highest = -10.0;
     for (int n = 0; n < 800; ++n)
@@ -246,7 +246,7 @@ TEST(PointerDrilling, ComesOutOfItsHoleByTheLineOfSightAndGoesOn)
     }
     EXPECT_LT(besideLine(session.tool(), line), 0.2);
     EXPECT_NEAR(session.tool().z(), kRadius + 1.0, 0.1);
-    EXPECT_LT(highest, kRadius + 3.0); // it lifts, and does not fly about
+    EXPECT_LT(highest, kRadius + 3.0); // lifts without overshooting
     EXPECT_EQ(session.force().norm(), 0.0);
   }
 }
@@ -255,22 +255,22 @@ TEST(PointerDrilling, ThePointerAtTheMenuPullsNoHarderThanTheThrust)
 {
   Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
   drillInto(session, {-4.0, 0.0, 0.0});
-  session.aim.point(through({60.0, 80.0, 0.0})); // there is nothing
+  session.aim.point(through({60.0, 80.0, 0.0})); // no tissue there
   for (int n = 0; n < 1500; ++n)
   {
     session.run(1);
     ASSERT_LE(session.force().norm(), session.aim.settings().thrust) << n;
     ASSERT_EQ(session.fault(), ServoFault::None) << n;
   }
-  EXPECT_LT(besideLine(session.tool(), through({60.0, 80.0, 0.0})), simulation::Servo::kFarthest);
+  EXPECT_LT(besideLine(session.tool(), through({60.0, 80.0, 0.0})), session::Servo::kFarthest);
 }
 
-// A drag with the button down over the rim of a cavity, in which the tool is held by its shaft.
+// Dragging with the button pressed over the rim of a cavity, in which the shaft holds the tool.
 TEST(PointerDrilling, TheForceIsTheThrustWhereverAPressedPointerGoes)
 {
   Session session(Mode::Surface, blockWithHole(-4.0, 0.0, 2.25, 4.0));
   drillInto(session, {-4.0, 0.0, 0.0});
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   for (int n = 0; n < 60; ++n)
   {
     session.aim.point(through({-4.0 + 0.2 * n, 0.1 * n, 0.0}));
@@ -285,25 +285,25 @@ TEST(PointerDrilling, TheForceIsTheThrustWhereverAPressedPointerGoes)
   EXPECT_LT(besideLine(session.tool(), through({-4.0 + 0.2 * 59, 5.9, 0.0})), 0.5);
 }
 
-// Of a tool that is taken up where its place has no room for shaft and handpiece, or is itself in
-// tissue.
+// For a tool placed where shaft and handpiece do not fit, or in tissue.
 TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
 {
   Session session(Mode::Surface);
   AimSettings settings = session.aim.settings();
-  settings.tilt = 80.0; // the shaft lies nearly along the bone, and the handpiece below its surface
+  settings.tilt = 80.0; // the shaft is nearly parallel to the bone, the handpiece below its surface
   session.aim.setSettings(settings);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-9.0, 9.0), angle(-180.0, 180.0);
   session.aim.point(through({9.0, 0.0, 0.0}));
-  session.run(50); // the hand is judged sound
+  session.run(50); // until the device counts as valid
   for (int n = 0; n < 30; ++n)
   {
     settings.turn = angle(random);
     settings.tilt = 80.0 * (n % 3) / 2.0;
     session.aim.setSettings(settings);
     session.aim.point(through({anywhere(random), anywhere(random), 0.0}));
-    session.aim.press(n % 4 == 3 ? PointerAim::Press::Drill : PointerAim::Press::None);
+    session.aim.press(n % 4 == 3 ? PointerToolController::Press::Drill
+                                 : PointerToolController::Press::None);
     for (int tick = 0; tick < 150; ++tick)
     {
       session.run(1);
@@ -315,8 +315,7 @@ TEST(PointerDrilling, IsNeverPutIntoTissueByAPointer)
 
 TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
 {
-  // The hole runs under the bone, as seen from the eye: there is no way out along the line of
-  // sight.
+  // The hole runs under the bone, seen from the camera: no way out along the line of sight.
   const auto bone = boneOf(
       [](const Vector3d& p)
       {
@@ -331,7 +330,7 @@ TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
   session.run(50);
   ASSERT_TRUE(session.proxy.placeFree(
       {end, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(-1.0, 0.0, 1.0))}));
-  const SightLine line = through({6.0, 3.0, 0.0});
+  const PickRay line = through({6.0, 3.0, 0.0});
   session.aim.point(line);
   for (int n = 0; n < 4000; ++n)
   {
@@ -342,14 +341,15 @@ TEST(PointerDrilling, ATwistedHoleLetsTheToolGoInTheEnd)
   EXPECT_LT(besideLine(session.tool(), line), 0.2);
 }
 
-// Over an edge of bone, with the button held: it drilled the floor below in the same stroke.
+// Over an edge of bone with the button pressed: it used to drill the floor below in the same
+// stroke.
 TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
 {
   const auto bone = boneOf([](const Vector3d& p) { return (p.x() < 0.0 ? 5.0 : -9.0) - p.z(); });
   Session session(Mode::Surface, bone);
   session.aim.point(through({-4.0, 0.0, 0.0}));
   session.run(100);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   EXPECT_EQ(session.run(300).drill, 1);
   for (int n = 0; n < 60; ++n)
   {
@@ -359,18 +359,18 @@ TEST(PointerDrilling, DoesNotFallOverAnEdgeWhileItDrills)
   }
   EXPECT_EQ(session.run(300).drill, 0);
   EXPECT_EQ(session.force().norm(), 0.0);
-  session.aim.press(PointerAim::Press::None); // anew it goes down
+  session.aim.press(PointerToolController::Press::None); // pressed again, it goes down
   session.run(300);
-  session.aim.press(PointerAim::Press::Drill);
+  session.aim.press(PointerToolController::Press::Drill);
   EXPECT_EQ(session.run(500).drill, 1);
   EXPECT_LT(session.tool().z(), kRadius - 8.0);
 }
 
-// By the wheel: from a line that grazes the bone, where the ball has no room at its place, and from
-// a place that the pointer has left.
+// In depth mode: from a ray that grazes the bone, where the ball does not fit at its position, and
+// from a position that the pointer has left.
 TEST(PointerDrilling, AWheelsToolBeginsBeforeTheBone)
 {
-  // A slope of 78 degrees, seen from above.
+  // A slope of 78 degrees, viewed from above.
   const auto bone = boneOf([](const Vector3d& p) { return -0.2 * p.z() - 0.98 * p.x(); });
   for (const double x : {-1.5, -0.5, 0.5, 1.5})
   {
@@ -384,7 +384,7 @@ TEST(PointerDrilling, AWheelsToolBeginsBeforeTheBone)
     }
     EXPECT_EQ(session.force().norm(), 0.0);
     const Vector3d begun = session.tool();
-    for (int n = 0; n < 40; ++n) // the pointer goes over the bone
+    for (int n = 0; n < 40; ++n) // the pointer moves over the bone
     {
       session.aim.point(through({x - 0.15 * n, 0.0, 0.0}));
       session.run(16);

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <memory>
 
-#include "petrous/Interaction/SightLine.h"
+#include "petrous/Interaction/PickRay.h"
 #include "petrous/Volume/TissueField.h"
 
-/// Tissue and records for the tests of this module.
+/// Tissue and records for this module's tests.
 namespace petrous::interaction::testing
 {
 
 /// Solid below z = height.
 inline TissueQuery plane(double height)
 {
-  return [height](const SightLine& line) -> std::optional<double>
+  return [height](const PickRay& line) -> std::optional<double>
   {
     if (line.origin.z() <= height)
       return 0.0;
@@ -26,10 +26,10 @@ inline TissueQuery plane(double height)
 
 inline TissueQuery nothing()
 {
-  return [](const SightLine&) { return std::optional<double>(); };
+  return [](const PickRay&) { return std::optional<double>(); };
 }
 
-/// Bone where `depth` is above 0, mm, in a grid of 20 x 20 x 20 mm about the origin.
+/// Bone where `depth` > 0, mm, in a grid of 20 x 20 x 20 mm around the origin.
 template <typename Depth>
 std::shared_ptr<const volume::TissueField> boneOf(const Depth& depthAt)
 {
@@ -54,8 +54,8 @@ inline std::shared_ptr<const volume::TissueField> block()
   return boneOf([](const Eigen::Vector3d& p) { return -p.z(); });
 }
 
-/// The same with a round hole from (x, y, 0) along -z, its end a ball of the same radius about
-/// `depth` below.
+/// The same block with a round hole from (x, y, 0) along -z, ending in a ball of the same radius
+/// about `depth` below.
 inline std::shared_ptr<const volume::TissueField> blockWithHole(double x, double y, double radius,
                                                                 double depth)
 {

@@ -11,8 +11,8 @@
 #include "Tissue.h"
 #include "Window.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Interaction/PointerAim.h"
 #include "petrous/Interaction/PointerDevice.h"
+#include "petrous/Interaction/PointerToolController.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
@@ -23,15 +23,15 @@ using Mode = AimSettings::Mode;
 namespace
 {
 
-constexpr int kHovers = simulation::ServoParameters::kPointer;
-constexpr int kPresses = kHovers | simulation::ServoParameters::kPressed;
+constexpr int kHovers = session::ServoParameters::kPointer;
+constexpr int kPresses = kHovers | session::ServoParameters::kPressed;
 
-/// A window whose pointer holds the tool over a plane at z = 0, and its trackball.
+/// A window with a trackball style, whose pointer controls the tool over a plane at z = 0.
 struct Program
 {
   Window window;
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
-  PointerAim aim{plane(0.0)};
+  PointerToolController aim{plane(0.0)};
   PointerDevice device;
   vtkNew<vtkPetrousToolInteraction> tool;
   int changes = 0;
@@ -56,7 +56,7 @@ struct Program
   }
   ~Program() { tool->SetInteractor(nullptr); }
 
-  // x and y in pixels from the middle of the window.
+  // x and y in pixels from the window's centre.
   void mouse(unsigned long event, int x, int y, int control = 0, int shift = 0)
   {
     interactor->SetEventInformation(Window::kWidth / 2 + x, Window::kHeight / 2 + y, control,
@@ -90,7 +90,7 @@ struct Program
     device.see({});
     return device.read(now);
   }
-  // Where a burr's centre of 2 mm hovers over the pixel: 3 mm before the plane.
+  // Hover position of the centre of a 2 mm burr at a pixel: 3 mm in front of the plane.
   Vector3d hoverOver(int x, int y, double before = 3.0) const
   {
     const Vector3d target((x + 0.5) * Window::pixel(), (y + 0.5) * Window::pixel(), 0.0);
@@ -131,7 +131,7 @@ TEST(ToolInteraction, DrillsWhileTheLeftButtonIsDown)
   EXPECT_FALSE(program.tool->GetDrilling());
   EXPECT_EQ(program.hand().buttons, 0U);
   EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
-  EXPECT_EQ(program.eye(), eye); // the trackball got none of it
+  EXPECT_EQ(program.eye(), eye); // no event reached the trackball
 }
 
 TEST(ToolInteraction, PressesWithoutTheDrillWithCtrl)
@@ -177,7 +177,7 @@ TEST(ToolInteraction, StopsTheDrillAlsoWhileTheStyleTurnsTheCamera)
   program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
   program.key(vtkCommand::KeyPressEvent, "space");
   program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0);
-  program.mouse(vtkCommand::MiddleButtonPressEvent, 0, 0); // it takes all events now
+  program.mouse(vtkCommand::MiddleButtonPressEvent, 0, 0); // grabs all events from now on
   EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill);
   program.key(vtkCommand::KeyReleaseEvent, "space");
   EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill);
@@ -257,7 +257,7 @@ TEST(ToolInteraction, DrillsWhileSpaceAndFreezesWhileCIsHeld)
   Program program;
   program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
   program.key(vtkCommand::KeyPressEvent, "space");
-  program.key(vtkCommand::KeyPressEvent, "space"); // repeats
+  program.key(vtkCommand::KeyPressEvent, "space"); // key repeat
   EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill);
   program.key(vtkCommand::KeyPressEvent, "c");
   EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill | PointerDevice::kFreeze);
@@ -326,7 +326,7 @@ TEST(ToolInteraction, KeepsItsKeysFromTheStyle)
   program.type("w");
   program.type("space");
   EXPECT_EQ(seen, 0);
-  program.type("x"); // none of ours
+  program.type("x"); // not one of our keys
   EXPECT_EQ(seen, 1);
   program.tool->DrillModeOff();
   program.type("w");
@@ -337,14 +337,14 @@ TEST(ToolInteraction, GivesADeviceTheCamerasAxesScaleClutchAndDrill)
 {
   Program program;
   program.tool->PointerHandOff();
-  simulation::ServoParameters own;
+  session::ServoParameters own;
   own.forceGain = 2.0;
   program.tool->SetParameters(own);
   vtkCamera* camera = program.window.renderer->GetActiveCamera();
   camera->SetPosition(0.0, -200.0, 0.0); // right is x, up is z, back is -y
   camera->SetViewUp(0.0, 0.0, 1.0);
   program.tool->See({});
-  const simulation::ServoParameters& p = program.tool->GetParameters();
+  const session::ServoParameters& p = program.tool->GetParameters();
   const Eigen::Quaterniond axes(p.camera[0], p.camera[1], p.camera[2], p.camera[3]);
   expectNear(axes * Vector3d::UnitX(), Vector3d(1.0, 0.0, 0.0), 1e-9);
   expectNear(axes * Vector3d::UnitY(), Vector3d(0.0, 0.0, 1.0), 1e-9);
@@ -364,7 +364,7 @@ TEST(ToolInteraction, GivesADeviceTheCamerasAxesScaleClutchAndDrill)
   program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0);
   program.mouse(vtkCommand::MouseMoveEvent, 30, 10);
   program.mouse(vtkCommand::LeftButtonReleaseEvent, 30, 10);
-  EXPECT_GT((program.eye() - eye).norm(), 1.0); // the mouse turns the patient
+  EXPECT_GT((program.eye() - eye).norm(), 1.0); // the mouse rotates the view
 
   own.scale = 100.0;
   EXPECT_THROW(program.tool->SetParameters(own), core::InvalidParameter);
@@ -376,15 +376,15 @@ TEST(ToolInteraction, FollowsTheServosRecords)
   program.setMode(Mode::Depth);
   program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
   program.hand();
-  // The servo has taken the tool up 4 mm to the side, at another height.
-  simulation::TickRecord record;
-  record.input = simulation::TickInput::of(program.now, program.device.read(program.now), {});
+  // The servo re-anchored the tool 4 mm to the side, at another height.
+  session::TickRecord record;
+  record.input = session::TickInput::of(program.now, program.device.read(program.now), {});
   haptics::Pose held = record.input.device.pose();
   held.position += Vector3d(4.0, 0.0, 6.0);
-  record.mapped = record.proxy = simulation::PoseValues::of(held);
+  record.mapped = record.proxy = session::PoseValues::of(held);
   program.tool->See(record);
   const Vector3d wanted = program.aim.wanted()->position;
   EXPECT_NEAR(wanted.z(), held.position.z(), 1e-9);
-  // What the servo adds from now on is taken off in advance.
+  // The servo's new offset is compensated.
   expectNear(program.hand().pose.position, wanted - Vector3d(4.0, 0.0, 6.0));
 }

@@ -4,15 +4,17 @@
 
 #include "Pixels.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Haptics/PointShell.h"
 #include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/ToolShape.h"
 
 using namespace petrous;
 using namespace petrous::interaction;
 using namespace petrous::interaction::testing;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using simulation::PoseValues;
-using simulation::TickRecord;
+using session::PoseValues;
+using session::TickRecord;
 
 namespace
 {
@@ -27,6 +29,21 @@ TickRecord recordOf(const Vector3d& tool, const Vector3d& hand)
 
 } // namespace
 
+TEST(ToolView, DrawsTheToolThatIsFelt)
+{
+  for (const double radius : {0.5, 1.0, 2.0, 3.5})
+  {
+    haptics::BurrShape felt;
+    felt.radius = radius;
+    rendering::ToolPose drawn;
+    drawn.radius = radius;
+    EXPECT_EQ(rendering::tool::shaftRadius(drawn), felt.resolvedShaftRadius());
+    EXPECT_EQ(rendering::tool::kShaftLength, felt.shaftLength);
+    EXPECT_EQ(rendering::tool::kHandpieceRadius, felt.handpieceRadius);
+    EXPECT_EQ(rendering::tool::kHandpieceLength, felt.handpieceLength);
+  }
+}
+
 TEST(ToolView, ShowsTheProxyNotTheHand)
 {
   ToolView view(1.5);
@@ -34,7 +51,7 @@ TEST(ToolView, ShowsTheProxyNotTheHand)
   const auto tool = view.update(record);
   ASSERT_TRUE(tool);
   EXPECT_EQ(tool->center, Vector3d(1.0, 2.0, 3.0));
-  // +z of the tool, turned by 0.5 about x.
+  // The tool's +z axis, rotated by 0.5 about x.
   EXPECT_LT((tool->axisToHand - Vector3d(0.0, -std::sin(0.5), std::cos(0.5))).norm(), 1e-12);
   EXPECT_EQ(tool->radius, 1.5);
   EXPECT_FALSE(tool->drilling);
@@ -47,12 +64,12 @@ TEST(ToolView, ShowsNothingBeforeTheFirstSoundReading)
 {
   ToolView view(1.5);
   TickRecord record = recordOf({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0});
-  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
+  record.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
   EXPECT_FALSE(view.update(record));
   record.fault = 0;
   EXPECT_TRUE(view.update(record));
-  record.fault = static_cast<std::uint8_t>(simulation::ServoFault::Device);
-  EXPECT_TRUE(view.update(record)); // it stays where it is
+  record.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
+  EXPECT_TRUE(view.update(record)); // stays placed
 }
 
 TEST(ToolView, DrawsALineToAHandThatIsFarAhead)
@@ -63,7 +80,7 @@ TEST(ToolView, DrawsALineToAHandThatIsFarAhead)
   camera.position = {0.0, 0.0, 200.0};
   camera.focalPoint = {0.0, 0.0, 0.0};
   camera.viewUp = {0.0, 1.0, 0.0};
-  camera.parallelScale = 30.0; // 4 pixels a millimetre
+  camera.parallelScale = 30.0; // 4 pixels per mm
   picture.setContents({});
   picture.setCamera(camera);
   rendering::OffscreenView view(320, 240);

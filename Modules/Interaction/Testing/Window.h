@@ -11,7 +11,7 @@
 namespace petrous::interaction::testing
 {
 
-/// A window without a display, looking down at the origin from 200 mm: right is x, up is y.
+/// A window without a display, looking at the origin from 200 mm above: right is x, up is y.
 struct Window
 {
   static constexpr int kWidth = 240;
@@ -30,7 +30,7 @@ struct Window
     window->Render();
   }
 
-  /// Edge of a pixel in the plane z = 0, mm.
+  /// Pixel size in the plane z = 0, mm.
   static double pixel() { return 2.0 * 200.0 * std::tan(std::acos(-1.0) / 12.0) / kHeight; }
 
   vtkNew<vtkPetrousEGLRenderWindow> window;

@@ -16,11 +16,11 @@ namespace petrous::interaction
 
 namespace
 {
-// In thicknesses of the shaft.
+// Relative to the shaft's thickness.
 constexpr double kTipLength = 4.0;
 constexpr double kTipRadius = 1.4;
-// The tip of a short arrow, as a share of its length.
-constexpr double kMostTip = 0.45;
+// Tip of a short arrow, relative to its length.
+constexpr double kMaxTip = 0.45;
 } // namespace
 
 ForceArrow::ForceArrow()
@@ -31,12 +31,12 @@ ForceArrow::ForceArrow()
   mapper->SetInputConnection(m_source->GetOutputPort());
   m_actor->SetMapper(mapper);
   m_actor->PickableOff();
-  // Bright from every side: its colour says how strong the force is.
+  // Mostly ambient: the colour encodes the magnitude, whatever the direction.
   m_actor->GetProperty()->SetAmbient(0.5);
   m_actor->GetProperty()->SetDiffuse(0.5);
   m_actor->GetProperty()->SetSpecular(0.0);
-  // Nearer than all else, and its own parts in their order: the force on the hand mostly points
-  // into the handpiece, which would hide it.
+  // In front of everything, keeping the depth order of its own parts: the force on the hand mostly
+  // points into the handpiece, which would hide it.
   m_actor->GetShaderProperty()->AddFragmentShaderReplacement(
       "//VTK::Depth::Impl", true, "//VTK::Depth::Impl\n  gl_FragDepth = 0.01 * gl_FragCoord.z;\n",
       false);
@@ -53,9 +53,9 @@ void ForceArrow::hide()
 void ForceArrow::show(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double thickness,
                       const Eigen::Vector3d& color)
 {
-  // The source's arrow is 1 long, along x.
+  // The source arrow has length 1 along x.
   const double length = along.norm();
-  const double thin = std::min(thickness, kMostTip * length / kTipLength);
+  const double thin = std::min(thickness, kMaxTip * length / kTipLength);
   m_source->SetTipLength(kTipLength * thin / length);
   m_source->SetTipRadius(kTipRadius * thin / length);
   m_source->SetShaftRadius(0.5 * thin / length);

@@ -10,8 +10,8 @@ class vtkArrowSource;
 namespace petrous::interaction
 {
 
-/// An arrow between two points, whose thickness does not depend on its length. It is drawn over
-/// everything that is opaque, and over tissue.
+/// An arrow whose thickness is independent of its length. Drawn on top of all opaque geometry and
+/// tissue.
 class ForceArrow
 {
 public:
@@ -23,7 +23,7 @@ public:
   void hide();
 
   /// from, along  patient mm; |along| > 0 is the arrow's length
-  /// thickness    mm, of its shaft; a short arrow is thinner
+  /// thickness    mm, of its shaft; less for a short arrow
   void show(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double thickness,
             const Eigen::Vector3d& color);
 

@@ -21,7 +21,7 @@ namespace petrous::interaction
 namespace
 {
 
-// Pixels from the picture's lower left corner.
+// Pixels from the lower left corner.
 constexpr double kLeft = 16.0;
 constexpr double kBottom = 16.0;
 constexpr double kWidth = 10.0;
@@ -107,7 +107,7 @@ void ForceBar::show(double force, double fullScale, double pixels, const Eigen::
   m_actors[Filled]->GetProperty()->SetColor(color.x(), color.y(), color.z());
 
   const std::string words = core::fixedText(force, 1) + " N";
-  if (m_words != words) // letters are dear to draw
+  if (m_words != words) // text rendering is expensive
   {
     m_words = words;
     m_text->SetInput(words.c_str());

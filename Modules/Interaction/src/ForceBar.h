@@ -15,8 +15,8 @@ class vtkTextActor;
 namespace petrous::interaction
 {
 
-/// An upright bar in the lower left corner of the picture, 0 at its foot, with a mark at 1 N and
-/// the force in words above it.
+/// A vertical bar in the lower left corner, starting at 0, with a mark at 1 N and the force as text
+/// above it.
 class ForceBar
 {
 public:
@@ -28,8 +28,8 @@ public:
   void setShown(bool shown);
 
   /// force      N
-  /// fullScale  N at the bar's top; what is more fills it
-  /// pixels     of the screen for one of the bar's
+  /// fullScale  N at the top of the bar; larger forces fill it
+  /// pixels     screen pixels per bar pixel
   void show(double force, double fullScale, double pixels, const Eigen::Vector3d& color);
 
 private:

@@ -42,8 +42,8 @@ const ForceLook& checked(const ForceLook& look)
   return look;
 }
 
-// Light work, a surgeon's usual upper bound (2 N), too much (5 N). The three differ in lightness
-// as well, for eyes that tell red and green apart badly.
+// Light work, a surgeon's usual upper bound (2 N), too much (5 N). The three also differ in
+// lightness, for red-green colour-blind users.
 Vector3d colorOf(double force)
 {
   const Vector3d light(0.45, 0.88, 0.92);
@@ -54,11 +54,11 @@ Vector3d colorOf(double force)
   return usual + std::min((force - 2.0) / 3.0, 1.0) * (strong - usual);
 }
 
-Vector3d forceIn(const simulation::TickRecord& record)
+Vector3d forceIn(const session::TickRecord& record)
 {
-  using Parameters = simulation::ServoParameters;
+  using Parameters = session::ServoParameters;
   const auto& set = record.input.parameters;
-  // What pulls a hovering pointer's tool over tissue is no force of the hand.
+  // Forces on a hovering pointer's tool are not forces on the hand.
   const bool hovers = (set.constantThrust & Parameters::kPointer) != 0 &&
                       (set.constantThrust & Parameters::kPressed) == 0;
   const bool given = record.fault == 0 && !set.pause && !hovers;
@@ -127,7 +127,7 @@ void ForceDisplay::setBarShown(bool shown)
   m_implementation->bar.setShown(shown);
 }
 
-void ForceDisplay::update(const simulation::TickRecord& record)
+void ForceDisplay::update(const session::TickRecord& record)
 {
   m_implementation->force = forceIn(record);
   m_implementation->place = record.proxy.pose().position;

@@ -10,14 +10,14 @@ namespace petrous::interaction
 {
 
 using haptics::Pose;
-using simulation::PoseValues;
-using simulation::ServoFault;
-using simulation::TickRecord;
+using session::PoseValues;
+using session::ServoFault;
+using session::TickRecord;
 
 namespace
 {
 
-constexpr double kLongestStep = 0.05; // s of gliding at once, after a pause of the servo
+constexpr double kMaxStep = 0.05;     // s, max. time step after a pause of the servo
 constexpr double kSamePlace = 1e-6;   // mm
 constexpr double kSameHeading = 1e-6; // rad
 
@@ -32,15 +32,15 @@ bool within(double value, double most)
   return value > 0.0 && value <= most; // false for NaN
 }
 
-// Whether `mapped` is what the hand's mapping made of the device's pose, by the plain view.
+// Whether `mapped` is the plain mapping of the device's pose, so that the offset can be derived.
 bool tells(const TickRecord& record) noexcept
 {
   const auto fault = static_cast<ServoFault>(record.fault);
-  const simulation::ServoParameters& p = record.input.parameters;
+  const session::ServoParameters& p = record.input.parameters;
   const bool clutched = p.clutch || (record.input.buttons & p.clutchButtons) != 0;
   const bool plain = p.scale == 1.0 && std::abs(p.camera[0]) == 1.0;
-  const bool ticked = record.input.now > 0.0; // else it is a record that no tick made
-  // Where it retreated the tool is taken up after it was mapped.
+  const bool ticked = record.input.now > 0.0; // otherwise not a record of a tick
+  // After a retreat the tool was re-anchored after the mapping.
   return ticked && plain && !clutched && fault != ServoFault::Device &&
          fault != ServoFault::Clock && fault != ServoFault::Parameters &&
          fault != ServoFault::Retreated && record.mapped.pose().finite() &&
@@ -125,7 +125,7 @@ haptics::DeviceReading PointerDevice::read(double now) noexcept
     m_placed = true;
   }
   else if (m_placed && dt > 0.0)
-    glide(std::min(dt, kLongestStep));
+    glide(std::min(dt, kMaxStep));
 
   haptics::DeviceReading reading;
   reading.time = now;

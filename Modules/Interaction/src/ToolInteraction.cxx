@@ -12,12 +12,12 @@
 
 #include "ToolKeys.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Interaction/PointerAim.h"
 #include "petrous/Interaction/PointerDevice.h"
-#include "petrous/Interaction/RendererSight.h"
+#include "petrous/Interaction/PointerToolController.h"
+#include "petrous/Interaction/RendererPickRay.h"
 
-using petrous::interaction::PointerAim;
 using petrous::interaction::PointerDevice;
+using petrous::interaction::PointerToolController;
 using petrous::interaction::ToolKey;
 
 vtkStandardNewMacro(vtkPetrousToolInteraction);
@@ -25,7 +25,7 @@ vtkStandardNewMacro(vtkPetrousToolInteraction);
 namespace
 {
 
-constexpr float kBeforeTheStyle = 0.5F; // which has 0
+constexpr float kBeforeTheStyle = 0.5F; // the style's priority is 0
 constexpr double kScalePerNotch = 1.25;
 
 constexpr unsigned long kEvents[] = {
@@ -34,8 +34,8 @@ constexpr unsigned long kEvents[] = {
     vtkCommand::MouseWheelBackwardEvent, vtkCommand::KeyPressEvent,
     vtkCommand::KeyReleaseEvent,         vtkCommand::CharEvent};
 
-// A style that turns the camera takes all events for itself until it is done. Passive observers
-// get them all the same: a drill whose key was let go meanwhile must stop.
+// A style that moves the camera grabs all events until it is done, except for passive observers:
+// drilling must stop if its key is released meanwhile.
 constexpr unsigned long kReleases[] = {vtkCommand::LeftButtonReleaseEvent,
                                        vtkCommand::KeyReleaseEvent};
 
@@ -59,7 +59,7 @@ vtkPetrousToolInteraction::vtkPetrousToolInteraction()
 
 vtkPetrousToolInteraction::~vtkPetrousToolInteraction()
 {
-  // Here and not in the base, for which SetEnabled is another: the observers point to this.
+  // Not in the base class, whose destructor calls another SetEnabled: the observers refer to this.
   this->SetInteractor(nullptr);
 }
 
@@ -95,7 +95,7 @@ void vtkPetrousToolInteraction::SetEnabled(int enabling)
   this->SetCurrentRenderer(nullptr);
 }
 
-void vtkPetrousToolInteraction::SetPointer(PointerAim* aim, PointerDevice* device)
+void vtkPetrousToolInteraction::SetPointer(PointerToolController* aim, PointerDevice* device)
 {
   this->Release();
   this->Aim = aim;
@@ -128,15 +128,14 @@ bool vtkPetrousToolInteraction::GetDrilling() const
   return this->DrillMode && (this->DrillKeyHeld || (this->ButtonHeld && !this->TouchOnly));
 }
 
-void vtkPetrousToolInteraction::SetParameters(
-    const petrous::simulation::ServoParameters& parameters)
+void vtkPetrousToolInteraction::SetParameters(const petrous::session::ServoParameters& parameters)
 {
-  petrous::simulation::check(parameters);
+  petrous::session::check(parameters);
   this->Base = parameters;
   this->Send();
 }
 
-void vtkPetrousToolInteraction::See(const petrous::simulation::TickRecord& record)
+void vtkPetrousToolInteraction::See(const petrous::session::TickRecord& record)
 {
   if (this->PointerHand && this->Aim && this->Device)
   {
@@ -167,7 +166,7 @@ void vtkPetrousToolInteraction::ProcessEvents(vtkObject*, unsigned long event, v
     if (me->Handle(event))
       me->EventCallbackCommand->SetAbortFlag(1);
   }
-  catch (const petrous::core::Error& error) // VTK's loops know no exceptions
+  catch (const petrous::core::Error& error) // VTK's event loops do not handle exceptions
   {
     vtkErrorWithObjectMacro(me, << error.what());
   }
@@ -194,7 +193,7 @@ bool vtkPetrousToolInteraction::Handle(unsigned long event)
   {
   case vtkCommand::MouseMoveEvent:
     this->Point();
-    return false; // the style has nothing to do with it, or turns the camera
+    return false; // the style ignores it, or is moving the camera
   case vtkCommand::LeftButtonPressEvent:
     if (!this->PointerHolds())
       return false;
@@ -212,8 +211,7 @@ bool vtkPetrousToolInteraction::Handle(unsigned long event)
   case vtkCommand::KeyPressEvent:
     return this->HandleKey();
   case vtkCommand::KeyReleaseEvent:
-  case vtkCommand::CharEvent: // the style's own meanings (w: wireframe, e: exit) must not come on
-                              // top
+  case vtkCommand::CharEvent: // keeps the style's shortcuts (w: wireframe, e: exit) from acting too
     return this->IsOwnKey();
   default:
     return false;
@@ -253,7 +251,7 @@ bool vtkPetrousToolInteraction::HandleWheel(double notches)
   return true;
 }
 
-// VTK's name of the key, in lower case.
+// VTK's key symbol in lower case.
 std::string vtkPetrousToolInteraction::Key() const
 {
   const char* sym = this->Interactor->GetKeySym();
@@ -295,13 +293,13 @@ void vtkPetrousToolInteraction::Point()
     return;
   const int* at = this->Interactor->GetEventPosition();
   this->Aim->setCamera(petrous::interaction::cameraOf(*this->CurrentRenderer));
-  this->Aim->point(petrous::interaction::sightThrough(*this->CurrentRenderer, at[0], at[1]));
+  this->Aim->point(petrous::interaction::pickRayThrough(*this->CurrentRenderer, at[0], at[1]));
   this->Send();
 }
 
 void vtkPetrousToolInteraction::Press()
 {
-  using Press = PointerAim::Press;
+  using Press = PointerToolController::Press;
   if (this->Aim && this->PointerHand)
   {
     const bool touching = this->ButtonHeld || this->DrillKeyHeld;
@@ -325,8 +323,8 @@ void vtkPetrousToolInteraction::Send()
   else if (!this->PointerHand)
   {
     if (this->CurrentRenderer)
-      petrous::simulation::setCamera(this->Parameters,
-                                     petrous::interaction::cameraOf(*this->CurrentRenderer));
+      petrous::session::setCamera(this->Parameters,
+                                  petrous::interaction::cameraOf(*this->CurrentRenderer));
     this->Parameters.drill = this->Base.drill || this->GetDrilling() ? 1 : 0;
     this->Parameters.clutch = this->Base.clutch || this->FreezeKeyHeld ? 1 : 0;
   }

@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-#include "petrous/Interaction/PointerAim.h"
+#include "petrous/Interaction/PointerToolController.h"
 
 namespace petrous::interaction
 {
@@ -14,31 +14,31 @@ namespace
 constexpr double kTiltStep = 5.0;  // degrees
 constexpr double kTurnStep = 15.0; // degrees
 
-using Action = std::function<void(PointerAim&, bool fine)>;
+using Action = std::function<void(PointerToolController&, bool fine)>;
 
 Action nudge(double rightward, double upward)
 {
-  return [=](PointerAim& aim, bool fine) { aim.nudge(rightward, upward, fine); };
+  return [=](PointerToolController& aim, bool fine) { aim.nudge(rightward, upward, fine); };
 }
 
 Action deepen(double steps)
 {
-  return [=](PointerAim& aim, bool fine) { aim.wheel(steps, fine); };
+  return [=](PointerToolController& aim, bool fine) { aim.wheel(steps, fine); };
 }
 
 Action turn(double degrees)
 {
-  return [=](PointerAim& aim, bool fine)
-  { aim.turnBy(degrees * (fine ? aim.settings().fineShare : 1.0)); };
+  return [=](PointerToolController& aim, bool fine)
+  { aim.turnBy(degrees * (fine ? aim.settings().fineFraction : 1.0)); };
 }
 
 Action tilt(double degrees)
 {
-  return [=](PointerAim& aim, bool fine)
-  { aim.tiltBy(degrees * (fine ? aim.settings().fineShare : 1.0)); };
+  return [=](PointerToolController& aim, bool fine)
+  { aim.tiltBy(degrees * (fine ? aim.settings().fineFraction : 1.0)); };
 }
 
-void changeMode(PointerAim& aim, bool)
+void changeMode(PointerToolController& aim, bool)
 {
   using Mode = AimSettings::Mode;
   AimSettings settings = aim.settings();
@@ -56,7 +56,7 @@ const std::map<std::string, Action>& actions()
       {"prior", deepen(-1.0)},    {"next", deepen(1.0)},
       {"q", turn(kTurnStep)},     {"e", turn(-kTurnStep)},
       {"r", tilt(-kTiltStep)},    {"f", tilt(kTiltStep)},
-      {"m", changeMode},          {"home", [](PointerAim& aim, bool) { aim.home(); }},
+      {"m", changeMode},          {"home", [](PointerToolController& aim, bool) { aim.home(); }},
   };
   return actions;
 }
@@ -70,7 +70,7 @@ ToolKey heldKey(const std::string& sym)
   return sym == "c" ? ToolKey::Freeze : ToolKey::None;
 }
 
-bool pressKey(PointerAim& aim, const std::string& sym, bool fine)
+bool pressKey(PointerToolController& aim, const std::string& sym, bool fine)
 {
   const auto found = actions().find(sym);
   if (found == actions().end())

@@ -5,9 +5,9 @@
 namespace petrous::interaction
 {
 
-class PointerAim;
+class PointerToolController;
 
-/// What a key does while the pointer holds the tool; none of these states last beyond the key.
+/// Keys that act while held, with the pointer as the device.
 enum class ToolKey
 {
   None,
@@ -19,11 +19,11 @@ enum class ToolKey
 ToolKey heldKey(const std::string& sym);
 
 /// Arrows or WASD nudge, page up and down change the depth, q and e turn the shaft about the line
-/// of sight, r and f tilt it, m changes the mode, home takes the nudge back.
-/// False, with nothing done, for any other key.
-bool pressKey(PointerAim& aim, const std::string& sym, bool fine);
+/// of sight, r and f tilt it, m changes the mode, home resets the nudge. Returns false and does
+/// nothing for any other key.
+bool pressKey(PointerToolController& aim, const std::string& sym, bool fine);
 
-/// Whether heldKey or pressKey takes it.
+/// Whether heldKey or pressKey handles the key.
 bool isToolKey(const std::string& sym);
 
 } // namespace petrous::interaction

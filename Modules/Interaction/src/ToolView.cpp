@@ -43,11 +43,11 @@ void ToolView::removeFrom(vtkRenderer* renderer) const
   renderer->RemoveViewProp(m_actor);
 }
 
-std::optional<rendering::ToolPose> ToolView::update(const simulation::TickRecord& record)
+std::optional<rendering::ToolPose> ToolView::update(const session::TickRecord& record)
 {
-  using simulation::ServoFault;
+  using session::ServoFault;
   const auto fault = static_cast<ServoFault>(record.fault);
-  // Before the first sound reading a record's poses mean nothing.
+  // A record's poses are undefined before the first valid reading.
   m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
                           fault != ServoFault::Parameters);
   if (!m_placed)

@@ -24,8 +24,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-// Runs `work` in a child that is killed at each call that changes files, one after the other, on a
-// fresh copy of `from` each time; `check` sees what is left.
+// Runs `work` in a child process that is killed at the n-th system call that modifies files, for
+// all n, each on a fresh copy of `from`; `check` sees what is left.
 template <class Work, class Check>
 void killedAtEachStep(const fs::path& from, const Work& work, const Check& check)
 {
@@ -92,7 +92,7 @@ TEST(Crash, KilledAtEachStepOfASaveIsTheOldCaseOrTheNew)
         olds += after.strokes.empty();
         EXPECT_TRUE(!ended || after.strokes.size() == 1);
         after.iso = 111;
-        library.save(after); // clears what was left
+        library.save(after); // removes leftovers
         for (const auto& [name, content] : contentOf(library.folder()))
           EXPECT_FALSE(core::isLeftover(name)) << name;
       });
@@ -118,7 +118,7 @@ TEST(Crash, KilledAtEachStepOfARenameHasTheCaseUnderOneName)
       });
 }
 
-// A journal that outlives its case must not be drilled into the next case of that name.
+// A journal that outlives its case must not be applied to the next case of that name.
 TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
 {
   const TemporaryFolder folder;
@@ -146,7 +146,7 @@ TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
       });
 }
 
-// After the manifest's rename nothing may be taken back.
+// After the rename of the manifest nothing may be rolled back.
 TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
 {
   const TemporaryFolder folder;

@@ -19,7 +19,7 @@ namespace
 
 using Bytes = DerivedCache::Bytes;
 
-// That do not pack.
+// Incompressible.
 Bytes noise(std::size_t count, std::uint32_t seed)
 {
   Bytes bytes(count);
@@ -53,7 +53,7 @@ TEST(DerivedCache, GivesBackWhatWasPutUnderItsKey)
   EXPECT_FALSE(cache.find("a"));
   cache.put("a", noise(10000, 1));
   cache.put("b", {});
-  DerivedCache other(folder.path() / "derived"); // as another program
+  DerivedCache other(folder.path() / "derived"); // as another program would
   EXPECT_EQ(other.find("a"), noise(10000, 1));
   EXPECT_EQ(other.find("b"), Bytes());
   EXPECT_FALSE(other.find("c"));
@@ -75,7 +75,7 @@ TEST(DerivedCache, NoticesEveryFlippedBitAndEveryLostEnd)
     stream.seekp(bit / 8);
     stream.put(byte);
     stream.close();
-    // A bit that means nothing to the format may be flipped; another content may not come.
+    // A bit without meaning for the format may be flipped; other content must not be returned.
     const auto found = cache.find("key");
     EXPECT_TRUE(!found || *found == good) << bit;
     if (bit >= 160)

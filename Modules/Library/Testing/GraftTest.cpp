@@ -1,4 +1,4 @@
-#include "../src/Graft.h"
+#include "../src/Journal/Graft.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using test::TemporaryFolder;
 namespace
 {
 
-// A case with one stroke, which two programs have open.
+// A case with one stroke, opened by two programs.
 class Graft : public ::testing::Test
 {
 protected:
@@ -129,7 +129,7 @@ TEST_F(Graft, AKilledDrillComesBackThoughAnotherProgramSavedTheCase)
   scene::Case theirs = open();
   theirs.iso = 500;
   m_library.save(theirs);
-  journal.leave(); // the drill was killed
+  journal.leave(); // simulates a kill while drilling
   std::string told;
   m_library.onNotice([&told](const std::string& words) { told = words; });
   const scene::Case after = open();

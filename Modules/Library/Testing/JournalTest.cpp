@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "../src/JournalFile.h"
+#include "../src/Journal/JournalFile.h"
 #include "TestCase.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Library/ObjectStore.h"
@@ -32,7 +32,7 @@ std::vector<std::uint16_t> voxelsOf(const scene::Case& value)
   return {dense.data(), dense.data() + dense.size()};
 }
 
-// One step of 0.5 s of a stroke that goes on in a line of voxels.
+// One step of 0.5 s of a stroke along a line of voxels.
 void drillStep(scene::Case& value, int step, int line)
 {
   const auto at = [&](double i) {
@@ -54,7 +54,7 @@ void drillLine(scene::Case& value, Journal& journal, int line, int steps)
   journal.follow(*value.dissection);
 }
 
-// What a kill leaves: the files as they are now, in a library of their own.
+// The result of a kill: the files as they are now, in a separate library.
 struct Killed
 {
   TemporaryFolder folder;
@@ -99,7 +99,7 @@ TEST(Journal, BringsBackStrokesThatWereNotSaved)
   EXPECT_FALSE(fs::exists(killed.journal()));
   ASSERT_EQ(killed.notices.size(), 1u);
   EXPECT_NE(killed.notices[0].find("3 strokes came back"), std::string::npos) << killed.notices[0];
-  // From now on it is a case as any other.
+  // From now on it is an ordinary case.
   const auto content = contentOf(killed.folder.path());
   EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
   EXPECT_EQ(contentOf(killed.folder.path()), content);
@@ -115,7 +115,7 @@ TEST(Journal, LosesAtMostFiveSecondsOfALongStroke)
                   [](const dissection::Dissection& work)
                   {
                     auto info = work.openInfo();
-                    info.removed = info.duration; // 1 mm^3 a second
+                    info.removed = info.duration; // 1 mm^3 per s
                     return info;
                   });
   value.dissection->beginStroke({});
@@ -126,7 +126,7 @@ TEST(Journal, LosesAtMostFiveSecondsOfALongStroke)
     states.push_back(voxelsOf(value));
     journal.follow(*value.dissection);
   }
-  Killed killed(library); // 17 s in
+  Killed killed(library); // after 17 s
   const scene::Case back = killed.open();
   EXPECT_TRUE(voxelsOf(back) == states[26]) << "of 13.5 s: written every 4.5 s";
   ASSERT_EQ(back.strokes.size(), 1u);
@@ -159,7 +159,7 @@ TEST(Journal, IsThereOnlyWhileSomethingIsNotSaved)
   EXPECT_FALSE(fs::exists(path)) << "the session ended in order";
 }
 
-// Another thread drills on while the case is being saved.
+// Another thread continues drilling while the case is being saved.
 TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
 {
   const TemporaryFolder folder;
@@ -178,7 +178,7 @@ TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
   }
   const std::size_t all = journal.bytes();
   library.save(snapshot);
-  Killed between(library); // the manifest has the first stroke, and so has the journal
+  Killed between(library); // both manifest and journal have the first stroke
   journal.saved(snapshot);
   EXPECT_LT(journal.bytes(), all);
   Killed after(library);
@@ -224,7 +224,7 @@ TEST(Journal, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
   drillLine(value, journal, 0, 4);
   Killed killed(library);
   {
-    // Another program, which does not look for journals, puts another case there.
+    // Another program, unaware of journals, puts another case there.
     const TemporaryFolder elsewhere;
     Library other(elsewhere.path());
     scene::Case another = smallCase("ear", 20);
@@ -279,7 +279,7 @@ TEST(Journal, OneThatFitsNothingIsSetAside)
   };
   JournalFrame stroke = content.frames.at(0);
   const std::string head = encoded(content.head);
-  expectAside(head + encoded(stroke) + encoded(stroke)); // takes the same voxels twice
+  expectAside(head + encoded(stroke) + encoded(stroke)); // removes the same voxels twice
   stroke.text = "{}";
   expectAside(head + encoded(stroke));
   stroke = content.frames[0];
@@ -323,7 +323,7 @@ TEST(Journal, SurvivesTenThousandDamagedFiles)
   }
 }
 
-// A limit on the size of files stands for a disk that is full.
+// A file size limit simulates a full disk.
 TEST(Journal, AFullDiskIsToldAndARetryWorks)
 {
   const TemporaryFolder folder;
@@ -379,8 +379,8 @@ TEST(Journal, WhatCannotBeBroughtBackNowStays)
 namespace
 {
 
-// A session by script: strokes of 1 to 17 steps of half a second, saves, undo, redo, branches. The
-// same every time; `each` is called with what was drilled in s whenever something has changed.
+// A scripted drilling sequence: strokes of 1 to 17 steps of half a second, saves, undo, redo,
+// branches. Deterministic; `each` is called with the drilling time in s after every change.
 template <class Each>
 void session(Library& library, scene::Case& value, Each each)
 {
@@ -430,7 +430,7 @@ void session(Library& library, scene::Case& value, Each each)
   }
 }
 
-// What one thread of a child tells its parent.
+// Progress shared by a child process with its parent.
 struct Shared
 {
   std::atomic<std::size_t>* done;
@@ -447,10 +447,10 @@ struct Shared
 
 TEST(Journal, KilledAtTwoHundredMomentsLosesAtMostFiveSeconds)
 {
-  // In memory where there is such a place: a kill, unlike a power cut, asks nothing of the disk.
+  // In memory if possible: a kill, unlike a power cut, requires nothing of the disk.
   const fs::path memory = "/dev/shm";
   const TemporaryFolder folder(fs::exists(memory) ? memory : fs::temp_directory_path());
-  // What the session leads to, change by change.
+  // The states of the sequence, change by change.
   std::vector<std::pair<double, std::vector<std::uint16_t>>> states;
   {
     Library library(folder.path() / "truth");
@@ -484,7 +484,7 @@ TEST(Journal, KilledAtTwoHundredMomentsLosesAtMostFiveSeconds)
                 [&](double, const scene::Case&)
                 {
                   if (++*shared.done + 1 == states.size())
-                    ::pause(); // only a kill ends it
+                    ::pause(); // ended only by a kill
                 });
       }
       catch (...)

@@ -206,7 +206,8 @@ TEST(Library, AFullDiskLeavesTheCaseAsItWas)
     }
     EXPECT_EQ(contentOf(disk), before);
 
-    // Full to the last byte: a stroke is refused, stays in memory, and is saved once there is room.
+    // Full to the last byte: saving a stroke fails, keeps it in memory, and succeeds once there is
+    // space.
     library.loadDissection(value);
     drill(value, {8, 8, 8});
     {
@@ -284,14 +285,14 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
     ASSERT_NO_THROW(library.loadDissection(after)) << "round " << round;
     EXPECT_EQ(after.ct.volume.get()->at(3, 0, 0), 403.0);
   }
-  // What killed writers left is cleared by the next save.
+  // Leftovers of killed writers are removed by the next save.
   scene::Case last = library.open("ear");
   library.save(last);
   for (const auto& [name, content] : contentOf(folder.path()))
     EXPECT_EQ(name.find("objects/."), std::string::npos) << name;
 }
 
-// A plain hash of a UID can be tried against the UIDs that somebody knows.
+// A plain hash of a UID can be tested against known UIDs.
 TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
 {
   const TemporaryFolder folder;

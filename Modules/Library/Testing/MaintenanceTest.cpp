@@ -82,7 +82,7 @@ TEST_F(Maintenance, RenamesWithoutTouchingAnotherCase)
   EXPECT_FALSE(m_library.contains("a"));
   EXPECT_EQ(m_library.open("c").strokes.size(), 1u);
   EXPECT_EQ(m_library.list().at(1).name, "c");
-  // Who had it open under its old name is told, and does not write a second one.
+  // A program that opened it under its old name gets an error, and does not write a second case.
   EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
 }
 
@@ -116,7 +116,7 @@ TEST_F(Maintenance, ADamagedCaseCanBeRenamedAndRemovedAndMadeAgain)
   EXPECT_EQ(m_library.open("b").iso, 300);
 }
 
-// The revision alone would say that it is the case that was opened.
+// The revision alone would match that of the opened case.
 TEST_F(Maintenance, DoesNotOverwriteACaseThatTookTheNameOfADeletedOne)
 {
   scene::Case value = make("a");
@@ -142,7 +142,7 @@ TEST_F(Maintenance, ACaseThatIsBeingDrilledIsNeitherRenamedNorRemoved)
   }
 }
 
-// Under another name nobody would bring back what the journal holds.
+// Under another name the content of the journal would never be recovered.
 TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
 {
   scene::Case value = make("a");
@@ -166,14 +166,14 @@ TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
   EXPECT_EQ(m_library.open("b").strokes.size(), 2u);
 }
 
-// Nobody drills where somebody only looks at the journal, as whoever opens the case does.
+// A process that only inspects the journal, as on opening the case, does not count as drilling.
 TEST_F(Maintenance, WhoLooksAtAJournalIsNotTakenForOneWhoDrills)
 {
   make("a");
   const fs::path journal = m_folder.path() / "cases/a.journal";
   std::ofstream(journal) << "";
   bool refused = true;
-  for (int n = 0; n < 50 && refused; ++n) // a busy machine may let the other wait for long
+  for (int n = 0; n < 50 && refused; ++n) // on a loaded machine the other may wait for long
   {
     const int other = ::open(journal.c_str(), O_RDWR);
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
@@ -292,7 +292,7 @@ TEST_F(Maintenance, AnObjectThatIsRestoredIsReadAgain)
   EXPECT_TRUE(fresh.damageFound(restored).empty());
 }
 
-// Storing the same CT again heals the library, whatever cases use it.
+// Importing the same CT again repairs the library, whichever cases use it.
 TEST_F(Maintenance, AnImportReplacesADamagedObject)
 {
   const scene::Case value = make("a");
@@ -382,7 +382,7 @@ TEST_F(Maintenance, RepairBringsStrokesBackAndMakesTheIndexAgain)
   EXPECT_EQ(magic, "SQLite");
 }
 
-// Each of these would block whoever opens it.
+// Each of these would block on opening.
 TEST_F(Maintenance, PipesAmongTheFilesAreNotWaitedFor)
 {
   const scene::Case value = make("a");
@@ -404,7 +404,7 @@ TEST_F(Maintenance, PipesAmongTheFilesAreNotWaitedFor)
   EXPECT_EQ(m_library.list().size(), 1u);
 }
 
-// `immutable` reads past the locks, and so what a writer has half written.
+// `immutable` ignores locks, and so reads half-written data.
 TEST_F(Maintenance, TheIndexIsNotReadWhileSomebodyWritesIt)
 {
   make("a");
@@ -415,7 +415,7 @@ TEST_F(Maintenance, TheIndexIsNotReadWhileSomebodyWritesIt)
                          "BEGIN EXCLUSIVE; UPDATE cases SET strokes = 77, structures = 77", nullptr,
                          nullptr, nullptr),
             SQLITE_OK);
-  ASSERT_EQ(sqlite3_db_cacheflush(database), SQLITE_OK); // in the file, and not committed
+  ASSERT_EQ(sqlite3_db_cacheflush(database), SQLITE_OK); // written to the file, but not committed
   EXPECT_EQ(m_library.list().at(0).strokes, 0u) << "from the manifest";
   sqlite3_exec(database, "ROLLBACK", nullptr, nullptr, nullptr);
   sqlite3_close(database);

@@ -16,7 +16,7 @@
 namespace petrous::library::test
 {
 
-/// A folder that goes with the test.
+/// Temporary folder, removed after the test.
 class TemporaryFolder
 {
 public:
@@ -74,7 +74,7 @@ inline scene::Case smallCase(const std::string& name, int n = 24)
   return value;
 }
 
-/// The same, in the library, with its dissection.
+/// The same, saved in the library, with its dissection loaded.
 inline scene::Case savedCase(Library& library, const std::string& name = "ear", int n = 24)
 {
   scene::Case value = smallCase(name, n);
@@ -83,7 +83,7 @@ inline scene::Case savedCase(Library& library, const std::string& name = "ear", 
   return value;
 }
 
-/// Why the library refuses to do it, and its words.
+/// Reason and message of the library's refusal.
 template <class Action>
 std::pair<LibraryError::Reason, std::string> refusal(const Action& action)
 {
@@ -108,7 +108,7 @@ inline void drill(scene::Case& value, const Eigen::Vector3d& voxel)
   scene::endStroke(value);
 }
 
-/// Every file below a folder with its content; the lock and the index do not count.
+/// Every file below a folder with its content, except the lock and the index.
 inline std::map<std::string, std::string> contentOf(const std::filesystem::path& folder)
 {
   std::map<std::string, std::string> files;

@@ -28,7 +28,7 @@ struct Pair
   {
     return (found * p - truth * p).norm();
   }
-  /// At the corners of a box of 100 mm.
+  /// Maximum error at the corners of a box of 100 mm.
   double worst(const core::RigidTransform& found) const
   {
     double most = 0.0;
@@ -99,14 +99,14 @@ TEST(Fit, TakesASlabThickTiltedSlicesAndAMirroredGrid)
   Scan thick;
   thick.spacing = {1.0, 1.0, 4.0};
   thick.axes = Eigen::AngleAxisd(0.3, Vector3d::UnitX()).toRotationMatrix();
-  thick.axes.col(0) *= -1.0; // left-handed: the voxels run the other way, the patient does not
+  thick.axes.col(0) *= -1.0; // left-handed: reversed voxel order, same patient
   const Pair pair = pairOf(motion(kEar, 9.0, 8.0), slab, thick);
   EXPECT_LT(pair.errorAt(kEar, fitRigid(*pair.ct, *pair.mr).mrFromCt), 0.2 * 4.0);
 }
 
 TEST(Fit, LooksAtARegionAlone)
 {
-  // The head's lower half moved on its own: two motions in one MR, one of them asked for.
+  // The lower half of the head moved separately: two motions in one MR, one of them requested.
   const Head head;
   const core::RigidTransform upper = motion({0, 0, 0}, 4.0, 3.0);
   const core::RigidTransform lower = motion({0, 0, 0}, -4.0, -3.0);
@@ -160,7 +160,7 @@ TEST(Fit, TellsItsWayAndStopsWithTheLastGoodState)
                         }),
                core::CancelledError);
   EXPECT_EQ(told, 12);
-  EXPECT_LT(pair.worst(last), 8.0); // the coarsest level's, better than the header's 10
+  EXPECT_LT(pair.worst(last), 8.0); // coarsest level; better than the header's 10
 }
 
 TEST(Fit, SaysWhyItCannot)

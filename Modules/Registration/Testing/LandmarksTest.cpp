@@ -37,7 +37,7 @@ TEST(Landmarks, NeverMirror)
   EXPECT_NEAR(fitLandmarks(pairs).mrFromCt.rotation().toRotationMatrix().determinant(), 1.0, 1e-9);
 }
 
-// No small motion about the fit has a smaller sum of squares.
+// No small motion about the fit reduces the sum of squares.
 TEST(Landmarks, HaveTheLeastSquares)
 {
   auto pairs = pairsAt(motion({0, 0, 0}, 10.0, 20.0));

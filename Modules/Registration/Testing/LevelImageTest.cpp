@@ -19,7 +19,7 @@ const Eigen::Matrix3d kTilted =
     (Eigen::AngleAxisd(0.3, Vector3d::UnitX()) * Eigen::AngleAxisd(-0.2, Vector3d::UnitZ()))
         .toRotationMatrix();
 
-// A value that grows evenly in the patient is the same number at the same place at any level.
+// A linear function of patient position has the same value at the same place at any level.
 TEST(LevelImage, LiesWhereItsImageLies)
 {
   const Vector3d slope(3.0, -2.0, 5.0);
@@ -30,7 +30,7 @@ TEST(LevelImage, LiesWhereItsImageLies)
     const LevelImage level = makeLevel(*image, scale);
     const core::Index3 dims = level.grid().dims();
     EXPECT_LE(level.grid().minSpacing(), scale * 1.01);
-    for (int k = dims[2] / 4; k < 3 * dims[2] / 4; ++k) // smoothing bends the border
+    for (int k = dims[2] / 4; k < 3 * dims[2] / 4; ++k) // smoothing alters the border
       for (int j = dims[1] / 4; j < 3 * dims[1] / 4; ++j)
         for (int i = dims[0] / 4; i < 3 * dims[0] / 4; ++i)
           ASSERT_NEAR(level.voxels.at(i, j, k),
@@ -106,8 +106,8 @@ TEST(FixedSamples, CoverTheirBoxEvenlyAndRepeat)
   for (const Eigen::Vector3f& p : samples.points)
     ++octants[static_cast<std::size_t>((p[0] > 0) + 2 * (p[1] > 0) + 4 * (p[2] > 0))];
   for (const int count : octants)
-    EXPECT_NEAR(count, 1000, 40); // 30 is one standard deviation of independent draws
-  // a cube of side 39: root mean square distance side / 2
+    EXPECT_NEAR(count, 1000, 40); // 30 is one standard deviation for independent samples
+  // cube of side 39: RMS distance is side / 2
   EXPECT_NEAR(samples.radius, 19.5, 0.1);
   const FixedSamples again = drawSamples(level, level.grid().fullBox(), 8000, 5, 32);
   EXPECT_EQ(samples.points, again.points);

@@ -7,7 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "JointHistogram.h"
-#include "PoseChart.h"
+#include "RigidParametrization.h"
 #include "TestBodies.h"
 
 namespace petrous::registration
@@ -78,7 +78,7 @@ TEST(MutualInformation, ValueAndValueWithGradientAgree)
   EXPECT_GT(overlap, 0.8);
 }
 
-// Against central differences along each of the six numbers, where no sample leaves the image.
+// Against central differences in each of the six parameters, with no sample leaving the image.
 TEST(MutualInformation, GradientIsThatOfTheValue)
 {
   const Scene scene;
@@ -86,7 +86,7 @@ TEST(MutualInformation, GradientIsThatOfTheValue)
   const FixedSamples samples = drawSamples(scene.fixed, inner, 20'000, 3, 32);
   const MutualInformation metric(samples, scene.moving, 32);
   const core::RigidTransform base = motion({0, 0, 0}, 3.0, 2.0) * scene.truth;
-  const PoseChart chart(base, samples.centre, samples.radius);
+  const RigidParametrization chart(base, samples.centre, samples.radius);
   PoseVector at;
   at << 2.0, -1.0, 3.0, 0.5, -0.7, 1.1;
   const auto v = metric.withGradient(chart.pose(at));
@@ -146,7 +146,7 @@ TEST(MutualInformation, IsZeroWithoutOverlap)
   EXPECT_EQ(v.translation, Vector3d::Zero().eval());
 }
 
-// A linear change of the moving image's values, also its inversion, changes nothing.
+// Invariant to linear changes of the moving image's values, including inversion.
 TEST(MutualInformation, DoesNotAskHowBrightTheImageIs)
 {
   const Scene scene;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "ErrorModel.h"
-#include "Evidence.h"
+#include "QualityFeatures.h"
 #include "TestBodies.h"
 #include "petrous/Core/Error.h"
 
@@ -59,7 +59,7 @@ TEST(Register, ErrorGrowsAwayFromWhatIsSeen)
   EXPECT_NE(far.text.find("outside"), std::string::npos) << far.text;
 }
 
-// What lies within 16 mm of the ear is displaced, over an edge of 2 mm, in noise.
+// Everything within 16 mm of the ear is displaced, with a transition of 2 mm, in noise.
 TEST(Register, ReachesAnEarThatLiesElsewhereThanTheHead)
 {
   const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 2.0);
@@ -85,7 +85,7 @@ TEST(Register, ReachesAnEarThatLiesElsewhereThanTheHead)
   }
 }
 
-// Turned by half a turn it is beyond the search, and what is found instead is far off.
+// Rotated by 180 degrees it is beyond the search range, and what is found instead is far off.
 TEST(Register, WhatEndsFarOffByChanceHasFailed)
 {
   const core::RigidTransform truth = motion({0, 0, 0}, 3.0, 175.0, {1, 0, 0});
@@ -150,7 +150,7 @@ std::vector<core::RigidTransform> shifts(const Vector3d& deviation, int count)
   return list;
 }
 
-// The percentiles of the chi distribution, of 1, 2 and 3 degrees: tables.
+// Percentiles of the chi distribution with 1, 2 and 3 degrees of freedom, from tables.
 TEST(ErrorModel, KnowsTheNormalDistribution)
 {
   struct Case
@@ -163,7 +163,7 @@ TEST(ErrorModel, KnowsTheNormalDistribution)
   {
     const LocalError unit = localError({}, shifts(c.deviation, 20'000), {0, 0, 0}, 1e-3, 100.0);
     EXPECT_NEAR(unit.p95 / unit.median, c.p95 / c.median, 0.03 * c.p95 / c.median);
-    // scaled by the calibrated inflation, which is that of twice the deviation over this one
+    // scaled by the calibrated inflation, obtained from twice the deviation relative to this one
     const LocalError twice =
         localError({}, shifts(2.0 * c.deviation, 20'000), {0, 0, 0}, 1e-3, 100.0);
     EXPECT_NEAR(twice.p95, 2.0 * unit.p95, 1e-3);
@@ -172,8 +172,8 @@ TEST(ErrorModel, KnowsTheNormalDistribution)
   }
 }
 
-// The largest is the 99.9th percentile (of three degrees 4.0331 deviations, of one 3.2905), or what
-// a repeat went further.
+// The maximum is the 99.9th percentile (with three degrees of freedom 4.0331 deviations, with one
+// 3.2905), or the largest repeat if greater.
 TEST(ErrorModel, LargestIsRarerThanTheP95)
 {
   for (const auto& [deviation, largest] :
@@ -210,9 +210,9 @@ TEST(ErrorModel, CountsAFitBesideItsRepeatsAsWrong)
   EXPECT_EQ(strayShare({}, repeats, {0, 0, 0}, 0.6), 0.0);
 }
 
-TEST(Judgement, NamesEachReason)
+TEST(QualityVerdict, NamesEachReason)
 {
-  Evidence fine;
+  QualityFeatures fine;
   fine.overlap = 0.9;
   fine.information = 0.6;
   fine.strays = 0.0;
@@ -223,29 +223,29 @@ TEST(Judgement, NamesEachReason)
 
   const auto expect = [&](const char* word, Verdict verdict, const auto& spoil)
   {
-    Evidence evidence = fine;
+    QualityFeatures evidence = fine;
     spoil(evidence);
-    const Judgement judgement = judge(evidence);
+    const QualityVerdict judgement = judge(evidence);
     EXPECT_EQ(judgement.verdict, verdict) << judgement.text;
     EXPECT_NE(judgement.text.find(word), std::string::npos) << judgement.text;
   };
-  expect("share too little", Verdict::Failed, [](Evidence& e) { e.overlap = 0.1; });
-  expect("next to nothing", Verdict::Failed, [](Evidence& e) { e.information = 0.001; });
-  expect("ended elsewhere", Verdict::Failed, [](Evidence& e) { e.strays = 0.8; });
-  expect("ended elsewhere", Verdict::Doubtful, [](Evidence& e) { e.strays = 0.3; });
-  expect("mirrored", Verdict::Doubtful, [](Evidence& e) { e.mirrored = 1.2; });
-  expect("another pose", Verdict::Doubtful, [](Evidence& e) { e.runnerUp = 0.99; });
-  expect("3.0 mm", Verdict::Doubtful, [](Evidence& e) { e.error.p95 = 3.0; });
-  expect("beside", Verdict::Doubtful, [](Evidence& e) { e.aside = 4.0; });
-  expect("outside", Verdict::Doubtful, [](Evidence& e) { e.pointCovered = false; });
+  expect("share too little", Verdict::Failed, [](QualityFeatures& e) { e.overlap = 0.1; });
+  expect("next to nothing", Verdict::Failed, [](QualityFeatures& e) { e.information = 0.001; });
+  expect("ended elsewhere", Verdict::Failed, [](QualityFeatures& e) { e.strays = 0.8; });
+  expect("ended elsewhere", Verdict::Doubtful, [](QualityFeatures& e) { e.strays = 0.3; });
+  expect("mirrored", Verdict::Doubtful, [](QualityFeatures& e) { e.mirrored = 1.2; });
+  expect("another pose", Verdict::Doubtful, [](QualityFeatures& e) { e.runnerUp = 0.99; });
+  expect("3.0 mm", Verdict::Doubtful, [](QualityFeatures& e) { e.error.p95 = 3.0; });
+  expect("beside", Verdict::Doubtful, [](QualityFeatures& e) { e.aside = 4.0; });
+  expect("outside", Verdict::Doubtful, [](QualityFeatures& e) { e.pointCovered = false; });
   expect("3.1 mm beside the rest", Verdict::Doubtful,
-         [](Evidence& e) {
+         [](QualityFeatures& e) {
            e.displaced = LocalFit{10.0, Vector3d(3.1, 0.0, 0.0), 0.1, 0.2, 0.5};
          });
-  // far from where it was looked for: only what nothing speaks against
-  expect("agree", Verdict::Good, [](Evidence& e) { e.moved = 118.0; });
+  // far from the starts: accepted only without any doubt
+  expect("agree", Verdict::Good, [](QualityFeatures& e) { e.moved = 118.0; });
   expect("ended 118 mm", Verdict::Failed,
-         [](Evidence& e)
+         [](QualityFeatures& e)
          {
            e.moved = 118.0;
            e.runnerUp = 0.99;

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// An image of a scalar function of patient points.
+/// Samples a scalar function of patient points on a grid.
 template <class T = float>
 std::shared_ptr<const volume::IntensityVolume>
 imageOf(const core::GridGeometry& grid, const std::function<double(const Vector3d&)>& value,
@@ -34,15 +34,15 @@ imageOf(const core::GridGeometry& grid, const std::function<double(const Vector3
       std::shared_ptr<const volume::Volume<T>>(std::move(voxels)));
 }
 
-/// How far a point lies in an ellipsoid: 1 inside, 0 outside, over an edge of about 1 mm.
+/// Soft indicator of an ellipsoid: 1 inside, 0 outside, over a transition of about 1 mm.
 inline double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radii)
 {
   const double depth = (1.0 - (p - centre).cwiseQuotient(radii).norm()) * radii.minCoeff();
   return 1.0 / (1.0 + std::exp(-4.0 * depth));
 }
 
-/// A head of about 120 mm, without any symmetry: skin, skull, brain with a few bodies of fluid, and
-/// cavities of air. Values of a CT (HU) and of a T1 and a T2 MR of it.
+/// An asymmetric head of about 120 mm: skin, skull, brain with a few fluid spaces, and air
+/// cavities. Values of a CT (HU), and of a T1 and a T2 MR of it.
 class Head
 {
 public:
@@ -91,14 +91,14 @@ private:
       {{-10, 8, 8}, {9, 16, 8}, {5.0, 150.0, 900.0}},    // fluid
       {{13, -7, 12}, {7, 9, 12}, {5.0, 150.0, 900.0}},   // fluid
       {{22, 20, -12}, {10, 8, 7}, {900.0, 60.0, 40.0}},  // petrous bone
-      {{-24, 14, -10}, {8, 12, 6}, {900.0, 60.0, 40.0}}, // and the other one
+      {{-24, 14, -10}, {8, 12, 6}, {900.0, 60.0, 40.0}}, // and the contralateral one
       {{24, 22, -13}, {4, 3, 3}, {-900.0, 5.0, 5.0}},    // a middle ear
       {{5, -45, -20}, {11, 9, 9}, {-900.0, 5.0, 5.0}},   // a sinus
       {{15, 30, 10}, {6, 7, 5}, {70.0, 620.0, 350.0}},   // a tumour
   };
 };
 
-/// A grid about a point.
+/// A grid centred at a point.
 inline core::GridGeometry gridAbout(const Vector3d& centre, const Vector3d& extent,
                                     const Vector3d& spacing,
                                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity())

@@ -14,12 +14,12 @@ using namespace petrous::rendering;
 namespace
 {
 
-// A frame whose time grows with its pixels and with their samples, beside something constant.
+// Frame time: constant + proportional to pixels + proportional to samples.
 struct Machine
 {
   double constant; // ms
-  double pixels;   // ms of a picture of scale 1
-  double samples;  // ms of a picture of scale 1 with a sample a voxel
+  double pixels;   // ms for a picture of scale 1
+  double samples;  // ms for a picture of scale 1 with one sample per voxel
 
   double frame(const RenderQuality& quality) const
   {
@@ -44,13 +44,13 @@ RenderQuality settled(InteractionQuality& interaction, const Machine& machine,
 TEST(InteractionQuality, HoldsTheRateOfASlowMachine)
 {
   for (const double hz : {15.0, 30.0, 60.0})
-    for (const double share : {0.2, 0.5, 0.8}) // of the time that samples take
+    for (const double share : {0.2, 0.5, 0.8}) // fraction of the time spent on samples
     {
       InteractionQuality interaction(hz);
       const Machine machine{1.0, (1.0 - share) * 200.0, share * 200.0};
       const double took = machine.frame(settled(interaction, machine));
       EXPECT_LE(took, 1000.0 / hz) << hz << " " << share;
-      EXPECT_GE(took, 0.35 * 1000.0 / hz) << hz << " " << share; // no coarser than it must be
+      EXPECT_GE(took, 0.35 * 1000.0 / hz) << hz << " " << share; // no coarser than necessary
     }
 }
 
@@ -100,7 +100,7 @@ TEST(InteractionQuality, NeverLeavesItsLimits)
         EXPECT_LE(quality.imageScale, full.imageScale);
         EXPECT_GE(quality.imageScale, std::min(InteractionQuality::kSmallestScale, scale));
         EXPECT_GE(quality.step, full.step);
-        EXPECT_LE(quality.step, std::max(InteractionQuality::kLongestStep, step));
+        EXPECT_LE(quality.step, std::max(InteractionQuality::kMaxStep, step));
         EXPECT_EQ(quality.bisections, 5);
         interaction.frameTook(std::pow(10.0, power(random)), quality);
       }

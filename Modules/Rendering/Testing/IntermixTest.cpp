@@ -9,14 +9,14 @@ using namespace petrous::rendering::synthetic;
 namespace
 {
 
-// Largest share of pixels, %, whose colour may be off by more than two levels where polygons are
-// drawn: their silhouettes fall on other pixels where corners are rounded to the screen's grid, and
-// a sphere of 48 x 32 facets lies up to 0.5 % of its radius inside the true one.
+// Max. percentage of pixels whose colour may differ by more than two levels where polygons are
+// drawn: their silhouettes differ where vertices are snapped to the rasterizer's grid, and a sphere
+// of 48 x 32 facets is up to 0.5 % of its radius inside the true one.
 constexpr double kOthers = 1.5;
 
 struct Colors
 {
-  double rms = 0.0;    // of pixels whose channels all lie within 12 levels, 1/255
+  double rms = 0.0;    // of pixels whose channels all differ by at most 12 levels, 1/255
   double others = 0.0; // %
 };
 
@@ -53,7 +53,7 @@ void expectTheSame(const SceneContents& contents, const core::CameraPose& pose)
   const Colors colors = compareColors(shot.picture, truth);
   EXPECT_LE(colors.rms, 1.5);
   EXPECT_LE(colors.others, kOthers);
-  // Where the tissue's first hit lies before a polygon, it is where it is without one.
+  // Where the tissue's first hit is in front of a polygon, it is the same as without the polygon.
   const Agreement agreement = compare(shot, truth, contents.ct->geometry().minSpacing());
   EXPECT_LE(agreement.median, 0.05);
   EXPECT_LE(agreement.others, kOthers);
@@ -85,7 +85,7 @@ ToolPose tool(const Vector& center, const Vector& axis, double radius = 2.0)
 TEST(Intermix, ShowsAMeshBeforeAndBehindTheBone)
 {
   SceneContents contents = hollowBall(oblique());
-  // A sheet across the ball: half of it stands before the bone, half is hidden.
+  // A sheet across the ball: half of it in front of the bone, half hidden.
   contents.meshes = {square("sheet", {0.0, -4.0, 0.0}, {14.0, 0.0, 0.0}, {0.0, 0.0, 14.0}),
                      square("behind", {0.0, 12.0, 0.0}, {9.0, 0.0, 0.0}, {0.0, 0.0, 9.0})};
   expectTheSame(contents, slanting());
@@ -113,7 +113,7 @@ TEST(Intermix, ShowsTheToolInACavityAndItsShaftBeforeTheBone)
 
 TEST(Intermix, ShowsAToolAtEveryPlaceOfACutCavity)
 {
-  // Rays end at the tool where the cut's bricks begin or end, wherever it stands.
+  // Rays end at the tool at the borders of the cut's bricks, wherever the tool is.
   SceneContents contents = cutBall();
   for (double depth = -13.0; depth < -4.0; depth += 2.1)
   {
@@ -122,7 +122,7 @@ TEST(Intermix, ShowsAToolAtEveryPlaceOfACutCavity)
     const ReferencePicture truth = truthOf(contents, slanting());
     const Colors colors = compareColors(shot.picture, truth);
     EXPECT_LE(colors.others, kOthers) << depth;
-    int wrong = 0; // tissue where there is none
+    int wrong = 0; // tissue where there should be none
     for (std::size_t p = 0; p < truth.depth.millimetres.size(); ++p)
       wrong += std::isnan(truth.depth.millimetres[p]) && !std::isnan(shot.depth.millimetres[p]);
     EXPECT_LE(wrong, 6) << depth;
@@ -142,7 +142,7 @@ TEST(Intermix, HidesAToolInsideOpaqueBone)
   const Picture without = draw(contents, slanting());
   contents.tool = tool({3.0, -11.0, 2.0}, {0.3, -1.0, 0.5});
   EXPECT_GT(countDifferentPixels(draw(contents, slanting()), without), 100U);
-  contents.tool = tool({0.0, 0.0, 0.0}, {-0.5, 0.8, -0.35}, 1.0); // away from the eye
+  contents.tool = tool({0.0, 0.0, 0.0}, {-0.5, 0.8, -0.35}, 1.0); // away from the camera
   const Picture hidden = draw(contents, slanting());
   for (int row = 60; row < 90; ++row)
     for (int column = 85; column < 115; ++column)

@@ -97,7 +97,8 @@ TEST(MaskEdit, UndoOfEverythingRestoresEveryPixelAndEveryResource)
   }
 }
 
-// With a tool in the scene the first cut changes no shader; without one an untouched mask is none.
+// With a tool in the scene the first cut changes no shader; without one an untouched mask is
+// unused.
 TEST(MaskEdit, IsReadyForTheFirstCutWhileThereIsATool)
 {
   SceneContents contents = labelledBall(cube(64, 0.35, obliqueMirrored()));
@@ -139,7 +140,7 @@ TEST(MaskEdit, GivesBackBricksThatHadBecomeEmpty)
   for (const SceneContents& contents : {hollowBall(oblique()), translucentBall()})
   {
     const core::GridGeometry grid = contents.ct->geometry();
-    const auto small = ballsCut(grid, 1); // stays, so that the mask is in use all the time
+    const auto small = ballsCut(grid, 1); // remains, so that the mask stays in use
     const auto block = cut(grid,
                            [](const Vector& p) {
                              return std::min((p - Vector(0.0, -8.0, 0.0)).norm() - 3.0,
@@ -180,7 +181,7 @@ TEST(MaskEdit, ManyStrokesAndUndosEndAsDrawnFromTheStart)
       for (int& index : at)
         index = 8 + strokes::below(random, 32);
       const bool giveBack = strokes::below(random, 3) == 0;
-      // What interpolation reaches counts: one voxel more on each side.
+      // Includes the support of interpolation: one more voxel on each side.
       core::IndexBox box = strokes::brush(*mask, at, 3.0 + strokes::below(random, 4), giveBack);
       for (std::size_t a = 0; a < 3; ++a)
       {
@@ -189,7 +190,7 @@ TEST(MaskEdit, ManyStrokesAndUndosEndAsDrawnFromTheStart)
       }
       scene.maskChanged(mask, box);
       if (stroke % 5 == 4)
-        view.render(scene); // strokes meet frames anyhow
+        view.render(scene); // frames interleaved with strokes
     }
     const Picture drawn = view.render(scene);
     EXPECT_EQ(differentFromFresh(drawn, contents, std::make_shared<volume::CutMask>(*mask)), 0U)
@@ -246,7 +247,7 @@ TEST(MaskEdit, BringsEditsOverTheCapOverSeveralFrames)
   scene.maskChanged(second, grid.fullBox());
   view.render(scene);
   const std::size_t pending = scene.statistics().pendingEdits;
-  const std::size_t slice = 170U * 170U; // parts are whole slices
+  const std::size_t slice = 170U * 170U; // edits are split into whole slices
   EXPECT_GE(pending + slice, grid.voxelCount() - MaskTexture::kVoxelsPerFrame);
   EXPECT_LT(pending, grid.voxelCount());
   const Picture last = view.render(scene);
@@ -262,7 +263,7 @@ TEST(MaskEdit, EightBitsOfTheMaskMoveTheWallByLessThanATenthOfAVoxel)
   const Agreement agreement =
       compare(shoot(contents, slanting(), quality), truthOf(contents, slanting()),
               contents.ct->geometry().minSpacing());
-  // One level of 255 over a slope of half the mask a voxel is 0.008 voxel.
+  // One of 255 levels at a slope of half the mask's range per voxel is 0.008 voxel.
   EXPECT_LE(agreement.median, 0.01);
   EXPECT_LE(agreement.farthest, 0.1);
   EXPECT_LE(agreement.others, 0.2);

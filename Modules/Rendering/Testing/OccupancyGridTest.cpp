@@ -46,19 +46,19 @@ bool same(const std::vector<Texel>& a, const std::vector<Texel>& b)
                     });
 }
 
-// Everything that a sample at random points meets must be announced by its brick.
+// Everything found by sampling at random points must be flagged by its brick.
 void expectNothingMissed(const OccupancyGrid& grid, const OccupancyGrid::Rules& rules,
                          const std::shared_ptr<const volume::IntensityVolume>& ct,
                          const volume::LabelField* labels,
                          const std::shared_ptr<const volume::CutMask>& mask, Random& random)
 {
-  // Where bone does not take part, an image without tissue stands for it.
+  // If bone is not part of f, an image without tissue replaces it.
   const auto bone = rules.bone ? ct
                                : image(std::make_shared<volume::Volume<float>>(
                                      ct->geometry(), static_cast<float>(rules.iso - 1e6)));
   std::vector<volume::TissueField::SolidUnion> solids;
   if (labels)
-    solids.push_back(labels->share);
+    solids.push_back(labels->occupancy);
   const volume::TissueField field(bone, solids, mask, {rules.iso, 1000.0});
   const core::GridGeometry& geometry = ct->geometry();
   int missed = 0;
@@ -78,13 +78,13 @@ void expectNothingMissed(const OccupancyGrid& grid, const OccupancyGrid::Rules& 
       announced(value >= range.min && value <= range.max, OccupancyGrid::Inside);
     if (!labels)
       return;
-    const Vector3d there = labels->share->geometry().voxelFromPatient(patient);
-    if (!labels->share->geometry().hullContains(there))
+    const Vector3d there = labels->occupancy->geometry().voxelFromPatient(patient);
+    if (!labels->occupancy->geometry().hullContains(there))
       return;
-    const double share = volume::sampleTrilinear(*labels->share, there);
-    announced(share > 0.5 - 1e-3, OccupancyGrid::Labels);
-    announced(share > 0.5, OccupancyGrid::Inside);
-    announced(share > 0.5, OccupancyGrid::Border);
+    const double occupancy = volume::sampleTrilinear(*labels->occupancy, there);
+    announced(occupancy > 0.5 - 1e-3, OccupancyGrid::Labels);
+    announced(occupancy > 0.5, OccupancyGrid::Inside);
+    announced(occupancy > 0.5, OccupancyGrid::Border);
   };
   const auto anywhere = [&]
   {
@@ -105,12 +105,12 @@ void expectNothingMissed(const OccupancyGrid& grid, const OccupancyGrid::Rules& 
   EXPECT_EQ(missed, 0) << "at random places";
   if (!labels)
     return;
-  // Labels are few and small: around each of their voxels too.
-  const core::GridGeometry& labelGrid = labels->share->geometry();
+  // Labels are few and small: sample around each of their voxels too.
+  const core::GridGeometry& labelGrid = labels->occupancy->geometry();
   forEach(labelGrid.fullBox(),
           [&](int i, int j, int k)
           {
-            if (labels->share->at(i, j, k) > 0.0F)
+            if (labels->occupancy->at(i, j, k) > 0.0F)
               for (int n = 0; n < 200; ++n)
               {
                 const Vector3d there(i + between(random, -1.0, 1.0), j + between(random, -1.0, 1.0),
@@ -208,7 +208,7 @@ TEST_P(OccupancyGridShapes, FlagsNoBrickThatHoldsNothing)
                       high = std::max(high, ct->at(x, y, z));
                       least = std::min<int>(least, mask.at(x, y, z));
                       most = std::max<int>(most, mask.at(x, y, z));
-                      solid = solid || labels.share->at(x, y, z) > 0.5F - 1e-3F;
+                      solid = solid || labels.occupancy->at(x, y, z) > 0.5F - 1e-3F;
                     });
             unsigned expected = least < 65535 ? OccupancyGrid::Mixed : 0;
             expected |= solid ? OccupancyGrid::Labels : 0;
@@ -242,7 +242,7 @@ TEST_P(OccupancyGridShapes, IsAfterEveryCutAndUndoAsAfterARebuild)
     IndexBox touched;
     if (n % 10 == 9)
     {
-      mask = history.front(); // a brick changed anywhere
+      mask = history.front(); // changes bricks anywhere
       history = {mask};
       touched = grid.fullBox();
     }
@@ -343,7 +343,7 @@ TEST(OccupancyGrid, TakesTheMasksHalfValueForTissue)
 
 TEST(OccupancyGrid, SeesAShareThatCarriesIntoTheNextBrick)
 {
-  // Between 0.48 at 7.85 and 1 at 8.85 the share exceeds 0.5 from 7.89 on, which is brick 0's.
+  // Between 0.48 at 7.85 and 1 at 8.85 the occupancy exceeds 0.5 from 7.89 on, inside brick 0.
   const core::GridGeometry grid({17, 17, 17}, Vector3d::Ones(), Vector3d::Zero());
   const auto ct = image(std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{0}));
   for (int axis = 0; axis < 3; ++axis)
@@ -352,11 +352,11 @@ TEST(OccupancyGrid, SeesAShareThatCarriesIntoTheNextBrick)
     origin[axis] = 7.85;
     Index3 dims{1, 1, 1};
     dims[static_cast<std::size_t>(axis)] = 2;
-    auto share = std::make_shared<volume::Volume<float>>(
+    auto inside = std::make_shared<volume::Volume<float>>(
         core::GridGeometry(dims, Vector3d::Ones(), origin), 1.0F);
-    share->data()[0] = 0.48F;
+    inside->data()[0] = 0.48F;
     volume::LabelField labels;
-    labels.share = share;
+    labels.occupancy = inside;
     OccupancyGrid occupancy(*ct, 8);
     occupancy.rebuild({}, &labels, nullptr);
     Vector3d point(12.0, 12.0, 12.0);
@@ -372,10 +372,10 @@ TEST(OccupancyGrid, ReadsNewLabelsAndKeepsKnownOnes)
   OccupancyGrid occupancy(*ct, 8);
   const auto oneVoxel = [&](int at)
   {
-    auto share = std::make_shared<volume::Volume<float>>(grid, 0.0F);
-    share->at(at, at, at) = 0.8F;
+    auto inside = std::make_shared<volume::Volume<float>>(grid, 0.0F);
+    inside->at(at, at, at) = 0.8F;
     volume::LabelField labels;
-    labels.share = share;
+    labels.occupancy = inside;
     return labels;
   };
   const auto flagged = [&](int brick)

@@ -94,7 +94,7 @@ TEST(OffscreenView, RefusesImpossibleSizes)
 
 TEST(OffscreenViewDeathTest, SaysWhatToInstallWhereNoDriverIs)
 {
-  testing::FLAGS_gtest_death_test_style = "threadsafe"; // a fresh process: EGL looks only once
+  testing::FLAGS_gtest_death_test_style = "threadsafe"; // new process: EGL loads drivers only once
   const auto drawWithoutDriver = []
   {
     ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/none.json", 1);

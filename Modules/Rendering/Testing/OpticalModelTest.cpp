@@ -50,7 +50,7 @@ TEST(OpticalModel, SurfaceIsAmbientPlusLambert)
   EXPECT_TRUE(lit(light, 1.0).isApprox(kColor, 1e-12));
   EXPECT_TRUE(lit(light, 0.0).isApprox(0.2 * kColor, 1e-12));
   EXPECT_TRUE(lit(light, 0.5).isApprox(0.6 * kColor, 1e-12));
-  EXPECT_TRUE(lit(light, -0.5).isApprox(0.6 * kColor, 1e-12)); // seen from behind
+  EXPECT_TRUE(lit(light, -0.5).isApprox(0.6 * kColor, 1e-12)); // seen from the back
 }
 
 TEST(OpticalModel, HighlightIsOfTheTransferFunctionTimesTheLamps)
@@ -90,7 +90,7 @@ TEST(OpticalModel, InsideATissueLightComesAtTheMeanCosine)
 {
   LightSettings light;
   light.ambient = 0.25;
-  // The mean of the cosine over a Lambertian exit, 2 pi integral cos^2 sin / pi, is 2/3.
+  // The mean cosine of a Lambertian exit, 2 pi integral cos^2 sin / pi, is 2/3.
   EXPECT_TRUE(optics::interiorColor(kColor, light, 7.0)
                   .isApprox((0.25 + 0.75 * 2.0 / 3.0) * kColor, 1e-12));
 }

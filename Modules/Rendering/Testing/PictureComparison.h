@@ -26,7 +26,7 @@ struct Shot
   RenderStatistics statistics;
 };
 
-/// One more frame of a scene.
+/// Draws another frame of a scene.
 inline Shot shoot(OffscreenView& view, ScenePicture& scene)
 {
   Shot shot;
@@ -36,7 +36,7 @@ inline Shot shoot(OffscreenView& view, ScenePicture& scene)
   return shot;
 }
 
-/// A scene drawn from the start.
+/// Draws a scene from scratch.
 inline Shot shoot(const SceneContents& contents, const core::CameraPose& pose,
                   const RenderQuality& quality = {}, int width = kWidth, int height = kHeight)
 {
@@ -71,11 +71,11 @@ inline core::CameraPose slanting(double distance = 60.0)
 struct Agreement
 {
   double rms = 0.0;      // of colour, 1/255, where the first hits agree within half a voxel
-  double others = 0.0;   // % of all pixels: hit or miss mismatches, or first hits further apart
+  double others = 0.0;   // % of all pixels: hit/miss mismatches, or first hits further apart
   double median = 0.0;   // |difference of first hits|, voxels, where both hit
   double farthest = 0.0; // the largest of those that agree
-  int hits = 0;          // that agree
-  int background = 0;    // largest difference of a channel where neither hits, of 255
+  int hits = 0;          // pixels that agree
+  int background = 0;    // largest channel difference where neither hits, of 255
 };
 
 inline Agreement compare(const Shot& shot, const ReferencePicture& truth, double voxel)
@@ -123,8 +123,8 @@ inline Agreement compare(const Shot& shot, const ReferencePicture& truth, double
   return result;
 }
 
-/// What default quality promises: colour within 1/255 RMS (rounding to 8 bits alone makes 0.29),
-/// 0.2 % of other pixels, first hits within 0.05 voxel in the median.
+/// Accuracy at default quality: colour within 1/255 RMS (rounding to 8 bits alone gives 0.29), 0.2
+/// % of other pixels, first hits within 0.05 voxel in the median.
 inline void expectAgreement(const Agreement& agreement)
 {
   EXPECT_LE(agreement.rms, 1.0);

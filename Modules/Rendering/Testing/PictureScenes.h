@@ -6,7 +6,7 @@
 #include "LabelScenes.h"
 #include "petrous/Appearance/Material.h"
 
-/// Scenes for the renderer's pictures: one thing each that it must draw as the reference does.
+/// Scenes for renderer tests, each with one feature to be drawn as by the reference.
 namespace petrous::rendering::synthetic
 {
 
@@ -21,7 +21,7 @@ inline core::CameraPose from(const Vector& eye, const Vector& at, double angle =
   return pose;
 }
 
-/// Bone whose colour and density follow the intensity.
+/// Bone whose colour and density depend on the intensity.
 inline appearance::TransferFunction boneTransfer()
 {
   return appearance::TransferFunction({{kIso, {0.80F, 0.60F, 0.42F}, 0.02F, 0.4F},
@@ -46,7 +46,7 @@ inline appearance::Material red(float surfaceOpacity = 1.0F)
           appearance::IntensitySource::Ct, surfaceOpacity, 40.0F};
 }
 
-/// Signed distance into a ball with a bite, whose picture tells its sides apart.
+/// Signed distance into a ball with a bite taken out, which makes its orientation visible.
 inline double bittenBall(const Vector& p)
 {
   return std::min(9.0 - p.norm(), (p - Vector(4.0, -6.0, 3.0)).norm() - 4.0);
@@ -62,7 +62,7 @@ inline SceneContents boneScene(std::shared_ptr<const volume::IntensityVolume> ct
   return contents;
 }
 
-/// The bitten ball, 24 mm wide.
+/// The ball with the bite, 24 mm wide.
 template <class T = std::int16_t>
 SceneContents hollowBall(const Eigen::Matrix3d& direction = Eigen::Matrix3d::Identity(),
                          double spacing = 0.5)
@@ -70,7 +70,7 @@ SceneContents hollowBall(const Eigen::Matrix3d& direction = Eigen::Matrix3d::Ide
   return boneScene(ct<T>(cube(static_cast<int>(24.0 / spacing), spacing, direction), bittenBall));
 }
 
-/// The same to be looked into.
+/// The same, translucent.
 inline SceneContents translucentBall(const Eigen::Matrix3d& direction = oblique())
 {
   SceneContents contents = hollowBall(direction);
@@ -78,7 +78,7 @@ inline SceneContents translucentBall(const Eigen::Matrix3d& direction = oblique(
   return contents;
 }
 
-/// A blue rod through the ball's middle, and a red ball behind the bite; index 1 and 2.
+/// A blue rod through the ball's centre, and a red ball behind the bite; index 1 and 2.
 inline std::shared_ptr<const volume::LabelField> rodAndBall(const core::GridGeometry& grid)
 {
   const auto rod = [](const Vector& p)
@@ -97,7 +97,7 @@ inline SceneContents labelledBall(const core::GridGeometry& grid, float surfaceO
   return contents;
 }
 
-/// Cuts away what lies before a slanting plane, and a ball of a burr.
+/// Removes everything in front of an oblique plane, and a ball as by a burr.
 inline double cavity(const Vector& p)
 {
   return std::min((p - Vector(2.0, -7.0, 3.0)).norm() - 4.5,
@@ -112,7 +112,7 @@ inline SceneContents cutBall(float surfaceOpacity = 1.0F)
   return contents;
 }
 
-/// A pattern of smooth waves in a frame of its own that is moved against the CT's.
+/// Smooth waves in a coordinate frame moved relative to the CT's.
 inline SecondImage movedWaves()
 {
   SecondImage second;
@@ -133,7 +133,7 @@ inline appearance::Material waveMaterial(float surfaceOpacity)
           appearance::IntensitySource::Second, surfaceOpacity};
 }
 
-/// Everything at once.
+/// All features combined.
 inline SceneContents fullScene()
 {
   SceneContents contents = labelledBall(cube(64, 0.35, obliqueMirrored()));

@@ -17,7 +17,7 @@ Picture grey(int width, int height)
           std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 128)};
 }
 
-// The box of what differs from grey: left, top, right, bottom; right < left where nothing does.
+// Bounding box of pixels other than grey: left, top, right, bottom; right < left if there are none.
 std::array<int, 4> written(const Picture& picture)
 {
   std::array<int, 4> box{picture.width, picture.height, -1, -1};

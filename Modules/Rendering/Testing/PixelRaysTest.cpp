@@ -30,7 +30,7 @@ core::CameraPose camera()
   return pose;
 }
 
-// Every pixel's ray, followed 40 mm, must be projected into the pixel's centre by VTK's camera.
+// A point at 40 mm on every pixel's ray must be projected to the pixel's centre by VTK's camera.
 void expectProjectionOfVtk(const core::CameraPose& pose)
 {
   constexpr double aspect = static_cast<double>(kWidth) / kHeight;

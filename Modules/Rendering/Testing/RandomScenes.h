@@ -11,7 +11,7 @@
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelField.h"
 
-/// Random volumes, labels and cuts, small enough to be judged voxel by voxel.
+/// Random volumes, labels and cuts, small enough for voxel-wise checks.
 namespace petrous::rendering::testing
 {
 
@@ -43,7 +43,7 @@ inline core::GridGeometry obliqueGrid(const core::Index3& dims)
   return {dims, {0.3, 0.4, 0.9}, {12, -40, 7}, turn};
 }
 
-// Air with a few blobs of bone of a few voxels.
+// Air with a few blobs of bone, each of a few voxels.
 template <class T>
 std::shared_ptr<volume::Volume<T>> blobs(const core::GridGeometry& grid, Random& random, int count)
 {
@@ -69,8 +69,8 @@ std::shared_ptr<const volume::IntensityVolume> image(std::shared_ptr<volume::Vol
       std::shared_ptr<const volume::Volume<T>>(std::move(voxels)));
 }
 
-// Random shares in a few small boxes, most of them just below the surface's, so that one voxel
-// above it carries far into its neighbours.
+// Random occupancies in a few small boxes, most of them just below the surface threshold, so that a
+// single voxel above it affects its neighbourhood widely.
 inline volume::LabelField sparseLabels(const core::GridGeometry& grid, Random& random)
 {
   auto share = std::make_shared<volume::Volume<float>>(grid, 0.0F);
@@ -91,12 +91,12 @@ inline volume::LabelField sparseLabels(const core::GridGeometry& grid, Random& r
             });
   }
   volume::LabelField labels;
-  labels.share = share;
+  labels.occupancy = share;
   labels.hasSolid = true;
   return labels;
 }
 
-// Takes from a ball of voxels, or gives back to it.
+// Removes or restores a ball of voxels.
 inline core::IndexBox brush(volume::CutMask& mask, const core::Index3& center, double radius,
                             bool giveBack)
 {

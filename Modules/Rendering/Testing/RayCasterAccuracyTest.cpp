@@ -47,7 +47,7 @@ View lit(View view, double falloff, double wetness)
   return view;
 }
 
-// Bone with the noise of a scan, a fifth of what the surface rises by over a voxel.
+// Bone with scanner noise of a fifth of the intensity rise per voxel at the surface.
 SceneContents noisy(float surfaceOpacity)
 {
   std::mt19937 random(7);
@@ -223,8 +223,8 @@ TEST_P(RayCasterAccuracy, KeepsToTheReference)
 INSTANTIATE_TEST_SUITE_P(Scenes, RayCasterAccuracy, testing::ValuesIn(cases()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
-// Pearls of 1.4 voxels: of most rays that meet one, some part lies between two samples, and a good
-// share of them only graze it.
+// Pearls of 1.4 voxels: most rays that meet one have part of it between two samples, and many only
+// graze it.
 TEST(RayCasterGrazing, FindsWhatLiesBetweenSamples)
 {
   const auto pearls = [](const Vector& p)
@@ -241,7 +241,7 @@ TEST(RayCasterGrazing, FindsWhatLiesBetweenSamples)
     const ReferencePicture truth = truthOf(view.contents, view.pose, kColumns, kRows);
     const Agreement agreement = compare(shot, truth, view.contents.ct->geometry().minSpacing());
     EXPECT_GT(agreement.hits, 5000);
-    EXPECT_LE(agreement.others, 0.12) << opacity; // 0.65 with one look between two samples
-    EXPECT_LE(agreement.rms, 1.15) << opacity;    // with more surfaces than anatomy has
+    EXPECT_LE(agreement.others, 0.12) << opacity; // 0.65 with a single search between two samples
+    EXPECT_LE(agreement.rms, 1.15) << opacity;    // with more surfaces than in anatomy
   }
 }

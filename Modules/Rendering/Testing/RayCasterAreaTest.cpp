@@ -8,13 +8,13 @@
 
 #include <gtest/gtest.h>
 
-#include "AimCamera.h"
+#include "CameraPlacement.h"
 #include "PictureScenes.h"
 #include "RayCaster.h"
 #include "petrous/Rendering/EglRenderWindow.h"
 
-// Rays that pass the box of all tissue by are not cast: each picture is held against the one for
-// which every ray was.
+// Rays that miss the bounding box of all tissue are not cast: each picture is compared with the one
+// for which every ray was cast.
 
 using namespace petrous;
 using namespace petrous::rendering;
@@ -34,10 +34,10 @@ RayView viewOf(const core::CameraPose& pose, double aspect)
 struct Cast
 {
   std::vector<float> color; // RGBA
-  std::vector<float> depth; // mm, -1 none
+  std::vector<float> depth; // mm; -1: none
   double fetches = 0.0;
 
-  bool operator==(const Cast& other) const // to the bit
+  bool operator==(const Cast& other) const // bit-identical
   {
     const auto same = [](const std::vector<float>& a, const std::vector<float>& b)
     { return a.size() == b.size() && !std::memcmp(a.data(), b.data(), a.size() * sizeof(float)); };
@@ -81,7 +81,7 @@ protected:
     return result;
   }
 
-  // The picture, which must be that of all rays.
+  // Draws a picture and checks that it equals that of all rays.
   Cast expectAll(const core::CameraPose& pose)
   {
     const Cast part = cast(pose, false);
@@ -96,10 +96,10 @@ protected:
   RayCaster m_caster;
   int m_width = 160;
   int m_height = 120;
-  double m_spared = 0.0; // fetches a pixel that the last picture did without
+  double m_spared = 0.0; // fetches per pixel that the last picture saved
 };
 
-// Balls in two corners of the grid, 30 mm wide.
+// Balls in two corners of the grid, which is 30 mm wide.
 SceneContents twoBalls()
 {
   return boneScene(ct<std::int16_t>(cube(60, 0.5, oblique()),
@@ -130,7 +130,7 @@ TEST_F(RayCasterArea, HoldsAllThatIsSeenInPerspective)
     {
       EXPECT_TRUE(expectAll(from(eye, Vector::Zero())).anything());
       EXPECT_GT(m_spared, 0.0);
-      EXPECT_TRUE(expectAll(from(eye, Vector(3.0, 4.0, 8.0), 22.0)).anything()); // over the border
+      EXPECT_TRUE(expectAll(from(eye, Vector(3.0, 4.0, 8.0), 22.0)).anything()); // beyond a border
     }
   }
   core::CameraPose shifted = from({30.0, -48.0, 21.0}, Vector::Zero());
@@ -152,7 +152,7 @@ TEST_F(RayCasterArea, HoldsAllThatIsSeenInParallel)
   pose.parallelScale = 30.0;
   expectAll(pose);
   EXPECT_GT(m_spared, 0.0);
-  pose.position = {1.0, -2.0, 0.5}; // the camera's plane cuts the box
+  pose.position = {1.0, -2.0, 0.5}; // the camera plane intersects the box
   pose.lensShift = 0.0;
   EXPECT_TRUE(expectAll(pose).anything());
 }
@@ -171,7 +171,7 @@ TEST_F(RayCasterArea, HoldsAllWhereTheBoxIsPartlyBehindTheEye)
 {
   const SceneContents contents = twoBalls();
   m_caster.setContents(contents);
-  // Beside the line between the balls, and between them.
+  // Past the line between the balls, and between them.
   for (const auto& [eye, at] : {std::pair{Vector(3.0, -7.0, 0.0), Vector(6.0, 0.0, 5.0)},
                                 {Vector(3.0, -7.0, 0.0), Vector(30.0, -3.0, 5.0)},
                                 {Vector(0.5, -1.0, -0.5), Vector(6.0, 0.0, 5.0)},
@@ -186,7 +186,7 @@ TEST_F(RayCasterArea, ShowsNothingWhereTheBoxIsOffTheScreen)
   m_caster.setContents(translucentBall());
   const Vector eye(30.0, -48.0, 21.0);
   EXPECT_TRUE(expectAll(from(eye, Vector::Zero())).anything());
-  // Past it to each side, and away from it: the picture before must be gone.
+  // Past it on each side, and facing away: nothing of the previous picture may remain.
   const Vector side = eye.cross(Vector::UnitZ()).normalized();
   const Vector up = side.cross(eye).normalized();
   for (const Vector& at :
@@ -221,12 +221,12 @@ TEST_F(RayCasterArea, GrowsWhereAnUndoBringsTissueBack)
   m_caster.setContents(contents);
   const Cast whole = expectAll(pose);
   const double spared = m_spared;
-  contents.mask = without(contents, {6.0, 0.0, 5.0}, 9.0); // all of one ball and of its bricks
+  contents.mask = without(contents, {6.0, 0.0, 5.0}, 9.0); // all of one ball and its bricks
   m_caster.setContents(contents);
   const Cast less = expectAll(pose);
-  EXPECT_GT(m_spared, 1.1 * spared); // it shrank
+  EXPECT_GT(m_spared, 1.1 * spared); // the area shrank
   EXPECT_FALSE(less == whole);
-  // A small cut elsewhere stays, so that the mask is in use all the time.
+  // A small cut elsewhere remains, so that the mask stays in use.
   const auto undone = without(contents, {-5.0, -2.0, -6.0}, 1.0);
   m_caster.maskChanged(undone, contents.ct->geometry().fullBox());
   const Cast back = expectAll(pose);

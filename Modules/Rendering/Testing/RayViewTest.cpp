@@ -20,7 +20,7 @@ constexpr int kRows = 30;
 constexpr double kNear = 3.0;
 constexpr double kFar = 500.0;
 
-// OpenGL's matrices, from its specification.
+// OpenGL's matrices as in its specification.
 Eigen::Matrix4d lookAt(const core::CameraPose& pose)
 {
   const Eigen::Vector3d forward = (pose.focalPoint - pose.position).normalized();
@@ -80,8 +80,8 @@ std::vector<core::CameraPose> poses()
   return result;
 }
 
-// Greatest distance between the rays of a view and those of the camera, at their origins and at
-// unit depth.
+// Maximum distance between the rays of a view and those of the camera, at their origins and at unit
+// depth.
 double farthest(const RayView& view, const core::CameraPose& pose)
 {
   const PixelRays rays(pose, kColumns, kRows);
@@ -119,7 +119,7 @@ TEST(RayView, FollowsThePatientInTheWorld)
                                      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized());
   for (const core::CameraPose& pose : poses())
   {
-    core::CameraPose moved = pose; // the same camera, seen from the world
+    core::CameraPose moved = pose; // the same camera in world coordinates
     moved.position = worldFromPatient * pose.position;
     moved.focalPoint = worldFromPatient * pose.focalPoint;
     moved.viewUp = worldFromPatient.linear() * pose.viewUp;
@@ -137,7 +137,7 @@ TEST(RayView, KeepsItsRaysFarFromTheWorldsOrigin)
     moved.position = worldFromPatient * pose.position;
     moved.focalPoint = worldFromPatient * pose.focalPoint;
     const RayView view = rayView(lookAt(moved), projectionOf(pose), worldFromPatient.matrix());
-    EXPECT_LT(farthest(view, pose), 1e-7); // a ten-thousandth of a micrometre
+    EXPECT_LT(farthest(view, pose), 1e-7); // 1e-4 micrometres
   }
 }
 

@@ -15,8 +15,8 @@ using namespace petrous::rendering::synthetic;
 namespace
 {
 
-// Largest error of the depth against the analytic sphere, mm, away from the silhouette, where the
-// ray meets the surface at a grazing angle.
+// Maximum depth error against the analytic sphere, mm, away from the silhouette, where rays meet
+// the surface at a grazing angle.
 double depthError(const SceneContents& contents, const core::CameraPose& pose)
 {
   const DepthImage depth = see(contents, pose).depth;
@@ -57,7 +57,7 @@ TEST(ReferenceRayCaster, MeasuresParallelDepthFromTheCameraPlane)
 
 TEST(ReferenceRayCaster, ErrorOnASphereFallsWithTheSquareOfTheSpacing)
 {
-  // Of trilinear interpolation of a smooth field; rounding to whole HU would hide it.
+  // Error of trilinear interpolation of a smooth field; rounding to whole HU would mask it.
   const auto errorAt = [](double spacing)
   {
     SceneContents contents;
@@ -82,7 +82,7 @@ TEST(ReferenceRayCaster, FindsAPlaneWhereItIs)
              {
                const double plane = (1.0 - ray.origin.dot(normal)) / ray.direction.dot(normal);
                if ((ray.origin + plane * ray.direction).norm() > 14.0)
-                 return; // beyond the grid
+                 return; // outside the grid
                EXPECT_NEAR(static_cast<double>(depth.at(column, row)), plane, 1e-4 * kSpacing);
                ++compared;
              });
@@ -105,10 +105,10 @@ TEST(ReferenceRayCaster, HitsWhatTheTissueFieldHits)
   contents.materials.resize(2);
   contents.mask = cut(contents.ct->geometry(),
                       [](const Eigen::Vector3d& p) { return 5.0 - p.dot(kBump.normalized()); });
-  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const volume::TissueField hand = field(contents, {contents.labels->occupancy});
   const DepthImage depth = see(contents, sideCamera()).depth;
   int hits = 0;
-  int different = 0; // where a ray grazes the surface, half-voxel steps may leap over it
+  int different = 0; // where a ray grazes the surface, half-voxel steps may miss it
   forEachRay(sideCamera(),
              [&](int column, int row, const PixelRay& ray)
              {
@@ -127,7 +127,7 @@ TEST(ReferenceRayCaster, SeesTheWallOfACutWhereTheMaskIsHalf)
 {
   SceneContents contents = ballScene(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d normal = Eigen::Vector3d(1.0, -1.0, 0.4).normalized();
-  constexpr double offset = 4.2; // mm; what lies beyond this plane is cut away
+  constexpr double offset = 4.2; // mm; everything beyond this plane is cut away
   contents.mask = cut(contents.ct->geometry(),
                       [&](const Eigen::Vector3d& p) { return offset - p.dot(normal); });
   contents.materials = {flat({0.5F, 0.5F, 0.5F})};
@@ -232,7 +232,7 @@ TEST(ReferenceRayCaster, TakesVoxelsWithoutAValueForAir)
   contents.ct = image(grid, [](const Eigen::Vector3d& p) { return p.z() < -2.0 ? nan : 900.0; });
   core::CameraPose pose = along({0.0, 0.0, 1.0}, 50.0);
   const ReferencePicture picture = see(contents, pose);
-  // The samples at z = -2 and above have a value, and so have the cells between them.
+  // The samples at z >= -2 have a value, and so do the cells between them.
   EXPECT_NEAR(static_cast<double>(picture.depth.at(kWidth / 2, kHeight / 2)), 48.0,
               2e-5 * kSpacing);
   for (const float value : picture.rgb)
@@ -277,12 +277,12 @@ TEST(ReferenceRayCaster, RefusesContentsThatContradictThemselves)
   EXPECT_THROW(ReferenceRayCaster(contents, {0.0}), core::InvalidParameter);
   contents.materials = {{}, {}};
   contents.materials[1].source = appearance::IntensitySource::Second;
-  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // there is no second image
+  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // no second image
   contents.materials.resize(1);
   contents.labels = labelField(
       cube(8, 1.0), [](const Eigen::Vector3d&) { return 1.0; },
       [](const Eigen::Vector3d&) { return 3; });
-  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // there is no material 3
+  EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // no material 3
   contents.labels = nullptr;
   contents.mask = std::make_shared<volume::CutMask>(cube(20, 1.0));
   EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError); // on another grid

@@ -6,7 +6,7 @@
 #include "OpticalModel.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 
-/// Scenes for the reference picture, whose light can be written down.
+/// Scenes for the reference picture whose radiance is known in closed form.
 namespace petrous::rendering::synthetic
 {
 
@@ -25,7 +25,7 @@ inline core::CameraPose sideCamera()
   return pose;
 }
 
-/// Parallel rays along `direction` that start `distance` mm before the origin.
+/// Parallel rays along `direction`, starting `distance` mm in front of the origin.
 inline core::CameraPose along(const Eigen::Vector3d& direction, double distance)
 {
   core::CameraPose pose;
@@ -44,26 +44,26 @@ inline SceneContents ballScene(const Eigen::Matrix3d& direction)
   return contents;
 }
 
-/// One colour, opaque, without a highlight.
+/// A single opaque colour without highlight.
 inline appearance::Material flat(const std::array<float, 3>& color)
 {
   return {appearance::TransferFunction::constant(color, 1.0F, 0.0F)};
 }
 
-/// No surface, and `opacity` in 1 mm inside.
+/// No surface; opacity `opacity` per mm inside.
 inline appearance::Material fog(const std::array<float, 3>& color, float opacity)
 {
   return {appearance::TransferFunction::constant(color, opacity, 0.0F),
           appearance::IntensitySource::Ct, 0.0F};
 }
 
-/// Ambient and diffuse share of the default lamp, 16 % of which is ambient.
+/// Ambient and diffuse terms of the default light, 16 % of which is ambient.
 inline double lambert(double cosine)
 {
   return 0.16 + 0.84 * std::abs(cosine);
 }
 
-/// Of light inside a tissue: the cosine is 2/3 in the mean.
+/// Light inside tissue: the mean cosine is 2/3.
 constexpr double kInside = 0.16 + 0.84 * 2.0 / 3.0;
 
 inline Eigen::Vector3d background()

@@ -34,7 +34,7 @@ Agreement agreementOf(const SceneContents& contents, const core::CameraPose& pos
                  contents.ct->geometry().minSpacing());
 }
 
-// Of the tissue from a first hit on, mm, to a thousandth.
+// Thickness of tissue from a first hit on, mm, to a thousandth.
 double thickness(const volume::TissueField& field, const PixelRay& ray, double hit)
 {
   double t = hit + 1e-3;
@@ -103,7 +103,7 @@ TEST(RendererStress, ShowsNothingButDepthWhereAllIsTransparent)
       ASSERT_TRUE(isBackground(shot.picture.pixel(column, row)));
       hits += !std::isnan(shot.depth.at(column, row));
     }
-  // The surface is there for the hand and for picking, though nobody sees it.
+  // The surface exists for haptics and picking although it is invisible.
   EXPECT_GT(hits, 4000);
   expectAgreement(agreementOf(contents));
 }
@@ -119,8 +119,8 @@ TEST(RendererStress, TakesVoxelsThatAreNoNumbersForAir)
               return hole ? kNan : std::clamp(kIso + 240.0 * bittenBall(p), -1000.0, 2500.0);
             }),
       0.35F);
-  // Every cell that has such a corner is air to both, so the hole's wall is a staircase. How it is
-  // lit is nobody's truth: the reference finds no normal, the mapper one out of the hole.
+  // Every cell with such a corner is air in both engines, so the hole's wall is a staircase. Its
+  // shading is undefined: the reference finds no normal, the mapper one pointing out of the hole.
   const core::CameraPose pose = slanting();
   const ReferencePicture truth = truthOf(holed, pose);
   const volume::TissueField f = field(holed);
@@ -144,7 +144,7 @@ TEST(RendererStress, TakesVoxelsThatAreNoNumbersForAir)
                                               : std::abs(drawn - wanted) < 0.01 * grid.minSpacing();
         if (agree)
           continue;
-        // Only the corner of a stair that the ray clips for less than a step may be passed over.
+        // Only a corner of a step that the ray cuts over less than a sampling step may be missed.
         const PixelRay ray = rays.through(column, row);
         EXPECT_FALSE(drawn < wanted || std::isnan(wanted)) << step << ": " << column << " " << row;
         EXPECT_LT(thickness(f, ray, wanted), step * grid.minSpacing())
@@ -175,7 +175,7 @@ TEST(RendererStress, DrawsSurfacesAtTheEndsOfSixteenBits)
     contents.iso = iso;
     EXPECT_TRUE(isEmpty(shoot(contents, slanting()))) << iso;
   }
-  contents.iso = -1e6; // all is bone
+  contents.iso = -1e6; // everything is bone
   expectAgreement(agreementOf(contents));
 }
 
@@ -246,10 +246,10 @@ TEST(RendererStress, DrawsReducedWhatTheCardHasNoRoomForAndSaysSo)
   EXPECT_EQ(reduced.statistics.notes[0].rfind("the CT is drawn reduced by 2 x 2 x 2", 0), 0U)
       << reduced.statistics.notes[0];
   for (const std::string& note : reduced.statistics.notes)
-    EXPECT_EQ(note.find("second"), std::string::npos) << note; // it has 36 voxels an edge
+    EXPECT_EQ(note.find("second"), std::string::npos) << note; // it has only 36 voxels per edge
   EXPECT_LT(reduced.statistics.resources.at("ct.texture"),
             whole.statistics.resources.at("ct.texture") / 7);
-  // Half the resolution keeps smooth surfaces within a third of a voxel.
+  // Half the resolution keeps smooth surfaces accurate to a third of a voxel.
   ReferencePicture truth;
   truth.depth = whole.depth;
   truth.rgb.assign(whole.picture.rgb.begin(), whole.picture.rgb.end());
@@ -259,7 +259,7 @@ TEST(RendererStress, DrawsReducedWhatTheCardHasNoRoomForAndSaysSo)
   EXPECT_LE(agreement.median, 0.15);
   EXPECT_LE(agreement.others, 4.0);
   EXPECT_LE(agreement.rms, 12.0);
-  // Back in full where the limit is lifted, edits included.
+  // Restored to full resolution, including edits, when the limit is lifted.
   ScenePicture scene;
   scene.setContents(contents);
   scene.setCamera(slanting());
@@ -298,7 +298,7 @@ TEST(RendererStress, DrawsNothingBehindAClippingPlaneOrBesideTheVolume)
 
 TEST(RendererStress, LooksAlongTheAxesOfTheGrid)
 {
-  // Rays that never move along an axis, on the border between cells and in the volume's face.
+  // Axis-parallel rays, on the border between cells and in the volume's face.
   for (const Vector& direction :
        {Vector(1.0, 0.0, 0.0), Vector(0.0, -1.0, 0.0), Vector(0.0, 0.0, 1.0)})
   {
@@ -306,7 +306,7 @@ TEST(RendererStress, LooksAlongTheAxesOfTheGrid)
     pose.position = -40.0 * direction;
     pose.focalPoint = {0.0, 0.0, 0.0};
     pose.viewUp = Vector(direction.y(), direction.z(), direction.x());
-    pose.parallelScale = 37.5; // half a millimetre a pixel: each ray runs through voxel centres
+    pose.parallelScale = 37.5; // 0.5 mm per pixel: each ray runs through voxel centres
     const SceneContents contents = boneScene(ball(cube(48, 0.5), 14.0), 0.35F);
     expectAgreement(agreementOf(contents, pose));
   }

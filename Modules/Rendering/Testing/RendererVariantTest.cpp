@@ -52,7 +52,7 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
 {
   SceneContents contents = hollowBall();
   contents.mask = std::make_shared<volume::CutMask>(contents.ct->geometry()); // nothing is cut
-  contents.second = movedWaves();                                             // nobody reads it
+  contents.second = movedWaves(); // no material reads it
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone"}));
   EXPECT_EQ(variantOf(cutBall()), (Names{"ct", "bone", "mask"}));
   EXPECT_EQ(variantOf(translucentBall()), (Names{"ct", "bone", "interior"}));
@@ -70,11 +70,11 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
   for (appearance::Material& material : contents.materials)
     material.surfaceOpacity = 1.0F;
   EXPECT_EQ(variantOf(contents), (Names{"ct", "labels", "borders"}));
-  // Structures that a ray ends on, seen through bone; one that touches none.
+  // Structures that end rays, seen through bone; one that touches no other.
   contents.boneShown = true;
   contents.materials[0].surfaceOpacity = 0.3F;
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "labels", "borders", "interior"}));
-  contents.labels = oneStructure(contents.labels->share);
+  contents.labels = oneStructure(contents.labels->occupancy);
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "labels", "interior"}));
 }
 
@@ -130,8 +130,8 @@ TEST(RendererVariant, CountsWithoutChangingThePicture)
   EXPECT_GT(scene.statistics().fetchesPerPixel, scene.statistics().samplesPerPixel);
 }
 
-// The limits lie 15 % above what was counted when they were set, so that nothing that makes a ray
-// dearer goes unseen. Fetches do not depend on the machine, time does.
+// The limits are 15 % above the counts when they were set, so that no regression in ray cost goes
+// unnoticed. Unlike time, fetches do not depend on the machine.
 TEST(RendererVariant, FetchesNoMoreThanItDid)
 {
   core::CameraPose near = slanting(18.0);
@@ -156,7 +156,7 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
   {
     const RenderStatistics statistics = counted(limit.contents, limit.pose);
     EXPECT_LE(statistics.fetchesPerPixel, limit.fetches) << limit.name;
-    EXPECT_GE(statistics.fetchesPerPixel, 0.5 * limit.fetches) << limit.name; // is it counted?
+    EXPECT_GE(statistics.fetchesPerPixel, 0.5 * limit.fetches) << limit.name; // counting works
     EXPECT_LE(statistics.samplesPerPixel, limit.samples) << limit.name;
   }
 }

@@ -14,7 +14,7 @@ TEST(ScenePicture, ShowsThePatientsLeftOnTheRightFromAnterior)
 {
   const core::GridGeometry grid = cube(48, 0.5, obliqueMirrored());
   SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
-  // Left is LPS x > 0, and above z > 0.
+  // Left is LPS x > 0, up is z > 0.
   const auto marker =
       labels(grid, [](const Vector& p) { return (p - Vector(6.0, 0.0, 5.0)).norm() < 2.0; });
   contents.labels = volume::makeLabelField({{marker, 1, 1, true}});
@@ -40,7 +40,7 @@ TEST(ScenePicture, SeesTheSurfaceWhereTheHandFeelsIt)
 {
   const SceneContents contents = fullScene();
   const double voxel = contents.ct->geometry().minSpacing();
-  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const volume::TissueField hand = field(contents, {contents.labels->occupancy});
   const PixelRays rays(slanting(), kWidth, kHeight);
   ReferencePicture felt;
   felt.rgb.resize(3 * kWidth * kHeight);
@@ -56,14 +56,14 @@ TEST(ScenePicture, SeesTheSurfaceWhereTheHandFeelsIt)
   const Agreement agreement = compare(shoot(contents, slanting()), felt, voxel);
   EXPECT_GT(agreement.hits, 4000);
   EXPECT_LE(agreement.median, 0.05);
-  EXPECT_LE(agreement.farthest, 0.05); // of those within half a voxel: all are
-  EXPECT_LE(agreement.others, 0.2);    // rays that graze; the hand steps half a voxel as well
+  EXPECT_LE(agreement.farthest, 0.05); // of those within half a voxel: all
+  EXPECT_LE(agreement.others, 0.2);    // grazing rays; the haptics step half a voxel as well
 }
 
 TEST(ScenePicture, PicksThePointOfTheFieldInPatientMillimetres)
 {
   const SceneContents contents = fullScene();
-  const volume::TissueField hand = field(contents, {contents.labels->share});
+  const volume::TissueField hand = field(contents, {contents.labels->occupancy});
   for (const bool parallel : {false, true})
   {
     core::CameraPose pose = slanting();
@@ -73,7 +73,7 @@ TEST(ScenePicture, PicksThePointOfTheFieldInPatientMillimetres)
     ScenePicture scene;
     scene.setContents(contents);
     scene.setCamera(pose);
-    EXPECT_FALSE(scene.pick(kWidth / 2, kHeight / 2)); // before there is a frame
+    EXPECT_FALSE(scene.pick(kWidth / 2, kHeight / 2)); // before the first frame
     OffscreenView view(kWidth, kHeight);
     view.render(scene);
     const PixelRays rays(pose, kWidth, kHeight);
@@ -133,10 +133,10 @@ TEST(ScenePicture, RefusesContentsThatContradictEachOther)
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 
   contents = labelledBall(cube(48, 0.5));
-  contents.materials.resize(2); // index 2 has none
+  contents.materials.resize(2); // index 2 is missing
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 
-  // What is given for another grid would be read beyond its end.
+  // Data on another grid would be read out of bounds.
   const core::GridGeometry other = cube(10, 1.0);
   for (const bool index : {true, false})
   {
@@ -154,7 +154,7 @@ TEST(ScenePicture, RefusesContentsThatContradictEachOther)
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 
   contents = hollowBall();
-  contents.materials = {waveMaterial(1.0F)}; // reads a second image
+  contents.materials = {waveMaterial(1.0F)}; // requires a second image
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 
   contents = hollowBall();
@@ -215,7 +215,7 @@ TEST(ScenePicture, CoarsensOnlyWhileInteractive)
   scene.setCamera(slanting());
   OffscreenView view(kWidth, kHeight);
   const Picture still = view.render(scene);
-  scene.setInteractionRate(30.0); // forgets how fast the machine is
+  scene.setInteractionRate(30.0); // resets the estimated speed of the machine
   scene.setInteractive(true);
   EXPECT_GT(countDifferentPixels(view.render(scene), still), 0U);
   scene.setInteractive(false);
@@ -227,7 +227,7 @@ TEST(ScenePicture, LearnsFromTheFrameAtRestWhatTheMachineCanDo)
   ScenePicture scene;
   scene.setContents(hollowBall());
   scene.setCamera(slanting());
-  scene.setInteractionRate(1.0); // any machine draws so small a picture in full
+  scene.setInteractionRate(1.0); // any machine draws so small a picture at full quality
   OffscreenView view(32, 24);
   view.render(scene);
   view.render(scene);
@@ -252,7 +252,7 @@ TEST(ScenePicture, KeepsItsBrightnessWhileCoarse)
     };
     const double fine = brightness(draw(contents, slanting(40.0)));
     const double rough = brightness(draw(contents, slanting(40.0), coarse));
-    // 1.5 % of the light is a third of what an eye tells apart between two frames.
+    // 1.5 % of the light is a third of the difference visible between two frames.
     EXPECT_NEAR(rough / fine, 1.0, 0.015);
   }
 }

@@ -24,7 +24,7 @@ SceneContents ballWithTool()
   return contents;
 }
 
-// A window as the workstation has it: one renderer, one picture.
+// A window as in the application: one renderer, one picture.
 class StereoWindow
 {
 public:
@@ -65,7 +65,7 @@ private:
   vtkNew<vtkRenderer> m_renderer;
 };
 
-// Each eye drawn by itself, composed on the processor.
+// Each eye drawn separately, composed on the CPU.
 Picture expected(StereoMode mode, const StereoRig& rig, int width = kWidth, int height = kHeight)
 {
   const EyePair eyes = eyesOf(slanting(), stereoGeometry(slanting(), rig));
@@ -75,7 +75,7 @@ Picture expected(StereoMode mode, const StereoRig& rig, int width = kWidth, int 
   return composeStereo(draw(eyes.left), draw(eyes.right), mode);
 }
 
-// Rounding may differ by a level.
+// Rounding may differ by one level.
 int pixelsApart(const Picture& a, const Picture& b)
 {
   EXPECT_EQ(a.rgb.size(), b.rgb.size());
@@ -86,7 +86,7 @@ int pixelsApart(const Picture& a, const Picture& b)
   return count;
 }
 
-constexpr int kFew = kWidth * kHeight / 1000; // edges of polygons fall by a rounding
+constexpr int kFew = kWidth * kHeight / 1000; // polygon edges depend on rounding
 
 void expectMode(StereoMode mode)
 {
@@ -168,12 +168,12 @@ TEST(StereoPicture, AnOddWidthKeepsBothEyesWhole)
   const Picture truth = expected(StereoMode::SideBySide, {6.0, 55.0}, kWidth + 2, kHeight);
   int apart = 0;
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth / 2; ++x) // the columns of the left eye but its last
+    for (int x = 0; x < kWidth / 2; ++x) // columns of the left eye except the last
       apart += std::abs(picture.pixel(x, y)[0] - truth.pixel(x, y)[0]) > 2;
   EXPECT_LE(apart, kFew);
 }
 
-// Drivers with two buffers are rare; VTK draws its one-eyed picture by the same two passes.
+// Drivers with stereo buffers are rare; VTK draws its monoscopic picture by the same two passes.
 TEST(StereoPicture, PlacesTheEyesOfAQuadBuffer)
 {
   const StereoRig rig{6.0, 55.0};
@@ -191,7 +191,7 @@ TEST(GraphicsReport, EveryVariantCompilesHere)
 {
   const GraphicsReport report = reportGraphics();
   EXPECT_FALSE(report.renderer.empty());
-  EXPECT_GE(report.largestTexture3d, 256); // what OpenGL 3.2 asks of every driver
+  EXPECT_GE(report.largestTexture3d, 256); // minimum required by OpenGL 3.2
   ASSERT_EQ(report.variants.size(), 10u);
   for (const auto& variant : report.variants)
     EXPECT_TRUE(variant.compiles) << variant.error;

@@ -45,7 +45,7 @@ struct Axes
   Eigen::Vector3d origin, forward, right, up;
 };
 
-// Where a picture has a point: the pixel whose ray goes through it, by the rays' own linearity.
+// Pixel of a point: the pixel whose ray passes through it, using the linearity of the rays.
 Eigen::Vector2d pixelOf(const core::CameraPose& pose, const Eigen::Vector3d& point)
 {
   const PixelRays rays(pose, kWidth, kHeight);
@@ -110,12 +110,12 @@ TEST(Stereo, ParallaxFollowsSimilarTriangles)
   const double pixelsPerSlope = 0.5 * kHeight / std::tan(13.0 * 3.14159265358979323846 / 180.0);
   for (const double depth : {60.0, 110.0, 139.0, 200.0, 900.0})
   {
-    // The lines of sight to the point are separation (d - c) / d apart in the plane at c.
+    // In the plane at c, the lines of sight to the point are separation (d - c) / d apart.
     const double apart = separation * (depth - convergence) / depth;
     const Eigen::Vector2d found = parallax(eyes, Axes(camera()).at(12.0, -9.0, depth));
     EXPECT_NEAR(found[0], pixelsPerSlope * apart / convergence, 1e-9);
     EXPECT_NEAR(found[1], 0.0, 1e-9);
-    EXPECT_EQ(found[0] > 0.0, depth > convergence); // behind the screen: uncrossed
+    EXPECT_EQ(found[0] > 0.0, depth > convergence); // behind the screen: uncrossed disparity
   }
 }
 
@@ -140,7 +140,7 @@ TEST(Stereo, ParallelViewsTurnAboutThePointOfConvergence)
   for (const double behind : {-40.0, 60.0})
   {
     const Eigen::Vector2d found = parallax(eyes, axes.at(8.0, -5.0, 150.0 + behind));
-    // sin of the half angle is 10/150; both eyes see the depth under it.
+    // sin of the half angle is 10/150; both eyes see the depth at that angle.
     EXPECT_NEAR(found[0], pixelsPerMm * 2.0 * behind * 10.0 / 150.0, 1e-9);
     EXPECT_NEAR(found[1], 0.0, 1e-9);
   }
@@ -153,7 +153,7 @@ TEST(Stereo, ConvergesAtTheFocalPointUnderAMicroscopesAngle)
   EXPECT_NEAR(geometry.convergence, distance, 1e-12);
   EXPECT_NEAR(2.0 * std::atan(0.5 * geometry.eyeSeparation / distance) * 180.0 / 3.14159265358979,
               5.5, 1e-9);
-  // The stereo base of an operating microscope at its working distance.
+  // Stereo base of an operating microscope at its working distance.
   EXPECT_NEAR(stereoGeometry(camera(), {std::nullopt, 250.0}).eyeSeparation, 24.0, 0.1);
 }
 

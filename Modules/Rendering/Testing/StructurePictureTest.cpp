@@ -9,7 +9,7 @@ using namespace petrous::rendering::synthetic;
 namespace
 {
 
-// One blue structure of a label map.
+// Adds one blue structure as a label map.
 template <class Inside>
 void addMarker(SceneContents& contents, const core::GridGeometry& grid, const Inside& inside,
                float surfaceOpacity = 1.0F)
@@ -60,7 +60,7 @@ TEST(StructurePicture, KeepsARemnantThinnerThanAVoxel)
   const core::GridGeometry grid = cube(40, 0.6);
   SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
   addMarker(contents, grid, [](const Vector& p) { return std::abs(p.z()) < 4.0; });
-  // The structure's lower face lies half-way between samples at z = -4.2 mm or so.
+  // The structure's lower face is half-way between samples, at about z = -4.2 mm.
   contents.mask = cut(grid, [](const Vector& p) { return -3.9 - p.z(); });
   core::CameraPose pose = slanting();
   pose.position = {0.0, -10.0, 60.0};
@@ -71,7 +71,7 @@ TEST(StructurePicture, KeepsARemnantThinnerThanAVoxel)
 
 TEST(StructurePicture, KeepsAThreadThinnerThanAVoxel)
 {
-  // A nerve that one row of voxels of 1 mm holds.
+  // A nerve one row of 1 mm voxels wide.
   const core::GridGeometry grid = cube(24, 1.0);
   SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
   addMarker(contents, grid,
@@ -89,7 +89,7 @@ TEST(StructurePicture, KeepsAThreadThinnerThanAVoxel)
         }
     return rows;
   };
-  // Where it is a fifth of a step thick, a ray may pass it between two samples.
+  // Where it is a fifth of a step thick, a ray may miss it between two samples.
   const int truth = rowsSeen(truthOf(contents, slanting()).picture);
   EXPECT_GT(truth, 80);
   EXPECT_GE(rowsSeen(draw(contents, slanting())), truth * 3 / 4);
@@ -129,7 +129,7 @@ TEST(StructurePicture, BlendsATranslucentStructureWithWhatLiesBehindIt)
   EXPECT_NEAR(half, 0.5 * opaque + 0.5 * 255.0 * optics::kBackground[2], 1.0);
 }
 
-// A vessel that runs through a tumour: it takes the tumour's voxels, and the two touch.
+// A vessel through a tumour: it takes the tumour's voxels, and the two touch.
 TEST(StructurePicture, LightsAStructureInsideATranslucentOne)
 {
   const core::GridGeometry grid = cube(48, 0.5);
@@ -145,7 +145,7 @@ TEST(StructurePicture, LightsAStructureInsideATranslucentOne)
   const Shot shot = shoot(contents, pose);
   const ReferencePicture truth = truthOf(contents, pose);
   expectAgreement(compare(shot, truth, grid.minSpacing()));
-  // Lit as a ball is: less at its rim than in its middle, and opaque from its surface on.
+  // Shaded as a ball: darker at the rim than in the centre, and opaque from its surface on.
   const auto blueAt = [&](const Picture& picture, int aside)
   { return picture.pixel(kWidth / 2 + aside, kHeight / 2)[2]; };
   for (const Picture& picture : {shot.picture, truth.picture})
@@ -155,8 +155,8 @@ TEST(StructurePicture, LightsAStructureInsideATranslucentOne)
   }
 }
 
-// Label maps whose voxels are no cubes and lie across the CT's. The first hits are the ball's
-// everywhere; what a ray meets behind them tells by colour.
+// Anisotropic label maps at an angle to the CT. The first hits are the ball's everywhere; the
+// colour shows what a ray meets behind them.
 TEST(StructurePicture, AgreesWhereTranslucentStructuresMeet)
 {
   SceneContents contents =
@@ -188,7 +188,7 @@ TEST(StructurePicture, AgreesWhereTranslucentStructuresMeet)
     const Shot shot = shoot(contents, slanting(distance));
     expectAgreement(compare(shot, truthOf(contents, slanting(distance)), grid.minSpacing()));
   }
-  // Without the borders the same voxels make another picture: their faces.
+  // Without borders the same voxels give another picture: voxel faces.
   const Picture smooth = draw(contents, slanting());
   auto faces = std::make_shared<volume::LabelField>(*contents.labels);
   ASSERT_NE(faces->borders, nullptr);
@@ -201,7 +201,7 @@ TEST(StructurePicture, DrawsOneOfTwoHundredAndFiftyFiveStructures)
 {
   const core::GridGeometry grid = cube(48, 0.5);
   SceneContents contents = boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
-  // Slabs along x, all grey but the 255th.
+  // Slabs along x, all grey except the 255th.
   contents.labels = labelField(
       grid, [](const Vector& p) { return 9.0 - p.norm(); },
       [](const Vector& p)

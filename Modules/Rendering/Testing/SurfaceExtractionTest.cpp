@@ -54,7 +54,7 @@ TEST(SurfaceExtraction, ClosesWhatTheBoxCutsOff)
   half.lower[0] = 24;
   const core::TriangleMesh mesh = extractSurface(synthetic::field(contents), half);
   EXPECT_TRUE(mesh.isClosed());
-  // The first plane of samples lies 0.25 mm beyond the sphere's centre.
+  // The first plane of samples is 0.25 mm beyond the sphere's centre.
   const double cap = kSphereVolume / 2.0 - 0.25 * M_PI * kRadius * kRadius;
   EXPECT_NEAR(mesh.signedVolume(), cap, 0.01 * cap);
 }

@@ -12,7 +12,7 @@
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Volume/TissueField.h"
 
-/// Volumes whose surfaces are known in closed form.
+/// Volumes with analytic surfaces.
 namespace petrous::rendering::synthetic
 {
 
@@ -41,7 +41,7 @@ inline Eigen::Matrix3d obliqueMirrored()
   return direction;
 }
 
-/// Voxels of which `value(patient)` is what each holds.
+/// Voxels with the values `value(patient)`.
 template <class T, class Value>
 std::shared_ptr<volume::Volume<T>> sampled(const core::GridGeometry& grid, const Value& value)
 {
@@ -62,7 +62,7 @@ intensities(std::shared_ptr<const volume::Volume<T>> voxels)
   return std::make_shared<volume::IntensityVolume>(std::move(voxels));
 }
 
-/// CT of which `tissue(patient)` is the signed distance into bone, mm.
+/// CT for which `tissue(patient)` is the signed distance into bone, mm.
 template <class T, class Tissue>
 std::shared_ptr<const volume::IntensityVolume> ct(const core::GridGeometry& grid,
                                                   const Tissue& tissue)
@@ -86,7 +86,7 @@ ball(const core::GridGeometry& grid, double radius,
   return ct<T>(grid, [&](const Eigen::Vector3d& p) { return radius - (p - center).norm(); });
 }
 
-/// What is left where `kept(patient)` is the signed distance into what stays, mm.
+/// Mask for which `kept(patient)` is the signed distance into the remaining tissue, mm.
 template <class Kept>
 std::shared_ptr<volume::CutMask> cut(const core::GridGeometry& grid, const Kept& kept)
 {
@@ -124,7 +124,7 @@ std::shared_ptr<const volume::LabelMap> labels(const core::GridGeometry& grid, c
       sampled<std::uint16_t>(grid, inside), {volume::Segment{"marker", 1, {}, 0}}));
 }
 
-/// A CT of which `value(patient)` is the intensity, HU, unrounded.
+/// CT with the unrounded intensity `value(patient)`, HU.
 template <class Value>
 std::shared_ptr<const volume::IntensityVolume> image(const core::GridGeometry& grid,
                                                      const Value& value)
@@ -138,7 +138,7 @@ inline volume::TissueField field(const SceneContents& contents,
   return {contents.ct, std::move(solids), contents.mask, {contents.iso, 1000.0}};
 }
 
-/// First intersection of a ray with a sphere, mm; negative where none.
+/// First intersection of a ray with a sphere, mm; negative if there is none.
 inline double raySphere(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                         const Eigen::Vector3d& center, double radius)
 {

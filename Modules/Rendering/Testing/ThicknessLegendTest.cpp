@@ -29,8 +29,8 @@ bool isColor(const Picture& picture, int column, int row, const std::array<doubl
 
 } // namespace
 
-// Somewhere a row has the whole scale from end to end, in order, and the rest of the picture is as
-// it was.
+// Some row contains the whole scale from end to end, in order; the rest of the picture is
+// unchanged.
 TEST(ThicknessLegend, HasTheScaleInTheUpperLeftCorner)
 {
   Picture picture = grey(640, 480);
@@ -74,5 +74,5 @@ TEST(ThicknessLegend, LeavesAPictureWithoutRoomAsItIs)
   drawThicknessLegend(picture, "sinus", 5.0);
   EXPECT_EQ(countDifferentPixels(picture, grey(100, 80)), 0u);
   Picture small = grey(121, 9);
-  drawThicknessLegend(small, std::string(500, 'w'), 5.0); // and nothing beyond its rows
+  drawThicknessLegend(small, std::string(500, 'w'), 5.0); // nothing outside its rows
 }

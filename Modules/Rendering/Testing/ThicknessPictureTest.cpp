@@ -33,7 +33,7 @@ SceneContents thin(SceneContents contents)
   return contents;
 }
 
-// Light that shows every colour as it is.
+// Light under which every colour appears unchanged.
 SceneContents evenlyLit(SceneContents contents)
 {
   contents.light.ambient = 1.0;
@@ -41,7 +41,7 @@ SceneContents evenlyLit(SceneContents contents)
   return contents;
 }
 
-// Pixels in the colour of the analytic distance; the others' number.
+// Checks pixels for the colour of the analytic distance; returns the number of the other pixels.
 int checkColors(const SceneContents& contents, const Shot& shot, const Shot& plain,
                 const core::CameraPose& pose)
 {
@@ -63,7 +63,7 @@ int checkColors(const SceneContents& contents, const Shot& shot, const Shot& pla
       const bool near = distance < contents.thickness.farthest;
       for (std::size_t c = 0; c < 3; ++c)
       {
-        // On the steepest part of the scale 4 of 255 are 0.03 mm.
+        // On the steepest part of the scale 4/255 correspond to 0.03 mm.
         if (near)
           EXPECT_NEAR(drawn[c], 255.0 * wanted[c], 4.0) << distance << " mm";
         else
@@ -109,7 +109,7 @@ TEST(ThicknessPicture, IsThatOfTheReference)
 
 TEST(ThicknessPicture, LeavesStructuresInTheirOwnColor)
 {
-  // All that is seen is a structure; then a lumen's wall, which is bone.
+  // Only a structure is visible; then a lumen's wall, which is bone.
   SceneContents contents = hollowBall();
   contents.labels = labelField(
       contents.ct->geometry(), [](const Vector& p) { return 11.0 - p.norm(); },
@@ -117,7 +117,8 @@ TEST(ThicknessPicture, LeavesStructuresInTheirOwnColor)
   contents.materials.push_back(blue());
   EXPECT_EQ(countDifferentPixels(draw(thin(contents), slanting()), draw(contents, slanting())), 0U);
   auto lumen = std::make_shared<volume::LabelField>(*contents.labels);
-  lumen->share = std::make_shared<const volume::Volume<float>>(lumen->share->geometry(), 0.0F);
+  lumen->occupancy =
+      std::make_shared<const volume::Volume<float>>(lumen->occupancy->geometry(), 0.0F);
   contents.labels = lumen;
   contents.materials[1].lumen = true;
   const SceneContents colored = thin(contents);
@@ -167,7 +168,7 @@ TEST(ThicknessPicture, RefusesAFarthestThatIsNone)
   EXPECT_THROW(ReferenceRayCaster{contents}, RenderingError);
 }
 
-// L* of CIE 1976, for sRGB.
+// L* of CIE 1976 for sRGB.
 double lightness(const std::array<double, 3>& rgb)
 {
   const double weights[3] = {0.2126, 0.7152, 0.0722};

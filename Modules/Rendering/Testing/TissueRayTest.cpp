@@ -21,13 +21,13 @@ Vector vectorOf(const std::array<float, 3>& color)
   return {color[0], color[1], color[2]};
 }
 
-// What comes through d mm of a tissue whose 1 mm has this opacity.
+// Transmittance of d mm of a tissue whose opacity per 1 mm is given.
 double through(float opacity, double d)
 {
   return std::pow(1.0 - static_cast<double>(opacity), d);
 }
 
-// A block of one intensity, 16 mm wide.
+// A block of uniform intensity, 16 mm wide.
 SceneContents block(double value = 1000.0, int samples = 33)
 {
   SceneContents contents;
@@ -35,7 +35,7 @@ SceneContents block(double value = 1000.0, int samples = 33)
   return contents;
 }
 
-// How far a ray runs through the cube of half width 8 mm.
+// Path length of a ray in the cube of half width 8 mm.
 double chord(const PixelRay& ray)
 {
   double first = 0.0;
@@ -51,7 +51,7 @@ double chord(const PixelRay& ray)
   return std::max(0.0, last - first);
 }
 
-// The same colour in every pixel, within a rounding of float.
+// The same colour in every pixel, to float precision.
 void expectEverywhere(const ReferencePicture& picture, const Vector& expected,
                       double tolerance = 2e-6)
 {
@@ -101,8 +101,8 @@ TEST(TissueRay, FadesWithTheObliquePathOfEachRay)
 
 TEST(TissueRay, IntegratesALinearRampAsTheIntegralSays)
 {
-  // Opacity a u over u = 0..1 along 16 mm: the integral of -ln(1 - a u) is
-  // 16 ((1 - a) ln(1 - a) + a) / a.
+  // Opacity a u over u = 0..1 along 16 mm: the integral of -ln(1 - a u) is 16 ((1 - a) ln(1 - a) +
+  // a) / a.
   SceneContents contents = block();
   contents.ct = image(cube(33, 0.5), [](const Vector& p) { return 400.0 + 100.0 * p.x(); });
   contents.iso = -1e4;
@@ -121,7 +121,7 @@ TEST(TissueRay, SeesThroughAStructureIntoBoneWithoutASurfaceBetween)
   SceneContents contents = block();
   contents.labels = halfSpace(-1.0); // 10 mm of structure, then 6 mm of bone
   contents.materials = {fog(kGreen, 0.3F), fog(kRed, 0.1F)};
-  contents.materials[0].surfaceOpacity = 0.7F; // of no effect: nothing but the structure meets air
+  contents.materials[0].surfaceOpacity = 0.7F; // no effect: only the structure borders air
   const double a = through(0.1F, 10.0);
   const double b = through(0.3F, 6.0);
   expectEverywhere(see(contents, along({1.0, 0.0, 0.0}, 40.0)),
@@ -206,7 +206,7 @@ TEST(TissueRay, ShowsAStructureWhereItLiesInsideTranslucentBone)
 TEST(TissueRay, TintsTheWallOfALumenButNotTheBoneBehindIt)
 {
   SceneContents contents = block();
-  // A lumen has an index and no share; it covers the wall where y > 0.
+  // A lumen has an index and no occupancy; it covers the wall where y > 0.
   contents.labels = labelField(
       cube(33, 0.5), [](const Vector&) { return -100.0; },
       [](const Vector& p) { return p.y() > -0.1 ? 1 : 0; });
@@ -267,8 +267,8 @@ TEST(TissueRay, TakesTheLookFromTheSecondImageThroughItsMotion)
 
 TEST(TissueRay, DoesNotFadeMoreOnAFinerGrid)
 {
-  // Trilinear interpolation between samples of a trilinear function is that function: the finer
-  // grid holds the same tissue.
+  // Trilinear interpolation reproduces a trilinear function exactly: the finer grid holds the same
+  // tissue.
   SceneContents coarse = block();
   const core::GridGeometry grid = coarse.ct->geometry();
   coarse.ct =
@@ -313,8 +313,8 @@ TEST(TissueRay, DimsWithTheDistanceFromTheLampAndShinesWhereItIsWet)
 
 TEST(TissueRay, FindsAChordThatIsShorterThanAStep)
 {
-  // Tissue is where x y < -0.0002: trilinear interpolation has it exactly. A ray along (1, 1, 0),
-  // s aside, runs through it over 2 sqrt(s^2 - 0.0004) mm, here up to 0.05 mm.
+  // Tissue is where x y < -0.0002, which trilinear interpolation represents exactly. A ray along
+  // (1, 1, 0) at offset s passes through it over 2 sqrt(s^2 - 0.0004) mm, here up to 0.05 mm.
   SceneContents contents;
   contents.ct = image(cube(17, 0.5),
                       [](const Vector& p) { return kIso - 1000.0 * (0.0002 + p.x() * p.y()); });

@@ -29,7 +29,7 @@ using namespace petrous::rendering::synthetic;
 namespace
 {
 
-// A program that knows VTK only, and the mapper.
+// A plain VTK program using the mapper.
 class Program
 {
 public:
@@ -97,7 +97,7 @@ public:
   vtkSmartPointer<vtkRenderer> renderer;
 };
 
-// What the program shows, as contents; VTK's default light of a property is ambient 0.1 and no
+// The contents that the program should show; VTK's default property has ambient 0.1 and no
 // highlight.
 SceneContents meant(const Program& program, std::shared_ptr<const volume::IntensityVolume> ct,
                     float surfaceOpacity)
@@ -193,7 +193,7 @@ TEST(VolumeMapper, DrawsAMovedPropAsAMovedCamera)
   for (std::size_t p = 0; p < still.depth.millimetres.size(); ++p)
   {
     const float apart = turned.depth.millimetres[p] - still.depth.millimetres[p];
-    EXPECT_FALSE(std::abs(apart) > 0.01F) << p; // NaN where either misses
+    EXPECT_FALSE(std::abs(apart) > 0.01F) << p; // NaN if either misses
   }
 }
 
@@ -241,7 +241,7 @@ TEST(VolumeMapper, ObeysClippingPlanesOfTheWorld)
 
 TEST(VolumeMapper, ObeysTheCroppingRegion)
 {
-  const SceneContents scene = hollowBall(); // VTK crops along the axes of an upright image
+  const SceneContents scene = hollowBall(); // VTK crops along the axes of an axis-aligned image
   Program program(wrap(*scene.ct));
   program.mapper->SetSurfaceOpacity(0.35);
   const Picture whole = program.draw();
@@ -253,7 +253,7 @@ TEST(VolumeMapper, ObeysTheCroppingRegion)
   contents.crop = core::IndexBox{{10, 12, 5}, {31, 40, 41}};
   expectAgreement(compare(program.shoot(), truthOf(contents, slanting()), 0.5));
   program.mapper->SetCroppingRegionPlanes(500.0, 510.0, at(12), at(39), at(5), at(40));
-  const Picture nothing = program.draw(); // beside the volume
+  const Picture nothing = program.draw(); // outside the volume
   EXPECT_TRUE(isBackground(nothing.pixel(kWidth / 2, kHeight / 2)));
   program.mapper->CroppingOff();
   EXPECT_EQ(countDifferentPixels(program.draw(), whole), 0U);
@@ -330,7 +330,7 @@ TEST(VolumeMapper, DrawsNothingWithoutAnImage)
   Program program(bittenImage());
   const Picture before = program.draw();
   program.mapper->SetInputData(static_cast<vtkImageData*>(nullptr));
-  vtkObject::GlobalWarningDisplayOff(); // VTK's own complaint of a mapper without input
+  vtkObject::GlobalWarningDisplayOff(); // VTK's own warning about a mapper without input
   EXPECT_TRUE(isBackground(program.draw().pixel(kWidth / 2, kHeight / 2)));
   vtkObject::GlobalWarningDisplayOn();
   program.mapper->SetInputData(bittenImage());

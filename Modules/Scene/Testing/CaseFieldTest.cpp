@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Air with one cube of a structure.
+// Air with a single cube-shaped structure.
 scene::Case cubeInAir(bool solid, bool touchable)
 {
   const core::GridGeometry grid({24, 24, 24}, Vector3d::Constant(0.5), Vector3d::Zero());
@@ -38,7 +38,7 @@ scene::Case cubeInAir(bool solid, bool touchable)
 }
 
 const Vector3d kInside(5.75, 5.75, 5.75);
-constexpr double kBulge = 0.26 * 0.5; // mm, of the faces of so small a cube (adr/0001)
+constexpr double kBulge = 0.26 * 0.5; // mm, of the faces of such a small cube (adr/0001)
 
 } // namespace
 
@@ -64,8 +64,8 @@ TEST(CaseField, LeavesSoftStructuresOutOfWhatIsRigidAndMeasuresThem)
   ASSERT_EQ(soft.soft.size(), 1U);
   EXPECT_EQ(soft.soft[0].name, "cube");
   EXPECT_EQ(soft.soft[0].stiffness, 0.4);
-  // Eight voxels of 0.5 mm: 2 mm to each face. In the very middle, where six faces are equally
-  // near, quadratic splines on nodes 0.25 mm apart take at most (1 - 0.75^3) of that distance.
+  // Eight voxels of 0.5 mm: 2 mm to each face. At the exact centre, equidistant from six faces,
+  // quadratic splines with nodes 0.25 mm apart reduce that distance by at most (1 - 0.75^3).
   EXPECT_NEAR(soft.soft[0].depth->depth(kInside), 2.0,
               kBulge + 0.25 * (1.0 - 0.75 * 0.75 * 0.75) + 1e-3);
   EXPECT_NEAR(soft.soft[0].depth->depth({3.75, 5.75, 5.75}), 0.0, kBulge);
@@ -78,7 +78,7 @@ TEST(CaseField, LeavesSoftStructuresOutOfWhatIsRigidAndMeasuresThem)
   EXPECT_TRUE(scene::touchTissue(value, scene::tissueField(value)).soft.empty()) << "a lumen";
 }
 
-// What is soft takes nothing from what is hard beside it.
+// A soft structure does not affect an adjacent rigid one.
 TEST(CaseField, KeepsRigidStructuresBesideSoftOnes)
 {
   scene::Case value = cubeInAir(true, true);
@@ -138,8 +138,8 @@ TEST(CaseField, LoadsNoLabelsWhereNoneIsTouchable)
 namespace
 {
 
-// Structures side by side in one map, with volumes that fall with the index.
-scene::Case caseOf(const std::vector<appearance::StructureLook>& looks)
+// Structures side by side in one map, with volumes decreasing with the index.
+scene::Case caseOf(const std::vector<appearance::StructureAppearance>& looks)
 {
   const core::GridGeometry grid({static_cast<int>(looks.size()) + 1, 3, 3}, Vector3d::Constant(0.5),
                                 Vector3d::Zero());
@@ -163,7 +163,7 @@ scene::Case caseOf(const std::vector<appearance::StructureLook>& looks)
   return value;
 }
 
-bool all(const appearance::StructureLook&)
+bool all(const appearance::StructureAppearance&)
 {
   return true;
 }
@@ -173,12 +173,12 @@ bool all(const appearance::StructureLook&)
 TEST(CaseField, OrdersStructuresByPresetThenSmallerFirstAndLumensLast)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  std::vector<appearance::StructureLook> looks;
+  std::vector<appearance::StructureAppearance> looks;
   for (const char* name :
        {"air_cells", "skull", "masseter_muscle", "blob", "dura", "cholesteatoma", "schwannoma",
         "cochlea", "incus", "jugular_vein", "carotid_artery", "facial_nerve", "chorda"})
     looks.push_back(presets.lookFor(name));
-  appearance::StructureLook urgentLumen = looks.front();
+  appearance::StructureAppearance urgentLumen = looks.front();
   urgentLumen.priority = 0;
   looks.push_back(urgentLumen);
 
@@ -203,7 +203,7 @@ TEST(CaseField, OrdersStructuresByPresetThenSmallerFirstAndLumensLast)
 
 TEST(CaseField, LeavesOutWhatIsNotWanted)
 {
-  std::vector<appearance::StructureLook> looks(3);
+  std::vector<appearance::StructureAppearance> looks(3);
   looks[1].shown = false;
   const scene::Case value = caseOf(looks);
   const auto labels = scene::labelSources(value, [](const auto& look) { return look.shown; });
@@ -213,13 +213,13 @@ TEST(CaseField, LeavesOutWhatIsNotWanted)
 
 TEST(CaseField, SaysWhenThereAreMoreStructuresThanMaterials)
 {
-  EXPECT_EQ(scene::labelSources(caseOf(std::vector<appearance::StructureLook>(255)), all)
+  EXPECT_EQ(scene::labelSources(caseOf(std::vector<appearance::StructureAppearance>(255)), all)
                 .sources.back()
                 .material,
             255);
   try
   {
-    scene::labelSources(caseOf(std::vector<appearance::StructureLook>(256)), all);
+    scene::labelSources(caseOf(std::vector<appearance::StructureAppearance>(256)), all);
     FAIL() << "256 structures";
   }
   catch (const core::InvalidParameter& error)
@@ -240,11 +240,11 @@ TEST(CaseField, IsTheSameForHandAndEye)
     for (double y = 2.0; y < 10.0; y += 0.17)
     {
       const Vector3d p(x, y, 4.1);
-      const Vector3d voxel = eye->share->geometry().voxelFromPatient(p);
-      const double share = eye->share->geometry().hullContains(voxel)
-                               ? volume::sampleTrilinear(*eye->share, voxel)
-                               : 0.0;
-      EXPECT_NEAR(hand.value(p), std::max(share - 0.5, (-1000.0 - 300.0) / scene::kFieldScale),
+      const Vector3d voxel = eye->occupancy->geometry().voxelFromPatient(p);
+      const double occupancy = eye->occupancy->geometry().hullContains(voxel)
+                                   ? volume::sampleTrilinear(*eye->occupancy, voxel)
+                                   : 0.0;
+      EXPECT_NEAR(hand.value(p), std::max(occupancy - 0.5, (-1000.0 - 300.0) / scene::kFieldScale),
                   1e-9);
     }
 }
@@ -256,7 +256,8 @@ TEST(CaseField, ProtectsWhatMayNotBeDrilledAlsoWhereItIsALumen)
   value.labels[0].structures[0].look.drillable = false;
   const auto keep = scene::protectedTissue(value);
   ASSERT_EQ(keep.size(), 1u);
-  EXPECT_DOUBLE_EQ(volume::sampleTrilinear(*keep.shares()[0],
-                                           keep.shares()[0]->geometry().voxelFromPatient(kInside)),
-                   1.0);
+  EXPECT_DOUBLE_EQ(
+      volume::sampleTrilinear(*keep.occupancies()[0],
+                              keep.occupancies()[0]->geometry().voxelFromPatient(kInside)),
+      1.0);
 }

@@ -1,5 +1,4 @@
-// What is kept between programs, and what is worked out only where it is asked for, against what is
-// made whole and anew.
+// Compares cached data, and data computed region by region, with data computed completely anew.
 
 #include <cmath>
 #include <cstring>
@@ -42,7 +41,7 @@ private:
   std::map<std::string, Bytes> m_kept;
 };
 
-// Noisy soft tissue and bone, a nerve through both, a sinus at its side, an air cell in the bone.
+// Noisy soft tissue and bone, a nerve through both, a sinus beside it, an air cell in the bone.
 scene::Case ear(const std::shared_ptr<Shelf>& shelf)
 {
   const core::GridGeometry grid({90, 60, 60}, Vector3d(0.4, 0.4, 0.5), Vector3d(10, -20, 3));
@@ -125,7 +124,7 @@ TEST(DerivedData, GiveTheSameFieldAndStructuresAsTheFirstTime)
   const auto drawnAgain = scene::labelField(again, shownAgain);
   EXPECT_EQ(shelf->hits, 2);
   expectEqual(*first.solids().at(0), *second.solids().at(0));
-  expectEqual(*drawn->share, *drawnAgain->share);
+  expectEqual(*drawn->occupancy, *drawnAgain->occupancy);
   EXPECT_EQ(std::memcmp(drawn->index->data(), drawnAgain->index->data(), drawn->index->bytes()), 0);
 
   shelf->damage();
@@ -145,13 +144,13 @@ TEST(DerivedData, AreOthersForOtherStructuresOrLabels)
   scene::tissueField(value);
   EXPECT_EQ(shelf->hits, 0);
   const int missed = shelf->missed;
-  value.labels[0].object.clear(); // not stored yet: nobody knows its content
+  value.labels[0].object.clear(); // not stored yet: content unknown
   scene::tissueField(value);
   EXPECT_EQ(shelf->hits, 0);
   EXPECT_EQ(shelf->missed, missed);
 }
 
-// The servo skips what kept bricks say is empty.
+// The servo skips bricks that the cached data state to be empty.
 TEST(DerivedData, TheRigidTissuesKeySaysAllThatItsBricksDependOn)
 {
   const auto shelf = std::make_shared<Shelf>();
@@ -173,7 +172,7 @@ TEST(DerivedData, TheRigidTissuesKeySaysAllThatItsBricksDependOn)
   value.labels[0].structures[0].look.touchable = false;
   EXPECT_TRUE(isNew(value));
   value = same;
-  value.labels[0].structures[1].look.stiffness = 0.5; // it yields, and is not rigid
+  value.labels[0].structures[1].look.stiffness = 0.5; // soft, hence not rigid
   EXPECT_TRUE(isNew(value));
   value = same;
   value.meshes = {spike(value.ct.geometry)};
@@ -183,7 +182,7 @@ TEST(DerivedData, TheRigidTissuesKeySaysAllThatItsBricksDependOn)
   value.meshes[0].object.clear();
   EXPECT_FALSE(keyOf(value)) << "nobody knows its content";
 
-  // One voxel of the CT, then its type with the same bytes.
+  // One voxel of the CT, then its type with identical bytes.
   const auto withCt = [&](auto voxels)
   {
     scene::Case other = same;
@@ -209,7 +208,7 @@ TEST(RegionalField, HasTheNearestSurfacesOfTheWholeToTheBit)
   std::uniform_real_distribution<double> part(-0.05, 1.05);
   for (int turn = 0; turn < 40; ++turn)
   {
-    const auto field = scene::regionalTissueField(value); // knows nothing of the points before
+    const auto field = scene::regionalTissueField(value); // without the points queried before
     volume::NearestSurfaceSearch search(field, 20.0);
     const Vector3d p = value.ct.geometry.patientFromVoxel(
         {89 * part(random), 59 * part(random), 59 * part(random)});

@@ -15,7 +15,7 @@ inline void drill(Case& value, const Eigen::Vector3d& at, double removed)
   endStroke(value);
 }
 
-/// Strokes that took 10, 11, 12 ... mm^3.
+/// Strokes that removed 10, 11, 12 ... mm^3.
 inline Case drilledCase(int strokes)
 {
   Case value;

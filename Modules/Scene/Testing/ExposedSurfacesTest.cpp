@@ -10,7 +10,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-// A block of bone of 12 mm with two balls of structures in it, 2 mm in radius.
+// A 12 mm block of bone with two ball-shaped structures, 2 mm in radius.
 const Vector3d kLeft(3.5, 6.0, 6.0);
 const Vector3d kRight(8.5, 6.0, 6.0);
 constexpr double kRadius = 2.0;
@@ -54,7 +54,7 @@ TEST(ExposedSurfaces, TellTheStructureThatWasReachedAndItsArea)
   scene::Case value = twoBalls();
   EXPECT_TRUE(scene::exposedSurfaces(value).empty());
   value.dissection->beginStroke({});
-  // A large burr: nearly a plane 1.2 mm above the middle of the left ball, and 0.5 mm before it.
+  // A large burr: nearly a plane 1 mm above the centre of the left ball.
   const double reach = 4.0;
   const Vector3d burr = kLeft + Vector3d(0.0, 0.0, 1.0 + reach);
   value.dissection->cut({burr, burr, reach});
@@ -63,7 +63,7 @@ TEST(ExposedSurfaces, TellTheStructureThatWasReachedAndItsArea)
   const auto exposed = scene::exposedSurfaces(value);
   ASSERT_EQ(exposed.size(), 1U);
   EXPECT_EQ(exposed[0].name, "left");
-  // Where two spheres meet: the cap of the ball that lies in the burr.
+  // Intersection of two spheres: the cap of the ball inside the burr.
   const double d = 1.0 + reach;
   const double height = (d * d + kRadius * kRadius - reach * reach) / (2.0 * d);
   EXPECT_NEAR(exposed[0].area / (2.0 * kPi * kRadius * (kRadius - height)), 1.0, 0.08);

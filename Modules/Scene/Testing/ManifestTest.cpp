@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "petrous/Scene/LayMr.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -84,7 +84,7 @@ scene::Case fullCase()
   value.history.start("zweiter Zugang ü", 0);
   value.history.add();
   value.history.add();
-  value.history.back();
+  value.history.undo();
   return value;
 }
 
@@ -124,7 +124,7 @@ TEST(Manifest, KeepsHowAnMrWasRegistered)
   EXPECT_EQ(scene::validSignOff(mr)->who, "A. Chirurgin ü");
 }
 
-// The second format knew that an MR is registered, and nothing of how.
+// The second format stated that an MR is registered, but not how.
 TEST(Manifest, OpensOneWithoutRecordsOfRegistration)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
@@ -175,7 +175,7 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_FALSE(back.meshes[0].look.transfer.has_value());
 }
 
-// Looks as the first manifests had them: no bone, no transfer functions.
+// Appearances as in the first manifests: no bone, no transfer functions.
 TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
@@ -196,7 +196,7 @@ TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
   EXPECT_FALSE(nerve.transfer.has_value());
   EXPECT_EQ(nerve.shininess, 18.0F);
   EXPECT_EQ(nerve.sourceImage, "");
-  EXPECT_LT(nerve.priority, appearance::StructureLook{}.priority) << "as its preset";
+  EXPECT_LT(nerve.priority, appearance::StructureAppearance{}.priority) << "as its preset";
   EXPECT_EQ(nerve.warning, appearance::StructurePresets::builtIn().preset("nerve").warning);
   EXPECT_GT(nerve.warning, 0.0);
 }

@@ -25,7 +25,7 @@ core::TriangleMesh box(const Vector3d& lower, const Vector3d& upper)
   return mesh;
 }
 
-// Air with one bar of a mesh in it, thinner than a voxel: x 2 to 10, y and z 0.3 mm round 5.75,
+// Air with one bar-shaped mesh, thinner than a voxel: x 2 to 10, y and z 0.3 mm around 5.75,
 // between the voxel centres at 5.5 and 6.
 scene::Case barInAir()
 {
@@ -45,7 +45,7 @@ scene::Case barInAir()
 
 const Vector3d kInside(5.75, 5.75, 5.75);
 
-// A label of the mesh's name somewhere else.
+// A label with the mesh's name at another position.
 void addLabel(scene::Case& value)
 {
   auto labels =
@@ -129,7 +129,7 @@ TEST(MeshField, MakesVoxelsOnceAndOnlyWhereTheyAreAskedFor)
   EXPECT_EQ(value.meshes[0].touch.resident(), field.solids()[0]);
   EXPECT_EQ(scene::tissueField(copy).solids()[0], field.solids()[0]);
 
-  scene::Case other = value; // another CT, twice as fine
+  scene::Case other = value; // another CT, at twice the resolution
   other.ct.geometry = core::GridGeometry({48, 48, 48}, Vector3d::Constant(0.25), Vector3d::Zero());
   other.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(other.ct.geometry, std::int16_t{-1000}));
@@ -140,7 +140,7 @@ TEST(MeshField, LetsTheDrillTakeItAndNamesWhatWasTaken)
 {
   scene::Case value = barInAir();
   value.meshes[0].mesh = std::make_shared<const core::TriangleMesh>(
-      box({2.0, 5.25, 5.25}, {10.0, 6.25, 6.25})); // as thick as eight points of the quadrature
+      box({2.0, 5.25, 5.25}, {10.0, 6.25, 6.25})); // eight quadrature points thick
   value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
   const auto field = scene::tissueField(value);
   const auto structures = scene::drillableStructures(value);
@@ -151,8 +151,8 @@ TEST(MeshField, LetsTheDrillTakeItAndNamesWhatWasTaken)
   EXPECT_LT(field.value(kInside), 0.0);
   const auto removed = dissection::measureRemoved(field, work.maskBeforeStroke(), work.mask(),
                                                   work.openBricks(), structures);
-  // A bar of 1 x 1 mm, as far as a ball of radius 1.5 reaches along it: the integral of
-  // 2 sqrt(1.5^2 - y^2 - z^2) over its section.
+  // A bar of 1 x 1 mm within a ball of radius 1.5: the integral of
+  // 2 sqrt(1.5^2 - y^2 - z^2) over its cross-section.
   EXPECT_NEAR(removed.total, 2.8858, 0.1);
   ASSERT_EQ(removed.structures.size(), 1u);
   EXPECT_EQ(removed.structures[0].name, "incus");
@@ -179,7 +179,7 @@ TEST(MeshField, TellsWhatIsKnownOfAMeshWhileItsVoxelsAreMade)
   const scene::Case value = barInAir();
   const scene::MeshPart& part = value.meshes[0];
   const auto mesh = part.mesh.get();
-  std::future<std::string> asked; // outlives the making, for which it would wait
+  std::future<std::string> asked; // outlives the computation, for which it would wait
   std::future_status status = std::future_status::timeout;
   std::once_flag once;
   const core::Progress progress(

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/LayMr.h"
 #include "petrous/Scene/Placement.h"
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -14,9 +14,9 @@ namespace
 const core::GridGeometry kCtGrid({40, 40, 40}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
 const core::GridGeometry kMrGrid({20, 24, 16}, {0.8, 0.8, 1.2}, {-30.0, 12.0, 7.0});
 const core::RigidTransform kMrFromCt(Eigen::Quaterniond(0.9, 0.3, -0.1, 0.2), {-25.0, 11.0, 8.0});
-const Vector3d kInMr = kMrGrid.patientFromVoxel({9.0, 11.0, 8.0}); // within the structure
+const Vector3d kInMr = kMrGrid.patientFromVoxel({9.0, 11.0, 8.0}); // inside the structure
 
-// Air, an MR that is not registered, and a block drawn on that MR's grid.
+// Air, an unregistered MR, and a block drawn on the MR's grid.
 scene::Case drawnOnMr(int* loads = nullptr)
 {
   scene::Case value;
@@ -72,7 +72,7 @@ TEST(Placement, WhatWasDrawnOnAnMrThatIsNotRegisteredIsNowhere)
   EXPECT_FALSE(scene::labelsOnCt(value, value.labels[0]));
   const auto all = [](const auto&) { return true; };
   EXPECT_TRUE(scene::labelSources(value, all).sources.empty());
-  EXPECT_TRUE(scene::structureShares(value).empty());
+  EXPECT_TRUE(scene::structureOccupancies(value).empty());
   EXPECT_TRUE(scene::drillableStructures(value).empty());
   EXPECT_TRUE(scene::protectedTissue(value).empty());
   EXPECT_TRUE(scene::tissueField(value).solids().empty());
@@ -136,7 +136,7 @@ TEST(Placement, MeshesComeAlong)
             "it was drawn on the MR 'T2', which is not registered with the CT");
   EXPECT_TRUE(scene::tissueField(value).solids().empty());
 
-  // Such that the tetrahedron lies in the middle of the CT.
+  // Puts the tetrahedron at the centre of the CT.
   const auto there = [](double shift)
   {
     return core::RigidTransform(Eigen::Quaterniond(0.9, 0.3, -0.1, 0.2), Vector3d::Constant(shift));
@@ -154,10 +154,10 @@ TEST(Placement, MeshesComeAlong)
             1e-5);
   value.labels.clear();
   EXPECT_GT(scene::tissueField(value).value(inside), 0.0);
-  ASSERT_EQ(scene::structureShares(value).size(), 1U);
+  ASSERT_EQ(scene::structureOccupancies(value).size(), 1U);
 
   scene::layMr(value, "T2", through(11.0), {});
-  EXPECT_TRUE(scene::structureShares(value).empty()) << "its voxels lay where it was before";
+  EXPECT_TRUE(scene::structureOccupancies(value).empty()) << "its voxels lay where it was before";
   EXPECT_LT(scene::tissueField(value).value(inside), 0.0);
 }
 

@@ -21,7 +21,7 @@ std::size_t step(Case& value, std::size_t count, bool back)
 {
   dissection::History next = value.history;
   std::size_t steps = 0;
-  while (steps < count && (back ? next.back() : next.forth()))
+  while (steps < count && (back ? next.undo() : next.redo()))
     ++steps;
   if (steps > 0)
     follow(value, std::move(next));
@@ -109,7 +109,7 @@ namespace
 
 void readCtInsteadOf(Case& value, const std::string& image)
 {
-  const auto change = [&image](appearance::StructureLook& look)
+  const auto change = [&image](appearance::StructureAppearance& look)
   {
     if (look.sourceImage == image)
       look.sourceImage.clear();
@@ -122,7 +122,7 @@ void readCtInsteadOf(Case& value, const std::string& image)
     change(mesh.look);
 }
 
-// What was drawn on an MR comes to the CT through that alone.
+// Data drawn on an MR are mapped to the CT only through that MR.
 void checkNothingHangsOn(const Case& value, const std::string& mr)
 {
   std::vector<std::string> names = drawnOnMr(value, mr);
@@ -176,7 +176,7 @@ bool isControl(unsigned char c)
   return c < 0x20 || c == 0x7f;
 }
 
-// Well-formed UTF-8 by lead and continuation bytes; what is written must be readable as JSON.
+// Well-formed UTF-8, by lead and continuation bytes; what is written must be valid JSON.
 bool isUtf8(const std::string& text)
 {
   for (std::size_t i = 0; i < text.size();)
@@ -192,7 +192,7 @@ bool isUtf8(const std::string& text)
     for (std::size_t n = 1; n < length; ++n)
       if ((static_cast<unsigned char>(text[i + n]) & 0xC0) != 0x80)
         return false;
-    // Overlong forms, surrogates and what lies beyond U+10FFFF.
+    // Rejects overlong forms, surrogates and code points beyond U+10FFFF.
     const int second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
     if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
         (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))

@@ -18,19 +18,19 @@ namespace petrous::scene
 namespace
 {
 
-using Wanted = std::function<bool(const appearance::StructureLook&)>;
+using Wanted = std::function<bool(const appearance::StructureAppearance&)>;
 
-bool felt(const appearance::StructureLook& look)
+bool felt(const appearance::StructureAppearance& look)
 {
   return look.solid && look.touchable;
 }
 
-bool yields(const appearance::StructureLook& look)
+bool yields(const appearance::StructureAppearance& look)
 {
   return felt(look) && look.stiffness > 0.0;
 }
 
-constexpr std::size_t kMostMaterials = std::numeric_limits<std::uint8_t>::max();
+constexpr std::size_t kMaxMaterials = std::numeric_limits<std::uint8_t>::max();
 
 struct Wish
 {
@@ -60,7 +60,7 @@ std::vector<Wish> wishes(const Case& value, const Wanted& wanted)
   return result;
 }
 
-// Of the one union of these structures, among derived data; no labels are loaded for it.
+// Derived-data key of the union of these structures; loads no labels.
 std::optional<std::string> unionKey(const Case& value, const std::vector<Wish>& wished)
 {
   DerivedKey key(value, "solid share", volume::kLabelFieldVersion);
@@ -72,21 +72,21 @@ std::optional<std::string> unionKey(const Case& value, const std::vector<Wish>& 
   return key.text();
 }
 
-std::shared_ptr<const volume::Volume<float>> keptShare(const Case& value,
-                                                       const std::optional<std::string>& key)
+std::shared_ptr<const volume::Volume<float>> cachedOccupancy(const Case& value,
+                                                             const std::optional<std::string>& key)
 {
   const auto bytes = key ? value.derived->find(*key) : std::nullopt;
-  return bytes ? volume::shareFrom(*bytes) : nullptr;
+  return bytes ? volume::occupancyFrom(*bytes) : nullptr;
 }
 
-// A share, and what works it out where that is done region by region.
-struct UnionShare
+// An occupancy, and the object that computes it if done region by region.
+struct UnionOccupancy
 {
-  volume::TissueField::SolidUnion share;
+  volume::TissueField::SolidUnion occupancy;
   std::shared_ptr<volume::RegionalUnion> regional;
 };
 
-std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const UnionShare& united,
+std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const UnionOccupancy& united,
                                                                      const core::Progress& progress)
 {
   if (!united.regional)
@@ -95,15 +95,15 @@ std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const Union
   { regional->prepare(boxes, progress); };
 }
 
-// One union of all wanted structures; lumens count as if they were tissue.
-UnionShare unionShare(const Case& value, const Wanted& wanted, const core::Progress& progress,
-                      bool regional)
+// Union of all wanted structures; lumens count as solid.
+UnionOccupancy unionOccupancy(const Case& value, const Wanted& wanted,
+                              const core::Progress& progress, bool regional)
 {
   const std::vector<Wish> wished = wishes(value, wanted);
   if (wished.empty())
     return {};
   const auto key = unionKey(value, wished);
-  if (auto kept = keptShare(value, key))
+  if (auto kept = cachedOccupancy(value, key))
     return {std::move(kept), nullptr};
   std::vector<volume::LabelSource> sources;
   for (const Wish& wish : wished)
@@ -113,33 +113,34 @@ UnionShare unionShare(const Case& value, const Wanted& wanted, const core::Progr
     auto united = volume::RegionalUnion::make(sources, progress);
     if (!united)
       return {};
-    auto share = united->share();
-    return {std::move(share), std::move(united)};
+    auto occupancy = united->occupancy();
+    return {std::move(occupancy), std::move(united)};
   }
-  const auto share = volume::makeSolidShare(sources, progress);
-  if (share && key)
-    if (const auto bytes = volume::bytesOf(*share))
+  const auto occupancy = volume::makeSolidOccupancy(sources, progress);
+  if (occupancy && key)
+    if (const auto bytes = volume::bytesOf(*occupancy))
       value.derived->put(*key, *bytes);
-  return {share, nullptr};
+  return {occupancy, nullptr};
 }
 
-// What is solid in f: one union of the structures, and each mesh for itself.
+// The solids of f: the union of the structures, and each mesh separately.
 std::vector<volume::TissueField::SolidUnion> solidsOf(const Case& value, const Wanted& wanted,
                                                       const core::Progress& progress)
 {
   std::vector<volume::TissueField::SolidUnion> solids;
-  if (UnionShare united = unionShare(value, wanted, progress.part(0.0, 0.5), false); united.share)
-    solids.push_back(std::move(united.share));
+  if (UnionOccupancy united = unionOccupancy(value, wanted, progress.part(0.0, 0.5), false);
+      united.occupancy)
+    solids.push_back(std::move(united.occupancy));
   for (MeshSolid& mesh : meshSolids(value, wanted, progress.part(0.5, 1.0)))
-    solids.push_back(std::move(mesh.share));
+    solids.push_back(std::move(mesh.occupancy));
   return solids;
 }
 
-// The voxels whose centres lie in a solid, as a label map with the one index 1.
-std::shared_ptr<const volume::LabelMap> insideOf(const volume::Volume<float>& share)
+// The voxels whose centres are inside a solid, as a label map with the single index 1.
+std::shared_ptr<const volume::LabelMap> insideOf(const volume::Volume<float>& occupancy)
 {
-  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(share.geometry());
-  std::transform(share.data(), share.data() + share.size(), voxels->data(),
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(occupancy.geometry());
+  std::transform(occupancy.data(), occupancy.data() + occupancy.size(), voxels->data(),
                  [](float inside) { return static_cast<std::uint16_t>(inside > 0.5F); });
   volume::LabelMap map;
   map.voxels = std::move(voxels);
@@ -152,10 +153,10 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
 {
   LabelSources result;
   const std::vector<Wish> all = wishes(value, wanted);
-  if (all.size() > kMostMaterials)
+  if (all.size() > kMaxMaterials)
     throw core::InvalidParameter("case '" + value.name + "': " + std::to_string(all.size()) +
                                  " structures are to be drawn; at most " +
-                                 std::to_string(kMostMaterials) + " can be, hide the others");
+                                 std::to_string(kMaxMaterials) + " can be, hide the others");
   for (const Wish& wish : all)
   {
     result.structures.push_back(wish.structure);
@@ -207,11 +208,11 @@ std::vector<MeshSolid> solidsOfMeshes(const Case& value,
   for (std::size_t n = 0; n < solids.size(); ++n)
   {
     const MeshPart& part = *solids[n].part;
-    solids[n].share = part.touch.solid(
+    solids[n].occupancy = part.touch.solid(
         meshOnCt(value, part), value.ct.geometry,
         progress.part(static_cast<double>(n) / count, static_cast<double>(n + 1) / count));
   }
-  const auto refused = [](const MeshSolid& solid) { return !solid.share; };
+  const auto refused = [](const MeshSolid& solid) { return !solid.occupancy; };
   solids.erase(std::remove_if(solids.begin(), solids.end(), refused), solids.end());
   return solids;
 }
@@ -232,7 +233,7 @@ std::vector<MeshSolid> meshSolidsAt(const Case& value, const std::vector<Eigen::
   {
     const auto bounds = meshOnCt(value, part)->bounds();
     const core::PatientBox box(bounds[0].cast<double>(), bounds[1].cast<double>());
-    // Its voxels are no larger than the CT's where memory permits, and what lies between two of
+    // The voxels are no larger than the CT's if memory permits, and interpolation between two of
     // them counts.
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(2.0 * value.ct.geometry.minSpacing() +
                                                              0.02 * box.diagonal().norm());
@@ -246,7 +247,7 @@ std::vector<MeshSolid> meshSolidsAt(const Case& value, const std::vector<Eigen::
 std::string untouchable(const Case& value, const MeshPart& mesh)
 {
   const StructurePart* structure = findStructure(value, mesh.name);
-  const appearance::StructureLook& look = structure ? structure->look : mesh.look;
+  const appearance::StructureAppearance& look = structure ? structure->look : mesh.look;
   if (!look.solid)
     return "it is a space without tissue";
   if (!look.touchable)
@@ -277,12 +278,12 @@ volume::TissueField tissueField(const Case& value, const core::Progress& progres
 
 volume::TissueField regionalTissueField(const Case& value, const core::Progress& progress)
 {
-  const UnionShare united = unionShare(value, felt, progress.part(0.0, 0.5), true);
+  const UnionOccupancy united = unionOccupancy(value, felt, progress.part(0.0, 0.5), true);
   std::vector<volume::TissueField::SolidUnion> solids;
-  if (united.share)
-    solids.push_back(united.share);
+  if (united.occupancy)
+    solids.push_back(united.occupancy);
   for (MeshSolid& mesh : meshSolids(value, felt, progress.part(0.5, 1.0)))
-    solids.push_back(std::move(mesh.share));
+    solids.push_back(std::move(mesh.occupancy));
   volume::TissueField field = fieldOf(value, std::move(solids));
   field.onPrepare(preparerOf(united, progress));
   return field;
@@ -330,22 +331,22 @@ TouchTissue touchTissue(const Case& value, const volume::TissueField& whole,
   const auto count = static_cast<double>(soft.size() + meshes.size());
   std::size_t done = 0;
   const auto add =
-      [&](const std::string& name, const volume::Volume<float>& share, double stiffness)
+      [&](const std::string& name, const volume::Volume<float>& occupancy, double stiffness)
   {
     const double begin = 0.3 + 0.7 * static_cast<double>(done++) / count;
-    if (auto depth = volume::makeDistanceMap(share, value.ct.geometry,
+    if (auto depth = volume::makeDistanceMap(occupancy, value.ct.geometry,
                                              progress.part(begin, begin + 0.7 / count)))
       result.soft.push_back({name, std::move(depth), stiffness});
   };
   for (const Wish& wish : soft)
   {
-    const auto share = volume::makeSolidShare(
+    const auto occupancy = volume::makeSolidOccupancy(
         {{wish.labels(value), wish.structure->index, 1, true}}, progress.part(0.3, 0.3));
-    if (share)
-      add(wish.structure->name, *share, wish.structure->look.stiffness);
+    if (occupancy)
+      add(wish.structure->name, *occupancy, wish.structure->look.stiffness);
   }
   for (const MeshSolid& mesh : meshes)
-    add(mesh.part->name, *mesh.share, mesh.part->look.stiffness);
+    add(mesh.part->name, *mesh.occupancy, mesh.part->look.stiffness);
   return result;
 }
 
@@ -353,15 +354,15 @@ dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progr
                                             bool regional)
 {
   const auto kept = [](const auto& look) { return !look.drillable; };
-  UnionShare united = unionShare(value, kept, progress.part(0.0, 0.5), regional);
-  std::vector<dissection::ProtectedTissue::Share> shares;
-  if (united.share)
-    shares.push_back(std::move(united.share));
-  // The mask, on the CT's voxels, is what keeps them: it must hold what is thinner than a voxel.
+  UnionOccupancy united = unionOccupancy(value, kept, progress.part(0.0, 0.5), regional);
+  std::vector<dissection::ProtectedTissue::Occupancy> occupancies;
+  if (united.occupancy)
+    occupancies.push_back(std::move(united.occupancy));
+  // The mask, on the CT grid, protects them: it must represent structures thinner than a voxel.
   for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
-    if (auto guard = volume::guardOf(*mesh.share, value.ct.geometry))
-      shares.push_back(std::move(guard));
-  return dissection::ProtectedTissue(std::move(shares), preparerOf(united, progress));
+    if (auto guard = volume::protectionMaskOf(*mesh.occupancy, value.ct.geometry))
+      occupancies.push_back(std::move(guard));
+  return dissection::ProtectedTissue(std::move(occupancies), preparerOf(united, progress));
 }
 
 std::vector<dissection::NamedStructure> drillableStructures(const Case& value)
@@ -373,7 +374,7 @@ std::vector<dissection::NamedStructure> drillableStructures(const Case& value)
       if (drilled(structure.look) && placementOf(value, part).missing.empty())
         structures.push_back({structure.name, labelsOnCt(value, part), structure.index});
   for (const MeshSolid& mesh : meshSolids(value, drilled))
-    structures.push_back({mesh.part->name, insideOf(*mesh.share), 1});
+    structures.push_back({mesh.part->name, insideOf(*mesh.occupancy), 1});
   return structures;
 }
 

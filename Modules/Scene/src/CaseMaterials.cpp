@@ -10,7 +10,7 @@ namespace petrous::scene
 namespace
 {
 
-const appearance::StructureLook* lookOf(const Case& value, const std::string& name)
+const appearance::StructureAppearance* lookOf(const Case& value, const std::string& name)
 {
   if (const StructurePart* structure = findStructure(value, name))
     return &structure->look;
@@ -35,7 +35,7 @@ dissection::TissueResistance tissueResistance(const Case& value,
   std::vector<Ranked> ranked;
   for (const dissection::NamedStructure& structure : drillableStructures(value))
   {
-    const appearance::StructureLook* look = lookOf(value, structure.name);
+    const appearance::StructureAppearance* look = lookOf(value, structure.name);
     if (!look || look->tissue.empty())
       continue;
     if (!materials.contains(look->tissue))

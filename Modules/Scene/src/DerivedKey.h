@@ -10,21 +10,22 @@
 namespace petrous::scene
 {
 
-/// All that derived data depend on, as the key that a core::DerivedStore knows them by. There is
-/// none where the case has no such store, or a part has no object, which names its content, yet.
+/// Key of derived data in a core::DerivedStore, made of everything they depend on. There is no key
+/// if the case has no such store, or if a part has no object name, which identifies its content,
+/// yet.
 class DerivedKey
 {
 public:
-  /// `version` of the method, as its module counts it.
+  /// `version` of the algorithm, as counted by its module.
   DerivedKey(const Case& value, const std::string& what, int version);
 
-  void add(const LabelPart& part); ///< its voxels, and where they lie on the CT
-  void add(const MeshPart& part);  ///< its surface, and where it lies on the CT
-  /// Its voxels as they are in memory, and its grid. Reads them all (0.1 s for 512^3): an image is
-  /// mapped, and nobody has held it against its object's hash when it is first used.
+  void add(const LabelPart& part); ///< its voxels and their position in CT space
+  void add(const MeshPart& part);  ///< its surface and its position in CT space
+  /// Its grid and its voxels in memory. Reads all voxels (0.1 s for 512^3): an image is
+  /// memory-mapped, and not yet verified against its object's hash when first used.
   void add(const volume::IntensityVolume& image);
   void add(int number);
-  void add(double number); ///< exactly
+  void add(double number); ///< bit-exact
 
   const std::optional<std::string>& text() const noexcept { return m_text; }
 

@@ -7,7 +7,7 @@
 namespace petrous::scene
 {
 
-// The parts of a manifest that a journal has, too. `...In` throws json::exception or
+// The parts of a manifest that are also in a journal. `...In` throws json::exception or
 // InvalidParameter.
 
 nlohmann::json vectorOut(const Eigen::Vector3d& v);
@@ -19,7 +19,7 @@ core::CameraPose cameraIn(const nlohmann::json& j);
 nlohmann::json strokeOut(const StrokePart& stroke);
 StrokePart strokeIn(const nlohmann::json& j);
 
-/// Strokes count from 1 there; 0 is the untouched bone.
+/// Strokes are numbered from 1 in JSON; 0 is the undrilled state.
 nlohmann::json historyOut(const dissection::History& history);
 dissection::History historyIn(const nlohmann::json& j);
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/StructureShares.h"
+#include "petrous/Scene/StructureOccupancy.h"
 
 namespace petrous::scene
 {
@@ -18,17 +18,18 @@ exposedSurfaces(const Case& value, const std::vector<const volume::CutMask*>& ma
                   [](const volume::CutMask* mask) { return mask->untouched(); }))
     return exposed;
   const volume::TissueField field = tissueField(value, progress.part(0.0, 0.3));
-  const auto shares = structureShares(value); // after the field, which makes those of meshes
-  for (std::size_t n = 0; n < shares.size(); ++n)
+  const auto occupancies = structureOccupancies(value); // after the field, which voxelizes meshes
+  for (std::size_t n = 0; n < occupancies.size(); ++n)
   {
-    const double done = 0.3 + 0.7 * static_cast<double>(n) / static_cast<double>(shares.size());
+    const double done =
+        0.3 + 0.7 * static_cast<double>(n) / static_cast<double>(occupancies.size());
     progress.report(done, "measuring what was laid open");
-    const auto share = shares[n].make();
+    const auto occupancy = occupancies[n].make();
     for (std::size_t m = 0; m < masks.size(); ++m)
       if (const double area =
-              dissection::exposedArea(field, *masks[m], *share, progress.part(done, done));
+              dissection::exposedArea(field, *masks[m], *occupancy, progress.part(done, done));
           area > 0.0)
-        exposed[m].push_back({shares[n].name, area});
+        exposed[m].push_back({occupancies[n].name, area});
   }
   return exposed;
 }

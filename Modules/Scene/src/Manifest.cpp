@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr int kFirstFormatWithBranches = 2;
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
-constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // of older programs
+constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
 json gridOut(const core::GridGeometry& grid)
 {
@@ -63,7 +63,7 @@ ImagePart imageIn(const json& j)
   return image;
 }
 
-json lookOut(const appearance::StructureLook& look)
+json lookOut(const appearance::StructureAppearance& look)
 {
   json j{{"preset", look.preset},     {"color", look.color},
          {"opacity", look.opacity},   {"flags", appearance::flagsOf(look)},
@@ -82,10 +82,10 @@ json lookOut(const appearance::StructureLook& look)
   return j;
 }
 
-// What came after the first manifests may be missing; such a look is as it was before.
-appearance::StructureLook lookIn(const json& j, const appearance::StructurePresets& presets)
+// Fields added after the first manifests may be missing; such an appearance stays as it was.
+appearance::StructureAppearance lookIn(const json& j, const appearance::StructurePresets& presets)
 {
-  appearance::StructureLook look;
+  appearance::StructureAppearance look;
   look.preset = j.at("preset").get<std::string>();
   look.color = j.at("color").get<std::array<float, 3>>();
   look.opacity = j.at("opacity").get<float>();
@@ -160,8 +160,8 @@ bool isFinite(const json& j)
   return !j.is_number_float() || std::isfinite(j.get<double>());
 }
 
-/// JSON has no word for what is not finite: it would be written as null, and the case could not be
-/// read again.
+/// JSON cannot represent non-finite numbers: they would be written as null, and the case could not
+/// be read again.
 void requireFinite(const json& j, const std::string& where)
 {
   if (isFinite(j))

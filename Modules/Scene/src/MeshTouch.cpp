@@ -5,14 +5,14 @@
 namespace petrous::scene
 {
 
-// Makers hold `making`, for seconds where a mesh is large. `mutex` is held for copies of pointers
-// only, so that who asks for what is known already never waits for a maker.
+// `making` is held during computations, for seconds if a mesh is large. `mutex` is held only to
+// copy pointers, so that queries of known results never wait for a computation.
 struct MeshTouch::State
 {
   using Plan = std::shared_ptr<const volume::MeshSolidPlan>;
   using Solid = std::shared_ptr<const volume::Volume<float>>;
 
-  // Null where none is known for this mesh and grid.
+  // nullptr if none is known for this mesh and grid.
   Plan planKnown(const std::shared_ptr<const core::TriangleMesh>& wanted,
                  const core::GridGeometry& ct) const
   {
@@ -20,7 +20,7 @@ struct MeshTouch::State
     return plan && mesh == wanted && sameGrid(grid, ct) ? plan : nullptr;
   }
 
-  // With `making` held.
+  // Requires `making` to be held.
   Plan planFor(const std::shared_ptr<const core::TriangleMesh>& wanted,
                const core::GridGeometry& ct)
   {
@@ -50,7 +50,7 @@ struct MeshTouch::State
   }
 
   std::mutex making;
-  mutable std::mutex mutex; // of what follows
+  mutable std::mutex mutex; // guards the following members
   std::shared_ptr<const core::TriangleMesh> mesh;
   core::GridGeometry grid; // the CT's
   Plan plan;

@@ -27,7 +27,7 @@ std::shared_ptr<const volume::LabelMap> moved(const std::shared_ptr<const volume
                                               const core::RigidTransform& ctFromMr)
 {
   using Voxels = volume::Volume<std::uint16_t>;
-  // Voxels are shared, and stay const as they are.
+  // The voxels are shared and remain const.
   const std::shared_ptr<std::uint16_t> memory(drawn->voxels,
                                               const_cast<std::uint16_t*>(drawn->voxels->data()));
   auto map = std::make_shared<volume::LabelMap>(*drawn);
@@ -116,12 +116,12 @@ std::shared_ptr<const core::TriangleMesh> meshOnCt(const Case& value, const Mesh
 
 std::string listed(const std::vector<std::string>& names)
 {
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMax = 6;
   std::string all;
-  for (std::size_t n = 0; n < std::min(kMost, names.size()); ++n)
+  for (std::size_t n = 0; n < std::min(kMax, names.size()); ++n)
     all += (n == 0 ? "'" : ", '") + names[n] + "'";
-  if (names.size() > kMost)
-    all += " and " + std::to_string(names.size() - kMost) + " more";
+  if (names.size() > kMax)
+    all += " and " + std::to_string(names.size() - kMax) + " more";
   return all;
 }
 

@@ -7,8 +7,7 @@
 namespace petrous::scene
 {
 
-// How an MR came to lie on the CT, as a manifest has it. `...In` throws json::exception or
-// InvalidParameter.
+// The registration of an MR in a manifest. `...In` throws json::exception or InvalidParameter.
 
 nlohmann::json poseOut(const core::RigidTransform& x);
 core::RigidTransform poseIn(const nlohmann::json& j);

@@ -27,19 +27,19 @@ core::GridGeometry turnedGrid(int edge, const Vector3d& spacing)
   return {{edge, edge, edge}, spacing, -(turn * half), turn};
 }
 
-// A share that is linear across the surface.
-Volume<float> shareOf(const Distance& distance, const core::GridGeometry& grid)
+// Occupancy linear across the surface.
+Volume<float> occupancyOf(const Distance& distance, const core::GridGeometry& grid)
 {
-  Volume<float> share(grid);
+  Volume<float> occupancy(grid);
   const core::Index3& n = grid.dims();
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
-        share.at(i, j, k) = static_cast<float>(
+        occupancy.at(i, j, k) = static_cast<float>(
             std::clamp(0.5 + distance(grid.patientFromVoxel({double(i), double(j), double(k)})) /
                                  (6.0 * grid.minSpacing()),
                        0.0, 1.0));
-  return share;
+  return occupancy;
 }
 
 Vector3d randomIn(std::mt19937& random, double half)
@@ -55,7 +55,7 @@ double ball(const Vector3d& p, double radius)
   return radius - p.norm();
 }
 
-// The smoothed union of a labelled shape, as a case has it.
+// The smoothed union of a labelled shape, as in a case.
 std::shared_ptr<const Volume<float>> labelled(const Distance& distance,
                                               const core::GridGeometry& grid)
 {
@@ -77,7 +77,7 @@ TEST(DistanceMap, IsTheDistanceInsideAndOutsideABall)
   const double h = 0.3;
   const auto grid = turnedGrid(41, Vector3d::Constant(h));
   const auto map =
-      makeDistanceMap(shareOf([](const Vector3d& p) { return ball(p, 4.0); }, grid), grid);
+      makeDistanceMap(occupancyOf([](const Vector3d& p) { return ball(p, 4.0); }, grid), grid);
   std::mt19937 random(3);
   int deep = 0;
   for (int n = 0; n < 20000; ++n)
@@ -92,7 +92,7 @@ TEST(DistanceMap, IsTheDistanceInsideAndOutsideABall)
     EXPECT_EQ(sample.depth, map->depth(p));
     if (p.norm() < h)
     {
-      // The ridge in the middle is rounded off.
+      // The ridge in the middle is rounded.
       EXPECT_NEAR(sample.depth, truth, h);
       ++deep;
       continue;
@@ -108,8 +108,8 @@ TEST(DistanceMap, IsTheDistanceOfAPlaneInLongVoxels)
 {
   const Vector3d normal = Vector3d(0.3, -0.5, 0.8).normalized();
   const auto grid = turnedGrid(25, {0.4, 0.4, 0.9});
-  const auto map =
-      makeDistanceMap(shareOf([&](const Vector3d& p) { return 0.1 - normal.dot(p); }, grid), grid);
+  const auto map = makeDistanceMap(
+      occupancyOf([&](const Vector3d& p) { return 0.1 - normal.dot(p); }, grid), grid);
   std::mt19937 random(5);
   int seen = 0;
   for (int n = 0; n < 5000; ++n)
@@ -126,7 +126,7 @@ TEST(DistanceMap, IsTheDistanceOfAPlaneInLongVoxels)
   EXPECT_GT(seen, 500);
 }
 
-// What is seen is the level 1/2 of the labels' smoothed union, ripples and all.
+// The rendered surface is the 1/2 level of the labels' smoothed union, including its ripples.
 TEST(DistanceMap, IsZeroOnTheSurfaceThatIsSeen)
 {
   const double h = 0.4;
@@ -148,8 +148,8 @@ TEST(DistanceMap, IsZeroOnTheSurfaceThatIsSeen)
   for (const Shape& shape : shapes)
   {
     SCOPED_TRACE(shape.name);
-    const auto share = labelled(shape.distance, grid);
-    const auto map = makeDistanceMap(*share, grid);
+    const auto occupancy = labelled(shape.distance, grid);
+    const auto map = makeDistanceMap(*occupancy, grid);
     double sum = 0.0;
     double most = 0.0;
     int count = 0;
@@ -159,8 +159,9 @@ TEST(DistanceMap, IsZeroOnTheSurfaceThatIsSeen)
       const Vector3d to = from + h * randomIn(random, 1.0);
       const auto inside = [&](const Vector3d& p)
       {
-        const Vector3d voxel = share->geometry().voxelFromPatient(p);
-        return share->geometry().hullContains(voxel) && sampleTrilinear(*share, voxel) > 0.5;
+        const Vector3d voxel = occupancy->geometry().voxelFromPatient(p);
+        return occupancy->geometry().hullContains(voxel) &&
+               sampleTrilinear(*occupancy, voxel) > 0.5;
       };
       if (!inside(from) || inside(to))
         continue;
@@ -187,8 +188,8 @@ TEST(DistanceMap, ItsGradientIsItsOwn)
   const double h = 0.3;
   const auto grid = turnedGrid(31, Vector3d::Constant(h));
   const auto map = makeDistanceMap(
-      shareOf([](const Vector3d& p) { return std::min(ball(p, 3.0), 0.8 - std::abs(p.x())); },
-              grid),
+      occupancyOf([](const Vector3d& p) { return std::min(ball(p, 3.0), 0.8 - std::abs(p.x())); },
+                  grid),
       grid);
   std::mt19937 random(4);
   for (int n = 0; n < 3000; ++n)
@@ -212,7 +213,7 @@ TEST(DistanceMap, BoundsTheWayToTheStructureFarFromIt)
 {
   const auto grid = turnedGrid(31, Vector3d::Constant(0.3));
   const auto map =
-      makeDistanceMap(shareOf([](const Vector3d& p) { return ball(p, 2.0); }, grid), grid);
+      makeDistanceMap(occupancyOf([](const Vector3d& p) { return ball(p, 2.0); }, grid), grid);
   std::mt19937 random(4);
   int far = 0;
   for (int n = 0; n < 3000; ++n)
@@ -228,23 +229,24 @@ TEST(DistanceMap, BoundsTheWayToTheStructureFarFromIt)
 TEST(DistanceMap, EndsWhereTheGridsEnd)
 {
   const auto grid = turnedGrid(21, Vector3d::Constant(0.5));
-  const auto all = makeDistanceMap(shareOf([](const Vector3d&) { return 3.0; }, grid), grid);
+  const auto all = makeDistanceMap(occupancyOf([](const Vector3d&) { return 3.0; }, grid), grid);
   EXPECT_NEAR(all->depth(grid.center()), 5.0, 0.3);
   EXPECT_NEAR(all->depth(grid.patientFromVoxel({0.0, 10.0, 10.0})), 0.0, 0.03);
   EXPECT_NEAR(all->depth(grid.patientFromVoxel({2.0, 10.0, 10.0})), 1.0, 0.03);
   EXPECT_NEAR(all->depth(grid.patientFromVoxel({-1.0, 10.0, 10.0})), -0.5, 0.03);
   const auto domain = grid.cropped({{5, 0, 0}, {21, 21, 21}});
-  const auto part = makeDistanceMap(shareOf([](const Vector3d&) { return 3.0; }, grid), domain);
+  const auto part = makeDistanceMap(occupancyOf([](const Vector3d&) { return 3.0; }, grid), domain);
   EXPECT_NEAR(part->depth(grid.patientFromVoxel({7.0, 10.0, 10.0})), 1.0, 0.03);
 }
 
 TEST(DistanceMap, KeepsToItsMemoryAndSaysNothingOfNothing)
 {
   const auto grid = turnedGrid(41, Vector3d::Constant(0.3));
-  const Volume<float> share = shareOf([](const Vector3d& p) { return ball(p, 4.0); }, grid);
-  const auto coarse = makeDistanceMap(share, grid, {}, 20000);
+  const Volume<float> occupancy = occupancyOf([](const Vector3d& p) { return ball(p, 4.0); }, grid);
+  const auto coarse = makeDistanceMap(occupancy, grid, {}, 20000);
   EXPECT_LE(coarse->bytes(), 20000 * sizeof(float));
   EXPECT_NEAR(coarse->depth({0.0, 2.0, 0.0}), 2.0, 0.1);
   EXPECT_NEAR(coarse->depth({0.0, 0.0, 4.0}), 0.0, 0.1);
-  EXPECT_EQ(makeDistanceMap(shareOf([](const Vector3d&) { return -3.0; }, grid), grid), nullptr);
+  EXPECT_EQ(makeDistanceMap(occupancyOf([](const Vector3d&) { return -3.0; }, grid), grid),
+            nullptr);
 }

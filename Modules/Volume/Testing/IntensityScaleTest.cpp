@@ -18,11 +18,11 @@ using Random = std::mt19937;
 struct Tissue
 {
   double share;
-  double low; // spread evenly from low to high, then blurred by the noise
+  double low; // uniform from low to high, then blurred by noise
   double high;
 };
 
-// A head as a CT sees it, in Hounsfield units: partial volume between the tissues, and bone from
+// Typical CT of a head, in Hounsfield units: partial volume between the tissues, and bone from
 // marrow to the otic capsule.
 const std::vector<Tissue> kHead = {{0.42, -1000, -1000}, {0.03, -1000, 40}, {0.06, -110, -90},
                                    {0.33, 20, 60},       {0.06, 60, 700},   {0.07, 400, 1300},
@@ -93,7 +93,7 @@ TEST(IntensityScale, FindsTheBoneOfAHeadUnderAnyGainAndOffset)
     const auto check = [&](const IntensityScale& scale, double g, double o)
     {
       EXPECT_FALSE(scale.calibrated);
-      // 3 % of the way from air to dense bone.
+      // 3 % of the range from air to dense bone.
       EXPECT_NEAR((scale.iso - o) / g, 300.0, 0.03 * 2800.0) << n << ' ' << g << ' ' << o;
       EXPECT_NEAR((scale.dense - o) / g, 1800.0, 0.1 * 2800.0);
     };
@@ -115,11 +115,11 @@ TEST(IntensityScale, TakesNoFrameAroundTheScannedFieldForAir)
 TEST(IntensityScale, KeepsSoftTissueOutWhereAirIsCutOff)
 {
   Random random(4);
-  // 8 bits from -400 to 2200 HU: no telling where air lies.
+  // 8 bits from -400 to 2200 HU: the value of air is unknown.
   const double gain = 255.0 / 2600.0;
   const auto scale = scaleOf<std::uint16_t>(draw(kHead, 30, random), gain, 400 * gain, 0, 255);
   EXPECT_FALSE(scale.calibrated);
-  EXPECT_GT(scale.iso / gain - 400.0, 130.0); // three times the noise above soft tissue
+  EXPECT_GT(scale.iso / gain - 400.0, 130.0); // above soft tissue by three times the noise
   EXPECT_LT(scale.iso / gain - 400.0, 600.0);
 }
 
@@ -143,7 +143,7 @@ TEST(IntensityScale, HalvesTheWayBetweenAirAndBoneOfADrySpecimen)
 TEST(IntensityScale, PartsFluidFromBoneInMicroCt)
 {
   Random random(6);
-  // Peaks of an 8-bit scan in formalin; with air in the cells, and without any.
+  // Peaks of an 8-bit scan in formalin; with air in the cells, and without.
   for (const double air : {0.3, 0.0})
     for (const double noise : {4.0, 9.0})
     {

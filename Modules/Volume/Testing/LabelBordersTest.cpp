@@ -32,7 +32,7 @@ int structureOf(const LabelField& field, const Vector3d& patient)
       .index;
 }
 
-// Where structure 2 gives way to structure 1 on the way, mm from `from`; bisected.
+// Where structure 2 changes to structure 1 along the direction, mm from `from`; by bisection.
 double borderOnTheWay(const LabelField& field, const Vector3d& from, const Vector3d& direction,
                       double farthest)
 {
@@ -71,7 +71,7 @@ Error errorOf(int lines, const Distance& distance)
 TEST(LabelBorders, AreNoneWhereNoTwoSolidsMeet)
 {
   const core::GridGeometry grid = cube(24, 1.0);
-  // Two slabs with two voxels of nothing between them, whose grown indices meet.
+  // Two slabs separated by two empty voxels, whose dilated indices meet.
   const Labels apart =
       paint(grid,
             [](const Vector3d& p) -> std::uint16_t {
@@ -90,7 +90,7 @@ TEST(LabelBorders, AreNoneWhereNoTwoSolidsMeet)
 TEST(LabelBorders, LeaveEveryVoxelWithItsStructure)
 {
   const core::GridGeometry grid = cube(24, 1.0);
-  // No two neighbours need be alike.
+  // Noise: neighbouring labels are independent.
   const Labels labels =
       paint(grid,
             [](const Vector3d& p) -> std::uint16_t
@@ -116,7 +116,7 @@ TEST(LabelBorders, LeaveEveryVoxelWithItsStructure)
   EXPECT_GT(seen, 2000);
 }
 
-// A ball of two halves: the border is the plane between them, whatever way it lies to the voxels.
+// A ball of two halves: the border is the plane between them, in any orientation to the voxels.
 TEST(LabelBorders, LieOnThePlaneBetweenTwoHalves)
 {
   const core::GridGeometry grid = cube(40, 1.0, {0.2, -0.1, 0.3});
@@ -139,10 +139,10 @@ TEST(LabelBorders, LieOnThePlaneBetweenTwoHalves)
                                                          0.9 * (n / 20 - 9.5) * v - 3.0 * normal;
                                   return borderOnTheWay(*field, start, normal, 6.0) - 3.0;
                                 });
-    // A plane along the voxels may lie anywhere between two layers of them.
+    // A plane parallel to the voxel layers may be anywhere between two of them.
     EXPECT_LT(std::abs(error.mean), along.y() == 0.0 ? 0.5 : 0.1) << along.transpose();
     const double spread = std::sqrt(error.rms * error.rms - error.mean * error.mean);
-    EXPECT_LT(spread, 0.15) << along.transpose(); // the faces of voxels have 0.29
+    EXPECT_LT(spread, 0.15) << along.transpose(); // voxel faces have 0.29
   }
 }
 
@@ -189,7 +189,7 @@ TEST(LabelBorders, AreTheSameForAnyNumberOfThreads)
   EXPECT_EQ(std::memcmp(field->borders->data(), again->borders->data(), field->borders->size()), 0);
 }
 
-// What a place is, it is in the middle of those voxels that have most there.
+// A position belongs to the structure with the largest weight there.
 TEST(LabelBorders, WhereThreeMeetBelongToOneOfThem)
 {
   const core::GridGeometry grid = cube(24, 1.0);
@@ -214,7 +214,7 @@ TEST(LabelBorders, WhereThreeMeetBelongToOneOfThem)
         wrong += own != (turn < -1.0 ? 1 : turn < 1.1 ? 2 : 3);
         ++all;
       }
-  EXPECT_LT(wrong / all, 0.03); // three borders of 5 mm, each off by a tenth of a millimetre
+  EXPECT_LT(wrong / all, 0.03); // three borders of 5 mm, each with an error of 0.1 mm
   for (int n = 1; n <= 3; ++n)
     EXPECT_GT(counts[n], 0.25 * all);
 }

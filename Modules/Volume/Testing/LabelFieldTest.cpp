@@ -27,7 +27,7 @@ TEST(LabelField, GivesAnOverlapToTheFirstSource)
   EXPECT_EQ(indexAt(*ab, both), 1);
   EXPECT_EQ(indexAt(*ab, onlyB), 2);
   EXPECT_EQ(indexAt(*ba, both), 2);
-  EXPECT_DOUBLE_EQ(shareAt(*ab, both), 1.0);
+  EXPECT_DOUBLE_EQ(occupancyAt(*ab, both), 1.0);
 }
 
 TEST(LabelField, NeverLetsALumenTakeAVoxelFromASolid)
@@ -40,7 +40,7 @@ TEST(LabelField, NeverLetsALumenTakeAVoxelFromASolid)
   EXPECT_TRUE(field->hasLumen);
   EXPECT_EQ(indexAt(*field, grid.patientFromVoxel({11, 8, 8})), 3);
   EXPECT_EQ(indexAt(*field, grid.patientFromVoxel({15, 8, 8})), 7);
-  EXPECT_DOUBLE_EQ(shareAt(*field, grid.patientFromVoxel({15, 8, 8})), 0.0) << "no tissue";
+  EXPECT_DOUBLE_EQ(occupancyAt(*field, grid.patientFromVoxel({15, 8, 8})), 0.0) << "no tissue";
 }
 
 TEST(LabelField, GrowsSolidsByTwoVoxelsAndLumensByOne)
@@ -62,7 +62,7 @@ TEST(LabelField, HasTheSmoothedUnionOfASingleMap)
 {
   std::mt19937 random(5);
   const auto grid = cube(40, 0.3, {1, 2, 3}, turned());
-  // Lumps and single voxels, some at the border.
+  // Blobs and single voxels, some at the border.
   const Labels map = paint(grid,
                            [&](const Vector3d& p) -> std::uint16_t
                            {
@@ -72,12 +72,12 @@ TEST(LabelField, HasTheSmoothedUnionOfASingleMap)
                            });
   const auto field = volume::makeLabelField({{map, 1, 1, true}, {map, 2, 2, true}});
   const auto expected = volume::makeSmoothedUnion(*map, [](std::uint16_t) { return true; });
-  ASSERT_TRUE(core::sameGrid(field->share->geometry(), expected->geometry()));
+  ASSERT_TRUE(core::sameGrid(field->occupancy->geometry(), expected->geometry()));
   for (std::size_t i = 0; i < expected->size(); ++i)
   {
-    const float share = field->share->data()[i];
-    ASSERT_NEAR(share, expected->data()[i], 0.5 / 65535 + 1e-7);
-    ASSERT_NEAR(share * 65535.0, std::round(share * 65535.0), 0.01);
+    const float occupancy = field->occupancy->data()[i];
+    ASSERT_NEAR(occupancy, expected->data()[i], 0.5 / 65535 + 1e-7);
+    ASSERT_NEAR(occupancy * 65535.0, std::round(occupancy * 65535.0), 0.01);
   }
 }
 
@@ -106,14 +106,14 @@ TEST(LabelField, HasASolidsIndexWhereverItsShareIsInside)
                               std::vector<volume::LabelSource>{lumenTwo, solid, lumen, solidTwo}})
   {
     const auto field = volume::makeLabelField(sources);
-    const core::Index3 dims = field->share->geometry().dims();
+    const core::Index3 dims = field->occupancy->geometry().dims();
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     for (int n = 0; n < 400000; ++n)
     {
       const Vector3d voxel(uniform(random) * (dims[0] - 1), uniform(random) * (dims[1] - 1),
                            uniform(random) * (dims[2] - 1));
-      const Vector3d p = field->share->geometry().patientFromVoxel(voxel);
-      if (shareAt(*field, p) <= kThreshold)
+      const Vector3d p = field->occupancy->geometry().patientFromVoxel(voxel);
+      if (occupancyAt(*field, p) <= kThreshold)
         continue;
       const int index = indexAt(*field, p);
       ASSERT_GT(index, 0);

@@ -65,8 +65,8 @@ TEST(SmoothedUnion, HasNoVoxelStepsOnAnObliquePlane)
         voxels->at(i, j, k) = depth({1.0 * i, 1.0 * j, 1.0 * k}) < 0.0 ? 1 : 0;
   const auto field = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}), kAll);
   ASSERT_TRUE(field);
-  // Along lines through the plane the 1/2 level must lie within a voxel of the true plane, and its
-  // spread must be well below the one voxel of the unsmoothed labels.
+  // Along lines through the plane the 1/2 level must be within a voxel of the true plane, with a
+  // spread well below the one voxel of the unsmoothed labels.
   double low = 1e9;
   double high = -1e9;
   for (double a = -6; a <= 6; a += 0.37)

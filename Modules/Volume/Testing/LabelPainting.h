@@ -9,7 +9,7 @@
 #include "petrous/Volume/LabelField.h"
 #include "petrous/Volume/Sampling.h"
 
-/// Label maps for tests, and what their label field says at a patient point.
+/// Label maps for tests, and queries of their label field at a patient point.
 namespace petrous::testing
 {
 
@@ -53,11 +53,11 @@ inline Labels paintBox(const core::GridGeometry& grid, const core::IndexBox& box
   return std::make_shared<volume::LabelMap>(volume::makeLabelMap(std::move(voxels), {}));
 }
 
-inline double shareAt(const volume::LabelField& field, const Eigen::Vector3d& patient)
+inline double occupancyAt(const volume::LabelField& field, const Eigen::Vector3d& patient)
 {
-  const core::GridGeometry& grid = field.share->geometry();
+  const core::GridGeometry& grid = field.occupancy->geometry();
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
-  return grid.hullContains(voxel) ? volume::sampleTrilinear(*field.share, voxel) : 0.0;
+  return grid.hullContains(voxel) ? volume::sampleTrilinear(*field.occupancy, voxel) : 0.0;
 }
 
 inline int indexAt(const volume::LabelField& field, const Eigen::Vector3d& patient)

@@ -12,19 +12,19 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A speck on a grid of its own, which only makes the others be resampled onto that grid.
+// A speck on its own grid, only to force resampling of the others to that grid.
 volume::LabelSource speck(double spacing, const Vector3d& at, const Matrix3d& direction)
 {
   return {paintBox(cube(5, spacing, at, direction), {{2, 2, 2}, {3, 3, 3}}), 1, 255, true};
 }
 
-// Length of the segment that lies inside.
+// Length of the segment inside.
 double insideAlong(const volume::LabelField& field, const Vector3d& from, const Vector3d& to)
 {
   constexpr int n = 2000;
   int inside = 0;
   for (int s = 0; s < n; ++s)
-    inside += shareAt(field, from + (to - from) * ((s + 0.5) / n)) > 0.5 ? 1 : 0;
+    inside += occupancyAt(field, from + (to - from) * ((s + 0.5) / n)) > 0.5 ? 1 : 0;
   return (to - from).norm() * inside / n;
 }
 
@@ -32,10 +32,10 @@ struct Radius
 {
   double bias = 0.0;
   double deviation = 0.0;
-  double cubed = 0.0; // mean of r^3, the volume but for 4/3 pi
+  double cubed = 0.0; // mean of r^3: the volume up to 4/3 pi
 };
 
-// Of a ball of radius R round `center`, by its surface along random directions.
+// Radius of a ball of radius R around `center`, from its surface along random directions.
 Radius radiusOf(const volume::LabelField& field, const Vector3d& center, double R)
 {
   std::mt19937 random(3);
@@ -51,7 +51,7 @@ Radius radiusOf(const volume::LabelField& field, const Vector3d& center, double 
     while (out - in > 1e-4)
     {
       const double middle = 0.5 * (in + out);
-      (shareAt(field, center + middle * u) > 0.5 ? in : out) = middle;
+      (occupancyAt(field, center + middle * u) > 0.5 ? in : out) = middle;
     }
     result.bias += (in - R) / n;
     squares += (in - R) * (in - R) / n;
@@ -106,7 +106,7 @@ TEST(LabelResampling, KeepsATubeOfACoarserMapAtItsWidth)
 
 TEST(LabelResampling, KeepsASheetOneVoxelThin)
 {
-  // The sheet's own plane, its thickness, and how the common grid lies to it.
+  // Plane and thickness of the sheet, and orientation of the common grid to it.
   const double h = 0.4;
   for (const double spacing : {0.4, 0.39, 0.3, 0.2, 0.15})
     for (const bool turn : {false, true})
@@ -136,8 +136,8 @@ TEST(LabelResampling, KeepsASheetOneVoxelThin)
 
 TEST(LabelResampling, KeepsWhatIsThinnerThanACommonVoxel)
 {
-  // The common grid is finer in volume, but has slices of 1 mm; the sheet and the thread are half
-  // of that, and lie in none of its planes.
+  // The common grid has smaller voxels, but slices of 1 mm; the sheet and the thread have half that
+  // thickness, and lie in none of its planes.
   const core::GridGeometry slices({60, 60, 20}, {0.2, 0.2, 1.0}, {-6.0, -6.0, -10.0});
   const auto grid = cube(24, 0.5, {0.13, 0.11, 0.5});
   auto thin = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
@@ -151,7 +151,7 @@ TEST(LabelResampling, KeepsWhatIsThinnerThanACommonVoxel)
   const Labels other = paintBox(slices, {{2, 2, 2}, {4, 4, 4}});
   const auto field =
       volume::makeLabelField({{map, 1, 1, true}, {map, 2, 2, true}, {other, 1, 3, true}});
-  ASSERT_NEAR(field->share->geometry().spacing()[2], 1.0, 1e-9);
+  ASSERT_NEAR(field->occupancy->geometry().spacing()[2], 1.0, 1e-9);
   for (double i = 4.0; i < 19.0; i += 0.3)
   {
     const auto through = [&](double j, double k)
@@ -176,14 +176,14 @@ TEST(LabelResampling, TakesTheFinestMapOfASolidForItsGrid)
   const volume::LabelSource lumen{finest, 1, 3, false};
   const auto hand = volume::makeLabelField({a, b});
   const auto eye = volume::makeLabelField({a, lumen, b});
-  EXPECT_DOUBLE_EQ(hand->share->geometry().minSpacing(), 0.2);
-  // A lumen changes nothing for the hand.
+  EXPECT_DOUBLE_EQ(hand->occupancy->geometry().minSpacing(), 0.2);
+  // A lumen has no effect on haptics.
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-6.0, 6.0);
   for (int n = 0; n < 20000; ++n)
   {
     const Vector3d p(uniform(random), uniform(random), uniform(random));
-    ASSERT_NEAR(shareAt(*hand, p), shareAt(*eye, p), 1e-4);
+    ASSERT_NEAR(occupancyAt(*hand, p), occupancyAt(*eye, p), 1e-4);
   }
   EXPECT_EQ(indexAt(*eye, finest->voxels->geometry().patientFromVoxel({7, 7, 7})), 3);
 }
@@ -194,10 +194,10 @@ TEST(LabelResampling, IsCoarserThanTheFinestMapWhereMemoryEndsAndSaysSo)
   const Labels coarse = paintBox(cube(40, 0.5), {{5, 5, 5}, {30, 30, 30}}, 2);
   constexpr std::size_t most = 1'000'000;
   const auto field = volume::makeLabelField({{fine, 1, 1, true}, {coarse, 2, 2, true}}, {}, most);
-  EXPECT_LE(field->share->size(), most);
+  EXPECT_LE(field->occupancy->size(), most);
   ASSERT_EQ(field->notes.size(), 1u);
   EXPECT_NE(field->notes.front().find("million voxels"), std::string::npos);
-  // The sheet is a voxel of 0.05 mm thin, a common voxel is 0.2 mm and more.
+  // The sheet is one voxel of 0.05 mm thick, a common voxel is 0.2 mm or more.
   const core::GridGeometry& grid = fine->voxels->geometry();
   for (double i = 7; i < 33; i += 1.3)
     EXPECT_GT(insideAlong(*field, grid.patientFromVoxel({i, 19.0, 0.0}),

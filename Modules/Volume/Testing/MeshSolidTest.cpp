@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSpacing = 0.4; // mm, that of a clinical CT
+constexpr double kSpacing = 0.4; // mm, of a clinical CT
 
 // A surface over a grid of (u, v) in [0, 1), closed in v; closed in u too, or by a fan at each end.
 core::TriangleMesh sweep(int nu, int nv, bool closedInU,
@@ -93,7 +93,7 @@ core::TriangleMesh box(const Vector3d& lower, const Vector3d& upper)
   return mesh;
 }
 
-// A tube of radius r along a slanted axis.
+// A tube of radius r along an oblique axis.
 const Vector3d kAxis = Vector3d(0.9, 0.37, 0.24).normalized();
 core::TriangleMesh tube(double radius, double length)
 {
@@ -110,23 +110,23 @@ core::TriangleMesh tube(double radius, double length)
   return mesh.signedVolume() > 0.0 ? mesh : turned(mesh);
 }
 
-double valueAt(const volume::Volume<float>& share, const Vector3d& patient)
+double valueAt(const volume::Volume<float>& occupancy, const Vector3d& patient)
 {
-  const Vector3d voxel = share.geometry().voxelFromPatient(patient);
-  return share.geometry().hullContains(voxel) ? volume::sampleTrilinear(share, voxel) : 0.0;
+  const Vector3d voxel = occupancy.geometry().voxelFromPatient(patient);
+  return occupancy.geometry().hullContains(voxel) ? volume::sampleTrilinear(occupancy, voxel) : 0.0;
 }
 
-// Where the share falls through 0.5 on the way from inside to outside, mm from `from`; negative
-// when it does not start inside.
-double crossing(const volume::Volume<float>& share, const Vector3d& from, const Vector3d& direction,
-                double reach)
+// Where the occupancy falls below 0.5 along the direction, mm from `from`; negative if it does not
+// start inside.
+double crossing(const volume::Volume<float>& occupancy, const Vector3d& from,
+                const Vector3d& direction, double reach)
 {
-  if (!(valueAt(share, from) > 0.5))
+  if (!(valueAt(occupancy, from) > 0.5))
     return -1.0;
   double inside = 0.0;
   double outside = reach;
   for (double t = 0.0; t < reach; t += 0.005)
-    if (valueAt(share, from + t * direction) <= 0.5)
+    if (valueAt(occupancy, from + t * direction) <= 0.5)
     {
       outside = t;
       break;
@@ -136,7 +136,7 @@ double crossing(const volume::Volume<float>& share, const Vector3d& from, const 
   for (int round = 0; round < 30; ++round)
   {
     const double middle = 0.5 * (inside + outside);
-    (valueAt(share, from + middle * direction) > 0.5 ? inside : outside) = middle;
+    (valueAt(occupancy, from + middle * direction) > 0.5 ? inside : outside) = middle;
   }
   return 0.5 * (inside + outside);
 }
@@ -149,16 +149,16 @@ Vector3d spread(int n, int count) // nearly even directions
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-double volumeOf(const volume::Volume<float>& share)
+double volumeOf(const volume::Volume<float>& occupancy)
 {
   double sum = 0.0;
   constexpr int fine = 3;
-  const auto& dims = share.geometry().dims();
+  const auto& dims = occupancy.geometry().dims();
   for (int k = 0; k < fine * (dims[2] - 1); ++k)
     for (int j = 0; j < fine * (dims[1] - 1); ++j)
       for (int i = 0; i < fine * (dims[0] - 1); ++i)
-        sum += volume::sampleTrilinear(share, Vector3d(i + 0.5, j + 0.5, k + 0.5) / fine) > 0.5;
-  return sum * share.geometry().voxelVolume() / (fine * fine * fine);
+        sum += volume::sampleTrilinear(occupancy, Vector3d(i + 0.5, j + 0.5, k + 0.5) / fine) > 0.5;
+  return sum * occupancy.geometry().voxelVolume() / (fine * fine * fine);
 }
 
 volume::MeshSolidPlan planned(const core::TriangleMesh& mesh)
@@ -175,10 +175,11 @@ TEST(MeshSolid, HasASpheresSurfaceWithinATwentiethOfAVoxel)
   for (const double radius : {0.5, 1.3, 4.0})
   {
     const Vector3d center(3.21, -7.13, 40.02);
-    const auto share = volume::solidOf(sphere(center, radius), kSpacing);
-    ASSERT_TRUE(share);
+    const auto occupancy = volume::solidOf(sphere(center, radius), kSpacing);
+    ASSERT_TRUE(occupancy);
     for (int n = 0; n < 500; ++n)
-      EXPECT_NEAR(crossing(*share, center, spread(n, 500), radius + 1.0), radius, 0.05 * kSpacing)
+      EXPECT_NEAR(crossing(*occupancy, center, spread(n, 500), radius + 1.0), radius,
+                  0.05 * kSpacing)
           << "radius " << radius;
   }
 }
@@ -189,8 +190,8 @@ TEST(MeshSolid, KeepsATubeWholeThatIsThinnerThanAVoxel)
   constexpr double length = 12.0;
   const auto mesh = tube(radius, length);
   EXPECT_NEAR(planned(mesh).thickness, 2.0 * radius, 0.01);
-  const auto share = volume::solidOf(mesh, kSpacing);
-  ASSERT_TRUE(share);
+  const auto occupancy = volume::solidOf(mesh, kSpacing);
+  ASSERT_TRUE(occupancy);
   const Vector3d side = kAxis.unitOrthogonal();
   const Vector3d other = kAxis.cross(side);
   for (double along = 0.3; along < length - 0.3; along += 0.037)
@@ -198,29 +199,29 @@ TEST(MeshSolid, KeepsATubeWholeThatIsThinnerThanAVoxel)
     {
       const double turn = 0.1 + n * kPi / 4.0 + along;
       const Vector3d out = std::cos(turn) * side + std::sin(turn) * other;
-      EXPECT_NEAR(crossing(*share, along * kAxis, out, 0.4), radius, 0.05 * kSpacing);
+      EXPECT_NEAR(crossing(*occupancy, along * kAxis, out, 0.4), radius, 0.05 * kSpacing);
     }
 }
 
 TEST(MeshSolid, IsTheDistanceItselfNearAPlane)
 {
-  // A cuboid turned against the grid: far from its edges its faces are planes.
+  // A rotated cuboid: far from its edges its faces are planes.
   const Eigen::Matrix3d turn =
       (Eigen::AngleAxisd(0.6, Vector3d(1, 2, 3).normalized())).toRotationMatrix();
   auto mesh = box(Vector3d::Constant(-4.0), Vector3d::Constant(4.0));
   for (auto& vertex : mesh.vertices)
     vertex = (turn * vertex.cast<double>()).cast<float>();
-  const auto share = volume::solidOf(mesh, kSpacing);
-  ASSERT_TRUE(share);
-  const double edge = share->geometry().minSpacing();
+  const auto occupancy = volume::solidOf(mesh, kSpacing);
+  ASSERT_TRUE(occupancy);
+  const double edge = occupancy->geometry().minSpacing();
   EXPECT_LE(edge, kSpacing);
   for (double y = -1.0; y < 1.0; y += 0.31)
     for (double z = -1.0; z < 1.0; z += 0.29)
     {
       const Vector3d surface = turn * Vector3d(4.0, y, z);
-      EXPECT_NEAR(valueAt(*share, surface), 0.5, 1e-5);
+      EXPECT_NEAR(valueAt(*occupancy, surface), 0.5, 1e-5);
       const Vector3d slope =
-          volume::sampleGradient(*share, share->geometry().voxelFromPatient(surface), 1.0);
+          volume::sampleGradient(*occupancy, occupancy->geometry().voxelFromPatient(surface), 1.0);
       EXPECT_NEAR((slope + turn.col(0) / (6.0 * edge)).norm(), 0.0, 1e-4);
     }
 }
@@ -238,12 +239,12 @@ TEST(MeshSolid, HasTheVolumeOfATorus)
                       return Vector3d(r * std::cos(a), r * std::sin(a), radius * std::sin(b));
                     });
   const double truth = 2.0 * kPi * kPi * ring * radius * radius;
-  for (const auto& either : {mesh, turned(mesh)}) // whichever way it faces
+  for (const auto& either : {mesh, turned(mesh)}) // either orientation
   {
-    const auto share = volume::solidOf(either, kSpacing);
-    ASSERT_TRUE(share);
-    EXPECT_NEAR(volumeOf(*share) / truth, 1.0, 0.05); // a surface 0.012 mm too deep
-    EXPECT_LT(valueAt(*share, Vector3d::Zero()), 0.5) << "the hole";
+    const auto occupancy = volume::solidOf(either, kSpacing);
+    ASSERT_TRUE(occupancy);
+    EXPECT_NEAR(volumeOf(*occupancy) / truth, 1.0, 0.05); // a surface 0.012 mm too deep
+    EXPECT_LT(valueAt(*occupancy, Vector3d::Zero()), 0.5) << "the hole";
   }
 }
 
@@ -272,19 +273,19 @@ TEST(MeshSolid, UnitesShellsThatTouchOrOverlap)
   for (const double start : {3.0, 2.4})
   {
     const auto mesh = joined(left, box({start, 0, 0}, {6, 2, 2}));
-    const auto share = volume::solidOf(mesh, kSpacing);
-    ASSERT_TRUE(share) << planned(mesh).refusal;
+    const auto occupancy = volume::solidOf(mesh, kSpacing);
+    ASSERT_TRUE(occupancy) << planned(mesh).refusal;
     for (double x = 0.7; x < 5.4; x += 0.013)
-      EXPECT_GT(valueAt(*share, {x, 1.0, 1.0}), 0.75) << "x = " << x << ", from " << start;
-    EXPECT_NEAR(crossing(*share, {2.9, 1.0, 1.0}, {0, 0, 1}, 2.0), 1.0, 0.02);
+      EXPECT_GT(valueAt(*occupancy, {x, 1.0, 1.0}), 0.75) << "x = " << x << ", from " << start;
+    EXPECT_NEAR(crossing(*occupancy, {2.9, 1.0, 1.0}, {0, 0, 1}, 2.0), 1.0, 0.02);
   }
-  // Two that share only an edge of which both are made: four triangles meet there.
+  // Two boxes that share only an edge: four triangles meet there.
   auto corner = joined(left, box({3, 2, 0}, {6, 4, 2}));
-  const auto share = volume::solidOf(corner, kSpacing);
-  ASSERT_TRUE(share) << planned(corner).refusal;
-  EXPECT_GT(valueAt(*share, {1.5, 1.0, 1.0}), 0.9);
-  EXPECT_GT(valueAt(*share, {4.5, 3.0, 1.0}), 0.9);
-  EXPECT_LT(valueAt(*share, {4.5, 1.0, 1.0}), 0.1);
+  const auto occupancy = volume::solidOf(corner, kSpacing);
+  ASSERT_TRUE(occupancy) << planned(corner).refusal;
+  EXPECT_GT(valueAt(*occupancy, {1.5, 1.0, 1.0}), 0.9);
+  EXPECT_GT(valueAt(*occupancy, {4.5, 3.0, 1.0}), 0.9);
+  EXPECT_LT(valueAt(*occupancy, {4.5, 1.0, 1.0}), 0.1);
 }
 
 TEST(MeshSolid, DoesNotCareWhichWaySingleTrianglesFace)
@@ -292,18 +293,18 @@ TEST(MeshSolid, DoesNotCareWhichWaySingleTrianglesFace)
   auto mesh = sphere({0, 0, 0}, 2.0, 32);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
     std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
-  const auto share = volume::solidOf(mesh, kSpacing);
+  const auto occupancy = volume::solidOf(mesh, kSpacing);
   const auto straight = volume::solidOf(sphere({0, 0, 0}, 2.0, 32), kSpacing);
-  ASSERT_TRUE(share && straight);
-  ASSERT_EQ(share->size(), straight->size());
-  for (std::size_t n = 0; n < share->size(); ++n)
-    ASSERT_NEAR(share->data()[n], straight->data()[n], 1e-5);
+  ASSERT_TRUE(occupancy && straight);
+  ASSERT_EQ(occupancy->size(), straight->size());
+  for (std::size_t n = 0; n < occupancy->size(); ++n)
+    ASSERT_NEAR(occupancy->data()[n], straight->data()[n], 1e-5);
 }
 
 TEST(MeshSolid, CountsCornersAtOnePlaceAsOne)
 {
   const auto shared = sphere({0, 0, 0}, 2.0, 16);
-  core::TriangleMesh loose; // three corners of its own for each triangle
+  core::TriangleMesh loose; // three vertices of its own for each triangle
   for (const auto& t : shared.triangles)
   {
     const auto n = static_cast<std::uint32_t>(loose.vertices.size());
@@ -348,12 +349,12 @@ TEST(MeshSolid, StaysWithinItsMemoryOrSaysThatItCannot)
   const auto free = volume::planMeshSolid(mesh, limits);
   ASSERT_TRUE(free);
   EXPECT_LE(free.grid.minSpacing(), 0.1001);
-  limits.mostBytes = free.grid.voxelCount() * sizeof(float) / 2;
+  limits.maxBytes = free.grid.voxelCount() * sizeof(float) / 2;
   const auto tight = volume::planMeshSolid(mesh, limits);
   ASSERT_TRUE(tight) << tight.refusal;
-  EXPECT_LE(tight.grid.voxelCount() * sizeof(float), limits.mostBytes);
+  EXPECT_LE(tight.grid.voxelCount() * sizeof(float), limits.maxBytes);
   EXPECT_LE(tight.grid.minSpacing(), 0.15);
-  limits.mostBytes /= 4;
+  limits.maxBytes /= 4;
   const auto refused = volume::planMeshSolid(mesh, limits);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.refusal.find("0.3 mm thick"), std::string::npos) << refused.refusal;
@@ -369,11 +370,11 @@ TEST(MeshSolid, IsMadeOnlyInTheRegion)
   const auto plan = volume::planMeshSolid(mesh, limits);
   ASSERT_TRUE(plan);
   EXPECT_LT(plan.grid.voxelCount(), 5000u);
-  const auto share = volume::solidOf(mesh, plan);
-  EXPECT_NEAR(crossing(*share, {8.0, 0.0, 0.0}, {1, 0, 0}, 4.0), 10.0 - 8.0, 0.05 * kSpacing);
+  const auto occupancy = volume::solidOf(mesh, plan);
+  EXPECT_NEAR(crossing(*occupancy, {8.0, 0.0, 0.0}, {1, 0, 0}, 4.0), 10.0 - 8.0, 0.05 * kSpacing);
 }
 
-// A vertex 5 m off took minutes: its spike was cut into triangles of half a voxel.
+// A vertex 5 m away took minutes: its spike was subdivided into triangles of half a voxel.
 TEST(MeshSolid, RefusesWhatReachesFarBeyondTheRegion)
 {
   MeshSolidLimits limits;
@@ -388,12 +389,12 @@ TEST(MeshSolid, RefusesWhatReachesFarBeyondTheRegion)
   }
   EXPECT_EQ(volume::reachBeyond(sphere({0, 0, 0}, 8.0), *limits.region), 0.0);
   EXPECT_NEAR(volume::reachBeyond(sphere({30, 0, 0}, 8.0), *limits.region), 18.0, 0.1);
-  EXPECT_EQ(volume::mostReach(*limits.region), 500.0);
-  EXPECT_NEAR(volume::mostReach({Vector3d::Zero(), Vector3d(300, 400, 0)}), 500.0, 1e-9);
-  EXPECT_NEAR(volume::mostReach({Vector3d::Zero(), Vector3d(600, 800, 0)}), 1000.0, 1e-9);
+  EXPECT_EQ(volume::maxReach(*limits.region), 500.0);
+  EXPECT_NEAR(volume::maxReach({Vector3d::Zero(), Vector3d(300, 400, 0)}), 500.0, 1e-9);
+  EXPECT_NEAR(volume::maxReach({Vector3d::Zero(), Vector3d(600, 800, 0)}), 1000.0, 1e-9);
 }
 
-// What leaves the region is cut off there, and what is left in it is as before.
+// Parts outside the region are cut off there, without effect inside it.
 TEST(MeshSolid, IsTheSameInTheRegionWhereTheMeshGoesFarBeyond)
 {
   MeshSolidLimits limits;
@@ -402,20 +403,20 @@ TEST(MeshSolid, IsTheSameInTheRegionWhereTheMeshGoesFarBeyond)
   const auto beam = box({-400.0, -3.1, -2.3}, {400.0, 4.2, 5.4});
   const auto plan = volume::planMeshSolid(beam, limits);
   ASSERT_TRUE(plan) << plan.refusal;
-  const auto share = volume::solidOf(beam, plan);
+  const auto occupancy = volume::solidOf(beam, plan);
   for (const double x : {-9.7, 0.0, 9.7})
   {
-    EXPECT_NEAR(crossing(*share, {x, 0.0, 0.0}, Vector3d::UnitY(), 8.0), 4.2, 0.02);
-    EXPECT_NEAR(crossing(*share, {x, 0.0, 0.0}, -Vector3d::UnitZ(), 8.0), 2.3, 0.02);
+    EXPECT_NEAR(crossing(*occupancy, {x, 0.0, 0.0}, Vector3d::UnitY(), 8.0), 4.2, 0.02);
+    EXPECT_NEAR(crossing(*occupancy, {x, 0.0, 0.0}, -Vector3d::UnitZ(), 8.0), 2.3, 0.02);
   }
 }
 
 TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
 {
   constexpr double length = 12.0;
-  const auto share = volume::solidOf(tube(0.15, length), kSpacing);
+  const auto occupancy = volume::solidOf(tube(0.15, length), kSpacing);
   const core::GridGeometry ct({40, 30, 30}, Vector3d::Constant(kSpacing), {-1.0, -2.0, -2.0});
-  const auto guard = volume::guardOf(*share, ct);
+  const auto guard = volume::protectionMaskOf(*occupancy, ct);
   ASSERT_TRUE(guard);
   double plain = 1.0;
   for (double along = 0.1; along < length - 0.1; along += 0.01)
@@ -424,14 +425,14 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
     EXPECT_GE(valueAt(*guard, p), 0.5);
     const Vector3d voxel = ct.voxelFromPatient(p);
     const volume::TrilinearCell cell(voxel, ct.dims());
-    plain = std::min(plain,
-                     cell.interpolate(
-                         [&](int i, int j, int k) {
-                           return valueAt(*share, ct.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
-                         }));
+    plain = std::min(
+        plain, cell.interpolate(
+                   [&](int i, int j, int k) {
+                     return valueAt(*occupancy, ct.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k}));
+                   }));
   }
   EXPECT_LT(plain, 0.5) << "voxels alone do not hold it";
-  // What lies more than a voxel's diagonal away stays free to be drilled.
+  // Tissue farther away than a voxel diagonal remains drillable.
   const Vector3d out = kAxis.unitOrthogonal();
   for (double along = 0.5; along < length - 0.5; along += 0.1)
     EXPECT_LT(valueAt(*guard, along * kAxis + 0.9 * out), 0.5);
@@ -444,7 +445,8 @@ TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
              {guard->at(i + 1, j, k), guard->at(i, j + 1, k), guard->at(i, j, k + 1)})
           steepest = std::max(steepest, std::abs(other - guard->at(i, j, k)));
   EXPECT_LE(steepest, 0.5F + 1e-6F);
-  EXPECT_EQ(volume::guardOf(*share, core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
+  EXPECT_EQ(volume::protectionMaskOf(*occupancy,
+                                     core::GridGeometry({4, 4, 4}, Vector3d::Ones(), {90, 90, 90})),
             nullptr);
 }
 

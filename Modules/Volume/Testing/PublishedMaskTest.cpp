@@ -77,7 +77,7 @@ TEST(PublishedMask, SharesBlocksThatDidNotChange)
   published.release();
 }
 
-// Two bricks always carry the same number; a reader that saw half a change would see two.
+// Two bricks always carry the same number; a reader of a partial change would see two.
 TEST(PublishedMask, NeverShowsHalfAChangeToAReaderOnAnotherThread)
 {
   CutMask mask(grid());

@@ -1,4 +1,4 @@
-// What is smoothed region by region against the whole, to the last bit.
+// Smoothing by region against the whole, bit by bit.
 
 #include <cmath>
 #include <cstring>
@@ -17,8 +17,8 @@ namespace
 
 const core::GridGeometry kLong({330, 44, 44}, Vector3d(0.3, 0.3, 0.4), Vector3d(-40, 10, 5));
 
-// A tube that winds along the grid, longer than what decides over a voxel reaches; a sheet one
-// voxel thin and tilted; a rod of one voxel askew; grains that touch by edges and corners; a ball.
+// A tube that winds along the grid, longer than the support of a voxel; a tilted sheet one voxel
+// thin; an oblique rod of one voxel; grains that touch by edges and corners; a ball.
 petrous::testing::Labels windingLabels()
 {
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(kLong, std::uint16_t{0});
@@ -53,7 +53,7 @@ std::vector<volume::LabelSource> sourcesOf(const petrous::testing::Labels& label
   return sources;
 }
 
-// Voxels of the box whose bits differ.
+// Number of voxels in the box that differ in any bit.
 int different(const volume::Volume<float>& a, const volume::Volume<float>& b,
               const core::IndexBox& box)
 {
@@ -71,13 +71,14 @@ TEST(RegionalUnion, IsTheWholeUnionToTheBitWhereItIsAskedFor)
 {
   const auto sources = sourcesOf(windingLabels());
   const auto field = volume::makeLabelField(sources);
-  const core::IndexBox full = field->share->geometry().fullBox();
+  const core::IndexBox full = field->occupancy->geometry().fullBox();
   std::mt19937 random(3);
   for (int turn = 0; turn < 6; ++turn)
   {
     const auto regional = volume::RegionalUnion::make(sources);
     ASSERT_TRUE(regional);
-    ASSERT_TRUE(core::sameGrid(regional->share()->geometry(), field->share->geometry(), 0.0));
+    ASSERT_TRUE(
+        core::sameGrid(regional->occupancy()->geometry(), field->occupancy->geometry(), 0.0));
     core::IndexBox box;
     for (std::size_t a = 0; a < 3; ++a)
     {
@@ -85,7 +86,8 @@ TEST(RegionalUnion, IsTheWholeUnionToTheBitWhereItIsAskedFor)
       box.upper[a] = box.lower[a] + 1 + static_cast<int>(random() % 12);
     }
     regional->prepare(box);
-    EXPECT_EQ(different(*regional->share(), *field->share, box.intersected(full)), 0) << turn;
+    EXPECT_EQ(different(*regional->occupancy(), *field->occupancy, box.intersected(full)), 0)
+        << turn;
     EXPECT_LT(regional->preparedTiles(), regional->tiles() / 2);
   }
 }
@@ -93,28 +95,28 @@ TEST(RegionalUnion, IsTheWholeUnionToTheBitWhereItIsAskedFor)
 TEST(RegionalUnion, GrowsRegionByRegionToTheWhole)
 {
   const auto sources = sourcesOf(windingLabels());
-  const auto whole = volume::makeSolidShare(sources);
+  const auto whole = volume::makeSolidOccupancy(sources);
   const auto regional = volume::RegionalUnion::make(sources);
   const core::IndexBox full = whole->geometry().fullBox();
   for (int i = 0; i < full.upper[0]; i += 50)
   {
     const core::IndexBox part{{i, 0, 0}, {i + 50, full.upper[1], full.upper[2]}};
     regional->prepare(part);
-    EXPECT_EQ(different(*regional->share(), *whole, part.intersected(full)), 0) << i;
+    EXPECT_EQ(different(*regional->occupancy(), *whole, part.intersected(full)), 0) << i;
   }
   EXPECT_EQ(regional->preparedTiles(), regional->tiles());
-  EXPECT_EQ(different(*regional->share(), *whole, full), 0);
+  EXPECT_EQ(different(*regional->occupancy(), *whole, full), 0);
 }
 
 TEST(RegionalUnion, TakesTheWholeIntoTheSameMemory)
 {
   const auto sources = sourcesOf(windingLabels());
-  const auto whole = volume::makeSolidShare(sources);
+  const auto whole = volume::makeSolidOccupancy(sources);
   const auto regional = volume::RegionalUnion::make(sources);
-  const auto memory = regional->share();
+  const auto memory = regional->occupancy();
   regional->prepare(core::IndexBox{{0, 0, 0}, {20, 20, 20}});
   regional->prepareAll();
-  EXPECT_EQ(regional->share(), memory);
+  EXPECT_EQ(regional->occupancy(), memory);
   EXPECT_EQ(different(*memory, *whole, whole->geometry().fullBox()), 0);
 }
 
@@ -130,9 +132,9 @@ TEST(RegionalUnion, AsksForTheVoxelsThatInterpolationInABoxNeeds)
     for (double z = -0.7; z <= 0.7; z += 0.1)
     {
       const Vector3d voxel =
-          field->share->geometry().voxelFromPatient(center + Vector3d(x, 0.3, z));
-      EXPECT_EQ(volume::sampleTrilinear(*regional->share(), voxel),
-                volume::sampleTrilinear(*field->share, voxel));
+          field->occupancy->geometry().voxelFromPatient(center + Vector3d(x, 0.3, z));
+      EXPECT_EQ(volume::sampleTrilinear(*regional->occupancy(), voxel),
+                volume::sampleTrilinear(*field->occupancy, voxel));
     }
 }
 
@@ -150,16 +152,16 @@ TEST(SolidShare, IsTheShareOfTheLabelFieldOnOneGridAndOnTwo)
   const auto labels = windingLabels();
   auto sources = sourcesOf(labels);
   const auto one = volume::makeLabelField(sources);
-  const auto oneShare = volume::makeSolidShare(sources);
-  ASSERT_TRUE(core::sameGrid(one->share->geometry(), oneShare->geometry(), 0.0));
-  EXPECT_EQ(different(*one->share, *oneShare, oneShare->geometry().fullBox()), 0);
+  const auto oneShare = volume::makeSolidOccupancy(sources);
+  ASSERT_TRUE(core::sameGrid(one->occupancy->geometry(), oneShare->geometry(), 0.0));
+  EXPECT_EQ(different(*one->occupancy, *oneShare, oneShare->geometry().fullBox()), 0);
 
   const core::GridGeometry coarse({40, 20, 20}, Vector3d::Constant(0.8), Vector3d(-20, 12, 8));
   sources.push_back({petrous::testing::paintBox(coarse, {{3, 3, 3}, {30, 12, 12}}), 1, 1, true});
   const auto two = volume::makeLabelField(sources);
-  const auto twoShare = volume::makeSolidShare(sources);
-  ASSERT_TRUE(core::sameGrid(two->share->geometry(), twoShare->geometry(), 0.0));
-  EXPECT_EQ(different(*two->share, *twoShare, twoShare->geometry().fullBox()), 0);
+  const auto twoShare = volume::makeSolidOccupancy(sources);
+  ASSERT_TRUE(core::sameGrid(two->occupancy->geometry(), twoShare->geometry(), 0.0));
+  EXPECT_EQ(different(*two->occupancy, *twoShare, twoShare->geometry().fullBox()), 0);
   const auto regional = volume::RegionalUnion::make(sources);
-  EXPECT_EQ(different(*two->share, *regional->share(), twoShare->geometry().fullBox()), 0);
+  EXPECT_EQ(different(*two->occupancy, *regional->occupancy(), twoShare->geometry().fullBox()), 0);
 }

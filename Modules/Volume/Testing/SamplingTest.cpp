@@ -89,8 +89,8 @@ TEST(Sampling, EdgeGradientOfALinearFieldIsItsSlopeInPatientAxes)
             1e-5);
 }
 
-// A plane border of bone and air, as sharp as a scan has it (a Gaussian of 0.4 voxel): on its
-// isosurface the normal swings as the border goes from voxel to voxel.
+// A plane border of bone and air, as sharp as in a scan (a Gaussian of 0.4 voxel): on its
+// isosurface the normal oscillates as the border moves from voxel to voxel.
 TEST(Sampling, EdgeGradientSwingsHalfAsMuchOnASharpBorder)
 {
   const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());

@@ -1,4 +1,4 @@
-// The surface of a label against the shape that it was drawn from.
+// The surface of a label against the shape from which it was drawn.
 
 #include <cmath>
 #include <cstring>
@@ -19,12 +19,12 @@ using Eigen::Vector3d;
 namespace
 {
 
-using Distance = std::function<double(const Vector3d&)>; // in voxels, below 0 inside
+using Distance = std::function<double(const Vector3d&)>; // in voxels, negative inside
 
 class Label
 {
 public:
-  /// The voxels whose centres lie inside, or all that it touches.
+  /// The voxels whose centres are inside, or all that the shape touches.
   Label(int size, const Distance& distance, bool touched = false)
     : m_grid({size, size, size}, Vector3d::Constant(0.3), Vector3d::Constant(-0.15 * (size - 1)))
   {
@@ -34,25 +34,26 @@ public:
         for (int i = 0; i < size; ++i)
           voxels->at(i, j, k) = isIn(inVoxels(i, j, k), distance, touched) ? 1 : 0;
     m_voxels = voxels;
-    m_share = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
-                                        [](std::uint16_t) { return true; });
+    m_occupancy = volume::makeSmoothedUnion(volume::makeLabelMap(voxels, {}),
+                                            [](std::uint16_t) { return true; });
   }
 
-  /// From here on positions are voxels from the middle.
+  /// All positions below are in voxels from the centre.
   bool inside(const Vector3d& p) const
   {
-    const Vector3d voxel = m_share->geometry().voxelFromPatient(0.3 * p);
-    return m_share->geometry().hullContains(voxel) &&
-           volume::sampleTrilinear(*m_share, voxel) > 0.5;
+    const Vector3d voxel = m_occupancy->geometry().voxelFromPatient(0.3 * p);
+    return m_occupancy->geometry().hullContains(voxel) &&
+           volume::sampleTrilinear(*m_occupancy, voxel) > 0.5;
   }
 
   Vector3d outward(const Vector3d& p) const
   {
-    return -volume::sampleGradient(*m_share, m_share->geometry().voxelFromPatient(0.3 * p), 1.0)
+    return -volume::sampleGradient(*m_occupancy, m_occupancy->geometry().voxelFromPatient(0.3 * p),
+                                   1.0)
                 .normalized();
   }
 
-  /// How much of the line through p lies inside, up to 5 voxels away on both sides.
+  /// Length inside of the line through p, up to 5 voxels to both sides.
   double along(const Vector3d& p, const Vector3d& direction) const
   {
     constexpr int n = 500;
@@ -62,7 +63,7 @@ public:
     return 10.0 * count / n;
   }
 
-  /// Voxels of the label among those that `wanted` takes.
+  /// Number of the label's voxels for which `wanted` holds.
   int count(const std::function<bool(const Vector3d&)>& wanted) const
   {
     int voxels = 0;
@@ -74,7 +75,7 @@ public:
     return voxels;
   }
 
-  /// How far beyond p the surface lies along the normal of the shape, up to 2 voxels.
+  /// Distance of the surface beyond p along the normal of the shape, up to 2 voxels.
   double beyond(const Vector3d& p, const Vector3d& normal) const
   {
     double in = -2.0;
@@ -107,16 +108,16 @@ private:
 
   core::GridGeometry m_grid;
   std::shared_ptr<const volume::Volume<std::uint16_t>> m_voxels;
-  std::shared_ptr<const volume::Volume<float>> m_share;
+  std::shared_ptr<const volume::Volume<float>> m_occupancy;
 };
 
 struct Error
 {
   double bias = 0.0;  // voxels
-  double angle = 0.0; // degrees, root mean square
+  double angle = 0.0; // degrees, RMS
 };
 
-// Of a label's surface at points of the shape.
+// Error of a label's surface at points of the shape.
 template <class Pick>
 Error errorOf(const Label& label, const Pick& pick)
 {
@@ -137,7 +138,7 @@ Error errorOf(const Label& label, const Pick& pick)
 
 using PointAndNormal = std::pair<Vector3d, Vector3d>;
 
-// A sheet's or a rod's own direction: axes, faces' and cells' diagonals, and others.
+// Directions of sheets and rods: axes, diagonals of faces and cells, and others.
 const Vector3d kDirections[] = {{0, 0, 1}, {0.1, 0.05, 1},   {0.25, 0.1, 1},    {1, 1, 0},
                                 {1, 1, 1}, {0.3, 0.6, 0.75}, {0.88, 0.28, 0.38}};
 
@@ -204,8 +205,8 @@ TEST(SmoothedUnion, ShrinksNeitherBallsNorTubes)
   }
 }
 
-// A sheet of half a voxel has no closed label by its voxels' centres, and is drawn by what it
-// touches. Truth is how thick the label is: its volume over the area.
+// A sheet of half a voxel is not closed in voxels whose centres are inside, so it is drawn from all
+// voxels that it touches. Reference is the thickness of the label: its volume over the area.
 TEST(SmoothedUnion, KeepsSheetsClosedAndAtTheirThickness)
 {
   std::mt19937 random(2);
@@ -236,7 +237,7 @@ TEST(SmoothedUnion, KeepsSheetsClosedAndAtTheirThickness)
           });
       EXPECT_NEAR(mean, voxels / (24.0 * 24.0), 0.4)
           << thickness << " across " << direction.transpose();
-      if (!touched && std::abs(normal.z()) < 0.9999) // else it has a whole number of layers
+      if (!touched && std::abs(normal.z()) < 0.9999) // otherwise it has an integer number of layers
       {
         EXPECT_NEAR(mean, thickness, 0.35) << thickness << " across " << direction.transpose();
       }
@@ -252,7 +253,7 @@ TEST(SmoothedUnion, KeepsRodsWholeAndAtTheirThickness)
     for (const Vector3d& direction : kDirections)
     {
       const Vector3d axis = direction.normalized();
-      const bool touched = thickness < 1.5; // the centres inside are no whole rod
+      const bool touched = thickness < 1.5; // the centres inside do not form a connected rod
       const Label label(
           44,
           [&](const Vector3d& p)
@@ -275,7 +276,7 @@ TEST(SmoothedUnion, KeepsRodsWholeAndAtTheirThickness)
     }
 }
 
-// Rods, sheets and single voxels one voxel thin, which touch by faces, edges and corners.
+// Rods, sheets and single voxels one voxel thin, touching by faces, edges and corners.
 TEST(SmoothedUnion, IsTheSameForAnyNumberOfThreads)
 {
   std::mt19937 random(3);
@@ -296,16 +297,16 @@ TEST(SmoothedUnion, IsTheSameForAnyNumberOfThreads)
     const tbb::global_control most(tbb::global_control::max_allowed_parallelism,
                                    static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    std::shared_ptr<const volume::Volume<float>> share;
+    std::shared_ptr<const volume::Volume<float>> occupancy;
     arena.execute(
-        [&] { share = volume::makeSmoothedUnion(labels, [](std::uint16_t) { return true; }); });
-    return share;
+        [&] { occupancy = volume::makeSmoothedUnion(labels, [](std::uint16_t) { return true; }); });
+    return occupancy;
   };
   const auto alone = smoothed(1);
   for (const int threads : {2, 5})
   {
-    const auto share = smoothed(threads);
-    ASSERT_EQ(share->size(), alone->size());
-    EXPECT_EQ(std::memcmp(share->data(), alone->data(), share->size() * sizeof(float)), 0);
+    const auto occupancy = smoothed(threads);
+    ASSERT_EQ(occupancy->size(), alone->size());
+    EXPECT_EQ(std::memcmp(occupancy->data(), alone->data(), occupancy->size() * sizeof(float)), 0);
   }
 }

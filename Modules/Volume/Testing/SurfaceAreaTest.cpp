@@ -31,18 +31,18 @@ bool all(const Vector3d&, const Vector3d&)
 TEST(SurfaceArea, IsThatOfABallAndOfItsCap)
 {
   const core::GridGeometry grid = turnedGrid({45, 45, 23}, {0.3, 0.3, 0.6});
-  const auto share = filled<float>(grid, [](const Vector3d& p)
-                                   { return std::clamp(0.5 + (4.0 - p.norm()) / 2.0, 0.0, 1.0); });
-  EXPECT_NEAR(surfaceArea(*share, all) / (4.0 * kPi * 16.0), 1.0, 0.01);
+  const auto occupancy = filled<float>(
+      grid, [](const Vector3d& p) { return std::clamp(0.5 + (4.0 - p.norm()) / 2.0, 0.0, 1.0); });
+  EXPECT_NEAR(surfaceArea(*occupancy, all) / (4.0 * kPi * 16.0), 1.0, 0.01);
   const Vector3d pole = Vector3d(0.2, -0.7, 0.5).normalized();
-  const double cap = surfaceArea(*share,
+  const double cap = surfaceArea(*occupancy,
                                  [&](const Vector3d& point, const Vector3d& outward)
                                  {
                                    EXPECT_NEAR(point.norm(), 4.0, 0.03);
                                    EXPECT_LT((outward - point.normalized()).norm(), 0.1);
                                    return point.dot(pole) > 2.5;
                                  });
-  // Trilinear interpolation draws the ball in by some 0.01 mm, which is 0.01 of the cap.
+  // Trilinear interpolation shrinks the ball by some 0.01 mm, which is 0.01 of the cap.
   EXPECT_NEAR(cap / (2.0 * kPi * 4.0 * 1.5), 1.0, 0.02);
 }
 
@@ -52,12 +52,12 @@ TEST(SurfaceArea, IsThatOfALabelledBall)
   {
     const core::GridGeometry grid = turnedGrid({50, 50, 50}, spacing);
     const double radius = 4.0;
-    const auto share = makeSmoothedUnion(
+    const auto occupancy = makeSmoothedUnion(
         makeLabelMap(filled<std::uint16_t>(grid, [&](const Vector3d& p)
                                            { return p.norm() < radius ? 1.0 : 0.0; }),
                      {}),
         [](std::uint16_t) { return true; });
-    EXPECT_NEAR(surfaceArea(*share, all) / (4.0 * kPi * radius * radius), 1.0, 0.03);
+    EXPECT_NEAR(surfaceArea(*occupancy, all) / (4.0 * kPi * radius * radius), 1.0, 0.03);
   }
 }
 

@@ -20,13 +20,13 @@ using petrous::volume::testing::turnedGrid;
 namespace
 {
 
-using Distance = std::function<double(const Vector3d&)>; // mm, negative within
+using Distance = std::function<double(const Vector3d&)>; // mm, negative inside
 
 constexpr double kFar = 1000.0;
 
-// A share that is linear across the surface.
-std::shared_ptr<const Volume<float>> shareOf(const Distance& distance,
-                                             const core::GridGeometry& grid)
+// Occupancy linear across the surface.
+std::shared_ptr<const Volume<float>> occupancyOf(const Distance& distance,
+                                                 const core::GridGeometry& grid)
 {
   return filled<float>(grid,
                        [&](const Vector3d& p) {
@@ -34,7 +34,7 @@ std::shared_ptr<const Volume<float>> shareOf(const Distance& distance,
                        });
 }
 
-// The smoothed union of a labelled shape, as a case has it.
+// The smoothed union of a labelled shape, as in a case.
 std::shared_ptr<const Volume<float>> labelled(const Distance& distance,
                                               const core::GridGeometry& grid)
 {
@@ -53,13 +53,13 @@ Vector3d randomIn(std::mt19937& random, double half)
   return {x, y, uniform(random)};
 }
 
-// Many points on the surface share = 1/2, where the lines of a lattice of `parts` to a voxel meet
-// it. None of the surface is farther than half a lattice cell's diagonal from one.
-std::vector<Vector3d> pointsOf(const Volume<float>& share, int parts)
+// Dense points on the surface occupancy = 1/2, where the lines of a lattice of `parts` per voxel
+// meet it. No part of the surface is farther from one than half the diagonal of a lattice cell.
+std::vector<Vector3d> pointsOf(const Volume<float>& occupancy, int parts)
 {
   std::vector<Vector3d> points;
-  const core::Index3& dims = share.geometry().dims();
-  const auto value = [&](const Vector3d& v) { return sampleTrilinear(share, v) - 0.5; };
+  const core::Index3& dims = occupancy.geometry().dims();
+  const auto value = [&](const Vector3d& v) { return sampleTrilinear(occupancy, v) - 0.5; };
   for (int k = 0; k < (dims[2] - 1) * parts; ++k)
     for (int j = 0; j < (dims[1] - 1) * parts; ++j)
       for (int i = 0; i < (dims[0] - 1) * parts; ++i)
@@ -72,7 +72,7 @@ std::vector<Vector3d> pointsOf(const Volume<float>& share, int parts)
         {
           const double there = value(from + Vector3d::Unit(a) / parts);
           if ((here > 0.0) != (there > 0.0))
-            points.push_back(share.geometry().patientFromVoxel(
+            points.push_back(occupancy.geometry().patientFromVoxel(
                 from + Vector3d::Unit(a) * (here / (here - there) / parts)));
         }
       }
@@ -85,7 +85,7 @@ TEST(SurfaceDistance, IsThatOfABallNearAndFar)
 {
   const double h = 0.3;
   const Distance ball = [](const Vector3d& p) { return p.norm() - 4.0; };
-  const SurfaceDistance surface(shareOf(ball, turnedGrid({33, 33, 33}, Vector3d::Constant(h))));
+  const SurfaceDistance surface(occupancyOf(ball, turnedGrid({33, 33, 33}, Vector3d::Constant(h))));
   std::mt19937 random(3);
   for (int n = 0; n < 20000; ++n)
   {
@@ -98,7 +98,7 @@ TEST(SurfaceDistance, IsThatOfAPlaneInLongVoxels)
 {
   const Vector3d normal = Vector3d(0.3, -0.5, 0.8).normalized();
   const Distance plane = [&](const Vector3d& p) { return normal.dot(p) - 0.1; };
-  const SurfaceDistance surface(shareOf(plane, turnedGrid({61, 61, 31}, {0.4, 0.4, 1.0})));
+  const SurfaceDistance surface(occupancyOf(plane, turnedGrid({61, 61, 31}, {0.4, 0.4, 1.0})));
   std::mt19937 random(5);
   int seen = 0;
   for (int n = 0; n < 5000; ++n)
@@ -112,12 +112,13 @@ TEST(SurfaceDistance, IsThatOfAPlaneInLongVoxels)
   EXPECT_GT(seen, 3000);
 }
 
-// From the middle of the hole every side is as near as the others, and a tree can leave out none.
+// From the centre of the hole all sides are equally near, and the tree cannot be pruned.
 TEST(SurfaceDistance, IsThatOfARing)
 {
   const Distance ring = [](const Vector3d& p)
   { return std::hypot(std::hypot(p.x(), p.y()) - 6.0, p.z()) - 2.0; };
-  const SurfaceDistance surface(shareOf(ring, turnedGrid({49, 49, 49}, Vector3d::Constant(0.4))));
+  const SurfaceDistance surface(
+      occupancyOf(ring, turnedGrid({49, 49, 49}, Vector3d::Constant(0.4))));
   std::mt19937 random(7);
   for (int n = 0; n < 10000; ++n)
   {
@@ -128,8 +129,8 @@ TEST(SurfaceDistance, IsThatOfARing)
   EXPECT_NEAR(surface.at({0.0, 0.0, 0.0}, kFar), 4.0, 0.02);
 }
 
-// What counts: the surface that a label has, whatever shape it was drawn for. Slices are three
-// times as far apart as pixels.
+// The reference is the surface of the label, whatever shape it was drawn from. The slice spacing is
+// three times the pixel spacing.
 TEST(SurfaceDistance, IsThatToTheSurfaceOfALabel)
 {
   const core::GridGeometry grid = turnedGrid({40, 40, 16}, {0.3, 0.3, 0.9});
@@ -139,10 +140,10 @@ TEST(SurfaceDistance, IsThatToTheSurfaceOfALabel)
                              [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() - 2.0; }};
   for (const Distance& shape : shapes)
   {
-    const auto share = labelled(shape, grid);
-    const SurfaceDistance surface(share);
+    const auto occupancy = labelled(shape, grid);
+    const SurfaceDistance surface(occupancy);
     constexpr int parts = 8;
-    const auto points = pointsOf(*share, parts);
+    const auto points = pointsOf(*occupancy, parts);
     ASSERT_GT(points.size(), 1000U);
     const double gap = 0.5 * grid.spacing().norm() / parts;
     std::mt19937 random(11);
@@ -152,12 +153,12 @@ TEST(SurfaceDistance, IsThatToTheSurfaceOfALabel)
       double nearest = kFar;
       for (const Vector3d& point : points)
         nearest = std::min(nearest, (p - point).norm());
-      const Vector3d voxel = share->geometry().voxelFromPatient(p);
+      const Vector3d voxel = occupancy->geometry().voxelFromPatient(p);
       const bool inside =
-          share->geometry().hullContains(voxel) && sampleTrilinear(*share, voxel) > 0.5;
+          occupancy->geometry().hullContains(voxel) && sampleTrilinear(*occupancy, voxel) > 0.5;
       const double found = surface.at(p, kFar);
       ASSERT_EQ(found < 0.0, inside) << p.transpose();
-      // Points are on the surface: it is no farther, and nearer by no more than their gap.
+      // The points are on the surface: it is no farther, and nearer by at most their gap.
       ASSERT_LE(std::abs(found), nearest + 0.02) << p.transpose();
       ASSERT_GE(std::abs(found), nearest - std::min(gap, gap * gap / nearest + 0.02))
           << p.transpose();
@@ -169,7 +170,7 @@ TEST(SurfaceDistance, SaysNoMoreThanWasAskedFor)
 {
   const Distance ball = [](const Vector3d& p) { return p.norm() - 4.0; };
   const core::GridGeometry grid = turnedGrid({33, 33, 33}, Vector3d::Constant(0.3));
-  const SurfaceDistance surface(shareOf(ball, grid));
+  const SurfaceDistance surface(occupancyOf(ball, grid));
   EXPECT_EQ(surface.at({0.0, 9.0, 0.0}, 2.0), 2.0);
   EXPECT_EQ(surface.at({0.0, 0.5, 0.0}, 2.0), -2.0);
   EXPECT_NEAR(surface.at({0.0, 5.0, 0.0}, 2.0), 1.0, 0.01);

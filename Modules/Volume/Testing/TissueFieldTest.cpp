@@ -49,7 +49,7 @@ TEST(TissueField, FindsASphereWhereItIs)
     const Vector3d n = direction.normalized();
     const auto hit = field.firstHit(c + 8.0 * n, c);
     ASSERT_TRUE(hit);
-    EXPECT_NEAR(8.0 - *hit, 5.0, 0.006); // h^2/(8 R) 2, the interpolation's own error
+    EXPECT_NEAR(8.0 - *hit, 5.0, 0.006); // h^2/(8 R) 2, the interpolation error
     EXPECT_GT(field.normal(c + 5.0 * n).dot(n), 0.9998);
   }
 }
@@ -84,7 +84,7 @@ TEST(TissueField, SeesAThinWallBetweenTwoAirPoints)
 
 TEST(TissueField, MaskDoesNotMoveWithTheDensityOfBone)
 {
-  // The cut surface must lie at mask 1/2 whatever the HU beneath: not so for HU times mask.
+  // The cut surface must be at mask 1/2 whatever the HU beneath: not so for HU times mask.
   for (const std::int16_t hu : {std::int16_t{400}, std::int16_t{2000}})
   {
     const core::GridGeometry grid({32, 16, 16}, Vector3d::Ones(), Vector3d::Zero());
@@ -139,7 +139,7 @@ TEST(NearestSurface, LiesARadiusFromTheCentreOfASphere)
   EXPECT_FALSE(volume::NearestSurfaceSearch(field, 1.0).find(c));
 }
 
-// A ball that the scan's face cuts off: what is left of its surface counts, and the face does not.
+// A ball truncated by the scan's face: the rest of its surface counts, the face does not.
 TEST(NearestSurface, TheFacesOfTheScanAreNoSurface)
 {
   const core::GridGeometry grid({55, 73, 73}, Vector3d::Constant(0.25), {-9.5, -9.0, -9.0});
@@ -160,7 +160,7 @@ TEST(NearestSurface, TheFacesOfTheScanAreNoSurface)
     }
 }
 
-// A wall of 0.3 mm, in voxels of its own, amid voxels of 1 mm that hold air alone.
+// A wall of 0.3 mm, in voxels of its own, between 1 mm voxels that contain only air.
 TEST(NearestSurface, SeesAThinMeshBetweenTheVoxelsOfTheCt)
 {
   const core::GridGeometry coarse({24, 24, 24}, Vector3d::Constant(1.0), {0, 0, 0});
@@ -172,13 +172,13 @@ TEST(NearestSurface, SeesAThinMeshBetweenTheVoxelsOfTheCt)
   const Vector3d normal = Vector3d(0.2, -0.3, 1.0).normalized();
   const double at = normal.dot(Vector3d(11.5, 11.5, 11.47));
   const auto depth = [&](const Vector3d& p) { return 0.15 - std::abs(normal.dot(p) - at); };
-  auto share = std::make_shared<volume::Volume<float>>(fine);
+  auto occupancy = std::make_shared<volume::Volume<float>>(fine);
   for (int k = 0; k < 181; ++k)
     for (int j = 0; j < 181; ++j)
       for (int i = 0; i < 181; ++i)
-        share->at(i, j, k) = static_cast<float>(std::clamp(
+        occupancy->at(i, j, k) = static_cast<float>(std::clamp(
             0.5 + depth(fine.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k})) / (6.0 * e), 0.0, 1.0));
-  const TissueField field(air, {share}, nullptr, {});
+  const TissueField field(air, {occupancy}, nullptr, {});
   volume::NearestSurfaceSearch search(field, 6.0);
   for (int n = 0; n < 200; ++n)
   {

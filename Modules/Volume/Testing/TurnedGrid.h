@@ -9,7 +9,7 @@
 namespace petrous::volume::testing
 {
 
-/// A grid that is turned against the patient's axes, its middle at the origin.
+/// A grid rotated against the patient's axes, centred at the origin.
 inline core::GridGeometry turnedGrid(const core::Index3& dims, const Eigen::Vector3d& spacing)
 {
   using Eigen::Vector3d;
@@ -19,7 +19,7 @@ inline core::GridGeometry turnedGrid(const core::Index3& dims, const Eigen::Vect
   return {dims, spacing, -(turn * half), turn};
 }
 
-/// value(patient point) at every voxel.
+/// Volume with value(patient point) at every voxel.
 template <class T, class Value>
 std::shared_ptr<Volume<T>> filled(const core::GridGeometry& grid, const Value& value)
 {

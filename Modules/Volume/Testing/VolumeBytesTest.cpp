@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// A ball, a box in it that goes first, and a lumen; turned against the patient.
+// A ball, a box in it with higher priority, and a lumen; rotated against the patient.
 petrous::testing::Labels twoSolidsAndALumen()
 {
   const auto grid =
@@ -52,19 +52,19 @@ TEST(VolumeBytes, BringBackALabelFieldToTheBit)
   const auto field = fieldOf(twoSolidsAndALumen());
   const auto bytes = volume::bytesOf(*field);
   ASSERT_TRUE(bytes);
-  EXPECT_LT(bytes->size(), field->share->bytes());
+  EXPECT_LT(bytes->size(), field->occupancy->bytes());
   const auto back = volume::labelFieldFrom(*bytes);
   ASSERT_TRUE(back);
-  expectEqual(*back->share, *field->share);
+  expectEqual(*back->occupancy, *field->occupancy);
   expectEqual(*back->index, *field->index);
   ASSERT_TRUE(field->borders && back->borders);
   expectEqual(*back->borders, *field->borders);
   EXPECT_TRUE(back->hasSolid);
   EXPECT_TRUE(back->hasLumen);
 
-  const auto share = volume::shareFrom(*volume::bytesOf(*field->share));
-  ASSERT_TRUE(share);
-  expectEqual(*share, *field->share);
+  const auto occupancy = volume::occupancyFrom(*volume::bytesOf(*field->occupancy));
+  ASSERT_TRUE(occupancy);
+  expectEqual(*occupancy, *field->occupancy);
 }
 
 TEST(VolumeBytes, BringBackALabelMapWithItsNames)
@@ -87,19 +87,19 @@ TEST(VolumeBytes, BringBackALabelMapWithItsNames)
 
 TEST(VolumeBytes, AreNoneForAShareThatWouldNotComeBack)
 {
-  volume::Volume<float> share(petrous::testing::cube(4, 1.0), 0.0F);
-  share.at(1, 2, 3) = 0.1234567F;
-  EXPECT_FALSE(volume::bytesOf(share));
-  share.at(1, 2, 3) = std::nanf("");
-  EXPECT_FALSE(volume::bytesOf(share));
+  volume::Volume<float> occupancy(petrous::testing::cube(4, 1.0), 0.0F);
+  occupancy.at(1, 2, 3) = 0.1234567F;
+  EXPECT_FALSE(volume::bytesOf(occupancy));
+  occupancy.at(1, 2, 3) = std::nanf("");
+  EXPECT_FALSE(volume::bytesOf(occupancy));
   for (int code = 0; code <= 65535; ++code)
   {
-    share.at(1, 2, 3) = static_cast<float>(std::round(code / 65535.0 * 65535.0) / 65535.0);
-    const auto bytes = volume::bytesOf(share);
+    occupancy.at(1, 2, 3) = static_cast<float>(std::round(code / 65535.0 * 65535.0) / 65535.0);
+    const auto bytes = volume::bytesOf(occupancy);
     ASSERT_TRUE(bytes) << code;
     if (code % 97 == 0)
     {
-      ASSERT_EQ(volume::shareFrom(*bytes)->at(1, 2, 3), share.at(1, 2, 3)) << code;
+      ASSERT_EQ(volume::occupancyFrom(*bytes)->at(1, 2, 3), occupancy.at(1, 2, 3)) << code;
     }
   }
 }
@@ -113,22 +113,22 @@ TEST(VolumeBytes, ThatAreMalformedGiveNothing)
   auto longer = good;
   longer.push_back(0);
   EXPECT_FALSE(volume::labelFieldFrom(longer));
-  EXPECT_FALSE(volume::shareFrom({}));
+  EXPECT_FALSE(volume::occupancyFrom({}));
   EXPECT_FALSE(volume::labelMapFrom({1, 2, 3}));
 }
 
-// Whoever changes these numbers raises kLabelFieldVersion, or libraries answer with the old ones.
+// If these numbers change, kLabelFieldVersion must be incremented, or caches return the old ones.
 TEST(VolumeBytes, HaveTheNumbersOfTheirVersion)
 {
   const auto field = fieldOf(twoSolidsAndALumen());
   core::Fingerprint print;
-  print.add(field->share->data(), field->share->bytes());
+  print.add(field->occupancy->data(), field->occupancy->bytes());
   print.add(field->index->data(), field->index->bytes());
   print.add(field->borders->data(), field->borders->bytes());
-  // Structures of two grids, and one by itself.
+  // Structures of two grids, and one alone.
   const auto labels = twoSolidsAndALumen();
   const core::GridGeometry coarse = petrous::testing::cube(24, 0.8, Vector3d(4, -69, 212));
-  const auto both = volume::makeSolidShare(
+  const auto both = volume::makeSolidOccupancy(
       {{labels, 2, 1, true},
        {petrous::testing::paintBox(coarse, {{3, 3, 3}, {18, 9, 9}}), 1, 1, true}});
   print.add(both->data(), both->bytes());

@@ -9,7 +9,7 @@ namespace standin
 namespace
 {
 
-constexpr std::size_t kQueue = 64; // reports that hidraw keeps
+constexpr std::size_t kQueue = 64; // reports queued by hidraw
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
@@ -23,7 +23,7 @@ bool isSetUp(Command::Kind kind)
 void Bench::play(const std::vector<Command>& commands)
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
-  // What is plugged in at the very beginning is there before anybody can look.
+  // Devices connected at the very beginning are there before the first enumeration.
   auto first = commands.begin();
   while (!m_busy && first != commands.end() && isSetUp(first->kind))
     apply(*first++);

@@ -13,7 +13,7 @@
 namespace standin
 {
 
-/// What lies on the bench: devices, plugged in or not, and the thread that plays the script.
+/// Simulated devices, connected or not, and the thread that plays the script.
 class Bench
 {
 public:
@@ -26,7 +26,8 @@ public:
     bool failing = false; // the next read
     int opened = 0;
     int open = 0;
-    unsigned generation = 0; // of plugging in; an open handle holds the one it was opened in
+    unsigned generation = 0; // number of the connection; an open handle keeps the one it was opened
+                             // in
     std::deque<std::vector<unsigned char>> reports;
   };
 
@@ -37,15 +38,15 @@ public:
   void stop();
   void reset();
 
-  /// Copies of the devices that are plugged in, by node.
+  /// Copies of the connected devices, by node.
   std::map<std::string, Device> plugged();
 
-  /// The generation that was opened; 0 when it cannot be opened.
+  /// Returns the generation opened; 0 if it cannot be opened.
   unsigned open(const std::string& node);
   void close(const std::string& node);
   int opened(const std::string& node);
 
-  /// As hid_read_timeout; milliseconds < 0 waits for ever.
+  /// Like hid_read_timeout; milliseconds < 0 waits indefinitely.
   int read(const std::string& node, unsigned generation, unsigned char* bytes, std::size_t size,
            int milliseconds);
 

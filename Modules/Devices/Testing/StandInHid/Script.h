@@ -6,7 +6,7 @@
 namespace standin
 {
 
-/// One line of a script, taken apart.
+/// One parsed line of a script.
 struct Command
 {
   enum class Kind
@@ -28,8 +28,8 @@ struct Command
   double milliseconds = 0.0;
 };
 
-/// The commands in the order in which they are played, repetitions written out and jitter worked
-/// into the waits. Sets `badLine` to the first line that is not understood, otherwise to 0.
+/// The commands in playing order, with repetitions expanded and jitter included in the waits. Sets
+/// `badLine` to the first invalid line, otherwise to 0.
 std::vector<Command> parseScript(const std::string& text, int& badLine);
 
 } // namespace standin

@@ -10,7 +10,7 @@
 
 #include "Bench.h"
 
-// hidapi's functions have no object to live in: the bench is the library's one global.
+// hidapi's functions have no object: the bench is the library's single global.
 static standin::Bench& bench()
 {
   static standin::Bench instance;

@@ -12,10 +12,9 @@ namespace petrous::presenters
 
 constexpr double kFarthestThickness = 5.0; ///< mm; thicker bone keeps its own colour
 
-/// How far the places round a structure or mesh are from its surface, for a picture that colours
-/// bone by it (rendering::ThicknessOverlay); about a second. Loads the labels, or the mesh, whose
-/// voxels are made and kept. Throws InvalidParameter naming the structures that there are, and
-/// CancelledError.
+/// Distance field of the surface of a structure or mesh, for rendering bone coloured by it
+/// (rendering::ThicknessOverlay); about a second. Loads the labels, or the mesh, whose voxelization
+/// is kept. Throws InvalidParameter listing the available structures, and CancelledError.
 std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& value,
                                                            const std::string& structure,
                                                            const core::Progress& progress = {});

@@ -12,27 +12,28 @@
 namespace petrous::presenters
 {
 
-/// A file that becomes a part of a case, with the name the user gave it (may be empty).
+/// A file that becomes a part of a case, with the user's name for it (may be empty).
 struct PartSource
 {
   std::string name;
   std::filesystem::path path;
-  /// Structures: the MR in whose patient space they lie, "ct" for the CT's; empty: not said.
+  /// Structures: the MR in whose patient space they are defined, "ct" for the CT's; empty:
+  /// unspecified.
   std::string drawnOn = {};
-  std::string seriesUid = {}; ///< MR: which series of a DICOM folder; empty: the one that is meant
+  std::string seriesUid = {}; ///< MR: series of a DICOM folder; empty: chosen automatically
 
-  /// "NAME=FILE" or "FILE". What names a file that is there is a FILE, whatever it contains.
+  /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
 
-  /// The same, and "@MR" may follow.
+  /// As parse, optionally followed by "@MR".
   static PartSource parseDrawn(const std::string& text);
 };
 
-/// What a file's own name says of the structure in it, without what may be a patient's name.
+/// What a file name says about the structure in it, without anything that may be a patient's name.
 struct FileName
 {
-  std::string name;     ///< the words of it that structures are called by, or empty
-  bool isWhole = false; ///< these are all of it ("facial_nerve_left"); otherwise ask, or say so
+  std::string name;     ///< its words that are structure names, or empty
+  bool isWhole = false; ///< these are all of it ("facial_nerve_left"); otherwise ask or warn
 };
 FileName fileName(const std::filesystem::path& path);
 
@@ -46,23 +47,23 @@ struct PartSources
 struct CaseSources
 {
   std::filesystem::path ct;            ///< DICOM folder or file, NIfTI, NRRD or MetaImage
-  std::string seriesUid;               ///< which series of a folder; empty: the one that is meant
+  std::string seriesUid;               ///< series of a folder; empty: chosen automatically
   std::optional<core::PatientBox> roi; ///< crops the CT on load
   PartSources parts;
 };
 
-/// A case put together in memory, not saved. What was accepted or assumed on the way is in the
-/// parts' notes. Labels of which nobody says on what they were drawn, and that have the grid of one
-/// MR and not the CT's, were drawn on that MR. Throws the imaging module's errors, InvalidParameter
-/// (also where several MR images have that grid), CancelledError.
+/// A case built in memory, not saved. What was accepted or assumed is in the parts' notes. Labels
+/// whose image is unspecified, and whose grid is that of one MR and not the CT's, are taken as
+/// drawn on that MR. Throws the imaging module's errors, InvalidParameter (also if several MR
+/// images have that grid), CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress);
 
-/// Adds parts to a case; on an exception the case is as before. Structure names must be new to the
-/// case's labels, mesh names to its meshes. A part that nobody named is named by its file's words
-/// for structures alone (fileName), and its notes say so. Refused (InvalidParameter) are
-/// labels without a voxel, and a mesh that reaches beyond the image on which it was drawn farther
-/// than volume::mostReach.
+/// Adds parts to a case; strong exception guarantee. Structure names must be new to the case's
+/// labels, mesh names to its meshes. A part without a given name is named by the structure words of
+/// its file name (fileName), and its notes say so. Throws InvalidParameter for labels without a
+/// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
+/// volume::maxReach.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress);
 
 } // namespace petrous::presenters

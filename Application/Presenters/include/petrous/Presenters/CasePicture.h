@@ -8,7 +8,7 @@
 namespace petrous::presenters
 {
 
-/// What one picture of the case shows (SceneAssembly.h, for those who draw it again and again).
+/// The scene of a case for a single rendering (for repeated rendering see SceneAssembly.h).
 rendering::SceneContents sceneContents(const scene::Case& value,
                                        const core::Progress& progress = {});
 

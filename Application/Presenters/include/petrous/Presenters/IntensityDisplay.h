@@ -8,31 +8,31 @@
 namespace petrous::presenters
 {
 
-/// A case's image is in Hounsfield units where dense bone lies where it does in them: the histogram
-/// of any other puts it elsewhere (volume::suggestScale).
+/// The case's intensity scale; calibrated (Hounsfield units) if dense bone is where it is in HU,
+/// which the histogram of any other image does not show (volume::suggestScale).
 volume::IntensityScale calibratedScale(const scene::Case& value);
 
-/// How the numbers of a case's CT are shown: in Hounsfield units where it is calibrated, else in
-/// its own (cone beam, micro-CT), with what corresponds to them.
+/// How intensities of a case's CT are displayed: in Hounsfield units if it is calibrated, else in
+/// its own (cone beam, micro-CT), with equivalent ranges.
 struct IntensityDisplay
 {
   bool hounsfield = true;
-  double unit = 1.0; ///< what corresponds to 1 HU, of the image's own; > 0
-  int decimals = 0;  ///< that tell neighbouring units apart
+  double unit = 1.0; ///< equivalent of 1 HU in the image's own units; > 0
+  int decimals = 0;  ///< that distinguish neighbouring units
   GreyWindow bone;   ///< -1300 to 2700 HU
   GreyWindow soft{400.0, 40.0};
-  double least = -500.0; ///< of the thresholds that are offered
+  double least = -500.0; ///< of the thresholds offered
   double most = 2500.0;
-  double step = 1.0; ///< between them, a round number
+  double step = 1.0; ///< of the thresholds offered; a round number
 
   std::string suffix() const { return hounsfield ? " HU" : ""; }
   std::string number(double value) const; ///< "300", "0.0312"
   std::string text(double value) const;   ///< "300 HU", "0.0312"
 };
 
-/// Windows and thresholds of an image that is not calibrated lie within its range, on the line
-/// through the surface of bone (300 HU) and dense bone (1800 HU). The case's own threshold is
-/// always among those that are offered. Never throws.
+/// Windows and thresholds of an uncalibrated image lie within its range, on the line through the
+/// surface of bone (300 HU) and dense bone (1800 HU). The case's own threshold is always within the
+/// range offered. Never throws.
 IntensityDisplay displayOf(const scene::Case& value);
 
 } // namespace petrous::presenters

@@ -14,36 +14,36 @@
 namespace petrous::presenters
 {
 
-/// Writes a case's journal in a thread of its own, so that neither who cuts nor who draws waits for
-/// the disk. Only the latest state that was handed over matters, so nothing piles up; what cannot
-/// be written is tried again every second, and told.
+/// Writes a case's journal in a thread of its own, so that neither drilling nor rendering waits for
+/// the disk. Only the latest state handed over matters, so nothing queues up; failed writes are
+/// retried every second and reported.
 ///
-/// It is there before the case is in a library, and stays when the case moves to another one: the
-/// latest state is kept, and goes to each journal that is begun.
+/// Exists before the case is in a library, and is kept when the case moves to another one: the
+/// latest state is kept and written to each journal that is begun.
 class JournalThread
 {
 public:
-  /// What the open stroke has removed so far. Asked in the journal's thread, whatever became of the
-  /// one that gave it.
+  /// What the open stroke has removed so far. Called in the journal's thread, possibly after its
+  /// provider is gone.
   using Measure = std::function<dissection::RemovedVolume(const dissection::Dissection&)>;
 
   JournalThread(); ///< throws std::system_error
   JournalThread(const JournalThread&) = delete;
   JournalThread& operator=(const JournalThread&) = delete;
-  ~JournalThread(); ///< the journal goes: what it holds is saved, or nobody wants it
+  ~JournalThread(); ///< the journal is removed: its contents are saved or no longer needed
 
-  /// From now on the journal is that of the case in this state. What was handed over last goes
-  /// there first, then the journal before is removed. Throws as library::Journal.
+  /// From now on the journal is that of the case in this state. The last state handed over is
+  /// written to it, then the previous journal is removed. Throws as library::Journal.
   void begin(const library::Library& library, const library::SavedState& saved);
   bool begun() const;
 
-  /// The dissection as it is now; from any thread. Copies it.
+  /// The current dissection; copied. Thread-safe.
   void follow(const dissection::Dissection& work, const Measure& measure = {});
 
-  /// The case was saved. All that it holds must have been handed over before.
+  /// The case was saved. Everything it contains must have been handed over before.
   void saved(const library::SavedState& now);
 
-  /// Why it cannot be written, one sentence, once until it can again. Empty otherwise.
+  /// Why the journal cannot be written, one sentence, reported once until it can again; else empty.
   std::string takeFailure();
 
 private:
@@ -58,15 +58,15 @@ private:
     std::unique_ptr<library::Journal> begin; ///< then `work`, then `saved`
     std::size_t beginStrokes = 0;
     std::optional<Work> work;
-    bool news = false; ///< the latest state is not written
+    bool news = false; ///< the latest state is not yet written
     std::optional<library::SavedState> saved;
     bool empty() const noexcept { return !begin && !work && !news && !saved; }
   };
   void run();
   void write(Tasks& tasks);
 
-  // Of the thread alone.
-  Measure m_measure; // of what is written now
+  // Used by the thread only.
+  Measure m_measure; // of what is being written
   std::optional<Work> m_latest;
   std::unique_ptr<library::Journal> m_journal;
 
@@ -76,7 +76,7 @@ private:
   bool m_begun = false;
   std::string m_failure;
   bool m_stop = false;
-  std::thread m_thread; // last: uses all the others
+  std::thread m_thread; // last: uses all others
 };
 
 } // namespace petrous::presenters

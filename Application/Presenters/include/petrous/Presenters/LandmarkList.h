@@ -8,8 +8,8 @@
 namespace petrous::presenters
 {
 
-/// Points that a person sees in both images, patient LPS mm of each. The last may wait for its MR
-/// point.
+/// Corresponding points marked by the user in both images, patient LPS mm of each. The last may
+/// still lack its MR point.
 class LandmarkList
 {
 public:
@@ -23,12 +23,13 @@ public:
   bool waitsForMr() const noexcept { return !m_rows.empty() && !m_rows.back().mr; }
   std::size_t pairs() const noexcept { return m_rows.size() - (waitsForMr() ? 1U : 0U); }
 
-  void addCt(const Eigen::Vector3d& point); ///< takes the place of one that still waits
-  void addMr(const Eigen::Vector3d& point); ///< of the one that waits; nothing happens without
-  void remove(std::size_t row);             ///< nothing happens where there is none
+  void addCt(const Eigen::Vector3d& point); ///< replaces a row that still lacks its MR point
+  void addMr(const Eigen::Vector3d& point); ///< of the row that lacks it, if any
+  void remove(std::size_t row);             ///< no effect if there is no such row
   void clear() { m_rows.clear(); }
 
-  /// mm in the MR between where the row's CT point lands and its MR point; none while it waits.
+  /// Landmark residual: distance in the MR between the mapped CT point and the MR point, mm; none
+  /// without an MR point.
   std::optional<double> residual(std::size_t row, const core::RigidTransform& mrFromCt) const;
 
 private:

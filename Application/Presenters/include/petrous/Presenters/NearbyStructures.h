@@ -13,68 +13,68 @@
 namespace petrous::presenters
 {
 
-/// A structure as the burr sees it.
+/// A structure near the burr.
 struct NearbyStructure
 {
   enum class State
   {
     Clear,
     Warned, ///< the burr is nearer than the structure's warning distance
-    Touched ///< the burr reaches it; never of a lumen without a warning distance
+    Touched ///< the burr touches it; never for a lumen without a warning distance
   };
 
   std::string name;
   std::array<float, 3> color{}; ///< RGB, 0 to 1
-  double distance = 0.0;        ///< mm from the burr's ball to its surface; 0: it is touched
+  double distance = 0.0;        ///< mm from the burr's sphere to its surface; 0: touched
   SurfaceUncertainty uncertainty;
-  double warning = 0.0; ///< mm; 0: none
+  double warning = 0.0; ///< warning distance, mm; 0: none
   State state = State::Clear;
-  double injured = 0.0; ///< mm^3 taken of it, by the open stroke too as far as that is known
+  double injured = 0.0; ///< volume removed from it, mm^3, including the open stroke as far as known
 };
 
-/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration's error unknown" where
-/// the number leaves something out.
-std::string inWords(const NearbyStructure& structure);
+/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration's error unknown" if
+/// the uncertainty is incomplete.
+std::string toString(const NearbyStructure& structure);
 
-/// What the surgeon must see now, a line for each structure that is touched, injured or within its
-/// warning distance, the worst first and at most kMostWarnings of them; empty: nothing.
+/// What the surgeon must see now: a line for each structure that is touched, injured or within its
+/// warning distance, worst first, at most kMaxWarnings; empty: nothing.
 std::string warningsOf(const std::vector<NearbyStructure>& structures);
-constexpr std::size_t kMostWarnings = 3;
+constexpr std::size_t kMaxWarnings = 3;
 
 /// "0.72 mm³", "under 0.01 mm³".
 std::string cubicMillimetres(double volume);
 
-/// What the strokes that are done, and `open`, have taken of each structure, mm^3. Lumens are left
+/// What the finished strokes, and `open`, have removed of each structure, mm^3. Lumens are left
 /// out: an air cell is opened, not injured.
 std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open = {});
 
-/// How far a burr is from the structures of a case that are shown, as often as a picture is drawn.
+/// Distances of a burr from the visible structures of a case, fast enough for every frame.
 ///
-/// The structures are measured in a thread of their own; until that is done there is no answer. Not
-/// for more than one thread; the case may change meanwhile, but for its labels and meshes.
+/// The structures' distance fields are computed in a separate thread; until then there is no
+/// result. Not thread-safe; the case may change meanwhile, except its labels and meshes.
 class NearbyStructures
 {
 public:
   explicit NearbyStructures(const scene::Case& value);
   ~NearbyStructures();
 
-  /// Whether the structures are measured, or that has failed.
+  /// Whether the distance fields have been computed, or that has failed.
   bool ready() const;
 
-  /// Structures of the case that are shown, the nearest first; those that are injured however far.
-  /// Empty until `ready`. Throws what stood in the way of measuring.
+  /// Visible structures of the case, nearest first; injured ones at any distance. Empty until
+  /// `ready`. Throws what made the computation fail.
   ///
-  /// value   the same case, as it is now: looks, strokes
+  /// value   the same case in its current state: appearances, strokes
   /// center  of the burr, patient LPS mm; `radius` mm
-  /// reach   mm; what is farther is left out, unless it is within its warning distance
-  /// open    what the open stroke has taken so far
+  /// reach   mm; structures farther away are omitted unless within their warning distance
+  /// open    what the open stroke has removed so far
   std::vector<NearbyStructure> around(const scene::Case& value, const Eigen::Vector3d& center,
                                       double radius, double reach,
                                       const dissection::RemovedVolume& open = {});
 
-  /// See StructureSurfaces.
-  StructureSurfaces& surfaces() const; ///< waits for them
+  /// The distance fields.
+  StructureSurfaces& surfaces() const; ///< waits until they are computed
 
 private:
   std::shared_ptr<core::CancelToken> m_stop;

@@ -12,8 +12,8 @@ namespace petrous::presenters
 
 /// An image's values at the pixel centres of a slice, rows from the top.
 ///
-/// NaN where the pixel lies outside the image (the hull of its voxel centres; half a voxel further
-/// along an axis that has one voxel only); minus infinity where the image itself holds NaN.
+/// NaN if the pixel lies outside the image (the hull of its voxel centres; half a voxel beyond
+/// along an axis with a single voxel); minus infinity where the image itself is NaN.
 struct PlaneSamples
 {
   int width = 0;
@@ -29,24 +29,24 @@ struct PlaneSamples
 
 /// Trilinear samples, in parallel.
 ///
-/// imageFromSlice  takes patient points of the slice (LPS mm) to those of the image
+/// imageFromSlice  maps patient points of the slice (LPS mm) to those of the image
 PlaneSamples samplePlane(const volume::IntensityVolume& image, const SliceGeometry& slice,
                          const core::RigidTransform& imageFromSlice = {});
 
-/// A piece of a contour, in pixels; whole numbers are pixel centres.
+/// A contour segment, in pixels; integers are pixel centres.
 struct ContourSegment
 {
   Eigen::Vector2f a;
   Eigen::Vector2f b;
 };
 
-/// Where the samples cross `level`: marching squares, linear between pixel centres. The middle of
-/// four pixels decides where their corners allow two ways. Nothing where a corner is not finite, or
-/// where the samples change by less than `leastSlope` a pixel: there noise would draw a contour.
-std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float leastSlope);
+/// Isolines at `level`: marching squares, linear between pixel centres. Ambiguous cells are decided
+/// by the mean of their four corners. No contour where a corner is not finite, or where the samples
+/// change by less than `minSlope` per pixel: there it would follow noise.
+std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float minSlope);
 
-/// How much of each pixel the contours cover when drawn `width` pixels wide, 0 to 1, with smooth
-/// edges; pixels as in the samples.
+/// Antialiased coverage of each pixel by the contours drawn `width` pixels wide, 0 to 1; pixels as
+/// in the samples.
 std::vector<float> coverage(const std::vector<ContourSegment>& segments, int columns, int rows,
                             float width);
 

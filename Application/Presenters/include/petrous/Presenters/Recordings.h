@@ -7,12 +7,12 @@
 namespace petrous::presenters
 {
 
-/// Where a session that begins now is recorded unless the user says otherwise:
+/// Default file for the recording of a session that begins now:
 ///
-///   LIBRARY/recordings/CASE 2026-03-01 09-30-00.ticks     local time; " (2)" where there is one
+///   LIBRARY/recordings/CASE 2026-03-01 09-30-00.ticks     local time; " (2)" if it exists
 ///
-/// beside the cases, so that who copies the library has both, and out of what a case's archive
-/// carries. Makes the folder; throws core::Error (Refused) when it cannot.
+/// The folder is beside the cases, so that a copy of the library includes it but a case's archive
+/// does not. Creates the folder; throws core::Error (Refused) if it cannot.
 std::filesystem::path newRecording(const library::Library& library, const scene::Case& value);
 
 } // namespace petrous::presenters

@@ -9,19 +9,19 @@
 #include "petrous/Presenters/MrMotion.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/MrPlaces.h"
+#include "petrous/Scene/ReferenceFrames.h"
 
 namespace petrous::presenters
 {
 
-/// What the surgeon wants of a registration, before it begins.
+/// Settings of a registration.
 struct RegistrationAim
 {
   enum class Start
   {
-    Header,  ///< as the files say
-    Centres, ///< the images' middles on each other
-    Present  ///< where the MR lies now
+    Header,  ///< as in the image headers
+    Centres, ///< image centres aligned
+    Present  ///< the MR's current registration
   };
   enum class Place
   {
@@ -30,40 +30,40 @@ struct RegistrationAim
     Structure ///< `structure`
   };
   Start start = Start::Header;
-  Place place = Place::MiddleEar; ///< where the error is stated
+  Place place = Place::MiddleEar; ///< where the error is estimated
   std::string structure;
-  double box = 0.0; ///< mm, edge of the box about the crosshair that counts; 0: the whole CT
+  double box = 0.0; ///< mm, edge of the box about the crosshair to fit in; 0: the whole CT
   std::string onto; ///< another MR; empty: the CT
 };
 
-/// Lays one MR of the open case on its CT by every way there is, and back again. The case has each
-/// change at once; it is saved with the case. Without Qt, one thread.
+/// Registers one MR of the open case to its CT in every available way, with undo. Changes take
+/// effect in the case at once and are saved with it. Without Qt; not thread-safe.
 class RegistrationSession
 {
 public:
   /// The model must outlive this.
   explicit RegistrationSession(WorkstationModel& model);
 
-  void caseChanged(); ///< forgets all; the first MR is chosen
+  void caseChanged(); ///< resets everything; selects the first MR
 
-  void choose(const std::string& mr); ///< landmarks go; undo goes on
+  void choose(const std::string& mr); ///< clears the landmarks; keeps the undo history
   const std::string& mr() const noexcept { return m_name; }
   std::vector<std::string> mrNames() const; ///< of the case
-  const scene::ImagePart* part() const;     ///< null where the case has no MR
-  std::string stateInWords() const;         ///< "not registered", or how, how well, and who signed
+  const scene::ImagePart* part() const;     ///< nullptr if the case has no MR
+  std::string stateInWords() const;         ///< "not registered", or how, how well, signed by
 
-  /// Moves by hand, of the picture over the CT, about the crosshair; steps of 0.1 and 1 mm or
-  /// degree are the user's. The record says "by hand, not judged".
+  /// Manual motion of the MR overlay on the CT, rotation about the crosshair; the user interface
+  /// has steps of 0.1 and 1 mm or degree. Recorded as "by hand, not judged".
   void shift(const Eigen::Vector3d& millimetres);
   void turn(const Eigen::Vector3d& axis, double degrees);
-  void bringMiddleHere(); ///< the MR's middle to the crosshair, for images far apart
-  /// How far the crosshair's point moved since the last fit (or since the MR was chosen).
+  void bringMiddleHere(); ///< moves the MR's centre to the crosshair, for images far apart
+  /// How far the MR moved at the crosshair since the last fit (or since the MR was chosen).
   MrDifference movedByHand() const;
 
   LandmarkList& landmarks() noexcept { return m_landmarks; }
-  void addLandmark(); ///< at the crosshair: in the CT, and then in the MR
+  void addLandmark(); ///< at the crosshair: alternately in the CT and in the MR
 
-  /// What cannot be chosen (any longer) is as if it had not been.
+  /// Settings that are not, or no longer, available are reset.
   const RegistrationAim& aim() const noexcept { return m_aim; }
   void setAim(const RegistrationAim& aim);
   std::vector<std::string> ontoNames() const;  ///< MRs that may be RegistrationAim::onto
@@ -71,27 +71,26 @@ public:
 
   enum class Way
   {
-    Register, ///< as the aim says, looking around
-    Refine,   ///< from where the MR lies
-    Landmarks ///< where the pairs of points put it, without a fit
+    Register, ///< as set by the aim, with a search
+    Refine,   ///< from the current registration
+    Landmarks ///< from the landmark pairs, without a fit
   };
-  /// For registerMr; only where the case has an MR.
+  /// For registerMr; requires an MR.
   RegistrationRequest request(Way way) const;
-  /// Takes over what came of that. A failed one changes nothing, and nothing is taken while the
-  /// drill runs. Returns whether it was taken.
+  /// Applies the outcome. No effect if it failed or while drilling. Returns whether it was applied.
   bool take(const RegistrationOutcome& outcome);
-  /// Where a registration had come when it was stopped: not judged.
+  /// Applies the result so far of an aborted registration: not judged.
   void keep(const core::RigidTransform& best);
 
-  bool lies(const core::RigidTransform& mrFromCt) const; ///< whether it is registered so now
+  bool lies(const core::RigidTransform& mrFromCt) const; ///< is the current registration
 
   void unregister();
-  /// Throws InvalidParameter for no name, or an MR that is not registered.
+  /// Throws InvalidParameter for an empty name or an MR that is not registered.
   void signOff(const std::string& who, const std::string& when);
 
   bool canUndo() const noexcept { return !m_undo.empty(); }
   bool canRedo() const noexcept { return !m_redo.empty(); }
-  void undo(); ///< one change of how MRs lie; a sign-off does not come back
+  void undo(); ///< one registration change; a sign-off is not restored
   void redo();
 
 private:
@@ -106,7 +105,7 @@ private:
   WorkstationModel& m_model;
   std::string m_name;
   LandmarkList m_landmarks;
-  core::RigidTransform m_fitted; // the last that was not by hand
+  core::RigidTransform m_fitted; // the last one not set by hand
   RegistrationAim m_aim;
   std::vector<Places> m_undo;
   std::vector<Places> m_redo;

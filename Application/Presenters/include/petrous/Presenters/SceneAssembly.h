@@ -12,33 +12,33 @@
 namespace petrous::presenters
 {
 
-/// Puts together what a picture of a case shows, again and again, and keeps the label field for as
-/// long as the same voxels are shown: another colour, opacity or transfer function costs nothing,
-/// showing or hiding a structure makes the field anew.
+/// Assembles the scene contents of a case repeatedly, keeping the label field while the same voxels
+/// are shown: a change of colour, opacity or transfer function is free, showing or hiding a
+/// structure rebuilds the field.
 class SceneAssembly
 {
 public:
-  /// Loads the CT, and label maps, meshes and an MR only where something of them is shown. The mask
-  /// is shared with the case's dissection where that is loaded and something was cut.
+  /// Loads the CT; label maps, meshes and an MR only if needed. The mask is shared with the case's
+  /// dissection if that is loaded and something was removed.
   ///
-  /// What has no place on the CT (scene::Placement) is left out.
+  /// What cannot be placed on the CT (scene::Placement) is left out.
   ///
-  /// Material 0 is bone, the others are the shown structures as scene::labelSources orders them. Of
-  /// the MR that looks ask for, the first that is registered is drawn; looks that ask for another
-  /// are drawn in one colour. Throws InvalidParameter where more than 255 structures are shown,
-  /// CancelledError, and what loading the parts throws.
+  /// Material 0 is bone, the others are the visible structures in the order of scene::labelSources.
+  /// Of the MRs that appearances refer to, the first registered one is drawn; structures that refer
+  /// to another are drawn in a single colour. Throws InvalidParameter if more than 255 structures
+  /// are shown, CancelledError, and what loading the parts throws.
   rendering::SceneContents contents(const scene::Case& value, const core::Progress& progress = {});
 
-  /// Bone is coloured by its thickness over this structure (BoneThickness.h) from the next
-  /// `contents` on, which throws where there is none of this name; empty: no longer.
+  /// Colours bone by its thickness over this structure (BoneThickness.h) from the next `contents`
+  /// on, which throws if there is none of this name; empty: off.
   void showThickness(const std::string& structure);
   const std::string& thicknessOver() const noexcept { return m_thicknessOver; }
-  /// The thickness that `other` shows, or none.
+  /// Takes over the thickness display of `other`, or none.
   void takeThickness(const SceneAssembly& other);
 
 private:
   std::string m_thicknessOver;
-  std::shared_ptr<const volume::Volume<float>> m_thickness; ///< of m_thicknessOver, once asked for
+  std::shared_ptr<const volume::Volume<float>> m_thickness; ///< of m_thicknessOver, made on demand
   std::vector<volume::LabelSource> m_sources;
   std::shared_ptr<const volume::LabelField> m_labels; ///< of `m_sources`
 };

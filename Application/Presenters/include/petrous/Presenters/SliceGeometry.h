@@ -15,16 +15,16 @@ enum class SliceOrientation
   Sagittal
 };
 
-/// Which part of the patient a slice picture shows, as a value.
+/// The part of the patient shown by a slice picture; a value type.
 ///
-/// Slices lie along the patient's axes (LPS), whatever the scanner's. The radiological convention:
-/// the patient's right is on the picture's left (axial, coronal) and anterior on its left
-/// (sagittal); superior, or anterior for axial slices, is up. Pixel centres are whole numbers.
+/// Slices are aligned with the patient's axes (LPS), whatever the scanner's. Radiological
+/// convention: the patient's right is on the picture's left (axial, coronal) and anterior on its
+/// left (sagittal); superior, or anterior for axial slices, is up. Pixel centres are integers.
 class SliceGeometry
 {
 public:
-  /// `center` is the patient point (LPS mm) in the middle of the picture, on the slice.
-  /// Throws InvalidParameter unless the sizes are above 0.
+  /// `center` is the patient point (LPS mm) in the middle of the picture, on the slice. Throws
+  /// InvalidParameter unless the sizes are positive.
   SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d& center, double mmPerPixel,
                 int width, int height);
 
@@ -40,9 +40,9 @@ public:
 
   Eigen::Vector3d patientFromPixel(double column, double row) const;
   Eigen::Vector2d
-  pixelFromPatient(const Eigen::Vector3d& patient) const; ///< projected on the slice
+  pixelFromPatient(const Eigen::Vector3d& patient) const; ///< projected onto the slice
 
-  /// The letters of the patient's directions at the picture's left, right, top and bottom edge.
+  /// Letters of the patient directions at the picture's left, right, top and bottom edge.
   struct EdgeLetters
   {
     char left, right, top, bottom;
@@ -57,8 +57,8 @@ private:
   int m_height;
 };
 
-/// Unit vectors in the patient (LPS) along a picture's columns to the right, along its rows down,
-/// and the direction in which the next slice lies (towards S, P or L).
+/// Unit vectors in the patient (LPS): along a picture's rows to the right, along its columns down,
+/// and towards the next slice (S, P or L).
 struct SliceAxes
 {
   Eigen::Vector3d right;
@@ -68,7 +68,7 @@ struct SliceAxes
 SliceAxes axesOf(SliceOrientation orientation);
 const char* nameOf(SliceOrientation orientation); ///< "Axial", ...
 
-/// Length of a scale bar, mm: the largest of 1, 2, 5, 10, 20, ... that is at most `longest` mm.
+/// Length of a scale bar, mm: the largest of 1, 2, 5, 10, 20, ... not exceeding `longest` mm.
 double scaleBarLength(double longest);
 
 } // namespace petrous::presenters

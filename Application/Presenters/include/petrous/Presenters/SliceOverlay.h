@@ -12,14 +12,14 @@
 namespace petrous::presenters
 {
 
-/// Grey from intensity: black at level - width/2, white at level + width/2, in the image's unit.
+/// Grey-level window: black at level - width/2, white at level + width/2, in the image's unit.
 struct GreyWindow
 {
   double width = 4000.0; ///< the bone window, HU
   double level = 700.0;
 };
 
-/// An RGB picture, 8 bits a channel, rows from the top.
+/// An RGB image, 8 bits per channel, rows from the top.
 struct SlicePixels
 {
   int width = 0;
@@ -34,42 +34,42 @@ struct SlicePixels
   }
 };
 
-/// How an MR is seen together with the CT.
+/// How an MR is shown together with the CT.
 enum class OverlayMode
 {
-  Blend,  ///< mixed; the MR in a warm tint while both are seen
+  Blend,  ///< alpha-blended; the MR tinted warm while both are visible
   Edges,  ///< the MR alone, with the CT's contours of bone and skin
-  Checker ///< CT and MR on the squares of a board that lies still in the patient
+  Checker ///< checkerboard of CT and MR, fixed in the patient
 };
 const char* nameOf(OverlayMode mode); ///< "blend", ...
 
-/// An MR laid over a CT's slices, as a value. It shares the voxels.
+/// An MR overlay on CT slices; a value type. Shares the voxels.
 struct SliceOverlay
 {
   std::shared_ptr<const volume::IntensityVolume> mr;
   core::RigidTransform mrFromCt; ///< patient points, LPS mm
-  bool registered = false;       ///< else a viewer says so beside the picture
-  GreyWindow window;             ///< of the MR's own values
+  bool registered = false;       ///< if false, a viewer states so beside the picture
+  GreyWindow window;             ///< in the MR's own values
   OverlayMode mode = OverlayMode::Blend;
   double opacity = 0.5; ///< of the MR in Blend, 0 to 1
 };
 
-/// Loads the MR's voxels, and reads them all once for the grey window.
+/// Loads the MR's voxels and scans them for the grey window.
 SliceOverlay overlayOf(const scene::ImagePart& mr);
 
-/// From the second to the 99.5th percentile of what is not background: an MR has no units.
+/// From the 2nd to the 99.5th percentile of the non-background values: an MR has no units.
 GreyWindow suggestMrWindow(const volume::IntensityHistogram& histogram);
 
-/// Values of a CT at which its contours run over an MR.
+/// CT values at which contours are drawn over an MR.
 struct EdgeLevels
 {
   float bone;  ///< HU, the case's threshold
   float skin;  ///< between air and soft tissue
-  float slope; ///< per mm: where the CT changes by less a contour would follow noise
+  float slope; ///< per mm: below this CT gradient a contour would follow noise
 };
 EdgeLevels edgeLevels(const volume::IntensityScale& scale);
 
-/// Side of the board's squares, mm: a round number, about 40 pixels.
+/// Side of the checkerboard's squares, mm: a round number, about 40 pixels.
 double checkerSide(double mmPerPixel);
 
 constexpr std::array<std::uint8_t, 3> kBoneEdge{255, 208, 64};

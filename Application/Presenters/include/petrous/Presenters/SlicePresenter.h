@@ -13,19 +13,19 @@
 namespace petrous::presenters
 {
 
-/// Draws slices of a case's CT with its structures and what was cut. Only the CPU is used.
+/// Draws slices of a case's CT with its structures and what was removed. CPU only.
 ///
-/// Grey is the CT, sampled trilinearly; outside the hull of its voxel centres nothing is drawn.
-/// Structures that are shown are tinted, with an outline in their full colour. Where less than half
-/// is left the picture is red and hatched.
+/// The CT is grey, sampled trilinearly; nothing is drawn outside the hull of its voxel centres.
+/// Visible structures are tinted, with an outline in their full colour. Where less than half is
+/// left the picture is red and hatched.
 class SlicePresenter
 {
 public:
-  /// Takes what a slice shows of the case: its voxels are shared. Loads the CT, and label maps
-  /// where a structure is shown.
+  /// Copies what a slice shows of the case; voxels are shared. Loads the CT, and label maps if a
+  /// structure is visible.
   explicit SlicePresenter(const scene::Case& value);
 
-  /// `overlay`: an MR that is seen with the CT; its contours of bone and skin lie on top of all.
+  /// `overlay`: an MR shown with the CT; contours of bone and skin are drawn on top of everything.
   SlicePixels draw(const SliceGeometry& slice, const GreyWindow& window,
                    const SliceOverlay* overlay = nullptr) const;
 

@@ -9,12 +9,12 @@
 namespace petrous::presenters
 {
 
-/// How near a burr came to each structure on its way: the smallest distance from the ball to its
-/// surface as StructureSurfaces has it.
+/// Minimum distances of a burr to each structure along its path: from the sphere to the surface as
+/// defined by StructureSurfaces.
 ///
-/// Within kTolerance of the surface's own distance. Positions are kept, and asked of at the end
-/// where the ones before and after, and the way between, leave room for something nearer. One
-/// thread.
+/// Accurate to kTolerance relative to that surface. Positions are stored and evaluated at the end
+/// where the neighbouring positions and the path length between them leave room for a smaller
+/// distance. Not thread-safe.
 class StructureDistances
 {
 public:
@@ -25,7 +25,7 @@ public:
 
   void add(const Eigen::Vector3d& centre); ///< of the burr, patient LPS mm
 
-  /// By name, mm; 0 where the ball reached the structure. Empty before the first position.
+  /// By name, mm; 0 if the sphere reached the structure. Empty before the first position.
   std::map<std::string, double> smallest();
 
   std::map<std::string, std::size_t> resources() const { return m_surfaces.resources(); }
@@ -35,7 +35,7 @@ private:
 
   StructureSurfaces m_surfaces;
   std::vector<Eigen::Vector3d> m_positions;
-  std::vector<double> m_way; // mm, from the first position to this one
+  std::vector<double> m_way; // mm, path length from the first position to this one
   double m_radius;
 };
 

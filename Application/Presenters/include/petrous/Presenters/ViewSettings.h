@@ -9,14 +9,14 @@
 namespace petrous::presenters
 {
 
-/// How the window looks at a scene: lamp and stereo. Of the window, not of the case. Without Qt,
-/// one thread.
+/// How the window renders a scene: lamp and stereo. Belongs to the window, not to the case. Without
+/// Qt; not thread-safe.
 class ViewSettings
 {
 public:
   static constexpr double kFarthestFalloff = 1000.0; ///< mm
 
-  /// Each may be empty. Called after a change, not where nothing changed.
+  /// Each may be empty. Called after a change, only if something changed.
   struct Events
   {
     std::function<void()> lightChanged;
@@ -25,13 +25,13 @@ public:
   Events events;
 
   const rendering::LightSettings& light() const noexcept { return m_light; }
-  void setFalloff(double millimetres); ///< 0: none; held within 0 to kFarthestFalloff
-  void setWetness(double wetness);     ///< held within 0 to 1
+  void setFalloff(double millimetres); ///< 0: none; clamped to 0 to kFarthestFalloff
+  void setWetness(double wetness);     ///< clamped to 0 to 1
 
   rendering::StereoMode stereo() const noexcept { return m_stereo; }
   const rendering::StereoRig& rig() const noexcept { return m_rig; }
   void setStereo(rendering::StereoMode mode);
-  /// mm, held within StereoRig's limits; nothing: by a microscope's angle, at the focal point.
+  /// mm, clamped to StereoRig's limits; none: a microscope's angle, converging at the focal point.
   void setEyeSeparation(std::optional<double> millimetres);
   void setConvergence(std::optional<double> millimetres);
 

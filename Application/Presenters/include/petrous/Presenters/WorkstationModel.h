@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "petrous/Interaction/SightLine.h"
+#include "petrous/Interaction/PickRay.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/JournalThread.h"
 #include "petrous/Presenters/NearbyStructures.h"
-#include "petrous/Presenters/PlaceReader.h"
+#include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SceneAssembly.h"
-#include "petrous/Presenters/StrokeMeter.h"
-#include "petrous/Presenters/TouchSession.h"
 #include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Session/RemovedVolumeEstimator.h"
+#include "petrous/Session/TouchSession.h"
 
 namespace petrous::presenters
 {
 
-/// A case that was read from the library, in whatever thread.
+/// A case read from the library, in any thread.
 struct ReadCase
 {
   std::unique_ptr<scene::Case> value; ///< with its dissection
@@ -32,39 +32,40 @@ struct ReadCase
                        const core::Progress& progress = {});
 };
 
-/// A copy of the open case on its way to the disk, see WorkstationModel::beginStore.
+/// A copy of the open case to be written to disk, see WorkstationModel::beginStore.
 struct StoreTask
 {
   library::Library library;
-  scene::Case value; ///< without its dissection, in which another thread may write
+  scene::Case value; ///< without its dissection, which another thread may be writing
   std::string from;  ///< the open case's name
   std::uint64_t changes = 0;
-  std::optional<library::Library> source; ///< where the case moves from; the window works with
-                                          ///< `library` then
+  std::optional<library::Library> source; ///< library that the case moves from; the window then
+                                          ///< works with `library`
   std::vector<std::string> notices = {};  ///< Library::onNotice
 
-  /// Throws as Library::save; LibraryError (Damaged) also where a part that moves to another
-  /// library is not what was stored in this one.
+  /// Throws as Library::save; LibraryError (Damaged) also if a part that moves to another library
+  /// differs from what was stored in this one.
   void run(const core::Progress& progress = {});
 };
 
-/// What takes long of a case with many structures, for its picture and for tools: made in whatever
-/// thread of a copy of the case, see WorkstationModel::preparation.
+/// The slow part of preparing a case with many structures for rendering and tools: made in any
+/// thread from a copy of the case, see WorkstationModel::preparation.
 struct PreparedCase
 {
   struct LeftOut
   {
-    std::size_t part = 0; ///< of the case's labels, or of its meshes
+    std::size_t part = 0; ///< index into the case's labels or meshes
     std::string why;      ///< one sentence
   };
   SceneAssembly assembly;
-  std::optional<DrillSession> drill;   ///< of a copy that is gone: only to make another one like it
-  std::vector<LeftOut> labels, meshes; ///< that are missing or damaged
+  std::optional<session::DrillSession>
+      drill;                           ///< of a copy that is gone: only a template for another one
+  std::vector<LeftOut> labels, meshes; ///< missing or damaged
   std::uint64_t parts = 0;             // of the model when it was copied
   std::uint64_t tissue = 0;            // likewise
 };
 
-/// The open case and what the window does with it. Without Qt, one thread.
+/// The open case and the window's operations on it. Without Qt; not thread-safe.
 class WorkstationModel
 {
 public:
@@ -83,157 +84,157 @@ public:
     return *m_case;
   }
 
-  /// The case that was saved last; nothing in an empty library.
+  /// The most recently saved case; none in an empty library.
   std::optional<std::string> latestCase() const;
 
   /// Opens a case of the library; on an exception the present one stays.
   void open(const std::string& name);
 
-  /// Before the open case is saved to make way for another one, or to be closed: puts the tool
-  /// away, and none is taken up (what it drilled would be lost) until the case is another one, is
+  /// Before the open case is saved to make way for another one, or closed: puts the tool away and
+  /// refuses new ones (what they drilled would be lost) until another case is open, the case is
   /// closed, or `notOpened`.
   void beginLeave();
 
-  /// The same with a thread that reads the case (ReadCase) between the two; then `opened` or
-  /// `notOpened`. The tool is put away.
+  /// As beginLeave, for reading the case (ReadCase) in another thread; then call `opened` or
+  /// `notOpened`.
   void beginOpen(const std::string& name);
   void opened(ReadCase next);
   void notOpened();
 
-  /// Shows a case made in memory, which is not saved yet.
+  /// Opens a case made in memory, not yet saved.
   void adopt(scene::Case value);
 
-  /// Takes over the parts that `with`, once a copy of the open case, has got beside those that this
-  /// one has (see addParts). What was drilled and chosen since then stays.
+  /// Takes over the parts that `with`, formerly a copy of the open case, has in addition to those
+  /// of this one (see addParts). What was drilled and set since then stays.
   void takeParts(scene::Case with);
 
-  /// No case is open any more. What is unsaved is lost.
+  /// Closes the case. Unsaved changes are lost.
   void close();
 
-  /// Another number for each case that was opened or adopted: a case may get another name, and
-  /// another case its name.
+  /// Changes with each case opened or adopted: names cannot identify a case, since they can be
+  /// reassigned.
   std::uint64_t shownAs() const noexcept { return m_shown; }
 
-  /// For a thread that saves: the case as it is now, and then `stored` or `notStored`. One at a
-  /// time. What changes meanwhile is unsaved.
+  /// For saving in another thread: the current state of the case; then call `stored` or
+  /// `notStored`. One at a time. Later changes count as unsaved.
   StoreTask beginStore();
-  StoreTask beginStoreAs(const std::string& name); ///< as a new case, which is then the open one
+  StoreTask beginStoreAs(const std::string& name); ///< as a new case, which then is the open one
   /// Into another library, which the window then works with.
   StoreTask beginStoreElsewhere(const std::filesystem::path& folder, const std::string& name);
-  void stored(const StoreTask& done); ///< names and revision are taken over
+  void stored(const StoreTask& done); ///< name and revision are taken over
   void notStored();
   bool beingStored() const noexcept { return m_beingStored; }
 
   bool unsaved() const noexcept { return m_unsaved; }
-  void setCamera(const core::CameraPose& camera); ///< kept with the next save
+  void setCamera(const core::CameraPose& camera); ///< stored with the next save
   void save();                                    ///< throws as Library::save does
-  void saveAs(const std::string& name);           ///< a new case; on an exception nothing changed
+  void saveAs(const std::string& name);           ///< a new case; strong exception guarantee
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);
 
-  /// What takes long is still to be done (Events::preparationWanted asks for it) until `prepared`:
-  /// loaded   false after another case or parts came: pictures show the CT alone
-  /// drawable false after a structure was shown or hidden, too: its label field is of before
-  /// ready    false after a structure became tissue or none, too: no surface can be touched
-  ///          yet; and while the CT of the library was not held against its hash
+  /// State of the preparation (requested by Events::preparationWanted) until `prepared`:
+  /// loaded   false after another case or parts were added: only the CT is shown
+  /// drawable also false after a structure was shown or hidden: its label field is outdated
+  /// ready    also false after a change of what is tissue: no surface can be touched yet; and while
+  ///          the CT of the library was not checked against its hash
   bool loaded() const noexcept { return m_loaded; }
   bool drawable() const noexcept { return m_loaded && m_drawable; }
   bool ready() const noexcept { return m_loaded && m_feelable && m_checked; }
-  /// Whether `preparation` would spare somebody a wait.
+  /// Whether `preparation` would save a wait.
   bool preparationHelps() const noexcept
   {
     return m_case && (!ready() || !drawable() || !(m_session || m_scene));
   }
-  /// What is to be done in another thread.
+  /// The preparation, to be run in another thread.
   std::function<PreparedCase(const core::Progress&)> preparation() const;
-  /// False where the case is another one by now: nothing happened.
+  /// Returns false, without effect, if another case is open or its parts changed.
   bool prepared(PreparedCase done);
-  void prepareNow() { prepared(preparation()({})); } ///< for who can wait
-  /// What can be shown now: the case, or while it is not loaded the case without its structures.
+  void prepareNow() { prepared(preparation()({})); } ///< synchronously
+  /// What can be shown now: the case, without its structures while they are not loaded.
   scene::Case presentable() const;
 
-  /// What of the images that were read is not what was stored, one sentence each, as far as that is
-  /// known by now; no tool is taken up then.
+  /// Images read that differ from what was stored, one sentence each, as far as known; no tool can
+  /// be taken up then.
   std::vector<std::string> damage() const;
-  /// Structures that are missing or damaged, one sentence each: they are neither shown nor felt,
-  /// and the case keeps them as they are on the disk.
+  /// Structures that are missing or damaged, one sentence each: they are neither shown nor
+  /// touchable, and the case keeps them as they are on disk.
   std::vector<std::string> leftOut() const;
 
   bool canUndo() const noexcept;
   bool canRedo() const noexcept;
-  /// While a tool is in the hand they are only asked for, and told some milliseconds later; see
+  /// During a touch session they are only requested, and reported some milliseconds later; see
   /// Events::stepped.
   void undo();
   void redo();
 
-  /// Puts the tool away first. Throw as scene::goToBranch and scene::startBranch do.
+  /// Puts the tool away first. Throws as scene::goToBranch and scene::startBranch do.
   void goToBranch(const std::string& name);
-  void startBranch(const std::string& name); ///< where the case stands
+  void startBranch(const std::string& name); ///< at the case's current state
 
   void setIso(double hounsfield);
-  void setLook(const std::string& structure, const appearance::StructureLook& look);
-  void setBoneLook(const appearance::StructureLook& look);
+  void setLook(const std::string& structure, const appearance::StructureAppearance& look);
+  void setBoneLook(const appearance::StructureAppearance& look);
 
-  /// Changes how MRs lie on the CT (Scene/LayMr.h). Where that moves what was drawn on one, a tool
-  /// that is held is put away. Nothing happens while it drills; what `change` throws goes on.
+  /// Changes the registration of MRs (Scene/ApplyRegistration.h). Puts the tool away if that moves
+  /// structures drawn on them. No effect while drilling; exceptions of `change` propagate.
   void changeMr(const std::function<void(scene::Case&)>& change);
 
-  /// What a picture of the case shows, only with a case; see SceneAssembly.
+  /// The scene contents of the case; requires a case; see SceneAssembly.
   rendering::SceneContents sceneContents();
 
-  /// Colours bone by its thickness over a structure; empty: no longer. Takes about a second.
-  /// Throws InvalidParameter, and nothing changes, where it cannot be measured.
+  /// Colours bone by its thickness over a structure; empty: off. Takes about a second. Throws
+  /// InvalidParameter, without effect, if it cannot be measured.
   void showThickness(const std::string& structure);
   const std::string& thicknessOver() const noexcept { return m_assembly.thicknessOver(); }
 
   const Eigen::Vector3d& crosshair() const noexcept { return m_crosshair; }
-  void setCrosshair(const Eigen::Vector3d& patient); ///< held within the CT
+  void setCrosshair(const Eigen::Vector3d& patient); ///< clamped to the CT
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
   std::string structureAt(const Eigen::Vector3d& patient) const; ///< empty: none
-  /// The same and more, as `petrous probe` says it, and the nearest structure; only with a case.
-  /// The first reading of a case looks through its labels (some tenths of a second).
+  /// As `petrous probe` reports it, plus the nearest structure; requires a case. The first reading
+  /// of a case scans its labels (some tenths of a second).
   PlaceReading readPlace(const Eigen::Vector3d& patient);
-  static constexpr double kNear = 20.0; ///< mm; farther structures are nobody's concern
-  /// Structures within kNear of a burr (patient LPS mm) and those that are injured, the nearest
-  /// first. The first question of a case has them measured, in a thread of its own: nothing until
-  /// that is done, and nothing without a case.
+  static constexpr double kNear = 20.0; ///< mm; farther structures are not reported
+  /// Structures within kNear of a burr (patient LPS mm) and injured ones, nearest first. The first
+  /// call for a case starts computing their distance fields in a separate thread; none until that
+  /// is done, and none without a case.
   std::optional<std::vector<NearbyStructure>> nearby(const Eigen::Vector3d& burr, double radius);
-  /// What of it the surgeon must see now (warningsOf), and no more is measured than that asks for:
-  /// cheap enough for every picture. Likewise nothing until the structures are measured.
+  /// What of that the surgeon must see now (warningsOf); measures no more than needed: cheap enough
+  /// for every frame. Likewise none until the distance fields are computed.
   std::optional<std::string> warnings(const Eigen::Vector3d& burr, double radius);
-  /// What the open stroke has taken so far, see StrokeMeter; nothing while none is open.
+  /// What the open stroke has removed so far, see RemovedVolumeEstimator; empty while none is open.
   const dissection::RemovedVolume& strokeSoFar();
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }
-  void forgetNearby(); ///< nobody looks at it any more: gives its memory back
+  void forgetNearby(); ///< releases the memory of the distance fields
 
-  /// Where the line meets tissue, mm from its origin.
-  std::optional<double> tissueAlong(const interaction::SightLine& line);
-  /// The same as a place, patient LPS mm.
-  std::optional<Eigen::Vector3d> surfaceAt(const interaction::SightLine& line);
+  /// Distance from the ray's origin to tissue, mm.
+  std::optional<double> tissueAlong(const interaction::PickRay& line);
+  /// The same as a point, patient LPS mm.
+  std::optional<Eigen::Vector3d> surfaceAt(const interaction::PickRay& line);
 
-  /// Takes a tool into the hand; one that is held is put away first. Reads the CT at the first time
-  /// (about a second for 512^3). The device must outlive the touch. Throws as TouchSession does.
-  void startTouch(haptics::Device& device, const TouchSession::Setup& setup);
+  /// Starts a touch session, ending the present one first. Reads the CT on first use (about a
+  /// second for 512^3). The device must outlive the session. Throws as TouchSession does.
+  void startTouch(haptics::Device& device, const session::TouchSession::Setup& setup);
   bool touching() const noexcept { return m_touch != nullptr; }
-  /// For what changes nothing in the tissue; null while nothing is in the hand. Another case,
-  /// another threshold or other touchable structures put the tool away.
-  TouchSession* touch() noexcept { return m_touch.get(); }
+  /// For operations that do not change the tissue; nullptr without a session. Another case, another
+  /// threshold or other touchable structures end the session.
+  session::TouchSession* touch() noexcept { return m_touch.get(); }
   bool drilling() const noexcept { return m_touch && m_touch->drilling(); }
 
-  /// Once a picture: shows what was drilled since. The strokes are not saved yet.
-  TouchSession::News advanceTouch();
-  TouchSession::News stopTouch(); ///< see TouchSession; nothing happens without a touch
+  /// Once per frame: shows what was drilled since. The strokes are not saved yet.
+  session::TouchSession::News advanceTouch();
+  session::TouchSession::News stopTouch(); ///< see TouchSession; no effect without a session
 
 private:
-  DrillSession& session();
-  bool measureNearby(); ///< true when that is done
+  session::DrillSession& session();
+  bool measureNearby(); ///< true when done
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
   void waitForParts();
   void leaveOut(const PreparedCase& done);
   void forgetTissue();
-  void tellMask(const std::vector<std::size_t>& bricks);
-  TouchSession::News hear(TouchSession::News news);
+  void notifyMask(const std::vector<std::size_t>& bricks);
+  session::TouchSession::News hear(session::TouchSession::News news);
   void step(bool back);
   void followHistory();
   void setUnsaved(bool unsaved);
@@ -244,24 +245,24 @@ private:
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
   SceneAssembly m_assembly;
-  std::optional<DrillSession> m_session;      ///< made when first asked for, until there is m_scene
-  std::shared_ptr<JournalThread> m_journal;   ///< shared with the thread that cuts
-  std::optional<library::SavedState> m_saved; ///< nothing before the case is in the library
-  std::unique_ptr<TouchScene> m_scene;
-  std::unique_ptr<TouchSession> m_touch;      ///< after m_scene, which it uses
-  std::unique_ptr<PlaceReader> m_reader;      ///< when first asked for; likewise
-  std::unique_ptr<NearbyStructures> m_nearby; ///< likewise; a cut changes nothing of them
-  StrokeMeter m_meter;
+  std::optional<session::DrillSession> m_session; ///< made on demand, until there is m_scene
+  std::shared_ptr<JournalThread> m_journal;       ///< shared with the removal thread
+  std::optional<library::SavedState> m_saved;     ///< none before the case is in the library
+  std::unique_ptr<session::TouchScene> m_scene;
+  std::unique_ptr<session::TouchSession> m_touch; ///< after m_scene, which it uses
+  std::unique_ptr<PointProbe> m_reader;           ///< made on demand; likewise
+  std::unique_ptr<NearbyStructures> m_nearby;     ///< likewise; unaffected by removal
+  session::RemovedVolumeEstimator m_meter;
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
-  bool m_leaving = false; ///< from beginOpen on no tool is taken up: its strokes would be lost
+  bool m_leaving = false; ///< set by beginOpen: no tool can be taken up, its strokes would be lost
   bool m_beingStored = false;
-  std::uint64_t m_changes = 0; ///< of the case that is to be saved
+  std::uint64_t m_changes = 0; ///< of the case to be saved
   bool m_loaded = true;
   bool m_drawable = true;
   bool m_feelable = true;
-  bool m_checked = true; ///< the CT was held against its hash
-  /// A part that cannot be read is empty in m_case; this is what it was.
+  bool m_checked = true; ///< the CT was checked against its hash
+  /// A part that cannot be read is empty in m_case; this is the original.
   template <class T>
   struct Unread
   {
@@ -272,8 +273,8 @@ private:
   std::vector<Unread<volume::LabelMap>> m_unreadLabels;
   std::vector<Unread<core::TriangleMesh>> m_unreadMeshes;
   std::uint64_t m_shown = 0;
-  std::uint64_t m_parts = 0;  ///< which case, with which parts
-  std::uint64_t m_tissue = 0; ///< and which of them are tissue
+  std::uint64_t m_parts = 0;  ///< of the case and its parts
+  std::uint64_t m_tissue = 0; ///< of what is tissue
 };
 
 } // namespace petrous::presenters

@@ -4,35 +4,35 @@
 #include <string_view>
 #include <vector>
 
-#include "petrous/Appearance/StructureLook.h"
+#include "petrous/Appearance/StructureAppearance.h"
 
 namespace petrous::appearance
 {
 
-/// The catalogue of looks, and which one a structure's name asks for (Resources/structures.json).
+/// The catalogue of appearance presets, selected by structure name (Resources/structures.json).
 class StructurePresets
 {
 public:
-  /// The catalogue that the program carries.
+  /// The built-in catalogue.
   static StructurePresets builtIn();
 
-  /// From JSON text. Throws InvalidParameter naming the entry that is wrong.
+  /// From JSON text. Throws InvalidParameter naming the invalid entry.
   explicit StructurePresets(std::string_view json);
 
-  /// The look that a structure of this name starts with, e.g. "facial_nerve" -> nerve.
-  StructureLook lookFor(const std::string& structureName) const;
+  /// The default appearance of a structure of this name, e.g. "facial_nerve" -> nerve.
+  StructureAppearance lookFor(const std::string& structureName) const;
 
-  /// The words of a name by which structures, sides and parts are called, and short numbers, in
-  /// their order and in lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty where
-  /// no structure is among them.
+  /// The words of a name that denote structures, sides and parts, and short numbers, in order and
+  /// in lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty if none of them
+  /// denotes a structure.
   std::string knownWords(const std::string& name) const;
 
-  /// The preset of this name, or the one that the name would get as a structure's, e.g. "vessel" ->
+  /// The preset of this name, or the one that a structure of this name would get, e.g. "vessel" ->
   /// artery. Throws InvalidParameter listing the presets.
-  StructureLook preset(const std::string& name) const;
+  StructureAppearance preset(const std::string& name) const;
 
   /// Every preset, "other" last.
-  std::vector<StructureLook> all() const;
+  std::vector<StructureAppearance> all() const;
 
 private:
   struct Words
@@ -40,16 +40,16 @@ private:
     std::vector<std::string> words;
     std::size_t preset; ///< index in `m_presets`
   };
-  const StructureLook* find(const std::string& name) const; ///< null: no such preset
-  const StructureLook* lookByWord(const std::string& structureName) const;
+  const StructureAppearance* find(const std::string& name) const; ///< nullptr: no such preset
+  const StructureAppearance* lookByWord(const std::string& structureName) const;
 
-  std::vector<StructureLook> m_presets;
+  std::vector<StructureAppearance> m_presets;
   std::vector<Words> m_words;
-  std::vector<std::string> m_neutral; ///< words beside those of structures in their names
-  StructureLook m_other;
+  std::vector<std::string> m_neutral; ///< words accepted besides those of structures
+  StructureAppearance m_other;
 };
 
-/// What bone starts with: the preset "bone".
-StructureLook boneLook();
+/// The default appearance of bone: the preset "bone".
+StructureAppearance boneLook();
 
 } // namespace petrous::appearance

@@ -8,20 +8,20 @@
 namespace petrous::appearance
 {
 
-/// Where a transfer function bends: what an intensity looks like [Chan2016, "Visual rendering"].
+/// Control point of a transfer function [Chan2016, "Visual rendering"].
 struct ControlPoint
 {
-  double value = 0.0;                           ///< HU for CT, the image's own unit for MR
+  double value = 0.0;                           ///< HU for CT, native unit for MR
   std::array<float, 3> color{1.0F, 1.0F, 1.0F}; ///< RGB, 0 to 1
   float opacity = 0.0F;                         ///< of 1 mm of this tissue, 0 to 1
-  float specular = 1.0F; ///< share of the lamp's highlight on a surface here, 0 to 1
+  float specular = 1.0F; ///< fraction of the specular highlight on a surface here, 0 to 1
 };
 
-/// Intensity -> colour, opacity per millimetre and specular reflection; linear between the control
-/// points, constant beyond the first and the last.
+/// Maps intensity to colour, opacity per millimetre and specular reflection; piecewise linear,
+/// clamped to the first and last control point.
 ///
-/// Opacity is of one millimetre, so a picture changes neither with the sampling nor with the
-/// resolution: o of 1 mm is an extinction of -ln(1 - min(o, kLargestOpacity)) per mm.
+/// Opacity refers to one millimetre, so the image depends neither on sampling distance nor on
+/// resolution: opacity o of 1 mm is an extinction of -ln(1 - min(o, kLargestOpacity)) per mm.
 class TransferFunction
 {
 public:
@@ -34,16 +34,16 @@ public:
 
   static constexpr double kLargestOpacity = 0.9999; ///< 9.2 per mm: opaque within a voxel
 
-  /// Throws InvalidParameter naming the first bad point: none given, values not finite or not
-  /// rising, or a component outside 0 to 1.
+  /// Throws InvalidParameter naming the first invalid point: no points, values not finite or not
+  /// strictly increasing, or a component outside 0 to 1.
   explicit TransferFunction(std::vector<ControlPoint> points);
 
-  /// The same look at every intensity.
+  /// The same appearance at every intensity.
   static TransferFunction constant(const std::array<float, 3>& color, float opacity,
                                    float specular = 1.0F);
 
-  /// {"points": [{"value": 300, "color": [r, g, b], "opacity": 0.2, "specular": 0.5}, ...]}.
-  /// Throws InvalidParameter saying what is wrong.
+  /// {"points": [{"value": 300, "color": [r, g, b], "opacity": 0.2, "specular": 0.5}, ...]}. Throws
+  /// InvalidParameter naming the error.
   static TransferFunction fromJson(std::string_view json);
   std::string toJson() const;
 

@@ -7,16 +7,16 @@
 namespace petrous::core
 {
 
-/// From where a picture is taken, in patient LPS mm.
+/// Camera pose in patient LPS mm.
 struct CameraPose
 {
   Eigen::Vector3d position{0.0, 0.0, 0.0};
   Eigen::Vector3d focalPoint{0.0, 1.0, 0.0};
   Eigen::Vector3d viewUp{0.0, 0.0, 1.0};
   double viewAngle = 30.0;             ///< vertical, degrees; perspective
-  std::optional<double> parallelScale; ///< half the picture's height, mm: parallel when set
-  /// How far to the right of the view axis the picture's centre lies, in half heights of the
-  /// picture: the off-axis frustum of one eye of a stereo pair. Not part of a saved view.
+  std::optional<double> parallelScale; ///< half the view height, mm; parallel projection if set
+  /// Offset of the image centre to the right of the view axis, in half image heights: the off-axis
+  /// frustum of one eye of a stereo pair. Not part of a saved view.
   double lensShift = 0.0;
 };
 

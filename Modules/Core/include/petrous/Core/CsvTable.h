@@ -8,12 +8,12 @@
 namespace petrous::core
 {
 
-/// Reads a CSV of numbers: a header that names the columns (in any order, others are ignored), then
-/// a row a line; empty lines are passed over. `row` gets the line number, counted from 1, and the
-/// values in the order of `columns`.
+/// Reads a CSV table of numbers: a header with the column names (in any order; other columns are
+/// ignored), then one row per line; empty lines are skipped. `row` receives the line number,
+/// counted from 1, and the values in the order of `columns`.
 ///
-/// Throws InvalidParameter "NAME, line N: ..." where the header lacks a column or a value is no
-/// finite number, and for a file without a row. What `row` throws passes through.
+/// Throws InvalidParameter "NAME, line N: ..." if the header lacks a column or a value is not a
+/// finite number, and if the file has no row. Exceptions from `row` propagate.
 void readCsv(std::istream& csv, const std::string& name, const std::vector<std::string>& columns,
              const std::function<void(std::size_t line, const std::vector<double>& values)>& row);
 

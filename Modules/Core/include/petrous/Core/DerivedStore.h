@@ -8,11 +8,11 @@
 namespace petrous::core
 {
 
-/// Keeps what follows from other data, so that it is not made again. What is asked for may be gone
-/// at any time, and is then made anew: nothing here is ever a fault.
+/// Cache of data computed from other data. Entries may disappear at any time and are then
+/// recomputed; no operation reports an error.
 ///
-/// A key says all that the bytes depend on: the content of the data, every parameter, and the
-/// version of the method. Thread-safe.
+/// A key covers everything that the bytes depend on: the content of the input, every parameter, and
+/// the version of the method. Thread-safe.
 class DerivedStore
 {
 public:
@@ -20,12 +20,12 @@ public:
 
   virtual ~DerivedStore() = default;
 
-  /// What was put under this key, whole; else nothing.
+  /// The complete entry stored under this key, or nullopt.
   virtual std::optional<Bytes> find(const std::string& key) noexcept = 0;
 
   virtual void put(const std::string& key, const Bytes& bytes) noexcept = 0;
 
-  virtual std::uintmax_t bytes() const noexcept = 0; ///< that it takes, of all cases together
+  virtual std::uintmax_t bytes() const noexcept = 0; ///< total size, over all cases
 };
 
 } // namespace petrous::core

@@ -6,19 +6,19 @@
 namespace petrous::core
 {
 
-/// What an error means to the person who meets it; the command turns it into an exit code.
+/// Category of an error as the user meets it; the command line maps it to an exit code.
 enum class Fault
 {
-  BadInput,  ///< a file or value from outside is wrong (exit 3)
-  Refused,   ///< done would lose something, so it is not done (exit 4)
-  Cancelled, ///< the user asked to stop (exit 4)
-  Internal   ///< a fault of ours, or of the machine (exit 1)
+  BadInput,  ///< invalid file or value from outside (exit 3)
+  Refused,   ///< not done because it would lose data (exit 4)
+  Cancelled, ///< cancelled by the user (exit 4)
+  Internal   ///< defect of the program, or failure of the machine (exit 1)
 };
 
 /// Base of every exception that leaves a module.
 ///
-/// The message is one line that names the thing, what is wrong with it and what would be right.
-/// It never carries patient data.
+/// The message is one line: the item, what is wrong with it, and what would be valid. It never
+/// contains patient data.
 class Error : public std::runtime_error
 {
 public:
@@ -29,14 +29,14 @@ private:
   Fault m_fault;
 };
 
-/// A value out of its stated domain.
+/// A value outside its stated domain.
 class InvalidParameter : public Error
 {
 public:
   explicit InvalidParameter(const std::string& message);
 };
 
-/// Thrown by Progress::check when the user has asked to stop.
+/// Thrown by Progress::check after the user has cancelled.
 class CancelledError : public Error
 {
 public:

@@ -8,13 +8,13 @@
 namespace petrous::core
 {
 
-/// A number by which data are known again: the same for the same values in the same order on every
-/// little-endian machine, another one for others but for a chance of about 2^-64. Some GB a second.
-/// It is no proof against those who want two data to look the same.
+/// 64-bit non-cryptographic hash of a sequence of values, identical on every little-endian machine;
+/// collision probability about 2^-64, throughput some GB/s. Not collision-resistant against an
+/// adversary.
 class Fingerprint
 {
 public:
-  /// In order; where one piece ends and the next begins makes a difference.
+  /// Order-dependent; the boundaries between pieces are hashed too.
   void add(const void* data, std::size_t bytes) noexcept
   {
     mix(bytes);
@@ -31,7 +31,7 @@ public:
     mix(rest);
   }
 
-  /// A number; not a struct, whose gaps may hold anything.
+  /// Arithmetic types only; the padding of a struct is indeterminate.
   template <typename Number>
   void add(Number value) noexcept
   {
@@ -47,8 +47,8 @@ public:
   }
 
 private:
-  // An odd factor and a shift of half the word: one to one, and every bit reaches all others
-  // within three words (finaliser of Murmur3, public domain, by A. Appleby).
+  // Multiplication by an odd factor and a shift by half the word: bijective, and every bit reaches
+  // all others within three words (Murmur3 finaliser, public domain, by A. Appleby).
   void mix(std::uint64_t word) noexcept
   {
     m_state = (m_state ^ word) * 0xFF51AFD7ED558CCDULL;

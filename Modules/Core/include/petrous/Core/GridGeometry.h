@@ -23,17 +23,16 @@ struct IndexBox
   std::size_t count() const noexcept;
   bool contains(const Index3& index) const noexcept;
   IndexBox intersected(const IndexBox& other) const noexcept;
-  IndexBox united(const IndexBox& other) const noexcept; ///< an empty box adds nothing
+  IndexBox united(const IndexBox& other) const noexcept; ///< an empty box is neutral
 };
 bool operator==(const IndexBox& a, const IndexBox& b) noexcept;
 
-/// Where a grid of samples lies in the patient (LPS, mm).
+/// Image geometry of a voxel grid in patient space (LPS, mm).
 ///
 ///   p_P = origin + direction * diag(spacing) * index       (X_PV with scale; DICOM C.7.6.2.1.1)
 ///
-/// Voxel coordinates are continuous, integers are voxel centres, and the first axis runs
-/// fastest in memory. The domain of eye and hand is the hull of the voxel centres.
-/// Immutable.
+/// Voxel coordinates are continuous, with integers at voxel centres; the first axis is contiguous
+/// in memory. Rendering and haptics are defined on the hull of the voxel centres. Immutable.
 class GridGeometry
 {
 public:
@@ -45,7 +44,7 @@ public:
   /// origin    patient position of the first voxel's centre, LPS mm
   /// direction columns are the axes; orthonormal within 1e-4 (left-handed is allowed)
   ///
-  /// Throws InvalidParameter naming the first bad value.
+  /// Throws InvalidParameter naming the first invalid value.
   GridGeometry(const Index3& dims, const Eigen::Vector3d& spacing, const Eigen::Vector3d& origin,
                const Eigen::Matrix3d& direction = Eigen::Matrix3d::Identity());
 
@@ -65,7 +64,7 @@ public:
   Eigen::Vector3d patientFromVoxel(const Eigen::Vector3d& voxel) const noexcept;
   Eigen::Vector3d voxelFromPatient(const Eigen::Vector3d& patient) const noexcept;
 
-  /// d patient / d voxel (mm a voxel), and its inverse.
+  /// d patient / d voxel (mm per voxel), and its inverse.
   const Eigen::Matrix3d& patientFromVoxelLinear() const noexcept { return m_patientFromVoxel; }
   const Eigen::Matrix3d& voxelFromPatientLinear() const noexcept { return m_voxelFromPatient; }
 
@@ -79,11 +78,11 @@ public:
 
   IndexBox fullBox() const noexcept;
 
-  /// The smallest index box whose hull covers the patient box [lower, upper] where the grid
-  /// reaches; empty when they do not meet.
+  /// The smallest index box whose hull covers the part of the patient box [lower, upper] inside the
+  /// grid; empty if they do not intersect.
   IndexBox boxCovering(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) const noexcept;
 
-  /// The same grid cut to a box. Throws InvalidParameter when it is empty or reaches outside.
+  /// The grid cropped to a box. Throws InvalidParameter if the box is empty or exceeds the grid.
   GridGeometry cropped(const IndexBox& box) const;
 
 private:
@@ -95,7 +94,7 @@ private:
   Eigen::Matrix3d m_voxelFromPatient;
 };
 
-/// Equal dims, and every corner within `tolerance` mm.
+/// True if dims are equal and every corner agrees within `tolerance` mm.
 bool sameGrid(const GridGeometry& a, const GridGeometry& b, double tolerance = 1e-3) noexcept;
 
 } // namespace petrous::core

@@ -8,7 +8,7 @@ namespace petrous::core
 {
 
 /// The part of [first, last] in which start + t * run, in voxel coordinates, lies in the hull of
-/// the voxel centres; its second value is the smaller one where there is none.
+/// the voxel centres; second < first if there is none.
 std::pair<double, double> clipToHull(const GridGeometry& grid, const Eigen::Vector3d& start,
                                      const Eigen::Vector3d& run, double first,
                                      double last) noexcept;

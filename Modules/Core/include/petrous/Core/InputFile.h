@@ -16,11 +16,11 @@ struct InputFileError : InvalidParameter
 {
   enum class Reason
   {
-    NotFound,   ///< nothing there
-    NotRegular, ///< a folder, named pipe, device or socket
+    NotFound,   ///< no such file
+    NotRegular, ///< a directory, named pipe, device or socket
     Denied,     ///< no permission
     TooLarge,   ///< more bytes than the caller's limit
-    Unreadable  ///< broke off, or changed while it was read
+    Unreadable  ///< read error, or changed during reading
   };
 
   InputFileError(Reason why, const std::filesystem::path& path, const std::string& what);
@@ -29,8 +29,8 @@ struct InputFileError : InvalidParameter
   std::string problem; ///< the message without the path
 };
 
-/// A regular file, open for reading. Whatever else stands at the path is refused without waiting:
-/// a named pipe without a writer would block, a device may never end.
+/// A regular file, opened for reading. Anything else is refused without blocking: opening a named
+/// pipe without a writer would block, and a device may never end.
 ///
 /// Move-only; the descriptor is closed on destruction.
 class InputFile
@@ -38,18 +38,18 @@ class InputFile
 public:
   static constexpr std::uintmax_t kUnlimited = UINTMAX_MAX;
 
-  /// Throws InputFileError, also where the file holds more than `limit` bytes.
+  /// Throws InputFileError, also if the file is larger than `limit` bytes.
   explicit InputFile(const std::filesystem::path& path, std::uintmax_t limit = kUnlimited);
   ~InputFile();
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&& other) noexcept;
 
   const std::filesystem::path& path() const noexcept { return m_path; }
-  std::uintmax_t size() const noexcept { return m_size; } ///< bytes, as the file was opened
+  std::uintmax_t size() const noexcept { return m_size; } ///< bytes, when it was opened
   int descriptor() const noexcept { return m_descriptor; }
 
-  /// The first `size()` bytes, or the first `count` of them. Throws InputFileError (Unreadable)
-  /// where the file has become shorter.
+  /// The first `size()` bytes, or the first `count` of them. Throws InputFileError (Unreadable) if
+  /// the file has become shorter.
   std::string read(std::uintmax_t count = kUnlimited) const;
 
 private:
@@ -62,11 +62,11 @@ private:
 std::string readFile(const std::filesystem::path& path,
                      std::uintmax_t limit = InputFile::kUnlimited);
 
-/// A stream over a regular file, binary. Throws InputFileError.
+/// Opens a regular file as a binary stream. Throws InputFileError.
 std::ifstream openInput(const std::filesystem::path& path,
                         std::uintmax_t limit = InputFile::kUnlimited);
 
-/// The path for a message: control characters become '?'.
+/// The path for use in a message; control characters become '?'.
 std::string printable(const std::filesystem::path& path);
 
 } // namespace petrous::core

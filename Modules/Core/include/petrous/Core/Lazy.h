@@ -8,11 +8,11 @@
 namespace petrous::core
 {
 
-/// A shared, immutable value that is made when first asked for.
+/// A shared, immutable value that is computed on first access.
 ///
-/// Copies share the value and its maker. Thread-safe; when the maker throws, the exception
-/// goes to the caller and the next call tries again. Whoever asks for the value while it is being
-/// made waits for it; whoever peeks never does.
+/// Copies share the value and its maker. Thread-safe. If the maker throws, the exception propagates
+/// to the caller and the next call tries again. get() blocks while another thread computes the
+/// value; peek() never does.
 template <class T>
 class Lazy
 {
@@ -33,7 +33,7 @@ public:
 
   explicit operator bool() const noexcept { return m_state != nullptr; }
 
-  /// The value; null only for a default-constructed Lazy.
+  /// The value; nullptr only for a default-constructed Lazy.
   std::shared_ptr<const T> get() const
   {
     if (!m_state)
@@ -51,8 +51,8 @@ public:
     return value;
   }
 
-  /// The value where it is resident already, else null. Never waits for a maker: the lock that it
-  /// takes is held for the copy of a pointer only.
+  /// The value if already computed, else nullptr. Never waits for the maker: its lock is held only
+  /// while a pointer is copied.
   std::shared_ptr<const T> peek() const { return m_state ? m_state->resident() : nullptr; }
 
 private:
@@ -64,9 +64,9 @@ private:
       return value;
     }
 
-    std::mutex making; // held as long as the maker works
+    std::mutex making; // held while the maker runs
     Maker maker;
-    mutable std::mutex publishing; // of `value`
+    mutable std::mutex publishing; // guards `value`
     std::shared_ptr<const T> value;
   };
   std::shared_ptr<State> m_state;

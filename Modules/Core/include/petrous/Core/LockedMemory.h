@@ -6,11 +6,11 @@
 namespace petrous::core
 {
 
-/// Memory that a real-time thread reads, brought in and kept from being paged out (mlock) as long
-/// as this lives: a page fault on a mapped file is disk I/O inside a tick.
+/// Prefaults memory that a real-time thread reads and locks it against paging (mlock) for the
+/// lifetime of this object: a page fault on a mapped file is disk I/O inside a tick.
 ///
-/// Of several that cover the same page, the last to end unlocks it. All pages are brought in; where
-/// the system's limit (RLIMIT_MEMLOCK) allows no lock they may be paged out again.
+/// A page covered by several instances is unlocked with the last of them. All pages are faulted in;
+/// if RLIMIT_MEMLOCK does not permit locking, they may be paged out again.
 class LockedMemory
 {
 public:
@@ -20,22 +20,22 @@ public:
     std::size_t bytes = 0;
   };
 
-  /// Reads every page. The ranges must stay mapped as long as this lives.
+  /// Reads every page. The ranges must stay mapped for the lifetime of this object.
   explicit LockedMemory(std::vector<Range> ranges);
   LockedMemory(const LockedMemory&) = delete;
   LockedMemory& operator=(const LockedMemory&) = delete;
   ~LockedMemory();
 
-  std::size_t bytes() const noexcept { return m_bytes; }              ///< of all ranges
-  bool locked() const noexcept { return m_locked.size() == m_count; } ///< all of them
+  std::size_t bytes() const noexcept { return m_bytes; }              ///< total of all ranges
+  bool locked() const noexcept { return m_locked.size() == m_count; } ///< all ranges
 
 private:
   std::vector<Range> m_locked;
-  std::size_t m_count = 0; // of ranges that hold anything
+  std::size_t m_count = 0; // number of non-empty ranges
   std::size_t m_bytes = 0;
 };
 
-/// Page faults of the calling thread that needed I/O, since it began.
+/// Major page faults of the calling thread since it started.
 long majorPageFaults() noexcept;
 
 } // namespace petrous::core

@@ -9,25 +9,25 @@
 namespace petrous::core
 {
 
-// Numbers as text with a decimal point and without grouping, whatever LC_NUMERIC and the global
-// std::locale say: what is written into a file, a shader or an answer reads the same everywhere.
-// Thread-safe.
+// Locale-independent number formatting and parsing: decimal point, no grouping, regardless of
+// LC_NUMERIC and the global std::locale, so that files, shaders and responses are the same
+// everywhere. Thread-safe.
 
-/// `decimals` digits after the point, as "%.*f" of the C locale.
+/// `decimals` digits after the point, as "%.*f" in the C locale.
 std::string fixedText(double value, int decimals);
-/// `digits` significant ones, as "%.*g" of the C locale; 6 are what a stream shows.
+/// `digits` significant digits, as "%.*g" in the C locale; 6 is the default of a stream.
 std::string generalText(double value, int digits = 6);
-/// The shortest digits that read back to the same number.
+/// The shortest representation that round-trips.
 std::string exactText(double value);
 std::string exactText(float value);
 
-/// The whole of `text` as a number, with or without a sign; nothing where it is none or too large
-/// for the type. A number too small for it is 0.
+/// Parses the whole of `text`, with an optional sign; nullopt if it is not a number or overflows.
+/// Underflow gives 0.
 std::optional<double> parseDouble(std::string_view text);
 std::optional<float> parseFloat(std::string_view text);
 
-/// While it lives, the C library reads and writes numbers with a point in this thread: for calls
-/// into libraries that follow LC_NUMERIC.
+/// RAII: while it lives, the C library formats and parses numbers with a decimal point in this
+/// thread. For calls into libraries that follow LC_NUMERIC.
 class PlainNumbers
 {
 public:

@@ -15,9 +15,9 @@ struct OutputFileError : Error
 {
   enum class Reason
   {
-    DiskFull,     ///< no room, a quota or a limit on the size of files
-    NotPermitted, ///< no permission, or a read-only medium
-    WrongPlace,   ///< no such folder, or something that is not a regular file stands there
+    DiskFull,     ///< no space left, quota or file size limit exceeded
+    NotPermitted, ///< no permission, or a read-only file system
+    WrongPlace,   ///< no such directory, or the target is not a regular file
     Failed        ///< anything else
   };
 
@@ -27,19 +27,19 @@ struct OutputFileError : Error
   std::string problem; ///< the message without the path
 };
 
-/// Throws the OutputFileError for a value of errno.
+/// Throws the OutputFileError for an errno value.
 [[noreturn]] void throwOutputError(int error, const std::filesystem::path& path);
 
-/// The one atomic and durable file writer: the file appears whole or not at all, also when the
+/// The only atomic and durable file writer: the file appears complete or not at all, even if the
 /// program is killed or the power fails.
 ///
-/// Bytes go to a new file in the same folder, with an unpredictable name, opened with O_EXCL.
-/// `commit` syncs it, renames it over the target and syncs the folder. Everything that can fail is
-/// done before the rename; after it nothing throws. Without a commit nothing is left behind but by
-/// a kill: such leftovers are named isLeftover.
+/// Bytes go to a new file in the same directory, with an unpredictable name, opened with O_EXCL.
+/// `commit` syncs it, renames it over the target and syncs the directory. Everything that can fail
+/// is done before the rename; nothing throws after it. Without a commit the temporary file is
+/// removed, unless the process is killed: isLeftover recognises such files.
 ///
-/// A symbolic link to a regular file stays, and the file it points to is replaced. What is neither
-/// a regular file nor absent (a device, a pipe, a folder) is refused.
+/// A symbolic link to a regular file is kept, and the file it points to is replaced. A target that
+/// is neither a regular file nor absent (a device, a pipe, a directory) is refused.
 class OutputFile
 {
 public:
@@ -52,39 +52,39 @@ public:
   void write(const void* bytes, std::size_t count); ///< throws OutputFileError
   void write(std::string_view bytes) { write(bytes.data(), bytes.size()); }
 
-  /// Throws OutputFileError; the target is then what it was. False: the file is in place, but the
-  /// disk reported an error for the folder's sync, so that a power failure may undo it.
+  /// Throws OutputFileError; the target is then unchanged. Returns false if the file is in place
+  /// but syncing the directory failed, so that a power failure may undo it.
   bool commit();
 
-  /// The file until `commit`.
+  /// The temporary file, until `commit`.
   const std::filesystem::path& temporary() const noexcept { return m_temporary; }
   int descriptor() const noexcept { return m_descriptor; }
 
 private:
-  std::filesystem::path m_path; ///< links resolved
+  std::filesystem::path m_path; ///< symbolic links resolved
   std::filesystem::path m_temporary;
   int m_folder = -1;
   int m_descriptor = -1;
 };
 
-/// Makes `bytes` the content of a file. As OutputFile::commit.
+/// Writes `bytes` to a file. Returns and throws as OutputFile::commit.
 bool writeFile(const std::filesystem::path& path, std::string_view bytes);
 
-/// The file that writing to `path` replaces: the end of a chain of links, or `path` where nothing is
-/// there. Throws OutputFileError where something else than a regular file stands there: opening a
-/// pipe would wait for its reader. For files that grow while they are written, and so are no
-/// OutputFile.
+/// The file that writing to `path` replaces: the end of a chain of links, or `path` if nothing
+/// exists there. Throws OutputFileError if the target is not a regular file: opening a pipe would
+/// block until it has a reader. For files that grow while they are written and therefore cannot be
+/// an OutputFile.
 std::filesystem::path outputTarget(const std::filesystem::path& path);
 
-/// A name in the same folder that nobody has or can guess, for files and folders to be renamed to
+/// A unique, unpredictable name in the same directory, for files and directories to be renamed to
 /// `path` later. It satisfies isLeftover.
 std::filesystem::path temporaryBeside(const std::filesystem::path& path);
 
-/// Whether a file has the name of one whose writer was killed.
+/// Whether the file name is that of a temporary file whose writer was killed.
 bool isLeftover(const std::filesystem::path& path);
 
-/// Syncs a folder's entries. False where the disk reports an error, or the folder cannot be opened;
-/// true also on file systems that cannot sync folders.
+/// Syncs a directory. Returns false if the disk reports an error or the directory cannot be opened;
+/// true also on file systems that cannot sync directories.
 bool syncFolder(const std::filesystem::path& folder) noexcept;
 
 } // namespace petrous::core

@@ -5,7 +5,7 @@
 namespace petrous::core
 {
 
-/// A box along the axes of patient space, LPS mm: min() and max() are its corners.
+/// Axis-aligned box in patient space, LPS mm.
 using PatientBox = Eigen::AlignedBox3d;
 
 } // namespace petrous::core

@@ -8,7 +8,7 @@
 namespace petrous::core
 {
 
-/// Asked to stop from any thread; seen by the work at its next check.
+/// Cancellation flag; may be set from any thread, and takes effect at the task's next check.
 class CancelToken
 {
 public:
@@ -19,27 +19,27 @@ private:
   std::atomic<bool> m_cancelled{false};
 };
 
-/// How far a long task is, and whether it should stop.
+/// Progress reporting and cancellation of a long task.
 ///
-/// A value that is passed down into the work; `part` gives a sub-task its share of the bar. The
-/// listener may be called from any worker thread and must be thread-safe. Without a listener
-/// and token every call is a cheap no-op.
+/// Passed by value into the task; `part` maps a sub-task to its part of the progress range. The
+/// listener may be called from any worker thread and must be thread-safe. Without a listener and
+/// token every call is a cheap no-op.
 class Progress
 {
 public:
-  /// fraction in [0, 1]; the text names the step that is under way.
+  /// fraction in [0, 1]; the text names the current step.
   using Listener = std::function<void(double fraction, const std::string& text)>;
 
   Progress() = default;
   explicit Progress(Listener listener, std::shared_ptr<const CancelToken> token = nullptr);
 
-  /// Tells the listener; throws CancelledError where the token was cancelled.
+  /// Notifies the listener; throws CancelledError if the token was cancelled.
   void report(double fraction, const std::string& text) const;
 
-  /// Throws CancelledError naming `task` where the token was cancelled.
+  /// Throws CancelledError naming `task` if the token was cancelled.
   void check(const std::string& task) const;
 
-  /// The same listener with [0, 1] mapped on [first, last] of this one.
+  /// The same listener, with [0, 1] mapped to [first, last] of this range.
   Progress part(double first, double last) const;
 
 private:

@@ -7,19 +7,19 @@ namespace petrous::core
 
 /// A rotation followed by a translation, in millimetres: p_A = R_AB p_B + p_AB.
 ///
-/// X_AB is the pose of frame B in frame A (Documentation/frames.md); X_AC = X_AB * X_BC.
-/// The rotation is kept as a unit quaternion, so composition never shears.
+/// X_AB is the pose of frame B in frame A (Documentation/frames.md); X_AC = X_AB * X_BC. The
+/// rotation is stored as a unit quaternion, so composition never introduces shear.
 class RigidTransform
 {
 public:
   RigidTransform() = default;
 
-  /// The quaternion is normalised. Throws InvalidParameter when it is zero or not finite, or when
-  /// the translation is not finite.
+  /// The quaternion is normalised. Throws InvalidParameter if it is zero or not finite, or if the
+  /// translation is not finite.
   RigidTransform(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation);
 
   /// From a 4x4 matrix whose upper left block is a rotation within 1e-6 (no shear, scale or
-  /// mirror) and whose last row is 0 0 0 1; throws InvalidParameter otherwise.
+  /// reflection) and whose last row is 0 0 0 1; throws InvalidParameter otherwise.
   static RigidTransform fromMatrix(const Eigen::Matrix4d& matrix);
 
   const Eigen::Quaterniond& rotation() const noexcept { return m_rotation; }
@@ -30,7 +30,7 @@ public:
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
   RigidTransform operator*(const RigidTransform& other) const;
 
-  /// A free vector: rotated, not moved.
+  /// Rotates a free vector; not translated.
   Eigen::Vector3d rotate(const Eigen::Vector3d& vector) const;
 
 private:

@@ -10,16 +10,16 @@
 namespace petrous::core
 {
 
-/// The latest complete value of one writer, for any number of readers, without a lock.
+/// Lock-free single-writer, multiple-reader buffer of the latest complete value.
 ///
 /// A ring of kSlots slots, each guarded by a sequence number: the writer fills the slot after the
-/// newest one and then announces it, so that a reader finds a complete value even while the writer
-/// stands in the middle of a write. A reader begins again only when the writer has gone round the
-/// whole ring under its hands, and gives up after kTries of that.
+/// newest one and then publishes it, so that a reader finds a complete value even during a write. A
+/// reader retries only if the writer has lapped it around the whole ring, and gives up after kTries
+/// attempts.
 ///
-/// The writer waits for nobody, nor do the readers: neither locks, allocates nor throws.
+/// Writer and readers never block, allocate or throw.
 ///
-/// T  trivially copyable; is copied word by word, so it should be small
+/// T  trivially copyable; copied word by word, so it should be small
 template <typename T>
 class SnapshotBuffer
 {
@@ -43,16 +43,17 @@ public:
     std::memcpy(words.data(), &value, sizeof(T));
 
     slot.sequence.store(2 * number - 1, std::memory_order_relaxed);
-    // Each word is released, and acquired by the reader: whoever sees one word of this write sees
-    // the odd sequence, too. (A fence would do the same, but the thread sanitizer knows no fences.)
+    // Each word is stored with release and loaded with acquire order: a reader that sees one word
+    // of this write also sees the odd sequence number. (A fence would do the same, but
+    // ThreadSanitizer does not support fences.)
     for (std::size_t i = 0; i < kWords; ++i)
       slot.words[i].store(words[i], std::memory_order_release);
     slot.sequence.store(2 * number, std::memory_order_release);
     m_latest.store(number, std::memory_order_release);
   }
 
-  /// Copies the latest complete value. False, with `value` left as it was, when the writer lapped
-  /// this reader kTries times in a row, which takes a writer that never pauses.
+  /// Copies the latest complete value. Returns false, with `value` unchanged, if the writer lapped
+  /// this reader kTries times in a row, which requires a writer that never pauses.
   bool read(T& value) const noexcept
   {
     for (int i = 0; i < kTries; ++i)
@@ -61,13 +62,13 @@ public:
     return false;
   }
 
-  /// How many values have been written; the initial one is the first. Grows by one a write.
+  /// Number of values written, including the initial one.
   std::uint64_t count() const noexcept { return m_latest.load(std::memory_order_acquire); }
 
 private:
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
 
-  // 64: a cache line, so that writer and readers of neighbouring slots do not disturb each other.
+  // 64: one cache line, to avoid false sharing between neighbouring slots.
   struct alignas(64) Slot
   {
     std::atomic<std::uint64_t> sequence{0};

@@ -14,12 +14,12 @@
 namespace petrous::core
 {
 
-/// What ticks took: of the thread's processor time, which other programs do not lengthen, and on
-/// the wall. All times in s. One thread.
+/// Durations of ticks: CPU time of the thread, which is unaffected by other programs, and wall
+/// time. All times in s. Not thread-safe.
 class TickTimes
 {
 public:
-  /// Does the tick and gives what it gives.
+  /// Calls the tick and returns its result.
   template <typename Call>
   decltype(auto) take(Call call)
   {
@@ -33,7 +33,7 @@ public:
     m_wall.insert(m_wall.end(), other.m_wall.begin(), other.m_wall.end());
   }
 
-  /// The time that `share` (0 to 1) of the ticks kept to; 0 without ticks.
+  /// The `share` quantile (0 to 1) of the tick times; 0 without ticks.
   double processor(double share) const { return quantile(m_processor, share); }
   double wall(double share) const { return quantile(m_wall, share); }
 

@@ -9,24 +9,24 @@
 namespace petrous::core
 {
 
-/// A surface of triangles in patient LPS mm, counter-clockwise seen from outside.
+/// Triangle mesh in patient LPS mm, counter-clockwise seen from outside.
 struct TriangleMesh
 {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  /// Volume by the divergence theorem, mm^3; meaningful for closed meshes, negative when the
+  /// Volume by the divergence theorem, mm^3; meaningful for closed meshes, negative if the
   /// triangles face inwards.
   double signedVolume() const;
 
-  /// Every edge is shared by exactly two triangles that run along it in opposite directions.
+  /// Every edge is shared by exactly two triangles that traverse it in opposite directions.
   bool isClosed() const;
 
-  /// Corners of the axis-aligned box, mm; both zero for an empty mesh.
+  /// Corners of the axis-aligned bounding box, mm; both zero for an empty mesh.
   std::array<Eigen::Vector3f, 2> bounds() const;
 
-  /// Throws InvalidParameter when a triangle names a vertex that is not there or a vertex is not
-  /// finite.
+  /// Throws InvalidParameter if a triangle refers to a vertex that does not exist or a vertex is
+  /// not finite.
   void validate() const;
 };
 

@@ -10,12 +10,12 @@
 namespace petrous::devices
 {
 
-/// What a device of the catalogue is for.
+/// Purpose of a known device.
 enum class DeviceKind : std::uint8_t
 {
   SpaceMouse,
   Pedal,        ///< read through hidapi
-  KeyboardPedal ///< types a key; nothing to open
+  KeyboardPedal ///< acts as a keyboard; nothing to open
 };
 
 struct KnownDevice
@@ -26,26 +26,26 @@ struct KnownDevice
   const char* name = "";
 };
 
-/// Every HID device that Petrous knows. Packaging/70-petrous-devices.rules names those of kind
-/// SpaceMouse and Pedal, too; a test holds the one against the other.
+/// All HID devices known to Petrous. Packaging/70-petrous-devices.rules must list those of kind
+/// SpaceMouse and Pedal as well; checked by a test.
 const std::vector<KnownDevice>& knownDevices();
 
-/// The entry of a device's interface; nothing for other devices, and for those interfaces of a
-/// SpaceMouse that are not its cap (usage 1:8, where the usage is known).
+/// The entry for a device's interface; nullopt for other devices, and for interfaces of a
+/// SpaceMouse other than the cap (usage 1:8, if the usage is known).
 std::optional<KnownDevice> known(const HidInterface& interface);
 
 enum class Access : std::uint8_t
 {
   Allowed,
   Denied, ///< no permission
-  Gone,   ///< no such file, or the device behind it has gone
+  Gone,   ///< no such file, or its device was unplugged
   Unknown ///< not a path in the file system, or another error
 };
 
-/// Whether this user may open a hidraw node for reading and writing; tries it.
+/// Whether this user may open a hidraw node for reading and writing; determined by opening it.
 Access accessTo(const std::string& path);
 
-/// What to do about it, in plain words; empty where nothing needs to be done.
+/// What the user should do about it; empty if nothing.
 std::string adviceFor(const HidInterface& interface, Access access);
 
 struct FoundDevice
@@ -53,7 +53,7 @@ struct FoundDevice
   KnownDevice device;
   HidInterface interface;
   Access access = Access::Unknown;
-  std::string advice; ///< empty where all is well
+  std::string advice; ///< empty if none is needed
 
   /// "SpaceMouse Pro (046d:c62b)"
   std::string title() const;

@@ -1,6 +1,6 @@
 #pragma once
 
-/* How a pose or wrench gets in and out of the block of DeviceServerProtocol.h. Plain C, GCC or
+/* Writing and reading poses and wrenches in the block of DeviceServerProtocol.h. Plain C, GCC or
  * clang; nothing here waits, locks or allocates. */
 
 #include <math.h>
@@ -13,11 +13,11 @@ extern "C"
 {
 #endif
 
-  /* Puts a pose or wrench (PETROUS_DEVICE_WORDS words) in the block. One writer; never waits. */
+  /* Writes a pose or wrench (PETROUS_DEVICE_WORDS words). Single writer; never waits. */
   static inline void petrous_device_put(uint64_t* sequence, uint64_t* words, const void* value)
   {
     uint64_t copy[PETROUS_DEVICE_WORDS];
-    /* `| 1`: a writer that died in the middle left it odd. */
+    /* `| 1`: odd already if a previous writer died halfway. */
     const uint64_t writing = __atomic_load_n(sequence, __ATOMIC_RELAXED) | 1u;
     unsigned i;
     memcpy(copy, value, sizeof copy);
@@ -27,8 +27,8 @@ extern "C"
     __atomic_store_n(sequence, writing + 1, __ATOMIC_RELEASE);
   }
 
-  /* Copies out the latest value and returns its sequence. 0, and `value` as it was, when nothing
-   * has been written yet or the writer was in the middle of it each time; never waits. */
+  /* Copies out the latest value and returns its sequence number. Returns 0 and leaves `value`
+   * unchanged if nothing has been written yet or each of 8 attempts met a write; never waits. */
   static inline uint64_t petrous_device_get(const uint64_t* sequence, const uint64_t* words,
                                             void* value)
   {
@@ -50,7 +50,7 @@ extern "C"
     return 0;
   }
 
-  /* Server: what it remembers of the wrenches; begins as all zero. */
+  /* Server: state of the wrench check; initialise to all zero. */
   struct petrous_device_guard
   {
     int started;
@@ -59,9 +59,9 @@ extern "C"
     struct petrous_device_wrench wrench;
   };
 
-  /* Server: the wrench for the motors now, already checked: zero, with tick 0, when Petrous has
-   * sent none for PETROUS_DEVICE_SILENCE_NS or sent what is no number. Call it each time before the
-   * motors are set; `now_ns` is CLOCK_MONOTONIC. */
+  /* Server: the checked wrench for the motors: zero, with tick 0, if Petrous has sent none for
+   * PETROUS_DEVICE_SILENCE_NS or one that is not finite. Call before each update of the motors;
+   * `now_ns` is CLOCK_MONOTONIC. */
   static inline struct petrous_device_wrench
   petrous_device_wrench_now(const struct petrous_device_block* block,
                             struct petrous_device_guard* guard, int64_t now_ns)
@@ -73,8 +73,7 @@ extern "C"
     memset(&zero, 0, sizeof zero);
     if (!guard->started)
     {
-      /* What lies there at the first look may be old: only a change shows that Petrous is sending.
-       */
+      /* The first value may be old: only a change shows that Petrous is sending. */
       guard->started = 1;
       guard->sequence = sequence;
       guard->fresh_ns = now_ns - PETROUS_DEVICE_SILENCE_NS - 1;
@@ -92,7 +91,7 @@ extern "C"
     return guard->wrench;
   }
 
-  /* Server: name or error text; too long a text is cut. */
+  /* Server: sets name or error text, truncated if too long. */
   static inline void petrous_device_text(char* field, size_t size, const char* text)
   {
     const size_t length = strlen(text);

@@ -15,34 +15,34 @@ struct hid_device_info;
 namespace petrous::devices
 {
 
-/// hidapi, or a library that stands in for it, cannot be used. The message names it.
+/// hidapi, or a library that replaces it, cannot be used. The message names it.
 class HidError : public core::Error
 {
 public:
   explicit HidError(const std::string& message);
 };
 
-/// One HID interface that is plugged in, as hidapi lists it.
+/// One connected HID interface, as enumerated by hidapi.
 struct HidInterface
 {
   std::string path; ///< "/dev/hidraw3"
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;
-  std::string manufacturer;    ///< UTF-8, as the device says; may be empty
+  std::string manufacturer;    ///< UTF-8, as reported by the device; may be empty
   std::string name;            ///< likewise
-  std::uint16_t usagePage = 0; ///< 0 where it is not known
+  std::uint16_t usagePage = 0; ///< 0 if unknown
   std::uint16_t usage = 0;
 };
 
-/// hidapi as a table of functions: those that this program is linked with, or those of a shared
-/// library with the same C interface (hidapi 0.13), which is how the tests plug in devices.
+/// hidapi as a table of functions: those this program is linked with, or those of a shared library
+/// with the same C interface (hidapi 0.13), by which tests simulate devices.
 ///
-/// hidapi keeps global state behind listing and opening, so these take turns here; make one
-/// library for a program and share it. An open device belongs to one thread.
+/// hidapi has global state for enumerating and opening devices, so these calls are serialised here;
+/// create one library per program and share it. An open device belongs to one thread.
 class HidLibrary
 {
 public:
-  /// The hidapi that this program is linked with.
+  /// The hidapi this program is linked with.
   HidLibrary();
 
   /// The shared library at `path`. Throws HidError naming it and what is missing.
@@ -54,10 +54,10 @@ public:
 
   std::string version() const;
 
-  /// What is plugged in now, also without permission to open it.
+  /// Connected interfaces, including those without permission to open them.
   std::vector<HidInterface> list() const;
 
-  /// An open device; closes itself. Must not outlive its library.
+  /// An open device; closed on destruction. Must not outlive its library.
   class Connection
   {
   public:
@@ -65,7 +65,8 @@ public:
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
-    /// Waits for a report: its length; 0 when none came in time; below 0 when the device has gone.
+    /// Waits for a report. Returns its length, 0 on timeout, or a negative value if the device is
+    /// gone.
     int read(unsigned char* bytes, std::size_t size, int milliseconds);
 
   private:
@@ -75,7 +76,7 @@ public:
     hid_device_* m_device;
   };
 
-  /// Null when it cannot be opened.
+  /// Returns nullptr if it cannot be opened.
   std::unique_ptr<Connection> open(const std::string& path) const;
 
 private:

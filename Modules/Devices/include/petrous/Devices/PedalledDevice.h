@@ -8,18 +8,19 @@
 namespace petrous::devices
 {
 
-/// A device in the hand and a pedal under the foot, as one device. Everything is the hand's, but
+/// A hand-held device and a foot pedal as one device. Everything is the hand-held device's, except
 ///
-///   pedal    the greater of the hand device's and the foot's
+///   pedal    the maximum of the two
 ///   buttons  the pedal's switch n is bit kFirstPedalButton + n
 ///
-/// A pedal that is not there changes nothing, not even health.
+/// A missing pedal changes nothing, not even health.
 class PedalledDevice final : public haptics::Device
 {
 public:
   static constexpr unsigned kFirstPedalButton = 24;
 
-  /// Neither may be null. A pedal may be passed from hand to hand, but one reads it at a time.
+  /// Neither may be null. A pedal may be passed from device to device, but only one may read it at
+  /// a time.
   PedalledDevice(std::unique_ptr<haptics::Device> hand, std::shared_ptr<Pedal> pedal);
 
   const haptics::DeviceDescription& description() const noexcept override;

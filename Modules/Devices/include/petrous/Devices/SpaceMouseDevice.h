@@ -14,37 +14,36 @@ namespace petrous::devices
 
 class HidReader;
 
-/// The first SpaceMouse that is plugged in, as a hand: the cap's deflection is the tool's speed.
-/// It gives no force. It may be plugged in, pulled and plugged in again at any time; the pose then
-/// goes on from where it was.
+/// The first connected SpaceMouse: the cap's deflection is the tool's velocity. No force feedback.
+/// Hot-pluggable; the pose then continues from where it was.
 class SpaceMouseDevice final : public haptics::Device
 {
 public:
   struct Options
   {
     RateControl::Parameters rate;
-    double lookEvery = 1.0; ///< s between two looks for a device that is not there, > 0
+    double lookEvery = 1.0; ///< s between two searches for a missing device, > 0
   };
 
-  /// Throws InvalidParameter. Without a SpaceMouse it waits for one.
+  /// Throws InvalidParameter. Waits for a SpaceMouse if none is connected.
   SpaceMouseDevice(std::shared_ptr<const HidLibrary> library, const Options& options);
   ~SpaceMouseDevice() override;
 
   const haptics::DeviceDescription& description() const noexcept override { return m_description; }
 
-  /// Health: Good, also at rest, when no reports come; Stale when reports stop while the cap is
+  /// Health: Good, also at rest, when there are no reports; Stale if reports stop while the cap is
   /// deflected (the tool then stands still); Disconnected.
   haptics::DeviceReading read(double now) noexcept override;
   void send(const haptics::Wrench&) noexcept override {}
 
-  /// Why nothing comes, in words; empty while a device is read. Not from the servo's thread.
+  /// Why no device is read, for display; empty while one is. Not from the servo thread.
   std::string problem() const;
 
-  /// Reports refused as garbage, so far.
+  /// Number of invalid reports so far.
   std::uint64_t refused() const noexcept;
 
 private:
-  // What the reader's thread tells the servo's.
+  // Passed from the reader thread to the servo thread.
   struct Sample
   {
     SpaceMouseState state;
@@ -55,15 +54,15 @@ private:
   void take(const unsigned char* bytes, std::size_t size) noexcept;
 
   haptics::DeviceDescription m_description;
-  Sample m_incoming; // of the reader's thread
+  Sample m_incoming; // reader thread only
   core::SnapshotBuffer<Sample> m_buffer;
 
-  // Of the servo's thread.
+  // Servo thread only.
   Sample m_sample;
   std::uint64_t m_reports = 0;
   RateControl m_rate;
 
-  std::unique_ptr<HidReader> m_reader; // last: its thread uses what stands above
+  std::unique_ptr<HidReader> m_reader; // last: its thread uses the members above
 };
 
 } // namespace petrous::devices

@@ -9,11 +9,11 @@
 namespace petrous::devices
 {
 
-/// What a SpaceMouse's reports have said so far: deflection of the cap and buttons.
+/// State of a SpaceMouse accumulated from its reports: deflection of the cap and buttons.
 struct SpaceMouseState
 {
-  /// x y z, rx ry rz; counts, within +-kFullDeflection. In the device's own axes: x right, y to
-  /// the user, z down, rotations right-handed about them.
+  /// x y z, rx ry rz; counts, within +-kFullDeflection. In the device's own axes: x right, y to the
+  /// user, z down, right-handed rotations about them.
   std::array<std::int16_t, 6> axes{};
   std::uint32_t buttons = 0; ///< bit n: button n is held
 
@@ -21,13 +21,13 @@ struct SpaceMouseState
 
   bool deflected() const noexcept { return axes != std::array<std::int16_t, 6>{}; }
 
-  /// -1 to 1 a component, in frame D (right, up, towards the user).
+  /// -1 to 1 per component, in frame D (right, up, towards the user).
   Eigen::Vector3d translation() const noexcept { return inD(0); }
   Eigen::Vector3d rotation() const noexcept { return inD(3); }
 
 private:
-  // A quarter turn about x takes (x, y to the user, z down) to (x, -z, y); it is a rotation, so
-  // rotations turn alike.
+  // A 90 degree rotation about x takes (x, y to the user, z down) to (x, -z, y); it applies to
+  // rotations as well.
   Eigen::Vector3d inD(std::size_t first) const noexcept
   {
     return Eigen::Vector3d(axes[first], -axes[first + 2], axes[first + 1]) /
@@ -35,17 +35,17 @@ private:
   }
 };
 
-/// What a report was.
+/// Kind of a report.
 enum class SpaceMouseReport : std::uint8_t
 {
   Motion,
   Buttons,
-  Ignored, ///< battery, or an id that this decoder does not know
-  Refused  ///< too short, too long, or values that no cap gives; the state is as it was
+  Ignored, ///< battery, or an unknown ID
+  Refused  ///< too short, too long, or impossible values; the state is unchanged
 };
 
-/// Takes one report as hidapi gives it, the id in the first byte, into `state`. Little-endian
-/// int16.
+/// Decodes one report as returned by hidapi, with the ID in the first byte, into `state`.
+/// Little-endian int16.
 ///
 /// id 1, 7 bytes   translation x y z
 /// id 1, 13 bytes  all six axes (wireless models, Enterprise, Universal Receiver)
@@ -53,7 +53,7 @@ enum class SpaceMouseReport : std::uint8_t
 /// id 3, 2 to 9    button bits, of which 32 are kept
 /// id 0x17         battery, ignored
 ///
-/// Deflections beyond the full one, up to 1024, are cut to it (older models reach 500).
+/// Deflections above full scale, up to 1024, are clamped to it (older models reach 500).
 SpaceMouseReport decodeSpaceMouse(const unsigned char* bytes, std::size_t size,
                                   SpaceMouseState& state) noexcept;
 

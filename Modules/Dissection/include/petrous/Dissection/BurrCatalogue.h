@@ -10,25 +10,25 @@
 namespace petrous::dissection
 {
 
-/// A kind of burr: the constants that it brings into the removal laws.
+/// A kind of burr: its constants in the removal laws.
 struct BurrModel
 {
   Burr::Kind kind = Burr::Kind::Cutting;
-  double rake = 0.0;             ///< alpha, rad; of a cutting burr
-  double wearCoefficient = 0.0;  ///< k; of a diamond burr
-  std::vector<double> diameters; ///< mm, that are sold
-  std::string status;            ///< where the numbers come from, and how sure they are
+  double rake = 0.0;             ///< alpha, rad; cutting burr only
+  double wearCoefficient = 0.0;  ///< k; diamond burr only
+  std::vector<double> diameters; ///< mm, commercially available
+  std::string status;            ///< source and reliability of the numbers
 };
 
 /// The burrs (Resources/burrs.json), one model of each kind.
 class BurrCatalogue
 {
 public:
-  /// The catalogue that the program carries.
+  /// The built-in catalogue.
   static BurrCatalogue builtIn();
 
-  /// From JSON text; `source` names it in errors. Throws InvalidParameter that says what is wrong
-  /// and what would be right.
+  /// From JSON text; `source` names it in errors. Throws InvalidParameter naming the error and what
+  /// would be valid.
   BurrCatalogue(std::string_view json, const std::string& source);
 
   const BurrModel& model(Burr::Kind kind) const noexcept;
@@ -37,12 +37,12 @@ private:
   std::vector<BurrModel> m_models; // by kind
 };
 
-/// What a unit of volume of the material takes from the burr: the law's resistance, in N/mm^2 =
-/// N mm / mm^3. Throws InvalidParameter that names both where the pair is out of the law's domain.
+/// Energy per unit volume to remove the material with this burr: the law's resistance, N/mm^2 = N
+/// mm / mm^3. Throws InvalidParameter naming both if the pair is outside the law's domain.
 double resistanceOf(const TissueMaterial& material, const BurrModel& burr);
 
-/// Throws as resistanceOf for the first pair that is out of its law's domain: for the time at which
-/// catalogues are loaded, so that nothing is found out while a tool is in the hand.
+/// Throws as resistanceOf for the first pair outside its law's domain. For use when catalogues are
+/// loaded, so that no error occurs during drilling.
 void checkPairs(const MaterialCatalogue& materials, const BurrCatalogue& burrs);
 
 } // namespace petrous::dissection

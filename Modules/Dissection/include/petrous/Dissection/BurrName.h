@@ -8,10 +8,10 @@
 namespace petrous::dissection
 {
 
-/// "cutting" or "diamond": the word of the command line, of manifests and of JSON.
+/// "cutting" or "diamond", as used on the command line, in manifests and in JSON.
 const char* nameOf(Burr::Kind kind) noexcept;
 
-/// The kind of that name; nothing for any other word.
+/// The kind of that name; nullopt for any other word.
 std::optional<Burr::Kind> parseBurrKind(const std::string& name);
 
 } // namespace petrous::dissection

@@ -8,22 +8,22 @@
 namespace petrous::dissection
 {
 
-/// Materials and burrs that go with each other.
+/// Compatible catalogues of materials and burrs.
 struct Catalogues
 {
   MaterialCatalogue materials;
   BurrCatalogue burrs;
 
-  /// What the program carries.
+  /// The built-in catalogues.
   static Catalogues builtIn();
 
-  /// From these files; an empty path stands for what the program carries. Throws InvalidParameter
-  /// that names the file, what is wrong and what would be right: a file that cannot be read, an
-  /// entry, or a pair of material and burr that is out of the removal law's domain.
+  /// From these files; an empty path selects the built-in catalogue. Throws InvalidParameter naming
+  /// the file, the error and what would be valid: a file that cannot be read, an entry, or a pair
+  /// of material and burr outside the removal law's domain.
   static Catalogues read(const std::filesystem::path& materials,
                          const std::filesystem::path& burrs);
 
-  /// From materials.json and burrs.json in a folder, as far as they are there.
+  /// From materials.json and burrs.json in a folder, as far as present.
   static Catalogues in(const std::filesystem::path& folder);
 };
 

@@ -12,16 +12,16 @@
 namespace petrous::dissection
 {
 
-/// The mask with the strokes that led to it, and those undone that can come back.
+/// The cut mask with its strokes and their undo history.
 ///
-/// A value: a copy is a fork that shares the voxels. Not thread-safe.
+/// Value semantics: a copy is a fork that shares the bricks. Not thread-safe.
 class Dissection
 {
 public:
   explicit Dissection(const core::GridGeometry& geometry);
 
-  /// What was saved, at the state of `history`. Throws InvalidParameter when a stroke that is done
-  /// is damaged, or does not fit the grid or the one before.
+  /// Restores saved strokes, at the state of `history`. Throws InvalidParameter if an applied
+  /// stroke is damaged, or does not fit the grid or the stroke before it.
   Dissection(const core::GridGeometry& geometry, std::vector<std::shared_ptr<const Stroke>> strokes,
              const History& history);
 
@@ -31,38 +31,38 @@ public:
     return m_mask;
   }
 
-  /// All strokes in the order in which they were made, and how they follow each other.
+  /// All strokes in order of creation, and the tree that they form.
   const std::vector<std::shared_ptr<const Stroke>>& strokes() const noexcept { return m_strokes; }
   const History& history() const noexcept { return m_history; }
-  std::size_t applied() const { return m_history.applied(); } ///< strokes that are in the mask
+  std::size_t applied() const { return m_history.applied(); } ///< strokes applied to the mask
 
-  /// Grows whenever strokes or history change.
+  /// Increases whenever strokes or history change.
   std::uint64_t changes() const noexcept { return m_changes; }
 
-  /// One stroke back or forth along the present branch; false when there is none. Not during a
-  /// stroke.
+  /// Undoes or redoes one stroke along the current branch; false if there is none, or while a
+  /// stroke is open.
   bool undo();
   bool redo();
 
-  /// Goes to the state of `next`, which must have the strokes of this history: undo and redo of any
-  /// depth, or another branch. Throws InvalidParameter, and nothing has changed, during a stroke or
-  /// where a stroke that came from disk is damaged.
+  /// Switches to the state of `next`, which must have the strokes of this history: undo and redo of
+  /// any depth, or another branch. Throws InvalidParameter, without changing anything, during a
+  /// stroke or if a stroke loaded from disk is damaged.
   void follow(const History& next);
 
   /// See History::remove.
   std::vector<std::size_t> removeBranch(const std::string& name);
 
-  /// Opens a stroke. Throws InvalidParameter when one is open already.
+  /// Opens a stroke. Throws InvalidParameter if one is already open.
   void beginStroke(const StrokeInfo& info);
   bool strokeOpen() const noexcept { return m_open; }
 
-  /// Cuts within the open stroke; true when a voxel changed.
+  /// Cuts within the open stroke; returns true if a voxel changed.
   bool cut(const SweptSphere& burr, const ProtectedTissue& keep = {});
 
   /// The mask as it was when the open stroke began.
   const volume::CutMask& maskBeforeStroke() const noexcept { return m_before; }
 
-  /// Bricks that the open stroke has changed so far, sorted; also in a copy whose mask follows the
+  /// Bricks changed so far by the open stroke, sorted; also valid in a copy whose mask follows the
   /// stroke by whole bricks.
   std::vector<std::size_t> openBricks() const;
 
@@ -70,16 +70,16 @@ public:
   StrokeInfo& openInfo() noexcept { return m_info; }
   const StrokeInfo& openInfo() const noexcept { return m_info; }
 
-  /// Takes once more what was taken of voxels elsewhere, within the open stroke; see applyDeltas.
+  /// Reapplies encoded deltas within the open stroke; see applyDeltas.
   void cutAgain(const std::vector<std::uint8_t>& packed);
 
-  /// Closes the stroke and adds it to the history; null (and no entry) when it changed nothing.
+  /// Closes the stroke and adds it to the history; nullptr, and no entry, if it changed nothing.
   std::shared_ptr<const Stroke> endStroke();
 
-  /// Adds a stroke that starts from the present state and applies it. Throws as `follow` does.
+  /// Adds a stroke that starts from the current state and applies it. Throws as `follow` does.
   void append(std::shared_ptr<const Stroke> stroke);
 
-  /// Memory that the strokes hold, bytes: packed ones, and of an open one its bricks as they were.
+  /// Memory held by strokes, bytes: encoded strokes, and the original bricks of the open one.
   std::size_t historyBytes() const;
 
 private:

@@ -7,15 +7,16 @@
 namespace petrous::dissection
 {
 
-/// The tree of a dissection: which stroke follows which, the named branches (approaches) in it, and
-/// where one is. Strokes are numbers from 0 on, in the order in which they were made; what is known
-/// of them and their voxels lie elsewhere, in the same order.
+/// Tree of a dissection's strokes, with named branches (approaches) and the current state. Strokes
+/// are numbered from 0 in order of creation; their data and voxels are stored elsewhere, in the
+/// same order.
 ///
-/// A state is named by the stroke that was done last; kStart is the untouched bone. One is always
-/// on a branch, at a state on the line to its tip: what lies between is undone and can be redone.
+/// A state is identified by the last stroke applied; kStart is the untouched bone. The current
+/// state always lies on a branch, between root and tip; the strokes from there to the tip can be
+/// redone.
 ///
-/// Nothing is lost by drilling after an undo: the branch goes on with the new stroke, and strokes
-/// that no branch would lead to any more get one of their own, with an automatic name.
+/// Drilling after an undo loses nothing: the branch continues with the new stroke, and strokes that
+/// would no longer be reachable from any branch get a branch of their own with an automatic name.
 class History
 {
 public:
@@ -26,63 +27,63 @@ public:
   {
     std::string name;
     std::size_t tip = kStart;      ///< its last stroke
-    std::size_t position = kStart; ///< where one is on it, or was when one left it
-    bool setAside = false; ///< came to be by drilling after an undo, and was not named since
+    std::size_t position = kStart; ///< current state on it, or the state when it was left
+    bool setAside = false;         ///< created by drilling after an undo, and not renamed
   };
 
   /// One branch, without strokes.
   History();
 
-  /// What was saved: the parent of each stroke, the branches, and the number of the present one.
-  /// Throws InvalidParameter saying what contradicts what.
+  /// Restores a saved tree: the parent of each stroke, the branches, and the index of the current
+  /// one. Throws InvalidParameter naming the inconsistency.
   History(std::vector<std::size_t> parents, std::vector<Branch> branches, std::size_t present);
 
-  /// One branch with `strokes` strokes one after the other, of which `applied` are done.
+  /// One branch of `strokes` consecutive strokes, `applied` of which are applied.
   static History line(std::size_t strokes, std::size_t applied);
 
   std::size_t size() const noexcept { return m_parents.size(); } ///< all strokes
   std::size_t parent(std::size_t stroke) const { return m_parents.at(stroke); }
 
   const std::vector<Branch>& branches() const noexcept { return m_branches; }
-  const Branch& branch() const noexcept { return m_branches[m_present]; } ///< the present one
-  const Branch* find(const std::string& name) const noexcept;             ///< null: none
+  const Branch& branch() const noexcept { return m_branches[m_present]; } ///< the current one
+  const Branch* find(const std::string& name) const noexcept;             ///< nullptr: none
 
   std::size_t position() const noexcept { return branch().position; }
-  std::size_t applied() const { return depth(position()); }             ///< strokes that are done
-  std::size_t ahead() const { return depth(branch().tip) - applied(); } ///< that can be redone
-  std::size_t next() const; ///< the stroke that redo brings; kStart: none
+  std::size_t applied() const { return depth(position()); }             ///< strokes applied
+  std::size_t ahead() const { return depth(branch().tip) - applied(); } ///< redoable strokes
+  std::size_t next() const; ///< stroke that redo would apply; kStart: none
 
-  /// Strokes that lead to a state, the first one first.
+  /// Strokes from the start to a state, in order.
   std::vector<std::size_t> lineTo(std::size_t state) const;
 
-  /// How one gets from a state to another over their common ancestor: strokes to take back, the
-  /// last one first, then strokes to do.
-  struct Way
+  /// Path between two states via their common ancestor: strokes to undo, last one first, then
+  /// strokes to redo.
+  struct Path
   {
-    std::vector<std::size_t> back;
-    std::vector<std::size_t> forth;
+    std::vector<std::size_t> undone;
+    std::vector<std::size_t> redone;
   };
-  Way way(std::size_t from, std::size_t to) const;
+  Path path(std::size_t from, std::size_t to) const;
 
-  bool back() noexcept; ///< one stroke along the branch; false at its start
-  bool forth();         ///< false at its tip
+  bool undo() noexcept; ///< one stroke along the branch; false at its start
+  bool redo();          ///< false at its tip
 
-  /// A new stroke at the present state, which is then done; its number.
+  /// Adds and applies a new stroke at the current state; returns its number.
   std::size_t add();
 
-  /// Makes a branch at a state and goes on it. The name must be free and not empty, the state one
-  /// of this tree; throws InvalidParameter otherwise.
+  /// Creates a branch at a state and switches to it. Throws InvalidParameter if the name is empty
+  /// or in use, or the state is not in this tree.
   void start(const std::string& name, std::size_t state);
 
-  /// Goes to a branch, to the state in which it was left. Throws InvalidParameter naming those that
-  /// there are.
+  /// Switches to a branch, at the state in which it was left. Throws InvalidParameter listing the
+  /// branches.
   void goTo(const std::string& name);
 
-  /// Throws InvalidParameter where `from` is not there or `to` is taken.
+  /// Throws InvalidParameter if `from` does not exist or `to` is in use.
   void rename(const std::string& from, const std::string& to);
 
-  /// Removes a branch, not the present one, and the strokes that no other one leads to. The numbers
-  /// of those that stay, in their new order. Throws InvalidParameter.
+  /// Removes a branch other than the current one, and the strokes reachable from no other branch.
+  /// Returns the old numbers of the remaining strokes, in their new order. Throws InvalidParameter.
   std::vector<std::size_t> remove(const std::string& name);
 
 private:
@@ -91,12 +92,12 @@ private:
     return state == kStart ? 0 : m_depths[state];
   }
   void append(std::size_t parent);
-  bool leads(std::size_t tip, std::size_t state) const; ///< the state lies on the line to the tip
+  bool leads(std::size_t tip, std::size_t state) const; ///< state is on the line to the tip
   std::size_t indexOf(const std::string& name) const;
   void checkFree(const std::string& name) const;
 
   std::vector<std::size_t> m_parents;
-  std::vector<std::size_t> m_depths; ///< strokes up to each one, itself included
+  std::vector<std::size_t> m_depths; ///< number of strokes up to and including each one
   std::vector<Branch> m_branches;
   std::size_t m_present = 0;
 };

@@ -7,18 +7,18 @@
 namespace petrous::dissection
 {
 
-/// What a drill meets: the constants of the removal laws, SI.
+/// A drillable material: the constants of the removal laws, SI.
 struct TissueMaterial
 {
-  std::string name;            ///< e.g. "cortical-bone": the word of commands and manifests
-  std::string title;           ///< for people
+  std::string name;            ///< e.g. "cortical-bone"; used in commands and manifests
+  std::string title;           ///< display name
   double specificEnergy = 0.0; ///< W_c, Pa, at surgical drill speeds
   double friction = 0.0;       ///< mu
   double hardness = 0.0;       ///< H, Pa
-  std::string status;          ///< where the numbers come from, and how sure they are
+  std::string status;          ///< source and reliability of the numbers
 };
 
-/// Bone that nobody labelled: between two materials by its density, linear in HU.
+/// Unlabelled bone: interpolated between two materials by density, linear in HU.
 struct BoneRamp
 {
   std::string cellular; ///< material at `low` and below
@@ -31,11 +31,11 @@ struct BoneRamp
 class MaterialCatalogue
 {
 public:
-  /// The catalogue that the program carries.
+  /// The built-in catalogue.
   static MaterialCatalogue builtIn();
 
   /// From JSON text; `source` names it in errors. Throws InvalidParameter "SOURCE: material 'NAME':
-  /// ..." that says what is wrong and what would be right.
+  /// ..." with the error and what would be valid.
   MaterialCatalogue(std::string_view json, const std::string& source);
 
   const std::vector<TissueMaterial>& all() const noexcept { return m_materials; }
@@ -43,7 +43,7 @@ public:
 
   bool contains(const std::string& name) const noexcept;
 
-  /// Throws InvalidParameter listing the names that there are.
+  /// Throws InvalidParameter listing the known names.
   const TissueMaterial& material(const std::string& name) const;
 
 private:

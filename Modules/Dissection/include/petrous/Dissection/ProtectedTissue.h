@@ -12,32 +12,32 @@
 namespace petrous::dissection
 {
 
-/// Structures that the drill must leave: their smoothed unions (SmoothedUnion.h).
+/// Structures excluded from drilling, as smoothed unions (SmoothedUnion.h).
 class ProtectedTissue
 {
 public:
-  using Share = std::shared_ptr<const volume::Volume<float>>;
+  using Occupancy = std::shared_ptr<const volume::Volume<float>>;
   using Prepare = std::function<void(const std::vector<core::PatientBox>&)>;
 
   ProtectedTissue() = default;
-  ProtectedTissue(std::initializer_list<Share> shares)
-    : m_shares(shares)
+  ProtectedTissue(std::initializer_list<Occupancy> occupancies)
+    : m_occupancies(occupancies)
   {
   }
-  explicit ProtectedTissue(std::vector<Share> shares, Prepare prepare = {})
-    : m_shares(std::move(shares))
+  explicit ProtectedTissue(std::vector<Occupancy> occupancies, Prepare prepare = {})
+    : m_occupancies(std::move(occupancies))
     , m_prepare(std::move(prepare))
   {
   }
 
-  bool empty() const noexcept { return m_shares.empty(); }
-  std::size_t size() const noexcept { return m_shares.size(); }
-  auto begin() const noexcept { return m_shares.begin(); }
-  auto end() const noexcept { return m_shares.end(); }
-  const std::vector<Share>& shares() const noexcept { return m_shares; }
+  bool empty() const noexcept { return m_occupancies.empty(); }
+  std::size_t size() const noexcept { return m_occupancies.size(); }
+  auto begin() const noexcept { return m_occupancies.begin(); }
+  auto end() const noexcept { return m_occupancies.end(); }
+  const std::vector<Occupancy>& occupancies() const noexcept { return m_occupancies; }
 
-  /// Whoever drills says so where, before the shares there are read: they may be worked out only
-  /// then (volume::RegionalUnion). Patient LPS mm.
+  /// To be called with the region before the occupancies there are read: they may be computed on
+  /// demand (volume::RegionalUnion). Patient LPS mm.
   void prepare(const core::PatientBox& box) const
   {
     if (m_prepare)
@@ -45,7 +45,7 @@ public:
   }
 
 private:
-  std::vector<Share> m_shares;
+  std::vector<Occupancy> m_occupancies;
   Prepare m_prepare;
 };
 

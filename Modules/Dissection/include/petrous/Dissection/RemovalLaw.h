@@ -3,31 +3,31 @@
 namespace petrous::dissection
 {
 
-/// The two laws by which a burr removes tissue, in SI units. Both say that the work done at the
-/// contact, F_t r omega a second, removes a volume in proportion:
+/// The two laws of bone removal by a burr, in SI units. In both, the work done at the contact, F_t
+/// r omega per second, removes a proportional volume:
 ///
 ///   dV/dt = F_t r omega / w       F_t    thrust, N
-///                                 r      of the contact from the spindle's axis, m
+///                                 r      distance of the contact from the spindle axis, m
 ///                                 omega  spindle speed, rad/s
-///                                 w      resistance, Pa = J/m^3: what a unit of volume takes
+///                                 w      resistance, Pa = J/m^3: energy per unit volume
 
 /// Orthogonal cutting, for the cutting burr [Chan2016, Eq. 5 and 8; signs as in
-/// Documentation/equations.md, "Removal"]:
+/// Documentation/equations.md, "Removal of bone"]:
 ///
 ///   F_c = F_t (1 + mu tan alpha) / (mu - tan alpha)
 ///   w   = W_c (mu - tan alpha) / (1 + mu tan alpha)
 ///
-/// Domain: mu - tan alpha >= 0.1 and 1 + mu tan alpha > 0. Below the first the force that pushes
-/// the chip off would have no bound.
+/// Domain: mu - tan alpha >= 0.1 and 1 + mu tan alpha > 0. As mu - tan alpha approaches 0, the
+/// force on the chip is unbounded.
 class OrthogonalCutting
 {
 public:
-  static constexpr double kLeastDifference = 0.1; ///< of mu - tan alpha
+  static constexpr double kMinDifference = 0.1; ///< of mu - tan alpha
 
   /// specificEnergy  W_c, Pa, > 0
-  /// friction        mu of the chip on the tool's face, 0 to 2
+  /// friction        mu of the chip on the tool face, 0 to 2
   /// rake            alpha, rad, within +-pi/3
-  /// Throws InvalidParameter that says which value, or which pair, is out of the domain.
+  /// Throws InvalidParameter naming the value, or the pair, outside the domain.
   OrthogonalCutting(double specificEnergy, double friction, double rake);
 
   double resistance() const noexcept { return m_resistance; } ///< Pa
@@ -54,7 +54,7 @@ class AbrasiveWear
 public:
   /// hardness         H, Pa, > 0
   /// wearCoefficient  k, above 0 to 1
-  /// Throws InvalidParameter that says which value is out of the domain.
+  /// Throws InvalidParameter naming the value outside the domain.
   AbrasiveWear(double hardness, double wearCoefficient);
 
   double resistance() const noexcept { return m_resistance; } ///< Pa

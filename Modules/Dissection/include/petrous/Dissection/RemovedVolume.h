@@ -11,7 +11,7 @@
 namespace petrous::dissection
 {
 
-/// A structure of which a stroke may take something.
+/// A structure whose removed volume is measured.
 struct NamedStructure
 {
   std::string name;
@@ -21,13 +21,13 @@ struct NamedStructure
 
 struct RemovedVolume
 {
-  double total = 0.0;                       ///< mm^3 lost from {f > 0}
-  std::vector<TouchedStructure> structures; ///< of which more than nothing was taken
+  double total = 0.0;                       ///< mm^3 removed from {f > 0}
+  std::vector<TouchedStructure> structures; ///< those with a removed volume above 0
 };
 
-/// Volume lost from {f > 0} between two masks, by quadrature of the interpolated fields with 4^3
-/// points a cell, each of which counts by how much of its part is tissue and is left
-/// (Documentation/adr/0011). `bricks` are those in which the masks differ. `tissue` is asked for f
+/// Volume removed from {f > 0} between two masks, by quadrature of the interpolated fields with 4^3
+/// points per cell, each weighted by the occupancy of its sub-cell in tissue and mask
+/// (Documentation/adr/0011). `bricks` are those in which the masks differ. `tissue` is evaluated
 /// before any mask.
 RemovedVolume measureRemoved(const volume::TissueField& tissue, const volume::CutMask& before,
                              const volume::CutMask& after, const std::vector<std::size_t>& bricks,

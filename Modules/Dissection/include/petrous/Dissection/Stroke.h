@@ -12,7 +12,7 @@
 namespace petrous::dissection
 {
 
-/// The tool at the end of the spindle.
+/// The tool tip.
 struct Burr
 {
   enum class Kind
@@ -22,29 +22,29 @@ struct Burr
   };
   Kind kind = Kind::Cutting;
   double diameter = 4.0; ///< mm
-  double rpm = 60000.0;  ///< spindle speed, turns a minute
+  double rpm = 60000.0;  ///< spindle speed, revolutions per minute
 };
 
 struct TouchedStructure
 {
   std::string name;
-  double volume = 0.0; ///< mm^3 removed of it
+  double volume = 0.0; ///< mm^3 removed from it
 };
 
-/// What a stroke (drill on to drill off) was, apart from its voxels.
+/// Metadata of a stroke (drill on to drill off), without its voxels.
 struct StrokeInfo
 {
   std::string startedAt; ///< UTC, ISO 8601
   double duration = 0.0; ///< s, of simulated time
   Burr burr;
-  double removed = 0.0; ///< mm^3 lost from {f > 0}
+  double removed = 0.0; ///< mm^3 removed from {f > 0}
   std::vector<TouchedStructure> structures;
-  std::optional<core::CameraPose> camera; ///< from where it was drilled
-  /// It was open when the program ended without closing it: what is there came from the journal.
+  std::optional<core::CameraPose> camera; ///< view during drilling
+  /// Recovered from the journal: the program ended while the stroke was open.
   bool recovered = false;
 };
 
-/// A brick before and after; null stands for all untouched.
+/// A brick before and after; nullptr stands for all untouched.
 struct BrickDelta
 {
   std::size_t brick = 0;
@@ -55,7 +55,7 @@ struct BrickDelta
 struct Stroke
 {
   StrokeInfo info;
-  std::vector<std::uint8_t> packed; ///< its voxels, see StrokeCodec.h
+  std::vector<std::uint8_t> packed; ///< encoded voxels, see StrokeCodec.h
 };
 
 } // namespace petrous::dissection

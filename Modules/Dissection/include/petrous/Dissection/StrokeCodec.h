@@ -10,8 +10,7 @@
 namespace petrous::dissection
 {
 
-/// Bricks of a mask that are being rebuilt: each is copied when first written. The mask stays as it
-/// is until `apply`, and must outlive this.
+/// Copy-on-write draft of a mask's bricks. The mask is unchanged and must outlive this.
 class BrickDraft
 {
 public:
@@ -23,7 +22,7 @@ public:
   const volume::CutMask& mask() const noexcept { return m_mask; }
   volume::CutMask::Brick& edit(std::size_t brick);
 
-  /// The bricks that were written, sorted; null for one that is untouched all over. Ends the draft.
+  /// The modified bricks, sorted; nullptr for one that is entirely untouched. Ends the draft.
   std::vector<BrickDelta> take();
 
 private:
@@ -31,19 +30,18 @@ private:
   std::map<std::size_t, std::shared_ptr<volume::CutMask::Brick>> m_bricks;
 };
 
-/// A stroke's voxels as bytes (zstd; the layout is in Documentation/adr/0003): per brick the
-/// amount that was taken, before - after. `deltas` is sorted by brick, each brick once. The same
-/// voxels give the same bytes.
+/// Encodes a stroke's voxels (zstd; layout in Documentation/adr/0003): per brick the removed
+/// amount, before - after. `deltas` is sorted by brick, each brick once. Deterministic.
 std::vector<std::uint8_t> encodeDeltas(const std::vector<BrickDelta>& deltas);
 
-enum class Way
+enum class Step
 {
-  Back, ///< gives back what the stroke took
-  Forth ///< takes it
+  Undo, ///< restores what the stroke removed
+  Redo  ///< removes it again
 };
 
-/// Throws InvalidParameter when the bytes are damaged or do not fit the mask: another grid, or a
-/// voxel that has not what is taken, or would have more than there is. The draft is of no use then.
-void applyDeltas(const std::vector<std::uint8_t>& packed, Way way, BrickDraft& draft);
+/// Throws InvalidParameter if the bytes are damaged or do not fit the mask: another grid, or a
+/// voxel that would leave the range 0 to 65535. The draft is then invalid.
+void applyDeltas(const std::vector<std::uint8_t>& packed, Step step, BrickDraft& draft);
 
 } // namespace petrous::dissection

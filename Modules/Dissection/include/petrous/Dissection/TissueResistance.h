@@ -10,10 +10,10 @@
 namespace petrous::dissection
 {
 
-/// What a unit of volume takes from one burr, place by place: the removal law's resistance w,
-/// N/mm^2 = N mm / mm^3 (RemovalLaw.h).
+/// Energy per unit volume that one burr needs, as a function of position: the removal law's
+/// resistance w, N/mm^2 = N mm / mm^3 (RemovalLaw.h).
 ///
-/// A voxel of a structure has that structure's resistance; elsewhere it follows the intensity,
+/// A voxel of a structure has that structure's resistance; elsewhere it depends on the intensity,
 /// linear between two values. Immutable; queries are thread-safe.
 class TissueResistance
 {
@@ -33,8 +33,8 @@ public:
     double atHigh = 0.0;
   };
 
-  /// Where structures overlap, the first one counts. Throws InvalidParameter where a resistance is
-  /// not above 0 or the ramp does not rise in intensity.
+  /// Where structures overlap, the first one counts. Throws InvalidParameter if a resistance is not
+  /// above 0 or the ramp does not increase in intensity.
   TissueResistance(std::shared_ptr<const volume::IntensityVolume> ct, const Ramp& ramp,
                    std::vector<Structure> structures);
 
@@ -45,7 +45,7 @@ private:
   struct Map
   {
     std::shared_ptr<const volume::LabelMap> labels;
-    std::vector<std::uint32_t> order; // of a voxel value: which structure, kNone
+    std::vector<std::uint32_t> order; // structure of each voxel value, or kNone
   };
   static constexpr std::uint32_t kNone = 0xffffffff;
 

@@ -9,7 +9,7 @@
 namespace petrous::haptics
 {
 
-/// Motion of a constrained body: Gauss' principle with gaps [Chan2016, Eq. 1 put right]
+/// Motion of a constrained body: Gauss' principle with gaps [Chan2016, Eq. 1 corrected]
 ///
 ///   a = argmin 1/2 (a - u)^T M (a - u)   subject to   J_i a + c_i lambda_i >= b_i,  lambda >= 0
 ///
@@ -21,18 +21,18 @@ namespace petrous::haptics
 /// c_i    compliance of the tissue, mm/N; 0 rigid
 ///
 /// Rigid rows: dual active set (Goldfarb and Idnani 1983, doi 10.1007/BF02591962) in the space
-/// whitened by M. Compliant rows are springs, of which any number may press; they belong to the
-/// objective, which is piecewise quadratic then. The springs that press are found by Newton's
-/// method, and, where that does not settle, by following each of them along the dual's path.
+/// whitened by M. Compliant rows are springs, any number of which may be active; they are part of
+/// the objective, which becomes piecewise quadratic. The active springs are found by Newton's
+/// method or, where that does not converge, by following each of them along the dual path.
 ///
-/// Rigid rows give up to 1e-14 of what the coupling gives. So rows that depend on each other are no
-/// special case, and walls that nearly face each other press with some 1e7 times the hand's force
-/// at most. Rows are kept to 1e-9 of the problem's size (the root of twice the objective at a = 0,
-/// and the largest bound) where none is nearer than 1e-5 to dependence, and to 1e-7 always. lambda
-/// is one of those possible where the rows depend on each other. The same rows in the same order
-/// give the same bits.
+/// Rigid rows have a compliance of up to 1e-14 of the coupling's. Linearly dependent rows therefore
+/// need no special case, and nearly opposed walls push with at most about 1e7 times the hand's
+/// force. Rows are satisfied to 1e-9 of the problem's scale (the square root of twice the objective
+/// at a = 0, and the largest bound) where none is closer than 1e-5 to linear dependence, and always
+/// to 1e-7. Where rows are linearly dependent, lambda is one of the possible solutions.
+/// Deterministic: the same rows in the same order give bit-identical results.
 ///
-/// One problem a tick. Memory is made by the constructor; nothing else allocates or throws.
+/// One problem per tick. Only the constructor allocates or throws.
 template <int N>
 class BasicContactQp
 {
@@ -47,7 +47,7 @@ public:
     Exhausted   ///< iteration limit, or u not finite; a = 0, lambda = 0
   };
 
-  /// Throws InvalidParameter when capacity is 0 or an entry of `stiffness` is not above 0.
+  /// Throws InvalidParameter if capacity is 0 or an entry of `stiffness` is not above 0.
   BasicContactQp(std::size_t capacity, const Vector& stiffness);
   ~BasicContactQp();
   BasicContactQp(BasicContactQp&&) noexcept;
@@ -56,8 +56,8 @@ public:
   void clear() noexcept;
   std::size_t count() const noexcept { return m_count; }
 
-  /// Adds a row; false, and nothing is added, when the capacity is reached, a number is not finite
-  /// or the compliance is below 0. A compliance under 1e-9 of the coupling's counts as rigid.
+  /// Adds a row. Returns false and adds nothing if the capacity is reached, a number is not finite
+  /// or the compliance is negative. A compliance below 1e-9 of the coupling's counts as rigid.
   bool add(const Vector& row, double bound, double compliance = 0.0) noexcept;
 
   Status solve(const Vector& unconstrained) noexcept;
@@ -65,10 +65,10 @@ public:
   /// Of the last solve.
   const Vector& solution() const noexcept { return m_solution; }
 
-  /// Of the last solve; `row` counts the rows in the order in which they were added.
+  /// Of the last solve; `row` is the index in the order of addition.
   double lambda(std::size_t row) const noexcept { return m_lambda[row]; }
 
-  /// Of the last solve: rows taken into or out of the active set, and Newton steps.
+  /// Of the last solve: changes of the active set plus Newton steps.
   int iterations() const noexcept { return m_iterations; }
 
 private:
@@ -82,7 +82,7 @@ private:
   int m_iterations = 0;
 };
 
-/// A rigid body's six degrees of freedom.
+/// Six degrees of freedom of a rigid body.
 class ContactQp : public BasicContactQp<6>
 {
 public:
@@ -90,10 +90,10 @@ public:
   using BasicContactQp::BasicContactQp;
 };
 
-/// The same with six more unknowns s, each of stiffness 1: how far a spring that several rows share
-/// is pressed. A row J a + e s >= b of the spring k has e = 1/sqrt(k); then sum lambda over its
-/// rows is k times the largest b - J a, however many rows there are.
-constexpr int kMostSprings = 6;
-using SharedContactQp = BasicContactQp<6 + kMostSprings>;
+/// The same with six more unknowns s, each of stiffness 1: the compression of a spring shared by
+/// several rows. A row J a + e s >= b of spring k has e = 1/sqrt(k); the sum of lambda over its
+/// rows is then k times the largest b - J a, regardless of the number of rows.
+constexpr int kMaxSprings = 6;
+using SharedContactQp = BasicContactQp<6 + kMaxSprings>;
 
 } // namespace petrous::haptics

@@ -15,55 +15,55 @@
 namespace petrous::haptics
 {
 
-/// A structure that yields under the hand: a spring from its surface on.
+/// A deformable structure: a spring that acts from its surface inwards.
 struct SoftStructure
 {
   std::shared_ptr<const volume::DistanceMap> depth;
   double stiffness = 0.0; ///< N/mm, in [0.001, 100]
 };
 
-/// What decides f at a point.
+/// Operand that determines f at a point.
 enum class Decider : std::uint8_t
 {
-  Outside, ///< beyond the hull of the voxel centres
+  Outside, ///< outside the hull of the voxel centres
   Ct,
-  Solid, ///< a structure's smoothed union
+  Solid, ///< a smoothed union of structures
   Mask,
-  Hull ///< inside, but nearer to the border of the grid than to any other surface
+  Hull ///< inside, but closer to the grid's border than to any other surface
 };
 
 struct FieldSample
 {
-  double value = volume::TissueField::kAir; ///< f; soft tissue left out where it decides
+  double value = volume::TissueField::kAir; ///< f, without soft structures
   Decider decider = Decider::Outside;
-  std::uint8_t solid = 0;                   ///< which union, where one decides
+  std::uint8_t solid = 0;                   ///< index of the union if the decider is Solid
   double uncut = volume::TissueField::kAir; ///< f without mask and hull
-  double left = volume::TissueField::kAir;  ///< of mask and hull the lower
+  double left = volume::TissueField::kAir;  ///< minimum of mask and hull
 };
 
-/// Where a field keeps what it makes of the tissue, for the next one of the same.
+/// Where a field stores what it derives from the tissue, for reuse by a later field of the same.
 struct KeptField
 {
-  std::shared_ptr<core::DerivedStore> store; ///< null: nowhere
-  std::string key;                           ///< all that the rigid tissue depends on
+  std::shared_ptr<core::DerivedStore> store; ///< null: not stored
+  std::string key;                           ///< identifies everything that the rigid tissue
+                                             ///< depends on
 };
 
-/// The tissue field of PHYSICS.md ("One field") as a servo tick samples it: the same f as
-/// volume::TissueField, with the mask's present state, in voxel coordinates of the CT.
+/// The tissue field ("One field" in Documentation/equations.md) as sampled by the servo: the same f
+/// as volume::TissueField, with the current mask state, in voxel coordinates of the CT.
 ///
-/// f has one operand more here, a quarter of the distance to the hull of the voxel
-/// centres (in voxels), so that
-/// the border of the grid is a surface like others; the sign of f is the same.
+/// f has one more operand here, a quarter of the distance to the hull of the voxel centres (in
+/// voxels), so that the border of the grid is a surface like any other; the sign of f is the same.
 ///
-/// Made once for a tissue field (about a second for 512^3); the queries neither allocate, lock nor
-/// throw, and are thread-safe.
+/// Built once per tissue field (about a second for 512^3). Queries are thread-safe and do not
+/// allocate, lock or throw.
 class HapticField
 {
 public:
-  /// `tissue` is what is rigid: CT, unions, iso and scale; its mask is not used, `mask` of each
-  /// query is. `soft` is what yields, and takes no part in f.
-  /// Throws InvalidParameter when the mask does not lie on the CT's grid, or a soft structure has
-  /// no map or a stiffness out of its domain.
+  /// `tissue` is the rigid tissue: CT, unions, iso and scale; its mask is not used, each query
+  /// takes the mask state. `soft` are the deformable structures, which are not part of f. Throws
+  /// InvalidParameter if the mask is not on the CT's grid, or a soft structure has no map or its
+  /// stiffness is out of range.
   HapticField(const volume::TissueField& tissue, std::shared_ptr<const volume::PublishedMask> mask,
               std::vector<SoftStructure> soft = {}, const KeptField& kept = {});
 
@@ -74,40 +74,39 @@ public:
 
   FieldSample sample(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
 
-  /// Mask - 1/2 at a point: 1/2 where nothing was cut, also beyond the grid.
+  /// Mask - 1/2 at a point: 1/2 where nothing was removed, also outside the grid.
   double left(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
 
-  /// Gradient of the operand that decided, per mm in patient axes, by central differences over
-  /// +-`step` voxels: 1 as TissueField::normal has it, less for the interpolated surface itself.
-  /// Zero outside.
+  /// Gradient of the deciding operand, per mm in patient axes, by central differences over +-`step`
+  /// voxels: 1 as in TissueField::normal, less for the interpolated surface itself. Zero outside.
   Eigen::Vector3d gradient(const Eigen::Vector3d& voxel, const FieldSample& sample,
                            const volume::MaskState& mask, double step = 1.0) const noexcept;
 
-  /// Slope of f at the point along a unit vector of the patient, per mm: over +-`reach` mm.
+  /// Slope of f along a unit vector in patient axes, per mm: over +-`reach` mm.
   double slope(const Eigen::Vector3d& voxel, const Eigen::Vector3d& direction, double reach,
                const volume::MaskState& mask) const noexcept;
 
-  /// Within this many millimetres there is certainly no tissue, whatever the mask; 0 near some.
+  /// Distance in mm within which there is no tissue for any mask; 0 near tissue.
   double clearance(const Eigen::Vector3d& voxel) const noexcept;
 
-  /// Within this many millimetres there is no tissue while none comes back, by f at the point and
-  /// by how steep it is around; 0 in tissue.
+  /// Distance in mm within which there is no tissue until some is restored, from f at the point and
+  /// the local bound on its slope; 0 in tissue.
   double freeRadius(const Eigen::Vector3d& voxel, const FieldSample& sample) const noexcept;
 
-  /// `uncut` changes by no more than this a millimetre in the cells that a path of half a voxel
-  /// round the point can cross; `left` by no more than `leftSteepness` anywhere.
+  /// Bound on the slope of `uncut`, per mm, in the cells that a path of half a voxel around the
+  /// point can cross; `leftSteepness` bounds that of `left` everywhere.
   double steepness(const Eigen::Vector3d& voxel) const noexcept;
   double leftSteepness() const noexcept { return m_leftSteepness; }
 
-  /// Operands of f at the 3^3 voxels of a brick of 2^3 cells, first axis fastest, each of them by
-  /// itself: they are interpolated before the greater or lower of them is taken. Beyond the grid's
-  /// last voxel all are air; where nothing is cut and the hull is far, it is just above 0.
+  /// Operands of f at the 3^3 voxels of a brick of 2^3 cells, first axis fastest, each separately:
+  /// they are interpolated before the maximum or minimum is taken. Beyond the grid's last voxel all
+  /// are air; where nothing is removed and the hull is far, `mask` and `hull` are just above 0.
   struct BrickValues
   {
-    static constexpr std::size_t kMostTissues = 8; ///< of more, the rest are taken at the voxels
-    std::array<std::array<float, 27>, kMostTissues> tissue; ///< CT, then unions above 0 somewhere
+    static constexpr std::size_t kMaxTissues = 8; ///< further ones are combined at the voxels
+    std::array<std::array<float, 27>, kMaxTissues> tissue; ///< CT, then unions above 0 somewhere
     std::size_t tissues = 1;
-    bool others = false; ///< unions whose voxels are not the CT's may be here: see unionCell
+    bool others = false; ///< unions on other grids than the CT's may be here: see unionCell
     std::array<float, 27> mask;
     std::array<float, 27> hull;
   };
@@ -115,15 +114,15 @@ public:
   void brickValues(const core::Index3& brick, const volume::MaskState& mask,
                    BrickValues& values) const noexcept;
 
-  /// Whether nothing was cut near a brick, and the hull is not there: f is its uncut part.
+  /// Whether nothing was removed near a brick and the hull is far: f equals `uncut` there.
   bool untouched(const core::Index3& brick, const volume::MaskState& mask) const noexcept;
 
-  /// Of mask - 1/2 and hull the lower; below 0 beyond the hull.
+  /// Minimum of mask - 1/2 and hull; negative outside the hull.
   double rest(const Eigen::Vector3d& voxel, const volume::MaskState& mask) const noexcept;
 
-  /// Unions by number, below `unions`. One whose voxels are the CT's is `onGrid`; others have cells
-  /// of their own, between the voxels v and v + 1 of theirs, with corners as share - 1/2, first
-  /// axis fastest. A union ends at the hull of its voxels, whatever it is there.
+  /// Unions by index, below `unions`. One whose voxels coincide with the CT's is `onGrid`; others
+  /// have cells of their own, between their voxels v and v + 1, with corner values occupancy - 1/2,
+  /// first axis fastest. A union ends at the hull of its voxels, whatever its value there.
   std::size_t unions() const noexcept { return m_solids.size(); }
   bool onGrid(std::size_t n) const noexcept { return m_solids[n].onGrid; }
   std::array<float, 8> unionCell(std::size_t n, const core::Index3& cell) const noexcept;
@@ -133,27 +132,27 @@ public:
   }
   const core::GridGeometry& unionGrid(std::size_t n) const noexcept
   {
-    return m_solids[n].share->geometry();
+    return m_solids[n].occupancy->geometry();
   }
 
-  /// f of the CT (kCt) or of a union alone, uncut, at a voxel position of the CT.
+  /// f of the CT (kCt) or of a single union, without mask, at a voxel position of the CT.
   static constexpr std::size_t kCt = static_cast<std::size_t>(-1);
   double tissueOf(std::size_t of, const Eigen::Vector3d& voxel) const noexcept;
 
-  /// What `sample` reads, for a thread that may not wait for the disk: CT, unions and what was made
-  /// here. The mask's states come and go, and are in no file. Valid as long as the field.
+  /// Memory that `sample` reads, for locking: CT, unions and derived data. Excludes the mask
+  /// states, which come and go and are not file-backed. Valid as long as the field.
   std::vector<core::LockedMemory::Range> memory() const;
 
-  std::size_t residentBytes() const noexcept; ///< of what was made here, and soft maps
+  std::size_t residentBytes() const noexcept; ///< of derived data and soft maps
 
 private:
   struct Solid
   {
-    volume::TissueField::SolidUnion share;
-    Eigen::Matrix3d fromCt; ///< voxel of the union from voxel of the CT: fromCt * v + offset
+    volume::TissueField::SolidUnion occupancy;
+    Eigen::Matrix3d fromCt; ///< CT voxel to union voxel: fromCt * v + offset
     Eigen::Vector3d offset;
-    Eigen::Vector3d last; ///< greatest voxel coordinate
-    bool onGrid = false;  ///< its voxels are voxels of the CT
+    Eigen::Vector3d last; ///< largest voxel coordinate
+    bool onGrid = false;  ///< its voxels coincide with the CT's
   };
 
   struct Cell;

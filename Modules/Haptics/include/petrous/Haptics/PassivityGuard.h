@@ -5,50 +5,50 @@
 namespace petrous::haptics
 {
 
-/// Keeps what is rendered from feeding energy into the hand: time-domain passivity observer and
+/// Keeps the rendered wrench from feeding energy into the hand: time-domain passivity observer and
 /// controller for impedance devices (Hannaford and Ryu, IEEE Trans. Robotics and Automation 18(1),
 /// 2002, doi 10.1109/70.988969: series controller).
 ///
-///   E_n     = E_(n-1) - W_(n-1) . (x_n - x_(n-1)) + |dx|_b^2 / dt       what the hand has put in
+/// E_n     = E_(n-1) - W_(n-1) . (x_n - x_(n-1)) + |dx|_b^2 / dt       energy put in by the hand
 ///   alpha_n = min(alpha_max, (-E_n - allowance) / (|v_n|^2 dt))  where E_n < -allowance, else 0
 ///   W_n     = wanted_n - alpha_n L^2 v_n
 ///
-/// W       wrench put out, on the hand, about the grip: held between ticks, so that its work over
-///         the step that the grip then made is exact
+/// W       wrench on the hand about the grip, held between ticks, so that its work over the
+///         grip's subsequent step is exact
 /// x, v    pose of the grip, mm and rad; v_n = (x_n - x_(n-1)) / dt
-/// |v|^2   |v_lin|^2 + lever^2 |omega|^2, L = diag(1, lever): makes one number of mm and rad
-/// |dx|_b^2 / dt  what the device's own damping has taken, which lets it render a spring up to
+/// |v|^2   |v_lin|^2 + lever^2 |omega|^2, L = diag(1, lever): combines mm and rad
+/// |dx|_b^2 / dt  energy dissipated by the device's own damping, which allows a spring of up to
 ///         K = 2 b / dt (Colgate and Schenkel 1997) without the controller
 ///
-/// Differences from the paper, our choice: the energy is that of the true output over the true
+/// Differences from the paper, our choice: the energy is that of the actual output over the actual
 /// step, not of wanted force times present velocity; the device's damping is credited; alpha is
-/// limited, the rest of the debt being paid in later ticks; and E is held to what the coupling's
-/// springs can hold at the wanted wrench, |F|^2/(2 k) + |tau|^2/(2 k_a), so that a minute of
-/// drilling gives no credit for later. Without known springs E is held to 0 where nothing is
-/// wanted.
+/// limited and the remaining debt paid in later ticks; and E is capped at what the coupling's
+/// springs can store at the wanted wrench, |F|^2/(2 k) + |tau|^2/(2 k_a), so that a minute of
+/// drilling gives no credit for later. Without known springs E is capped at 0 whenever the wanted
+/// wrench is zero.
 ///
-/// The environment is taken to hold no energy at the first tick. A step of time that is not above 0
-/// or above 20 ms, or a pose that is not finite, is not observed: the wanted wrench passes and
-/// observation goes on from there. A wrench that is not finite passes too; ForceLimits stops it. A
-/// wanted wrench that needs no damping passes to the last bit.
+/// The environment is assumed to store no energy at the first tick. A time step that is not
+/// positive or is above 20 ms, or a pose that is not finite, is not observed: the wanted wrench
+/// passes and observation resumes from there. A wrench that is not finite passes too; ForceLimits
+/// stops it. A wanted wrench that needs no damping passes bit-identical.
 ///
-/// One thread; apply and sent allocate nothing and never throw.
+/// Not thread-safe; apply and sent do not allocate or throw.
 class PassivityGuard
 {
 public:
   struct Parameters
   {
-    double allowance = 0.05;           ///< N mm (mJ) that may be given out, > 0
-    double stiffness = 0.0;            ///< k of the coupling, N/mm; 0: not known
-    double angularStiffness = 0.0;     ///< k_a, N mm/rad; 0: not known
-    double deviceDamping = 0.0;        ///< b of the device, N s/mm, known for certain; >= 0
+    double allowance = 0.05;           ///< N mm (mJ) that may be generated, > 0
+    double stiffness = 0.0;            ///< k of the coupling, N/mm; 0: unknown
+    double angularStiffness = 0.0;     ///< k_a, N mm/rad; 0: unknown
+    double deviceDamping = 0.0;        ///< b of the device, N s/mm, guaranteed; >= 0
     double deviceAngularDamping = 0.0; ///< N mm s/rad, >= 0
-    double largestDamping = 0.02;      ///< alpha_max, N s/mm, > 0; at most about half of the moving
-                                       ///< mass over dt (50 g at 1 kHz: 0.025), or it shakes itself
+    double largestDamping = 0.02;      ///< alpha_max, N s/mm, > 0; stable up to about half of the
+                                       ///< moving mass over dt (50 g at 1 kHz: 0.025)
     double lever = 30.0;               ///< mm, > 0; of the order of sqrt(inertia / mass)
   };
 
-  /// Throws InvalidParameter naming the first bad value.
+  /// Throws InvalidParameter naming the first invalid value.
   explicit PassivityGuard(const Parameters& parameters);
   PassivityGuard()
     : PassivityGuard(Parameters())
@@ -59,14 +59,14 @@ public:
   /// pose    of the grip now; now  s, the servo's clock
   Wrench apply(const Wrench& wanted, const Pose& pose, double now) noexcept;
 
-  /// What went to the motors in the end, where limits changed what apply gave.
+  /// The wrench actually sent to the motors, if limits changed what apply returned.
   void sent(const Wrench& wrench) noexcept;
 
   double energy() const noexcept { return m_energy; }   ///< E, N mm
   double damping() const noexcept { return m_damping; } ///< alpha of the last tick, N s/mm
 
 private:
-  double mostStored(const Wrench& wanted) const noexcept;
+  double maxStored(const Wrench& wanted) const noexcept;
 
   Parameters m_parameters;
   Wrench m_sent;

@@ -7,9 +7,9 @@
 namespace petrous::haptics
 {
 
-/// Where a rigid body is: p_A = rotation * p_B + position, mm. Like core::RigidTransform, but it
-/// may hold anything (a device can say NaN) and nothing of it throws: it is what a servo tick
-/// works on. `finite` is the check at the door.
+/// Pose of a rigid body: p_A = rotation * p_B + position, mm. Like core::RigidTransform, but may
+/// hold any value (a device may send NaN) and never throws, for use in the servo tick. Check with
+/// `finite` on input.
 struct Pose
 {
   Eigen::Vector3d position{0.0, 0.0, 0.0};                      ///< mm
@@ -25,7 +25,8 @@ struct Pose
   }
 };
 
-/// Six numbers about a stated point: force N and torque N mm, or translation mm and rotation rad.
+/// Six components about a stated point: force N and torque N mm, or translation mm and rotation
+/// rad.
 struct Spatial
 {
   Eigen::Vector3d linear{0.0, 0.0, 0.0};
@@ -36,14 +37,14 @@ struct Spatial
 using Wrench = Spatial; ///< N, N mm
 using Motion = Spatial; ///< mm, rad (rotation vector)
 
-/// Rotation vector (axis * angle, rad) of a unit quaternion; of q and -q the shorter way.
+/// Rotation vector (axis * angle, rad) of a unit quaternion; the shorter rotation of q and -q.
 inline Eigen::Vector3d rotationVector(const Eigen::Quaterniond& q) noexcept
 {
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector3d v = sign * q.vec();
   const double sine = v.norm();
   const double cosine = sign * q.w();
-  // atan2(s, c) / s -> 1 / c for small s: the first terms keep ten digits below 1e-4.
+  // atan2(s, c) / s -> 1 / c for small s: the first terms are accurate to ten digits below 1e-4.
   const double scale = sine > 1e-4 ? 2.0 * std::atan2(sine, cosine) / sine
                                    : 2.0 / cosine * (1.0 - sine * sine / (3.0 * cosine * cosine));
   return scale * v;
@@ -60,13 +61,13 @@ inline Eigen::Quaterniond rotationFrom(const Eigen::Vector3d& vector) noexcept
   return q;
 }
 
-/// The motion that takes `from` to `to`: translation of the origin, rotation in the outer frame.
+/// The motion from `from` to `to`: translation of the origin, rotation in the outer frame.
 inline Motion motionBetween(const Pose& from, const Pose& to) noexcept
 {
   return {to.position - from.position, rotationVector(to.rotation * from.rotation.conjugate())};
 }
 
-/// `pose` moved by `share` of a motion; the quaternion is normalised again.
+/// `pose` moved by the fraction `share` of a motion; the quaternion is renormalised.
 inline Pose moved(const Pose& pose, const Motion& motion, double share = 1.0) noexcept
 {
   Pose result{pose.position + share * motion.linear,

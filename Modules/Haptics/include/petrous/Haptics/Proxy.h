@@ -5,24 +5,24 @@
 namespace petrous::haptics
 {
 
-/// The tool that tissue holds back, tied to the hand by a spring. One thread; nothing here
-/// allocates, locks or throws.
+/// The simulated tool, constrained by tissue and coupled to the device pose by a spring. Not
+/// thread-safe; does not allocate, lock or throw.
 class Proxy
 {
 public:
   virtual ~Proxy() = default;
 
-  /// Where the tool is, X_PT, patient LPS mm.
+  /// Pose of the tool, X_PT, patient LPS mm.
   virtual const Pose& pose() const noexcept = 0;
 
-  /// Puts the tool where it is told. Inside tissue it stays without contact until it is free.
+  /// Places the tool at `pose`. Inside tissue it stays without contact until it is free.
   virtual void place(const Pose& pose) noexcept = 0;
 
-  /// The same where no tissue is; false, and it stays where it is, where there is some.
+  /// Likewise, but only where there is no tissue; otherwise returns false and the tool stays.
   virtual bool placeFree(const Pose& pose) noexcept = 0;
 
-  /// One tick towards `goal`, which must be finite; otherwise the tool stays and the wrench is
-  /// zero. The result holds until the next call.
+  /// One tick towards `goal`. If `goal` is not finite, the tool stays and the wrench is zero. The
+  /// result is valid until the next call.
   virtual const ProxyTick& step(const Pose& goal) noexcept = 0;
 };
 

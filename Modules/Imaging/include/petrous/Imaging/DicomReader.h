@@ -14,21 +14,22 @@ namespace petrous::imaging
 
 struct ReadOptions
 {
-  /// Only slices that meet the box are read and only the
-  /// box is stored. The grid is the smallest whose hull covers it.
+  /// Only slices that intersect the box are read, and only the box is stored. The grid is the
+  /// smallest whose hull covers it.
   std::optional<core::PatientBox> roi;
 
-  /// Read although the verdict is not ok: slice k of the volume is geometry.slices[k], laid on
-  /// geometry.grid. For a repair, which knows where the slices really are; never for showing.
+  /// Reads the series even if the verdict is not Ok: slice k of the volume is geometry.slices[k],
+  /// placed on geometry.grid. For repair code that knows the true slice positions; never for
+  /// display.
   bool acceptDefects = false;
 };
 
-/// Decodes a series in parallel, each slice straight into its place in the volume.
+/// Decodes a series in parallel, each slice directly into the volume.
 ///
-/// Values are slope * stored + intercept, slice by slice: int16 where the values fit it, else
-/// uint16, else float. PixelPaddingValue becomes the volume's padding (in rescaled units) where
-/// it does not exceed any real value; a padding that would pass for tissue is replaced by the
-/// smallest real value (at most -1024 in CT), and `notes` says so.
+/// Values are slope * stored + intercept per slice: int16 if they fit, else uint16, else float.
+/// PixelPaddingValue becomes the volume's padding (in rescaled units) if it does not exceed any
+/// real value; padding that would be mistaken for tissue is replaced by the smallest real value (at
+/// most -1024 for CT) and reported in `notes`.
 ///
 /// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi) and CancelledError.
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,

@@ -13,11 +13,11 @@
 namespace petrous::imaging
 {
 
-/// A UID under 2.25 (ITU-T X.667) that is a function of seed and role alone, so that files are
-/// the same for the same seed, e.g. deterministicUid(1, "ct.series").
+/// A UID below 2.25 (ITU-T X.667) that depends only on seed and role, so that the same seed gives
+/// the same files, e.g. deterministicUid(1, "ct.series").
 std::string deterministicUid(std::uint64_t seed, const std::string& role);
 
-/// What a written series says about itself. Nothing in it is a person's.
+/// Attributes of a series to be written. None of them is a person's.
 struct SeriesDescription
 {
   enum class Modality
@@ -40,16 +40,16 @@ struct SeriesDescription
   double windowWidth = 4000.0;
 };
 
-/// Writes one file a slice, `slice-0001.dcm` upwards, as CT or MR Image Storage, explicit VR
+/// Writes one file per slice, `slice-0001.dcm` onwards, as CT or MR Image Storage, explicit VR
 /// little endian, 16 bits, in parallel. Dates are fixed: same input, same bytes.
 ///
-/// folder     made where it is not there; files of the same name are replaced
-/// image      int16 or uint16 voxels (float is refused); padding goes to PixelPaddingValue
-/// sliceStep  patient displacement (mm) from a slice to the next where it is not along the
-///            slices' normal, as a tilted gantry makes it
+/// folder     created if missing; files of the same name are replaced
+/// image      int16 or uint16 voxels (float is rejected); padding goes to PixelPaddingValue
+/// sliceStep  patient displacement (mm) from one slice to the next if it is not along the slice
+///            normal, as with a tilted gantry
 ///
-/// Throws InvalidParameter for a bad description, Error (Internal) naming the file that could
-/// not be written, CancelledError. Files written before the fault stay.
+/// Throws InvalidParameter for an invalid description, Error (Internal) naming the file that could
+/// not be written, CancelledError. Files written before the error remain.
 void writeDicomSeries(const std::filesystem::path& folder, const volume::IntensityVolume& image,
                       const SeriesDescription& description,
                       const std::optional<Eigen::Vector3d>& sliceStep = std::nullopt,

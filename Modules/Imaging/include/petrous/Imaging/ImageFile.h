@@ -20,19 +20,18 @@ struct LoadedImage
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
 };
 
-/// Whether the name ends in .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd (upper or lower case).
+/// Whether the name ends in .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd (case-insensitive).
 bool isImageFileName(const std::filesystem::path& path);
 
 /// Reads a CT or MR from a NIfTI, NRRD or MetaImage file.
 ///
-/// int16, uint16 and float stay as they are; 8-bit integers become int16; wider types become
-/// int16 or uint16 where every value is integral and fits, else float. With `roi` only the
-/// smallest box of voxels whose hull covers it is kept. Positions become patient LPS mm; a unit
-/// that the file does not state is taken as mm and noted.
+/// int16, uint16 and float are kept; 8-bit integers become int16; wider types become int16 or
+/// uint16 if all values are integral and fit, else float. With `roi`, only the smallest voxel box
+/// whose hull covers it is kept. Positions are converted to patient LPS mm; an unstated unit is
+/// taken as mm and noted.
 ///
-/// Throws FileError: NoGeometry for axes that are not perpendicular, Unsupported for images that
-/// are 2-D, 4-D or hold vectors, colours or values that are not finite, and for a roi that misses
-/// the image; CancelledError.
+/// Throws FileError: NoGeometry for axes that are not perpendicular; Unsupported for 2-D and 4-D
+/// images, vectors, colours and non-finite values, and for a roi outside the image; CancelledError.
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi = std::nullopt,
                           const core::Progress& progress = {});

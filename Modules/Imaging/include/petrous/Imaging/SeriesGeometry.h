@@ -13,7 +13,7 @@
 namespace petrous::imaging
 {
 
-/// How the pixels of a slice are coded (DICOM C.7.6.3.1), and where they lie in the file.
+/// Pixel encoding of a slice (DICOM C.7.6.3.1) and location of the pixels in the file.
 struct PixelFormat
 {
   int bitsAllocated = 0;
@@ -25,12 +25,12 @@ struct PixelFormat
   std::string transferSyntax; ///< UID
   bool isEncapsulated = false;
   bool isBigEndian = false;
-  bool isDeflated = false;  ///< then the offset counts in the inflated file
-  std::uint64_t offset = 0; ///< byte where the pixel element's value begins
-  std::uint64_t length = 0; ///< bytes of it; up to the end of the file where encapsulated
+  bool isDeflated = false;  ///< the offset then refers to the inflated file
+  std::uint64_t offset = 0; ///< of the value of the pixel data element, bytes
+  std::uint64_t length = 0; ///< bytes; up to the end of the file if encapsulated
 };
 
-/// What tells two patients apart, as hashes: nothing of it can reach a message. 0: not stated.
+/// Hashes that distinguish patients: no patient data can reach a message. 0: not stated.
 struct PatientKey
 {
   std::size_t id = 0;
@@ -38,13 +38,13 @@ struct PatientKey
   std::size_t birthDate = 0;
 };
 
-/// What one file says about its slice. Absent or garbled numbers are nullopt.
+/// Header of one slice. Absent or malformed numbers are nullopt.
 struct SliceHeader
 {
   std::filesystem::path file;
-  std::optional<Eigen::Vector3d> position;        ///< first pixel's centre, patient LPS mm
-  std::optional<Eigen::Vector3d> rowDirection;    ///< along a row, as the column index grows
-  std::optional<Eigen::Vector3d> columnDirection; ///< down a column, as the row index grows
+  std::optional<Eigen::Vector3d> position;        ///< centre of the first pixel, patient LPS mm
+  std::optional<Eigen::Vector3d> rowDirection;    ///< along a row, increasing column index
+  std::optional<Eigen::Vector3d> columnDirection; ///< along a column, increasing row index
   std::optional<Eigen::Vector2d> pixelSpacing;    ///< mm, DICOM order: between rows, columns
   int rows = 0;
   int columns = 0;
@@ -52,32 +52,32 @@ struct SliceHeader
   double slope = 1.0;
   double intercept = 0.0;
   bool hasRescale = false;
-  std::optional<double> declaredSpacing;   ///< SpacingBetweenSlices, mm; noted, never believed
+  std::optional<double> declaredSpacing;   ///< SpacingBetweenSlices, mm; noted, never used
   std::optional<double> thickness;         ///< mm
   std::optional<double> declaredTilt;      ///< GantryDetectorTilt, degrees; noted only
   std::optional<double> padding;           ///< PixelPaddingValue, stored value
-  std::optional<double> paddingRangeLimit; ///< other end of the padding's range, stored value
-  /// When it was taken, for the user's own screen only: "20200131 1205", else of the series or
-  /// study; empty: not stated. Never stored.
+  std::optional<double> paddingRangeLimit; ///< other end of the padding range, stored value
+  /// Acquisition date and time, for the user's own screen only: "20200131 1205", else those of the
+  /// series or study; empty: not stated. Never stored.
   std::string taken;
   std::string patientPosition; ///< (0018,5100), e.g. HFS; likewise
   int instanceNumber = 0;
   bool isImage = true;                ///< has pixel data
-  std::vector<std::string> imageType; ///< words, e.g. ORIGINAL PRIMARY AXIAL
+  std::vector<std::string> imageType; ///< values, e.g. ORIGINAL PRIMARY AXIAL
   std::string frameOfReferenceUid;
   PatientKey patient;
   std::string studyUid;
   std::string modality;
   std::string kernel;              ///< ConvolutionKernel
   std::optional<double> tube;      ///< KVP, kV
-  std::optional<int> seriesNumber; ///< one series has one
+  std::optional<int> seriesNumber; ///< unique within a series
   std::optional<int> acquisition;  ///< AcquisitionNumber
-  bool hasModalityLut = false;     ///< a table takes the place of slope and intercept
+  bool hasModalityLut = false;     ///< a table replaces slope and intercept
   PixelFormat pixels;
   std::string damage; ///< empty, or why the file cannot be read ("is cut short")
 };
 
-/// What can be wrong with a series; the names of kindName are those of the command's JSON.
+/// Possible defects of a series; kindName gives the names used in the command's JSON.
 enum class FindingKind
 {
   GantryTilt,
@@ -103,39 +103,40 @@ struct Finding
 {
   FindingKind kind;
   std::string text;     ///< one sentence; no patient data
-  double errorMm = 0.0; ///< how far off a voxel would lie were this passed over; 0 if not geometry
+  double errorMm = 0.0; ///< voxel position error if ignored; 0 if not geometric
 };
 
 enum class Verdict
 {
-  Ok,         ///< reads as the grid says
-  Repairable, ///< would mislead; a repair is known
-  Refused     ///< would mislead
+  Ok,         ///< the grid describes the slices correctly
+  Repairable, ///< would be misleading; a repair is known
+  Refused     ///< would be misleading
 };
 const char* verdictName(Verdict verdict) noexcept;
 
-/// The slices of a series in their order in the patient, and whether they make a straight stack.
+/// The slices of a series, ordered by position in the patient, and whether they form a straight
+/// stack.
 struct SeriesGeometry
 {
-  /// Usable slices, by position along the normal (row x column); slice k of the volume. After a
-  /// refusal they are still in order, without those that the findings set aside.
+  /// Usable slices, sorted by position along the normal (row x column); slice k of the volume.
+  /// After a refusal still sorted, without those excluded by the findings.
   std::vector<SliceHeader> slices;
 
   /// Third axis along the normal, origin at slices.front(). After a refusal the nearest straight
-  /// grid (shear and gaps passed over); none where the files do not say where they lie.
+  /// grid (ignoring shear and gaps); none if the files do not state positions.
   std::optional<core::GridGeometry> grid;
 
   Verdict verdict = Verdict::Refused;
-  std::vector<Finding> findings;  ///< what decided the verdict
-  std::vector<std::string> notes; ///< accepted, worth knowing: e.g. jitter below 0.1 mm
+  std::vector<Finding> findings;  ///< the reasons for the verdict
+  std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter below 0.1 mm
 };
 
-/// A step of less than both is accepted: mm, and share of the slice spacing.
+/// Deviations below both are accepted: in mm, and as a fraction of the slice spacing.
 constexpr double kJitterTolerance = 0.1;
 constexpr double kJitterShare = 0.01;
 
-/// Judges the stack from the slices' own positions. The order of `slices` does not matter.
-/// Never throws on bad headers: they become findings.
+/// Assesses the stack from the slice positions alone. The order of `slices` does not matter. Never
+/// throws on bad headers: they become findings.
 SeriesGeometry assess(std::vector<SliceHeader> slices);
 
 } // namespace petrous::imaging

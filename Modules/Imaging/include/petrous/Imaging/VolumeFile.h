@@ -10,15 +10,15 @@
 namespace petrous::imaging
 {
 
-/// Writes voxels for other programs: .nrrd (gzip), .nii, .nii.gz or .mha, in the type they have
-/// and where they lie (patient LPS mm; NIfTI states it as RAS). The file appears whole or not at
-/// all, and equal volumes give equal bytes.
-/// T: std::int16_t, std::uint16_t, std::uint8_t, float. Throws FileError, CancelledError.
+/// Writes voxels for other programs: .nrrd (gzip), .nii, .nii.gz or .mha, with their own type and
+/// position (patient LPS mm; NIfTI states it as RAS). The file is written atomically, and equal
+/// volumes give equal bytes. T: std::int16_t, std::uint16_t, std::uint8_t, float. Throws FileError,
+/// CancelledError.
 template <class T>
 void writeVolume(const std::filesystem::path& path, const volume::Volume<T>& volume,
                  const core::Progress& progress = {});
 
-/// As above, in the type that the image has.
+/// As above, with the voxel type of the image.
 void writeVolume(const std::filesystem::path& path, const volume::IntensityVolume& volume,
                  const core::Progress& progress = {});
 

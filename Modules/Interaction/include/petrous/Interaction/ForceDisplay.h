@@ -2,34 +2,34 @@
 
 #include <memory>
 
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 class vtkRenderer;
 
 namespace petrous::interaction
 {
 
-/// How a force is shown.
+/// How a force is displayed.
 struct ForceLook
 {
   double millimetresPerNewton = 10.0; ///< of the arrow, in (0, 1000]
-  double fullScale = 5.0; ///< N: the bar's end, and where the arrow grows no more; > 0.1
-  double least = 0.02;    ///< N: below it there is no arrow, >= 0
-  double thickness = 0.8; ///< mm of the arrow's shaft, in (0, 20]
-  double pixels = 1.0; ///< of the screen for one of the bar's, in [0.25, 8]: dense screens want 2
+  double fullScale = 5.0;             ///< N: end of the bar, and maximum of the arrow; > 0.1
+  double least = 0.02;                ///< N: below it no arrow is shown, >= 0
+  double thickness = 0.8;             ///< mm, of the arrow's shaft, in (0, 20]
+  double pixels = 1.0;                ///< screen pixels per bar pixel, in [0.25, 8]: 2 for high-DPI
 };
 
-/// The force on the hand, as an arrow at the tool and as a bar with its number in the lower left
-/// corner: for hands that feel it, and for hands that cannot.
+/// Displays the force on the hand as an arrow at the tool and as a bar with its value in the lower
+/// left corner, with and without a force-feedback device.
 ///
-/// What is shown is the coupling's force before the device's limits, so a mouse has one as well;
-/// where the servo gives none (fault, pause), and while a pointer's tool hovers, there is none. The arrow starts at the burr's centre
-/// and points where the hand is pushed. It is drawn over tool and tissue, so that it is always
-/// seen. Main thread only.
+/// Shows the coupling's force before the device's limits, so a mouse has one as well; none while
+/// the servo renders none (fault, pause) or a pointer's tool hovers. The arrow starts at the burr's
+/// centre and points in the direction of the force on the hand. It is drawn on top of tool and
+/// tissue, so that it is always visible. Main thread only.
 class ForceDisplay
 {
 public:
-  /// Throws InvalidParameter naming the first bad value.
+  /// Throws InvalidParameter naming the first invalid value.
   explicit ForceDisplay(const ForceLook& look = {});
   ~ForceDisplay();
   ForceDisplay(const ForceDisplay&) = delete;
@@ -42,8 +42,8 @@ public:
   void setArrowShown(bool shown);
   void setBarShown(bool shown);
 
-  void update(const simulation::TickRecord& record);
-  double force() const noexcept; ///< N, as shown
+  void update(const session::TickRecord& record);
+  double force() const noexcept; ///< N, as displayed
 
 private:
   class Implementation;

@@ -4,25 +4,26 @@
 
 #include "petrous/Core/SnapshotBuffer.h"
 #include "petrous/Haptics/Device.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 namespace petrous::interaction
 {
 
-/// A hand made of pointer and keys, for a surgeon without hardware. It senses place and heading and
-/// gives no force.
+/// A haptic device emulated by mouse and keyboard, for use without hardware. It senses position and
+/// orientation and renders no force.
 ///
-/// The window says where the tool shall be, in the patient; the servo reads that as the pose of a
-/// device whose axes are the patient's (parameters as PointerAim::apply sets them: camera 1, scale
-/// 1) and whose origin is `center`. A mouse that rests is no stale device: each reading is of
-/// `now`. Between the window's words, some 60 a second, the hand glides, never faster than
-/// `Limits`, so that no leap of the pointer is one of the hand (haptics::DeviceGuard).
+/// The window sets the wanted pose of the tool in the patient; the servo reads it as the pose of a
+/// device whose axes are the patient's (parameters as set by PointerToolController::apply: camera
+/// 1, scale 1) and whose origin is `center`. A mouse at rest does not make the device stale: each
+/// reading's time is `now`. Between the window's updates, about 60 per second, the pose moves
+/// smoothly and never faster than `Limits`, so that a jump of the pointer is not a jump of the
+/// device (haptics::DeviceGuard).
 ///
-/// The servo may take the tool up anew where it is (clutch, tissue that came back, a stall); `see`
-/// learns that from its records, so that the tool comes back under the pointer.
+/// The servo may re-anchor the tool where it is (clutch, restored tissue, a stall); `see` detects
+/// this from its records, so that the tool returns under the pointer.
 ///
-/// `read` and `send` belong to the servo's thread, all else to one other thread. `read` neither
-/// locks, allocates nor throws.
+/// `read` and `send` are called by the servo thread, everything else by one other thread. `read`
+/// does not lock, allocate or throw.
 class PointerDevice final : public haptics::Device
 {
 public:
@@ -33,28 +34,28 @@ public:
   {
     double speed = 500.0;       ///< mm/s, in (0, 4000]
     double angularSpeed = 10.0; ///< rad/s, in (0, 50]
-    double settle = 0.01;       ///< s in which two thirds of a short way are made, in (0, 1]
-    double silence = 0.5; ///< s without a word from the window: it hangs, and buttons are released
+    double settle = 0.01;       ///< s, time constant of the approach to the wanted pose, in (0, 1]
+    double silence = 0.5; ///< s without an update from the window, after which buttons are released
   };
 
-  /// center  mm, patient: the one of simulation::ServoSetup
-  /// Throws InvalidParameter naming the first bad value.
+  /// center  mm, patient; as in session::ServoSetup
+  /// Throws InvalidParameter naming the first invalid value.
   PointerDevice(const Eigen::Vector3d& center, const Limits& limits);
   explicit PointerDevice(const Eigen::Vector3d& center = Eigen::Vector3d::Zero())
     : PointerDevice(center, Limits())
   {
   }
 
-  /// Where the tool shall be, X_PT. Until the first call there is no hand (NotReady).
-  /// Throws InvalidParameter when it is not finite.
+  /// Sets the wanted pose of the tool, X_PT. Before the first call the device is NotReady. Throws
+  /// InvalidParameter if the pose is not finite.
   void want(const haptics::Pose& tool);
 
   void setButtons(std::uint32_t held) noexcept;
   void setPedal(double pressure) noexcept; ///< 0 to 1
 
-  /// The servo's latest record; to be called with each frame, also as a sign of life. True when
-  /// the servo has taken the tool up anew since the last call: see PointerAim::see.
-  bool see(const simulation::TickRecord& record) noexcept;
+  /// Takes the servo's latest record; call it once per frame, also as a sign of life. Returns true
+  /// if the servo re-anchored the tool since the last call: see PointerToolController::see.
+  bool see(const session::TickRecord& record) noexcept;
 
   const haptics::DeviceDescription& description() const noexcept override { return m_description; }
   haptics::DeviceReading read(double now) noexcept override;
@@ -63,7 +64,7 @@ public:
 private:
   struct Word
   {
-    simulation::PoseValues pose; // X_DT
+    session::PoseValues pose; // X_DT
     double pedal = 0.0;
     std::uint32_t buttons = 0;
     std::uint32_t ready = 0;
@@ -75,13 +76,13 @@ private:
   Limits m_limits;
   core::SnapshotBuffer<Word> m_word;
 
-  // The window's: what the servo makes of a device's pose d is X_PT = (d.p + offset, d.q * turn).
+  // Window's thread. The servo maps a device pose d to X_PT = (d.p + offset, d.q * turn).
   Word m_next;
   haptics::Pose m_wanted; // X_PT
   Eigen::Vector3d m_offset;
   Eigen::Quaterniond m_turn = Eigen::Quaterniond::Identity();
 
-  // The servo's.
+  // Servo thread.
   Word m_heard;
   haptics::Pose m_pose; // X_DT
   std::uint64_t m_count = 0;

@@ -5,38 +5,39 @@
 #include <vtkInteractorObserver.h>
 #include <vtkNew.h>
 
-#include "petrous/Simulation/ServoParameters.h"
+#include "petrous/Session/ServoParameters.h"
 
 class vtkCallbackCommand;
 namespace petrous::interaction
 {
-class PointerAim;
+class PointerToolController;
 class PointerDevice;
 enum class ToolKey;
 } // namespace petrous::interaction
-namespace petrous::simulation
+namespace petrous::session
 {
 struct TickRecord;
 }
 
-/// Lets the surgeon hold the tool through a VTK interactor, with the pointer or with a device.
+/// Tool control through a VTK interactor, by pointer or by device.
 ///
 /// With the pointer (SetPointer), in drill mode:
-///   move                   the tool follows; not while the style turns the camera
-///   left button            presses and drills; with Ctrl presses only (feels)
-///   space                  drills, while held; c: the tool stays where it is, while held
-///   wheel                  depth, in the mode of that name; Shift: fine
-///   arrows or WASD         nudge on the screen; page up, page down: depth; home: no nudge
+///   move                   moves the tool, unless the style is moving the camera
+///   left button            presses and drills; with Ctrl presses only (touch)
+///   space                  drills while held; c: holds the tool still while held
+///   wheel                  depth, in depth mode; Shift: fine
+///   arrows or WASD         nudge on the screen; page up, page down: depth; home: reset nudge
 ///   q e, r f               turn and tilt the shaft
-///   m                      surface following or depth by wheel
-/// What it takes it keeps from the interactor's style (it comes first, and aborts the event); all
-/// else is the style's, so the wheel zooms and the right button turns as before.
+///   m                      toggles surface and depth mode
+/// Events handled here are aborted before they reach the interactor's style (higher priority); all
+/// others go to the style, so the wheel zooms and the right button turns as before.
 ///
-/// With a device (PointerHandOff) the mouse is the style's alone: the axes of the renderer's camera
-/// are the hand's, space drills, c is the clutch, Ctrl with the wheel changes the scale.
+/// With a device (PointerHandOff) mouse events go to the style only: the device uses the axes of
+/// the renderer's camera, space drills, c is the clutch, Ctrl with the wheel changes the scale.
 ///
-/// After each change InteractionEvent is invoked: GetParameters is for ServoThread::setParameters.
-/// See() once a frame. What is set here must outlive this, or be set to null. Main thread only.
+/// Invokes InteractionEvent after each change: pass GetParameters to ServoThread::setParameters.
+/// Call See() once per frame. Objects set here must outlive this object, or be reset to null. Main
+/// thread only.
 class vtkPetrousToolInteraction : public vtkInteractorObserver
 {
 public:
@@ -47,32 +48,32 @@ public:
   vtkPetrousToolInteraction(const vtkPetrousToolInteraction&) = delete;
   void operator=(const vtkPetrousToolInteraction&) = delete;
 
-  void SetPointer(petrous::interaction::PointerAim* aim,
+  void SetPointer(petrous::interaction::PointerToolController* aim,
                   petrous::interaction::PointerDevice* device);
 
-  /// On unless set; releases what is held.
+  /// Default on; a change releases button and keys.
   void SetPointerHand(bool pointer);
   vtkGetMacro(PointerHand, bool);
   vtkBooleanMacro(PointerHand, bool);
 
-  /// Off unless set; off releases what is held.
+  /// Default off; turning it off releases button and keys.
   void SetDrillMode(bool drill);
   vtkGetMacro(DrillMode, bool);
   vtkBooleanMacro(DrillMode, bool);
 
-  /// Whether button or key asks for the drill now.
+  /// Whether button or key requests drilling.
   bool GetDrilling() const;
 
-  /// What the program sets itself (gains, buttons, pause); throws InvalidParameter.
-  void SetParameters(const petrous::simulation::ServoParameters& parameters);
+  /// Sets the application's own parameters (gains, buttons, pause); throws InvalidParameter.
+  void SetParameters(const petrous::session::ServoParameters& parameters);
 
-  /// Those, with what pointer, keys and camera say.
-  const petrous::simulation::ServoParameters& GetParameters() const { return this->Parameters; }
+  /// The application's parameters combined with pointer, keys and camera.
+  const petrous::session::ServoParameters& GetParameters() const { return this->Parameters; }
 
-  /// The servo's latest record: the tool follows the tissue that gives way.
-  void See(const petrous::simulation::TickRecord& record);
+  /// Takes the servo's latest record: the tool follows as tissue is removed.
+  void See(const petrous::session::TickRecord& record);
 
-  /// Button and keys as if let go: for a window that loses the focus.
+  /// Releases button and keys, e.g. when the window loses the focus.
   void Release();
 
   void SetEnabled(int enabling) override;
@@ -95,14 +96,14 @@ private:
   void Send();
   bool PointerHolds() const;
 
-  petrous::interaction::PointerAim* Aim = nullptr;
+  petrous::interaction::PointerToolController* Aim = nullptr;
   petrous::interaction::PointerDevice* Device = nullptr;
-  petrous::simulation::ServoParameters Base;
-  petrous::simulation::ServoParameters Parameters;
+  petrous::session::ServoParameters Base;
+  petrous::session::ServoParameters Parameters;
   bool PointerHand = true;
   bool DrillMode = false;
   bool ButtonHeld = false; // left
-  bool TouchOnly = false;  // it went down with Ctrl
+  bool TouchOnly = false;  // pressed with Ctrl
   bool DrillKeyHeld = false;
   bool FreezeKeyHeld = false;
   vtkNew<vtkCallbackCommand> ReleaseCommand;

@@ -5,7 +5,7 @@
 #include <vtkNew.h>
 
 #include "petrous/Rendering/SceneContents.h"
-#include "petrous/Simulation/TickRecord.h"
+#include "petrous/Session/TickRecord.h"
 
 class vtkActor;
 class vtkLineSource;
@@ -14,8 +14,8 @@ class vtkRenderer;
 namespace petrous::interaction
 {
 
-/// The tool as it is shown: the proxy, which tissue holds back, not the hand. Where the hand is
-/// more than `kLag` away from it a thin line leads to where it would have the tool.
+/// The displayed tool: the proxy, which tissue stops, not the device pose. If the two are more than
+/// `kLag` apart, a thin line connects the proxy to the device's position.
 class ToolView
 {
 public:
@@ -29,8 +29,9 @@ public:
   void removeFrom(vtkRenderer* renderer) const;
   void setBurrRadius(double burrRadius); ///< throws InvalidParameter
 
-  /// For ScenePicture::setTool; nothing until the servo had a sound reading and placed the tool.
-  std::optional<rendering::ToolPose> update(const simulation::TickRecord& record);
+  /// For ScenePicture::setTool; nullopt until the servo has had a valid reading and placed the
+  /// tool.
+  std::optional<rendering::ToolPose> update(const session::TickRecord& record);
 
   double lag() const noexcept { return m_lag; } ///< mm, of the last record
 

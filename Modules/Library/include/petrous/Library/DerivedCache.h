@@ -8,13 +8,12 @@
 namespace petrous::library
 {
 
-/// Derived data as files in a folder of the library, for all programs that use it: each file is
-/// written under a name of its own and renamed, holds its key and a checksum, and never changes.
-/// One that is not what it should be is removed and counts as none. A disk that is full or may not
-/// be written to is no fault: nothing is kept then.
+/// Derived data as files in a folder of the library, shared by all programs that use it: each file
+/// is written under a temporary name and renamed, contains its key and a checksum, and never
+/// changes. An invalid file is removed and treated as missing. A full or read-only disk is not an
+/// error: nothing is cached then.
 ///
-/// Where the files would take more than `limit` bytes, those go first that were not used for the
-/// longest time.
+/// If the files would exceed `limit` bytes, the least recently used are removed first.
 class DerivedCache : public core::DerivedStore
 {
 public:
@@ -27,8 +26,8 @@ public:
 
   std::uintmax_t bytes() const noexcept override; ///< on disk
 
-  /// Removes what was not used for the longest time until no more than `most` bytes are left, and
-  /// what a killed writer left an hour ago or longer. Returns the bytes that are free now.
+  /// Removes the least recently used files until at most `most` bytes remain, and files that killed
+  /// writers left at least an hour ago. Returns the number of bytes freed.
   std::uintmax_t prune(std::uintmax_t most) noexcept;
 
 private:
@@ -38,7 +37,7 @@ private:
   std::uintmax_t m_limit;
 };
 
-/// The one of a library.
+/// The derived-data folder of a library.
 std::filesystem::path derivedFolder(const std::filesystem::path& library);
 
 } // namespace petrous::library

@@ -15,76 +15,75 @@ namespace petrous::library
 
 class JournalFile;
 
-/// A case as its manifest has it, as far as strokes go on from it.
+/// A case as of its manifest, as far as needed to continue its strokes.
 struct SavedState
 {
   SavedState() = default;
-  SavedState(const scene::Case& saved); ///< one that was just opened or saved
+  SavedState(const scene::Case& saved); ///< just opened or saved
 
   std::string name;
   std::string id;
   std::uint64_t revision = 0;
-  std::string ct;                   ///< its object
-  std::vector<std::string> strokes; ///< their objects
+  std::string ct;                   ///< object name
+  std::vector<std::string> strokes; ///< object names
   dissection::History history;
 };
 
-/// What was drilled since a case was saved, on the disk: strokes as they end, and of a long stroke
-/// what was drilled every `kInterval` seconds, so that a kill loses no more than that.
-/// Library::open brings it back.
+/// Journal of what was drilled since a case was saved: each finished stroke, and of a long stroke
+/// its progress every `kInterval` seconds, so that a kill loses no more than that. Library::open
+/// recovers it.
 ///
-/// The file is there while it holds something: it comes with the first stroke and goes when all is
-/// saved, or with this object. A program that ends otherwise leaves it. One program at a time has a
-/// journal of a case.
+/// The file exists while it has content: it is created with the first stroke and removed when
+/// everything is saved, or by the destructor. A program that terminates otherwise leaves it behind.
+/// Only one program at a time has a journal of a case.
 ///
 ///     Journal journal(library, value);
-///     ... journal.follow(*value.dissection);    // after each step, in the thread that cuts
+///     ... journal.follow(*value.dissection);    // after each step, on the drilling thread
 ///     library.save(value);
-///     journal.saved(value);                     // in any thread
+///     journal.saved(value);                     // on any thread
 class Journal
 {
 public:
-  static constexpr double kInterval = 4.5; ///< s, of the clock on the wall or of simulated time
+  static constexpr double kInterval = 4.5; ///< s, wall-clock or simulated time
 
-  /// What is known of the open stroke, with what it removed so far. Asked in the thread that calls
-  /// `follow`, once a part is due.
+  /// Info on the open stroke, including the volume removed so far. Called on the thread that calls
+  /// `follow`, whenever a part is due.
   using Measure = std::function<dissection::StrokeInfo(const dissection::Dissection&)>;
 
-  /// For a case of the library, as it was opened or saved; what was drilled since then is told with
-  /// `follow`. Where there is no `measure`, parts say of their stroke what Dissection::openInfo
-  /// does. Throws LibraryError: Conflict where another process is drilling in this case.
+  /// For a case of the library as it was opened or saved; what is drilled afterwards is passed to
+  /// `follow`. Without `measure`, parts are recorded with Dissection::openInfo. Throws
+  /// LibraryError: Conflict if another process is drilling in this case.
   Journal(const Library& library, SavedState saved, Measure measure = {});
 
-  /// Makes the file at once, so that nobody else starts drilling in this case. Throws LibraryError
-  /// as the constructor, and where nothing can be written.
+  /// Creates the file at once, so that nobody else starts drilling in this case. Throws
+  /// LibraryError like the constructor, and if nothing can be written.
   void claim();
 
-  /// Removes the file: whoever ends in order has saved, or does not want to.
+  /// Removes the file: a caller that exits regularly has saved, or does not want to.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Writes what is new in the dissection: strokes that ended, undo, redo, another branch, and a
-  /// part of the open stroke where one is due. Costs a look at the clock where nothing is.
-  /// Throws LibraryError (DiskFull, Unwritable): the file is as before, and the next call writes
-  /// what is missing, a part after another interval. Branches must not be removed between two
-  /// saves.
+  /// Writes what is new in the dissection: finished strokes, undo, redo, branch changes, and a part
+  /// of the open stroke if due. If nothing is new it only reads the clock. Throws LibraryError
+  /// (DiskFull, Unwritable): the file is unchanged, and the next call writes what is missing, a
+  /// part after another interval. Branches must not be removed between two saves.
   void follow(const dissection::Dissection& work);
 
-  /// The case was saved: what it holds leaves the file, and what was drilled since stays there.
-  /// Throws LibraryError; the file then still has all of it.
+  /// Call after the case was saved: removes from the file what the case now contains; later strokes
+  /// remain. Throws LibraryError; the file then still has everything.
   void saved(SavedState now);
 
-  /// What is not saved stays on the disk when this object goes: Library::open brings it back.
+  /// Keeps unsaved content on disk when this object is destroyed: Library::open recovers it.
   void leave();
 
-  std::size_t bytes() const; ///< in the file
+  std::size_t bytes() const; ///< size of the file
 
 private:
   using Clock = std::chrono::steady_clock;
   struct Kept
   {
-    std::size_t strokes = 0; ///< there must be more than that for the frame to be saved
+    std::size_t strokes = 0; ///< the frame is saved once the case has more strokes than this
     std::string frame;
   };
 
@@ -97,12 +96,12 @@ private:
   SavedState m_base;
   Measure m_measure;
   std::unique_ptr<JournalFile> m_file;
-  std::vector<Kept> m_kept; ///< what the file holds
+  std::vector<Kept> m_kept; ///< content of the file
 
-  std::size_t m_written = 0;     ///< strokes that the case or the file has
-  dissection::History m_history; ///< that it has
+  std::size_t m_written = 0;     ///< strokes in the case or the file
+  dissection::History m_history; ///< as in the case or the file
   bool m_open = false;
-  std::optional<volume::CutMask> m_last; ///< as of the last part; none: as the stroke began
+  std::optional<volume::CutMask> m_last; ///< as of the last part; nullopt: at the stroke's start
   Clock::time_point m_lastWall;
   double m_lastDuration = 0.0;
 };

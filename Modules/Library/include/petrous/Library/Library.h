@@ -22,7 +22,7 @@ struct CaseSummary
   std::string modified; ///< UTC, ISO 8601
   core::Index3 dims{0, 0, 0};
   std::size_t structures = 0;
-  std::size_t strokes = 0; ///< that are done
+  std::size_t strokes = 0; ///< applied strokes
   double removed = 0.0;    ///< mm^3
   bool damaged = false;    ///< the manifest cannot be read; the other fields are then empty
 };
@@ -30,13 +30,13 @@ struct CaseSummary
 class ObjectChecks;
 struct SavedState;
 
-/// What Library::verify found.
+/// Result of Library::verify.
 struct Inspection
 {
   struct Damage
   {
-    std::string object;             ///< its name, or the manifest's path below the library
-    std::vector<std::string> cases; ///< that use it
+    std::string object;             ///< its name, or the manifest's path relative to the library
+    std::vector<std::string> cases; ///< cases that use it
     std::string text;
   };
   std::size_t cases = 0;
@@ -51,84 +51,84 @@ struct Collected
   std::uintmax_t bytes = 0;
 };
 
-/// The cases on this machine: a folder with cases/NAME.json (the truth), objects/ (the voxels,
-/// named by their hash) and library.sqlite (an index that can be made again). A case goes by the
+/// The local case library: a folder with cases/NAME.json (the source of truth), objects/ (the
+/// voxels, named by their hash) and library.sqlite (an index that can be rebuilt). A case has the
 /// name of its file.
 ///
-/// What is read of an object is held against its hash first. Images are mapped and not read, so
-/// that is done in another thread: `checkVoxels` waits for it.
+/// Objects are verified against their hash before use. Images are memory-mapped instead of read, so
+/// they are verified on a background thread; `checkVoxels` waits for it.
 ///
-/// A case on disk is always the old state or the new one: objects first, then the manifest by
-/// temporary file, fsync and rename. Several programs may use one library: a save is refused where
-/// the case was changed since it was opened.
+/// Saving is atomic: objects first, then the manifest by temporary file, fsync and rename, so a
+/// case on disk is always in the old or the new state. Several programs may use one library: a save
+/// is refused if the case was changed since it was opened.
 class Library
 {
 public:
-  /// The folder is made when something is first saved.
+  /// The folder is created by the first save.
   explicit Library(std::filesystem::path folder);
 
   const std::filesystem::path& folder() const noexcept { return m_folder; }
 
-  /// Is told in words what the user should know of a case that was opened: one sentence.
+  /// Called with one sentence that the user should know about a case that was opened.
   void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
 
-  std::vector<CaseSummary> list() const; ///< by name
-  /// Those whose name, or a part's name, contains the text; ASCII letters in either case.
+  std::vector<CaseSummary> list() const; ///< sorted by name
+  /// Cases whose name, or the name of a part, contains the text; ASCII case-insensitive.
   std::vector<CaseSummary> search(const std::string& text) const;
-  bool contains(const std::string& name) const; ///< also one that is damaged
+  bool contains(const std::string& name) const; ///< including damaged ones
 
-  /// The case without its voxels: they are read where a part is asked for. What a session drilled
-  /// that ended without saving (see Journal) is brought back and saved first.
-  /// Throws LibraryError (NotFound, Damaged) and ManifestError.
+  /// Opens a case without its voxels: they are read when a part is accessed. Drilling that was not
+  /// saved because a program was killed (see Journal) is recovered and saved first. Throws
+  /// LibraryError (NotFound, Damaged) and ManifestError.
   scene::Case open(const std::string& name) const;
 
-  /// Reads the strokes into `value.dissection` where that is not done yet.
+  /// Reads the strokes into `value.dissection` unless already loaded.
   void loadDissection(scene::Case& value) const;
 
-  /// Where what follows from the library's objects is kept (DerivedCache.h).
+  /// Cache of data derived from the library's objects (DerivedCache.h).
   std::shared_ptr<core::DerivedStore> derived() const;
 
-  /// Waits until the images of the case that were read from here have been held against their hash.
-  /// Throws LibraryError (Damaged) naming those that are damaged, CancelledError.
+  /// Waits until the images of the case that were read from here are verified against their hash.
+  /// Throws LibraryError (Damaged) listing the damaged ones, CancelledError.
   void checkVoxels(const scene::Case& value, const core::Progress& progress = {}) const;
-  /// The same for all images that were read through this object or a copy of it, of whatever case.
+  /// The same for all images, of any case, that were read through this object or a copy of it.
   void checkAllRead(const core::Progress& progress = {}) const;
-  /// Damage of the case's images that was found until now, one sentence each. Does not wait.
+  /// Damage of the case's images found so far, one sentence each. Does not wait.
   std::vector<std::string> damageFound(const scene::Case& value) const;
 
-  /// Writes what is new and the manifest. A case with revision 0 is new: its name must be free.
-  /// On any exception the library and the case are as before.
-  /// Throws LibraryError, CancelledError.
+  /// Writes new objects and the manifest. A case with revision 0 is new: its name must not be in
+  /// use. On any exception the library and the case are unchanged. Throws LibraryError,
+  /// CancelledError.
   void save(scene::Case& value, const core::Progress& progress = {});
 
-  /// Saves what was drilled since `base`, the state that `value` was opened in. Where another
-  /// program has saved the case since, the strokes are put on what it saved (see graft), and where
-  /// that cannot be or the case is gone, they become a case of their own; `value` is that then.
-  /// One sentence that says so, empty otherwise. Throws as `save`.
+  /// Saves what was drilled since `base`, the state in which `value` was opened. If another program
+  /// has saved the case since, the strokes are merged into that (see graft); if that is impossible
+  /// or the case is gone, they become a new case, and `value` becomes that case. Returns one
+  /// sentence describing this, else an empty string. Throws like `save`.
   std::string saveDrilled(scene::Case& value, const SavedState& base,
                           const core::Progress& progress = {});
 
-  /// Throw LibraryError (Conflict) where another process is drilling in the case.
+  /// Throws LibraryError (Conflict) if another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;
 
-  /// Also of a case that is damaged. What a session drilled and did not save is brought back first,
-  /// and goes with a case that is removed. Throws LibraryError: NotFound, NameTaken, Conflict while
-  /// another process is drilling in it, or for a rename where it could not be brought back.
+  /// Both also accept a damaged case. `rename` recovers unsaved drilling first, `remove` deletes
+  /// it. Throw LibraryError: NotFound; NameTaken; Conflict while another process is drilling in the
+  /// case, or for a rename if recovery failed.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
-  /// Shares the objects. Throws as `open` and `save`.
+  /// The copy shares the objects. Throws like `open` and `save`.
   void copy(const std::string& from, const std::string& to, const core::Progress& progress = {});
 
-  /// Reads everything there is. Throws LibraryError where the library cannot be read at all.
+  /// Reads and verifies everything. Throws LibraryError if the library cannot be read at all.
   Inspection verify(const core::Progress& progress = {}) const;
 
-  /// Removes objects that no manifest names, and what killed writers left. Throws LibraryError
-  /// (Damaged), and nothing is removed, where a manifest cannot be read: what it names is not
-  /// known.
+  /// Removes objects that no manifest references, and leftovers of killed writers. Throws
+  /// LibraryError (Damaged) without removing anything if a manifest cannot be read, since its
+  /// references are unknown.
   Collected collectGarbage();
 
-  /// Brings back what sessions drilled that ended without saving, clears what killed writers left,
-  /// and makes the index again. What was done, one sentence each.
+  /// Recovers unsaved drilling, removes leftovers of killed writers, and rebuilds the index.
+  /// Returns what was done, one sentence each.
   std::vector<std::string> repair();
 
 private:

@@ -7,17 +7,17 @@
 namespace petrous::library
 {
 
-/// Messages name the library's file or folder, or the case.
+/// Messages name the file or folder of the library, or the case.
 struct LibraryError : core::Error
 {
   enum class Reason
   {
-    NotFound,   ///< no case of that name, or an object is missing
-    NameTaken,  ///< a case of that name is there already
-    Conflict,   ///< the case was changed by someone else since it was opened
+    NotFound,   ///< no case of that name, or a missing object
+    NameTaken,  ///< the name is already in use
+    Conflict,   ///< the case was changed by another program since it was opened
     DiskFull,   ///< nothing was changed
-    Unwritable, ///< no permission, or the medium is read-only; nothing was changed
-    Damaged     ///< a file is not what it should be
+    Unwritable, ///< no permission, or read-only medium; nothing was changed
+    Damaged     ///< a file has unexpected content
   };
   LibraryError(Reason r, const std::string& message)
     : Error(r == Reason::NotFound || r == Reason::Damaged ? core::Fault::BadInput

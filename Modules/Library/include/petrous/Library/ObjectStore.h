@@ -13,20 +13,19 @@
 namespace petrous::library
 {
 
-/// Files named by the SHA-256 of their content: what is stored twice is kept once, and nothing that
-/// a manifest names is ever overwritten.
+/// Content-addressed store: files are named by the SHA-256 of their content, so identical content
+/// is stored once, and nothing that a manifest references is ever overwritten.
 ///
-/// An object's name is its hash in hexadecimal with the ending of its format, e.g.
-/// "3b1c….nrrd". Not for several writers at once: the library's lock sees to that.
+/// An object name is the hash in hexadecimal with the extension of its format, e.g. "3b1c….nrrd".
+/// Not for concurrent writers: the library's lock prevents them.
 class ObjectStore
 {
 public:
   explicit ObjectStore(std::filesystem::path folder);
 
-  /// Lets `write` make a file at a temporary path, then takes it in, durably; returns the object's
-  /// name. An object that is there already is held against its name, and replaced where it is
-  /// damaged. Throws what `write` throws, LibraryError and core::OutputFileError; leaves nothing
-  /// behind then.
+  /// Lets `write` create a file at a temporary path, then adds it durably; returns the object name.
+  /// An existing object is verified, and replaced if damaged. Throws what `write` throws,
+  /// LibraryError and core::OutputFileError; leaves nothing behind then.
   std::string add(const std::string& ending,
                   const std::function<void(const std::filesystem::path&)>& write);
 
@@ -34,20 +33,20 @@ public:
 
   bool contains(const std::string& object) const noexcept;
 
-  /// Path of an object that is there; throws LibraryError (NotFound) naming it otherwise, and
-  /// (Damaged) for a name that is no object name. `what` names for the user what the object is.
+  /// Path of an existing object; throws LibraryError (NotFound) naming it otherwise, and (Damaged)
+  /// for an invalid object name. `what` describes the object to the user.
   std::filesystem::path path(const std::string& object, const std::string& what = {}) const;
 
-  /// The same, and the content must have the hash that the name says: throws LibraryError (Damaged)
-  /// otherwise.
+  /// Like `path`, but verifies the content against the hash in the name: throws LibraryError
+  /// (Damaged) on mismatch.
   std::filesystem::path checkedPath(const std::string& object, const std::string& what) const;
   std::vector<std::uint8_t> readChecked(const std::string& object, const std::string& what) const;
 
-  /// Every object with its size in bytes.
+  /// All objects with their size in bytes.
   std::vector<std::pair<std::string, std::uintmax_t>> list() const;
   void remove(const std::string& object); ///< throws LibraryError
 
-  /// Objects that this store added since `forget`, newest last; `discardNew` removes them again.
+  /// Objects added since `forget`, newest last; `discardNew` removes them again.
   void discardNew() noexcept;
   void forget() noexcept;
 
@@ -62,10 +61,10 @@ private:
 /// SHA-256 in lower-case hexadecimal.
 std::string sha256Of(const std::uint8_t* bytes, std::size_t count);
 
-/// SHA-256 of a file in lower-case hexadecimal. Throws LibraryError when it cannot be read.
+/// SHA-256 of a file in lower-case hexadecimal. Throws LibraryError if it cannot be read.
 std::string sha256OfFile(const std::filesystem::path& path, const core::Progress& progress = {});
 
-/// Throws LibraryError (Damaged, NotFound) where a file's content is not what its name says.
+/// Throws LibraryError (Damaged, NotFound) if the content of a file does not match its name.
 void checkObject(const std::filesystem::path& object, const std::string& what,
                  const core::Progress& progress = {});
 

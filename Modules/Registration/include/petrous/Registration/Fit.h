@@ -13,49 +13,50 @@
 namespace petrous::registration
 {
 
-/// From where a fit begins. The coarse search looks about this pose, and also about those that lay
-/// the two images' centres on each other.
+/// Initial pose of a fit. The coarse search covers the neighbourhood of this pose, and also that of
+/// the poses that align the centres of the two images.
 enum class Start
 {
-  Header,  ///< both images in one patient space, as their files say
-  Centres, ///< the middle of what each image shows, axes parallel
-  Given    ///< FitOptions::given: landmarks, a hand, an earlier fit
+  Header,  ///< both images in one patient space, as in their files
+  Centres, ///< centres of what each image shows, axes parallel
+  Given    ///< FitOptions::given: landmarks, a manual alignment, an earlier fit
 };
 
-/// How much work a fit does. The defaults are measured (`petrous bench registration`).
+/// Computational effort of a fit. The defaults are based on measurements (`petrous bench
+/// registration`).
 struct Schedule
 {
-  std::size_t searchSamples = 4000; ///< points of the coarse search
+  std::size_t searchSamples = 4000; ///< samples of the coarse search
   std::size_t samples = 40'000;     ///< points of the finest level; the others take fewer
-  int bins = 64;                    ///< of the histogram, along each axis
-  int evaluations = 40;             ///< of the metric with its gradient, at most, a level
-  int polish = 8;                   ///< ascents from about the end; the fit is their mean
-  int levels = 0;                   ///< of the pyramid, finest last; 0: as many as the images have
+  int bins = 64;                    ///< of the joint histogram, along each axis
+  int evaluations = 40;             ///< maximum per level, of the metric with its gradient
+  int polish = 8;                   ///< restarts near the optimum; the fit is their mean
+  int levels = 0;                   ///< of the pyramid, finest last; 0: as many as the images allow
 };
 
 struct FitOptions
 {
   Start start = Start::Header;
   core::RigidTransform given; ///< X_MC for Start::Given
-  /// Only CT within counts (CT patient space). None: all that shows something.
+  /// Only CT within counts (CT patient space). None: all content.
   std::optional<core::PatientBox> region;
-  /// Looks for the right basin up to 40 mm and 40 degrees (and further, less surely) from the
-  /// start.
+  /// Searches for the global optimum up to 40 mm and 40 degrees from the start (and beyond, less
+  /// reliably).
   bool search = true;
-  std::uint32_t seed = 1; ///< equal seeds give equal bits, whatever the number of threads
+  std::uint32_t seed = 1; ///< equal seeds give bit-identical results, for any number of threads
   Schedule schedule;
 };
 
-/// One evaluation of the metric on the way, for a curve.
+/// One evaluation of the metric during the optimization, for a plot.
 struct MetricSample
 {
-  int evaluation = 0;  ///< counted from the fit's begin
-  int level = 0;       ///< 0 the coarsest
-  double metric = 0.0; ///< nats, at this level: levels do not compare
+  int evaluation = 0;  ///< counted from the start of the fit
+  int level = 0;       ///< 0: coarsest
+  double metric = 0.0; ///< nats; not comparable between levels
 };
 
-/// Called on the calling thread, with the best pose of the level that is under way: the last good
-/// state where the work is cancelled.
+/// Called on the calling thread, with the best pose of the current level: the last good state in
+/// case of cancellation.
 using MetricListener =
     std::function<void(const MetricSample& sample, const core::RigidTransform& best)>;
 
@@ -63,19 +64,19 @@ struct Fit
 {
   core::RigidTransform mrFromCt; ///< X_MC: CT patient points to MR patient points, LPS mm
   double metric = 0.0;           ///< mutual information at the finest level, nats
-  double overlap = 0.0;          ///< share of the smaller image's points that fall on the other
-  int iterations = 0;            ///< evaluations with gradient, as MetricListener hears of them
+  double overlap = 0.0;          ///< fraction of fixed-image samples inside the moving image
+  int iterations = 0;            ///< evaluations with gradient, as reported to MetricListener
   double seconds = 0.0;          ///< wall time
 };
 
 /// Rigid (6 parameters) registration of an MR to a CT by mutual information: coarse search, then
-/// quasi-Newton ascent through a pyramid of resolutions.
+/// quasi-Newton optimization through a resolution pyramid.
 ///
-/// The smaller of the two fields plays the fixed image, since its every point should be found in
-/// the other; with a region the CT does.
+/// The image with the smaller field of view is the fixed image, since each of its points should be
+/// found in the other; with a region the CT is the fixed image.
 ///
-/// Throws InvalidParameter in words where there is nothing to register (an image of one value, of
-/// NaN alone, one slice, a region outside the CT), CancelledError.
+/// Throws InvalidParameter with a message if there is nothing to register (an image that is
+/// constant, only NaN, or a single slice, a region outside the CT), CancelledError.
 Fit fitRigid(const volume::IntensityVolume& ct, const volume::IntensityVolume& mr,
              const FitOptions& options = {}, const core::Progress& progress = {},
              const MetricListener& listener = {});

@@ -17,15 +17,15 @@ struct LandmarkPair
 struct LandmarkFit
 {
   core::RigidTransform mrFromCt; ///< X_MC
-  std::vector<double> residuals; ///< mm, of each pair: how far its CT point lands from its MR point
+  std::vector<double> residuals; ///< mm, per pair: distance of mapped CT point and MR point
   double rms = 0.0;              ///< mm, of the residuals (fiducial registration error)
 };
 
-/// The rigid motion with the least sum of squared residuals (Horn 1987; Umeyama 1991 without
+/// The rigid transform that minimizes the sum of squared residuals (Horn 1987; Umeyama 1991 without
 /// scale).
 ///
-/// Throws InvalidParameter for fewer than three pairs, for points that are not finite, and where
-/// either image's points lie on one line (within 1 mm), which leaves the turn about it open.
+/// Throws InvalidParameter for fewer than three pairs, for non-finite points, and if the points of
+/// either image are collinear (within 1 mm), which leaves the rotation about the line undetermined.
 LandmarkFit fitLandmarks(const std::vector<LandmarkPair>& pairs);
 
 } // namespace petrous::registration

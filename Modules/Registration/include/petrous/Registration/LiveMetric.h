@@ -8,13 +8,13 @@
 namespace petrous::registration
 {
 
-/// The metric at any pose, fast enough to follow a slider: made once for a pair of images.
+/// The metric at any pose, fast enough for interactive use (a slider): set up once per image pair.
 ///
-/// Immutable and thread-safe. Holds `bytes` of its own; the images may go.
+/// Immutable and thread-safe. Owns `bytes` of memory; the images may be released.
 class LiveMetric
 {
 public:
-  /// Throws InvalidParameter as fitRigid does.
+  /// Throws InvalidParameter like fitRigid.
   LiveMetric(const volume::IntensityVolume& ct, const volume::IntensityVolume& mr,
              const std::optional<core::PatientBox>& region = std::nullopt);
   ~LiveMetric();

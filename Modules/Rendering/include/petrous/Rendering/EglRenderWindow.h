@@ -12,8 +12,8 @@ class EglContext;
 /// A VTK window without a display: an OpenGL context on Mesa's surfaceless EGL platform, or on an
 /// EGL device (a GPU whose driver has no surfaceless platform).
 ///
-/// Draws into VTK's own frame buffers; there is no surface behind it. Initialize (which the first
-/// Render calls) throws petrous::rendering::RenderingError NoOpenGL where no context can be made.
+/// Draws into VTK's own frame buffers, without a surface. Initialize (called by the first Render)
+/// throws petrous::rendering::RenderingError NoOpenGL if no context can be created.
 class vtkPetrousEGLRenderWindow : public vtkGenericOpenGLRenderWindow
 {
 public:

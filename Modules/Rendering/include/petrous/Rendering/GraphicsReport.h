@@ -6,23 +6,23 @@
 namespace petrous::rendering
 {
 
-/// What the machine's OpenGL can do for the pictures, found by drawing small ones.
+/// OpenGL capabilities relevant to rendering, determined by drawing small test pictures.
 struct GraphicsReport
 {
   struct Variant
   {
-    std::vector<std::string> features; ///< as RenderStatistics::variant names them
+    std::vector<std::string> features; ///< named as in RenderStatistics::variant
     bool compiles = false;
-    std::string error; ///< the driver's words where it does not
+    std::string error; ///< the driver's message if it does not compile
   };
 
-  std::string renderer;          ///< what the driver calls itself
-  std::string version;           ///< of OpenGL
-  int largestTexture3d = 0;      ///< voxels along an axis; a larger volume is drawn reduced
-  std::vector<Variant> variants; ///< of the ray caster: CT alone, with each feature, with all
+  std::string renderer;          ///< GL_RENDERER
+  std::string version;           ///< OpenGL version
+  int largestTexture3d = 0;      ///< max. voxels along an axis; larger volumes are downsampled
+  std::vector<Variant> variants; ///< of the ray caster: CT only, with each feature, with all
 };
 
-/// Throws RenderingError NoOpenGL where no context can be made, saying what to install.
+/// Throws RenderingError NoOpenGL, saying what to install, if no context can be created.
 GraphicsReport reportGraphics();
 
 } // namespace petrous::rendering

@@ -9,25 +9,25 @@
 namespace petrous::rendering
 {
 
-/// Draws scenes without a display, on an EGL context of its own, which is current only during its
-/// calls. On a thread where a window's context is current, release that one first.
+/// Draws scenes without a display in its own EGL context, which is current only during its calls.
+/// If a window's context is current on the calling thread, release it first.
 class OffscreenView
 {
 public:
-  /// Throws RenderingError NoOpenGL (saying what to install) or BadSize.
+  /// Throws RenderingError NoOpenGL (the message says what to install) or BadSize.
   OffscreenView(int width, int height);
   ~OffscreenView();
   OffscreenView(const OffscreenView&) = delete;
   OffscreenView& operator=(const OffscreenView&) = delete;
 
-  /// Draws the scene as it stands. The scene stays attached until another one is drawn or the
-  /// view ends; either may end first. The same scene and camera give the same pixels, also in a
-  /// fresh process.
+  /// Draws the scene in its current state. The scene stays attached until another one is drawn or
+  /// the view is destroyed; either may be destroyed first. Deterministic: the same scene and camera
+  /// give the same pixels, in another process too.
   Picture render(ScenePicture& scene);
 
   double milliseconds() const;           ///< of the last render
-  double firstFrameMilliseconds() const; ///< of the scene's first, with uploads and shaders
-  std::string glRenderer() const;        ///< what the driver calls itself
+  double firstFrameMilliseconds() const; ///< of the scene's first frame, with uploads and shaders
+  std::string glRenderer() const;        ///< GL_RENDERER
 
 private:
   class Implementation;

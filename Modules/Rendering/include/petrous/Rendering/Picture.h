@@ -8,7 +8,7 @@
 namespace petrous::rendering
 {
 
-/// An RGB picture, 8 bits a channel, rows from the top.
+/// An RGB picture, 8 bits per channel, top row first.
 struct Picture
 {
   int width = 0;
@@ -22,7 +22,7 @@ struct Picture
   }
 };
 
-/// Distance from the camera along each pixel's own ray, mm, rows from the top; NaN: nothing hit.
+/// Distance from the camera along each pixel's ray, mm, top row first; NaN: no hit.
 struct DepthImage
 {
   int width = 0;
@@ -36,14 +36,14 @@ struct DepthImage
   }
 };
 
-/// How many pixels are not the same in every channel; every pixel when the sizes differ.
+/// Number of pixels that differ in any channel; all pixels if the sizes differ.
 std::size_t countDifferentPixels(const Picture& a, const Picture& b);
 
-/// Writes beside the file and renames, so the file is whole or as it was.
-/// Throws RenderingError CannotWrite naming the file.
+/// Writes atomically (temporary file and rename). Throws RenderingError CannotWrite naming the
+/// file.
 void writePng(const std::filesystem::path& file, const Picture& picture);
 
-/// NumPy format 1.0: '<f4', C order, shape (height, width). Written as writePng does.
+/// NumPy format 1.0: '<f4', C order, shape (height, width). Atomic as writePng.
 void writeNpy(const std::filesystem::path& file, const DepthImage& depth);
 
 } // namespace petrous::rendering

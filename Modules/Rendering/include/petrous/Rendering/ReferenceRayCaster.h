@@ -15,34 +15,35 @@ namespace petrous::rendering
 struct ReferencePicture
 {
   Picture picture;
-  std::vector<float> rgb; ///< the same before rounding: 0 to 1, 3 a pixel, rows from the top
-  DepthImage depth;       ///< to the first surface of the tissue, however transparent it is
+  std::vector<float> rgb; ///< RGB before rounding: 0 to 1, 3 values per pixel, top row first
+  DepthImage depth;       ///< to the first tissue surface, regardless of its opacity
 };
 
-/// The truth that pictures are held against: the optical model of src/OpticalModel.h followed along
-/// each pixel's ray in double precision, by constant small steps and bisection, without skipping.
-/// Meshes and the tool end a ray; a translucent mesh, which the GPU draws as a screen door, is the
-/// mean over its pixels. Depth is that of the tissue in front of what is opaque.
+/// Ground truth for rendered pictures: evaluates the optical model of src/Reference/OpticalModel.h
+/// along each pixel's ray in double precision, with small constant steps and bisection and without
+/// empty-space skipping. Meshes and the tool end a ray; a translucent mesh, which the GPU draws
+/// with screen-door transparency, is averaged over its pixels. Depth is that of tissue in front of
+/// opaque geometry.
 ///
-/// Only the CPU is used, so it also draws where OpenGL is missing.
+/// CPU only, so it works without OpenGL.
 class ReferenceRayCaster
 {
 public:
   struct Quality
   {
-    /// Of the smallest spacing of the CT, in (0, 1]. At the default, half of it changes a picture
-    /// by less than 0.1 of an 8-bit level (RMS).
+    /// In units of the smallest CT spacing, in (0, 1]. Halving the default changes a picture by
+    /// less than 0.1 of an 8-bit level (RMS).
     double step = 1.0 / 16.0;
   };
 
-  /// Shares the voxels of `contents` and reads the mask as it stands when `render` is called.
-  /// Throws RenderingError BadContents where the contents contradict themselves (a material that is
-  /// missing, a mask on another grid), InvalidParameter for a bad step.
+  /// Shares the voxels of `contents` and reads the mask as it is when `render` is called. Throws
+  /// RenderingError BadContents if the contents are inconsistent (a missing material, a mask on
+  /// another grid), InvalidParameter for an invalid step.
   explicit ReferenceRayCaster(const SceneContents& contents);
   ReferenceRayCaster(const SceneContents& contents, const Quality& quality);
   ~ReferenceRayCaster();
 
-  /// Throws RenderingError BadSize, InvalidParameter (a bad camera), CancelledError.
+  /// Throws RenderingError BadSize, InvalidParameter (invalid camera), CancelledError.
   ReferencePicture render(const core::CameraPose& camera, int width, int height,
                           const core::Progress& progress = {}) const;
 

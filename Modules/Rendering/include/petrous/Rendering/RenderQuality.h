@@ -8,34 +8,34 @@
 namespace petrous::rendering
 {
 
-/// What a picture costs and how near it comes to the reference. The defaults are those that
-/// Documentation/benchmarks argues for.
+/// Trade-off between cost and agreement with the reference. For the choice of defaults see
+/// Documentation/benchmarks.
 struct RenderQuality
 {
-  double step = 0.5;         ///< between samples, in smallest spacings of the CT, 0.05 to 100
-  int bisections = 8;        ///< of a step, where false position fails; 0 to 24
-  int brick = 4;             ///< edge of a brick that can be skipped, voxels: 4, 8 or 16
-  double termination = 0.01; ///< a ray ends when less of what is behind comes through, and takes
-                             ///< that for what it saw before, in the mean; 0 to 1
-  int tableSize = 1024;      ///< intensities of a pre-integrated table; 16 to 4096
-  int maskBits = 16;         ///< of the cut on the graphics card: 8 or 16
-  double imageScale = 1.0;   ///< samples per pixel along each axis, 0.1 to 1
-  int largestTexture = 0;    ///< texels along an edge of a volume; 0: what the driver takes
+  double step = 0.5;  ///< sampling distance in units of the smallest CT spacing, 0.05 to 100
+  int bisections = 8; ///< per step, where false position fails; 0 to 24
+  int brick = 4;      ///< edge length of a skippable brick, voxels: 4, 8 or 16
+  /// Transmittance at which a ray terminates (0 to 1); the rest takes the mean colour so far
+  double termination = 0.01;
+  int tableSize = 1024;    ///< entries of a pre-integrated table; 16 to 4096
+  int maskBits = 16;       ///< of the cut mask on the GPU: 8 or 16
+  double imageScale = 1.0; ///< samples per pixel along each axis, 0.1 to 1
+  int largestTexture = 0;  ///< max. texels along an edge of a volume; 0: driver's limit
 
-  /// Throws InvalidParameter naming the first value that is out of its range.
+  /// Throws InvalidParameter naming the first value out of range.
   void validate() const;
 };
 
-/// What the last frame did.
+/// Statistics of the last frame.
 struct RenderStatistics
 {
-  std::vector<std::string> variant;             ///< features that the shader was compiled with
-  std::map<std::string, std::size_t> resources; ///< bytes on the graphics card by name
-  std::vector<std::string> notes; ///< what was reduced because the driver has no room, in words
-  double fetchesPerPixel = 0.0;   ///< of the last counted frame, over all of its pixels
+  std::vector<std::string> variant;             ///< features the shader was compiled with
+  std::map<std::string, std::size_t> resources; ///< GPU memory in bytes, by name
+  std::vector<std::string> notes; ///< descriptions of what was reduced to fit the driver's limits
+  double fetchesPerPixel = 0.0;   ///< of the last counted frame, averaged over all its pixels
   double samplesPerPixel = 0.0;
-  double editMilliseconds = 0.0; ///< bringing the last edits of the mask to the card
-  std::size_t pendingEdits = 0;  ///< voxels of edits left for the next frames by the cap
+  double editMilliseconds = 0.0; ///< upload of the last mask edits to the GPU
+  std::size_t pendingEdits = 0;  ///< voxels of edits that the upload cap deferred to later frames
 };
 
 } // namespace petrous::rendering

@@ -7,15 +7,15 @@
 namespace petrous::rendering
 {
 
-/// Why no picture came about.
+/// A failure to render or to write a picture.
 struct RenderingError : core::Error
 {
   enum class Reason
   {
-    NoOpenGL,    ///< EGL or a driver is missing, or too old; the text says what to install
-    BadSize,     ///< a picture of no pixels, or larger than the machine draws
-    BadContents, ///< a scene that contradicts itself
-    CannotWrite  ///< the file system refused; the text names the file
+    NoOpenGL,    ///< EGL or driver missing or too old; the message says what to install
+    BadSize,     ///< an empty picture, or one larger than the machine can draw
+    BadContents, ///< an inconsistent scene
+    CannotWrite  ///< file system error; the message names the file
   };
 
   RenderingError(Reason why, const std::string& message);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "petrous/Appearance/Material.h"
-#include "petrous/Appearance/StructureLook.h"
+#include "petrous/Appearance/StructureAppearance.h"
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Volume/CutMask.h"
@@ -22,7 +22,7 @@ struct MeshContents
 {
   std::string name;
   std::shared_ptr<const core::TriangleMesh> mesh;
-  appearance::StructureLook look;
+  appearance::StructureAppearance look;
 };
 
 /// The tool in the scene, patient LPS mm.
@@ -32,45 +32,46 @@ struct ToolPose
   Eigen::Vector3d axisToHand{0.0, 0.0, 1.0}; ///< from the burr along the shaft
   double radius = 2.0;                       ///< of the burr
   bool drilling = false;                     ///< drawn brighter
-  bool handpiece = true;                     ///< false: ball and shaft alone, as of a pointer
+  bool handpiece = true;                     ///< false: ball and shaft only, as for a pointer
 };
 
-/// The lamp sits at the camera, as in a microscope.
+/// The light source is at the camera, as in a microscope.
 struct LightSettings
 {
   double intensity = 1.0;
-  double ambient = 0.16;   ///< share of the surface's colour that needs no light
+  double ambient = 0.16;   ///< ambient fraction of the surface colour
   double specular = 0.18;  ///< strength of the highlight, 0 to 1
-  double shininess = 18.0; ///< of meshes and tools; the volume's tissues have their own
-  double falloff = 0.0; ///< mm from the lamp to where its light is halved; 0: everywhere the same
-  double wetness = 0.0; ///< strength of the narrow highlight of a wet surface, 0 to 1; 0: dry
+  double shininess = 18.0; ///< of meshes and tools; tissues of the volume have their own
+  double falloff = 0.0;    ///< mm from the light to half its intensity; 0: no attenuation
+  double wetness = 0.0;    ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
 };
 
-/// A second image in the same scene, sampled where a material asks for it.
+/// A second image in the same scene, sampled by the materials that ask for it.
 struct SecondImage
 {
   std::shared_ptr<const volume::IntensityVolume> volume; ///< null: none
-  core::RigidTransform secondFromCt; ///< takes CT patient points to its patient points, LPS mm
+  core::RigidTransform secondFromCt; ///< maps CT patient points to its patient points, LPS mm
 };
 
-/// Colours bone by how far its surface is from a structure, so that one sees how much is left to
-/// drill. Only the structure's distance counts: what has been cut in between is not asked.
+/// Colours bone by the distance of its surface to a structure, to show how much is left to drill.
+/// Only the distance to the structure counts; bone already removed in between is ignored.
 struct ThicknessOverlay
 {
-  /// mm from the structure's surface, negative within; volume::makeDistanceField with a reach of at
-  /// least `farthest`. What its hull does not hold is farther. Null: no overlay.
+  /// Signed distance to the structure's surface, mm, negative inside: volume::makeDistanceField
+  /// with a reach of at least `farthest`. Points outside its hull count as farther. Null: no
+  /// overlay.
   std::shared_ptr<const volume::Volume<float>> distance;
   double farthest = 5.0; ///< mm, > 0; thicker bone keeps its colour
 };
 
-/// What lies on the negative side is not drawn; patient LPS mm.
+/// The negative side is not drawn; patient LPS mm.
 struct ClippingPlane
 {
   Eigen::Vector3d point{0.0, 0.0, 0.0};
-  Eigen::Vector3d normal{0.0, 0.0, 1.0}; ///< unit, towards what stays
+  Eigen::Vector3d normal{0.0, 0.0, 1.0}; ///< unit, towards the side that is kept
 };
 
-/// Everything that a picture shows, as a value; voxels and triangles are shared.
+/// Everything a picture shows, as a value type; voxels and triangles are shared.
 struct SceneContents
 {
   std::shared_ptr<const volume::IntensityVolume> ct; ///< null: no bone
@@ -78,10 +79,10 @@ struct SceneContents
   std::shared_ptr<const volume::CutMask> mask;       ///< null: nothing cut
   bool boneShown = true;                             ///< false: the CT's surface is not drawn
   std::shared_ptr<const volume::LabelField> labels;  ///< null: none
-  std::vector<appearance::Material> materials;       ///< row 0: bone; row i: index i of `labels`
+  std::vector<appearance::Material> materials;       ///< row 0: bone; row i: label index i
   SecondImage second;
   std::vector<ClippingPlane> clipping;
-  std::optional<core::IndexBox> crop; ///< voxels of the CT that are drawn; none: all
+  std::optional<core::IndexBox> crop; ///< drawn CT voxels; nullopt: all
   ThicknessOverlay thickness;
   std::vector<MeshContents> meshes;
   std::optional<ToolPose> tool;

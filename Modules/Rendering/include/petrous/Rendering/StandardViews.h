@@ -9,10 +9,10 @@
 namespace petrous::rendering
 {
 
-/// From where the patient is looked at; left and right are the patient's.
+/// Direction from which the patient is viewed; left and right are the patient's.
 enum class StandardView
 {
-  Lateral, ///< from the side on which the volume's centre lies
+  Lateral, ///< from the side of the volume's centre
   Left,
   Right,
   Superior,
@@ -21,18 +21,19 @@ enum class StandardView
   Posterior
 };
 
-/// "lateral", "left", ...; nothing for any other word.
+/// "lateral", "left", ...; nullopt for any other name.
 std::optional<StandardView> parseView(const std::string& name);
 std::string nameOf(StandardView view);
 
-/// A camera that frames the bounding sphere of the hull of the voxel centres, whatever the
-/// picture's shape as long as it is not higher than wide; 30 degrees vertical.
+/// A camera that frames the bounding sphere of the hull of the voxel centres in any picture that is
+/// at least as wide as high; vertical view angle 30 degrees.
 ///
-/// Up is superior; for superior and inferior views it is anterior, as a surgeon or a radiologist
-/// holds the head. Lateral is left where the hull's centre has LPS x > 10 mm, else right.
+/// View-up is superior; for superior and inferior views it is anterior, the orientation used by
+/// surgeons and radiologists. Lateral is left if the hull's centre has LPS x > 10 mm, otherwise
+/// right.
 core::CameraPose standardCamera(StandardView view, const core::GridGeometry& grid);
 
-/// The same with a ball of its own to frame, patient LPS mm; the grid decides what is lateral.
+/// As above, framing the given sphere, patient LPS mm; the grid determines the lateral side.
 core::CameraPose standardCamera(StandardView view, const core::GridGeometry& grid,
                                 const Eigen::Vector3d& center, double radius);
 

@@ -8,34 +8,34 @@
 namespace petrous::rendering
 {
 
-/// Shows a ScenePicture to two eyes in the window where it is attached, composed on the graphics
-/// card as composeStereo does it. Both eyes share the scene's textures.
+/// Shows a ScenePicture in stereo in the window it is attached to, composed on the GPU as by
+/// composeStereo. Both eyes share the scene's textures.
 ///
-/// A second renderer draws the right eye; the scene's own renderer draws the left one, and has the
-/// head's camera again when it is done, so ScenePicture::camera and the rays of a pointer stay
-/// those of the middle. ScenePicture::depth and pick are the right eye's while a mode is on.
+/// A second renderer draws the right eye. The scene's own renderer draws the left one and then gets
+/// the centre camera back, so ScenePicture::camera and pick rays refer to the centre view.
+/// ScenePicture::depth and pick refer to the right eye while a mode is on.
 ///
-/// QuadBuffer needs a window whose driver has two buffers; that window's StereoRender is turned on
-/// and off here.
+/// QuadBuffer needs a window whose driver provides stereo buffers; this class sets that window's
+/// StereoRender.
 ///
-/// Main thread only. Ends (or shows None) while the window's context exists and before the picture
-/// is detached.
+/// Main thread only. Destroy it (or show None) while the window's context exists and before the
+/// picture is detached.
 class StereoPicture
 {
 public:
-  /// The picture must be attached, and outlive this.
+  /// The picture must be attached and outlive this object.
   explicit StereoPicture(ScenePicture& picture);
   ~StereoPicture();
   StereoPicture(const StereoPicture&) = delete;
   StereoPicture& operator=(const StereoPicture&) = delete;
 
-  /// From the next frame on. The rig is brought into range for each frame's camera
+  /// Takes effect with the next frame. The rig is clamped for each frame's camera
   /// (fittedStereoGeometry).
   void show(StereoMode mode, const StereoRig& rig);
   StereoMode mode() const noexcept;
   const StereoRig& rig() const noexcept;
 
-  /// The screen's row of the picture's first row: even rows of the *screen* are the left eye's.
+  /// Screen row of the picture's first row: even *screen* rows show the left eye.
   void setFirstRow(int row) noexcept;
 
 private:

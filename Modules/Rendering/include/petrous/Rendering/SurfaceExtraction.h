@@ -7,10 +7,9 @@
 namespace petrous::rendering
 {
 
-/// The surface f = 0 in a box of CT voxels, patient LPS mm, triangles counter-clockwise seen
-/// from the air. f is sampled at the voxel centres; tissue that the box or the grid cuts off is
-/// closed there, so the mesh has no open border.
-/// Throws CancelledError.
+/// Isosurface f = 0 in a box of CT voxels, patient LPS mm; triangles are counter-clockwise seen
+/// from air. f is sampled at the voxel centres; tissue is capped at the border of box and grid, so
+/// the mesh is closed. Throws CancelledError.
 core::TriangleMesh extractSurface(const volume::TissueField& field, const core::IndexBox& box,
                                   const core::Progress& progress = {});
 

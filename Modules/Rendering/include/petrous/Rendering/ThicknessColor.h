@@ -5,9 +5,9 @@
 namespace petrous::rendering
 {
 
-/// Colours of bone by how thick it is, from 0 to the farthest that is shown, linear between these:
-/// blue where it is thinnest, as a surgeon sees a sinus through its last bone, over red to yellow.
-/// In CIELAB their lightness goes up by even steps from 28 to 88, so more is lighter to every eye.
+/// Colour map of bone thickness, from 0 to the maximum shown, linear in between: blue where bone is
+/// thinnest, as a sinus shines through its last bone, over red to yellow. Lightness in CIELAB
+/// increases uniformly from 28 to 88, so the order is also visible to colour-blind observers.
 constexpr std::array<std::array<float, 3>, 9> kThicknessColors{{{0.131F, 0.196F, 0.662F},
                                                                 {0.504F, 0.152F, 0.643F},
                                                                 {0.723F, 0.098F, 0.590F},
@@ -18,7 +18,7 @@ constexpr std::array<std::array<float, 3>, 9> kThicknessColors{{{0.131F, 0.196F,
                                                                 {0.998F, 0.731F, 0.428F},
                                                                 {1.000F, 0.853F, 0.395F}}};
 
-/// RGB, 0 to 1. `share` of the farthest, held within 0 to 1.
+/// RGB, 0 to 1. `share`: thickness relative to the maximum shown, clamped to 0 to 1.
 std::array<double, 3> thicknessColor(double share);
 
 } // namespace petrous::rendering

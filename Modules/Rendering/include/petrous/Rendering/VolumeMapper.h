@@ -10,17 +10,17 @@
 #include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/SceneContents.h"
 
-/// One-pass ray caster of CT, structures, cut and a second image (Documentation/rendering.md), for
-/// vtkVolume in any VTK program.
+/// Single-pass ray caster for CT, structures, cut mask and a second image
+/// (Documentation/rendering.md), for vtkVolume in any VTK program.
 ///
-/// Two ways to say what is drawn. With SetInputData alone the image is drawn as CT: its surface at
-/// IsoValue with SurfaceOpacity, inside it the colours and the opacity (over
-/// ScalarOpacityUnitDistance) of the vtkVolumeProperty. SetContents gives everything, in patient
-/// LPS mm; the prop's matrix, if any, then moves the patient in the world.
+/// Two kinds of input. With SetInputData alone the image is drawn as CT: its isosurface at IsoValue
+/// with SurfaceOpacity, and inside it the colour and opacity (per ScalarOpacityUnitDistance) of the
+/// vtkVolumeProperty. SetContents sets everything, in patient LPS mm; the prop's matrix, if any,
+/// maps patient to world.
 ///
-/// VTK's clipping planes (world) and the cropping region (sub-volume only) are obeyed. Opaque
-/// polygons are intermixed. Scalars: int16, uint16 or float; others are refused with an error.
-/// The mapper belongs to one window. Main thread only.
+/// Supports VTK's clipping planes (world) and cropping region (sub-volume only). Opaque polygons
+/// are intermixed. Scalars: int16, uint16 or float; others are rejected with an error. A mapper
+/// belongs to one window. Main thread only.
 class vtkPetrousVolumeMapper : public vtkVolumeMapper
 {
 public:
@@ -38,12 +38,12 @@ public:
 
   void SetContents(const petrous::rendering::SceneContents& contents);
 
-  /// A box of CT voxels of the mask changed, to less or to more; null: nothing is cut any more.
-  /// Throws nothing; the change shows in the next frame (under a cap, see statistics).
+  /// The mask decreased or increased in a box of CT voxels; null: nothing is cut any more.
+  /// Does not throw; the change is visible in the next frame (limited by a cap, see statistics).
   void MaskChanged(std::shared_ptr<const petrous::volume::CutMask> mask,
                    const petrous::core::IndexBox& box);
 
-  /// Makes the mask ready before anything is cut; without it, a mask in which nothing is cut costs
+  /// Prepares the mask before anything is cut. Otherwise a mask in which nothing is cut costs
   /// nothing.
   void ExpectCut(bool expected);
 
@@ -51,20 +51,20 @@ public:
   void SetQuality(const petrous::rendering::RenderQuality& quality);
   const petrous::rendering::RenderQuality& GetQuality() const;
 
-  /// Counts fetches and samples in the frames that follow, at the price of their time.
+  /// Counts texture fetches and samples of subsequent frames, which slows them down.
   vtkSetMacro(Counting, bool);
   vtkGetMacro(Counting, bool);
   const petrous::rendering::RenderStatistics& GetStatistics() const;
 
-  /// Distance to the first surface of the last frame, mm along each pixel's ray, rows from the top.
+  /// Distance to the first surface in the last frame, mm along each pixel's ray, top row first.
   /// Makes the window's context current.
   petrous::rendering::DepthImage GetDepth();
 
-  /// The same at one pixel of the renderer's part of the window, rows from the top; NaN: none.
+  /// Depth at one pixel of the renderer's viewport, rows from the top; NaN: no hit.
   float GetDepthAt(double column, double row);
 
-  /// What went wrong in the last frame (RenderingError, InvalidParameter), once; null: nothing.
-  /// Render itself does not throw; it also reports a VTK error.
+  /// The last frame's error (RenderingError, InvalidParameter), once; null: none. Render itself
+  /// does not throw; it also reports a VTK error.
   std::exception_ptr TakeError();
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;

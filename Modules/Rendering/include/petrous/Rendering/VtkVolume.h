@@ -10,16 +10,16 @@
 namespace petrous::rendering
 {
 
-/// The same memory as a VTK image with origin, spacing and direction; nothing is copied, and the
-/// image keeps the volume alive. VTK must not write to it. Instantiated for int16, uint16, float.
+/// Wraps the volume as a VTK image with origin, spacing and direction, without copying; the image
+/// keeps the volume alive. VTK must not write to it. Instantiated for int16, uint16, float.
 template <class T>
 vtkSmartPointer<vtkImageData> wrap(const std::shared_ptr<const volume::Volume<T>>& voxels);
 
-/// The same for a CT or MR image of any of its types.
+/// As above, for a CT or MR image of any supported type.
 vtkSmartPointer<vtkImageData> wrap(const volume::IntensityVolume& volume);
 
-/// The other way: an image of VTK as a volume of the same memory, kept alive. One component of
-/// int16, uint16 or float, else InvalidParameter saying what is needed.
+/// Wraps a VTK image as a volume of the same memory, which is kept alive. Throws InvalidParameter,
+/// saying what is needed, unless it has one component of int16, uint16 or float.
 std::shared_ptr<const volume::IntensityVolume> unwrap(vtkImageData* image);
 
 } // namespace petrous::rendering

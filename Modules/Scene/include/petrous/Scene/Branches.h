@@ -9,38 +9,38 @@
 namespace petrous::scene
 {
 
-/// Goes to the state of `next` in the list, and in the voxels where they are loaded. Throws as
-/// Dissection::follow does; nothing has changed then.
+/// Changes the history to `next`, including the voxels if they are loaded. Throws like
+/// Dissection::follow; nothing has changed then.
 void follow(Case& value, dissection::History next);
 
-/// Makes a branch (an approach) and goes on it: at the present state, or at that after the first
-/// `after` strokes of the present branch, also of those that are undone. Throws InvalidParameter
-/// where the name is taken or unfit, or the branch has not so many strokes.
+/// Creates a branch (an approach) and switches to it: at the current state, or at the state after
+/// the first `after` strokes of the current branch, including undone ones. Throws InvalidParameter
+/// if the name is taken or invalid, or if the branch has fewer strokes.
 void startBranch(Case& value, const std::string& name,
                  std::optional<std::size_t> after = std::nullopt);
 
-/// Goes to a branch, to the state in which it was left. Throws InvalidParameter.
+/// Switches to a branch, in the state in which it was left. Throws InvalidParameter.
 void goToBranch(Case& value, const std::string& name);
 
-/// A name that drilling after an undo gave becomes one that somebody chose. Throws
-/// InvalidParameter.
+/// Replaces the automatic name of a branch, created by drilling after an undo, by a chosen one.
+/// Throws InvalidParameter.
 void renameBranch(Case& value, const std::string& from, const std::string& to);
 
-/// Removes a branch that is not the present one, with the strokes that are on no other: these are
-/// lost. Their count. Throws InvalidParameter.
+/// Removes a branch other than the current one, with the strokes that are on no other branch; these
+/// are lost. Returns their number. Throws InvalidParameter.
 std::size_t removeBranch(Case& value, const std::string& name);
 
-/// What the strokes up to a state took.
+/// What the strokes up to a state removed.
 struct StateSummary
 {
   std::size_t strokes = 0;
   double removed = 0.0;                                 ///< mm^3
-  std::vector<dissection::TouchedStructure> structures; ///< by name
+  std::vector<dissection::TouchedStructure> structures; ///< sorted by name
 };
 StateSummary summaryOf(const Case& value, std::size_t state);
 
-/// Throws InvalidParameter unless a branch can go by this name: 1 to 100 bytes of UTF-8, no control
-/// characters, not a leading dash.
+/// Throws InvalidParameter unless the name is valid for a branch: 1 to 100 bytes of UTF-8, no
+/// control characters, no leading dash.
 void checkBranchName(const std::string& name);
 
 } // namespace petrous::scene

@@ -7,11 +7,11 @@
 namespace petrous::scene
 {
 
-/// What a burr of that kind meets in the case, place by place. A structure is of its look's tissue
-/// (StructureLook::tissue); where structures overlap, the one with the lowest priority number
-/// counts. Everything else is bone by its density: the catalogue's ramp, stretched to where bone
-/// lies among the case's intensities. Loads the CT, and the labels and meshes that have a tissue.
-/// Throws InvalidParameter that names the structure whose tissue there is no material for.
+/// Drilling resistance of the case's tissue for a burr of this kind. A structure has the tissue of
+/// its appearance (StructureAppearance::tissue); where structures overlap, the lowest priority
+/// number wins. Everything else is bone according to its density: the catalogue's ramp, rescaled to
+/// the bone range of the case's intensities. Loads the CT, and the labels and meshes that have a
+/// tissue. Throws InvalidParameter naming the structure for whose tissue there is no material.
 dissection::TissueResistance tissueResistance(const Case& value,
                                               const dissection::Catalogues& catalogues,
                                               dissection::Burr::Kind burr);

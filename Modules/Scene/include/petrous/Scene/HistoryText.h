@@ -8,8 +8,8 @@
 namespace petrous::scene
 {
 
-/// One line of JSON each, as the manifest has them: for a journal. Numbers go there and back
-/// without loss. `...FromText` throws InvalidParameter when the text is not one that was written.
+/// One line of JSON each, in the manifest's format: for a journal. Numbers round-trip exactly.
+/// `...FromText` throws InvalidParameter if the text was not written by these functions.
 std::string toText(const StrokePart& stroke);
 std::string toText(const dissection::History& history);
 StrokePart strokeFromText(std::string_view text);

@@ -12,26 +12,25 @@
 namespace petrous::scene
 {
 
-/// A CT or MR image of the case. The voxels come when asked for; the rest is known without them.
+/// A CT or MR image of the case. Voxels are loaded on demand; the rest is available without them.
 struct ImagePart
 {
   std::string name;
-  std::string object; ///< name in the store; empty until saved
+  std::string object; ///< name in the object store; empty until saved
   core::GridGeometry geometry;
   volume::ValueRange range;
-  std::vector<std::string> notes; ///< what was accepted when the image was read, in words
+  std::vector<std::string> notes; ///< what was accepted on reading the image, for the user
   core::Lazy<volume::IntensityVolume> volume;
-  /// X_MC: takes CT patient points to this image's patient points, LPS mm; identity until
-  /// registered.
+  /// X_MC: CT patient points to this image's patient points, LPS mm; identity until registered.
   core::RigidTransform mrFromCt;
   bool registered = false;
-  /// How it came there; set by layMr (LayMr.h). Nothing until registered.
+  /// Set by layMr (ApplyRegistration.h). nullopt until registered.
   std::optional<Registration> registration;
-  /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images that have the same were
-  /// taken in one position of the patient, as the scanner holds it. Empty: not known.
+  /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images with the same value were
+  /// acquired in one position of the patient, according to the scanner. Empty: unknown.
   std::string frameOfReference;
-  /// Whether that was hashed once more with the library's own secret, which Library::save does;
-  /// comparable only where both are or neither is.
+  /// Whether it was hashed again with the library's secret salt, as Library::save does; comparable
+  /// only if both or neither are.
   bool isFrameSalted = false;
 };
 

@@ -20,17 +20,17 @@ struct ManifestError : core::Error
   Reason reason;
 };
 
-/// 2: branches; 3: how an MR was registered, and what was drawn on one. A manifest of an older
-/// format opens.
+/// 2: branches; 3: how an MR was registered, and what was drawn on one. Older formats can be
+/// opened.
 constexpr int kManifestFormat = 3;
 
-/// The case as JSON: everything but the voxels, which it names by their objects. Two equal cases
-/// give the same text. Numbers go there and back without loss. Throws InvalidParameter naming the
-/// first that is not finite.
+/// The case as JSON: everything but the voxels, which are referenced by object name. Equal cases
+/// give the same text. Numbers round-trip exactly. Throws InvalidParameter naming the first
+/// non-finite number.
 std::string toManifest(const Case& value);
 
-/// A case without voxels; the library attaches them. `source` names the manifest in errors.
-/// Throws ManifestError when the text is damaged or written by a newer format.
+/// A case without voxels; the library attaches them. `source` names the manifest in errors. Throws
+/// ManifestError if the text is damaged or of a newer format.
 Case fromManifest(std::string_view text, const std::string& source);
 
 } // namespace petrous::scene

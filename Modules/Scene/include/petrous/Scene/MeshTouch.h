@@ -8,27 +8,28 @@
 namespace petrous::scene
 {
 
-/// A mesh as the hand feels it: whether it can be felt, and its voxels, each made when first asked
-/// for and kept. Copies share what is made. Thread-safe.
+/// Haptic representation of a mesh: whether it can be touched, and its voxels, each computed on
+/// first use and cached. Copies share the cache. Thread-safe.
 ///
-/// Both are for one mesh and one CT grid; asked with another mesh or grid, they are made anew.
+/// Both are for one mesh and one CT grid; for another mesh or grid they are recomputed.
 class MeshTouch
 {
 public:
   MeshTouch();
 
-  /// Why the mesh cannot become voxels, in words that follow its name; empty when it can.
+  /// Why the mesh cannot be voxelized, phrased to follow its name; empty if it can.
   std::string refusal(const std::shared_ptr<const core::TriangleMesh>& mesh,
                       const core::GridGeometry& ct) const;
 
-  /// Share of "inside" (volume::solidOf) where the CT is; null where `refusal` says why not. Voxels
-  /// are as fine as the CT's finest, and finer where the mesh needs it. Throws CancelledError.
+  /// Occupancy of the interior (volume::solidOf) within the CT; nullptr if refused (see `refusal`).
+  /// Voxels are as fine as the CT's smallest spacing, and finer if the mesh requires it. Throws
+  /// CancelledError.
   std::shared_ptr<const volume::Volume<float>>
   solid(const std::shared_ptr<const core::TriangleMesh>& mesh, const core::GridGeometry& ct,
         const core::Progress& progress = {}) const;
 
-  /// The voxels where they are made already, else null; never waits for who makes them. Nor does
-  /// `refusal` where it is known.
+  /// The voxels if already computed, else nullptr; never waits for a computation in progress. Nor
+  /// does `refusal` if its answer is known.
   std::shared_ptr<const volume::Volume<float>> resident() const;
 
 private:

@@ -9,42 +9,42 @@
 namespace petrous::scene
 {
 
-/// Where a label map or a mesh lies: in the CT's patient space, or in that of an MR, through whose
-/// registration it comes to the CT. As long as that MR is not registered it is nowhere on the CT:
-/// it is not drawn, not felt, not drilled and not measured.
+/// The space in which a label map or a mesh was drawn: the CT's patient space, or that of an MR,
+/// from which the MR's registration maps it to the CT. While that MR is not registered it has no
+/// place in CT space: it is not rendered, touched, drilled or measured.
 struct Placement
 {
-  std::string drawnOn; ///< the MR's name; empty: it lies in the CT's patient space
-  std::string missing; ///< why it has no place on the CT, in words that follow its name; or empty
-  core::RigidTransform mrFromCt; ///< of the MR, where it has a place
+  std::string drawnOn;           ///< name of the MR; empty: in the CT's patient space
+  std::string missing;           ///< why it has no place in CT space, to follow its name; or empty
+  core::RigidTransform mrFromCt; ///< of the MR, if it has a place
 };
 
-/// Of labels of which the case does not say it (of older cases), a map that has the grid of one MR,
-/// and not the CT's, was drawn on that; only then the labels are loaded.
+/// For labels without this information (older cases), a map with the grid of one MR, and not that
+/// of the CT, is taken as drawn on that MR; only then the labels are loaded.
 Placement placementOf(const Case& value, const LabelPart& part);
 Placement placementOf(const Case& value, const MeshPart& part);
 
-/// Why the structure or mesh of that name has no place on the CT; empty where it has one, or there
-/// is none of that name.
+/// Why the structure or mesh of that name has no place in CT space; empty if it has one, or if
+/// there is none of that name.
 std::string missingPlace(const Case& value, const std::string& name);
 
-/// The labels where they lie on the CT: the same voxels, on a grid in the CT's patient space. Null
-/// where they have no place. Loads them.
+/// The labels in CT space: the same voxels, on a grid in the CT's patient space. nullptr if they
+/// have no place there. Loads the labels.
 std::shared_ptr<const volume::LabelMap> labelsOnCt(const Case& value, const LabelPart& part);
 
-/// The mesh where it lies on the CT, likewise.
+/// The mesh in CT space; nullptr if it has no place there. Loads the mesh.
 std::shared_ptr<const core::TriangleMesh> meshOnCt(const Case& value, const MeshPart& part);
 
-/// Structures and meshes that were drawn on an MR.
+/// Names of structures and meshes drawn on an MR.
 std::vector<std::string> drawnOnMr(const Case& value, const std::string& mr);
 
-/// "'a', 'b'"; of many names the first few and how many more there are.
+/// "'a', 'b'"; for many names the first few and the number of the others.
 std::string listed(const std::vector<std::string>& names);
 
-/// The MR images that have this grid, where it is not the CT's.
+/// The MR images with this grid; none if it is the CT's.
 std::vector<std::string> mrWithGrid(const Case& value, const core::GridGeometry& grid);
 
-/// A grid moved: what it said of points of B, it says of points of A then.
+/// A rigidly transformed grid: its patient points of B become the corresponding points of A.
 core::GridGeometry movedGrid(const core::GridGeometry& grid, const core::RigidTransform& aFromB);
 
 } // namespace petrous::scene

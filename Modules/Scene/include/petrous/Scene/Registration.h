@@ -10,34 +10,34 @@
 namespace petrous::scene
 {
 
-/// How well an MR lies on the CT at one place: the length of the vector between where a point of
-/// the CT is in the MR and where the registration puts it.
+/// Target registration error at one point: distance between the true position of a CT point in the
+/// MR and where the registration maps it.
 struct RegistrationError
 {
   Eigen::Vector3d point{0.0, 0.0, 0.0}; ///< CT patient point, LPS mm
-  std::string place;                    ///< what is there, in words: "incus"
+  std::string place;                    ///< anatomical description: "incus"
   double median = 0.0;                  ///< mm
   double p95 = 0.0;                     ///< mm
   double max = 0.0;                     ///< mm
 };
 
-/// That a surgeon looked at a registration and accepts it. It holds for one transform only.
+/// A surgeon's acceptance of a registration after inspection. Valid for one transform only.
 struct SignOff
 {
   std::string who;                ///< a clinician's name, never a patient's
   std::string when;               ///< ISO 8601, UTC
-  core::RigidTransform transform; ///< what was signed: ImagePart::mrFromCt as it was then
+  core::RigidTransform transform; ///< the accepted ImagePart::mrFromCt
 };
 
-/// How an MR came to lie on the CT.
+/// How an MR was registered to the CT.
 struct Registration
 {
   enum class Method
   {
     MutualInformation,
     Landmarks,       ///< pairs of points
-    ByHand,          ///< moved by the user, or a transform from elsewhere
-    FrameOfReference ///< the scanner's own, which it has in common with another image
+    ByHand,          ///< moved by the user, or an external transform
+    FrameOfReference ///< shared with another image according to the scanner
   };
   enum class Verdict
   {
@@ -47,23 +47,23 @@ struct Registration
   };
 
   Method method = Method::MutualInformation;
-  bool refined = false; ///< by mutual information, from where the method put it
+  bool refined = false; ///< by mutual information, from the result of the method
   Verdict verdict = Verdict::NotJudged;
-  std::string text;             ///< the verdict's reason, in words
+  std::string text;             ///< reason for the verdict, for the user
   std::optional<double> metric; ///< mutual information, nats
   std::optional<RegistrationError> error;
-  std::string through; ///< the MR on which it was laid, whose own way to the CT was known; or empty
+  std::string through; ///< the registered MR to which it was aligned; or empty
   std::optional<SignOff> signOff;
 };
 
 const char* nameOf(Registration::Method method) noexcept;   ///< as in manifest and JSON
 const char* nameOf(Registration::Verdict verdict) noexcept; ///< "good", "doubtful", "not judged"
 
-/// Throw InvalidParameter for a name that is none of these.
+/// Throw InvalidParameter for an unknown name.
 Registration::Method methodFromName(const std::string& name);
 Registration::Verdict verdictFromName(const std::string& name);
 
-/// What follows "by": "hand", "mutual information", "landmarks, refined by mutual information,
+/// Phrase following "by": "hand", "mutual information", "landmarks, refined by mutual information,
 /// through 'T2'".
 std::string methodInWords(const Registration& registration);
 

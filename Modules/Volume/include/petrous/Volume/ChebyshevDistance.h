@@ -8,8 +8,8 @@
 namespace petrous::volume
 {
 
-/// Bytes of a block of cells, first axis fastest; rows are padded so that a plane is one line of
-/// whole vector registers.
+/// One byte per cell of a block, first axis fastest; rows are padded so that a plane is a whole
+/// number of vector registers.
 struct DistanceBlock
 {
   core::IndexBox box;
@@ -24,13 +24,13 @@ struct DistanceBlock
   }
 };
 
-/// For every cell of `box` the Chebyshev distance in cells to the nearest marked cell of the grid,
-/// at most `cap`. A cell is marked where cells[i * stride] & bit; the grid's border is no obstacle
-/// and no mark. Exact: L-infinity separates into one pass an axis,
+/// Chebyshev distance in cells of every cell of `box` to the nearest marked cell of the grid,
+/// capped at `cap`. A cell is marked if cells[i * stride] & bit; cells beyond the grid are
+/// unmarked. Exact: L-infinity separates into one pass per axis,
 ///
 ///   d(x, y, z) = min_c max(|c|, min_b max(|b|, d_x(x, y + b, z + c)))
 ///
-/// and with a cap each pass looks at cap - 1 neighbours to both sides, many cells at a time.
+/// and with a cap each pass reads cap - 1 neighbours on both sides, many cells at a time.
 DistanceBlock chebyshevDistances(const std::uint8_t* cells, std::size_t stride, std::uint8_t bit,
                                  const core::Index3& dims, const core::IndexBox& box, int cap);
 

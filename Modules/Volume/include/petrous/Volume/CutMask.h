@@ -12,12 +12,12 @@
 namespace petrous::volume
 {
 
-/// What is left of each voxel after drilling: 65535 untouched, 0 gone.
+/// Remaining fraction of each voxel after drilling: 65535 untouched, 0 removed.
 ///
-/// Held in bricks of 16^3 that are made when first written; a brick that was never cut costs one
-/// null pointer. A brick's version is immutable: writing replaces the pointer, so a history keeps
-/// versions by sharing them, and undo is a swap of pointers. Not thread-safe: one writer, and
-/// readers on the same thread or on a copy (copies share the versions).
+/// Stored in bricks of 16^3 that are allocated on first write; an untouched brick costs one null
+/// pointer. A brick version is immutable: writing replaces the pointer, so a history shares
+/// versions and undo swaps pointers. Not thread-safe: one writer, with readers on the same thread
+/// or on a copy (copies share the versions).
 class CutMask
 {
 public:
@@ -26,7 +26,7 @@ public:
   static constexpr std::uint16_t kUntouched = 65535;
 
   using Brick = std::array<std::uint16_t, kBrickVoxels>; ///< first axis fastest
-  using BrickVersion = std::shared_ptr<const Brick>;     ///< null: all untouched
+  using BrickVersion = std::shared_ptr<const Brick>;     ///< nullptr: all untouched
 
   explicit CutMask(const core::GridGeometry& geometry);
 
@@ -35,10 +35,10 @@ public:
   std::size_t brickCount() const noexcept { return m_bricks.size(); }
   std::size_t brickIndex(const core::Index3& brick) const noexcept;
 
-  /// The voxels of a brick, cut to the grid.
+  /// The voxels of a brick, clipped to the grid.
   core::IndexBox brickBox(std::size_t brick) const noexcept;
 
-  /// The bricks (half-open box of brick positions) that a box of voxels touches.
+  /// The bricks (half-open box of brick positions) that a box of voxels intersects.
   core::IndexBox bricksCovering(const core::IndexBox& voxels) const noexcept;
 
   const BrickVersion& brick(std::size_t index) const noexcept { return m_bricks[index]; }
@@ -48,7 +48,8 @@ public:
 
   std::uint16_t at(int i, int j, int k) const noexcept;
 
-  /// Trilinear share left at a continuous voxel position, 0 to 1. No lookups where untouched.
+  /// Remaining fraction at a continuous voxel position, trilinear, 0 to 1. No lookups where
+  /// untouched.
   double sample(const Eigen::Vector3d& voxel) const noexcept;
 
   bool untouched() const noexcept; ///< no brick was ever written, or all were undone
@@ -57,10 +58,11 @@ public:
   /// Bricks replaced since the last call, in order of first change, each once; clears the list.
   std::vector<std::size_t> takeDirty();
 
-  /// Box of the voxels in `bricks`, widened by one voxel: what interpolation there can reach.
+  /// Bounding box of the voxels in `bricks`, grown by one voxel: the support of interpolation
+  /// there.
   core::IndexBox boxOf(const std::vector<std::size_t>& bricks) const noexcept;
 
-  /// Every voxel, for export and for programs that want one array.
+  /// All voxels as one array, for export and external programs.
   Volume<std::uint16_t> dense() const;
 
 private:

@@ -9,19 +9,21 @@
 namespace petrous::volume
 {
 
-constexpr std::size_t kMostFieldVoxels = 3'000'000; ///< 12 MB
+constexpr std::size_t kMaxFieldVoxels = 3'000'000; ///< 12 MB
 
-/// How far the places round a structure are from its surface, mm, negative within, on a grid of
-/// cubes to be read by trilinear interpolation. The surface is where the trilinear share
-/// (SmoothedUnion.h) is 1/2.
+/// Signed distance to a structure's surface around it, mm, negative inside, on a grid of cubic
+/// voxels for trilinear interpolation. The surface is the 1/2 level of the trilinear occupancy
+/// (SmoothedUnion.h).
 ///
-/// Values hold up to `reach` mm outside; beyond that, and within deeper than `reach`, they only
-/// tell that it is farther. Beyond the grid's hull it is farther than `reach`. The cubes are half
-/// the share's least spacing in edge, larger where there would be more than `mostVoxels`.
+/// Values are valid up to `reach` mm outside; farther outside, and deeper inside than `reach`, they
+/// are only lower bounds of the magnitude. Beyond the grid's hull the distance exceeds `reach`. The
+/// voxel edge is half the minimum spacing of the occupancy, larger where there would be more than
+/// `maxVoxels`.
 ///
-/// Null where no voxel lies inside. Throws CancelledError, InvalidParameter unless reach > 0.
-std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& share, double reach,
+/// Returns nullptr if no voxel is inside. Throws CancelledError, and InvalidParameter unless reach
+/// > 0.
+std::shared_ptr<const Volume<float>> makeDistanceField(const Volume<float>& occupancy, double reach,
                                                        const core::Progress& progress = {},
-                                                       std::size_t mostVoxels = kMostFieldVoxels);
+                                                       std::size_t maxVoxels = kMaxFieldVoxels);
 
 } // namespace petrous::volume

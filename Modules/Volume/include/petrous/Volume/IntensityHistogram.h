@@ -8,24 +8,24 @@
 namespace petrous::volume
 {
 
-/// How often which intensity occurs in an image; padding, NaN and infinities are left out.
+/// Histogram of an image's intensities, without padding, NaN and infinities.
 ///
-/// Bins are of equal width and cover the values, all of them as a rule. Where a few outliers (one
-/// in 10 000 at either end at most) would squeeze the rest into a sixteenth of the bins, the bins
-/// cover the rest, and the outliers count in the first and the last bin. Bins of integer images are
-/// whole numbers wide, so that none of them holds more of the possible values than another.
+/// Bins are of equal width and normally cover all values. If few outliers (at most one in 10 000 at
+/// either end) would compress the rest into a sixteenth of the bins, the bins cover the rest, and
+/// outliers count in the first and the last bin. Bins of integer images have integer width, so that
+/// each contains the same number of possible values.
 class IntensityHistogram
 {
 public:
   static constexpr int kBins = 1024;
 
-  /// Reads every voxel, in parallel. bins: the most there may be, >= 2, else InvalidParameter.
+  /// Reads every voxel, in parallel. bins: maximum number, >= 2, else InvalidParameter.
   explicit IntensityHistogram(const IntensityVolume& image, int bins = kBins);
 
-  std::uint64_t count() const noexcept { return m_count; }     ///< voxels that count
-  const ValueRange& range() const noexcept { return m_range; } ///< of them; both 0 where none
+  std::uint64_t count() const noexcept { return m_count; }     ///< voxels counted
+  const ValueRange& range() const noexcept { return m_range; } ///< of these; both 0 if none
 
-  const std::vector<std::uint64_t>& bins() const noexcept { return m_bins; } ///< empty where none
+  const std::vector<std::uint64_t>& bins() const noexcept { return m_bins; } ///< empty if none
   double lower() const noexcept { return m_lower; } ///< edge of the first bin
   double binWidth() const noexcept { return m_width; }
   double center(std::size_t bin) const noexcept
@@ -33,8 +33,8 @@ public:
     return m_lower + (static_cast<double>(bin) + 0.5) * m_width;
   }
 
-  /// The value that `share` (0 to 1) of the voxels do not exceed, linear within a bin; of those
-  /// voxels only that lie above `above`, where it is given. 0 where there is no voxel.
+  /// The `share` quantile (0 to 1) of the voxels, linear within a bin; of those above `above`, if
+  /// given. 0 if there is no voxel.
   double percentile(double share) const;
   double percentile(double share, double above) const;
 

@@ -16,10 +16,10 @@ struct ValueRange
   double max = 0.0;
 };
 
-/// A CT (Hounsfield units) or MR (arbitrary units) image in the type that its file had.
+/// A CT (Hounsfield units) or MR (arbitrary units) image in the data type of its file.
 ///
-/// Values are in modality units: rescale slope and intercept are applied already. Voxels equal
-/// to `padding` lie outside the scanned field: they keep their value but are left out of ranges.
+/// Values are in modality units: rescale slope and intercept have been applied. Voxels equal to
+/// `padding` are outside the scanned field: they keep their value but are excluded from ranges.
 class IntensityVolume
 {
 public:
@@ -27,7 +27,7 @@ public:
                               std::shared_ptr<const Volume<std::uint16_t>>,
                               std::shared_ptr<const Volume<float>>>;
 
-  /// Throws InvalidParameter when the pointer is null.
+  /// Throws InvalidParameter if the pointer is null.
   explicit IntensityVolume(Voxels voxels, std::optional<double> padding = std::nullopt);
 
   const Voxels& voxels() const noexcept { return m_voxels; }
@@ -35,7 +35,7 @@ public:
   const core::GridGeometry& geometry() const noexcept;
   std::size_t bytes() const noexcept;
 
-  /// Smallest and largest value without padding, NaN and infinities; both 0 when nothing is left.
+  /// Minimum and maximum value without padding, NaN and infinities; both 0 if nothing remains.
   /// Reads every voxel.
   ValueRange range() const;
 

@@ -16,12 +16,12 @@ struct Segment
 {
   std::string name;
   std::uint16_t index = 0;      ///< its voxel value, >= 1
-  std::array<float, 3> color{}; ///< 0 to 1; black where the file gives none
-  std::uint64_t voxels = 0;     ///< how many voxels carry the index
+  std::array<float, 3> color{}; ///< 0 to 1; black if the file has none
+  std::uint64_t voxels = 0;     ///< number of voxels with this index
 };
 
-/// Structures drawn on a grid of their own (which need not be the CT's): voxel value 0 is
-/// nothing, each other value is one segment. Segments of one map do not overlap.
+/// Segmentation on its own grid (which need not be the CT's): voxel value 0 is background, each
+/// other value is one segment. Segments of one map do not overlap.
 struct LabelMap
 {
   std::shared_ptr<const Volume<std::uint16_t>> voxels;
@@ -33,14 +33,13 @@ struct LabelMap
   }
 };
 
-/// Counts voxels; segments are named "label N" where `names` has no entry for an index that
-/// occurs. Entries of `names` that do not occur are kept with 0 voxels.
-/// Throws InvalidParameter when an index in `names` is 0 or occurs twice.
+/// Counts voxels; segments without an entry in `names` are called "label N". Entries of `names`
+/// without voxels are kept. Throws InvalidParameter if an index in `names` is 0 or occurs twice.
 LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
                       std::vector<Segment> names);
 
-/// The box round each segment's voxels, in the order of `segments`; empty where there are none.
-/// Looks at every voxel once (about 0.1 s for 512^3).
+/// Bounding box of each segment's voxels, in the order of `segments`; empty for segments without
+/// voxels. One pass over all voxels (about 0.1 s for 512^3).
 std::vector<core::IndexBox> boxesOf(const LabelMap& labels);
 
 } // namespace petrous::volume

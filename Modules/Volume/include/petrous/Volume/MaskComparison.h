@@ -7,7 +7,7 @@
 namespace petrous::volume
 {
 
-/// Voxels of two masks on one grid that differ.
+/// Number of voxels that differ between two masks on one grid.
 std::size_t differentVoxels(const CutMask& a, const CutMask& b);
 
 } // namespace petrous::volume

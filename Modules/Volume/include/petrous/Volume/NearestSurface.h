@@ -17,29 +17,30 @@ struct NearestSurface
   Eigen::Vector3d normal{0.0, 0.0, 0.0}; ///< there, out of the tissue, patient axes
 };
 
-/// Searches the nearest point of the surface f = 0, on f itself.
+/// Search for the nearest point of the surface f = 0, on f itself.
 ///
-/// The faces of the scan are no surface, whatever they cut (Documentation/frames.md, "Domain").
+/// The faces of the scan are not surface, whatever they intersect (Documentation/frames.md,
+/// "Domain").
 ///
-/// The grid is looked at in blocks of cells, the nearest first; which cells of a block the surface
-/// crosses is kept, so that many questions cost little. The field must outlive the search and must
-/// not change meanwhile. Unions of finer voxels than the CT's are looked at themselves, so that a
-/// thin mesh is seen where all of the CT's voxel centres around it lie in air; a wall of bone or of
-/// the cut between two of them is not seen. Tells the field what it asks (TissueField::prepare).
-/// Not thread-safe.
+/// The grid is searched in blocks of cells, nearest first; the crossed cells of each block are
+/// cached, so that repeated queries are cheap. The field must outlive the search and must not
+/// change meanwhile. Unions with finer voxels than the CT's are sampled at their own resolution, so
+/// that a thin mesh is found even where all CT voxel centres around it are in air; a wall of bone
+/// or of the cut between two CT voxels is not. Calls TissueField::prepare for the regions that it
+/// reads. Not thread-safe.
 class NearestSurfaceSearch
 {
 public:
-  /// reach  how far a surface is looked for, mm
+  /// reach  maximum search distance, mm
   NearestSurfaceSearch(const TissueField& field, double reach);
 
-  /// Nothing when no surface lies within reach.
+  /// Returns nullopt if no surface is within reach.
   std::optional<NearestSurface> find(const Eigen::Vector3d& patient)
   {
     return find(patient, m_reach);
   }
 
-  /// For who knows how far the surface is at most.
+  /// For callers with a known upper bound of the distance.
   std::optional<NearestSurface> find(const Eigen::Vector3d& patient, double reach);
 
 private:
@@ -55,7 +56,7 @@ private:
 
   const TissueField& m_field;
   double m_reach;
-  int m_subdivisions; // of a cell, for the lattice that finds the surface in it
+  int m_subdivisions; // of a cell, for the lattice that locates the surface in it
   std::unordered_map<std::uint64_t, std::vector<core::Index3>> m_crossed;
 };
 

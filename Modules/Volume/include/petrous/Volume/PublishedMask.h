@@ -11,39 +11,39 @@
 namespace petrous::volume
 {
 
-/// One state of a cut mask, never changed once it is published: bricks in blocks, so that a new
-/// state copies the blocks that differ and shares the rest.
+/// Immutable snapshot of a cut mask: bricks grouped in blocks, so that a new state copies the
+/// blocks that differ and shares the rest.
 class MaskState
 {
 public:
-  static constexpr std::size_t kBlock = 64; ///< bricks of a block
+  static constexpr std::size_t kBlock = 64; ///< bricks per block
   using Block = std::array<CutMask::BrickVersion, kBlock>;
 
   explicit MaskState(const CutMask& mask, std::uint64_t number = 0);
 
-  /// `bricks` taken from `mask`, all others as in `previous`.
+  /// `bricks` taken from `mask`, all others from `previous`.
   MaskState(const MaskState& previous, const CutMask& mask, const std::vector<std::size_t>& bricks);
 
-  /// Null where nothing was ever cut.
+  /// nullptr where nothing was ever cut.
   const CutMask::Brick* brick(std::size_t index) const noexcept
   {
     const Block* block = m_blocks[index / kBlock].get();
     return block ? (*block)[index % kBlock].get() : nullptr;
   }
 
-  /// The same, to be kept.
+  /// The same, with shared ownership.
   CutMask::BrickVersion version(std::size_t index) const
   {
     const Block* block = m_blocks[index / kBlock].get();
     return block ? (*block)[index % kBlock] : nullptr;
   }
 
-  std::uint64_t number() const noexcept { return m_number; } ///< of the state, rising
+  std::uint64_t number() const noexcept { return m_number; } ///< increases with every state
 
-  /// How often tissue came back (undo, another case): until this changes, the tissue of a later
-  /// state lies within that of an earlier one.
+  /// Number of times that tissue was restored (undo, another case): while it is unchanged, the
+  /// tissue of a later state is a subset of that of an earlier one.
   std::uint64_t raises() const noexcept { return m_raises; }
-  void raise() noexcept { ++m_raises; } ///< before it is published
+  void raise() noexcept { ++m_raises; } ///< before publication
 
 private:
   std::vector<std::shared_ptr<const Block>> m_blocks;
@@ -51,16 +51,16 @@ private:
   std::uint64_t m_raises = 0;
 };
 
-/// Hands a mask's states from the one thread that cuts to the one thread that feels.
+/// Publishes a mask's states from the cutting thread to the servo thread (one writer, one reader).
 ///
-/// The writer swaps a single pointer to a whole state, so a tick sees one state and never half a
-/// cut. The reader says in a hazard pointer which state it holds (Michael 2004,
-/// doi 10.1109/TPDS.2004.8); the writer frees the others. Neither waits for the other; the reader
-/// does not allocate and does not free.
+/// The writer swaps a single pointer to a complete state, so a tick never sees half a cut. The
+/// reader announces the state that it holds in a hazard pointer (Michael 2004, doi
+/// 10.1109/TPDS.2004.8); the writer frees the others. Neither blocks the other; the reader neither
+/// allocates nor frees.
 class PublishedMask
 {
 public:
-  /// `number` is that of the first state: a session that is played again counts as it did.
+  /// `number` is that of the first state, so that a replayed session has the same numbers.
   explicit PublishedMask(const CutMask& mask, std::uint64_t number = 0);
   PublishedMask(const PublishedMask&) = delete;
   PublishedMask& operator=(const PublishedMask&) = delete;
@@ -68,27 +68,27 @@ public:
   const core::GridGeometry& geometry() const noexcept { return m_geometry; }
   const core::Index3& brickDims() const noexcept { return m_brickDims; }
 
-  /// Writer: the given bricks of `mask`, which lies on the same grid, are new. `raised` when tissue
-  /// may have come back.
+  /// Writer: publishes the given bricks of `mask`, which must be on the same grid. `raised` if
+  /// tissue may have been restored.
   void publish(const CutMask& mask, const std::vector<std::size_t>& bricks, bool raised);
 
-  /// Writer: number of the present state.
+  /// Writer: number of the current state.
   std::uint64_t number() const noexcept { return m_states.back()->number(); }
 
-  /// Writer: a brick in the present state.
+  /// Writer: a brick in the current state.
   CutMask::BrickVersion brick(std::size_t index) const { return m_states.back()->version(index); }
 
-  /// Writer: states that are kept for the reader's sake, the present one included.
+  /// Writer: number of states kept alive for the reader, including the current one.
   std::size_t statesHeld() const noexcept { return m_states.size(); }
 
-  /// Reader: the present state; it stays until `release` or the next `acquire`.
+  /// Reader: the current state; valid until `release` or the next `acquire`.
   const MaskState* acquire() const noexcept;
   void release() const noexcept;
 
 private:
   core::GridGeometry m_geometry;
   core::Index3 m_brickDims;
-  std::vector<std::unique_ptr<const MaskState>> m_states; ///< the last one is the present one
+  std::vector<std::unique_ptr<const MaskState>> m_states; ///< the last one is the current one
   std::atomic<const MaskState*> m_present;
   mutable std::atomic<const MaskState*> m_held{nullptr};
 };

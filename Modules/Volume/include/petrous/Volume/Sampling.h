@@ -30,7 +30,7 @@ struct TrilinearCell
     }
   }
 
-  /// value(i, j, k) -> double gives the eight corners.
+  /// value(i, j, k) -> double returns the value at each of the eight corners.
   template <class Corner>
   double interpolate(const Corner& value) const
   {
@@ -52,8 +52,8 @@ double sampleTrilinear(const Volume<T>& volume, const Eigen::Vector3d& voxel) no
                           { return static_cast<double>(volume.at(i, j, k)); });
 }
 
-/// Gradient by central differences of `sample(voxel) -> double` over +-step voxels, turned into
-/// patient axes: units of the sample per mm. At the border the difference is one-sided.
+/// Gradient by central differences of `sample(voxel) -> double` over +-step voxels, in patient
+/// axes: units of the sample per mm. One-sided at the border.
 template <class Sample>
 Eigen::Vector3d gradientInPatient(const core::GridGeometry& geometry, const Eigen::Vector3d& voxel,
                                   double step, const Sample& sample)
@@ -72,10 +72,10 @@ Eigen::Vector3d gradientInPatient(const core::GridGeometry& geometry, const Eige
   return geometry.voxelFromPatientLinear().transpose() * slope;
 }
 
-/// The same by differences between the twelve points that lie +-1 voxel away on two axes at once.
-/// Each difference is averaged over the other axes, so that all three see a surface equally
-/// blurred: on CT it follows the tissue's border where +-1 voxel on each axis alone follows its
-/// steps.
+/// Gradient from differences between the twelve points at +-1 voxel on two axes at once. Each
+/// difference is averaged over the other axes, so that all three are equally blurred: on CT the
+/// normal follows the tissue border, where differences over +-1 voxel on single axes follow its
+/// voxel steps.
 template <class Sample>
 Eigen::Vector3d edgeGradientInPatient(const core::GridGeometry& geometry,
                                       const Eigen::Vector3d& voxel, const Sample& sample)

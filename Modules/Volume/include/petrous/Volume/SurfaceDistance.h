@@ -12,35 +12,35 @@
 namespace petrous::volume
 {
 
-/// How far any point is from a structure's surface, near or at the other end of the head.
+/// Distance of any point, near or far, from a structure's surface.
 ///
-/// The surface is where the trilinear share (SmoothedUnion.h) is 1/2. The cells that it crosses lie
-/// in a tree of boxes, so a question looks into those only that may hold something nearer. Where
-/// DistanceMap answers on a grid round the structure, this one answers everywhere, in the memory of
-/// the share and some ten bytes for each cell of the surface.
+/// The surface is the 1/2 level of the trilinear occupancy (SmoothedUnion.h). The cells that it
+/// crosses are stored in a tree of boxes, so a query visits only those that may contain a nearer
+/// point. While DistanceMap covers a grid around the structure, this class covers all space, in the
+/// memory of the occupancy and about ten bytes per surface cell.
 ///
-/// Distances are right to about 0.01 voxel of the share, and to a tenth of one at creases. Beyond
-/// the share's grid there is nothing. Immutable; queries are thread-safe.
+/// Distances are accurate to about 0.01 voxel of the occupancy, and to a tenth of one at creases.
+/// There is no surface beyond the occupancy's grid. Immutable; queries are thread-safe.
 class SurfaceDistance
 {
 public:
-  /// Throws CancelledError; InvalidParameter without a share.
-  explicit SurfaceDistance(std::shared_ptr<const Volume<float>> share,
+  /// Throws CancelledError; InvalidParameter if the occupancy is null.
+  explicit SurfaceDistance(std::shared_ptr<const Volume<float>> occupancy,
                            const core::Progress& progress = {});
 
-  /// Signed distance of a patient point (LPS mm), negative within; no more than `most` to either
-  /// side where the surface is farther.
+  /// Signed distance of a patient point (LPS mm), negative inside; clamped to `most` in magnitude
+  /// where the surface is farther.
   double at(const Eigen::Vector3d& patient, double most) const;
 
-  const core::GridGeometry& geometry() const noexcept { return m_share->geometry(); }
+  const core::GridGeometry& geometry() const noexcept { return m_occupancy->geometry(); }
   std::size_t bytes() const noexcept;
 
 private:
-  using Cell = std::array<std::uint16_t, 3>; // its lowest corner
+  using Cell = std::array<std::uint16_t, 3>; // lowest corner
   struct Box
   {
     Cell lower;
-    Cell upper; // of the highest corner
+    Cell upper; // highest corner
   };
   struct Search;
 
@@ -48,8 +48,8 @@ private:
   void visit(Search& search, std::size_t level, std::size_t box) const;
   void look(Search& search, const Cell& cell) const;
 
-  std::shared_ptr<const Volume<float>> m_share;
-  std::vector<Cell> m_cells;              // in the order of a curve that fills space
+  std::shared_ptr<const Volume<float>> m_occupancy;
+  std::vector<Cell> m_cells;              // in the order of a space-filling curve
   std::vector<std::vector<Box>> m_levels; // the last one has one box, or none
 };
 

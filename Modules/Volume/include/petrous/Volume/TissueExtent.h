@@ -5,16 +5,17 @@
 namespace petrous::volume
 {
 
-/// A ball round the tissue, for framing a picture. Patient LPS mm.
+/// A bounding sphere of the tissue, for framing a view. Patient LPS mm.
 struct TissueExtent
 {
   Eigen::Vector3d center{0.0, 0.0, 0.0};
   double radius = 0.0;
 };
 
-/// The ball round the box that holds the voxels above `iso` but for the outermost hundredth along
-/// each axis, so that a table's edge or a few noisy voxels do not shrink the patient in the
-/// picture. The hull's own ball where nothing lies above `iso`. Looks at every second voxel.
+/// Bounding sphere of the box that contains the voxels above `iso` except for the outermost
+/// hundredth along each axis, so that a table's edge or a few noisy voxels do not shrink the
+/// patient in the view. The sphere around the hull if nothing is above `iso`. Reads every second
+/// voxel per axis.
 TissueExtent tissueExtent(const IntensityVolume& image, double iso);
 
 } // namespace petrous::volume

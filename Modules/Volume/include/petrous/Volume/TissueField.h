@@ -13,7 +13,7 @@
 namespace petrous::volume
 {
 
-/// The one field that eye, hand and drill share (Documentation/equations.md, "One field"):
+/// The one field shared by renderer, haptics and drill (Documentation/equations.md, "One field"):
 ///
 ///   f(x) = min(max(c_CT(x), c_L(x)), m(x)),  solid where f > 0
 ///
@@ -21,11 +21,11 @@ namespace petrous::volume
 ///   c_L  = smoothed union - 0.5   over the solid, touchable structures
 ///   m    = mask - 0.5             1 untouched, 0 removed
 ///
-/// Each operand is interpolated trilinearly, then they are combined; the normal is the gradient
+/// The operands are interpolated trilinearly before they are combined; the normal is the gradient
 /// of the operand that decides. Outside the hull of the CT's voxel centres f is air.
 ///
-/// Holds references to shared voxels; the mask is read as it stands at each call. Queries are
-/// const and thread-safe while nobody writes the mask.
+/// Holds references to shared voxels; the mask is read in its current state at each call. Queries
+/// are const and thread-safe while nobody writes the mask.
 class TissueField
 {
 public:
@@ -35,11 +35,11 @@ public:
     double scale = 1000.0; ///< HU; > 0
   };
 
-  /// A structure map that takes part: its smoothed union (see SmoothedUnion.h).
+  /// Smoothed union of a structure map (see SmoothedUnion.h).
   using SolidUnion = std::shared_ptr<const Volume<float>>;
 
-  /// The mask may be null (nothing cut yet); it must lie on the CT's grid.
-  /// Throws InvalidParameter when scale is not positive or the grids differ.
+  /// The mask may be null (nothing cut yet); it must be on the CT's grid. Throws InvalidParameter
+  /// if scale is not positive or the grids differ.
   TissueField(std::shared_ptr<const IntensityVolume> ct, std::vector<SolidUnion> solids,
               std::shared_ptr<const CutMask> mask, const Parameters& parameters);
 
@@ -48,26 +48,26 @@ public:
   const std::shared_ptr<const IntensityVolume>& ct() const noexcept { return m_ct; }
   const std::vector<SolidUnion>& solids() const noexcept { return m_solids; }
 
-  /// The smallest spacing of the CT and of the unions, mm: what a search must step by so as to see
-  /// a mesh whose walls are thinner than a voxel of the CT.
+  /// The minimum spacing of the CT and of the unions, mm: step size for a search that must find a
+  /// mesh with walls thinner than a CT voxel.
   double finestSpacing() const noexcept { return m_finest; }
 
-  /// Is told of the places (patient LPS mm) that are asked of next, where unions are worked out
-  /// region by region (RegionalUnion.h).
+  /// Sets a callback for the regions (patient LPS mm) that will be read next, where unions are
+  /// computed on demand (RegionalUnion.h).
   void onPrepare(std::function<void(const std::vector<core::PatientBox>&)> prepare)
   {
     m_prepare = std::move(prepare);
   }
 
-  /// For who asks at few places, before the queries below: all of them within the box. Searches
-  /// that say so do it themselves. Not while another thread asks.
+  /// For callers that read few places: to be called before the queries below, all within the box.
+  /// The searches do so themselves. Not thread-safe with queries.
   void prepare(const core::PatientBox& box) const
   {
     if (m_prepare)
       m_prepare({box});
   }
 
-  /// The same for several places at once, which costs less than one after the other.
+  /// The same for several places at once, which is cheaper than one after the other.
   void prepareEach(const std::vector<core::PatientBox>& boxes) const
   {
     if (m_prepare)
@@ -80,17 +80,17 @@ public:
   /// f before the mask: max(c_CT, c_L).
   double uncut(const Eigen::Vector3d& patient) const;
 
-  /// Unit vector towards decreasing f (out of the tissue), patient axes; zero where the field
-  /// is flat or outside the grid. Central differences over +-`step` voxels.
+  /// Unit vector towards decreasing f (out of the tissue), patient axes; zero where the field is
+  /// flat or outside the grid. Central differences over +-`step` voxels.
   Eigen::Vector3d normal(const Eigen::Vector3d& patient, double step = 1.0) const;
 
-  /// The same over +-1 voxel, but by edgeGradientInPatient where the CT decides: dearer, and
-  /// without the steps that slices leave in the light.
+  /// Normal over +-1 voxel, by edgeGradientInPatient where the CT decides: slower, and without the
+  /// shading steps due to slices.
   Eigen::Vector3d smoothNormal(const Eigen::Vector3d& patient) const;
 
   /// First point on the segment from `start` to `end` where f rises above 0, in mm from start;
-  /// nothing when there is none. Steps of at most half the finest spacing, then bisection to
-  /// 1e-4 of it. Zero when the start lies in tissue.
+  /// nullopt if there is none. Steps of at most half the finest spacing, then bisection to 1e-4 of
+  /// it. Zero if the start is in tissue.
   std::optional<double> firstHit(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
 
   static constexpr double kAir = -1.0;

@@ -13,8 +13,8 @@ namespace petrous::volume
 
 /// Voxels of one type on a grid, the first axis fastest.
 ///
-/// The memory is shared, never copied: it may belong to this volume, to a mapped file, or to a
-/// VTK or ITK object that `data`'s deleter keeps alive. Share as shared_ptr<const Volume<T>>.
+/// The memory is shared, never copied: it may belong to this volume, to a mapped file, or to a VTK
+/// or ITK object kept alive by the deleter of `data`. Share as shared_ptr<const Volume<T>>.
 template <class T>
 class Volume
 {

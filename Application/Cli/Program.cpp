@@ -1,0 +1,252 @@
+#include "Program.h"
+
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+enum ExitCode
+{
+  kDone = 0,
+  kOurFault = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kRefused = 4
+};
+
+struct Failure
+{
+  const char* kind; ///< as named by --json
+  int exitCode;
+};
+
+constexpr Failure kUsageFailure{"usage", kUsage};
+constexpr Failure kRefusal{"refused", kRefused};
+constexpr Failure kInternalFailure{"internal", kOurFault};
+constexpr Failure kInterruption{"interrupted", 128 + SIGINT};
+
+Failure failureOf(core::Fault fault)
+{
+  switch (fault)
+  {
+  case core::Fault::BadInput:
+    return {"bad-input", kBadInput};
+  case core::Fault::Refused:
+    return kRefusal;
+  case core::Fault::Cancelled:
+    return kInterruption;
+  case core::Fault::Internal:
+    break;
+  }
+  return kInternalFailure;
+}
+
+// With --json the single object on stdout describes the failure, unless the result was printed
+// there.
+int complain(const Program& program, const std::string& text, const Failure& failure, bool json)
+{
+  std::cerr << program.name << ": " << text << '\n';
+  if (json)
+    std::cout << jsonText(
+                     {{"error",
+                       {{"kind", failure.kind}, {"text", text}, {"exit_code", failure.exitCode}}}})
+              << std::flush;
+  if (failure.exitCode != kInterruption.exitCode)
+    return failure.exitCode;
+  // A shell stops a loop of commands only if the process was ended by the signal itself.
+  std::signal(SIGINT, SIG_DFL);
+  std::raise(SIGINT);
+  return failure.exitCode;
+}
+
+bool isBlank(const std::string& text)
+{
+  return text.find_first_not_of(" \t") == std::string::npos;
+}
+
+// An empty value is not an omitted option (an unset variable in a script), and the next option is
+// not a value. Also checks both sides of NAME=VALUE.
+std::string emptyValue(const std::string& value, bool pair)
+{
+  if (isBlank(value))
+    return "the value is empty; give one, or leave it out";
+  if (value.size() > 2 && value.compare(0, 2, "--") == 0 &&
+      std::isalpha(static_cast<unsigned char>(value[2])) != 0)
+    return "a value is missing before '" + value + "'";
+  const bool oneSided = pair && (value.front() == '=' || value.back() == '=');
+  return oneSided ? "'" + value + "' is empty on one side of '='" : "";
+}
+
+// For every option and argument of the program and of every subcommand.
+void refuseEmptyValues(CLI::App& app)
+{
+  const auto all = [](const auto*) { return true; };
+  for (CLI::Option* option : app.get_options(all))
+    if (option->get_items_expected_max() > 0)
+    {
+      const bool pair = option->get_type_name().find('=') != std::string::npos;
+      // before other checks, such as ranges
+      option->transform(
+          CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
+    }
+  for (CLI::App* command : app.get_subcommands(all))
+    refuseEmptyValues(*command);
+}
+
+// "--option=" followed by nothing would take the next argument as its value.
+std::string optionWithoutValue(const std::vector<std::string>& words)
+{
+  for (const std::string& word : words)
+  {
+    if (word == "--")
+      break;
+    if (word.size() > 3 && word.compare(0, 2, "--") == 0 && word.find('=') == word.size() - 1)
+      return word.substr(0, word.size() - 1);
+  }
+  return {};
+}
+
+// Empty list items are dropped by the parser before they can be checked.
+std::string listWithGap(CLI::App& command, const std::vector<std::string>& words)
+{
+  for (const CLI::Option* option : command.get_options([](const auto*) { return true; }))
+    for (std::size_t n = 0; option->get_delimiter() != '\0' && n < words.size(); ++n)
+    {
+      const std::string name = option->get_name();
+      std::string list;
+      if (words[n] == name && n + 1 < words.size())
+        list = words[n + 1];
+      else if (words[n].compare(0, name.size() + 1, name + "=") == 0)
+        list = words[n].substr(name.size() + 1);
+      else
+        continue;
+      if (isBlank(list)) // reported as for any option
+        continue;
+      std::istringstream items(list + option->get_delimiter());
+      for (std::string item; std::getline(items, item, option->get_delimiter());)
+        if (isBlank(item))
+          return name;
+    }
+  return {};
+}
+
+int parsed(const Program& program, std::vector<std::string> words, Context& context)
+{
+  const std::string help = "; see '" + program.name + " --help'";
+  CLI::App app(program.text, program.name);
+  app.set_version_flag("--version", program.name + " " PETROUS_VERSION);
+  app.require_subcommand(1);
+  app.footer("'" + program.name + " help COMMAND' tells more of one.\n" + kExitCodes);
+  context.addOptions(app);
+  program.addCommands(app, context);
+  const std::string name = subcommandIn(words);
+  const auto isNamed = [&name](const CLI::App* command) { return command->get_name() == name; };
+  if (!name.empty() && app.get_subcommands(isNamed).empty())
+    throw UsageError("unknown subcommand '" + name + "'" + help);
+  if (const std::string option = optionWithoutValue(words); !option.empty())
+    throw UsageError(option + ": the value is empty; give one, or leave it out");
+  if (!name.empty())
+    if (const std::string option = listWithGap(*app.get_subcommand(name), words); !option.empty())
+      throw UsageError(option + ": a value of its list is empty; give one, or leave it out");
+  refuseEmptyValues(app);
+  try
+  {
+    std::reverse(words.begin(), words.end()); // the order that CLI11 expects
+    app.parse(std::move(words));
+  }
+  catch (const CLI::Success& asked) // --help, --version
+  {
+    return app.exit(asked);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    throw UsageError(error.what() + help);
+  }
+  std::cout.flush();
+  if (!std::cout)
+    throw core::Error(core::Fault::Refused,
+                      "the answer could not be written to stdout (a full disk?)");
+  return kDone;
+}
+
+} // namespace
+
+std::vector<std::string> wordsOf(int argc, char** argv)
+{
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help")
+    return words;
+  words.erase(words.begin());
+  words.push_back("--help");
+  return words;
+}
+
+std::string subcommandIn(const std::vector<std::string>& words)
+{
+  for (std::size_t n = 0; n < words.size(); ++n)
+    if (words[n] == "--library")
+      ++n;
+    else if (words[n].empty() || words[n][0] != '-')
+      return words[n];
+  return {};
+}
+
+std::filesystem::path programBeside(const std::string& name, const std::string& inBuildTree)
+{
+  std::error_code error;
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const auto& candidate : {folder / name, folder / inBuildTree / name})
+    if (std::filesystem::exists(candidate, error))
+      return candidate;
+  return {};
+}
+
+int run(const Program& program, const std::vector<std::string>& words)
+{
+  Context context;
+  // Invalid command lines are answered in JSON too.
+  const auto fail = [&](const std::string& text, const Failure& failure)
+  {
+    const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+    return complain(program, text, failure, json && !context.gave());
+  };
+  try
+  {
+    return parsed(program, words, context);
+  }
+  catch (const UsageError& error)
+  {
+    return fail(error.what(), kUsageFailure);
+  }
+  catch (const core::Error& error)
+  {
+    return fail(error.what(), failureOf(error.fault()));
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    return fail(error.path1().string() + ": cannot be read or written; check that it is there "
+                                         "and its permissions",
+                kRefusal);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return fail("not enough memory; close other programs, or load less with --roi", kRefusal);
+  }
+  catch (const std::exception&)
+  {
+    // Messages of other libraries may contain patient data; they are left out.
+    return fail("an unexpected fault; the library is as it was before", kInternalFailure);
+  }
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,466 @@
+#include "petrous/Presenters/CaseBuilder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include <Eigen/Geometry>
+
+#include "petrous/Appearance/DistinctColors.h"
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Placement.h"
+#include "petrous/Volume/IntensityScale.h"
+#include "petrous/Volume/MeshSolid.h"
+
+namespace petrous::presenters
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/// `wanted`, with a number appended if it is taken.
+template <class IsTaken>
+std::string freeName(const std::string& wanted, const IsTaken& isTaken)
+{
+  std::string name = wanted;
+  for (int n = 2; isTaken(name); ++n)
+    name = wanted + " " + std::to_string(n);
+  return name;
+}
+
+/// A part's name derived from its file name if none was given; what is left out of it is noted.
+template <class IsTaken>
+std::string nameFromFile(const fs::path& path, const std::string& otherwise, const IsTaken& isTaken,
+                         std::vector<std::string>& notes)
+{
+  const FileName file = fileName(path);
+  if (file.isWhole)
+    return file.name;
+  notes.push_back("named so and not as its file, whose name may be a patient's; NAME=FILE gives "
+                  "another name");
+  return freeName(file.name.empty() ? otherwise : file.name, isTaken);
+}
+
+// The reader knows the series; the user knows the path.
+volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeries& series,
+                                  const imaging::ReadOptions& options,
+                                  const core::Progress& progress, std::vector<std::string>& notes)
+{
+  try
+  {
+    return imaging::readSeries(series, options, progress, &notes);
+  }
+  catch (const imaging::DicomError& error)
+  {
+    std::string what = error.what();
+    if (error.reason() == imaging::DicomError::Reason::Misleading)
+      what += " Give a series that 'petrous scan' finds ok.";
+    const bool named = what.rfind(path.string(), 0) == 0;
+    throw imaging::DicomError(error.reason(), named ? what : path.string() + ": " + what);
+  }
+}
+
+// A UID identifies the patient to anyone with access to the hospital's archive; a hash still allows
+// comparison.
+std::string withoutIdentity(const std::string& uid)
+{
+  if (uid.empty())
+    return {};
+  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(uid.data()), uid.size());
+}
+
+scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
+                           const std::optional<core::PatientBox>& roi,
+                           const core::Progress& progress)
+{
+  scene::ImagePart part;
+  if (!fs::is_directory(path) && imaging::isImageFileName(path))
+  {
+    auto image = imaging::readImageFile(path, roi, progress);
+    part.volume = image.volume;
+    part.notes = std::move(image.notes);
+  }
+  else
+  {
+    const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
+    const auto& series = imaging::chooseSeries(scan, path, seriesUid);
+    imaging::ReadOptions options;
+    options.roi = roi;
+    std::vector<std::string> notes = series.geometry.notes;
+    if (!scan.notes.empty()) // which name files and folders, possibly after patients
+      notes.push_back("Of what lies beside its slices, something was left out in " +
+                      std::to_string(scan.notes.size()) +
+                      (scan.notes.size() == 1 ? " place" : " places") +
+                      "; 'petrous scan' says what.");
+    part.volume = std::make_shared<const volume::IntensityVolume>(
+        readNamed(path, series, options, progress.part(0.2, 0.9), notes));
+    part.notes = std::move(notes);
+    part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
+  }
+  const auto image = part.volume.get();
+  part.geometry = image->geometry();
+  part.range = image->range();
+  return part;
+}
+
+// Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all.
+void placeSurface(scene::Case& value)
+{
+  const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+  if (scale.calibrated)
+    return;
+  value.iso = scale.iso;
+  value.denseBone = scale.dense;
+  value.ct.notes.push_back(
+      "The intensities are not Hounsfield units: the surface of bone is put at " +
+      core::generalText(scale.iso) + ", and dense bone taken for " +
+      core::generalText(scale.dense) +
+      ", by the image's histogram; 'petrous appearance --iso' moves the surface.");
+}
+
+void checkName(const fs::path& path, const std::string& name)
+{
+  try
+  {
+    scene::checkPartName(name);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw core::InvalidParameter(path.string() + ": " + error.what());
+  }
+}
+
+[[noreturn]] void nameTaken(const fs::path& path, const std::string& what, const std::string& name)
+{
+  throw core::InvalidParameter(path.string() + ": " + what + " '" + name +
+                               "' is in the case already; give it another name with NAME=FILE");
+}
+
+void addMr(scene::Case& value, const PartSource& source, const core::Progress& progress)
+{
+  const auto taken = [&value](const std::string& name)
+  {
+    return std::any_of(value.mr.begin(), value.mr.end(),
+                       [&name](const auto& mr) { return mr.name == name; });
+  };
+  std::string name = source.name;
+  if (name.empty())
+  {
+    name = "mr";
+    for (int n = 2; taken(name); ++n)
+      name = "mr" + std::to_string(n);
+  }
+  else if (taken(name))
+    nameTaken(source.path, "MR", name);
+  checkName(source.path, name);
+  scene::ImagePart part = readImage(source.path, source.seriesUid, std::nullopt, progress);
+  part.name = name;
+  value.mr.push_back(std::move(part));
+}
+
+// The MR that the user specified for a file; empty for the CT.
+std::string drawnOnNamed(const scene::Case& value, const PartSource& source)
+{
+  if (source.drawnOn == "ct")
+    return {};
+  std::string there = "ct";
+  for (const scene::ImagePart& mr : value.mr)
+    there += ", " + mr.name;
+  if (!scene::findMr(value, source.drawnOn))
+    throw core::InvalidParameter(source.path.string() + ": case '" + value.name + "' has no MR '" +
+                                 source.drawnOn + "' on which it was drawn; " + "it has " + there);
+  return source.drawnOn;
+}
+
+// None if the grid is neither the CT's nor an MR's: an MR with that grid may be added.
+std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& source,
+                                   const core::GridGeometry& grid)
+{
+  if (!source.drawnOn.empty())
+    return drawnOnNamed(value, source);
+  if (core::sameGrid(grid, value.ct.geometry))
+    return std::string();
+  const auto names = scene::mrWithGrid(value, grid);
+  if (names.size() > 1)
+    throw core::InvalidParameter(source.path.string() +
+                                 ": several MR images have its grid; say on "
+                                 "which it was drawn with FILE@" +
+                                 names[0] + " or FILE@" + names[1]);
+  if (names.empty())
+    return std::nullopt;
+  return names.front();
+}
+
+// Before an MR is added that may have the same grid as another one.
+void settleDrawnOn(scene::Case& value)
+{
+  for (scene::LabelPart& part : value.labels)
+  {
+    if (part.drawnOn || value.mr.empty())
+      continue;
+    const auto names = scene::mrWithGrid(value, part.labels.get()->voxels->geometry());
+    if (names.size() == 1)
+      part.drawnOn = names.front();
+  }
+}
+
+// Colours of all parts of the case, and of a part to be added.
+std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
+                                           const std::vector<scene::StructurePart>& coming = {})
+{
+  std::vector<std::array<float, 3>> colors;
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      colors.push_back(structure.look.color);
+  for (const auto& structure : coming)
+    colors.push_back(structure.look.color);
+  for (const auto& mesh : value.meshes)
+    colors.push_back(mesh.look.color);
+  return colors;
+}
+
+// Whether the name of a structure determines no appearance.
+bool isUnknown(const appearance::StructureAppearance& look)
+{
+  return look.preset == "other";
+}
+
+// The box of some voxels of `grid`, in voxels of `onto`.
+Eigen::AlignedBox3d boxOn(const core::GridGeometry& onto, const core::GridGeometry& grid,
+                          const core::IndexBox& box)
+{
+  Eigen::AlignedBox3d result;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d at;
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto axis = static_cast<std::size_t>(a);
+      at[a] = (corner >> a & 1) != 0 ? box.upper[axis] - 1 : box.lower[axis];
+    }
+    result.extend(onto.voxelFromPatient(grid.patientFromVoxel(at)));
+  }
+  return result;
+}
+
+bool liesOutside(const core::GridGeometry& ct, const core::GridGeometry& grid,
+                 const core::IndexBox& box)
+{
+  const auto& n = ct.dims();
+  const Eigen::AlignedBox3d hull(Eigen::Vector3d::Zero(),
+                                 Eigen::Vector3d(n[0] - 1.0, n[1] - 1.0, n[2] - 1.0));
+  return !hull.intersects(boxOn(ct, grid, box));
+}
+
+// Notes structures that will be neither visible nor touchable.
+void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume::LabelMap& map)
+{
+  if (part.drawnOn && !part.drawnOn->empty())
+    return; // through the registration of an MR, which may change
+  const auto boxes = volume::boxesOf(map);
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < map.segments.size(); ++s)
+    for (const auto& structure : part.structures)
+      if (structure.index == map.segments[s].index &&
+          liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
+        names.push_back(structure.name);
+  if (!names.empty())
+    part.notes.push_back(scene::listed(names) +
+                         (names.size() == 1
+                              ? " lies wholly outside the CT, so nothing of it is seen or felt; "
+                                "check that it is this patient's"
+                              : " lie wholly outside the CT, so nothing of them is seen or felt; "
+                                "check that they are this patient's"));
+}
+
+void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)
+{
+  const auto presets = appearance::StructurePresets::builtIn();
+  auto loaded = imaging::loadLabels(source.path, progress);
+  std::vector<std::string> notes = std::move(loaded.notes);
+  std::vector<std::string> empty;
+  const std::size_t before = value.labels.size();
+  for (auto& map : loaded.maps)
+  {
+    scene::LabelPart part;
+    for (const volume::Segment& segment : map.segments)
+    {
+      if (segment.voxels == 0)
+      {
+        empty.push_back(segment.name);
+        continue;
+      }
+      scene::StructurePart structure;
+      structure.name = source.name.empty()        ? segment.name
+                       : map.segments.size() == 1 ? source.name
+                                                  : source.name + " " + segment.name;
+      if (source.name.empty() && loaded.isNamedAfterFile)
+        structure.name = nameFromFile(
+            source.path, "structure",
+            [&value](const std::string& name) { return scene::findStructure(value, name); }, notes);
+      structure.index = segment.index;
+      structure.voxels = segment.voxels;
+      structure.volume = map.volume(segment);
+      structure.look = presets.lookFor(structure.name);
+      const bool colored = segment.color != std::array<float, 3>{};
+      if (isUnknown(structure.look))
+        structure.look.color =
+            colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
+      checkName(source.path, structure.name);
+      if (scene::findStructure(value, structure.name))
+        nameTaken(source.path, "structure", structure.name);
+      part.structures.push_back(std::move(structure));
+    }
+    if (part.structures.empty())
+      continue;
+    std::set<std::string> names;
+    for (const auto& structure : part.structures)
+      if (!names.insert(structure.name).second)
+        throw core::InvalidParameter(source.path.string() + ": two structures are called '" +
+                                     structure.name + "'; rename one");
+    part.drawnOn = drawnOn(value, source, map.voxels->geometry());
+    noteOutside(value, part, map);
+    part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+    value.labels.push_back(std::move(part));
+  }
+  if (value.labels.size() == before)
+    throw core::InvalidParameter(source.path.string() +
+                                 ": none of its structures has a voxel; export it again with what "
+                                 "was drawn");
+  if (!empty.empty())
+    notes.push_back(scene::listed(empty) + " left out, as no voxel carries " +
+                    (empty.size() == 1 ? "it" : "them"));
+  auto& first = value.labels[before].notes;
+  first.insert(first.begin(), notes.begin(), notes.end());
+}
+
+// Catches a lost decimal point or a wrong unit. `what` names the image.
+void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
+                 const core::GridGeometry& grid, const std::string& what)
+{
+  const core::PatientBox box = grid.patientBounds();
+  const double reach = volume::reachBeyond(mesh, box);
+  if (reach <= volume::maxReach(box))
+    return;
+  throw core::InvalidParameter(
+      path.string() + ": reaches " + core::fixedText(reach, 0) + " mm beyond " + what +
+      ", and a surface of this patient at most " + core::fixedText(volume::maxReach(box), 0) +
+      " mm; look for a coordinate without its decimal point, and give it in mm");
+}
+
+void addMesh(scene::Case& value, const PartSource& source)
+{
+  scene::MeshPart part;
+  std::vector<std::string> notes;
+  part.name =
+      source.name.empty()
+          ? nameFromFile(
+                source.path, "mesh",
+                [&value](const std::string& name) { return scene::findMesh(value, name); }, notes)
+          : source.name;
+  checkName(source.path, part.name);
+  if (scene::findMesh(value, part.name))
+    nameTaken(source.path, "mesh", part.name);
+  if (!source.drawnOn.empty())
+    part.drawnOn = drawnOnNamed(value, source);
+  auto loaded = imaging::loadMesh(source.path);
+  const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
+  requireNear(source.path, loaded.mesh, mr ? mr->geometry : value.ct.geometry,
+              mr ? "the MR on which it was drawn" : "the CT");
+  part.notes = std::move(loaded.notes);
+  part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
+  auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));
+  part.triangles = mesh->triangles.size();
+  part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
+  part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
+  if (isUnknown(part.look))
+    part.look.color = appearance::distinctColor(colorsOf(value));
+  value.meshes.push_back(std::move(part));
+}
+
+} // namespace
+
+PartSource PartSource::parse(const std::string& text)
+{
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || fs::exists(text))
+    return {"", text};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+PartSource PartSource::parseDrawn(const std::string& text)
+{
+  PartSource source = parse(text);
+  const std::string path = source.path.string();
+  const auto at = path.rfind('@');
+  if (at == std::string::npos || at == 0 || at + 1 == path.size() || fs::exists(source.path))
+    return source;
+  source.drawnOn = path.substr(at + 1);
+  source.path = path.substr(0, at);
+  return source;
+}
+
+FileName fileName(const fs::path& path)
+{
+  // The name up to its first format extension: "facial_nerve.nii.gz" -> "facial_nerve".
+  std::string stem = path.stem().string();
+  const std::string name = path.filename().string();
+  for (const std::string end : {".seg.nrrd", ".nii.gz"})
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+      stem = name.substr(0, name.size() - end.size());
+  const std::string known = appearance::StructurePresets::builtIn().knownWords(stem);
+  const auto letters = [](const std::string& text)
+  {
+    return std::count_if(text.begin(), text.end(),
+                         [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; });
+  };
+  return letters(known) == letters(stem) ? FileName{stem, true} : FileName{known, false};
+}
+
+scene::Case buildCase(const std::string& name, const CaseSources& sources,
+                      const core::Progress& progress)
+{
+  scene::checkCaseName(name);
+  scene::Case value;
+  value.name = name;
+  value.ct = readImage(sources.ct, sources.seriesUid, sources.roi, progress.part(0.0, 0.7));
+  value.ct.name = "ct";
+  placeSurface(value);
+  addParts(value, sources.parts, progress.part(0.7, 1.0));
+  return value;
+}
+
+void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress)
+{
+  scene::Case next = value;
+  const std::size_t count = parts.mr.size() + parts.labels.size() + parts.meshes.size();
+  std::size_t done = 0;
+  const auto share = [&]
+  {
+    const double size = 1.0 / static_cast<double>(std::max<std::size_t>(count, 1));
+    const double first = static_cast<double>(done++) * size;
+    return progress.part(first, first + size);
+  };
+  if (!parts.mr.empty())
+    settleDrawnOn(next);
+  for (const PartSource& source : parts.mr)
+    addMr(next, source, share());
+  for (const PartSource& source : parts.labels)
+    addLabels(next, source, share());
+  for (const PartSource& source : parts.meshes)
+  {
+    share().report(0.0, "reading meshes");
+    addMesh(next, source);
+  }
+  value = std::move(next);
+}
+
+} // namespace petrous::presenters

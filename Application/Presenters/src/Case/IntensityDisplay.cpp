@@ -1,0 +1,92 @@
+#include "petrous/Presenters/IntensityDisplay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "petrous/Appearance/AppearanceMaterial.h"
+#include "petrous/Core/NumberText.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+constexpr double kSteps = 1000.0;       // minimum number of threshold steps over the range
+constexpr double kUsualLeast = -1000.0; // HU, minimum of typical CT values
+constexpr double kUsualSpan = 4000.0;   // HU, their range
+
+double roundStep(double largest)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(largest)));
+  return power * (largest >= 5.0 * power ? 5.0 : largest >= 2.0 * power ? 2.0 : 1.0);
+}
+
+int decimalsFor(double step)
+{
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
+}
+
+// Clipped to the image's range; the full range if nothing remains.
+GreyWindow windowOf(double black, double white, const volume::ValueRange& range)
+{
+  black = std::max(black, range.min);
+  white = std::min(white, range.max);
+  if (!(white > black))
+  {
+    black = range.min;
+    white = range.max;
+  }
+  return {white - black, 0.5 * (white + black)};
+}
+
+} // namespace
+
+std::string IntensityDisplay::number(double value) const
+{
+  const std::string text = core::fixedText(value, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos ? core::fixedText(0.0, decimals) : text;
+}
+
+std::string IntensityDisplay::text(double value) const
+{
+  return number(value) + suffix();
+}
+
+volume::IntensityScale calibratedScale(const scene::Case& value)
+{
+  volume::IntensityScale scale = value.intensityScale();
+  scale.calibrated = scale.dense == volume::IntensityScale{}.dense;
+  return scale;
+}
+
+IntensityDisplay displayOf(const scene::Case& value)
+{
+  IntensityDisplay display;
+  const volume::IntensityScale scale = calibratedScale(value);
+  const volume::ValueRange& range = value.ct.range;
+  display.hounsfield = scale.calibrated;
+  if (!scale.calibrated && range.max > range.min)
+  {
+    // A threshold above dense bone does not define the scale: map the typical CT range to the
+    // image's.
+    const double whole = (range.max - range.min) / kUsualSpan;
+    const auto at = [&](double hounsfield)
+    {
+      return scale.dense > scale.iso ? appearance::onScale(hounsfield, scale)
+                                     : range.min + whole * (hounsfield - kUsualLeast);
+    };
+    display.unit = at(1.0) - at(0.0);
+    display.bone = windowOf(at(-1300.0), at(2700.0), range);
+    display.soft = windowOf(at(-160.0), at(240.0), range);
+    display.least = range.min;
+    display.most = range.max;
+    display.step = roundStep((range.max - range.min) / kSteps);
+    display.decimals = decimalsFor(display.step);
+  }
+  display.least = std::min(display.least, value.iso);
+  display.most = std::max(display.most, value.iso);
+  return display;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,131 @@
+#include "petrous/Presenters/SceneAssembly.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "petrous/Appearance/AppearanceMaterial.h"
+#include "petrous/Presenters/BoneThickness.h"
+#include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using appearance::IntensitySource;
+using appearance::Material;
+using appearance::StructureAppearance;
+
+using Structures = std::vector<const scene::StructurePart*>;
+
+bool sameVoxels(const std::vector<volume::LabelSource>& a,
+                const std::vector<volume::LabelSource>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y)
+                    {
+                      return x.labels == y.labels && x.segment == y.segment &&
+                             x.material == y.material && x.solid == y.solid;
+                    });
+}
+
+bool readsSecond(const StructureAppearance& look)
+{
+  return appearance::materialOf(look).source == IntensitySource::Second;
+}
+
+const scene::ImagePart* secondImage(const scene::Case& value, const Structures& structures)
+{
+  for (const scene::ImagePart& mr : value.mr)
+  {
+    const auto asks = [&mr](const StructureAppearance& look)
+    { return look.sourceImage == mr.name && readsSecond(look); };
+    const auto asksToo = [&asks](const auto* structure)
+    { return structure->look.solid && asks(structure->look); };
+    if (mr.registered && ((value.boneLook.shown && asks(value.boneLook)) ||
+                          std::any_of(structures.begin(), structures.end(), asksToo)))
+      return &mr;
+  }
+  return nullptr;
+}
+
+// Values for an image that is not drawn must not be read from the CT.
+StructureAppearance drawn(StructureAppearance look, const scene::ImagePart* second)
+{
+  if (readsSecond(look) && !(second && look.sourceImage == second->name))
+  {
+    look.sourceImage.clear();
+    look.transfer.reset();
+  }
+  return look;
+}
+
+std::vector<Material> materialsOf(const scene::Case& value, const Structures& structures,
+                                  const scene::ImagePart* second)
+{
+  const volume::IntensityScale scale = value.intensityScale();
+  std::vector<Material> materials{materialOf(drawn(value.boneLook, second), scale)};
+  for (const auto* structure : structures)
+  {
+    const StructureAppearance& look = structure->look;
+    materials.push_back(look.solid ? materialOf(drawn(look, second), scale)
+                                   : lumenMaterial(look, materials.front(), scale));
+  }
+  return materials;
+}
+
+} // namespace
+
+void SceneAssembly::showThickness(const std::string& structure)
+{
+  if (structure != m_thicknessOver)
+    m_thickness = nullptr;
+  m_thicknessOver = structure;
+}
+
+void SceneAssembly::takeThickness(const SceneAssembly& other)
+{
+  if (other.m_thicknessOver == m_thicknessOver)
+    return;
+  m_thicknessOver = other.m_thicknessOver;
+  m_thickness = other.m_thickness;
+}
+
+rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
+                                                 const core::Progress& progress)
+{
+  rendering::SceneContents contents;
+  contents.ct = value.ct.volume.get();
+  contents.iso = value.iso;
+  if (value.dissection)
+    contents.mask = {value.dissection, &std::as_const(*value.dissection).mask()};
+
+  auto shown = scene::labelSources(value, [](const auto& look) { return look.shown; });
+  if (!sameVoxels(shown.sources, m_sources))
+  {
+    m_sources.clear(); // what follows may throw
+    m_labels = nullptr;
+    m_labels = scene::labelField(value, shown, progress);
+    m_sources = std::move(shown.sources);
+  }
+  contents.labels = m_labels;
+  const scene::ImagePart* second = secondImage(value, shown.structures);
+  if (second)
+    contents.second = {second->volume.get(), second->mrFromCt};
+  contents.boneShown = value.boneLook.shown;
+  contents.materials = materialsOf(value, shown.structures, second);
+
+  if (!m_thicknessOver.empty() && !m_thickness)
+    m_thickness = boneThickness(value, m_thicknessOver, progress);
+  contents.thickness = {m_thickness, kFarthestThickness};
+
+  for (const auto& mesh : value.meshes)
+    if (mesh.look.shown && !scene::findStructure(value, mesh.name))
+      if (auto placed = scene::meshOnCt(value, mesh))
+        contents.meshes.push_back({mesh.name, std::move(placed), mesh.look});
+  return contents;
+}
+
+} // namespace petrous::presenters

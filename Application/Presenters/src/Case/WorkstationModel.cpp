@@ -1,0 +1,501 @@
+#include "petrous/Presenters/WorkstationModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "Notify.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::presenters
+{
+
+WorkstationModel::WorkstationModel(library::Library library)
+  : m_library(std::move(library))
+{
+  listen();
+}
+
+std::optional<std::string> WorkstationModel::latestCase() const
+{
+  std::optional<library::CaseSummary> latest;
+  for (const auto& summary : m_library.list())
+    if (!summary.damaged && (!latest || summary.modified > latest->modified))
+      latest = summary;
+  return latest ? std::optional(latest->name) : std::nullopt;
+}
+
+void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
+{
+  forgetTissue();
+  m_journal.reset();
+  m_saved.reset();
+  m_nearby.reset();
+  m_assembly = {}; // its cache is of the previous case
+  m_unreadLabels.clear();
+  m_unreadMeshes.clear();
+  m_case = std::move(next);
+  ++m_shown;
+  m_leaving = false;
+  m_checked = unsaved; // a case just made needs no check
+  m_unsaved = unsaved;
+  m_journal = std::make_shared<JournalThread>();
+  m_crosshair = m_case->ct.geometry.center();
+  waitForParts();
+  notify(events.caseChanged);
+  notify(events.stateChanged);
+  notify(events.preparationWanted);
+}
+
+void WorkstationModel::waitForParts()
+{
+  ++m_parts;
+  m_loaded = m_drawable = m_feelable = m_case->labels.empty() && m_case->meshes.empty();
+}
+
+void WorkstationModel::setUnsaved(bool unsaved)
+{
+  m_unsaved = unsaved;
+  m_changes += unsaved;
+  notify(events.stateChanged);
+}
+
+scene::Case WorkstationModel::presentable() const
+{
+  scene::Case value = *m_case;
+  if (!m_loaded)
+  {
+    value.labels.clear();
+    value.meshes.clear();
+  }
+  return value;
+}
+
+rendering::SceneContents WorkstationModel::sceneContents()
+{
+  return m_loaded ? m_assembly.contents(*m_case) : SceneAssembly().contents(presentable());
+}
+
+namespace
+{
+
+// Reads the parts of a copy of the case one by one. An unreadable one is replaced by an empty one,
+// so that the others are available.
+template <class T, class Part>
+std::vector<PreparedCase::LeftOut> readParts(std::vector<Part>& parts, core::Lazy<T> Part::*member,
+                                             const core::Lazy<T>& empty,
+                                             const core::Progress& progress)
+{
+  std::vector<PreparedCase::LeftOut> leftOut;
+  const auto count = static_cast<double>(parts.size());
+  for (std::size_t n = 0; n < parts.size(); ++n)
+  {
+    progress.report(static_cast<double>(n) / count, "loading structures");
+    try
+    {
+      (parts[n].*member).get();
+    }
+    catch (const core::Error& error)
+    {
+      if (error.fault() == core::Fault::Cancelled)
+        throw;
+      leftOut.push_back({n, error.what()});
+      parts[n].*member = empty;
+    }
+  }
+  return leftOut;
+}
+
+// A single instance, so that caches derived from it are reused.
+core::Lazy<volume::LabelMap> noLabels()
+{
+  static const auto kNone = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(
+      std::make_shared<volume::Volume<std::uint16_t>>(
+          core::GridGeometry({2, 2, 2}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
+          std::uint16_t{0}),
+      {}));
+  return kNone;
+}
+
+core::Lazy<core::TriangleMesh> noMesh()
+{
+  static const auto kNone = std::make_shared<const core::TriangleMesh>();
+  return kNone;
+}
+
+} // namespace
+
+std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation() const
+{
+  scene::Case value = *m_case;
+  if (value.dissection) // a tool may be cutting the case's own
+    value.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
+  return [value = std::move(value), library = m_library, assembly = m_assembly, parts = m_parts,
+          tissue = m_tissue, felt = m_session || m_scene](const core::Progress& progress) mutable
+  {
+    PreparedCase done;
+    done.labels =
+        readParts(value.labels, &scene::LabelPart::labels, noLabels(), progress.part(0.0, 0.2));
+    done.meshes =
+        readParts(value.meshes, &scene::MeshPart::mesh, noMesh(), progress.part(0.2, 0.3));
+    if (!done.labels.empty() || !done.meshes.empty())
+      value.derived.reset(); // its keys identify the stored objects
+    done.assembly = std::move(assembly);
+    try
+    {
+      done.assembly.contents(value, progress.part(0.3, 0.6));
+    }
+    catch (const core::InvalidParameter&) // too much to draw; reported by the renderer
+    {
+    }
+    if (!felt)
+      done.drill.emplace(value, progress.part(0.6, 0.95));
+    try
+    {
+      library.checkVoxels(value, progress.part(0.95, 1.0)); // usually done by now
+    }
+    catch (const library::LibraryError&) // reported by WorkstationModel::damage
+    {
+    }
+    done.parts = parts;
+    done.tissue = tissue;
+    return done;
+  };
+}
+
+bool WorkstationModel::prepared(PreparedCase done)
+{
+  if (!m_case || done.parts != m_parts)
+    return false;
+  leaveOut(done);
+  m_loaded = m_drawable = m_checked = true;
+  done.assembly.takeThickness(m_assembly); // may have been requested meanwhile
+  m_assembly = std::move(done.assembly);
+  if (done.tissue == m_tissue)
+    m_feelable = true;
+  if (done.drill && done.tissue == m_tissue && !m_scene && !m_session)
+    m_session.emplace(*m_case, *done.drill);
+  notify(events.appearanceChanged);
+  if (!m_feelable) // the threshold was changed meanwhile
+    notify(events.preparationWanted);
+  return true;
+}
+
+void WorkstationModel::leaveOut(const PreparedCase& done)
+{
+  if (!done.labels.empty() || !done.meshes.empty())
+    m_case->derived.reset();
+  for (const PreparedCase::LeftOut& one : done.labels)
+  {
+    auto& labels = m_case->labels[one.part].labels;
+    m_unreadLabels.push_back({one.part, one.why, std::exchange(labels, noLabels())});
+  }
+  for (const PreparedCase::LeftOut& one : done.meshes)
+  {
+    auto& mesh = m_case->meshes[one.part].mesh;
+    m_unreadMeshes.push_back({one.part, one.why, std::exchange(mesh, noMesh())});
+  }
+}
+
+std::vector<std::string> WorkstationModel::damage() const
+{
+  return m_case ? m_library.damageFound(*m_case) : std::vector<std::string>();
+}
+
+std::vector<std::string> WorkstationModel::leftOut() const
+{
+  std::vector<std::string> sentences;
+  for (const auto& one : m_unreadLabels)
+    sentences.push_back(one.why);
+  for (const auto& one : m_unreadMeshes)
+    sentences.push_back(one.why);
+  return sentences;
+}
+
+void WorkstationModel::setCamera(const core::CameraPose& camera)
+{
+  if (m_case)
+    m_case->camera = camera;
+}
+
+// A stroke that is still open is closed first.
+bool WorkstationModel::canUndo() const noexcept
+{
+  return m_case && (m_case->applied() > 0 || drilling());
+}
+
+bool WorkstationModel::canRedo() const noexcept
+{
+  return m_case && !drilling() && m_case->history.ahead() > 0;
+}
+
+void WorkstationModel::step(bool back)
+{
+  if (m_touch)
+    return back ? m_touch->undo() : m_touch->redo();
+  if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
+    return;
+  followHistory();
+  notify(events.stepped, back);
+}
+
+// Call after the case itself moved to another state.
+void WorkstationModel::followHistory()
+{
+  const std::vector<std::size_t> bricks = m_case->dissection->mask().takeDirty();
+  if (m_scene)
+    m_scene->publish(bricks);
+  if (m_journal)
+    m_journal->follow(*m_case->dissection);
+  notifyMask(bricks);
+  setUnsaved(true);
+}
+
+void WorkstationModel::undo()
+{
+  if (canUndo())
+    step(true);
+}
+
+void WorkstationModel::redo()
+{
+  if (canRedo())
+    step(false);
+}
+
+void WorkstationModel::setIso(double hounsfield)
+{
+  if (!m_case || drilling() || m_case->iso == hounsfield)
+    return;
+  // Structures are unaffected.
+  std::optional<session::DrillSession> before;
+  if (m_session || m_scene)
+    before.emplace(session());
+  forgetTissue();
+  m_case->iso = hounsfield;
+  if (before)
+    m_session.emplace(*m_case, *before);
+  notify(events.appearanceChanged);
+  setUnsaved(true);
+}
+
+void WorkstationModel::setLook(const std::string& structure,
+                               const appearance::StructureAppearance& look)
+{
+  if (!m_case || drilling())
+    return;
+  auto* found = scene::findStructure(*m_case, structure);
+  auto* mesh = found ? nullptr : scene::findMesh(*m_case, structure);
+  if (!found && !mesh)
+    return;
+  appearance::StructureAppearance& present = found ? found->look : mesh->look;
+  const bool picture = present.shown != look.shown;
+  const bool tissue = present.touchable != look.touchable || present.drillable != look.drillable ||
+                      present.stiffness != look.stiffness || present.tissue != look.tissue;
+  if (tissue)
+    forgetTissue();
+  m_feelable = m_feelable && !tissue;
+  m_drawable = m_drawable && !picture;
+  present = look;
+  notify(events.appearanceChanged);
+  setUnsaved(true);
+  if (picture || tissue)
+    notify(events.preparationWanted);
+}
+
+void WorkstationModel::setBoneLook(const appearance::StructureAppearance& look)
+{
+  if (!m_case || drilling())
+    return;
+  m_case->boneLook = look;
+  notify(events.appearanceChanged);
+  setUnsaved(true);
+}
+
+void WorkstationModel::setCrosshair(const Eigen::Vector3d& patient)
+{
+  if (!m_case)
+    return;
+  const auto& grid = m_case->ct.geometry;
+  Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  for (Eigen::Index a = 0; a < 3; ++a)
+    voxel[a] = std::clamp(voxel[a], 0.0, grid.dims()[static_cast<std::size_t>(a)] - 1.0);
+  m_crosshair = grid.patientFromVoxel(voxel);
+  notify(events.crosshairMoved);
+}
+
+std::optional<double> WorkstationModel::hounsfieldAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_case)
+    return std::nullopt;
+  const Eigen::Vector3d voxel = m_case->ct.geometry.voxelFromPatient(patient);
+  if (!m_case->ct.geometry.hullContains(voxel))
+    return std::nullopt;
+  return m_case->ct.volume.get()->sample(voxel);
+}
+
+std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_case)
+    return {};
+  for (const auto& part : m_case->labels)
+  {
+    const auto labels = part.labels.peek() ? scene::labelsOnCt(*m_case, part) : nullptr;
+    if (!labels)
+      continue;
+    const auto& voxels = *labels->voxels;
+    const Eigen::Vector3d voxel = voxels.geometry().voxelFromPatient(patient);
+    const core::Index3 nearest{static_cast<int>(std::floor(voxel[0] + 0.5)),
+                               static_cast<int>(std::floor(voxel[1] + 0.5)),
+                               static_cast<int>(std::floor(voxel[2] + 0.5))};
+    if (!voxels.geometry().fullBox().contains(nearest))
+      continue;
+    const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
+    for (const auto& structure : part.structures)
+      if (structure.index == index)
+        return structure.name;
+  }
+  for (const auto& mesh : m_case->meshes)
+    if (const auto solid = mesh.touch.resident(); solid && volume::isInside(*solid, patient))
+      return mesh.name;
+  return {};
+}
+
+session::DrillSession& WorkstationModel::session()
+{
+  if (m_scene)
+    return m_scene->drill();
+  if (!m_session)
+    m_session.emplace(*m_case);
+  return *m_session;
+}
+
+// Drops what was derived from the case's voxels, threshold and structures.
+void WorkstationModel::forgetTissue()
+{
+  stopTouch();
+  m_reader.reset();
+  m_scene.reset();
+  m_session.reset();
+  ++m_tissue;
+}
+
+PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
+{
+  if (!ready())
+  {
+    PlaceReading reading;
+    reading.hounsfield = hounsfieldAt(patient);
+    return reading;
+  }
+  if (!m_reader)
+    m_reader = std::make_unique<PointProbe>(*m_case, session().field());
+  PlaceReading reading = m_reader->at(patient);
+  if (!reading.structure.empty())
+    return reading;
+  if (!m_nearby) // after the reader, which voxelizes the meshes
+    m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  reading.near =
+      m_nearby->surfaces().nearest(patient, PointProbe::kReach,
+                                   [this](const std::string& name)
+                                   {
+                                     const auto* part = scene::findStructure(*m_case, name);
+                                     const auto* mesh = scene::findMesh(*m_case, name);
+                                     return part ? part->look.shown : mesh && mesh->look.shown;
+                                   });
+  return reading;
+}
+
+std::optional<double> WorkstationModel::tissueAlong(const interaction::PickRay& line)
+{
+  if (!m_case || !ready())
+    return std::nullopt;
+  return interaction::firstTissue(session().field(), line);
+}
+
+std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::PickRay& line)
+{
+  const auto hit = tissueAlong(line);
+  return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
+}
+
+void WorkstationModel::startTouch(haptics::Device& device,
+                                  const session::TouchSession::Setup& setup)
+{
+  if (!m_case)
+    return;
+  stopTouch();
+  if (m_leaving)
+    throw core::InvalidParameter("Another case is being opened; then the tool can be taken up.");
+  if (!ready())
+    throw core::InvalidParameter("The case is still being prepared; then the tool can be taken "
+                                 "up.");
+  if (const auto found = damage(); !found.empty())
+    throw library::LibraryError(library::LibraryError::Reason::Damaged, found.front());
+  if (!m_scene)
+  {
+    m_reader.reset();
+    m_scene = std::make_unique<session::TouchScene>(*m_case, session());
+    m_session.reset();
+  }
+  session::TouchSession::Setup whole = setup;
+  whole.catalogues = dissection::Catalogues::in(m_library.folder());
+  if (m_journal)
+    whole.journal = [journal = m_journal, measure = m_scene->drill().measurer()](
+                        const dissection::Dissection& work) { journal->follow(work, measure); };
+  m_touch = std::make_unique<session::TouchSession>(*m_case, *m_scene, device, whole);
+}
+
+// Forwards the news to the case's observers.
+session::TouchSession::News WorkstationModel::hear(session::TouchSession::News news)
+{
+  if (m_journal)
+    news.journalFault = m_journal->takeFailure();
+  notifyMask(news.bricks);
+  bool changed = !news.steps.empty();
+  for (const auto& stroke : news.strokes)
+    changed = changed || stroke;
+  m_unsaved = m_unsaved || changed;
+  m_changes += changed;
+  if (!news.strokes.empty() || !news.steps.empty())
+    notify(events.stateChanged);
+  if (!news.steps.empty())
+    notify(events.stepped, static_cast<bool>(news.steps.back()));
+  return news;
+}
+
+session::TouchSession::News WorkstationModel::advanceTouch()
+{
+  if (!m_touch)
+    return {};
+  const bool before = drilling();
+  session::TouchSession::News news = hear(m_touch->advance());
+  if (drilling() && !before)
+    notify(events.stateChanged);
+  return news;
+}
+
+session::TouchSession::News WorkstationModel::stopTouch()
+{
+  if (!m_touch)
+    return {};
+  session::TouchSession::News news = m_touch->stop();
+  if (m_touch->failed()) // touched and rendered tissue may differ
+  {
+    m_reader.reset();
+    m_touch.reset();
+    m_scene.reset();
+  }
+  m_touch.reset();
+  return hear(std::move(news));
+}
+
+void WorkstationModel::notifyMask(const std::vector<std::size_t>& bricks)
+{
+  if (bricks.empty())
+    return;
+  m_reader.reset();
+  notify(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,153 @@
+// WorkstationModel: planning on the open case: distances to structures, bone thickness, MR
+// registration, approaches.
+
+#include <algorithm>
+#include <utility>
+
+#include "Notify.h"
+#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/Branches.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::presenters
+{
+
+bool WorkstationModel::measureNearby()
+{
+  if (!m_case || !m_loaded)
+    return false;
+  if (!m_nearby)
+    m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  return m_nearby->ready();
+}
+
+std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
+                                                                     double radius)
+{
+  if (!measureNearby())
+    return std::nullopt;
+  return m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
+}
+
+std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& burr, double radius)
+{
+  if (m_case && m_case->labels.empty() && m_case->meshes.empty())
+    return std::string();
+  if (!measureNearby())
+    return std::nullopt;
+  return warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
+}
+
+const dissection::RemovedVolume& WorkstationModel::strokeSoFar()
+{
+  static const dissection::RemovedVolume kNothing;
+  if (!m_case || !m_case->dissection || !m_scene)
+    return kNothing;
+  return m_meter.soFar(*m_case->dissection, m_scene->drill().measurer());
+}
+
+void WorkstationModel::forgetNearby()
+{
+  m_nearby.reset();
+}
+
+void WorkstationModel::goToBranch(const std::string& name)
+{
+  if (!m_case)
+    return;
+  stopTouch();
+  scene::goToBranch(*m_case, name);
+  followHistory();
+}
+
+void WorkstationModel::startBranch(const std::string& name)
+{
+  if (!m_case)
+    return;
+  stopTouch();
+  scene::startBranch(*m_case, name);
+  followHistory();
+}
+
+namespace
+{
+
+// Placements of what was drawn on MRs; touch, drill and pointer depend on them.
+std::vector<scene::Placement> drawnOnMrs(const scene::Case& value)
+{
+  std::vector<scene::Placement> placements;
+  const auto add = [&placements](scene::Placement placement)
+  {
+    if (!placement.drawnOn.empty())
+      placements.push_back(std::move(placement));
+  };
+  for (const scene::LabelPart& part : value.labels)
+    add(scene::placementOf(value, part));
+  for (const scene::MeshPart& part : value.meshes)
+    add(scene::placementOf(value, part));
+  return placements;
+}
+
+bool same(const std::vector<scene::Placement>& a, const std::vector<scene::Placement>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const scene::Placement& one, const scene::Placement& other)
+                    {
+                      return one.drawnOn == other.drawnOn && one.missing == other.missing &&
+                             one.mrFromCt.rotation().coeffs() ==
+                                 other.mrFromCt.rotation().coeffs() &&
+                             one.mrFromCt.translation() == other.mrFromCt.translation();
+                    });
+}
+
+} // namespace
+
+void WorkstationModel::showThickness(const std::string& structure)
+{
+  if (!m_case || structure == thicknessOver())
+    return;
+  if (!m_loaded)
+    throw core::InvalidParameter("The structures are still being loaded.");
+  SceneAssembly next = m_assembly;
+  next.showThickness(structure);
+  next.contents(*m_case);
+  m_assembly = std::move(next);
+  if (events.appearanceChanged)
+    events.appearanceChanged();
+}
+
+void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
+{
+  if (!m_case || drilling())
+    return;
+  const auto before = drawnOnMrs(*m_case);
+  bool tissueMoved = false;
+  const auto follow = [&]
+  {
+    if (!before.empty())
+      m_nearby.reset(); // its uncertainties depend on the registrations
+    if (same(before, drawnOnMrs(*m_case)))
+      return;
+    const bool held = touching();
+    forgetTissue();
+    if (held)
+      notify(events.toolPutAway);
+    tissueMoved = true;
+  };
+  try
+  {
+    change(*m_case);
+  }
+  catch (...)
+  {
+    follow();
+    throw;
+  }
+  follow();
+  notify(events.mrMoved);
+  setUnsaved(true);
+  if (tissueMoved) // whoever asks earlier waits for it
+    notify(events.preparationWanted);
+}
+
+} // namespace petrous::presenters

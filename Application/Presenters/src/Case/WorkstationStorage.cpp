@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <utility>
+
+#include "Notify.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+// WorkstationModel: loading from and saving to the library.
+namespace petrous::presenters
+{
+
+void WorkstationModel::listen()
+{
+  m_library.onNotice([this](const std::string& words) { notify(events.noticed, words); });
+}
+
+// Call when the case is as saved, or continues from there.
+void WorkstationModel::keepJournal(const library::SavedState& saved, bool another)
+{
+  m_saved = saved;
+  try
+  {
+    if (!m_journal)
+      m_journal = std::make_shared<JournalThread>();
+    if (m_journal->begun() && !another)
+      m_journal->saved(saved);
+    else
+      m_journal->begin(m_library, saved);
+  }
+  catch (const std::exception& error)
+  {
+    notify(events.noticed, std::string(error.what()));
+  }
+}
+
+ReadCase ReadCase::from(const library::Library& library, const std::string& name,
+                        const core::Progress& progress)
+{
+  ReadCase result;
+  library::Library own = library; // with a listener of its own
+  own.onNotice([&result](const std::string& words) { result.notices.push_back(words); });
+  progress.report(0.0, "opening " + name);
+  result.value = std::make_unique<scene::Case>(own.open(name));
+  progress.report(0.3, "reading what was drilled");
+  own.loadDissection(*result.value);
+  progress.report(0.8, "reading the CT");
+  result.value->ct.volume.get(); // reports a missing object now
+  progress.check("opening " + name);
+  return result;
+}
+
+void WorkstationModel::open(const std::string& name)
+{
+  beginOpen(name);
+  try
+  {
+    opened(ReadCase::from(m_library, name));
+  }
+  catch (...)
+  {
+    notOpened();
+    throw;
+  }
+  prepareNow();
+}
+
+void WorkstationModel::beginLeave()
+{
+  stopTouch();
+  m_leaving = true;
+}
+
+void WorkstationModel::beginOpen(const std::string& name)
+{
+  beginLeave();
+  if (m_case && m_case->name == name)
+    m_journal.reset(); // otherwise it would look as if another program drilled in it
+}
+
+void WorkstationModel::opened(ReadCase next)
+{
+  show(std::move(next.value), false);
+  keepJournal(*m_case);
+  for (const std::string& words : next.notices)
+    notify(events.noticed, words);
+}
+
+void WorkstationModel::notOpened()
+{
+  m_leaving = false;
+  if (!m_case || m_journal || !m_saved)
+    return;
+  keepJournal(*m_saved);
+  if (m_journal)
+    m_journal->follow(*m_case->dissection);
+}
+
+void WorkstationModel::adopt(scene::Case value)
+{
+  auto next = std::make_unique<scene::Case>(std::move(value));
+  m_library.loadDissection(*next);
+  show(std::move(next), true);
+  setUnsaved(true);
+}
+
+void WorkstationModel::takeParts(scene::Case with)
+{
+  if (!m_case)
+    return;
+  const auto append = [](auto& parts, auto& more)
+  {
+    for (std::size_t n = parts.size(); n < more.size(); ++n)
+      parts.push_back(std::move(more[n]));
+  };
+  for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
+    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // another MR may have the same grid
+  forgetTissue();
+  m_nearby.reset();
+  append(m_case->mr, with.mr);
+  append(m_case->labels, with.labels);
+  append(m_case->meshes, with.meshes);
+  waitForParts();
+  notify(events.partsChanged);
+  setUnsaved(true);
+  notify(events.preparationWanted);
+}
+
+void WorkstationModel::close()
+{
+  if (!m_case)
+    return;
+  forgetTissue();
+  m_journal.reset();
+  m_nearby.reset();
+  m_assembly = {};
+  m_case.reset();
+  m_saved.reset();
+  m_unsaved = m_leaving = false;
+  m_loaded = m_drawable = m_feelable = m_checked = true;
+  m_unreadLabels.clear();
+  m_unreadMeshes.clear();
+  ++m_parts;
+  ++m_shown;
+  notify(events.caseClosed);
+  notify(events.stateChanged);
+  notify(events.preparationWanted);
+}
+
+void StoreTask::run(const core::Progress& progress)
+{
+  library::Library own = library; // with a listener of its own
+  own.onNotice([this](const std::string& words) { notices.push_back(words); });
+  if (source)
+  {
+    // Mapped voxels would be stored there under the hash of their current content.
+    const auto map = [](const scene::ImagePart& image) { image.volume.get(); };
+    map(value.ct);
+    std::for_each(value.mr.begin(), value.mr.end(), map);
+    source->checkVoxels(value, progress.part(0.0, 0.2));
+    const auto asNew = [](auto& part) { part.object.clear(); };
+    asNew(value.ct);
+    std::for_each(value.mr.begin(), value.mr.end(), asNew);
+    std::for_each(value.labels.begin(), value.labels.end(), asNew);
+    std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
+    std::for_each(value.strokes.begin(), value.strokes.end(), asNew);
+  }
+  own.save(value, source ? progress.part(0.2, 1.0) : progress);
+}
+
+StoreTask WorkstationModel::beginStore()
+{
+  StoreTask task{m_library, *m_case, m_case->name, m_changes, std::nullopt};
+  task.value.dissection.reset();
+  for (const auto& one : m_unreadLabels)
+    task.value.labels[one.part].labels = one.whole;
+  for (const auto& one : m_unreadMeshes)
+    task.value.meshes[one.part].mesh = one.whole;
+  m_beingStored = true;
+  return task;
+}
+
+StoreTask WorkstationModel::beginStoreAs(const std::string& name)
+{
+  StoreTask task = beginStore();
+  task.value.name = name;
+  task.value.revision = 0;
+  return task;
+}
+
+StoreTask WorkstationModel::beginStoreElsewhere(const std::filesystem::path& folder,
+                                                const std::string& name)
+{
+  StoreTask task = beginStoreAs(name);
+  task.source = std::exchange(task.library, library::Library(folder));
+  return task;
+}
+
+void WorkstationModel::stored(const StoreTask& done)
+{
+  m_beingStored = false;
+  if (!m_case || m_case->name != done.from)
+    return;
+  const scene::Case& saved = done.value;
+  const auto takeObjects = [](auto& parts, const auto& from)
+  {
+    for (std::size_t n = 0; n < std::min(parts.size(), from.size()); ++n)
+      parts[n].object = from[n].object;
+  };
+  // Salted by the save: a salted and an unsalted frame cannot be compared.
+  const auto takeFrame = [](scene::ImagePart& image, const scene::ImagePart& from)
+  {
+    image.frameOfReference = from.frameOfReference;
+    image.isFrameSalted = from.isFrameSalted;
+  };
+  m_case->id = saved.id;
+  m_case->revision = saved.revision;
+  m_case->ct.object = saved.ct.object;
+  takeObjects(m_case->mr, saved.mr);
+  takeFrame(m_case->ct, saved.ct);
+  for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
+    takeFrame(m_case->mr[n], saved.mr[n]);
+  takeObjects(m_case->labels, saved.labels);
+  takeObjects(m_case->meshes, saved.meshes);
+  takeObjects(m_case->strokes, saved.strokes);
+  for (std::size_t n = 0; n < std::min(m_case->strokes.size(), saved.strokes.size()); ++n)
+    m_case->strokes[n].bytes = saved.strokes[n].bytes;
+  const bool other = done.source || m_case->name != saved.name;
+  m_case->name = saved.name;
+  if (done.source)
+  {
+    m_library = done.library;
+    listen();
+  }
+  m_case->derived =
+      m_unreadLabels.empty() && m_unreadMeshes.empty() ? m_library.derived() : nullptr;
+  m_unsaved = m_changes != done.changes;
+  keepJournal(saved, other); // what was drilled since then is written at once
+  notify(events.stateChanged);
+  for (const std::string& words : done.notices)
+    notify(events.noticed, words);
+}
+
+void WorkstationModel::notStored()
+{
+  m_beingStored = false;
+  setUnsaved(true);
+}
+
+void WorkstationModel::storeNow(StoreTask task)
+{
+  try
+  {
+    task.run();
+  }
+  catch (...)
+  {
+    notStored();
+    throw;
+  }
+  stored(task);
+}
+
+void WorkstationModel::save()
+{
+  if (m_case)
+    storeNow(beginStore());
+}
+
+void WorkstationModel::saveAs(const std::string& name)
+{
+  storeNow(beginStoreAs(name));
+}
+
+void WorkstationModel::saveElsewhere(const std::filesystem::path& folder, const std::string& name)
+{
+  storeNow(beginStoreElsewhere(folder, name));
+}
+
+} // namespace petrous::presenters

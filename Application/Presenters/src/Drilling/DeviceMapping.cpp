@@ -1,0 +1,92 @@
+#include "petrous/Presenters/DeviceMapping.h"
+
+#include <algorithm>
+
+#include "petrous/Presenters/ActiveDevice.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+constexpr double kSoft = 0.2;          // N/mm: rendered by any device with force feedback
+constexpr double kMinStiffness = 0.02; // N/mm: anything softer is unusable
+constexpr double kEndless = 1e9;       // mm
+
+// N/mm, of the proxy's coupling.
+double stiffnessFor(const haptics::DeviceDescription& device, double scale)
+{
+  const double usual = haptics::ProxyParameters().stiffness;
+  if (!device.givesForce)
+    return usual;
+  const double rendered = device.maxStiffness > 0.0 ? device.maxStiffness : kSoft;
+  return std::clamp(rendered / scale, kMinStiffness, usual);
+}
+
+double angularStiffnessFor(const haptics::DeviceDescription& device, double scale)
+{
+  const double usual = haptics::ProxyParameters().angularStiffness;
+  if (!device.givesTorque || !(device.maxAngularStiffness > 0.0))
+    return usual;
+  return std::min(device.maxAngularStiffness * scale, usual);
+}
+
+} // namespace
+
+double usualScale(const haptics::DeviceDescription& device)
+{
+  return device.givesForce ? 0.5 : 0.25;
+}
+
+void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& device,
+         const DeviceMapping& lead, bool endless)
+{
+  setup.tool.coupling.stiffness = stiffnessFor(device, lead.scale);
+  setup.tool.coupling.angularStiffness = angularStiffnessFor(device, lead.scale);
+  setup.guard = {};
+  if (endless)
+    setup.guard.reach = kEndless;
+  setup.limits = {};
+  setup.limits.maxForce = device.givesForce ? std::clamp(lead.forceLimit.value_or(device.maxForce),
+                                                         0.0, device.maxForce)
+                                            : 0.0;
+  setup.limits.maxTorque = device.givesTorque ? device.maxTorque : 0.0;
+  setup.passivity.reset();
+  if (!device.givesForce)
+    return;
+  // As felt at the device, at a gain of 1 / scale.
+  haptics::PassivityGuard::Parameters passivity;
+  passivity.stiffness = setup.tool.coupling.stiffness * lead.scale;
+  passivity.angularStiffness = setup.tool.coupling.angularStiffness / lead.scale;
+  setup.passivity = passivity;
+}
+
+session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
+                                       const DeviceMapping& lead, const core::CameraPose& camera,
+                                       const DeviceSwitches& switches)
+{
+  session::ServoParameters parameters;
+  session::setCamera(parameters, camera);
+  parameters.scale = lead.scale;
+  parameters.forceGain = 1.0 / lead.scale;
+  parameters.drillButtons = ActiveDevice::kDrill;
+  parameters.clutchButtons = ActiveDevice::kClutch;
+  parameters.clutch = switches.clutch ? 1 : 0;
+  parameters.drill = switches.drill ? 1 : 0;
+  if (!device.givesForce)
+    parameters.maxLead = static_cast<float>(lead.thrust / stiffnessFor(device, lead.scale));
+  session::check(parameters);
+  return parameters;
+}
+
+Eigen::Vector3d centerFor(const Eigen::Vector3d& tool, const Eigen::Vector3d& hand, double scale,
+                          const core::CameraPose& camera)
+{
+  session::ServoParameters parameters;
+  session::setCamera(parameters, camera);
+  const double* q = parameters.camera;
+  return tool - scale * (Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * hand);
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,166 @@
+#include "petrous/Presenters/NearbyStructures.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "petrous/Core/NumberText.h"
+#include "petrous/Scene/Branches.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+const appearance::StructureAppearance* lookOf(const scene::Case& value, const std::string& name)
+{
+  if (const auto* structure = scene::findStructure(value, name))
+    return &structure->look;
+  for (const scene::MeshPart& mesh : value.meshes)
+    if (mesh.name == name)
+      return &mesh.look;
+  return nullptr;
+}
+
+bool shown(const scene::Case& value, const std::string& name)
+{
+  const auto* look = lookOf(value, name);
+  return look && look->shown;
+}
+
+// A lumen is opened, not injured, and its proximity is reported only if a warning distance is set.
+bool lumen(const appearance::StructureAppearance* look)
+{
+  return look && !look->solid;
+}
+
+} // namespace
+
+std::string cubicMillimetres(double volume)
+{
+  if (volume > 0.0 && volume < 0.005)
+    return "under 0.01 mm³";
+  return core::fixedText(volume, 2) + " mm³";
+}
+
+std::string toString(const NearbyStructure& structure)
+{
+  std::string text = structure.name;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  const std::string uncertainty = core::fixedText(structure.uncertainty.millimetres(), 1);
+  if (structure.state == NearbyStructure::State::Touched)
+    text += " touched (± " + uncertainty + " mm)";
+  else
+    text += " " + core::fixedText(structure.distance, 1) + " mm ± " + uncertainty;
+  if (structure.uncertainty.incomplete())
+    text += "; registration's error unknown";
+  return text;
+}
+
+std::string warningsOf(const std::vector<NearbyStructure>& structures)
+{
+  using State = NearbyStructure::State;
+  std::vector<const NearbyStructure*> worst;
+  for (const NearbyStructure& structure : structures)
+    if (structure.state != State::Clear || structure.injured > 0.0)
+      worst.push_back(&structure);
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const NearbyStructure* a, const NearbyStructure* b)
+                   { return a->state > b->state; });
+  std::string text;
+  for (std::size_t n = 0; n < std::min(worst.size(), kMaxWarnings); ++n)
+  {
+    text += (text.empty() ? "" : "\n") + toString(*worst[n]);
+    if (worst[n]->injured > 0.0)
+      text += "; injured, " + cubicMillimetres(worst[n]->injured);
+  }
+  if (worst.size() > kMaxWarnings)
+    text += "\nand " + std::to_string(worst.size() - kMaxWarnings) + " more";
+  return text;
+}
+
+std::map<std::string, double> injuredVolumes(const scene::Case& value,
+                                             const dissection::RemovedVolume& open)
+{
+  std::map<std::string, double> volumes;
+  for (const auto& touched : scene::summaryOf(value, value.history.position()).structures)
+    volumes[touched.name] = touched.volume;
+  for (const auto& touched : open.structures)
+    volumes[touched.name] += touched.volume;
+  for (auto at = volumes.begin(); at != volumes.end();)
+    at = lumen(lookOf(value, at->first)) ? volumes.erase(at) : std::next(at);
+  return volumes;
+}
+
+NearbyStructures::NearbyStructures(const scene::Case& value)
+  : m_stop(std::make_shared<core::CancelToken>())
+{
+  scene::Case copy = value; // shares voxels
+  copy.dissection.reset();  // another thread writes to it
+  m_surfaces = std::async(std::launch::async,
+                          [copy = std::move(copy), progress = core::Progress(nullptr, m_stop)]
+                          {
+                            auto surfaces = std::make_shared<StructureSurfaces>(copy);
+                            for (std::size_t n = 0; n < surfaces->count(); ++n)
+                              if (shown(copy, surfaces->name(n)))
+                                surfaces->measure(n, progress);
+                            return surfaces;
+                          });
+}
+
+NearbyStructures::~NearbyStructures()
+{
+  m_stop->cancel(); // the future's destructor waits
+}
+
+bool NearbyStructures::ready() const
+{
+  return m_surfaces.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+StructureSurfaces& NearbyStructures::surfaces() const
+{
+  return *m_surfaces.get();
+}
+
+std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
+                                                      const Eigen::Vector3d& center, double radius,
+                                                      double reach,
+                                                      const dissection::RemovedVolume& open)
+{
+  std::vector<NearbyStructure> near;
+  if (!ready())
+    return near;
+  StructureSurfaces& surfaces = this->surfaces();
+  const auto injured = injuredVolumes(value, open);
+  for (std::size_t n = 0; n < surfaces.count(); ++n)
+  {
+    NearbyStructure structure;
+    structure.name = surfaces.name(n);
+    const auto* look = lookOf(value, structure.name);
+    if (!look || !look->shown)
+      continue;
+    const auto taken = injured.find(structure.name);
+    structure.injured = taken == injured.end() ? 0.0 : taken->second;
+    const double most =
+        structure.injured > 0.0 ? StructureSurfaces::kFar : std::max(reach, look->warning) + radius;
+    const double away = surfaces.distance(n, center, most);
+    if (!(away < most))
+      continue;
+    structure.distance = std::max(0.0, away - radius);
+    structure.color = look->color;
+    structure.uncertainty = surfaces.uncertainty(n);
+    structure.warning = look->warning;
+    structure.state = lumen(look) && !(look->warning > 0.0) ? NearbyStructure::State::Clear
+                      : away <= radius                      ? NearbyStructure::State::Touched
+                      : structure.distance < look->warning  ? NearbyStructure::State::Warned
+                                                            : NearbyStructure::State::Clear;
+    near.push_back(std::move(structure));
+  }
+  std::sort(near.begin(), near.end(),
+            [](const NearbyStructure& a, const NearbyStructure& b)
+            { return a.distance < b.distance || (a.distance == b.distance && a.name < b.name); });
+  return near;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,248 @@
+#include "petrous/Presenters/RegistrationSession.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "petrous/Scene/ApplyRegistration.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+using scene::Registration;
+
+constexpr std::size_t kMaxSteps = 1000;
+
+Registration byHand()
+{
+  Registration how;
+  how.method = Registration::Method::ByHand;
+  return how;
+}
+} // namespace
+
+RegistrationSession::RegistrationSession(WorkstationModel& model)
+  : m_model(model)
+{
+}
+
+void RegistrationSession::caseChanged()
+{
+  m_undo.clear();
+  m_redo.clear();
+  m_name.clear();
+  m_aim = {};
+  choose(m_model.hasCase() && !m_model.value().mr.empty() ? m_model.value().mr.front().name
+                                                          : std::string());
+}
+
+void RegistrationSession::choose(const std::string& mr)
+{
+  m_name = mr;
+  m_landmarks.clear();
+  checkAim();
+  m_fitted = part() ? part()->mrFromCt : core::RigidTransform();
+}
+
+const scene::ImagePart* RegistrationSession::part() const
+{
+  return m_model.hasCase() ? scene::findMr(m_model.value(), m_name) : nullptr;
+}
+
+std::vector<std::string> RegistrationSession::mrNames() const
+{
+  std::vector<std::string> names;
+  if (m_model.hasCase())
+    for (const scene::ImagePart& mr : m_model.value().mr)
+      names.push_back(mr.name);
+  return names;
+}
+
+std::string RegistrationSession::stateInWords() const
+{
+  return part() ? scene::registrationInWords(*part()) : std::string();
+}
+
+void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Registration& how)
+{
+  if (!part() || m_model.drilling())
+    return;
+  change([&](scene::Case& value) { scene::layMr(value, m_name, mrFromCt, how); });
+}
+
+// The undo entry is pushed before listeners are notified.
+void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
+{
+  const Places before = scene::mrPlaces(m_model.value());
+  m_model.changeMr(
+      [&](scene::Case& value)
+      {
+        what(value);
+        m_undo.push_back(before);
+        m_redo.clear();
+      });
+  if (m_undo.size() > kMaxSteps)
+    m_undo.erase(m_undo.begin());
+}
+
+void RegistrationSession::moveByHand(const core::RigidTransform& mrFromCt)
+{
+  lay(mrFromCt, byHand());
+}
+
+void RegistrationSession::shift(const Eigen::Vector3d& millimetres)
+{
+  if (part())
+    moveByHand(shifted(part()->mrFromCt, millimetres));
+}
+
+void RegistrationSession::turn(const Eigen::Vector3d& axis, double degrees)
+{
+  if (part())
+    moveByHand(turned(part()->mrFromCt, axis, degrees, m_model.crosshair()));
+}
+
+void RegistrationSession::bringMiddleHere()
+{
+  if (part())
+    moveByHand(broughtTo(part()->mrFromCt, part()->geometry.center(), m_model.crosshair()));
+}
+
+MrDifference RegistrationSession::movedByHand() const
+{
+  return part() ? difference(m_fitted, part()->mrFromCt, m_model.crosshair()) : MrDifference{};
+}
+
+void RegistrationSession::addLandmark()
+{
+  if (!part())
+    return;
+  if (m_landmarks.waitsForMr())
+    m_landmarks.addMr(part()->mrFromCt * m_model.crosshair());
+  else
+    m_landmarks.addCt(m_model.crosshair());
+}
+
+void RegistrationSession::setAim(const RegistrationAim& aim)
+{
+  m_aim = aim;
+  checkAim();
+}
+
+void RegistrationSession::checkAim()
+{
+  const auto has = [](const std::vector<std::string>& names, const std::string& name)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (!has(ontoNames(), m_aim.onto))
+    m_aim.onto.clear();
+  if (m_aim.place == RegistrationAim::Place::Structure && !has(placeNames(), m_aim.structure))
+    m_aim.place = RegistrationAim::Place::MiddleEar;
+}
+
+std::vector<std::string> RegistrationSession::ontoNames() const
+{
+  return part() ? presenters::ontoNames(m_model.value(), m_name) : std::vector<std::string>();
+}
+
+std::vector<std::string> RegistrationSession::placeNames() const
+{
+  return m_model.hasCase() ? presenters::placeNames(m_model.value()) : std::vector<std::string>();
+}
+
+RegistrationRequest RegistrationSession::request(Way way) const
+{
+  using From = RegistrationRequest::From;
+  RegistrationRequest request;
+  request.mr = m_name;
+  if (way == Way::Landmarks)
+  {
+    request.from = From::Landmarks;
+    request.asIs = true;
+    for (const LandmarkList::Row& row : m_landmarks.rows())
+      if (row.mr)
+        request.landmarks.push_back({row.ct, *row.mr});
+    return request;
+  }
+  request.onto = m_aim.onto;
+  if (m_aim.place == RegistrationAim::Place::Crosshair)
+    request.at = placeAt(m_model.value(), m_model.crosshair());
+  else if (m_aim.place == RegistrationAim::Place::Structure)
+    request.atStructure = m_aim.structure;
+  if (m_aim.box > 0.0)
+  {
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * m_aim.box);
+    request.region = {m_model.crosshair() - half, m_model.crosshair() + half};
+  }
+  if (way == Way::Refine || m_aim.start == RegistrationAim::Start::Present)
+  {
+    request.from = From::Given;
+    request.given = part()->mrFromCt;
+    request.givenBy = part()->registration;
+    request.lookAround = way == Way::Register;
+  }
+  else if (m_aim.start == RegistrationAim::Start::Centres)
+    request.from = From::Centres;
+  return request;
+}
+
+bool RegistrationSession::take(const RegistrationOutcome& outcome)
+{
+  if (!part() || m_model.drilling() || outcome.failed)
+    return false;
+  m_fitted = outcome.mrFromCt;
+  change([&](scene::Case& value) { accept(value, m_name, outcome); });
+  return true;
+}
+
+void RegistrationSession::keep(const core::RigidTransform& best)
+{
+  Registration how;
+  how.text = "stopped before its end";
+  m_fitted = best;
+  lay(best, how);
+}
+
+bool RegistrationSession::lies(const core::RigidTransform& mrFromCt) const
+{
+  return part() && part()->registered && part()->mrFromCt.matrix() == mrFromCt.matrix();
+}
+
+void RegistrationSession::unregister()
+{
+  if (!part() || !part()->registered || m_model.drilling())
+    return;
+  change([this](scene::Case& value) { scene::unlayMr(value, m_name); });
+}
+
+void RegistrationSession::signOff(const std::string& who, const std::string& when)
+{
+  m_model.changeMr([&](scene::Case& value) { scene::signOff(value, m_name, who, when); });
+}
+
+void RegistrationSession::restore(const Places& places)
+{
+  m_model.changeMr([&places](scene::Case& value) { scene::layAs(value, places); });
+}
+
+void RegistrationSession::undo()
+{
+  if (m_undo.empty() || m_model.drilling())
+    return;
+  m_redo.push_back(scene::mrPlaces(m_model.value()));
+  const Places back = std::move(m_undo.back());
+  m_undo.pop_back();
+  restore(back);
+}
+
+void RegistrationSession::redo()
+{
+  if (m_redo.empty() || m_model.drilling())
+    return;
+  m_undo.push_back(scene::mrPlaces(m_model.value()));
+  const Places forth = std::move(m_redo.back());
+  m_redo.pop_back();
+  restore(forth);
+}
+
+} // namespace petrous::presenters

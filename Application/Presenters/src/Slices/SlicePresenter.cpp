@@ -1,0 +1,151 @@
+#include "petrous/Presenters/SlicePresenter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "OverlayPainter.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+constexpr float kTint = 0.30F;
+constexpr float kOutline = 0.95F;
+constexpr int kHatchPeriod = 7; // pixels
+constexpr int kHatchWidth = 2;
+constexpr std::array<float, 3> kCutColor{150.0F, 28.0F, 24.0F};
+constexpr std::array<float, 3> kHatchColor{235.0F, 70.0F, 52.0F};
+constexpr float kCutTint = 0.62F;
+
+// Iterates over a picture's pixels with their continuous grid positions; body(pixel index, voxel).
+template <class Body>
+void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, const Body& body)
+{
+  const auto voxelAt = [&](double column, double row)
+  { return grid.voxelFromPatient(slice.patientFromPixel(column, row)); };
+  const Eigen::Vector3d origin = voxelAt(0.0, 0.0);
+  const Eigen::Vector3d across = voxelAt(1.0, 0.0) - origin;
+  const Eigen::Vector3d down = voxelAt(0.0, 1.0) - origin;
+  std::size_t pixel = 0;
+  for (int row = 0; row < slice.height(); ++row)
+    for (int column = 0; column < slice.width(); ++column, ++pixel)
+      body(pixel, Eigen::Vector3d(origin + column * across + row * down));
+}
+} // namespace
+
+SlicePresenter::SlicePresenter(const scene::Case& value)
+  : m_ct(value.ct.volume.get())
+  , m_edges(edgeLevels(calibratedScale(value)))
+{
+  if (value.dissection)
+    m_mask = {value.dissection, &std::as_const(*value.dissection).mask()};
+  for (const scene::LabelPart& part : value.labels)
+  {
+    Layer layer;
+    for (const scene::StructurePart& structure : part.structures)
+    {
+      if (!structure.look.shown)
+        continue;
+      const std::size_t size = std::max<std::size_t>(layer.shown.size(), structure.index + 1U);
+      layer.shown.resize(size, false);
+      layer.colors.resize(size);
+      layer.shown[structure.index] = true;
+      for (std::size_t c = 0; c < 3; ++c)
+        layer.colors[structure.index][c] = 255.0F * structure.look.color[c];
+    }
+    if (layer.shown.empty())
+      continue;
+    layer.labels = scene::labelsOnCt(value, part);
+    if (layer.labels)
+      m_layers.push_back(std::move(layer));
+  }
+}
+
+SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& window,
+                                 const SliceOverlay* overlay) const
+{
+  SlicePixels pixels;
+  pixels.width = slice.width();
+  pixels.height = slice.height();
+  const std::size_t count =
+      static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
+  pixels.rgb.resize(3 * count);
+  for (std::size_t n = 0; n < pixels.rgb.size(); ++n)
+    pixels.rgb[n] = kOutside[n % 3];
+  if (!m_ct)
+    return pixels;
+  const PlaneSamples ct = samplePlane(*m_ct, slice);
+  for (std::size_t n = 0; n < count; ++n)
+    if (!std::isnan(ct.values[n]))
+      std::fill_n(&pixels.rgb[3 * n], 3, greyOf(ct.values[n], window));
+  if (overlay && overlay->mr)
+    paintOverlay(*overlay, slice, pixels);
+  for (const Layer& layer : m_layers)
+    drawLayer(layer, slice, pixels);
+  if (m_mask && !m_mask->untouched())
+    drawCut(slice, pixels);
+  if (overlay && overlay->mr && overlay->mode == OverlayMode::Edges)
+    paintEdges(ct, m_edges, slice.mmPerPixel(), pixels);
+  return pixels;
+}
+
+void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
+                               SlicePixels& pixels) const
+{
+  const auto& voxels = *layer.labels->voxels;
+  const core::Index3& dims = voxels.geometry().dims();
+  std::vector<std::uint16_t> found(pixels.rgb.size() / 3, 0);
+  forEachPixel(slice, voxels.geometry(),
+               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+               {
+                 core::Index3 nearest;
+                 for (std::size_t a = 0; a < 3; ++a)
+                 {
+                   nearest[a] =
+                       static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
+                   if (nearest[a] < 0 || nearest[a] >= dims[a])
+                     return;
+                 }
+                 const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
+                 if (index < layer.shown.size() && layer.shown[index])
+                   found[pixel] = index;
+               });
+  const int width = slice.width();
+  for (int row = 0; row < slice.height(); ++row)
+    for (int column = 0; column < width; ++column)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(column);
+      const std::uint16_t index = found[pixel];
+      if (index == 0)
+        continue;
+      const bool border =
+          (column > 0 && found[pixel - 1] != index) ||
+          (column + 1 < width && found[pixel + 1] != index) ||
+          (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
+          (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
+      blend(&pixels.rgb[3 * pixel], layer.colors[index], border ? kOutline : kTint);
+    }
+}
+
+void SlicePresenter::drawCut(const SliceGeometry& slice, SlicePixels& pixels) const
+{
+  const core::GridGeometry& grid = m_mask->geometry();
+  forEachPixel(
+      slice, grid,
+      [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+      {
+        if (!grid.hullContains(voxel) || m_mask->sample(voxel) >= 0.5)
+          return;
+        const int column = static_cast<int>(pixel % static_cast<std::size_t>(slice.width()));
+        const int row = static_cast<int>(pixel / static_cast<std::size_t>(slice.width()));
+        const bool hatch = (column + row) % kHatchPeriod < kHatchWidth;
+        blend(&pixels.rgb[3 * pixel], hatch ? kHatchColor : kCutColor, hatch ? 0.8F : kCutTint);
+      });
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,735 @@
+#include "CaseDocumentController.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QApplication>
+#include <QDate>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QProgressDialog>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QTemporaryDir>
+#include <QTimer>
+
+#include "Application.h"
+#include "Banner.h"
+#include "CaseSaver.h"
+#include "OpenCaseDialog.h"
+#include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Phantom/SamplePatient.h"
+#include "petrous/Presenters/CaseNaming.h"
+
+namespace petrous::workstation
+{
+
+namespace fs = std::filesystem;
+
+using presenters::Content;
+using presenters::SourceContent;
+
+namespace
+{
+
+constexpr int kShowLoading = 300;   // ms
+constexpr int kLookForDamage = 500; // ms; images are checked against their hash in another thread
+
+fs::path pathOf(const QString& text)
+{
+  return fs::path(QFile::encodeName(text).toStdString());
+}
+
+QString nameOf(const fs::path& path)
+{
+  const auto plain = path.lexically_normal();
+  return QFile::decodeName(
+      (plain.has_filename() ? plain : plain.parent_path()).filename().string().c_str());
+}
+
+// "20200131 1205" as "2020-01-31 12:05"; other formats unchanged.
+QString takenIn(const QString& text)
+{
+  const QStringList parts = text.split(' ');
+  const QDate day = QDate::fromString(parts.front(), "yyyyMMdd");
+  if (!day.isValid())
+    return text;
+  const QTime time = parts.size() > 1 ? QTime::fromString(parts[1], "HHmm") : QTime();
+  return day.toString(Qt::ISODate) + (time.isValid() ? time.toString(" HH:mm") : QString());
+}
+
+QString lineOf(const presenters::SeriesContent& series, int number)
+{
+  const auto spacing = [&series](Eigen::Index axis)
+  { return QString::number(series.spacing[axis], 'g', 3); };
+  QStringList more{CaseDocumentController::tr("%1 images, %2 × %3 × %4 mm")
+                       .arg(series.slices)
+                       .arg(spacing(0), spacing(1), spacing(2))};
+  if (!series.taken.empty())
+    more += takenIn(words(series.taken));
+  for (const std::string& one : {series.patientPosition, series.kernel})
+    if (!one.empty())
+      more += words(one);
+  if (!series.folder.empty())
+    more += CaseDocumentController::tr("in “%1”").arg(QFile::decodeName(series.folder.c_str()));
+  return CaseDocumentController::tr("%1.  %2  %3  (%4)")
+      .arg(number)
+      .arg(words(series.modality), words(series.description), more.join(", "));
+}
+
+// "MR 't2', structures 'labels.seg.nrrd'"
+QString listOf(const std::vector<SourceContent>& sources)
+{
+  QStringList items;
+  for (const SourceContent& source : sources)
+    items += CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
+                                                       nameOf(source.path));
+  return items.join(", ");
+}
+
+} // namespace
+
+CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& model,
+                                               CaseSaver& saver, QWidget& window, Banner& unsaved,
+                                               Banner& loading, Banner& damaged)
+  : m_model(model)
+  , m_saver(saver)
+  , m_window(window)
+  , m_unsaved(unsaved)
+  , m_loading(loading)
+  , m_damaged(damaged)
+{
+  connect(&m_work, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            endWork();
+            m_model.notOpened();
+            refuse(why);
+          });
+  connect(&m_work, &BackgroundWork::cancelled, this,
+          [this]
+          {
+            endWork();
+            m_model.notOpened();
+            emit statusMessage(tr("Stopped; nothing was changed"));
+          });
+  connectBanners();
+  watchForDamage();
+}
+
+CaseDocumentController::~CaseDocumentController() = default;
+
+void CaseDocumentController::connectBanners()
+{
+  m_unsaved.addButton("retrySave", tr("Try again"), [this] { save(); });
+  m_unsaved.addButton("saveAsOther", tr("Another name…"), [this] { saveAs(); });
+  m_unsaved.addButton("saveElsewhere", tr("Another folder…"),
+                      [this]
+                      {
+                        const QString folder = QFileDialog::getExistingDirectory(
+                            &m_window, tr("Library in another folder"));
+                        if (folder.isEmpty() || !m_model.hasCase())
+                          return;
+                        m_sayWhenSaved = true;
+                        m_saver.saveElsewhere(pathOf(folder));
+                      });
+  m_unsaved.addButton("quitUnsaved", tr("Quit without saving"),
+                      [this]
+                      {
+                        m_giveUp = true;
+                        m_window.close();
+                      });
+  m_unsaved.addButton("dismiss", tr("Go on working"),
+                      [this]
+                      {
+                        m_unsaved.hide();
+                        m_unsaved.setButtonVisible("quitUnsaved", false);
+                      });
+  m_unsaved.setButtonVisible("quitUnsaved", false);
+  connect(&m_saver, &CaseSaver::failed, this, &CaseDocumentController::notSaved);
+  connect(&m_saver, &CaseSaver::saved, this,
+          [this](const QString& name)
+          {
+            m_unsaved.hide();
+            m_unsaved.setButtonVisible("quitUnsaved", false);
+            if (std::exchange(m_sayWhenSaved, false))
+              emit statusMessage(tr("Saved as %1").arg(name));
+          });
+
+  m_loading.addButton("loadStructures", tr("Prepare them"), [this] { prepare(); });
+  m_loading.addButton("cancelLoading", tr("Cancel"), [this] { m_preparation.cancel(); });
+  connect(&m_preparation, &BackgroundWork::progressed, this,
+          [this](double fraction, const QString& text)
+          {
+            m_loading.setText(tr("The structures are being prepared: %1, %2 %")
+                                  .arg(text)
+                                  .arg(100.0 * fraction, 0, 'f', 0));
+          });
+  const auto without = [this](const QString& why)
+  {
+    if (m_prepareAgain)
+      return prepare();
+    m_loading.setText(why);
+    m_loading.setButtonVisible("loadStructures", true);
+    m_loading.setButtonVisible("cancelLoading", false);
+    m_loading.show();
+  };
+  connect(&m_preparation, &BackgroundWork::cancelled, this,
+          [without]
+          {
+            without(tr(
+                "The structures were not prepared: they are not shown and felt as the list says."));
+          });
+  connect(&m_preparation, &BackgroundWork::failed, this,
+          [without](const QString& why)
+          { without(tr("The structures could not be prepared: %1").arg(why)); });
+}
+
+void CaseDocumentController::watchForDamage()
+{
+  m_damaged.addButton("dismissDamage", tr("Close"), [this] { m_damaged.hide(); });
+  auto* look = new QTimer(this);
+  connect(look, &QTimer::timeout, this, &CaseDocumentController::lookForDamage);
+  look->start(kLookForDamage);
+}
+
+void CaseDocumentController::notSaved(const QString& why)
+{
+  m_sayWhenSaved = false;
+  m_unsaved.setText(tr("Not saved: %1 The work is still open in this window.").arg(sentence(why)));
+  m_unsaved.show();
+}
+
+void CaseDocumentController::refuse(const QString& why)
+{
+  QMessageBox box(QMessageBox::Warning, tr("Petrous"), why, QMessageBox::Ok, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.exec();
+}
+
+void CaseDocumentController::open(const QStringList& what)
+{
+  if (what.isEmpty())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  try
+  {
+    std::vector<fs::path> paths;
+    std::error_code error;
+    for (const QString& one : what)
+      paths.push_back(pathOf(one));
+    if (what.size() == 1 && (presenters::namesCase(m_model.library(), bytes(what.front())) ||
+                             !fs::exists(paths.front(), error)))
+      openCase(bytes(what.front()));
+    else
+      lookAt(paths);
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(toString(fault));
+  }
+}
+
+// Runs one task with a progress dialog.
+void CaseDocumentController::work(const QString& title, BackgroundWork::Work work)
+{
+  endWork();
+  m_progress = std::make_unique<QProgressDialog>(title + "…", tr("Cancel"), 0, 1000, &m_window);
+  m_progress->setObjectName("importProgress");
+  m_progress->setWindowTitle(title);
+  m_progress->setWindowModality(Qt::WindowModal);
+  m_progress->setMinimumDuration(250);
+  m_progress->setMinimumWidth(420);
+  m_progress->setAutoClose(false);
+  m_progress->setAutoReset(false);
+  m_progress->setValue(0);
+  // The dialog stays until the task has really stopped.
+  disconnect(m_progress.get(), &QProgressDialog::canceled, m_progress.get(),
+             &QProgressDialog::cancel);
+  connect(m_progress.get(), &QProgressDialog::canceled, this,
+          [this]
+          {
+            m_work.cancel();
+            if (m_progress)
+              m_progress->setLabelText(tr("Stopping…"));
+          });
+  connect(&m_work, &BackgroundWork::progressed, m_progress.get(),
+          [this](double fraction, const QString& text)
+          {
+            if (!text.isEmpty())
+              m_progress->setLabelText(text.left(1).toUpper() + text.mid(1) + "…");
+            // Processes events, so the task may end here.
+            m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
+          });
+  try
+  {
+    m_work.start(std::move(work));
+  }
+  catch (...)
+  {
+    endWork();
+    throw;
+  }
+}
+
+// Deferred deletion: it may be processing a progress update.
+void CaseDocumentController::endWork()
+{
+  if (!m_progress)
+    return;
+  disconnect(&m_work, nullptr, m_progress.get(), nullptr);
+  m_progress->cancel(); // hides it, and prevents showing after its minimum duration
+  m_progress.release()->deleteLater();
+}
+
+// Saves the open case before another one is opened; no tool can be taken up until then.
+bool CaseDocumentController::leaveCase()
+{
+  const QScopedValueRollback<bool> asking(m_asking, true); // no other operation can start meanwhile
+  m_model.beginLeave(); // all removal is in the case, and no more follows
+  if (m_saver.flush())
+    return true;
+  m_model.notOpened();
+  emit statusMessage(tr("The open case is not saved yet; it stays open"));
+  return false;
+}
+
+void CaseDocumentController::openCase(const std::string& name)
+{
+  if (m_model.library().folder().empty() || !leaveCase())
+    return;
+  m_model.beginOpen(name);
+  work(tr("Opening %1").arg(words(name)),
+       [this, library = m_model.library(),
+        name](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         const auto read = std::make_shared<presenters::ReadCase>(
+             presenters::ReadCase::from(library, name, progress));
+         return [this, read, name]
+         {
+           endWork();
+           m_model.opened(std::move(*read));
+           emit statusMessage(
+               tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
+                   .arg(words(name)));
+         };
+       });
+}
+
+void CaseDocumentController::lookAt(const std::vector<fs::path>& paths)
+{
+  work(tr("Looking at the files"),
+       [this, paths](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         Sources found;
+         const auto count = static_cast<double>(paths.size());
+         for (const fs::path& path : paths)
+         {
+           const auto n = static_cast<double>(found.size());
+           found.push_back(presenters::lookAt(path, progress.part(n / count, (n + 1.0) / count)));
+         }
+         return [this, found = std::move(found)]
+         {
+           endWork();
+           decide(found);
+         };
+       });
+}
+
+bool CaseDocumentController::chooseSeries(SourceContent& source, std::string& uid)
+{
+  QStringList lines;
+  for (const auto& series : source.series)
+    lines += lineOf(series, lines.size() + 1);
+  bool chosen = false;
+  const QString line = QInputDialog::getItem(
+      &m_window, tr("Which series?"),
+      tr("“%1” holds more than one series. A CT begins a case, an MR comes to the open one.")
+          .arg(nameOf(source.path)),
+      lines, 0, false, &chosen);
+  const int index = lines.indexOf(line);
+  if (!chosen || index < 0)
+    return false;
+  const auto& series = source.series[static_cast<std::size_t>(index)];
+  uid = series.uid;
+  source.content = series.content;
+  source.why = series.modality.empty() ? "says no modality" : "says modality " + series.modality;
+  return true;
+}
+
+bool CaseDocumentController::askContent(SourceContent& source)
+{
+  QMessageBox box(QMessageBox::Question, tr("What is this?"),
+                  tr("What is “%1”? It %2.").arg(nameOf(source.path), words(source.why)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askContent");
+  const bool open = m_model.hasCase();
+  const QString name = open ? words(m_model.value().name) : QString();
+  box.setInformativeText(
+      open ? tr("A CT or cone beam begins a case of its own; “%1” is saved and stays in the "
+                "library.")
+                 .arg(name)
+           : tr("A case begins with a CT or cone beam. An MR comes to a case that is open."));
+  auto* ct = box.addButton(tr("CT: a new case"), QMessageBox::ActionRole);
+  auto* mr = open ? box.addButton(tr("MR of “%1”").arg(name), QMessageBox::ActionRole) : nullptr;
+  const bool file = !fs::is_directory(source.path);
+  auto* labels = open && file
+                     ? box.addButton(tr("Structures of “%1”").arg(name), QMessageBox::ActionRole)
+                     : nullptr;
+  box.addButton(QMessageBox::Cancel);
+  box.exec();
+  const QAbstractButton* clicked = box.clickedButton();
+  if (!clicked || (clicked != ct && clicked != mr && clicked != labels))
+    return false;
+  source.content = clicked == ct ? Content::Ct : clicked == mr ? Content::Mr : Content::Labels;
+  return true;
+}
+
+bool CaseDocumentController::askName(const SourceContent& source, std::string& name)
+{
+  if (!source.isNameless)
+    return true;
+  bool given = false;
+  const QString text = QInputDialog::getText(
+      &m_window, tr("Name of the structure"),
+      tr("What is the structure in “%1” called?\nThe file's own name is not kept: it may be a "
+         "patient's.")
+          .arg(nameOf(source.path)),
+      QLineEdit::Normal, words(presenters::fileName(source.path).name), &given);
+  name = bytes(text.trimmed());
+  return given;
+}
+
+void CaseDocumentController::decide(const Sources& found)
+{
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  Sources others;
+  const SourceContent* ct = nullptr;
+  presenters::CaseSources sources;
+  Sources known = found;
+  for (SourceContent& source : known)
+  {
+    std::string uid;
+    if (!source.series.empty() && !chooseSeries(source, uid))
+      return;
+    if (source.content == Content::Image && !askContent(source))
+      return;
+    std::string name;
+    if (!askName(source, name))
+      return;
+    switch (source.content)
+    {
+    case Content::Ct:
+    case Content::Image:
+      if (ct)
+        return refuse(tr("“%1” and “%2” are both CTs, and a case has one; open them one after the "
+                         "other.")
+                          .arg(nameOf(ct->path), nameOf(source.path)));
+      ct = &source;
+      sources.ct = source.path;
+      sources.seriesUid = uid;
+      continue;
+    case Content::Mr:
+      sources.parts.mr.push_back({{}, source.path, {}, uid});
+      break;
+    case Content::Labels:
+      sources.parts.labels.push_back({name, source.path});
+      break;
+    case Content::Mesh:
+      sources.parts.meshes.push_back({name, source.path});
+      break;
+    }
+    others.push_back(source);
+  }
+  if (ct)
+    return makeCase(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path)),
+                    [sources](const core::Progress&) { return sources; });
+  if (!m_model.hasCase())
+    return refuse(tr("A case begins with a CT, and there is none here: %1. Open the patient's CT "
+                     "first, then this.")
+                      .arg(listOf(others)));
+
+  const QString name = words(m_model.value().name);
+  QMessageBox box(QMessageBox::Question, tr("Add to the open case"),
+                  tr("Add to the case “%1”: %2?").arg(name, listOf(others)), QMessageBox::NoButton,
+                  &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askAdd");
+  box.setInformativeText(tr("It must be of the same patient.%1")
+                             .arg(sources.parts.mr.empty()
+                                      ? QString()
+                                      : tr(" An MR is shown over the CT once it is registered "
+                                           "(F5).")));
+  const auto* add = box.addButton(tr("Add to “%1”").arg(name), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Cancel);
+  box.exec();
+  if (box.clickedButton() == add)
+    addParts(sources.parts, listOf(others));
+}
+
+void CaseDocumentController::makeCase(
+    const std::string& name, std::function<presenters::CaseSources(const core::Progress&)> sources)
+{
+  if (!leaveCase())
+    return;
+  m_model.notOpened(); // it stays usable while the other one is made
+  work(tr("Making the case %1").arg(words(name)),
+       [this, name,
+        sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         double reached = 0.0; // a quick preparation does not count as half of the work
+         const core::Progress first(
+             [&](double fraction, const std::string& text)
+             {
+               reached = 0.5;
+               progress.report(0.5 * fraction, text);
+             });
+         const auto from = sources(first);
+         const auto value = std::make_shared<scene::Case>(
+             presenters::buildCase(name, from, progress.part(reached, 1.0)));
+         return [this, value]
+         {
+           endWork();
+           adopt(std::move(*value));
+         };
+       });
+}
+
+void CaseDocumentController::adopt(scene::Case value)
+{
+  if (!leaveCase()) // a device may have drilled meanwhile
+    return;
+  try
+  {
+    m_model.adopt(std::move(value));
+  }
+  catch (...)
+  {
+    m_model.notOpened();
+    throw;
+  }
+  m_sayWhenSaved = true;
+  m_saver.save();
+  emit statusMessage(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
+}
+
+void CaseDocumentController::addParts(const presenters::PartSources& parts, const QString& what)
+{
+  m_model.stopTouch();
+  const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
+  value->dissection.reset();                                         // another thread writes to it
+  work(tr("Adding to %1").arg(words(value->name)),
+       [this, value, parts, what,
+        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         presenters::addParts(*value, parts, progress);
+         return [this, value, what, shownAs]
+         {
+           endWork();
+           if (!m_model.hasCase() || m_model.shownAs() != shownAs)
+             return refuse(tr("%1 was not added: the case “%2” is not open any more.")
+                               .arg(what, words(value->name)));
+           const QString name = words(m_model.value().name);
+           m_model.takeParts(std::move(*value));
+           m_saver.save();
+           emit statusMessage(tr("Added to %1: %2").arg(name, what));
+         };
+       });
+}
+
+// One at a time. A request during a run cancels and repeats it, without waiting.
+void CaseDocumentController::prepare()
+{
+  m_prepareAgain = m_preparation.busy();
+  if (m_prepareAgain)
+    return m_preparation.cancel();
+  m_loading.hide();
+  m_loading.setButtonVisible("loadStructures", false);
+  m_loading.setButtonVisible("cancelLoading", true);
+  if (!m_model.preparationHelps())
+    return;
+  m_loading.setText(tr("The structures are being prepared…"));
+  QTimer::singleShot(kShowLoading, this,
+                     [this]
+                     {
+                       if (m_preparation.busy())
+                         m_loading.show();
+                     });
+  m_preparation.start(
+      [this, make = m_model.preparation()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto done = std::make_shared<presenters::PreparedCase>(make(progress));
+        return [this, done]
+        {
+          if (m_prepareAgain) // the result is of an outdated state
+            return prepare();
+          m_loading.hide();
+          if (m_model.prepared(std::move(*done)))
+            emit ready();
+          lookForDamage();
+        };
+      });
+}
+
+void CaseDocumentController::prepareUnlessUnderWay()
+{
+  if (!m_preparation.busy())
+    prepare();
+}
+
+void CaseDocumentController::lookForDamage()
+{
+  QStringList lines;
+  for (const std::string& one : m_model.damage())
+    lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
+                "until it is whole and opened again.")
+                 .arg(words(one));
+  for (const std::string& one : m_model.leftOut())
+    lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
+  const QString text = lines.join('\n');
+  if (text == m_damageTold)
+    return;
+  m_damageTold = text;
+  m_damaged.setText(text);
+  m_damaged.setVisible(!text.isEmpty());
+}
+
+void CaseDocumentController::openFolder()
+{
+  const QString folder = QFileDialog::getExistingDirectory(&m_window, tr("Open a DICOM folder"));
+  if (!folder.isEmpty())
+    open({folder});
+}
+
+void CaseDocumentController::openFiles()
+{
+  open(QFileDialog::getOpenFileNames(
+      &m_window, tr("Open images, labels or meshes"), {},
+      tr("Images, labels, meshes (*.nrrd *.nhdr *.nii *.nii.gz *.mha *.mhd *.dcm *.obj *.stl "
+         "*.ply);;All files (*)")));
+}
+
+void CaseDocumentController::chooseCase()
+{
+  if (m_work.busy())
+    return;
+  std::string again; // the open case, closed for a change and reopened afterwards
+  std::string chosen;
+  // An open case is saved and closed first, so that this window does not write to it.
+  const auto released = [this, &again](const std::string& name, const std::string& after,
+                                       const std::function<void(library::Library&)>& change)
+  {
+    library::Library library = m_model.library();
+    if (m_model.hasCase() && m_model.value().name == name)
+    {
+      if (!leaveCase())
+        throw core::Error(core::Fault::Refused,
+                          "the open case could not be saved; it stays as it is");
+      m_model.close();
+      again = name; // if the change fails
+    }
+    change(library);
+    if (again == name)
+      again = after;
+  };
+  try
+  {
+    const OpenCaseDialog::Changes changes{
+        [&released](const std::string& name, const std::string& to)
+        { released(name, to, [&](library::Library& library) { library.rename(name, to); }); },
+        [&released](const std::string& name)
+        { released(name, {}, [&](library::Library& library) { library.remove(name); }); }};
+    OpenCaseDialog dialog(m_model.library(), changes, &m_window);
+    dialog.setObjectName("openCase");
+    if (dialog.exec() == QDialog::Accepted)
+      chosen = dialog.chosen();
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(toString(fault));
+  }
+  if (!chosen.empty() || !again.empty())
+    openCase(chosen.empty() ? again : chosen);
+}
+
+void CaseDocumentController::makeSample()
+{
+  if (m_work.busy())
+    return;
+  const auto folder = std::make_shared<QTemporaryDir>();
+  if (!folder->isValid())
+    return refuse(tr("No temporary folder can be made: %1").arg(folder->errorString()));
+  try
+  {
+    makeCase(presenters::freeCaseName(m_model.library(), "sample patient"),
+             [folder](const core::Progress& progress)
+             {
+               const fs::path out = pathOf(folder->filePath("sample patient"));
+               phantom::writeSamplePatient(out, {}, progress);
+               presenters::CaseSources sources;
+               sources.ct = out / "ct";
+               sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
+               return sources;
+             });
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(toString(fault));
+  }
+}
+
+void CaseDocumentController::save()
+{
+  if (!m_model.hasCase())
+    return;
+  m_sayWhenSaved = true;
+  m_saver.save();
+}
+
+void CaseDocumentController::saveAs()
+{
+  if (!m_model.hasCase())
+    return;
+  try
+  {
+    const QString name = QInputDialog::getText(
+        &m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
+        words(presenters::freeCaseName(m_model.library(), m_model.value().name)));
+    if (name.isEmpty() || !m_model.hasCase())
+      return;
+    m_sayWhenSaved = true;
+    m_saver.saveAs(bytes(name.trimmed()));
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(toString(fault));
+  }
+}
+
+bool CaseDocumentController::mayLeave()
+{
+  if (m_giveUp)
+    return true;
+  if (m_leaving) // called again while saving
+    return false;
+  m_leaving = true;
+  m_work.drop(); // a cancelled import leaves nothing behind
+  endWork();
+  m_preparation.drop();
+  m_model.stopTouch();
+  const bool safe = m_saver.flush();
+  m_leaving = false;
+  if (!safe)
+  {
+    m_unsaved.setButtonVisible("quitUnsaved", true);
+    prepare(); // the window stays
+  }
+  return safe;
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <QObject>
+#include <QStringList>
+
+#include "BackgroundWork.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/SourceContent.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QProgressDialog;
+class QWidget;
+
+namespace petrous::workstation
+{
+
+class Banner;
+class CaseSaver;
+
+/// Opens cases, creates them from files, adds files to the open one, and reports errors. Files are
+/// read in a separate thread; their kind is determined by their content (presenters::lookAt), and
+/// the user is asked if that is ambiguous. Unsaved removal is never discarded without asking.
+class CaseDocumentController : public QObject
+{
+  Q_OBJECT
+public:
+  /// `window` is the parent of dialogs and owns the banners.
+  CaseDocumentController(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
+                         Banner& unsaved, Banner& loading, Banner& damaged);
+  ~CaseDocumentController() override;
+
+  /// A case's name; or folders and files: a CT starts a case, anything else is added to it, or to
+  /// the open one.
+  void open(const QStringList& what);
+  void openFolder(); ///< with a dialog
+  void openFiles();  ///< with a dialog
+  void chooseCase();
+  void makeSample();
+
+  void save(); ///< and reports it
+  void saveAs();
+  void prepare();               ///< the slow part of the open case (WorkstationModel::preparation)
+  void prepareUnlessUnderWay(); ///< as prepare, after it was stopped or failed
+
+  /// Cancels imports, saves what is unsaved. Returns false if that failed, which the banner shows:
+  /// the window stays open.
+  bool mayLeave();
+
+  bool busy() const noexcept { return m_work.busy() || m_preparation.busy(); }
+
+signals:
+  void statusMessage(const QString& line); ///< for the status bar
+  void ready();                            ///< the case's structures are loaded
+
+private:
+  using Sources = std::vector<presenters::SourceContent>;
+
+  void openCase(const std::string& name);
+  void lookAt(const std::vector<std::filesystem::path>& paths);
+  void decide(const Sources& found);
+  bool chooseSeries(presenters::SourceContent& source, std::string& uid);
+  bool askContent(presenters::SourceContent& source);
+  bool askName(const presenters::SourceContent& source, std::string& name);
+  void makeCase(const std::string& name,
+                std::function<presenters::CaseSources(const core::Progress&)> sources);
+  void addParts(const presenters::PartSources& parts, const QString& what);
+  void adopt(scene::Case value);
+  void work(const QString& title, BackgroundWork::Work work);
+  void endWork();
+  void connectBanners();
+  void watchForDamage();
+  void lookForDamage();
+  void notSaved(const QString& why);
+  bool leaveCase();
+  void refuse(const QString& why);
+
+  presenters::WorkstationModel& m_model;
+  CaseSaver& m_saver;
+  QWidget& m_window;
+  Banner& m_unsaved;
+  Banner& m_loading;
+  Banner& m_damaged;
+  BackgroundWork m_work;
+  BackgroundWork m_preparation;
+  std::unique_ptr<QProgressDialog> m_progress; // of m_work
+  QString m_damageTold;
+  bool m_prepareAgain = false;
+  bool m_sayWhenSaved = false;
+  bool m_asking = false; // a modal dialog is open
+  bool m_leaving = false;
+  bool m_giveUp = false; // the window may close with unsaved changes
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,201 @@
+#include "OpenCaseDialog.h"
+
+#include <utility>
+
+#include <QAction>
+#include <QDateTime>
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "Application.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+constexpr int kDamaged = Qt::UserRole; // of column 0
+constexpr int kStrokes = Qt::UserRole + 1;
+
+void fillLine(QTreeWidgetItem& item, const library::CaseSummary& summary)
+{
+  item.setText(0, words(summary.name));
+  item.setData(0, kDamaged, summary.damaged);
+  item.setData(0, kStrokes, static_cast<qulonglong>(summary.strokes));
+  const auto changed = QDateTime::fromString(words(summary.modified), Qt::ISODate).toLocalTime();
+  item.setText(1, changed.toString("yyyy-MM-dd HH:mm"));
+  if (summary.damaged) // it can still be renamed and deleted
+  {
+    item.setText(2, OpenCaseDialog::tr("damaged"));
+    for (int column = 0; column < 6; ++column)
+      item.setForeground(
+          column, item.treeWidget()->palette().brush(QPalette::Disabled, QPalette::WindowText));
+    return;
+  }
+  item.setText(
+      2, QString("%1 × %2 × %3").arg(summary.dims[0]).arg(summary.dims[1]).arg(summary.dims[2]));
+  item.setText(3, QString::number(summary.structures));
+  item.setText(4, QString::number(summary.strokes));
+  item.setText(5, QString::number(summary.removed, 'f', 1));
+  for (int column = 2; column < 6; ++column)
+    item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+}
+
+} // namespace
+
+OpenCaseDialog::OpenCaseDialog(const library::Library& library, Changes changes, QWidget* parent)
+  : QDialog(parent)
+  , m_library(library)
+  , m_changes(std::move(changes))
+  , m_list(new QTreeWidget)
+{
+  setWindowTitle(tr("Open case"));
+  resize(680, 380);
+  m_list->setObjectName("cases");
+  m_list->setRootIsDecorated(false);
+  m_list->setHeaderLabels({tr("Case"), tr("Changed"), tr("Voxels"), tr("Structures"), tr("Strokes"),
+                           tr("Removed mm³")});
+  m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  m_list->header()->setStretchLastSection(false);
+
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
+  auto* open = buttons->button(QDialogButtonBox::Open);
+  QList<QPushButton*> changers;
+  const auto add =
+      [&](const char* name, const QString& text, int key, void (OpenCaseDialog::*what)())
+  {
+    auto* button = buttons->addButton(text, QDialogButtonBox::ActionRole);
+    button->setObjectName(name);
+    button->setAutoDefault(false);
+    connect(button, &QPushButton::clicked, this, what);
+    auto* action = new QAction(text, m_list);
+    action->setShortcut(key);
+    action->setShortcutContext(Qt::WidgetShortcut);
+    connect(action, &QAction::triggered, this, what);
+    m_list->addAction(action);
+    button->setToolTip(QKeySequence(key).toString(QKeySequence::NativeText));
+    changers += button;
+  };
+  if (m_changes.rename)
+    add("renameCase", tr("&Rename…"), Qt::Key_F2, &OpenCaseDialog::rename);
+  if (m_changes.remove)
+    add("deleteCase", tr("&Delete…"), Qt::Key_Delete, &OpenCaseDialog::remove);
+  m_list->setContextMenuPolicy(Qt::ActionsContextMenu);
+
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(m_list, &QTreeWidget::itemActivated, this,
+          [this]
+          {
+            if (!chosen().empty())
+              accept();
+          });
+  const auto update = [this, open, changers]
+  {
+    open->setEnabled(!chosen().empty());
+    for (QPushButton* button : changers)
+      button->setEnabled(!current().empty());
+  };
+  connect(m_list, &QTreeWidget::currentItemChanged, this, update);
+  fill({});
+  update();
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(m_list);
+  layout->addWidget(buttons);
+}
+
+void OpenCaseDialog::fill(const std::string& current)
+{
+  m_list->clear();
+  QTreeWidgetItem* item = nullptr;
+  for (const auto& summary : m_library.list())
+  {
+    auto* line = new QTreeWidgetItem(m_list);
+    fillLine(*line, summary);
+    if (summary.name == current)
+      item = line;
+  }
+  m_list->sortItems(1, Qt::DescendingOrder);
+  m_list->setCurrentItem(item ? item : m_list->topLevelItem(0));
+}
+
+std::string OpenCaseDialog::current() const
+{
+  const QTreeWidgetItem* item = m_list->currentItem();
+  return item ? bytes(item->text(0)) : std::string();
+}
+
+std::string OpenCaseDialog::chosen() const
+{
+  const QTreeWidgetItem* item = m_list->currentItem();
+  return item && !item->data(0, kDamaged).toBool() ? current() : std::string();
+}
+
+void OpenCaseDialog::attempt(const std::function<void()>& change)
+{
+  try
+  {
+    change();
+  }
+  catch (const std::exception& error)
+  {
+    QMessageBox box(QMessageBox::Warning, tr("Petrous"), toString(error), QMessageBox::Ok, this);
+    box.setTextFormat(Qt::PlainText);
+    box.exec();
+  }
+}
+
+void OpenCaseDialog::rename()
+{
+  const std::string name = current();
+  if (name.empty())
+    return;
+  const std::string to = bytes(QInputDialog::getText(this, tr("Rename the case"),
+                                                     tr("New name of “%1”:").arg(words(name)),
+                                                     QLineEdit::Normal, words(name))
+                                   .trimmed());
+  if (to.empty() || to == name)
+    return;
+  attempt(
+      [&]
+      {
+        m_changes.rename(name, to);
+        fill(to);
+      });
+}
+
+void OpenCaseDialog::remove()
+{
+  const std::string name = current();
+  if (name.empty())
+    return;
+  const auto strokes = m_list->currentItem()->data(0, kStrokes).toULongLong();
+  QMessageBox box(QMessageBox::Warning, tr("Delete the case"),
+                  tr("Delete the case “%1”?").arg(words(name)), QMessageBox::NoButton, this);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askDelete");
+  box.setInformativeText(
+      (strokes > 0 ? tr("%1 strokes were drilled in it. ").arg(strokes) : QString()) +
+      tr("It cannot be brought back. The files that it was made from stay."));
+  const auto* yes = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  if (box.clickedButton() != yes)
+    return;
+  attempt(
+      [&]
+      {
+        m_changes.remove(name);
+        fill({});
+      });
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+
+#include <QDialog>
+
+#include "petrous/Library/Library.h"
+
+class QPushButton;
+class QTreeWidget;
+
+namespace petrous::workstation
+{
+
+/// Lists the library's cases to open, rename (F2) and delete (Del).
+class OpenCaseDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  /// Operations on the library; both throw as it does. If empty, the dialog only selects.
+  struct Changes
+  {
+    std::function<void(const std::string& name, const std::string& to)> rename;
+    std::function<void(const std::string& name)> remove;
+  };
+  OpenCaseDialog(const library::Library& library, Changes changes, QWidget* parent = nullptr);
+
+  std::string chosen() const; ///< a case that can be opened; empty: none
+
+private:
+  void fill(const std::string& current);
+  std::string current() const; ///< damaged or not
+  void rename();
+  void remove();
+  void attempt(const std::function<void()>& change);
+
+  const library::Library& m_library;
+  Changes m_changes;
+  QTreeWidget* m_list;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,48 @@
+#include "BurrWarnings.h"
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kAgain = 60; // ms; faster than anyone can read
+}
+
+BurrWarnings::BurrWarnings(presenters::WorkstationModel& model, QObject* parent)
+  : QObject(parent)
+  , m_model(model)
+{
+}
+
+void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
+{
+  if (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain)
+    return;
+  m_sinceAsked.start();
+  try
+  {
+    const auto warnings = m_model.warnings(center, radius);
+    // The user must know that there can be no warnings yet.
+    warn(warnings ? words(*warnings) : tr("no warnings yet: structures are being measured"));
+  }
+  catch (const std::exception&) // out of memory, a missing file; the panel shows which
+  {
+    warn(tr("no warnings: the structures cannot be measured"));
+  }
+}
+
+void BurrWarnings::burrGone()
+{
+  m_sinceAsked.invalidate();
+  warn({});
+}
+
+void BurrWarnings::warn(const QString& lines)
+{
+  if (lines != m_warned)
+    emit warned(m_warned = lines);
+}
+
+} // namespace petrous::workstation

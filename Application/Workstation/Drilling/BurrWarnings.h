@@ -1,0 +1,36 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+/// What the surgeon must see at once while using a burr, whatever panels are open: structures that
+/// are touched, injured or within their warning distance.
+class BurrWarnings : public QObject
+{
+  Q_OBJECT
+public:
+  explicit BurrWarnings(presenters::WorkstationModel& model, QObject* parent = nullptr);
+
+  /// The burr's centre, patient LPS mm, and radius, mm.
+  void burrMoved(const Eigen::Vector3d& center, double radius);
+  void burrGone(); ///< it was put away
+
+signals:
+  /// Lines of text (presenters::warningsOf), or why there are none; empty: nothing. Emitted on
+  /// change.
+  void warned(const QString& lines);
+
+private:
+  void warn(const QString& lines);
+
+  presenters::WorkstationModel& m_model;
+  QElapsedTimer m_sinceAsked;
+  QString m_warned;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,141 @@
+#include "DeviceToolBar.h"
+
+#include <algorithm>
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+
+#include "Theme.h"
+#include "petrous/Presenters/DeviceMapping.h"
+
+namespace petrous::workstation
+{
+
+using presenters::DeviceMapping;
+using presenters::InputDevice;
+
+namespace
+{
+
+QString titleOf(const InputDevice& input)
+{
+  return input.kind == InputDevice::Kind::Mouse ? DeviceToolBar::tr("Mouse") : words(input.name);
+}
+
+QDoubleSpinBox* numberBox(const char* name, const QString& suffix, double least, double most,
+                          double step, int decimals)
+{
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setDecimals(decimals);
+  box->setRange(least, most);
+  box->setSingleStep(step);
+  box->setSuffix(suffix);
+  box->setKeyboardTracking(false);
+  return box;
+}
+
+} // namespace
+
+DeviceToolBar::DeviceToolBar(QWidget* parent)
+  : QToolBar(tr("Device"), parent)
+  , m_choice(new QComboBox)
+  , m_scale(numberBox("deviceScale", tr(" mm/mm"), DeviceMapping::kMinScale,
+                      DeviceMapping::kMaxScale, 0.05, 2))
+  , m_limit(numberBox("forceLimit", tr(" N"), 0.0, 200.0, 0.1, 1))
+  , m_here(new QAction(tr("Bring the tool &here"), this))
+{
+  setObjectName("deviceBar");
+  setMovable(false);
+  m_choice->setObjectName("deviceChoice");
+  m_choice->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  m_choice->setToolTip(tr("What leads the tool: the mouse, a SpaceMouse, or a device behind a "
+                          "device server. What is plugged in comes up by itself.\n"
+                          "X, or the device's second button, held: the hand moves alone."));
+  m_scale->setToolTip(tr("Millimetres that the tool goes for a millimetre of the hand"));
+  m_limit->setToolTip(tr("The strongest force that the device may give, N"));
+  m_here->setShortcut(Qt::Key_H);
+  m_here->setToolTip(
+      tr("Brings the tool of a device before what is in the middle of the view (H)"));
+
+  const auto add = [this](const QString& name, QWidget* widget)
+  {
+    auto* label = new QLabel(name);
+    label->setObjectName("dim");
+    label->setContentsMargins(8, 0, 2, 0);
+    return std::vector<QAction*>{addWidget(label), addWidget(widget)};
+  };
+  add(tr("Device"), m_choice);
+  m_scaleParts = add(tr("Scale"), m_scale);
+  m_limitParts = add(tr("At most"), m_limit);
+  connect(m_choice, qOverload<int>(&QComboBox::activated), this,
+          [this](int row)
+          {
+            const InputDevice input = m_devices[static_cast<std::size_t>(row)]; // list may change
+            emit chosen(input);
+          });
+  connect(m_scale, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &DeviceToolBar::leadChanged);
+  connect(m_limit, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &DeviceToolBar::leadChanged);
+  showDevices({}, InputDevice().id);
+  showLead(nullptr, 1.0, 0.0);
+}
+
+void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::string& held)
+{
+  const auto is = [&held](const InputDevice& input) { return input.id == held; };
+  std::vector<InputDevice> devices = found.devices;
+  const auto before = std::find_if(m_devices.begin(), m_devices.end(), is);
+  if (std::none_of(devices.begin(), devices.end(), is) && before != m_devices.end())
+    devices.push_back(*before);
+  m_devices = std::move(devices);
+
+  const QSignalBlocker quiet(m_choice);
+  m_choice->clear();
+  for (const InputDevice& input : m_devices)
+  {
+    m_choice->addItem(titleOf(input));
+    const int row = m_choice->count() - 1;
+    if (is(input))
+      m_choice->setCurrentIndex(row);
+    if (input.advice.empty())
+      continue;
+    m_choice->setItemData(row, words(input.advice), Qt::ToolTipRole);
+    qobject_cast<QStandardItemModel*>(m_choice->model())->item(row)->setEnabled(false);
+  }
+}
+
+void DeviceToolBar::showLead(const haptics::DeviceDescription* device, double scale,
+                             double forceLimit)
+{
+  const QSignalBlocker quietScale(m_scale);
+  const QSignalBlocker quietLimit(m_limit);
+  const bool force = device && device->givesForce;
+  for (QAction* part : m_scaleParts)
+    part->setVisible(device != nullptr);
+  for (QAction* part : m_limitParts)
+    part->setVisible(force);
+  m_here->setEnabled(device != nullptr);
+  m_scale->setValue(scale);
+  if (!force)
+    return;
+  m_limit->setMaximum(device->maxForce);
+  m_limit->setValue(forceLimit);
+}
+
+double DeviceToolBar::scale() const
+{
+  return m_scale->value();
+}
+
+double DeviceToolBar::forceLimit() const
+{
+  return m_limit->value();
+}
+
+} // namespace petrous::workstation

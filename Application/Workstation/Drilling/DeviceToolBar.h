@@ -1,0 +1,47 @@
+#pragma once
+
+#include <QToolBar>
+
+#include "petrous/Presenters/ActiveDevice.h"
+
+class QAction;
+class QComboBox;
+class QDoubleSpinBox;
+
+namespace petrous::workstation
+{
+
+/// Selects the device that controls the tool, and its mapping. Settings that a device does not use
+/// are hidden.
+class DeviceToolBar : public QToolBar
+{
+  Q_OBJECT
+public:
+  explicit DeviceToolBar(QWidget* parent = nullptr);
+
+  /// `held`: id of the chosen device, which may be missing from the list.
+  void showDevices(const presenters::DeviceList& found, const std::string& held);
+
+  /// nullptr: the mouse. Sets the values without signals.
+  void showLead(const haptics::DeviceDescription* device, double scale, double forceLimit);
+
+  double scale() const;      ///< mm of the tool per mm of the device
+  double forceLimit() const; ///< N
+
+  QAction* hereAction() const noexcept { return m_here; }
+
+signals:
+  void chosen(const petrous::presenters::InputDevice& input); ///< by the user
+  void leadChanged();
+
+private:
+  std::vector<presenters::InputDevice> m_devices; // as listed
+  QComboBox* m_choice;
+  QDoubleSpinBox* m_scale;
+  QDoubleSpinBox* m_limit;
+  std::vector<QAction*> m_scaleParts;
+  std::vector<QAction*> m_limitParts;
+  QAction* m_here;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,133 @@
+#include "DeviceWatcher.h"
+
+#include <chrono>
+#include <utility>
+
+#include "Application.h"
+#include "Theme.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::workstation
+{
+
+using presenters::ActiveDevice;
+using presenters::DeviceList;
+using presenters::InputDevice;
+
+DeviceWatcher::DeviceWatcher(presenters::DeviceSources sources, int lookEvery, QObject* parent)
+  : QObject(parent)
+  , m_sources(std::move(sources))
+  , m_lookEvery(lookEvery)
+{
+  if (m_sources.hid || !m_sources.serverFolders.empty())
+    m_thread = std::thread([this] { guarded([this] { run(); }); });
+}
+
+DeviceWatcher::~DeviceWatcher()
+{
+  drop();
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_stop = true;
+  }
+  m_wake.notify_all();
+  if (m_thread.joinable())
+    m_thread.join();
+}
+
+void DeviceWatcher::post(std::function<void()> job)
+{
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_jobs.push_back(std::move(job));
+  }
+  m_wake.notify_all();
+}
+
+void DeviceWatcher::run()
+{
+  std::unique_lock<std::mutex> lock(m_mutex);
+  while (!m_stop || !m_jobs.empty()) // pending closes are still processed
+  {
+    std::deque<std::function<void()>> jobs = std::exchange(m_jobs, {});
+    lock.unlock();
+    // An exception for one device must not affect the others.
+    for (const auto& job : jobs)
+      guarded(job);
+    guarded([&jobs] { jobs.clear(); });
+    guarded([this] { look(); });
+    lock.lock();
+    m_wake.wait_for(lock, std::chrono::milliseconds(m_lookEvery),
+                    [this] { return m_stop || !m_jobs.empty(); });
+  }
+}
+
+void DeviceWatcher::look()
+{
+  DeviceList found = presenters::findDevices(m_sources);
+  if (found == m_seen)
+    return;
+  m_seen = std::move(found);
+  QMetaObject::invokeMethod(
+      this, [this, seen = m_seen] { show(seen); }, Qt::QueuedConnection);
+}
+
+void DeviceWatcher::show(const DeviceList& found)
+{
+  m_found = found;
+  // It is kept: a disconnected pedal reads as released, and may be reconnected.
+  if (found.pedal && !m_pedal)
+    m_pedal = std::make_shared<devices::Pedal>(m_sources.hid, devices::Pedal::Options());
+  emit changed();
+}
+
+void DeviceWatcher::open(const InputDevice& input)
+{
+  const std::uint64_t question = ++m_wanted;
+  post(
+      [this, input, question]
+      {
+        const auto wanted = [this, question] { return question == m_wanted; };
+        if (!wanted())
+          return;
+        std::shared_ptr<ActiveDevice> device;
+        QString why;
+        try
+        {
+          device = std::make_shared<ActiveDevice>(m_sources, input, wanted);
+        }
+        catch (const core::Error& error)
+        {
+          why = words(error.what());
+        }
+        catch (const std::exception&) // out of memory, no thread
+        {
+          why = tr("%1 cannot be opened").arg(words(input.name));
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, device, why, question]() mutable
+            {
+              if (question != m_wanted)
+                return post([last = std::move(device)] {});
+              if (!device)
+                return emit failed(why);
+              m_opened = std::move(device);
+              emit opened();
+            },
+            Qt::QueuedConnection);
+      });
+}
+
+void DeviceWatcher::drop()
+{
+  ++m_wanted;
+}
+
+void DeviceWatcher::close(std::shared_ptr<ActiveDevice> device)
+{
+  if (device)
+    post([last = std::move(device)]() mutable { last.reset(); });
+}
+
+} // namespace petrous::workstation

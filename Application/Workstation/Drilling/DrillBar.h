@@ -1,0 +1,65 @@
+#pragma once
+
+#include <QToolBar>
+
+#include "petrous/Dissection/BurrCatalogue.h"
+#include "petrous/Dissection/Stroke.h"
+
+class QAction;
+class QComboBox;
+class QDoubleSpinBox;
+class QSpinBox;
+
+namespace petrous::workstation
+{
+
+class DiameterBox;
+
+/// Selects the tool, the burr, and how it is pressed.
+class DrillBar : public QToolBar
+{
+  Q_OBJECT
+public:
+  explicit DrillBar(QWidget* parent = nullptr);
+
+  QAction* drillAction() const noexcept ///< checked: the burr is in use
+  {
+    return m_drill;
+  }
+  QAction* pointerAction() const noexcept ///< checked: the pointer is in use; it removes nothing
+  {
+    return m_pointer;
+  }
+  void stepDiameter(int steps); ///< among those available
+  /// The available diameters, per kind.
+  void setBurrs(const dissection::BurrCatalogue& burrs);
+  dissection::Burr burr() const;
+  QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
+  {
+    return m_wheel;
+  }
+  double thrust() const; ///< N
+  void setThrust(double newtons);
+
+  /// What the device makes use of.
+  void setPresses(bool byWheel, bool byThrust);
+
+signals:
+  void entered(); ///< a number was entered: the view gets the keyboard focus
+  void burrChanged();
+  void pressChanged(); ///< thrust, or how depth is controlled
+
+private:
+  void offerDiameters();
+
+  dissection::BurrCatalogue m_burrs = dissection::BurrCatalogue::builtIn();
+  QAction* m_drill;
+  QAction* m_pointer;
+  QAction* m_wheel;
+  DiameterBox* m_diameter;
+  QComboBox* m_kind;
+  QSpinBox* m_speed;
+  QDoubleSpinBox* m_thrust;
+};
+
+} // namespace petrous::workstation

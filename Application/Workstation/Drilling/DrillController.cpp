@@ -1,0 +1,471 @@
+#include "DrillController.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <QAction>
+#include <QApplication>
+
+#include "ActiveDeviceController.h"
+#include "DrillBar.h"
+#include "Theme.h"
+#include "ThreeDView.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kFrame = 16;        // ms
+constexpr int kFaultShown = 1500; // ms after the last tick with a fault
+constexpr int kStart = 500;       // ms for a device to settle after it was taken up
+constexpr int kGone = 1000;       // ms; a crashed server restarts sooner
+constexpr int kAnew = 300;        // ms after the last change of the tool
+constexpr double kStill = 0.02;   // mm
+constexpr double kBeyond = 0.2;   // mm below the tissue's surface
+constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have been restored
+
+using haptics::DeviceVerdict;
+using session::ServoFault;
+using session::TickRecord;
+
+QString textOf(const presenters::PlaceReading& reading, const presenters::IntensityDisplay& display)
+{
+  QStringList lines;
+  if (reading.hounsfield)
+    lines += words(display.text(*reading.hounsfield));
+  if (!reading.structure.empty())
+    lines += words(reading.structure).replace('_', ' ');
+  lines += reading.surface
+               ? DrillController::tr("%1 mm to the surface").arg(*reading.surface, 0, 'f', 1)
+               : DrillController::tr("no surface within %1 mm")
+                     .arg(presenters::PointProbe::kReach, 0, 'f', 0);
+  if (reading.near)
+    lines += DrillController::tr("%1 mm to %2")
+                 .arg(reading.near->distance, 0, 'f', 1)
+                 .arg(words(reading.near->name).replace('_', ' '));
+  return lines.join('\n');
+}
+} // namespace
+
+DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView& view,
+                                 DrillBar& bar, ActiveDeviceController& devices, QObject* parent)
+  : QObject(parent)
+  , m_model(model)
+  , m_view(view)
+  , m_bar(bar)
+  , m_devices(devices)
+  , m_lead(model, view, devices)
+{
+  m_frames.setInterval(kFrame);
+  connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
+  m_anew.setSingleShot(true);
+  m_anew.setInterval(kAnew);
+  connect(&m_anew, &QTimer::timeout, this,
+          [this]
+          {
+            // A moving slider would remake it at each step.
+            QApplication::mouseButtons() == Qt::NoButton ? void(takeTool()) : m_anew.start();
+          });
+  connectBar();
+  connectView();
+  connectDevices();
+  applyBar();
+}
+
+void DrillController::connectBar()
+{
+  const auto onTool = [this](QAction* action, Tool tool)
+  {
+    connect(action, &QAction::toggled, this,
+            [this, tool](bool on)
+            {
+              if (on || m_tool == tool)
+                setTool(on ? tool : Tool::None);
+            });
+  };
+  onTool(m_bar.drillAction(), Tool::Burr);
+  onTool(m_bar.pointerAction(), Tool::Pointer);
+  connect(&m_bar, &DrillBar::burrChanged, this, &DrillController::restartTool);
+  connect(&m_bar, &DrillBar::pressChanged, this, &DrillController::applyBar);
+}
+
+void DrillController::connectView()
+{
+  connect(&m_view, &ThreeDView::pointed, this, &DrillController::hover);
+  connect(&m_view, &ThreeDView::pointerLeft, this, &DrillController::pointedNowhere);
+  connect(&m_view, &ThreeDView::picked, this,
+          [this](const interaction::PickRay& line)
+          {
+            if (const auto hit = m_model.surfaceAt(line))
+              m_model.setCrosshair(*hit);
+          });
+  connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);
+  connect(&m_view, &ThreeDView::drillHeld, this,
+          [this](const interaction::PickRay& line)
+          {
+            if (m_model.touching())
+              m_lead.point(line);
+          });
+  connect(&m_view, &ThreeDView::drillReleased, this, &DrillController::release);
+  connect(&m_view, &ThreeDView::clutchHeld, this, [this](bool held) { m_lead.clutch(held); });
+  connect(&m_view, &ThreeDView::wheelLed, this,
+          [this](double notches, bool fine) { m_lead.wheel(notches, fine); });
+}
+
+void DrillController::connectDevices()
+{
+  connect(&m_devices, &ActiveDeviceController::leaving, this, &DrillController::putAway);
+  connect(&m_devices, &ActiveDeviceController::came, this, &DrillController::deviceCame);
+  connect(&m_devices, &ActiveDeviceController::leadChanged, this, &DrillController::restartTool);
+  connect(&m_devices, &ActiveDeviceController::pedalCame, this,
+          [this]
+          {
+            if (m_model.drilling())
+              return;
+            restartTool(); // with the pedal
+            if (!m_devices.device())
+              takeAtPointer();
+          });
+}
+
+void DrillController::setSlicesFollow(bool follow)
+{
+  m_slicesFollow = follow;
+}
+
+double DrillController::toolRadius() const
+{
+  return m_tool == Tool::Pointer ? kPointerRadius : 0.5 * m_bar.burr().diameter;
+}
+
+void DrillController::applyBar()
+{
+  using Mode = interaction::AimSettings::Mode;
+  const bool wheel = m_bar.wheelAction()->isChecked() && !m_devices.device();
+  interaction::AimSettings settings;
+  settings.burrRadius = toolRadius();
+  settings.thrust = m_bar.thrust();
+  settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
+  if (m_tool == Tool::Pointer)
+    settings.lift = 0.0;
+  m_view.setWheelLeads(wheel);
+  m_lead.set(settings, m_tool == Tool::Burr);
+  if (m_model.touching() && m_lead.outgrown())
+    putAway(); // the pointer's next move takes it up
+}
+
+void DrillController::releaseTool()
+{
+  setTool(Tool::None);
+}
+
+void DrillController::setTool(Tool tool)
+{
+  if (tool == m_tool)
+    return;
+  m_view.setDrillMode(false); // stops the drill first
+  putAway();
+  if (m_tool == Tool::None)
+    m_lead.beginThere();
+  m_tool = tool;
+  m_view.setDrillMode(tool == Tool::Burr);
+  m_view.setPointing(tool == Tool::Pointer);
+  m_bar.drillAction()->setChecked(tool == Tool::Burr);
+  m_bar.pointerAction()->setChecked(tool == Tool::Pointer);
+  applyBar();
+  if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
+    emit tissueWanted();
+  takeAtPointer();
+}
+
+// At the mouse pointer's position, without waiting for its next move.
+void DrillController::takeAtPointer()
+{
+  if (takeTool() && m_lead.byMouse() && m_view.pointer())
+    m_lead.point(m_view.sightLine(m_view.pointer()));
+}
+
+void DrillController::deviceCame()
+{
+  m_lead.beginThere();
+  m_view.setButtonDrills(!m_devices.device());
+  m_bar.setPresses(!m_devices.device(),
+                   !m_devices.device() || !m_devices.device()->description().givesForce);
+  applyBar();
+  if (m_devices.device())
+    takeTool();
+}
+
+// Another burr, scale or limit. The mouse pointer's next move takes the tool up; for a device the
+// timer does.
+void DrillController::restartTool()
+{
+  putAway();
+  applyBar();
+  if (m_devices.device())
+    m_anew.start();
+}
+
+void DrillController::tissueCame()
+{
+  if (m_tool != Tool::None && m_devices.device())
+    takeTool(); // with the mouse, the pointer's next move takes it up
+}
+
+void DrillController::bringHere()
+{
+  if (!m_devices.device() || m_tool == Tool::None)
+    return;
+  putAway();
+  m_lead.beginHere();
+  takeTool();
+}
+
+bool DrillController::takeTool()
+{
+  if (m_model.touching())
+    return true;
+  if (m_tool == Tool::None || !m_model.hasCase() || m_devices.opening())
+    return false;
+  if (!m_model.ready())
+  {
+    emit statusMessage(tr("The case is still being prepared; then the tool can be taken up"));
+    return false;
+  }
+  putAway(); // a session ended by a change of the tissue
+  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
+                                          : tr("Taking up the pointer…"));
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  QString why;
+  try
+  {
+    session::TouchSession::Setup setup;
+    setup.tool.burr = m_bar.burr();
+    setup.cuts = m_tool == Tool::Burr;
+    if (m_tool == Tool::Pointer)
+    {
+      setup.tool.burr.diameter = 2.0 * kPointerRadius;
+      setup.tool.mode = session::TouchTool::Mode::ThreeDof; // its shaft must not collide
+    }
+    haptics::Device& device = m_lead.prepare(setup);
+    m_model.startTouch(device, setup);
+  }
+  catch (const core::Error& error)
+  {
+    why = words(error.what());
+  }
+  catch (const std::exception&) // out of memory, no thread
+  {
+    why = tr("The tool cannot be taken up: the computer has no room for it. Close other programs.");
+  }
+  QApplication::restoreOverrideCursor();
+  if (!why.isEmpty())
+  {
+    releaseTool();
+    emit statusMessage(why);
+    return false;
+  }
+  emit statusMessage(
+      m_lead.byMouse()
+          ? QString()
+          : tr("%1 leads the tool").arg(words(m_devices.device()->description().name)));
+  m_lead.send();
+  m_sinceTaken.start();
+  m_frames.start();
+  return true;
+}
+
+void DrillController::putAway()
+{
+  m_anew.stop();
+  m_frames.stop();
+  const auto news = m_model.stopTouch();
+  m_view.display().endTouch();
+  emit burrGone();
+  if (!m_fault.isEmpty())
+    emit faulted({});
+  m_fault.clear();
+  m_sinceGone.invalidate();
+  m_sinceFault.invalidate();
+  m_stall.forget();
+  m_tip.reset();
+  m_lead.letGo();
+  for (const auto& stroke : news.strokes)
+    emit strokeEnded(stroke);
+}
+
+void DrillController::hover(const interaction::PickRay& line)
+{
+  const bool reads = m_tool == Tool::Pointer && m_devices.device();
+  if (const auto hit = m_model.surfaceAt(line); hit && !reads)
+    emit pointed(*hit);
+  else if (!reads)
+    emit pointedNowhere();
+  if (m_tool != Tool::None && takeTool())
+    m_lead.point(line);
+}
+
+void DrillController::press(const interaction::PickRay& line)
+{
+  if (!takeTool())
+    return;
+  m_model.touch()->setCamera(m_view.picture().camera());
+  m_lead.point(line); // first: from here on, depth discontinuities are not followed
+  m_lead.drill(true);
+}
+
+void DrillController::release()
+{
+  m_lead.drill(false); // the stroke ends with the servo's next tick
+}
+
+void DrillController::frame()
+{
+  if (!m_model.touching()) // session ended: the pointer's next move takes the tool up
+    return restartTool();
+  hear(m_model.advanceTouch());
+}
+
+void DrillController::hear(const session::TouchSession::News& news)
+{
+  if (news.record)
+    show(news);
+  for (const auto& stroke : news.strokes)
+    emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
+  if (!news.journalFault.empty())
+    emit statusMessage(
+        tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
+  if (!news.failure.empty())
+  {
+    releaseTool();
+    emit statusMessage(words(news.failure));
+  }
+  if (news.record && m_model.touching() && isLost(*news.record))
+    m_devices.giveUp(whyLost());
+}
+
+void DrillController::show(const session::TouchSession::News& news)
+{
+  const TickRecord& record = *news.record;
+  if (!m_model.drilling()) // for a stroke that may begin
+    m_model.touch()->setCamera(m_view.picture().camera());
+  m_lead.see(record);
+  m_view.display().setTouch(record, toolRadius(), m_tool != Tool::Pointer);
+  if (m_tool == Tool::Pointer && isPlaced(record))
+    read(record);
+  showFault(news);
+  const Eigen::Vector3d burr = record.proxy.pose().position;
+  if (m_tool == Tool::Burr && isPlaced(record))
+    emit burrMoved(burr, toolRadius());
+  if (!m_model.drilling())
+    return;
+  emit pointed(burr);
+  if (m_slicesFollow)
+    m_model.setCrosshair(burr);
+}
+
+void DrillController::read(const TickRecord& record)
+{
+  const haptics::Pose tool = record.proxy.pose();
+  const Eigen::Vector3d tip =
+      tool.position - kPointerRadius * (tool.rotation * Eigen::Vector3d::UnitZ());
+  const bool still = m_tip && (*m_tip - tip).norm() < kStill;
+  if (still && m_sinceRead.elapsed() < kReadAgain)
+    return;
+  m_sinceRead.start();
+  if (!still)
+    m_tip = tip;
+  m_view.display().setReading(
+      textOf(m_model.readPlace(*m_tip), presenters::displayOf(m_model.value())));
+  if (still)
+    return;
+  emit pointed(tip);
+  if (m_slicesFollow)
+    m_model.setCrosshair(tip);
+}
+
+bool DrillController::isLost(const TickRecord& record)
+{
+  const auto verdict = static_cast<DeviceVerdict>(record.verdict);
+  const bool gone = !m_lead.byMouse() &&
+                    static_cast<ServoFault>(record.fault) == ServoFault::Device &&
+                    (verdict == DeviceVerdict::Disconnected || verdict == DeviceVerdict::Faulty ||
+                     verdict == DeviceVerdict::NotReady);
+  if (!gone)
+    m_sinceGone.invalidate();
+  else if (!m_sinceGone.isValid())
+    m_sinceGone.start();
+  return gone && m_sinceGone.elapsed() > kGone;
+}
+
+QString DrillController::whyLost() const
+{
+  const presenters::ActiveDevice& device = *m_devices.device();
+  const QString name = words(device.input().name);
+  if (device.input().kind == presenters::InputDevice::Kind::SpaceMouse)
+    return tr("%1 was unplugged").arg(name);
+  const QString why = words(device.problem());
+  return why.isEmpty() ? tr("%1 gives no place any more").arg(name) : why;
+}
+
+void DrillController::showFault(const session::TouchSession::News& news)
+{
+  const TickRecord& record = *news.record;
+  m_stall.see(record);
+  QString fault = whyStalled(record);
+  // A device just taken up has no reading for some ticks, and the mouse none before it moves; not a
+  // fault.
+  const bool waits = m_lead.byMouse() &&
+                     static_cast<ServoFault>(record.fault) == ServoFault::Device &&
+                     static_cast<DeviceVerdict>(record.verdict) == DeviceVerdict::NotReady;
+  if (!news.fault.empty() && !waits && m_sinceTaken.elapsed() > kStart)
+  {
+    fault = words(news.fault);
+    m_sinceFault.start();
+  }
+  else if (fault.isEmpty() && m_sinceFault.isValid() && m_sinceFault.elapsed() <= kFaultShown)
+    fault = m_fault;
+  if (fault != m_fault)
+    emit faulted(m_fault = fault);
+}
+
+// Why a burr that should drill removes nothing, as long as that lasts; empty if it does.
+QString DrillController::whyStalled(const TickRecord& record) const
+{
+  if (m_tool != Tool::Burr)
+    return {};
+  if (m_lead.lifted())
+    return tr("The burr has lifted: what lies under the pointer is another surface, far deeper or "
+              "higher. Let go and press again to drill there.");
+  if (const std::uint8_t held = m_stall.heldBy())
+    return held == TickRecord::kShaft ? tr("The shaft lies on tissue and holds the burr off")
+           : held == TickRecord::kHandpiece
+               ? tr("The handpiece lies on tissue and holds the burr off")
+               : tr("Shaft and handpiece lie on tissue and hold the burr off");
+  if (!m_stall.stalls())
+    return {};
+  const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);
+  if (force.norm() > 0.0)
+  {
+    const std::string name = m_model.structureAt(record.proxy.pose().position -
+                                                 (toolRadius() + kBeyond) * force.normalized());
+    const scene::Case& value = m_model.value();
+    const auto* structure = scene::findStructure(value, name);
+    const bool spared = structure
+                            ? !structure->look.drillable
+                            : std::any_of(value.meshes.begin(), value.meshes.end(),
+                                          [&name](const scene::MeshPart& mesh)
+                                          { return mesh.name == name && !mesh.look.drillable; });
+    if (spared)
+      return tr("The burr lies on %1, which is set not to be drilled")
+          .arg(words(name).replace('_', ' '));
+  }
+  return tr("The burr is pressed and makes no way: what holds it is not taken at this thrust and "
+            "speed");
+}
+
+} // namespace petrous::workstation

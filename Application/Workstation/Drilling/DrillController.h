@@ -1,0 +1,96 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+
+#include "ToolDriver.h"
+#include "petrous/Session/StallWatch.h"
+
+namespace petrous::workstation
+{
+
+class DrillBar;
+class ActiveDeviceController;
+class ThreeDView;
+
+/// Controls the tool. The burr drills where it is pressed; the pointer removes nothing and probes
+/// at its tip. It is moved by the mouse, through a PointerDevice, or by a chosen device. What is
+/// shown is the proxy, which the tissue holds back, not the device pose.
+class DrillController : public QObject
+{
+  Q_OBJECT
+public:
+  static constexpr double kPointerRadius = 0.5; ///< mm, of the pointer's spherical tip
+
+  DrillController(presenters::WorkstationModel& model, ThreeDView& view, DrillBar& bar,
+                  ActiveDeviceController& devices, QObject* parent = nullptr);
+
+  void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
+  void releaseTool();                ///< no tool; ends an open stroke
+  void tissueCame();                 ///< the case's structures are loaded
+  void bringHere();                  ///< moves a device's tool in front of the view's centre
+
+signals:
+  void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
+  void pointedNowhere();
+  void tissueWanted(); ///< a tool was chosen, but the case is not prepared for it
+  void burrMoved(const Eigen::Vector3d& center, double radius); ///< patient LPS mm; each frame
+  void burrGone();                                              ///< put away
+  /// nullptr if nothing was removed.
+  void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
+  void statusMessage(const QString& line); ///< progress of slow operations, or errors
+  void faulted(const QString& line);       ///< of the touch session; empty when it works again
+
+private:
+  enum class Tool
+  {
+    None,
+    Burr,
+    Pointer
+  };
+  void connectBar();
+  void connectView();
+  void connectDevices();
+  void setTool(Tool tool);
+  void hover(const interaction::PickRay& line);
+  void press(const interaction::PickRay& line);
+  void release();
+  bool takeTool(); // into use, unless it is
+  void putAway();
+  void restartTool();
+  void takeAtPointer();
+  void applyBar();
+  void deviceCame();
+  void frame();
+  void hear(const session::TouchSession::News& news);
+  void show(const session::TouchSession::News& news);
+  void read(const session::TickRecord& record);
+  void showFault(const session::TouchSession::News& news);
+  QString whyStalled(const session::TickRecord& record) const;
+  QString whyLost() const;
+  bool isLost(const session::TickRecord& record);
+  double toolRadius() const;
+
+  presenters::WorkstationModel& m_model;
+  ThreeDView& m_view;
+  DrillBar& m_bar;
+  ActiveDeviceController& m_devices;
+  ToolDriver m_lead;
+  std::optional<Eigen::Vector3d> m_tip; // last one probed
+  QTimer m_frames;
+  QTimer m_anew;
+  QElapsedTimer m_sinceFault;
+  QElapsedTimer m_sinceTaken;
+  QElapsedTimer m_sinceGone;
+  QElapsedTimer m_sinceRead;
+  session::StallWatch m_stall;
+  QString m_fault; // as shown
+  Tool m_tool = Tool::None;
+  bool m_slicesFollow = true;
+};
+
+} // namespace petrous::workstation

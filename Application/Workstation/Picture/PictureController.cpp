@@ -1,0 +1,162 @@
+#include "PictureController.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QLabel>
+#include <QMessageBox>
+
+#include "PicturePanel.h"
+#include "SurgeonWindow.h"
+#include "Theme.h"
+#include "ThreeDView.h"
+#include "WindowActions.h"
+#include "WindowSettings.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::workstation
+{
+
+using rendering::StereoMode;
+
+PictureController::PictureController(presenters::WorkstationModel& model, ThreeDView& view,
+                                     WindowActions& actions, WindowSettings& kept, QWidget& window,
+                                     bool quadBuffer)
+  : QObject(&window)
+  , m_model(model)
+  , m_view(view)
+  , m_actions(actions)
+  , m_window(window)
+  , m_panel(new PicturePanel(model, m_settings, quadBuffer))
+  , m_speed(new QLabel)
+{
+  m_speed->setObjectName("dim");
+  m_speed->setContentsMargins(8, 0, 8, 0);
+  m_speed->setToolTip(tr("How many pictures a second can be drawn, and at what share of the full "
+                         "resolution while something moves"));
+  kept.restore(m_settings, quadBuffer);
+  m_view.display().setLight(m_settings.light());
+  applyStereo();
+  m_panel->settingsChanged();
+  const auto changed = [this, &kept](auto what)
+  {
+    return [this, &kept, what]
+    {
+      what();
+      m_panel->settingsChanged();
+      kept.keep(m_settings);
+    };
+  };
+  m_settings.events.lightChanged =
+      changed([this] { m_view.display().setLight(m_settings.light()); });
+  m_settings.events.stereoChanged = changed([this] { applyStereo(); });
+  connect(m_actions.stereo, &QActionGroup::triggered, this,
+          [this](QAction* action)
+          { m_settings.setStereo(static_cast<StereoMode>(action->data().toInt())); });
+  connect(m_actions.surgeonWindow, &QAction::triggered, this,
+          [this](bool open) { open ? openSurgeonWindow() : closeSurgeonWindow(); });
+  connect(&m_view.display(), &SceneDisplay::drawn, this, &PictureController::showSpeed);
+  connect(&m_view.display(), &SceneDisplay::failed, this, &PictureController::fail);
+}
+
+PictureController::~PictureController()
+{
+  delete m_surgeon; // before the view that it follows
+}
+
+void PictureController::caseChanged()
+{
+  m_view.display().setTool(std::nullopt);
+  showScene();
+  m_panel->caseChanged();
+}
+
+void PictureController::appearanceChanged()
+{
+  showScene();
+  m_panel->caseChanged();
+}
+
+void PictureController::showScene()
+{
+  if (m_model.loaded() && !m_model.drawable())
+    return; // the old picture stays until the new one is prepared
+  try
+  {
+    m_view.display().setContents(m_model.sceneContents());
+  }
+  catch (const core::Error& error) // too much to draw; the slices still show it
+  {
+    m_view.display().setContents({});
+    emit statusMessage(words(error.what()));
+  }
+}
+
+void PictureController::openSurgeonWindow()
+{
+  if (m_surgeon)
+    return;
+  m_surgeon = new SurgeonWindow(m_view, m_settings.stereo() == StereoMode::QuadBuffer);
+  m_surgeon->setAttribute(Qt::WA_DeleteOnClose);
+  m_surgeon->addActions(m_window.findChildren<QAction*>()); // the window's shortcuts
+  connect(&m_surgeon->display(), &SceneDisplay::failed, this, &PictureController::fail);
+  connect(m_surgeon, &SurgeonWindow::closed, this,
+          [this]
+          {
+            m_surgeon = nullptr;
+            m_actions.surgeonWindow->setChecked(false);
+            applyStereo();
+          });
+  m_actions.surgeonWindow->setChecked(true);
+  applyStereo();
+  m_surgeon->showBeside(m_window);
+}
+
+void PictureController::closeSurgeonWindow()
+{
+  if (m_surgeon)
+    m_surgeon->close();
+}
+
+// Stereo is for the surgeon: the main view is mono, for bystanders, while the other window is open.
+// Quad-buffering exists only there.
+void PictureController::applyStereo()
+{
+  const StereoMode mode = m_settings.stereo();
+  for (QAction* action : m_actions.stereo->actions())
+    action->setChecked(action->data().toInt() == static_cast<int>(mode));
+  if (m_surgeon && m_surgeon->quadBuffer() != (mode == StereoMode::QuadBuffer))
+  {
+    m_surgeon->close(); // needs another kind of window
+    return openSurgeonWindow();
+  }
+  if (m_surgeon)
+    m_surgeon->display().setStereo(mode, m_settings.rig());
+  const bool here = !m_surgeon && mode != StereoMode::QuadBuffer;
+  m_view.display().setStereo(here ? mode : StereoMode::None, m_settings.rig());
+}
+
+void PictureController::showSpeed(double milliseconds, double scale, bool moving)
+{
+  if (milliseconds <= 0.0 || !m_model.hasCase())
+    return;
+  const QString speed = milliseconds < 1000.0 ? tr("%1 Hz").arg(1000.0 / milliseconds, 0, 'f', 0)
+                                              : tr("%1 s").arg(0.001 * milliseconds, 0, 'f', 1);
+  m_speed->setText(moving ? tr("%1 at %2 %").arg(speed).arg(100.0 * scale, 0, 'f', 0) : speed);
+}
+
+void PictureController::fail(const QString& why)
+{
+  const bool safe = !flush || flush();
+  QMessageBox box(QMessageBox::Warning, tr("The 3D picture failed"), why, QMessageBox::Ok,
+                  &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.setInformativeText(
+      (safe ? tr("The case is saved. ") : tr("The case could not be saved; save it first. ")) +
+      tr("Close Petrous and start it again. If it fails again, close other programs that use the "
+         "graphics card, load only the ear, or install a newer driver; 'petrous doctor' says what "
+         "the machine offers. The slices go on working."));
+  box.exec();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <QObject>
+#include <QPointer>
+
+#include "petrous/Presenters/ViewSettings.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QLabel;
+class QWidget;
+
+namespace petrous::workstation
+{
+
+class PicturePanel;
+class SurgeonWindow;
+class ThreeDView;
+class WindowActions;
+class WindowSettings;
+
+/// Lamp, stereo and the surgeon's window; frame rate, and handling of rendering failures.
+class PictureController : public QObject
+{
+  Q_OBJECT
+public:
+  /// Connects the stereo and surgeon's window actions of `actions`. Lamp and stereo are restored
+  /// from and stored in `kept`.
+  PictureController(presenters::WorkstationModel& model, ThreeDView& view, WindowActions& actions,
+                    WindowSettings& kept, QWidget& window, bool quadBuffer);
+  ~PictureController() override;
+
+  /// Saves the case if rendering fails; returns false if it could not be saved.
+  std::function<bool()> flush;
+
+  PicturePanel* panel() const noexcept { return m_panel; } ///< owned by the window that takes it
+  QLabel* speed() const noexcept { return m_speed; }       ///< for the status bar
+
+  void caseChanged();
+  void appearanceChanged();
+  void closeSurgeonWindow();
+
+signals:
+  void statusMessage(const QString& line); ///< for the status bar
+
+private:
+  void showScene();
+  void openSurgeonWindow();
+  void applyStereo();
+  void showSpeed(double milliseconds, double scale, bool moving);
+  void fail(const QString& why);
+
+  presenters::WorkstationModel& m_model;
+  ThreeDView& m_view;
+  WindowActions& m_actions;
+  QWidget& m_window;
+  presenters::ViewSettings m_settings;
+  PicturePanel* m_panel;
+  QLabel* m_speed;
+  QPointer<SurgeonWindow> m_surgeon;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QPointer>
+#include <QSurfaceFormat>
+#include <QTimer>
+
+#include <vtkNew.h>
+
+#include "petrous/Rendering/ScenePicture.h"
+#include "petrous/Rendering/StereoPicture.h"
+
+class vtkGenericOpenGLRenderWindow;
+class vtkRenderer;
+
+namespace petrous::session
+{
+struct TickRecord;
+}
+
+namespace petrous::workstation
+{
+
+class TouchOverlay;
+
+/// A scene in one OpenGL context: coarse while something moves and fine when static, mono or
+/// stereo. Reports frame times and errors.
+///
+/// A second display can follow: it gets the same scene, camera and tool, with textures of its own,
+/// since contexts of different windows are not shared here.
+class SceneDisplay : public QObject
+{
+  Q_OBJECT
+public:
+  /// `shown`: whether rendering makes sense now.
+  SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<bool()> shown,
+               QObject* parent = nullptr);
+  ~SceneDisplay() override;
+
+  /// Frees the context's resources; the context must be current. Call before the window is
+  /// destroyed. Nothing is rendered afterwards.
+  void release();
+
+  rendering::ScenePicture& picture() noexcept { return m_picture; }
+  const rendering::ScenePicture& picture() const noexcept { return m_picture; }
+
+  /// Keeps light and tool. Throws RenderingError BadContents.
+  void setContents(const rendering::SceneContents& contents);
+  void setLight(const rendering::LightSettings& light);
+  void setTool(const std::optional<rendering::ToolPose>& tool);
+  const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }
+  /// The tool with its force, from the servo; redrawn if it changed.
+  void setTouch(const session::TickRecord& record, double burrRadius, bool handpiece = true);
+  /// What a pointer reads, several lines; after setTouch.
+  void setReading(const QString& text);
+  const QString& reading() const noexcept { return m_reading; }
+  /// What the surgeon must see while using a tool, several lines; empty: nothing.
+  void setWarning(const QString& text);
+  /// Fraction of the picture's height, from the top, that is covered: warnings are placed below.
+  void setCovered(double share);
+  const QString& warning() const noexcept { return m_warning; }
+  void endTouch(); ///< no tool, no force, no reading, no warning
+  void setCamera(const core::CameraPose& pose);
+  void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
+
+  void setStereo(rendering::StereoMode mode, const rendering::StereoRig& rig);
+  rendering::StereoMode stereo() const noexcept;
+  rendering::StereoRig rig() const;
+  void setFirstRow(int row); ///< see StereoPicture
+
+  /// Synchronizes another display from now on; nullptr ends that.
+  void setFollower(SceneDisplay* follower);
+
+  /// Renders soon; several calls are coalesced. `moving`: coarser until shortly after the last
+  /// call.
+  void redraw(bool moving = false);
+
+signals:
+  void aboutToDraw();
+  /// Frame time; `scale`: of the picture's edge at which rays were cast.
+  void drawn(double milliseconds, double scale, bool moving);
+  void failed(const QString& why); ///< once, until a frame succeeds again
+
+private:
+  void drawNow();
+  void frameStarted();
+  void frameEnded();
+  void setRate();
+  double scaleOfLastFrame() const;
+
+  vtkGenericOpenGLRenderWindow& m_window;
+  std::function<bool()> m_shown;
+  vtkNew<vtkRenderer> m_renderer;
+  rendering::ScenePicture m_picture;
+  std::unique_ptr<rendering::StereoPicture> m_stereo; // destroyed before m_picture
+  rendering::SceneContents m_contents;                // of the last setContents, kept up to date
+  rendering::LightSettings m_light;
+  std::unique_ptr<TouchOverlay> m_touch; // while a tool is in use; destroyed before m_renderer
+  QString m_reading, m_warning;
+  double m_covered = 0.0; // fraction of the height, from the top
+  QPointer<SceneDisplay> m_follower;
+  QTimer m_settle;
+  QElapsedTimer m_clock;
+  std::array<unsigned long, 2> m_observers{}; // of m_window
+  double m_rate = 0.0;
+  bool m_leads = false; // has a follower
+  bool m_follows = false;
+  bool m_moving = false;
+  bool m_pending = false;
+  bool m_failing = false;
+};
+
+/// The required surface format; must be set as default before the first widget. `stereo`:
+/// quad-buffered, for StereoMode::QuadBuffer.
+QSurfaceFormat surfaceFormat(bool stereo = false);
+
+/// Whether the driver supports quad-buffered stereo. Queried on each call.
+bool quadBufferOffered();
+
+} // namespace petrous::workstation

@@ -1,0 +1,367 @@
+#include "RegistrationController.h"
+
+#include <utility>
+
+#include <QAction>
+#include <QApplication>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
+
+#include "Application.h"
+#include "BackgroundWork.h"
+#include "MetricCurve.h"
+#include "MrOverlay.h"
+#include "RegistrationPanel.h"
+#include "SliceColumn.h"
+#include "SliceView.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+using Way = presenters::RegistrationSession::Way;
+
+constexpr int kSceneAfter = 200; // ms
+constexpr int kTryAgain = 200;   // ms
+const QColor kCtPoint("#ffd040");
+const QColor kMrPoint("#ff7ac0");
+} // namespace
+
+RegistrationController::RegistrationController(presenters::WorkstationModel& model,
+                                               SliceColumn& slices, QWidget& window)
+  : QObject(&window)
+  , m_model(model)
+  , m_slices(slices)
+  , m_window(window)
+  , m_session(model)
+  , m_panel(new RegistrationPanel(m_session))
+  , m_overlay(new MrOverlay(m_session, slices, this))
+  , m_menu(new QMenu(tr("&Registration"), &window))
+  , m_run(std::make_unique<BackgroundWork>())
+  , m_metricWork(std::make_unique<BackgroundWork>())
+{
+  const auto on = [this](QAction* action, auto what)
+  { connect(action, &QAction::triggered, this, what); };
+  on(addAction(tr("&Register the MR"), Qt::CTRL + Qt::Key_R,
+               tr("Lays the MR on the CT by mutual information, as the panel says")),
+     [this] { begin(Way::Register); });
+  on(addAction(tr("Re&fine"), {}, tr("The same from where the MR lies now")),
+     [this] { begin(Way::Refine); });
+  on(addAction(tr("&Cancel"), {}, tr("Stops the registration; what it reached can be kept")),
+     [this] { cancel(); });
+  m_menu->addSeparator();
+  on(addAction(tr("CT or MR alone, by &turns"), Qt::Key_V, tr("To see whether they agree")),
+     [this] { m_overlay->flick(); });
+  on(addAction(tr("Ne&xt way to show the MR"), Qt::Key_O,
+               tr("CT alone, blend, the CT's edges over the MR, checkerboard")),
+     [this] { m_overlay->next(); });
+  m_menu->addSeparator();
+  on(addAction(tr("&Point here"), Qt::Key_K,
+               tr("The crosshair marks a point of the CT, then the same point of the MR")),
+     [this] { addPoint(); });
+  m_menu->addSeparator();
+  on(addAction(tr("&Undo the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Z,
+               tr("Back to how the MR lay before")),
+     [this] { byHand([this] { m_session.undo(); }); });
+  on(addAction(tr("Red&o the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Y, tr("Forth again")),
+     [this] { byHand([this] { m_session.redo(); }); });
+  connectPanel();
+  m_sceneLater.setSingleShot(true);
+  m_sceneLater.setInterval(kSceneAfter);
+  connect(&m_sceneLater, &QTimer::timeout, this, &RegistrationController::sceneStale);
+}
+
+RegistrationController::~RegistrationController() = default;
+
+QAction* RegistrationController::addAction(const QString& text, const QKeySequence& keys,
+                                           const QString& tip)
+{
+  QAction* action = m_menu->addAction(text);
+  action->setShortcut(keys);
+  action->setStatusTip(tip);
+  return action;
+}
+
+void RegistrationController::connectPanel()
+{
+  connect(m_panel, &RegistrationPanel::overlayChosen, this,
+          [this](const auto& mode) { m_overlay->set(mode, m_overlay->opacity()); });
+  connect(m_panel, &RegistrationPanel::opacityChosen, this,
+          [this](double opacity) { m_overlay->set(m_overlay->mode(), opacity); });
+  connect(m_overlay, &MrOverlay::changed, this,
+          [this] { m_panel->setOverlay(m_overlay->mode(), m_overlay->opacity()); });
+  connect(m_overlay, &MrOverlay::statusMessage, m_panel, &RegistrationPanel::say);
+  connect(m_panel, &RegistrationPanel::mrChosen, this,
+          [this]
+          {
+            m_firstMetric.reset();
+            m_panel->setMetric({});
+            m_overlay->refresh();
+            showMarks();
+          });
+  connect(m_panel, &RegistrationPanel::registerAsked, this, [this] { begin(Way::Register); });
+  connect(m_panel, &RegistrationPanel::refineAsked, this, [this] { begin(Way::Refine); });
+  connect(m_panel, &RegistrationPanel::cancelAsked, this, &RegistrationController::cancel);
+  connect(m_panel, &RegistrationPanel::pointAsked, this, &RegistrationController::addPoint);
+  connect(m_panel, &RegistrationPanel::landmarksAsked, this, [this] { begin(Way::Landmarks); });
+  connect(m_panel, &RegistrationPanel::landmarksChanged, this, &RegistrationController::showMarks);
+  connect(m_panel, &RegistrationPanel::hidden, this,
+          [this]
+          {
+            m_metricWork->drop();
+            m_metric.reset();
+            m_panel->setMetric({});
+            showRegion();
+          });
+  connect(m_panel, &RegistrationPanel::shown, this, &RegistrationController::showRegion);
+  connect(m_panel, &RegistrationPanel::aimChosen, this, &RegistrationController::showRegion);
+  connect(&m_slices, &SliceColumn::moveAsked, this,
+          [=](const Eigen::Vector3d& mm) { byHand([&] { m_session.shift(mm); }); });
+  connect(&m_slices, &SliceColumn::turnAsked, this,
+          [=](const Eigen::Vector3d& axis, double degrees)
+          { byHand([&] { m_session.turn(axis, degrees); }); });
+  connect(m_run.get(), &BackgroundWork::progressed, m_panel, &RegistrationPanel::setProgress);
+  connect(m_run.get(), &BackgroundWork::failed, this, &RegistrationController::endRun);
+  connect(m_run.get(), &BackgroundWork::cancelled, this, &RegistrationController::stopped);
+}
+
+void RegistrationController::byHand(const std::function<void()>& move)
+{
+  if (running())
+    return;
+  m_panel->openHand();
+  move();
+}
+
+bool RegistrationController::running() const
+{
+  return m_run->busy() || m_waiting;
+}
+
+void RegistrationController::caseChanged()
+{
+  m_run->drop();
+  m_waiting.reset();
+  delete m_question; // of the previous case
+  m_metricWork->drop();
+  m_metric.reset();
+  m_firstMetric.reset();
+  m_session.caseChanged();
+  m_panel->setRunning(false);
+  m_panel->caseChanged();
+  m_overlay->reset();
+  showMarks();
+}
+
+void RegistrationController::mrMoved()
+{
+  m_panel->refresh();
+  m_overlay->refresh();
+  showMarks();
+  askMetric();
+  m_sceneLater.start();
+}
+
+void RegistrationController::begin(Way way)
+{
+  if (!m_session.part() || running() || m_model.drilling())
+    return;
+  if (way == Way::Refine && !m_session.part()->registered)
+    return;
+  m_panel->say({});
+  presenters::RegistrationRequest request;
+  try
+  {
+    request = m_session.request(way);
+  }
+  catch (const std::exception& error)
+  {
+    return m_panel->say(toString(error));
+  }
+  if (!request.asIs)
+    m_panel->curve().clear();
+  m_panel->setRunning(true);
+  scene::Case value = m_model.value(); // shares voxels
+  value.dissection.reset();            // another thread writes to it
+  const auto listener =
+      [this](const registration::MetricSample& sample, const core::RigidTransform& best)
+  { m_run->post([=] { heard(sample, best); }); };
+  m_run->start(
+      [this, value = std::move(value), request, listener,
+       library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto outcome = presenters::registerMr(value, request, progress, listener);
+        library.checkVoxels(value, progress); // the result for damaged images is worthless
+        return [this, outcome] { finished(outcome); };
+      });
+}
+
+void RegistrationController::heard(const registration::MetricSample& sample,
+                                   const core::RigidTransform& best)
+{
+  m_panel->curve().add(sample.level, sample.metric);
+  m_best = best;
+  m_overlay->setUnderWay(m_best);
+}
+
+void RegistrationController::endRun(const QString& line)
+{
+  m_best.reset();
+  m_panel->setRunning(false);
+  m_panel->say(line);
+  m_panel->refresh();
+  m_overlay->setUnderWay({});
+}
+
+void RegistrationController::finished(const presenters::RegistrationOutcome& outcome)
+{
+  if (m_model.drilling())
+    return waitForTheDrill(outcome);
+  endRun({});
+  if (outcome.failed)
+  {
+    m_panel->say(tr("Failed, and nothing was changed: %1").arg(words(outcome.how.text)));
+    emit statusMessage(tr("The registration failed"));
+    return;
+  }
+  if (!m_session.take(outcome))
+    return;
+  if (!m_overlay->mode())
+    m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // for inspection
+  emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords())));
+}
+
+void RegistrationController::waitForTheDrill(const presenters::RegistrationOutcome& outcome)
+{
+  m_panel->say(tr("Done; the MR is laid as soon as the drill stands still."));
+  m_waiting = std::make_unique<QTimer>();
+  connect(m_waiting.get(), &QTimer::timeout, this,
+          [this, outcome]
+          {
+            if (m_model.drilling())
+              return;
+            m_waiting.release()->deleteLater(); // it is the sender
+            finished(presenters::RegistrationOutcome(outcome));
+          });
+  m_waiting->start(kTryAgain);
+}
+
+void RegistrationController::cancel()
+{
+  m_run->cancel();
+  if (!m_waiting)
+    return;
+  m_waiting.reset();
+  endRun(tr("Stopped; the MR lies as before."));
+}
+
+void RegistrationController::stopped()
+{
+  const Best best = m_best;
+  endRun(tr("Stopped; the MR lies as before."));
+  if (best)
+    offerBest(*best);
+}
+
+void RegistrationController::offerBest(const core::RigidTransform& best)
+{
+  auto* box = new QMessageBox(QMessageBox::Question, tr("Petrous"),
+                              tr("The registration was stopped. Keep the best place that it had "
+                                 "found by then? Nobody has judged it; it can be undone."),
+                              QMessageBox::NoButton, &m_window);
+  m_question = box;
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  QPushButton* keep = box->addButton(tr("Keep it"), QMessageBox::AcceptRole);
+  box->setEscapeButton(box->addButton(tr("As before"), QMessageBox::RejectRole));
+  connect(box, &QMessageBox::buttonClicked, this,
+          [this, best, keep, mr = m_session.mr()](QAbstractButton* pressed)
+          {
+            if (pressed != keep || m_session.mr() != mr || running())
+              return;
+            m_session.keep(best);
+            m_panel->say(m_session.lies(best) ? tr("Kept as it was when it was stopped.")
+                                              : tr("The drill runs; the MR lies as before."));
+          });
+  box->open();
+}
+
+void RegistrationController::showMarks()
+{
+  std::vector<SliceMark> marks;
+  const auto& rows = m_session.landmarks().rows();
+  for (std::size_t n = 0; n < rows.size(); ++n)
+  {
+    const QString number = QString::number(n + 1);
+    marks.push_back({rows[n].ct, number, kCtPoint});
+    if (rows[n].mr && m_session.part()) // where it appears now
+      marks.push_back({m_session.part()->mrFromCt.inverse() * *rows[n].mr, number, kMrPoint});
+  }
+  m_slices.setMarks(marks);
+  showRegion();
+  m_panel->refresh();
+}
+
+void RegistrationController::showRegion()
+{
+  m_slices.setRegion(m_session.part() && m_panel->isVisible() ? m_session.aim().box : 0.0);
+}
+
+void RegistrationController::addPoint()
+{
+  if (!m_session.part() || running())
+    return;
+  m_session.addLandmark();
+  m_panel->openPoints();
+  m_overlay->showAlone(m_session.landmarks().waitsForMr()); // where the next point is to be picked
+  showMarks();
+  m_panel->say(m_session.landmarks().waitsForMr()
+                   ? tr("Now the same point in the MR: crosshair there, then K.")
+                   : tr("The next point in the CT; three pairs at least, far apart."));
+}
+
+void RegistrationController::askMetric()
+{
+  const scene::ImagePart* part = m_session.part();
+  if (!part || !m_panel->isVisible())
+    return;
+  if (m_metric && m_metricOf == part->name)
+    return showMetric();
+  if (m_metricWork->busy() || running())
+    return;
+  m_panel->setMetric(tr("Metric: being prepared…"));
+  m_metricWork->start(
+      [this, ct = m_model.value().ct.volume, mr = part->volume,
+       name = part->name](const core::Progress&) -> BackgroundWork::Reply
+      {
+        const auto metric = std::make_shared<const registration::LiveMetric>(*ct.get(), *mr.get());
+        return [this, metric, name]
+        {
+          m_metric = metric;
+          m_metricOf = name;
+          m_firstMetric.reset();
+          showMetric();
+        };
+      });
+}
+
+void RegistrationController::showMetric()
+{
+  const scene::ImagePart* part = m_session.part();
+  if (!part || !m_metric || m_metricOf != part->name)
+    return m_panel->setMetric({});
+  const double now = m_metric->at(part->mrFromCt);
+  const auto moved = m_session.movedByHand();
+  if (!m_firstMetric || (moved.shift == 0.0 && moved.turn == 0.0))
+    m_firstMetric = now;
+  QString text = tr("Metric with the CT %1").arg(now, 0, 'f', 4);
+  if (moved.shift > 0.0 || moved.turn > 0.0)
+    text += tr(" (%1%2 by hand)")
+                .arg(now < *m_firstMetric ? "" : "+")
+                .arg(now - *m_firstMetric, 0, 'f', 4);
+  m_panel->setMetric(text);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+
+#include "petrous/Presenters/RegistrationSession.h"
+#include "petrous/Registration/LiveMetric.h"
+
+class QAction;
+class QMenu;
+class QMessageBox;
+
+namespace petrous::workstation
+{
+
+class BackgroundWork;
+class MrOverlay;
+class RegistrationPanel;
+class SliceColumn;
+
+/// Shows MRs of the open case in the slices and registers them to the CT: runs the registration in
+/// the background, shows its progress, and the metric during manual motion.
+class RegistrationController : public QObject
+{
+  Q_OBJECT
+public:
+  /// `window`: parent of dialogs. All must outlive this.
+  RegistrationController(presenters::WorkstationModel& model, SliceColumn& slices, QWidget& window);
+  ~RegistrationController() override;
+
+  RegistrationPanel* panel() { return m_panel; }
+  QMenu* menu() { return m_menu; }
+
+  void caseChanged();
+  void mrMoved(); ///< or was signed off
+  bool running() const;
+
+signals:
+  void sceneStale(); ///< views of the MR or of what was drawn on it are outdated; throttled
+  void statusMessage(const QString& line);
+
+private:
+  using Best = std::optional<core::RigidTransform>;
+
+  QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
+  void connectPanel();
+  void byHand(const std::function<void()>& move);
+  void begin(presenters::RegistrationSession::Way way);
+  void heard(const registration::MetricSample& sample, const core::RigidTransform& best);
+  void finished(const presenters::RegistrationOutcome& outcome);
+  void waitForTheDrill(const presenters::RegistrationOutcome& outcome);
+  void cancel();
+  void stopped(); // on request
+  void offerBest(const core::RigidTransform& best);
+  void endRun(const QString& line);
+  void showMarks();
+  void showRegion();
+  void addPoint();
+  void askMetric();
+  void showMetric();
+
+  presenters::WorkstationModel& m_model;
+  SliceColumn& m_slices;
+  QWidget& m_window;
+  presenters::RegistrationSession m_session;
+  RegistrationPanel* m_panel;
+  MrOverlay* m_overlay;
+  QMenu* m_menu;
+  std::unique_ptr<BackgroundWork> m_run;
+  std::unique_ptr<BackgroundWork> m_metricWork;
+  std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, loaded on demand
+  std::string m_metricOf;
+  std::optional<double> m_firstMetric;
+  Best m_best;                       // of the run
+  QPointer<QMessageBox> m_question;  // whether m_best is kept
+  std::unique_ptr<QTimer> m_waiting; // holds a result until the drill stops
+  QTimer m_sceneLater;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,376 @@
+#include "RegistrationPanel.h"
+
+#include <QComboBox>
+#include <QDateTime>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QScrollArea>
+#include <QSlider>
+#include <QVBoxLayout>
+
+#include "Application.h"
+#include "FoldBox.h"
+#include "HandlesBox.h"
+#include "LandmarksBox.h"
+#include "MetricCurve.h"
+#include "PanelButton.h"
+#include "RegistrationTargetBox.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+using presenters::OverlayMode;
+
+constexpr int kOff = -1;
+
+QLabel* heading(const QString& text)
+{
+  auto* label = new QLabel("<b>" + text + "</b>");
+  label->setContentsMargins(0, 6, 0, 0);
+  return label;
+}
+
+// What the status line omits.
+QString errorText(const scene::ImagePart& mr)
+{
+  if (!mr.registered || !mr.registration)
+    return {};
+  QString text;
+  if (const auto& error = mr.registration->error)
+    text = RegistrationPanel::tr("Median error %1 mm, largest %2 mm")
+               .arg(error->median, 0, 'f', 2)
+               .arg(error->max, 0, 'f', 2);
+  const QString why = words(mr.registration->text);
+  return text.isEmpty() || why.isEmpty() ? text + why : text + "\n" + why;
+}
+
+// A doubtful state is highlighted.
+QString stateStyle(const scene::ImagePart* mr)
+{
+  const bool good = mr && mr->registered && mr->registration &&
+                    mr->registration->verdict == scene::Registration::Verdict::Good;
+  return mr && mr->registered && !good ? "color: #ffb454;" : QString();
+}
+
+QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
+{
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  for (QWidget* widget : widgets)
+    row->addWidget(widget);
+  return row;
+}
+} // namespace
+
+RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent)
+  : QWidget(parent)
+  , m_session(session)
+  , m_mr(new QComboBox)
+  , m_state(new QLabel)
+  , m_error(new QLabel)
+  , m_line(new QLabel)
+  , m_aim(new RegistrationTargetBox(session))
+  , m_handles(new HandlesBox(session))
+  , m_points(new LandmarksBox(session))
+{
+  m_mr->setObjectName("registrationMr");
+  m_state->setObjectName("registrationState");
+  m_line->setObjectName("registrationLine");
+  m_error->setObjectName("dim");
+  for (QLabel* label : {m_state, m_error, m_line})
+  {
+    label->setWordWrap(true);
+    label->setTextFormat(Qt::PlainText);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  }
+  connect(m_mr, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [this]
+          {
+            if (m_showing)
+              return;
+            m_session.choose(bytes(m_mr->currentText()));
+            say({});
+            refresh();
+            emit mrChosen();
+          });
+  auto* inside = new QWidget;
+  auto* layout = new QVBoxLayout(inside);
+  layout->setContentsMargins(10, 8, 10, 8);
+  layout->setSpacing(5);
+  layout->addWidget(m_mr);
+  layout->addWidget(m_state);
+  layout->addWidget(m_error);
+  addSteps(*layout);
+  addSeeing(*layout);
+  addRunning(*layout);
+  layout->addWidget(m_pointsFold = new FoldBox(tr("By pairs of points"), "pointsFold", m_points));
+  layout->addWidget(m_handFold = new FoldBox(tr("By hand"), "handFold", m_handles));
+  layout->addStretch(1);
+  m_pointsFold->setOther(m_handFold);
+  m_handFold->setOther(m_pointsFold);
+  connect(m_points, &LandmarksBox::pointAsked, this, &RegistrationPanel::pointAsked);
+  connect(m_points, &LandmarksBox::fitAsked, this, &RegistrationPanel::landmarksAsked);
+  connect(m_aim, &RegistrationTargetBox::chosen, this, &RegistrationPanel::aimChosen);
+  connect(m_points, &LandmarksBox::changed, this, &RegistrationPanel::landmarksChanged);
+  auto* area = new QScrollArea;
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(inside);
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(0, 0, 0, 0);
+  outer->setSpacing(0);
+  outer->addWidget(area, 1);
+  outer->addWidget(signOff()); // always visible
+  setMinimumWidth(340);
+  setOverlay(std::nullopt, 0.5);
+  setRunning(false);
+  say({});
+}
+
+void RegistrationPanel::addSteps(QVBoxLayout& layout)
+{
+  m_undo = button(tr("Undo"), "undoMr", tr("Back to how the MR lay before (Ctrl+Alt+Z)"));
+  m_redo = button(tr("Redo"), "redoMr", tr("Forth again (Ctrl+Alt+Y)"));
+  m_remove = button(tr("Unregister"), "unregister", tr("The MR has no place on the CT any more"));
+  connect(m_undo, &QPushButton::clicked, this, [this] { m_session.undo(); });
+  connect(m_redo, &QPushButton::clicked, this, [this] { m_session.redo(); });
+  connect(m_remove, &QPushButton::clicked, this, [this] { m_session.unregister(); });
+  layout.addLayout(rowOf({m_undo, m_redo, m_remove}));
+}
+
+void RegistrationPanel::addSeeing(QVBoxLayout& layout)
+{
+  m_overlay = new QComboBox;
+  m_overlay->setObjectName("overlayMode");
+  m_overlay->addItem(tr("CT alone"), kOff);
+  m_overlay->addItem(tr("Blend"), static_cast<int>(OverlayMode::Blend));
+  m_overlay->addItem(tr("CT's edges over the MR"), static_cast<int>(OverlayMode::Edges));
+  m_overlay->addItem(tr("Checkerboard"), static_cast<int>(OverlayMode::Checker));
+  m_overlay->setToolTip(tr("How the slices show the MR (O: the next way, V: CT or MR alone by "
+                           "turns)"));
+  connect(m_overlay, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [this]
+          {
+            const int mode = m_overlay->currentData().toInt();
+            if (!m_showing)
+              emit overlayChosen(mode == kOff ? std::nullopt
+                                              : std::optional(static_cast<OverlayMode>(mode)));
+          });
+  m_opacity = new QSlider(Qt::Horizontal);
+  m_opacity->setObjectName("overlayOpacity");
+  m_opacity->setRange(0, 100);
+  m_opacity->setPageStep(10);
+  m_opacity->setToolTip(tr("Opacity of the MR in the blend"));
+  connect(m_opacity, &QSlider::valueChanged, this,
+          [this](int percent)
+          {
+            if (!m_showing)
+              emit opacityChosen(0.01 * percent);
+          });
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Slices show"), m_overlay);
+  form->addRow(tr("MR &opacity"), m_opacity);
+  m_opacityLabel = form->labelForField(m_opacity);
+  layout.addLayout(form);
+}
+
+void RegistrationPanel::addRunning(QVBoxLayout& layout)
+{
+  layout.addWidget(heading(tr("By mutual information")));
+  m_register = button(tr("&Register"), "register",
+                      tr("Looks for where the MR fits the CT, lays it there, and says how well it "
+                         "lies (Ctrl+R)"));
+  m_refine = button(tr("Re&fine"), "refine",
+                    tr("The same from where the MR lies now, without a search: after points or the "
+                       "hand"));
+  m_cancel =
+      button(tr("Cancel"), "cancelRegistration", tr("Stops; what was reached by then can be kept"));
+  connect(m_register, &QPushButton::clicked, this, &RegistrationPanel::registerAsked);
+  connect(m_refine, &QPushButton::clicked, this, &RegistrationPanel::refineAsked);
+  connect(m_cancel, &QPushButton::clicked, this, &RegistrationPanel::cancelAsked);
+  layout.addWidget(m_aim);
+  layout.addLayout(rowOf({m_register, m_refine, m_cancel}));
+  m_progress = new QProgressBar;
+  m_progress->setObjectName("registrationProgress");
+  m_progress->setRange(0, 1000);
+  m_curve = new MetricCurve;
+  m_metric = new QLabel;
+  m_metric->setObjectName("liveMetric");
+  m_metric->setToolTip(tr("Mutual information of CT and MR as they lie now; higher is better"));
+  layout.addWidget(m_progress);
+  layout.addWidget(m_curve);
+  layout.addWidget(m_metric);
+  layout.addWidget(m_line);
+}
+
+QWidget* RegistrationPanel::signOff()
+{
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(10, 4, 10, 8);
+  layout->setSpacing(5);
+  layout->addWidget(heading(tr("Sign-off")));
+  m_name = new QLineEdit;
+  m_name->setObjectName("signName");
+  m_name->setPlaceholderText(tr("The surgeon's name"));
+  m_name->setMaxLength(100);
+  m_sign = button(tr("Sign"), "sign",
+                  tr("I have looked at it and accept how the MR lies; void once it moves"));
+  connect(m_name, &QLineEdit::textChanged, this, &RegistrationPanel::enable);
+  connect(m_name, &QLineEdit::returnPressed, this, &RegistrationPanel::sign);
+  connect(m_sign, &QPushButton::clicked, this, &RegistrationPanel::sign);
+  layout->addLayout(rowOf({m_name, m_sign}));
+  return box;
+}
+
+void RegistrationPanel::openPoints()
+{
+  m_pointsFold->setOpen(true);
+}
+
+void RegistrationPanel::openHand()
+{
+  m_handFold->setOpen(true);
+}
+
+void RegistrationPanel::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  emit shown();
+}
+
+void RegistrationPanel::hideEvent(QHideEvent* event)
+{
+  QWidget::hideEvent(event);
+  emit hidden();
+}
+
+void RegistrationPanel::attempt(const std::function<void()>& what)
+{
+  say({});
+  try
+  {
+    what();
+  }
+  catch (const std::exception& error)
+  {
+    say(toString(error));
+  }
+}
+
+void RegistrationPanel::sign()
+{
+  const QString who = m_name->text().trimmed();
+  if (who.isEmpty() || !m_sign->isEnabled())
+    return;
+  attempt(
+      [&] {
+        m_session.signOff(bytes(who), bytes(QDateTime::currentDateTimeUtc().toString(Qt::ISODate)));
+      });
+  m_name->clear(); // the next user types their own
+}
+
+void RegistrationPanel::caseChanged()
+{
+  const QScopedValueRollback<bool> showing(m_showing, true);
+  m_mr->clear();
+  m_name->clear();
+  m_curve->clear();
+  setMetric({});
+  say({});
+  refresh();
+}
+
+void RegistrationPanel::refresh()
+{
+  const QScopedValueRollback<bool> showing(m_showing, true);
+  QStringList names;
+  for (const std::string& name : m_session.mrNames())
+    names << words(name);
+  QStringList shown;
+  for (int n = 0; n < m_mr->count(); ++n)
+    shown << m_mr->itemText(n);
+  if (names != shown)
+  {
+    m_mr->clear();
+    m_mr->addItems(names);
+  }
+  m_mr->setCurrentText(words(m_session.mr()));
+  m_state->setText(m_session.part()
+                       ? words(m_session.stateInWords())
+                       : tr("The case has no MR; add one with File > Open DICOM… or Open files…"));
+  m_state->setStyleSheet(stateStyle(m_session.part()));
+  m_error->setText(m_session.part() ? errorText(*m_session.part()) : QString());
+  m_error->setVisible(!m_error->text().isEmpty());
+  m_aim->refresh();
+  m_handles->refresh();
+  m_points->refresh();
+  enable();
+}
+
+void RegistrationPanel::enable()
+{
+  const bool there = m_session.part() != nullptr;
+  const bool free = there && !m_running;
+  m_mr->setEnabled(free);
+  m_overlay->setEnabled(there);
+  const bool blends = m_overlay->currentData().toInt() == static_cast<int>(OverlayMode::Blend);
+  m_opacity->setEnabled(there);
+  m_opacity->setVisible(blends);
+  m_opacityLabel->setVisible(blends);
+  m_register->setEnabled(free);
+  m_refine->setEnabled(free && m_session.part()->registered);
+  m_cancel->setEnabled(m_running);
+  m_aim->setEnabled(free);
+  m_handles->setEnabled(free);
+  m_points->setEnabled(free);
+  m_undo->setEnabled(free && m_session.canUndo());
+  m_redo->setEnabled(free && m_session.canRedo());
+  m_remove->setEnabled(free && m_session.part()->registered);
+  m_sign->setEnabled(free && m_session.part()->registered && !m_name->text().trimmed().isEmpty());
+  m_name->setEnabled(free && m_session.part()->registered);
+}
+
+void RegistrationPanel::setOverlay(const std::optional<OverlayMode>& mode, double opacity)
+{
+  const QScopedValueRollback<bool> showing(m_showing, true);
+  m_overlay->setCurrentIndex(m_overlay->findData(mode ? static_cast<int>(*mode) : kOff));
+  m_opacity->setValue(static_cast<int>(100.0 * opacity + 0.5));
+  enable();
+}
+
+void RegistrationPanel::setRunning(bool running)
+{
+  m_running = running;
+  m_progress->setVisible(running);
+  m_progress->setValue(0);
+  enable();
+}
+
+void RegistrationPanel::setProgress(double fraction, const QString& text)
+{
+  m_progress->setValue(static_cast<int>(1000.0 * fraction));
+  m_progress->setFormat(text);
+}
+
+void RegistrationPanel::setMetric(const QString& text)
+{
+  m_metric->setText(text);
+  m_metric->setVisible(!text.isEmpty());
+}
+
+void RegistrationPanel::say(const QString& line)
+{
+  m_line->setText(line);
+  m_line->setVisible(!line.isEmpty());
+}
+
+} // namespace petrous::workstation

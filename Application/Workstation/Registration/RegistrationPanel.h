@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+
+#include <QWidget>
+
+#include "petrous/Presenters/RegistrationSession.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+class QSlider;
+class QVBoxLayout;
+
+namespace petrous::workstation
+{
+
+class RegistrationTargetBox;
+class FoldBox;
+class HandlesBox;
+class LandmarksBox;
+class MetricCurve;
+
+/// Registration of an MR of the case: display, fit, manual motion, landmarks, sign-off.
+class RegistrationPanel : public QWidget
+{
+  Q_OBJECT
+public:
+  explicit RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent = nullptr);
+
+  void caseChanged(); ///< another case, or other MRs in it
+  void refresh();     ///< registration, landmarks, undo state
+  void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
+  void setRunning(bool running);
+  void setProgress(double fraction, const QString& text);
+  void setMetric(const QString& text); ///< at the current registration
+  void say(const QString& line);       ///< an error, or what to do next; empty: nothing
+  void openPoints();
+  void openHand();
+  MetricCurve& curve() { return *m_curve; }
+
+signals:
+  void overlayChosen(const std::optional<petrous::presenters::OverlayMode>& mode);
+  void opacityChosen(double opacity);
+  void mrChosen();
+  void registerAsked();
+  void refineAsked(); ///< from the current registration
+  void cancelAsked();
+  void pointAsked();     ///< of a pair, at the crosshair
+  void landmarksAsked(); ///< apply the landmark fit
+  void landmarksChanged();
+  void aimChosen();
+  void shown();
+  void hidden(); ///< the metric is no longer needed
+
+protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+private:
+  void addSteps(QVBoxLayout& layout);
+  void addSeeing(QVBoxLayout& layout);
+  void addRunning(QVBoxLayout& layout);
+  QWidget* signOff();
+  void attempt(const std::function<void()>& what); ///< reports exceptions
+  void sign();
+  void enable();
+
+  presenters::RegistrationSession& m_session;
+  QComboBox* m_mr;
+  QLabel* m_state;
+  QLabel* m_error;
+  QLabel* m_line;
+  QComboBox* m_overlay;
+  QSlider* m_opacity;
+  QWidget* m_opacityLabel;
+  QPushButton* m_undo;
+  QPushButton* m_redo;
+  QPushButton* m_remove;
+  QPushButton* m_register;
+  QPushButton* m_refine;
+  QPushButton* m_cancel;
+  QProgressBar* m_progress;
+  MetricCurve* m_curve;
+  QLabel* m_metric;
+  RegistrationTargetBox* m_aim;
+  HandlesBox* m_handles;
+  LandmarksBox* m_points;
+  FoldBox* m_pointsFold;
+  FoldBox* m_handFold;
+  QLineEdit* m_name;
+  QPushButton* m_sign;
+  bool m_running = false;
+  bool m_showing = false; // values are being set from the case
+};
+
+} // namespace petrous::workstation

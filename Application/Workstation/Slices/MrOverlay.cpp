@@ -1,0 +1,122 @@
+#include "MrOverlay.h"
+
+#include <utility>
+
+#include <QApplication>
+
+#include "Application.h"
+#include "SliceColumn.h"
+#include "SliceView.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+using presenters::OverlayMode;
+
+MrOverlay::MrOverlay(presenters::RegistrationSession& session, SliceColumn& slices, QObject* parent)
+  : QObject(parent)
+  , m_session(session)
+  , m_slices(slices)
+{
+}
+
+void MrOverlay::reset()
+{
+  m_overlay.reset();
+  m_best.reset();
+  set(std::nullopt, m_opacity);
+}
+
+void MrOverlay::set(const Mode& mode, double opacity)
+{
+  m_mode = mode;
+  m_opacity = opacity;
+  m_alone.reset();
+  emit changed();
+  refresh();
+}
+
+void MrOverlay::flick()
+{
+  if (m_session.part())
+    showAlone(!(m_alone && *m_alone == 1.0));
+}
+
+void MrOverlay::showAlone(bool mr)
+{
+  m_alone = mr ? 1.0 : 0.0;
+  refresh();
+}
+
+void MrOverlay::next()
+{
+  if (!m_session.part())
+    return;
+  if (m_alone)
+    set(m_mode, m_opacity); // back from one image alone
+  else if (!m_mode)
+    set(OverlayMode::Blend, m_opacity);
+  else if (*m_mode == OverlayMode::Checker)
+    set(std::nullopt, m_opacity);
+  else
+    set(static_cast<OverlayMode>(static_cast<int>(*m_mode) + 1), m_opacity);
+}
+
+void MrOverlay::setUnderWay(const std::optional<core::RigidTransform>& best)
+{
+  m_best = best;
+  if (seen())
+    refresh();
+}
+
+bool MrOverlay::load(const scene::ImagePart& part)
+{
+  if (m_overlay && m_overlayOf == part.name)
+    return true;
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  try
+  {
+    m_overlay = presenters::overlayOf(part);
+    m_overlayOf = part.name;
+  }
+  catch (const std::exception& error)
+  {
+    m_overlay.reset();
+    emit statusMessage(toString(error));
+  }
+  QApplication::restoreOverrideCursor();
+  return m_overlay.has_value();
+}
+
+void MrOverlay::refresh()
+{
+  const scene::ImagePart* part = m_session.part();
+  const bool ctAlone = m_alone && *m_alone == 0.0;
+  if (!seen())
+    m_overlay.reset(); // frees the MR
+  if (!part || ctAlone || !seen())
+  {
+    m_slices.setOverlay(nullptr);
+    m_slices.setNotice(part && ctAlone ? tr("CT alone (V)") : QString());
+    return;
+  }
+  if (!load(*part))
+    return m_slices.setOverlay(nullptr);
+  presenters::SliceOverlay overlay = *m_overlay;
+  overlay.mrFromCt = m_best.value_or(part->mrFromCt);
+  overlay.registered = part->registered;
+  overlay.mode = m_alone ? OverlayMode::Blend : *m_mode;
+  overlay.opacity = m_alone.value_or(m_opacity);
+  m_slices.setOverlay(std::make_shared<const presenters::SliceOverlay>(std::move(overlay)));
+  QString notice = words(part->name);
+  if (m_alone)
+    notice = tr("%1 alone (V)").arg(notice);
+  if (m_best)
+    notice += tr(": being registered");
+  else if (!part->registered)
+    notice += tr(": not registered");
+  m_slices.setNotice(notice);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include <QSplitter>
+
+#include "petrous/Presenters/SlicePresenter.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+class SliceView;
+struct SliceMark;
+
+/// The axial, coronal and sagittal view stacked vertically, with one crosshair and grey window.
+class SliceColumn : public QSplitter
+{
+  Q_OBJECT
+public:
+  explicit SliceColumn(presenters::WorkstationModel& model, QWidget* parent = nullptr);
+
+  void caseChanged();
+  void clear(); ///< no case is open
+  void appearanceChanged();
+  void crosshairMoved();
+  void maskChanged(const core::IndexBox& box); ///< of CT voxels
+
+  void boneWindow(); ///< width 4000, level 700 HU, or equivalent
+  void softWindow(); ///< width 400, level 40 HU
+  void fit();
+
+  void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or nullptr
+  void setNotice(const QString& text);
+  void setRegion(double edge); ///< as SliceView
+  void setMarks(const std::vector<SliceMark>& marks);
+
+signals:
+  void pointed(const Eigen::Vector3d& patient);
+  void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
+  void turnAsked(const Eigen::Vector3d& axis, double degrees);
+
+private:
+  void setGreyWindow(const presenters::GreyWindow& window);
+
+  presenters::WorkstationModel& m_model;
+  std::array<SliceView*, 3> m_views;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include <QColor>
+#include <QPointF>
+#include <QString>
+
+#include "petrous/Presenters/SliceGeometry.h"
+
+class QPainter;
+
+namespace petrous::workstation
+{
+
+/// A numbered point, shown in slices near it.
+struct SliceMark
+{
+  Eigen::Vector3d patient; ///< LPS mm
+  QString name;
+  QColor color;
+};
+
+/// Marks within a millimetre of the slice, which contains `at` (patient, LPS mm).
+void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
+                const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
+
+/// Intersection of the slice with a cube of this edge (mm) centred at `at`.
+void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
+               const Eigen::Vector3d& at);
+
+/// In the painter's font, readable on bone and on air alike.
+void drawText(QPainter& painter, const QPointF& baseline, const QString& text, const QColor& color);
+
+} // namespace petrous::workstation

@@ -1,0 +1,397 @@
+#include "SliceView.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+
+#include "SliceMarks.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+using presenters::SliceOrientation;
+
+constexpr double kHuPerPixel = 8.0;
+constexpr double kMinHu = 10.0; // of a grey window
+constexpr int kMargin = 8;
+constexpr double kGap = 9.0; // of the crosshair, pixels
+
+// The planes represented by a view's vertical and horizontal line.
+std::pair<SliceOrientation, SliceOrientation> linesOf(SliceOrientation view)
+{
+  switch (view)
+  {
+  case SliceOrientation::Axial:
+    return {SliceOrientation::Sagittal, SliceOrientation::Coronal};
+  case SliceOrientation::Coronal:
+    return {SliceOrientation::Sagittal, SliceOrientation::Axial};
+  case SliceOrientation::Sagittal:
+    break;
+  }
+  return {SliceOrientation::Coronal, SliceOrientation::Axial};
+}
+} // namespace
+
+SliceView::SliceView(SliceOrientation orientation, QWidget* parent)
+  : QWidget(parent)
+  , m_orientation(orientation)
+{
+  setObjectName(QString(presenters::nameOf(orientation)).toLower() + "View");
+  setAccessibleName(QString(presenters::nameOf(orientation)) + " slice");
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setMinimumSize(140, 120);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setCursor(Qt::CrossCursor);
+}
+
+void SliceView::setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
+                             const core::GridGeometry& grid)
+{
+  m_presenter = std::move(presenter);
+  m_grid = grid;
+  stale();
+}
+
+void SliceView::fit()
+{
+  m_zoom = 1.0;
+  m_offset.setZero();
+  stale();
+}
+
+void SliceView::setCrosshair(const Eigen::Vector3d& patient)
+{
+  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  if (std::abs(next.dot(patient - m_crosshair)) > 1e-9)
+    m_stale = true;
+  m_crosshair = patient;
+  update();
+}
+
+void SliceView::setGreyWindow(const presenters::GreyWindow& window)
+{
+  m_window = window;
+  stale();
+}
+
+void SliceView::setIntensityDisplay(const presenters::IntensityDisplay& display)
+{
+  m_display = display;
+  update();
+}
+
+void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay)
+{
+  if (!overlay && !m_overlay)
+    return;
+  m_overlay = std::move(overlay);
+  stale();
+}
+
+void SliceView::setNotice(const QString& text)
+{
+  m_notice = text;
+  update();
+}
+
+void SliceView::setMarks(std::vector<SliceMark> marks)
+{
+  m_marks = std::move(marks);
+  update();
+}
+
+void SliceView::setRegion(double edge)
+{
+  m_region = edge;
+  update();
+}
+
+void SliceView::setReadout(const QString& text)
+{
+  m_readout = text;
+  update();
+}
+
+void SliceView::maskChanged(const core::PatientBox& box)
+{
+  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  if (std::abs(next.dot(m_crosshair - box.center())) <= 0.5 * next.cwiseAbs().dot(box.sizes()))
+    stale();
+}
+
+void SliceView::stale()
+{
+  m_stale = true;
+  update();
+}
+
+presenters::SliceGeometry SliceView::slice() const
+{
+  const auto whole = presenters::SliceGeometry::fitting(
+      m_orientation, m_grid, m_crosshair, std::max(width(), 1), std::max(height(), 1));
+  return {m_orientation, whole.center() + m_offset, whole.mmPerPixel() / m_zoom, whole.width(),
+          whole.height()};
+}
+
+Eigen::Vector3d SliceView::patientAt(const QPointF& position) const
+{
+  return slice().patientFromPixel(position.x() - 0.5, position.y() - 0.5);
+}
+
+void SliceView::paintEvent(QPaintEvent*)
+{
+  QPainter painter(this);
+  painter.fillRect(rect(), QColor("#0b0d10"));
+  if (!m_presenter)
+    return;
+  const auto picture = slice();
+  if (m_stale)
+  {
+    const auto pixels = m_presenter->draw(picture, m_window, m_overlay.get());
+    m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
+                     QImage::Format_RGB888)
+                  .copy();
+    m_stale = false;
+  }
+  painter.drawImage(rect(), m_image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (m_region > 0.0)
+    paintCube(painter, m_region, picture, m_crosshair);
+  paintMarks(painter, m_marks, picture, m_crosshair);
+  paintCrosshair(painter);
+  paintLetters(painter);
+  paintScaleBar(painter);
+  if (hasFocus())
+  {
+    painter.setPen(QPen(planeColor(m_orientation), 1.0));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+  }
+}
+
+void SliceView::paintCrosshair(QPainter& painter) const
+{
+  const Eigen::Vector2d at = slice().pixelFromPatient(m_crosshair) + Eigen::Vector2d(0.5, 0.5);
+  const auto [vertical, horizontal] = linesOf(m_orientation);
+  const auto pen = [](SliceOrientation plane)
+  {
+    QColor color = planeColor(plane);
+    color.setAlpha(190);
+    return QPen(color, 1.0);
+  };
+  painter.setPen(pen(vertical));
+  painter.drawLine(QPointF(at[0], 0.0), QPointF(at[0], at[1] - kGap));
+  painter.drawLine(QPointF(at[0], at[1] + kGap), QPointF(at[0], height()));
+  painter.setPen(pen(horizontal));
+  painter.drawLine(QPointF(0.0, at[1]), QPointF(at[0] - kGap, at[1]));
+  painter.drawLine(QPointF(at[0] + kGap, at[1]), QPointF(width(), at[1]));
+}
+
+void SliceView::paintLetters(QPainter& painter) const
+{
+  QFont font = painter.font();
+  font.setPixelSize(15);
+  font.setBold(true);
+  painter.setFont(font);
+  const QFontMetricsF metrics(font);
+  const QColor color("#f2f5f8");
+  const auto letters = slice().edgeLetters();
+  const double middle = 0.5 * height() + 0.35 * metrics.ascent();
+  const auto letter = [](char c) { return QString(QLatin1Char(c)); };
+  drawText(painter, {double(kMargin), middle}, letter(letters.left), color);
+  const double right = width() - kMargin - metrics.horizontalAdvance(letter(letters.right));
+  drawText(painter, {right, middle}, letter(letters.right), color);
+  const double across = 0.5 * (width() - metrics.horizontalAdvance(letter(letters.top)));
+  drawText(painter, {across, kMargin + metrics.ascent()}, letter(letters.top), color);
+  drawText(painter, {across, double(height() - kMargin)}, letter(letters.bottom), color);
+
+  font.setPixelSize(12);
+  painter.setFont(font);
+  drawText(painter, {double(kMargin), kMargin + 11.0}, presenters::nameOf(m_orientation),
+           planeColor(m_orientation));
+  font.setBold(false);
+  painter.setFont(font);
+  drawText(painter, {double(kMargin), kMargin + 27.0}, m_notice, QColor("#f0a04d"));
+  drawText(painter, {double(kMargin), double(height() - kMargin)}, m_readout, color);
+  if (underMouse())
+  {
+    const QString grey =
+        QString("W %1  L %2")
+            .arg(words(m_display.number(m_window.width)), words(m_display.number(m_window.level)));
+    const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
+    drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
+  }
+}
+
+void SliceView::paintScaleBar(QPainter& painter) const
+{
+  const auto picture = slice();
+  const double length = presenters::scaleBarLength(0.28 * width() * picture.mmPerPixel());
+  if (length <= 0.0)
+    return;
+  const double pixels = length / picture.mmPerPixel();
+  const double right = width() - kMargin - 1.0;
+  const double bottom = height() - kMargin - 1.0;
+  QPainterPath bar;
+  bar.moveTo(right - pixels, bottom - 5.0);
+  bar.lineTo(right - pixels, bottom);
+  bar.lineTo(right, bottom);
+  bar.lineTo(right, bottom - 5.0);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(QColor(0, 0, 0, 200), 3.5));
+  painter.drawPath(bar);
+  painter.setPen(QPen(QColor("#f2f5f8"), 1.5));
+  painter.drawPath(bar);
+  const QString text = QString("%1 mm").arg(length);
+  const double at = right - 0.5 * (pixels + QFontMetricsF(painter.font()).horizontalAdvance(text));
+  drawText(painter, {at, bottom - 8.0}, text, QColor("#f2f5f8"));
+}
+
+void SliceView::resizeEvent(QResizeEvent*)
+{
+  stale();
+}
+
+void SliceView::mousePressEvent(QMouseEvent* event)
+{
+  setFocus(Qt::MouseFocusReason);
+  m_dragged = event->localPos();
+  if (m_presenter && event->button() == Qt::LeftButton)
+    emit crosshairMoved(patientAt(event->localPos()));
+}
+
+void SliceView::mouseMoveEvent(QMouseEvent* event)
+{
+  if (!m_presenter)
+    return;
+  const QPointF step = event->localPos() - m_dragged;
+  m_dragged = event->localPos();
+  if (event->buttons() & Qt::LeftButton)
+    emit crosshairMoved(patientAt(event->localPos()));
+  else if (event->buttons() & Qt::RightButton)
+  {
+    const double perPixel = kHuPerPixel * m_display.unit;
+    const double width = std::max(m_window.width + perPixel * step.x(), kMinHu * m_display.unit);
+    emit greyWindowChanged({width, m_window.level - 0.5 * perPixel * step.y()});
+  }
+  else if (event->buttons() & Qt::MiddleButton)
+  {
+    const auto axes = presenters::axesOf(m_orientation);
+    m_offset -= slice().mmPerPixel() * (step.x() * axes.right + step.y() * axes.down);
+    stale();
+  }
+  emit pointed(patientAt(event->localPos()));
+}
+
+void SliceView::wheelEvent(QWheelEvent* event)
+{
+  const double notches = event->angleDelta().y() / 120.0;
+  if (event->modifiers() & Qt::ControlModifier)
+    zoom(std::pow(1.2, notches));
+  else if (notches != 0.0)
+    scroll(notches > 0.0 ? std::max(1, static_cast<int>(notches))
+                         : std::min(-1, static_cast<int>(notches)));
+  event->accept();
+}
+
+void SliceView::scroll(int slices)
+{
+  if (!m_presenter)
+    return;
+  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  // One voxel along the grid axis closest to the slice normal.
+  const double step = 1.0 / (m_grid.voxelFromPatientLinear() * next).cwiseAbs().maxCoeff();
+  emit crosshairMoved(m_crosshair + slices * step * next);
+}
+
+void SliceView::zoom(double factor)
+{
+  if (!m_presenter)
+    return;
+  // What is under the crosshair stays there.
+  const Eigen::Vector2d before = slice().pixelFromPatient(m_crosshair);
+  m_zoom = std::clamp(m_zoom * factor, 1.0, 40.0);
+  const auto picture = slice();
+  const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - before;
+  const auto axes = presenters::axesOf(m_orientation);
+  m_offset += picture.mmPerPixel() * (off[0] * axes.right + off[1] * axes.down);
+  if (m_zoom == 1.0)
+    m_offset.setZero();
+  stale();
+}
+
+// Steps of 0.1, with Shift 1, millimetre or degree.
+bool SliceView::moveMr(const QKeyEvent& event)
+{
+  if (!(event.modifiers() & Qt::AltModifier) || !m_overlay)
+    return false;
+  const auto axes = presenters::axesOf(m_orientation);
+  const double step = event.modifiers() & Qt::ShiftModifier ? 1.0 : 0.1;
+  switch (event.key())
+  {
+  case Qt::Key_Left:
+    emit moveAsked(-step * axes.right);
+    return true;
+  case Qt::Key_Right:
+    emit moveAsked(step * axes.right);
+    return true;
+  case Qt::Key_Up:
+    emit moveAsked(-step * axes.down);
+    return true;
+  case Qt::Key_Down:
+    emit moveAsked(step * axes.down);
+    return true;
+  case Qt::Key_PageUp: // counterclockwise on the screen
+    emit turnAsked(axes.right.cross(axes.down), -step);
+    return true;
+  case Qt::Key_PageDown:
+    emit turnAsked(axes.right.cross(axes.down), step);
+    return true;
+  default:
+    return false;
+  }
+}
+
+void SliceView::keyPressEvent(QKeyEvent* event)
+{
+  if (moveMr(*event))
+    return;
+  const auto axes = presenters::axesOf(m_orientation);
+  const double step = m_grid.minSpacing();
+  switch (event->key())
+  {
+  case Qt::Key_PageUp:
+    return scroll(1);
+  case Qt::Key_PageDown:
+    return scroll(-1);
+  case Qt::Key_Left:
+    emit crosshairMoved(m_crosshair - step * axes.right);
+    return;
+  case Qt::Key_Right:
+    emit crosshairMoved(m_crosshair + step * axes.right);
+    return;
+  case Qt::Key_Up:
+    emit crosshairMoved(m_crosshair - step * axes.down);
+    return;
+  case Qt::Key_Down:
+    emit crosshairMoved(m_crosshair + step * axes.down);
+    return;
+  case Qt::Key_Plus:
+  case Qt::Key_Equal:
+    return zoom(1.2);
+  case Qt::Key_Minus:
+    return zoom(1.0 / 1.2);
+  default:
+    QWidget::keyPressEvent(event);
+  }
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <QImage>
+#include <QWidget>
+
+#include "SliceMarks.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SlicePresenter.h"
+
+namespace petrous::workstation
+{
+
+/// One slice with its crosshair, orientation letters, scale bar and read-out; painted, no OpenGL.
+///
+/// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
+/// zooms, middle drag pans. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
+class SliceView : public QWidget
+{
+  Q_OBJECT
+public:
+  explicit SliceView(presenters::SliceOrientation orientation, QWidget* parent = nullptr);
+
+  /// Another case, or another appearance of it. nullptr: nothing to show.
+  void setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
+                    const core::GridGeometry& grid);
+  void fit(); ///< the whole slice
+  void setCrosshair(const Eigen::Vector3d& patient);
+  void setGreyWindow(const presenters::GreyWindow& window);
+  void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
+  void setReadout(const QString& text); ///< values under the crosshair
+  void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< nullptr: CT alone
+  void setNotice(const QString& text); ///< a note on what is shown
+  void setMarks(std::vector<SliceMark> marks);
+  void setRegion(double edge); ///< edge of the cube about the crosshair to fit in, mm; 0: none
+  void maskChanged(const core::PatientBox& box);
+
+  /// The displayed slice; requires a presenter.
+  presenters::SliceGeometry slice() const;
+
+signals:
+  void crosshairMoved(const Eigen::Vector3d& patient);
+  void greyWindowChanged(const petrous::presenters::GreyWindow& window);
+  void pointed(const Eigen::Vector3d& patient);
+  void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
+  void turnAsked(const Eigen::Vector3d& axis, double degrees);
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+private:
+  Eigen::Vector3d patientAt(const QPointF& position) const;
+  void scroll(int slices);
+  void zoom(double factor);
+  void stale();
+  void paintCrosshair(QPainter& painter) const;
+  void paintLetters(QPainter& painter) const;
+  void paintScaleBar(QPainter& painter) const;
+  bool moveMr(const QKeyEvent& event);
+
+  presenters::SliceOrientation m_orientation;
+  std::shared_ptr<const presenters::SlicePresenter> m_presenter;
+  core::GridGeometry m_grid;
+  Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
+  Eigen::Vector3d m_offset = Eigen::Vector3d::Zero(); // of the picture's centre, in the plane, mm
+  double m_zoom = 1.0;
+  presenters::GreyWindow m_window;
+  presenters::IntensityDisplay m_display;
+  std::shared_ptr<const presenters::SliceOverlay> m_overlay;
+  QString m_notice;
+  std::vector<SliceMark> m_marks;
+  double m_region = 0.0;
+  QString m_readout;
+  QImage m_image;
+  bool m_stale = true;
+  QPointF m_dragged;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,166 @@
+#include "NearbyModel.h"
+
+#include <algorithm>
+
+#include <QColor>
+#include <QPainter>
+#include <QPixmap>
+#include <QPolygonF>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+using presenters::NearbyStructure;
+using State = NearbyStructure::State;
+
+constexpr int kSign = 16; // px
+const QColor kAmber("#e0a020");
+const QColor kRed("#e04848");
+
+bool harmed(const NearbyStructure& structure)
+{
+  return structure.state == State::Touched || structure.injured > 0.0;
+}
+
+// A dot in the structure's colour; a triangle with a bar if it is near; an octagon with a cross if
+// it is touched or injured.
+QPixmap signOf(const NearbyStructure& structure)
+{
+  QPixmap pixmap(kSign, kSign);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  QPen mark(QColor("#14171b"), 2.0);
+  mark.setCapStyle(Qt::RoundCap);
+  if (harmed(structure))
+  {
+    painter.setBrush(kRed);
+    painter.drawPolygon(
+        QPolygonF({{5, 1}, {11, 1}, {15, 5}, {15, 11}, {11, 15}, {5, 15}, {1, 11}, {1, 5}}));
+    mark.setColor(Qt::white);
+    painter.setPen(mark);
+    painter.drawLine(QPointF(5.5, 5.5), QPointF(10.5, 10.5));
+    painter.drawLine(QPointF(10.5, 5.5), QPointF(5.5, 10.5));
+  }
+  else if (structure.state == State::Warned)
+  {
+    painter.setBrush(kAmber);
+    painter.drawPolygon(QPolygonF({{8, 1}, {15.5, 15}, {0.5, 15}}));
+    painter.setPen(mark);
+    painter.drawLine(QPointF(8.0, 6.0), QPointF(8.0, 9.5));
+    painter.drawPoint(QPointF(8.0, 12.5));
+  }
+  else
+  {
+    painter.setBrush(QColor::fromRgbF(double(structure.color[0]), double(structure.color[1]),
+                                      double(structure.color[2])));
+    painter.drawEllipse(QRectF(4.0, 4.0, 8.0, 8.0));
+  }
+  return pixmap;
+}
+
+QString distanceOf(const NearbyStructure& structure)
+{
+  return NearbyModel::tr("%1 mm ± %2")
+      .arg(structure.distance, 0, 'f', 1)
+      .arg(structure.uncertainty.millimetres(), 0, 'f', 1);
+}
+
+QString noteOf(const NearbyStructure& structure)
+{
+  QStringList notes;
+  if (structure.state == State::Touched)
+    notes += NearbyModel::tr("touched");
+  else if (structure.state == State::Warned)
+    notes += NearbyModel::tr("within %1 mm").arg(structure.warning, 0, 'f', 1);
+  else if (!(structure.distance > 0.0)) // a lumen
+    notes += NearbyModel::tr("open");
+  if (structure.injured > 0.0)
+    notes += NearbyModel::tr("injured, %1 taken")
+                 .arg(words(presenters::cubicMillimetres(structure.injured)));
+  if (structure.uncertainty.incomplete())
+    notes += NearbyModel::tr("registration's error unknown");
+  return notes.isEmpty() ? NearbyModel::tr("clear") : notes.join(", ");
+}
+
+} // namespace
+
+void NearbyModel::show(std::vector<presenters::NearbyStructure> structures)
+{
+  if (structures.size() != m_rows.size())
+  {
+    beginResetModel();
+    m_rows = std::move(structures);
+    return endResetModel();
+  }
+  m_rows = std::move(structures);
+  if (!m_rows.empty())
+    emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+}
+
+int NearbyModel::rowCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+}
+
+int NearbyModel::columnCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(ColumnCount);
+}
+
+QVariant NearbyModel::data(const QModelIndex& index, int role) const
+{
+  if (!index.isValid() || index.row() >= rowCount())
+    return {};
+  const NearbyStructure& row = m_rows[static_cast<std::size_t>(index.row())];
+  if (role == Qt::ForegroundRole && index.column() != Name)
+    return harmed(row)                  ? QVariant(QColor("#ff8f8f"))
+           : row.state == State::Warned ? QVariant(QColor("#f2c04e"))
+                                        : QVariant();
+  if (role == Qt::ToolTipRole)
+    return tr("%1: %2\nIts surface is known to ±%3 mm: %4")
+        .arg(words(row.name).replace('_', ' '))
+        .arg(noteOf(row))
+        .arg(row.uncertainty.millimetres(), 0, 'f', 2)
+        .arg(words(toString(row.uncertainty)));
+  if (role == Qt::DecorationRole && index.column() == Name)
+    return signOf(row);
+  if (role == Qt::TextAlignmentRole && index.column() == Distance)
+    return int(Qt::AlignRight | Qt::AlignVCenter);
+  if (role != Qt::DisplayRole)
+    return {};
+  switch (index.column())
+  {
+  case Name:
+    return words(row.name).replace('_', ' ');
+  case Distance:
+    return distanceOf(row);
+  default:
+    return noteOf(row);
+  }
+}
+
+QVariant NearbyModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+  if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
+    return {};
+  static const char* const titles[] = {"Structure", "From the burr", ""};
+  static const char* const tips[] = {
+      "The nearest first",
+      "From the burr's ball to the structure's surface, and how well that "
+      "surface is known to either side",
+      "Whether the burr is within the warning distance, and what was taken"};
+  if (role == Qt::DisplayRole)
+    return tr(titles[section]);
+  if (role == Qt::ToolTipRole)
+    return tr(tips[section]);
+  return {};
+}
+
+} // namespace petrous::workstation

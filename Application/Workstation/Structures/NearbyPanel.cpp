@@ -1,0 +1,137 @@
+#include "NearbyPanel.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include "NearbyModel.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kAgain = 60; // ms; faster than anyone can read
+}
+
+NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
+  : QWidget(parent)
+  , m_model(model)
+  , m_structures(new NearbyModel(this))
+  , m_removed(new QLabel)
+  , m_line(new QLabel)
+{
+  auto* list = new QTreeView;
+  list->setObjectName("nearby");
+  list->setModel(m_structures);
+  list->setRootIsDecorated(false);
+  list->setUniformRowHeights(true);
+  list->setSelectionMode(QAbstractItemView::NoSelection);
+  list->setFocusPolicy(Qt::NoFocus); // the view keeps the keyboard focus
+  list->header()->setSectionsMovable(false);
+  list->header()->setSectionResizeMode(NearbyModel::Name, QHeaderView::ResizeToContents);
+  list->header()->setSectionResizeMode(NearbyModel::Distance, QHeaderView::ResizeToContents);
+  list->header()->setSectionResizeMode(NearbyModel::Note, QHeaderView::Stretch);
+  list->header()->setStretchLastSection(false);
+  m_removed->setObjectName("removed");
+  m_line->setObjectName("dim");
+  m_line->setWordWrap(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  for (QLabel* label : {m_removed, m_line})
+    label->setContentsMargins(10, 6, 10, 6);
+  layout->addWidget(m_removed);
+  layout->addWidget(list, 1);
+  layout->addWidget(m_line);
+  setMinimumWidth(280);
+  burrGone();
+}
+
+void NearbyPanel::say(const QString& line)
+{
+  m_line->setText(line);
+  m_line->setVisible(!line.isEmpty());
+}
+
+void NearbyPanel::caseChanged()
+{
+  burrGone();
+  stateChanged();
+}
+
+void NearbyPanel::stateChanged()
+{
+  if (!m_model.hasCase() || !isVisible())
+    return;
+  showRemoved();
+  m_sinceAsked.invalidate();
+}
+
+// Includes the open stroke.
+void NearbyPanel::showRemoved()
+{
+  const scene::Case& value = m_model.value();
+  const auto& open = m_model.strokeSoFar();
+  const std::size_t strokes = value.applied() + (open.total > 0.0 ? 1 : 0);
+  QString text = tr("Removed: %1 mm³ in %2 %3")
+                     .arg(value.removedVolume() + open.total, 0, 'f', 1)
+                     .arg(strokes)
+                     .arg(strokes == 1 ? tr("stroke") : tr("strokes"));
+  for (const auto& [name, volume] : presenters::injuredVolumes(value, open))
+    text += tr("\nInjured: %1, %2")
+                .arg(words(name).replace('_', ' '))
+                .arg(words(presenters::cubicMillimetres(volume)));
+  m_removed->setText(text);
+}
+
+void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
+{
+  m_hasBurr = true;
+  if (!isVisible() || (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain))
+    return;
+  m_sinceAsked.start();
+  showRemoved();
+  try
+  {
+    auto near = m_model.nearby(center, radius);
+    if (!near)
+      return say(tr("Measuring the structures…"));
+    say(near->empty() ? tr("No structure that is shown lies within %1 mm of the burr")
+                            .arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
+                      : QString());
+    m_structures->show(std::move(*near));
+  }
+  catch (const std::exception& error) // out of memory, a missing file
+  {
+    m_structures->show({});
+    say(tr("The structures cannot be measured: %1").arg(words(error.what())));
+  }
+}
+
+void NearbyPanel::burrGone()
+{
+  m_hasBurr = false;
+  m_structures->show({});
+  m_sinceAsked.invalidate();
+  say(tr("Take up the burr (D) to see how far the structures are from it"));
+}
+
+void NearbyPanel::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  stateChanged();
+}
+
+void NearbyPanel::hideEvent(QHideEvent* event)
+{
+  QWidget::hideEvent(event);
+  const bool needed = m_hasBurr; // for warnings
+  burrGone();
+  if (!needed)
+    m_model.forgetNearby();
+}
+
+} // namespace petrous::workstation

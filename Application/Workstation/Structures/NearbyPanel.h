@@ -1,0 +1,48 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QWidget>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QLabel;
+
+namespace petrous::workstation
+{
+
+class NearbyModel;
+
+/// Structures near the burr, injured ones, and the removed volume. Queries the model only while
+/// visible.
+class NearbyPanel : public QWidget
+{
+  Q_OBJECT
+public:
+  explicit NearbyPanel(presenters::WorkstationModel& model, QWidget* parent = nullptr);
+
+  void caseChanged();
+  void stateChanged(); ///< strokes
+
+  /// The burr's centre, patient LPS mm, and radius, mm.
+  void burrMoved(const Eigen::Vector3d& center, double radius);
+  void burrGone(); ///< it was put away
+
+  const NearbyModel& structures() const { return *m_structures; }
+
+protected:
+  void hideEvent(QHideEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
+private:
+  void say(const QString& line);
+  void showRemoved();
+
+  presenters::WorkstationModel& m_model;
+  NearbyModel* m_structures;
+  QLabel* m_removed;
+  QLabel* m_line;
+  QElapsedTimer m_sinceAsked;
+  bool m_hasBurr = false; // in use
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <QLabel>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+/// Shows the values at a point in the status bar.
+class ProbeLabel : public QLabel
+{
+  Q_OBJECT
+public:
+  explicit ProbeLabel(const presenters::WorkstationModel& model, QWidget* parent = nullptr);
+
+  void showPlace(const Eigen::Vector3d& patient); ///< LPS mm
+
+private:
+  const presenters::WorkstationModel& m_model;
+};
+
+} // namespace petrous::workstation

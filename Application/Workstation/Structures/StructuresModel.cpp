@@ -1,0 +1,243 @@
+#include "StructuresModel.h"
+
+#include <QColor>
+#include <QPainter>
+#include <QPixmap>
+
+#include "Theme.h"
+#include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+QColor colorOf(const appearance::StructureAppearance& look)
+{
+  return QColor::fromRgbF(double(look.color[0]), double(look.color[1]), double(look.color[2]));
+}
+
+QPixmap swatch(const appearance::StructureAppearance& look)
+{
+  QPixmap pixmap(12, 12);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QColor(0, 0, 0, 160));
+  painter.setBrush(colorOf(look));
+  painter.drawRoundedRect(QRectF(0.5, 0.5, 11.0, 11.0), 3.0, 3.0);
+  return pixmap;
+}
+
+bool flagOf(const appearance::StructureAppearance& look, int column)
+{
+  return column == StructuresModel::Shown       ? look.shown
+         : column == StructuresModel::Touchable ? look.touchable
+                                                : look.drillable;
+}
+} // namespace
+
+StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* parent)
+  : QAbstractTableModel(parent)
+  , m_model(model)
+{
+}
+
+std::vector<StructuresModel::Row> StructuresModel::rows() const
+{
+  std::vector<Row> rows;
+  if (!m_model.hasCase())
+    return rows;
+  const scene::Case& value = m_model.value();
+  for (const auto& part : value.labels)
+  {
+    const std::string missing = scene::placementOf(value, part).missing;
+    for (const auto& structure : part.structures)
+      rows.push_back({structure.name, structure.volume, false, structure.look, missing});
+  }
+  for (const auto& mesh : value.meshes)
+    if (!scene::findStructure(value, mesh.name))
+      rows.push_back({mesh.name, 0.0, true, mesh.look, scene::placementOf(value, mesh).missing});
+  return rows;
+}
+
+std::string StructuresModel::nameAt(const QModelIndex& index) const
+{
+  return index.isValid() && index.row() < rowCount()
+             ? m_rows[static_cast<std::size_t>(index.row())].name
+             : std::string();
+}
+
+QModelIndex StructuresModel::rowOf(const std::string& name) const
+{
+  for (int row = 0; row < rowCount(); ++row)
+    if (m_rows[static_cast<std::size_t>(row)].name == name)
+      return index(row, Name);
+  return {};
+}
+
+appearance::StructureAppearance StructuresModel::lookAt(const QModelIndex& index) const
+{
+  return index.isValid() && index.row() < rowCount()
+             ? m_rows[static_cast<std::size_t>(index.row())].look
+             : appearance::StructureAppearance();
+}
+
+void StructuresModel::caseChanged()
+{
+  beginResetModel();
+  m_rows = rows();
+  endResetModel();
+}
+
+void StructuresModel::appearanceChanged()
+{
+  auto next = rows();
+  if (next.size() != m_rows.size())
+    return caseChanged();
+  m_rows = std::move(next);
+  if (!m_rows.empty())
+    emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+}
+
+int StructuresModel::rowCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+}
+
+int StructuresModel::columnCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(ColumnCount);
+}
+
+// Why a mesh marked touchable is not; empty if it is. Evaluated for tooltips only, as it is slow.
+QString StructuresModel::untouchableText(const std::string& name) const
+{
+  const auto& value = m_model.value();
+  for (const auto& mesh : value.meshes)
+    if (mesh.name == name)
+      try
+      {
+        const std::string reason = scene::untouchable(value, mesh);
+        return reason.empty() ? QString() : tr("Not felt: %1").arg(words(reason));
+      }
+      catch (const core::Error& error)
+      {
+        return words(error.what());
+      }
+  return {};
+}
+
+QVariant StructuresModel::data(const QModelIndex& index, int role) const
+{
+  if (!index.isValid() || index.row() >= rowCount())
+    return {};
+  const Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  switch (index.column())
+  {
+  case Name:
+    if (role == Qt::DisplayRole)
+    {
+      const QString name = words(row.name).replace('_', ' ');
+      return row.missing.empty() ? name : tr("%1 (not on the CT)").arg(name);
+    }
+    if (role == Qt::DecorationRole)
+      return swatch(row.look);
+    if (role == Qt::ToolTipRole && !row.missing.empty())
+      return tr("%1 is nowhere on the CT, and neither drawn nor felt nor warned of: %2")
+          .arg(words(row.name), words(row.missing));
+    if (role == Qt::ToolTipRole)
+      return row.look.solid ? words(row.name)
+                            : tr("%1 (a space without tissue)").arg(words(row.name));
+    return {};
+  case VolumeColumn:
+    if (role == Qt::DisplayRole && !row.isMesh)
+      return QString::number(row.volume, 'f', row.volume < 10.0 ? 2 : row.volume < 100.0 ? 1 : 0);
+    if (role == Qt::TextAlignmentRole)
+      return int(Qt::AlignRight | Qt::AlignVCenter);
+    if (role == Qt::ToolTipRole)
+      return tr("Volume in mm³");
+    return {};
+  case Warning:
+    if (role == Qt::EditRole)
+      return row.look.warning;
+    if (role == Qt::DisplayRole)
+      return row.look.warning > 0.0 ? QString::number(row.look.warning, 'f', 1)
+                                    : QString::fromUtf8("–");
+    if (role == Qt::TextAlignmentRole)
+      return int(Qt::AlignRight | Qt::AlignVCenter);
+    return {};
+  default:
+    if (role == Qt::ToolTipRole && index.column() == Touchable && row.isMesh)
+      return untouchableText(row.name);
+    if (role == Qt::CheckStateRole && (flags(index) & Qt::ItemIsUserCheckable))
+      return flagOf(row.look, index.column()) ? Qt::Checked : Qt::Unchecked;
+    return {};
+  }
+}
+
+QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+  if (orientation != Qt::Horizontal)
+    return {};
+  static const char* const titles[] = {"Structure", "mm³", "Show", "Touch", "Drill", "Warn"};
+  static const char* const tips[] = {
+      "Name and colour",
+      "Volume, mm³",
+      "Drawn in 3D and outlined in the slices",
+      "Felt by the burr: part of the tissue it rests on",
+      "Taken by the drill; without the mark the drill leaves it whole",
+      "How near a burr may come before it is warned of, mm; 0: no warning. Double click to change"};
+  if (section < 0 || section >= ColumnCount)
+    return {};
+  if (role == Qt::DisplayRole)
+    return tr(titles[section]);
+  if (role == Qt::ToolTipRole)
+    return tr(tips[section]);
+  if (role == Qt::TextAlignmentRole)
+    return int((section == VolumeColumn || section == Warning ? Qt::AlignRight : Qt::AlignLeft) |
+               Qt::AlignVCenter);
+  return {};
+}
+
+Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
+{
+  if (!index.isValid())
+    return Qt::NoItemFlags;
+  Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+  if (index.column() == Warning)
+    flags |= Qt::ItemIsEditable;
+  else if (index.column() >= Shown)
+    flags |= Qt::ItemIsUserCheckable;
+  return flags;
+}
+
+bool StructuresModel::setWarning(const QModelIndex& index, double millimetres)
+{
+  if (!(millimetres >= 0.0 && millimetres <= appearance::kFarthestWarning) || m_model.drilling())
+    return false;
+  Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  row.look.warning = millimetres;
+  m_model.setLook(row.name, row.look);
+  emit dataChanged(index, index);
+  return true;
+}
+
+bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, int role)
+{
+  if (index.isValid() && index.column() == Warning && role == Qt::EditRole)
+    return setWarning(index, value.toDouble());
+  if (role != Qt::CheckStateRole || !(flags(index) & Qt::ItemIsUserCheckable) || m_model.drilling())
+    return false;
+  Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  const bool on = value.toInt() == Qt::Checked;
+  (index.column() == Shown       ? row.look.shown
+   : index.column() == Touchable ? row.look.touchable
+                                 : row.look.drillable) = on;
+  m_model.setLook(row.name, row.look);
+  emit dataChanged(index, index);
+  return true;
+}
+
+} // namespace petrous::workstation

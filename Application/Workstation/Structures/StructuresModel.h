@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <QAbstractTableModel>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+/// The structures and meshes of the open case as rows; the check boxes modify the case.
+class StructuresModel : public QAbstractTableModel
+{
+  Q_OBJECT
+public:
+  enum Column
+  {
+    Name,
+    VolumeColumn, ///< mm^3; empty for a mesh
+    Shown,
+    Touchable,
+    Drillable,
+    Warning, ///< mm; editable
+    ColumnCount
+  };
+
+  explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
+
+  std::string nameAt(const QModelIndex& index) const; ///< of the row; empty if there is none
+  QModelIndex rowOf(const std::string& name) const;   ///< invalid if there is none
+  appearance::StructureAppearance lookAt(const QModelIndex& index) const;
+
+  void caseChanged();
+  void appearanceChanged();
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+
+private:
+  struct Row
+  {
+    std::string name;
+    double volume = 0.0; ///< mm^3
+    bool isMesh = false;
+    appearance::StructureAppearance look;
+    std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
+  };
+  std::vector<Row> rows() const;
+  bool setWarning(const QModelIndex& index, double millimetres);
+  QString untouchableText(const std::string& mesh) const;
+
+  presenters::WorkstationModel& m_model;
+  std::vector<Row> m_rows;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,68 @@
+#include "ThicknessController.h"
+
+#include <QAction>
+#include <QApplication>
+
+#include "StructuresPanel.h"
+#include "Theme.h"
+#include "ThicknessLegend.h"
+#include "ThreeDView.h"
+
+namespace petrous::workstation
+{
+
+ThicknessController::ThicknessController(presenters::WorkstationModel& model, ThreeDView& view,
+                                         StructuresPanel& panel, QAction& action)
+  : QObject(&view)
+  , m_model(model)
+  , m_panel(panel)
+  , m_action(action)
+  , m_legend(new ThicknessLegend(view))
+{
+  connect(&action, &QAction::triggered, this,
+          [this](bool on)
+          {
+            const QString chosen = m_panel.chosen();
+            if (on && chosen.isEmpty())
+              emit statusMessage(tr("Choose a structure in the list (F9) first"));
+            showOver(on ? chosen : QString());
+          });
+  connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
+}
+
+void ThicknessController::showOver(const QString& structure)
+{
+  const std::string wanted = bytes(structure);
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  QString why;
+  try
+  {
+    m_model.showThickness(wanted == m_model.thicknessOver() ? std::string() : wanted);
+  }
+  catch (const core::Error& error)
+  {
+    why = words(error.what());
+  }
+  catch (const std::exception&)
+  {
+    why = tr("The thickness cannot be measured: the computer has no room for it");
+  }
+  QApplication::restoreOverrideCursor();
+  if (!why.isEmpty())
+    emit statusMessage(why);
+  bringUpToDate();
+}
+
+void ThicknessController::bringUpToDate()
+{
+  const QString over = words(m_model.thicknessOver()).replace('_', ' ');
+  m_legend->setStructure(over);
+  m_action.setChecked(!over.isEmpty());
+}
+
+void ThicknessController::caseChanged()
+{
+  bringUpToDate();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,74 @@
+#include "Application.h"
+
+#include <new>
+
+#include "Theme.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+// Queued: the receiver may be partly destroyed.
+void notifyApplication(const QString& why)
+{
+  auto* application = qobject_cast<Application*>(QCoreApplication::instance());
+  if (application)
+    QMetaObject::invokeMethod(
+        application, [application, why] { emit application->faulted(why); }, Qt::QueuedConnection);
+}
+
+} // namespace
+
+Application::Application(int& argc, char** argv)
+  : QApplication(argc, argv)
+{
+}
+
+bool Application::notify(QObject* receiver, QEvent* event)
+{
+  bool handled = false;
+  guarded([&] { handled = QApplication::notify(receiver, event); });
+  return handled;
+}
+
+void guarded(const std::function<void()>& work,
+             const std::function<void(const QString&)>& notify) noexcept
+{
+  try
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::exception& error)
+    {
+      notify(toString(error));
+    }
+    catch (...)
+    {
+      notify(QObject::tr("An unexpected fault."));
+    }
+  }
+  catch (...) // no memory even for a message
+  {
+  }
+}
+
+void guarded(const std::function<void()>& work) noexcept
+{
+  guarded(work, notifyApplication);
+}
+
+QString toString(const std::exception& error)
+{
+  if (dynamic_cast<const core::Error*>(&error))
+    return words(error.what());
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return QObject::tr("There is not enough memory; close other programs.");
+  return QObject::tr("An unexpected fault; the library is as it was before.");
+}
+
+} // namespace petrous::workstation

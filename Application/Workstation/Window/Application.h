@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+
+#include <QApplication>
+
+namespace petrous::workstation
+{
+
+/// Reports exceptions of event handlers instead of letting them escape: Qt's own loop would end the
+/// program, and lose unsaved removal.
+class Application : public QApplication
+{
+  Q_OBJECT
+public:
+  Application(int& argc, char** argv);
+
+  bool notify(QObject* receiver, QEvent* event) override;
+
+signals:
+  void faulted(const QString& why); ///< queued; in order
+};
+
+/// An exception as text. Messages of other libraries may contain patient data; they are left out.
+QString toString(const std::exception& error);
+
+/// Runs what must not throw: a thread's function, a callback of another library. Exceptions are
+/// passed to `notify` as text.
+void guarded(const std::function<void()>& work,
+             const std::function<void(const QString&)>& notify) noexcept;
+
+/// As above, reporting via Application::faulted; thread-safe.
+void guarded(const std::function<void()>& work) noexcept;
+
+} // namespace petrous::workstation

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include <QDoubleSpinBox>
+
+namespace petrous::workstation
+{
+
+/// Burr diameter, mm: steps through the available ones; typed values are rounded to the nearest.
+class DiameterBox : public QDoubleSpinBox
+{
+  Q_OBJECT
+public:
+  explicit DiameterBox(QWidget* parent = nullptr);
+
+  /// Not empty. The current value becomes the nearest of them.
+  void setDiameters(std::vector<double> diameters);
+
+  void stepBy(int steps) override;
+  double valueFromText(const QString& text) const override;
+
+private:
+  std::vector<double>::const_iterator nearest(double diameter) const;
+
+  std::vector<double> m_diameters; // ascending
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,524 @@
+#include "MainWindow.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <QAction>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include "ActiveDeviceController.h"
+#include "Application.h"
+#include "Banner.h"
+#include "BannerStack.h"
+#include "BranchController.h"
+#include "BurrWarnings.h"
+#include "CaseDocumentController.h"
+#include "CaseSaver.h"
+#include "DeviceToolBar.h"
+#include "DeviceWatcher.h"
+#include "DrillBar.h"
+#include "DrillController.h"
+#include "NearbyPanel.h"
+#include "PictureController.h"
+#include "PicturePanel.h"
+#include "ProbeLabel.h"
+#include "RegistrationController.h"
+#include "RegistrationPanel.h"
+#include "SliceColumn.h"
+#include "StartPage.h"
+#include "StructuresPanel.h"
+#include "Theme.h"
+#include "ThicknessController.h"
+#include "ThreeDView.h"
+#include "WindowActions.h"
+#include "WindowSettings.h"
+#include "WindowTexts.h"
+#include "petrous/Dissection/Catalogues.h"
+#include "petrous/Presenters/CasePicture.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kMessage = 8000; // ms
+
+QStringList dropped(const QMimeData& data)
+{
+  QStringList what;
+  if (data.hasUrls())
+    for (const QUrl& url : data.urls())
+      what += url.toLocalFile();
+  else if (data.hasText())
+    what += data.text().trimmed();
+  what.removeAll(QString());
+  return what;
+}
+
+// What was assumed or left out when the parts of a case were read, by part.
+QStringList notesOf(const scene::Case& value)
+{
+  QStringList notes;
+  const auto add = [&notes](const std::string& part, const std::vector<std::string>& more)
+  {
+    for (const std::string& note : more)
+      notes += words(part) + ": " + words(note);
+  };
+  add("CT", value.ct.notes);
+  for (const auto& mr : value.mr)
+    add(mr.name, mr.notes);
+  for (const auto& part : value.labels)
+    add(part.structures.size() == 1 ? part.structures.front().name : "structures", part.notes);
+  for (const auto& mesh : value.meshes)
+    add(mesh.name, mesh.notes);
+  return notes;
+}
+} // namespace
+
+MainWindow::MainWindow(library::Library library, const WindowOptions& options)
+  : m_model(std::move(library))
+  , m_settings(std::make_unique<WindowSettings>(options.settings))
+  , m_bar(new DrillBar)
+  , m_deviceBar(new DeviceToolBar)
+  , m_view(new ThreeDView)
+  , m_slices(new SliceColumn(m_model))
+  , m_panel(new StructuresPanel(m_model))
+  , m_nearby(new NearbyPanel(m_model))
+  , m_pages(new QStackedWidget)
+  , m_unsavedBanner(new Banner("unsavedBanner", Banner::Kind::Warning))
+  , m_loadingBanner(new Banner("loadingBanner", Banner::Kind::Notice))
+  , m_faultBanner(new Banner("faultBanner", Banner::Kind::Warning))
+  , m_notesBanner(new Banner("notesBanner", Banner::Kind::Notice))
+  , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
+  , m_place(new ProbeLabel(m_model))
+  , m_sum(new QLabel)
+  , m_touch(new QLabel)
+  , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
+  , m_saver(new CaseSaver(m_model))
+  , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
+                                        *m_loadingBanner, *m_damageBanner))
+  , m_watcher(new DeviceWatcher(options.devices, options.lookForDevicesEvery, this))
+  , m_devices(new ActiveDeviceController(*m_watcher, *m_deviceBar, *m_settings, this))
+  , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_devices, this))
+  , m_picture(
+        new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
+  , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
+  , m_thickness(new ThicknessController(m_model, *m_view, *m_panel, *m_actions->boneThickness))
+  , m_registration(new RegistrationController(m_model, *m_slices, *this))
+{
+  if (const auto thrust = m_settings->thrust())
+    m_bar->setThrust(*thrust);
+  m_picture->flush = [this] { return flush(); };
+  m_branches->settle = [this] { m_drill->releaseTool(); };
+  m_keeper->setParent(this);
+  m_saver->setParent(this);
+  m_saver->camera = [this] { return m_view->picture().camera(); };
+  setAcceptDrops(true);
+  resize(1440, 900);
+  layOut();
+  connectModel();
+  connectActions();
+  stateChanged();
+}
+
+MainWindow::~MainWindow()
+{
+  m_model.events = {};
+  m_drill->releaseTool(); // before the devices that control it
+  delete m_registration;  // ends its threads
+  delete m_drill;
+  delete m_devices;
+  delete m_nearby;  // queries the model when hidden
+  delete m_watcher; // stops a server
+  delete m_picture; // the surgeon's window follows the view
+  delete m_keeper;  // its threads must not outlive the model
+  delete m_saver;
+}
+
+void MainWindow::layOut()
+{
+  auto* start = new StartPage;
+  connect(start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
+  connect(start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
+  connect(start, &StartPage::openCaseAsked, m_keeper, &CaseDocumentController::chooseCase);
+
+  auto* across = new QSplitter(Qt::Horizontal);
+  across->setHandleWidth(3);
+  across->addWidget(m_view);
+  across->addWidget(m_slices);
+  across->setStretchFactor(0, 3);
+  across->setStretchFactor(1, 1);
+  across->setSizes({700, 380});
+  m_pages->addWidget(start);
+  m_pages->addWidget(across);
+  m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
+  m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
+  auto* whole = new QWidget;
+  auto* banners = new BannerStack(*whole);
+  for (Banner* banner :
+       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
+    banners->add(banner);
+  const auto hold = [this, banners]
+  { banners->setHeld(m_view->drillMode() || m_view->pointing()); };
+  connect(m_view, &ThreeDView::drillModeSet, banners, hold);
+  connect(m_view, &ThreeDView::pointingSet, banners, hold);
+  connect(banners, &BannerStack::covers, m_view,
+          [this](int pixels)
+          { m_view->display().setCovered(double(pixels) / std::max(m_view->height(), 1)); });
+  auto* stack = new QVBoxLayout(whole);
+  stack->setContentsMargins(0, 0, 0, 0);
+  stack->setSpacing(0);
+  stack->addWidget(banners->room());
+  stack->addWidget(m_pages, 1);
+  setCentralWidget(whole);
+
+  auto* structures = addDock(tr("Structures"), "structuresDock", m_panel, Qt::Key_F9);
+  auto* picture = addDock(tr("Picture"), "pictureDock", m_picture->panel(), Qt::Key_F8);
+  addDock(tr("Near the burr"), "nearbyDock", m_nearby, Qt::Key_F7);
+  auto* registration =
+      addDock(tr("Registration"), "registrationDock", m_registration->panel(), Qt::Key_F5);
+  menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
+  tabifyDockWidget(structures, picture);
+  tabifyDockWidget(picture, registration);
+  structures->raise();
+
+  m_sum->setObjectName("dim");
+  m_sum->setToolTip(tr("What was drilled so far"));
+  m_sum->setContentsMargins(8, 0, 8, 0);
+  m_touch->setObjectName("touchFault");
+  m_touch->setToolTip(tr("Why the tool gives no force, or less than it would"));
+  m_touch->setContentsMargins(8, 0, 8, 0);
+  statusBar()->addPermanentWidget(m_touch);
+  statusBar()->addPermanentWidget(m_picture->speed());
+  statusBar()->addPermanentWidget(m_place);
+  statusBar()->addPermanentWidget(m_sum);
+}
+
+QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget* widget, int key)
+{
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(name);
+  dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
+  dock->setWidget(widget);
+  addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->toggleViewAction()->setShortcut(key);
+  m_actions->addPanelToggle(dock->toggleViewAction());
+  // Unlike Qt's default, a dock hidden behind others in the same tab group is raised.
+  QAction* toggle = dock->toggleViewAction();
+  disconnect(toggle, SIGNAL(triggered(bool)), dock, nullptr);
+  connect(toggle, &QAction::triggered, dock,
+          [dock, toggle](bool on)
+          {
+            const bool show = on || dock->visibleRegion().isEmpty();
+            dock->setVisible(show);
+            toggle->setChecked(show);
+            if (show)
+              dock->raise();
+          });
+  dock->hide();
+  return dock;
+}
+
+void MainWindow::connectModel()
+{
+  m_model.events.caseChanged = [this] { caseChanged(); };
+  m_model.events.caseClosed = [this] { caseClosed(); };
+  m_model.events.preparationWanted = [this] { m_keeper->prepare(); };
+  m_model.events.partsChanged = [this] { partsChanged(); };
+  m_model.events.appearanceChanged = [this]
+  {
+    m_picture->appearanceChanged();
+    m_slices->appearanceChanged();
+    m_panel->appearanceChanged();
+  };
+  if (auto* application = qobject_cast<Application*>(QCoreApplication::instance()))
+    connect(application, &Application::faulted, this, &MainWindow::showFault);
+  m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
+  m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
+  m_model.events.mrMoved = [this] { m_registration->mrMoved(); };
+  m_model.events.toolPutAway = [this]
+  { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };
+  m_model.events.stateChanged = [this] { stateChanged(); };
+  m_model.events.stepped = [this](bool back) { stepped(back); };
+  m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
+  connect(m_registration, &RegistrationController::sceneStale, this,
+          [this] { m_model.events.appearanceChanged(); });
+  connect(m_slices, &SliceColumn::pointed, m_place, &ProbeLabel::showPlace);
+  connect(m_drill, &DrillController::pointed, m_place, &ProbeLabel::showPlace);
+  connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
+  connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
+  connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
+  auto* warnings = new BurrWarnings(m_model, this);
+  connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
+  connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
+  connect(warnings, &BurrWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
+  connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
+  connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
+  const auto say = [this](const QString& line)
+  {
+    statusBar()->showMessage(line);
+    statusBar()->repaint(); // shown before a slow operation begins
+  };
+  connect(m_drill, &DrillController::statusMessage, this, say);
+  connect(m_devices, &ActiveDeviceController::statusMessage, this, say);
+  connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
+  connect(m_bar, &DrillBar::pressChanged, this,
+          [this] { m_settings->keepThrust(m_bar->thrust()); });
+  const auto showMessage = [this](const QString& line)
+  { statusBar()->showMessage(line, kMessage); };
+  connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
+  connect(m_thickness, &ThicknessController::statusMessage, this, showMessage);
+  connect(m_registration, &RegistrationController::statusMessage, this, showMessage);
+  connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
+  connect(m_drill, &DrillController::tissueWanted, m_keeper,
+          &CaseDocumentController::prepareUnlessUnderWay);
+  connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
+  connect(m_branches, &BranchController::statusMessage, this, showMessage);
+  connect(m_picture, &PictureController::statusMessage, this,
+          [this](const QString& line) { statusBar()->showMessage(line); });
+}
+
+void MainWindow::connectActions()
+{
+  const auto on = [this](QAction* action, auto what)
+  { connect(action, &QAction::triggered, this, what); };
+  on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
+  on(m_actions->openImage, [this] { m_keeper->openFiles(); });
+  on(m_actions->openCase, [this] { m_keeper->chooseCase(); });
+  on(m_actions->sample, [this] { m_keeper->makeSample(); });
+  on(m_actions->save, [this] { m_keeper->save(); });
+  on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
+  on(m_actions->quit, [this] { close(); });
+  on(m_actions->undo, [this] { m_model.undo(); });
+  on(m_actions->redo, [this] { m_model.redo(); });
+  on(m_actions->centerView,
+     [this]
+     {
+       core::CameraPose camera = m_view->picture().camera();
+       camera.position += m_model.crosshair() - camera.focalPoint;
+       camera.focalPoint = m_model.crosshair();
+       m_view->setCamera(camera);
+     });
+  on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
+  on(m_actions->softWindow, [this] { m_slices->softWindow(); });
+  on(m_actions->fitSlices, [this] { m_slices->fit(); });
+  on(m_actions->smallerBurr, [this] { m_bar->stepDiameter(-1); });
+  on(m_actions->largerBurr, [this] { m_bar->stepDiameter(1); });
+  on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
+  connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
+  connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
+}
+
+void MainWindow::begin(const QString& what)
+{
+  if (!what.isEmpty())
+    return m_keeper->open({what});
+  if (const auto latest = m_model.latestCase())
+    m_keeper->open({words(*latest)});
+}
+
+bool MainWindow::busy() const
+{
+  return m_keeper->busy() || m_saver->busy();
+}
+
+void MainWindow::showFault(const QString& why)
+{
+  m_faultBanner->setText(tr("Something failed: %1 Save the case; if this comes again, start "
+                            "Petrous anew.")
+                             .arg(sentence(why)));
+  m_faultBanner->show();
+}
+
+void MainWindow::caseClosed()
+{
+  m_drill->releaseTool();
+  m_view->display().setContents({});
+  m_slices->clear();
+  m_panel->caseChanged();
+  m_nearby->caseChanged();
+  m_thickness->caseChanged();
+  m_registration->caseChanged();
+  m_place->clear();
+  m_sum->clear();
+  m_picture->speed()->clear();
+  m_notesBanner->hide();
+  m_pages->setCurrentIndex(0);
+}
+
+// The camera stays, and the tool is put away.
+void MainWindow::partsChanged()
+{
+  m_drill->releaseTool();
+  m_picture->appearanceChanged();
+  m_slices->appearanceChanged();
+  m_panel->caseChanged();
+  m_nearby->caseChanged();
+  m_thickness->caseChanged();
+  m_registration->caseChanged();
+  notifyNotes();
+}
+
+void MainWindow::caseChanged()
+{
+  const scene::Case& value = m_model.value();
+  const bool first = m_pages->currentIndex() == 0;
+  m_pages->setCurrentIndex(1);
+  if (first)
+  {
+    auto* dock = findChild<QDockWidget*>("structuresDock");
+    findChild<QDockWidget*>("pictureDock")->show();
+    dock->show();
+    dock->raise();
+    resizeDocks({dock}, {395}, Qt::Horizontal);
+  }
+  m_drill->releaseTool();
+  offerBurrs();
+  m_picture->caseChanged();
+  m_view->setCamera(presenters::currentCamera(value));
+  m_slices->caseChanged();
+  m_panel->caseChanged();
+  m_nearby->caseChanged();
+  m_thickness->caseChanged();
+  m_registration->caseChanged();
+  m_view->setFocus();
+  m_notesBanner->hide();
+  m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
+  notifyNotes();
+}
+
+// What was assumed or left out when files were read, until it is acknowledged.
+void MainWindow::notifyNotes()
+{
+  const QStringList notes = notesOf(m_model.value());
+  QStringList fresh;
+  for (const QString& note : notes)
+    if (!m_notesTold.contains(note))
+      fresh += note;
+  m_notesTold = notes;
+  if (fresh.isEmpty())
+    return;
+  m_notesBanner->setText(fresh.join('\n'));
+  m_notesBanner->show();
+}
+
+// The library's burrs.
+void MainWindow::offerBurrs()
+{
+  try
+  {
+    m_bar->setBurrs(dissection::Catalogues::in(m_model.library().folder()).burrs);
+  }
+  catch (const core::Error& fault)
+  {
+    statusBar()->showMessage(words(fault.what())); // and again, in full, when the burr is taken up
+  }
+}
+
+void MainWindow::maskChanged(const core::IndexBox& box)
+{
+  const auto& value = m_model.value();
+  // Shared with the dissection: a single thread writes and renders.
+  m_view->display().maskChanged({value.dissection, &std::as_const(*value.dissection).mask()}, box);
+  m_slices->maskChanged(box);
+}
+
+void MainWindow::stateChanged()
+{
+  const bool open = m_model.hasCase();
+  m_actions->setCaseOpen(open);
+  m_branches->stateChanged();
+  m_actions->undo->setEnabled(m_model.canUndo());
+  m_actions->redo->setEnabled(m_model.canRedo());
+  if (!open)
+    return setWindowTitle("Petrous");
+  m_nearby->stateChanged();
+  const scene::Case& value = m_model.value();
+  setWindowTitle(
+      (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
+      words(value.name) + QString::fromUtf8(" — Petrous"));
+  m_sum->setText(removedText(value, m_model.drilling()));
+}
+
+// Non-modal: the case is shown at once.
+void MainWindow::notice(const QString& text)
+{
+  auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->open();
+}
+
+void MainWindow::showView(rendering::StandardView view)
+{
+  if (m_model.hasCase())
+    m_view->setCamera(presenters::standardCamera(m_model.value(), view));
+}
+
+void MainWindow::stepped(bool back)
+{
+  const scene::Case& value = m_model.value();
+  const std::size_t stroke = back ? value.history.next() : value.history.position();
+  if (m_actions->strokeCamera->isChecked() && stroke < value.strokes.size() &&
+      value.strokes[stroke].info.camera)
+    m_view->setCamera(*value.strokes[stroke].info.camera);
+  statusBar()->showMessage(back ? tr("Stroke %1 undone").arg(value.applied() + 1)
+                                : tr("Stroke %1 drilled again").arg(value.applied()),
+                           kMessage);
+}
+
+void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)
+{
+  const QString text = strokeText(stroke.get());
+  if (!stroke)
+    return statusBar()->showMessage(text, kMessage);
+  statusBar()->showMessage(text);
+  m_saver->save();
+}
+
+bool MainWindow::flush()
+{
+  // Ends an open stroke, here and in the surgeon's window.
+  m_drill->releaseTool();
+  return m_saver->flush();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event)
+{
+  m_drill->releaseTool(); // ends an open stroke
+  event->setAccepted(m_keeper->mayLeave());
+  if (event->isAccepted())
+    m_picture->closeSurgeonWindow();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (!dropped(*event->mimeData()).isEmpty())
+    event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event)
+{
+  const QStringList what = dropped(*event->mimeData());
+  if (what.isEmpty())
+    return;
+  event->acceptProposedAction();
+  // The source program must not block on us.
+  QMetaObject::invokeMethod(
+      this, [this, what] { m_keeper->open(what); }, Qt::QueuedConnection);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <memory>
+
+#include <QMainWindow>
+#include <QStringList>
+
+#include "petrous/Presenters/ActiveDevice.h"
+#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Rendering/StandardViews.h"
+
+class QDockWidget;
+class QLabel;
+class QStackedWidget;
+
+namespace petrous::workstation
+{
+
+class Banner;
+class BranchController;
+class CaseDocumentController;
+class CaseSaver;
+class DrillBar;
+class DrillController;
+class DeviceToolBar;
+class DeviceWatcher;
+class ActiveDeviceController;
+class NearbyPanel;
+class PictureController;
+class ProbeLabel;
+class RegistrationController;
+class SliceColumn;
+class StructuresPanel;
+class ThicknessController;
+class ThreeDView;
+class WindowActions;
+class WindowSettings;
+
+/// Options of the main window.
+struct WindowOptions
+{
+  bool quadBuffer = false;           ///< quad-buffered stereo is available (quadBufferOffered)
+  QString settings;                  ///< an INI file; empty: the user's default
+  presenters::DeviceSources devices; ///< none: mouse only
+  int lookForDevicesEvery = 1000;    ///< ms
+};
+
+/// The workstation's main window: assembles model, views and panels and connects them.
+class MainWindow : public QMainWindow
+{
+  Q_OBJECT
+public:
+  explicit MainWindow(library::Library library, const WindowOptions& options = {});
+  ~MainWindow() override;
+
+  /// Opens what was given on the command line: a case or a path; empty: the latest case, if any.
+  void begin(const QString& what);
+
+  const presenters::WorkstationModel& model() const noexcept { return m_model; }
+  /// Whether files or cases are being read or written.
+  bool busy() const;
+
+protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  void layOut();
+  void connectModel();
+  void connectActions();
+  void caseChanged();
+  void caseClosed();
+  void partsChanged();
+  void notifyNotes();
+  void showFault(const QString& why);
+  void offerBurrs();
+  void maskChanged(const core::IndexBox& box);
+  void stateChanged();
+  void notice(const QString& text);
+  void showView(rendering::StandardView view);
+  void stepped(bool back); // by an undo or a redo
+  QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
+  bool flush(); // saves what was drilled
+  void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
+
+  presenters::WorkstationModel m_model;
+  std::unique_ptr<WindowSettings> m_settings;
+  DrillBar* m_bar;
+  DeviceToolBar* m_deviceBar;
+  ThreeDView* m_view;
+  SliceColumn* m_slices;
+  StructuresPanel* m_panel;
+  NearbyPanel* m_nearby;
+  QStackedWidget* m_pages;
+  Banner* m_unsavedBanner;
+  Banner* m_loadingBanner;
+  Banner* m_faultBanner;
+  Banner* m_notesBanner;
+  Banner* m_damageBanner;
+  QStringList m_notesTold;
+  ProbeLabel* m_place;
+  QLabel* m_sum;
+  QLabel* m_touch;
+  WindowActions* m_actions;
+  CaseSaver* m_saver;
+  CaseDocumentController* m_keeper;
+  DeviceWatcher* m_watcher;
+  ActiveDeviceController* m_devices;
+  DrillController* m_drill;
+  PictureController* m_picture;
+  BranchController* m_branches;
+  ThicknessController* m_thickness;
+  RegistrationController* m_registration;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,201 @@
+#include "WindowActions.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "DeviceToolBar.h"
+#include "DrillBar.h"
+#include "petrous/Rendering/Stereo.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+struct ViewEntry
+{
+  rendering::StandardView view;
+  const char* name;
+  const char* tip;
+};
+using rendering::StandardView;
+constexpr ViewEntry kViews[] = {
+    {StandardView::Lateral, "&Lateral", "From the side of the ear"},
+    {StandardView::Anterior, "&Anterior", "From the face"},
+    {StandardView::Posterior, "&Posterior", "From the back of the head"},
+    {StandardView::Superior, "&Superior", "From above, the face up"},
+    {StandardView::Inferior, "&Inferior", "From below, the face up"},
+    {StandardView::Left, "L&eft", "From the patient's left"},
+    {StandardView::Right, "&Right", "From the patient's right"},
+};
+} // namespace
+
+QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequence& keys,
+                             const QString& tip)
+{
+  QAction* action = menu->addAction(text);
+  action->setShortcut(keys);
+  const QString key = keys.toString(QKeySequence::NativeText);
+  action->setToolTip(key.isEmpty() ? tip : tip + " (" + key + ")");
+  action->setStatusTip(tip);
+  return action;
+}
+
+WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar,
+                             bool quadBuffer)
+  : QObject(&window)
+{
+  QMenu* file = window.menuBar()->addMenu(tr("&File"));
+  openDicom = make(file, tr("Open &DICOM…"), QKeySequence::Open,
+                   tr("A folder of CT slices: a new case; of MR slices: for the open case"));
+  openImage =
+      make(file, tr("Open &files…"), {},
+           tr("A CT as NRRD, NIfTI or MetaImage: a new case; MR, label maps and meshes: for "
+              "the open case"));
+  openCase =
+      make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O, tr("A case of the library"));
+  sample = make(file, tr("&Make the sample patient"), {}, tr("An artificial temporal bone"));
+  file->addSeparator();
+  save = make(file, tr("&Save"), QKeySequence::Save, tr("Save the case in the library"));
+  saveAs = make(file, tr("Save &as…"), Qt::CTRL + Qt::ALT + Qt::Key_S,
+                tr("Save as a new case; the one it came from stays as it was saved"));
+  file->addSeparator();
+  quit = make(file, tr("&Quit"), QKeySequence::Quit, tr("Save and quit"));
+
+  QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
+  undo = make(edit, tr("&Undo"), Qt::CTRL + Qt::Key_Z, tr("Put back what the last stroke took"));
+  redo = make(edit, tr("&Redo"), Qt::CTRL + Qt::SHIFT + Qt::Key_Z, tr("Drill the stroke again"));
+  edit->addSeparator();
+  strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
+                      tr("Turn the patient as they lay when the stroke was drilled"));
+  strokeCamera->setCheckable(true);
+
+  approaches = window.menuBar()->addMenu(tr("&Approach"));
+
+  m_view = window.menuBar()->addMenu(tr("&View"));
+  int number = 1;
+  auto* viewMenu = new QMenu(&window);
+  for (const ViewEntry& entry : kViews)
+  {
+    QAction* action =
+        make(m_view, tr(entry.name), QKeySequence(QString::number(number++)), tr(entry.tip));
+    connect(action, &QAction::triggered, this,
+            [this, view = entry.view] { emit viewChosen(view); });
+    m_needCase.push_back(action);
+    viewMenu->addAction(action);
+  }
+  centerView = make(m_view, tr("&Centre on the crosshair"), Qt::Key_C,
+                    tr("The 3D view turns and zooms about the crosshair from now on"));
+  boneThickness = make(m_view, tr("Bone &thickness over the structure"), Qt::Key_F6,
+                       tr("Colours bone by how much of it is left over the structure that is "
+                          "chosen in the list"));
+  boneThickness->setCheckable(true);
+  m_view->addSeparator();
+  boneWindow = make(m_view, tr("&Bone window"), Qt::Key_B, tr("Grey from -1300 to 2700 HU"));
+  softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
+  fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
+  m_view->addSeparator();
+  viewMenu->addSeparator();
+  viewMenu->addMenu(addStereo(quadBuffer));
+  viewMenu->addAction(surgeonWindow);
+  m_view->addSeparator();
+
+  QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
+  drill->addAction(drillBar.drillAction());
+  drill->addAction(drillBar.pointerAction());
+  drill->addAction(drillBar.wheelAction());
+  drill->addAction(deviceBar.hereAction());
+  smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft,
+                     tr("The next smaller one that is sold"));
+  largerBurr =
+      make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("The next larger one that is sold"));
+  drill->addSeparator();
+  drillBar.wheelAction()->setText(tr("Depth &by wheel"));
+  drillBar.wheelAction()->setIconText(tr("By wheel"));
+  slicesFollow = make(drill, tr("Slices &follow the burr"), {},
+                      tr("The crosshair goes along while the drill is on"));
+  slicesFollow->setCheckable(true);
+  slicesFollow->setChecked(true);
+
+  QMenu* help = window.menuBar()->addMenu(tr("&Help"));
+  about = make(help, tr("&About Petrous"), {}, tr("What this program is"));
+
+  auto* bar = new QToolBar(tr("Case"), &window);
+  bar->setObjectName("caseBar");
+  bar->setMovable(false);
+  const auto addShort = [bar](QAction* action, const QString& text)
+  {
+    action->setIconText(text);
+    bar->addAction(action);
+  };
+  addShort(openDicom, tr("Open…"));
+  addShort(openCase, tr("Cases…"));
+  addShort(save, tr("Save"));
+  bar->addSeparator();
+  addShort(undo, tr("Undo"));
+  addShort(redo, tr("Redo"));
+  bar->addSeparator();
+  auto* views = new QToolButton;
+  views->setText(tr("View"));
+  views->setToolTip(tr("Standard sides (1 to 7), stereo, the surgeon's window (F11)"));
+  views->setMenu(viewMenu);
+  views->setPopupMode(QToolButton::InstantPopup);
+  bar->addWidget(views);
+  window.addToolBar(bar);
+  window.addToolBarBreak(); // in one row with the next two, a narrow window would hide some
+  window.addToolBar(&drillBar);
+  window.addToolBar(&deviceBar);
+
+  m_needCase.insert(m_needCase.end(),
+                    {save, saveAs, centerView, boneThickness, boneWindow, softWindow, fitSlices,
+                     drillBar.drillAction(), drillBar.pointerAction()});
+}
+
+QMenu* WindowActions::addStereo(bool quadBuffer)
+{
+  using rendering::StereoMode;
+  stereo = new QActionGroup(this);
+  QMenu* menu = m_view->addMenu(tr("Ste&reo"));
+  const auto add = [this, menu](const QString& text, StereoMode mode, const QString& tip)
+  {
+    QAction* action = make(menu, text, {}, tip);
+    action->setCheckable(true);
+    action->setData(static_cast<int>(mode));
+    stereo->addAction(action);
+    return action;
+  };
+  add(tr("&Off"), StereoMode::None, tr("One picture"))->setChecked(true);
+  add(tr("&Side by side"), StereoMode::SideBySide,
+      tr("The left eye's picture on the left half, for head-mounted displays and 3D screens"));
+  add(tr("&Line-interleaved"), StereoMode::Interleaved,
+      tr("Rows by turns, for screens with polarised glasses"));
+  add(tr("&Anaglyph"), StereoMode::Anaglyph, tr("For red-cyan glasses"));
+  if (quadBuffer)
+    add(tr("&Quad buffer"), StereoMode::QuadBuffer,
+        tr("For shutter glasses, in the surgeon's window"));
+  surgeonWindow = make(m_view, tr("Sur&geon's window"), Qt::Key_F11,
+                       tr("The scene on a whole screen, the second one where there is one; Esc "
+                          "closes it"));
+  surgeonWindow->setShortcuts({Qt::Key_F11, Qt::CTRL + Qt::Key_F});
+  surgeonWindow->setCheckable(true);
+  m_needCase.push_back(surgeonWindow);
+  return menu;
+}
+
+void WindowActions::addPanelToggle(QAction* action)
+{
+  m_view->addAction(action);
+}
+
+void WindowActions::setCaseOpen(bool open)
+{
+  for (QAction* action : m_needCase)
+    action->setEnabled(open);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include <QObject>
+
+#include "petrous/Rendering/StandardViews.h"
+
+class QAction;
+class QActionGroup;
+class QMainWindow;
+class QMenu;
+
+namespace petrous::workstation
+{
+
+class DrillBar;
+class DeviceToolBar;
+
+/// The window's actions with their shortcuts, in the menus and the tool bar. The window connects
+/// them.
+class WindowActions : public QObject
+{
+  Q_OBJECT
+public:
+  /// Fills the window's menu bar and adds a tool bar and the two given bars at the top.
+  /// `quadBuffer`: the driver supports quad-buffered stereo.
+  WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar, bool quadBuffer);
+
+  void addPanelToggle(QAction* action); ///< to the View menu
+  void setCaseOpen(bool open);          ///< disables what needs a case
+
+  QAction* openDicom;
+  QAction* openImage;
+  QAction* openCase;
+  QAction* sample;
+  QAction* save;
+  QAction* saveAs;
+  QAction* quit;
+  QAction* undo;
+  QAction* redo;
+  QAction* centerView;
+  QAction* boneThickness; ///< checkable
+  QAction* boneWindow;
+  QAction* softWindow;
+  QAction* fitSlices;
+  QMenu* approaches;
+  QActionGroup* stereo;   ///< checkable; each one's data is its StereoMode
+  QAction* surgeonWindow; ///< checkable
+  QAction* slicesFollow;  ///< checkable
+  QAction* strokeCamera;  ///< checkable
+  QAction* smallerBurr;
+  QAction* largerBurr;
+  QAction* about;
+
+signals:
+  void viewChosen(petrous::rendering::StandardView view);
+
+private:
+  QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
+  QMenu* addStereo(bool quadBuffer);
+
+  QMenu* m_view = nullptr;
+  std::vector<QAction*> m_needCase;
+};
+
+} // namespace petrous::workstation

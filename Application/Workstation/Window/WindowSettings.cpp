@@ -1,0 +1,104 @@
+#include "WindowSettings.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+using rendering::StereoMode;
+
+// Stored by name: numbers would change with the enumeration.
+constexpr std::array<std::pair<StereoMode, const char*>, 5> kModes{{
+    {StereoMode::None, "off"},
+    {StereoMode::SideBySide, "side-by-side"},
+    {StereoMode::Interleaved, "interleaved"},
+    {StereoMode::Anaglyph, "anaglyph"},
+    {StereoMode::QuadBuffer, "quad-buffer"},
+}};
+
+QString keyOf(const std::string& hand, const char* what)
+{
+  return QString("hand-%1/%2").arg(QString::fromStdString(hand), what);
+}
+
+} // namespace
+
+WindowSettings::WindowSettings(const QString& file)
+  : m_file(file.isEmpty()
+               ? QSettings(QSettings::IniFormat, QSettings::UserScope, "petrous", "workstation")
+                     .fileName()
+               : file,
+           QSettings::IniFormat)
+{
+}
+
+std::optional<double> WindowSettings::number(const QString& key) const
+{
+  bool sound = false;
+  const double value = m_file.value(key).toDouble(&sound);
+  return sound && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) const
+{
+  if (const auto falloff = number("light/falloff_mm"))
+    view.setFalloff(*falloff);
+  if (const auto wetness = number("light/wetness"))
+    view.setWetness(*wetness);
+  view.setEyeSeparation(number("stereo/eye_separation_mm"));
+  view.setConvergence(number("stereo/convergence_mm"));
+  const QString mode = m_file.value("stereo/mode").toString();
+  for (const auto& [value, name] : kModes)
+    if (mode == name && (quadBuffer || value != StereoMode::QuadBuffer))
+      view.setStereo(value);
+}
+
+void WindowSettings::keep(const presenters::ViewSettings& view)
+{
+  m_file.setValue("light/falloff_mm", view.light().falloff);
+  m_file.setValue("light/wetness", view.light().wetness);
+  for (const auto& [value, name] : kModes)
+    if (value == view.stereo())
+      m_file.setValue("stereo/mode", name);
+  const auto length = [this](const QString& key, const std::optional<double>& value)
+  { value ? m_file.setValue(key, *value) : m_file.remove(key); };
+  length("stereo/eye_separation_mm", view.rig().eyeSeparation);
+  length("stereo/convergence_mm", view.rig().convergence);
+}
+
+std::optional<double> WindowSettings::thrust() const
+{
+  return number("hand/thrust_n");
+}
+
+void WindowSettings::keepThrust(double newtons)
+{
+  m_file.setValue("hand/thrust_n", newtons);
+}
+
+std::optional<double> WindowSettings::scale(const std::string& hand) const
+{
+  return number(keyOf(hand, "scale"));
+}
+
+std::optional<double> WindowSettings::forceLimit(const std::string& hand) const
+{
+  return number(keyOf(hand, "force_limit_n"));
+}
+
+void WindowSettings::keepScale(const std::string& hand, double scale)
+{
+  m_file.setValue(keyOf(hand, "scale"), scale);
+}
+
+void WindowSettings::keepForceLimit(const std::string& hand, double newtons)
+{
+  m_file.setValue(keyOf(hand, "force_limit_n"), newtons);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include <QSettings>
+
+#include "petrous/Presenters/ViewSettings.h"
+
+namespace petrous::workstation
+{
+
+/// Settings kept between runs: devices and rendering, no patient data. A missing or invalid value
+/// is replaced by the default.
+class WindowSettings
+{
+public:
+  /// `file`: an INI file; empty: the user's default (~/.config/petrous/workstation.conf).
+  explicit WindowSettings(const QString& file = {});
+
+  /// Lamp and stereo. `quadBuffer`: supported by the driver; otherwise that mode becomes none.
+  void restore(presenters::ViewSettings& view, bool quadBuffer) const;
+  void keep(const presenters::ViewSettings& view);
+
+  std::optional<double> thrust() const; ///< N
+  void keepThrust(double newtons);
+
+  /// Per device (presenters::InputDevice::id).
+  std::optional<double> scale(const std::string& hand) const;      ///< mm/mm
+  std::optional<double> forceLimit(const std::string& hand) const; ///< N
+  void keepScale(const std::string& hand, double scale);
+  void keepForceLimit(const std::string& hand, double newtons);
+
+private:
+  std::optional<double> number(const QString& key) const;
+  mutable QSettings m_file;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <QString>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+/// What was drilled so far. `drilling`: a stroke is open, whose volume is known when it is closed.
+QString removedText(const scene::Case& value, bool drilling);
+
+/// What a stroke removed; "Nothing was cut" for nullptr.
+QString strokeText(const dissection::Stroke* stroke);
+
+/// Adds a full stop if there is none.
+QString sentence(const QString& text);
+
+/// Description of the program, as rich text.
+QString aboutText();
+
+} // namespace petrous::workstation

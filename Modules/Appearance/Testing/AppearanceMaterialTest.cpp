@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "petrous/Appearance/AppearanceMaterial.h"
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/Error.h"
+
+using namespace petrous::appearance;
+using petrous::volume::IntensityScale;
+
+namespace
+{
+
+std::vector<double> valuesOf(const TransferFunction& transfer)
+{
+  std::vector<double> values;
+  for (const ControlPoint& point : transfer.points())
+    values.push_back(point.value);
+  return values;
+}
+
+TransferFunction twoPoints()
+{
+  return TransferFunction(
+      {{300.0, {0.8F, 0.6F, 0.4F}, 0.2F, 0.3F}, {1800.0, {1.0F, 0.9F, 0.8F}, 0.8F, 1.0F}});
+}
+
+} // namespace
+
+TEST(AppearanceMaterial, PresetsHaveIsoAtIsoAndDenseBoneAtDenseBone)
+{
+  const IntensityScale microCt{9000.0, 21000.0, false};
+  EXPECT_DOUBLE_EQ(onScale(300.0, microCt), 9000.0);
+  EXPECT_DOUBLE_EQ(onScale(1800.0, microCt), 21000.0);
+  EXPECT_DOUBLE_EQ(onScale(1050.0, microCt), 15000.0);
+  EXPECT_DOUBLE_EQ(onScale(-77.0, IntensityScale{}), -77.0);
+}
+
+TEST(AppearanceMaterial, PresetsKeepTheirOrderWhereDenseBoneIsBelowTheSurface)
+{
+  const IntensityScale odd{2000.0, 1800.0};
+  EXPECT_DOUBLE_EQ(onScale(300.0, odd), 2000.0);
+  EXPECT_DOUBLE_EQ(onScale(1800.0, odd), 3500.0);
+}
+
+TEST(AppearanceMaterial, StretchesPresetsAndLeavesAbsoluteValuesAlone)
+{
+  StructureAppearance look;
+  look.transfer = twoPoints();
+  const IntensityScale scale{10.0, 40.0};
+  EXPECT_EQ(valuesOf(materialOf(look, scale).transfer), (std::vector<double>{300.0, 1800.0}));
+  look.relative = true;
+  EXPECT_EQ(valuesOf(materialOf(look, scale).transfer), (std::vector<double>{10.0, 40.0}));
+}
+
+TEST(AppearanceMaterial, IsOneColourWithoutATransferFunction)
+{
+  StructureAppearance look;
+  look.color = {0.1F, 0.2F, 0.3F};
+  look.shininess = 33.0F;
+  Material material = materialOf(look);
+  for (const double value : {-1000.0, 0.0, 3000.0})
+  {
+    EXPECT_FLOAT_EQ(float(material.transfer.at(value).color[2]), 0.3F);
+    EXPECT_NEAR(std::exp(-material.transfer.at(value).extinction), 0.05, 1e-6) << "nearly opaque";
+  }
+  EXPECT_EQ(material.surfaceOpacity, 1.0F);
+  EXPECT_EQ(material.shininess, 33.0F);
+  EXPECT_FALSE(material.lumen);
+  look.opacity = 0.5F;
+  material = materialOf(look);
+  EXPECT_EQ(material.surfaceOpacity, 0.5F);
+  EXPECT_NEAR(std::exp(-material.transfer.at(0.0).extinction), 1.0 - 0.475, 1e-6);
+}
+
+TEST(AppearanceMaterial, ReadsAnMrOnlyByValuesMadeForIt)
+{
+  StructureAppearance look;
+  look.transfer = twoPoints();
+  look.sourceImage = "t2";
+  EXPECT_EQ(materialOf(look).source, IntensitySource::Second);
+  EXPECT_EQ(materialOf(look).transfer, twoPoints());
+  look.relative = true; // made for CT
+  EXPECT_EQ(materialOf(look).transfer.points().size(), 1u);
+  EXPECT_EQ(materialOf(look).source, IntensitySource::Ct);
+}
+
+TEST(AppearanceMaterial, ALumenTintsItsWallAndLeavesItAsOpaqueAsBone)
+{
+  StructureAppearance bone;
+  bone.transfer = twoPoints();
+  bone.opacity = 0.9F;
+  StructureAppearance lumen;
+  lumen.solid = false;
+  lumen.color = {0.0F, 0.0F, 1.0F};
+  lumen.opacity = 0.25F;
+  const Material wall = materialOf(bone);
+  const Material material = lumenMaterial(lumen, wall);
+  EXPECT_TRUE(material.lumen);
+  EXPECT_EQ(material.surfaceOpacity, 0.9F);
+  for (const double value : {300.0, 1000.0, 1800.0})
+  {
+    EXPECT_NEAR(material.transfer.at(value).color[0], 0.75 * wall.transfer.at(value).color[0],
+                1e-6);
+    EXPECT_NEAR(material.transfer.at(value).color[2],
+                0.75 * wall.transfer.at(value).color[2] + 0.25, 1e-6);
+    EXPECT_NEAR(material.transfer.at(value).extinction, wall.transfer.at(value).extinction, 1e-5);
+  }
+}
+
+TEST(StructureAppearance, AnotherColourKeepsTheShadesOfItsTransferFunction)
+{
+  StructureAppearance look;
+  look.color = {0.5F, 0.5F, 0.5F};
+  look.transfer = TransferFunction({{0.0, {0.25F, 0.25F, 0.25F}, 0.1F, 0.2F},
+                                    {100.0, {0.5F, 0.5F, 0.5F}, 0.3F, 0.4F},
+                                    {200.0, {1.0F, 1.0F, 1.0F}, 0.5F, 0.6F}});
+  setColor(look, {0.8F, 0.4F, 0.0F});
+  const auto& points = look.transfer->points();
+  EXPECT_NEAR(points[0].color[0], 0.4F, 1e-6F);
+  EXPECT_NEAR(points[1].color[1], 0.4F, 1e-6F);
+  EXPECT_EQ(points[2].color[0], 1.0F) << "held at white";
+  EXPECT_EQ(points[2].opacity, 0.5F);
+  EXPECT_THROW(setColor(look, {0.0F, 1.5F, 0.0F}), petrous::core::InvalidParameter);
+}
+
+TEST(StructureAppearance, APresetChangesTheLookAndNotWhatTheHandMayDo)
+{
+  StructureAppearance look;
+  setFlags(look, "touchable");
+  look.sourceImage = "t2";
+  applyPreset(look, StructurePresets::builtIn().preset("nerve"));
+  EXPECT_EQ(look.preset, "nerve");
+  EXPECT_TRUE(look.transfer.has_value());
+  EXPECT_EQ(flagsOf(look), "touchable");
+  EXPECT_EQ(look.sourceImage, "t2");
+}

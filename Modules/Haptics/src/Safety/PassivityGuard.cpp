@@ -1,0 +1,106 @@
+#include "petrous/Haptics/PassivityGuard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::haptics
+{
+
+namespace
+{
+
+constexpr double kMaxStep = 0.02; // s
+
+void check(bool holds, const char* what)
+{
+  if (!holds)
+    throw core::InvalidParameter(std::string("passivity guard: ") + what);
+}
+
+bool positive(double value)
+{
+  return value > 0.0 && std::isfinite(value);
+}
+
+bool notNegative(double value)
+{
+  return value >= 0.0 && std::isfinite(value);
+}
+
+double storedBy(const Eigen::Vector3d& load, double stiffness) noexcept
+{
+  if (load.isZero(0.0))
+    return 0.0;
+  return stiffness > 0.0 ? 0.5 * load.squaredNorm() / stiffness
+                         : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+PassivityGuard::PassivityGuard(const Parameters& parameters)
+  : m_parameters(parameters)
+{
+  check(positive(parameters.allowance), "the allowance must be above 0 N mm");
+  check(notNegative(parameters.stiffness), "the stiffness must not be below 0 N/mm");
+  check(notNegative(parameters.angularStiffness),
+        "the angular stiffness must not be below 0 N mm/rad");
+  check(notNegative(parameters.deviceDamping), "the device's damping must not be below 0 N s/mm");
+  check(notNegative(parameters.deviceAngularDamping),
+        "the device's angular damping must not be below 0 N mm s/rad");
+  check(positive(parameters.largestDamping), "the largest damping must be above 0 N s/mm");
+  check(positive(parameters.lever), "the lever must be above 0 mm");
+}
+
+double PassivityGuard::maxStored(const Wrench& wanted) const noexcept
+{
+  return storedBy(wanted.linear, m_parameters.stiffness) +
+         storedBy(wanted.angular, m_parameters.angularStiffness);
+}
+
+Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now) noexcept
+{
+  m_damping = 0.0;
+  const double dt = now - m_time;
+  const bool observed =
+      m_hasPose && pose.finite() && dt > 0.0 && dt <= kMaxStep; // false if dt is NaN
+  Motion step;
+  if (observed)
+  {
+    step = motionBetween(m_pose, pose);
+    m_energy += (m_parameters.deviceDamping * step.linear.squaredNorm() +
+                 m_parameters.deviceAngularDamping * step.angular.squaredNorm()) /
+                    dt -
+                m_sent.linear.dot(step.linear) - m_sent.angular.dot(step.angular);
+    if (!std::isfinite(m_energy)) // from implausible forces
+      m_energy = 0.0;
+  }
+  m_hasPose = pose.finite() && std::isfinite(now);
+  m_pose = pose;
+  m_time = now;
+  m_sent = wanted.finite() ? wanted : Wrench{};
+  if (!observed || !wanted.finite())
+    return wanted;
+
+  const double debt = -m_energy - m_parameters.allowance;
+  m_energy = std::min(m_energy, maxStored(wanted));
+  const double lever2 = m_parameters.lever * m_parameters.lever;
+  const double speed2 =
+      (step.linear.squaredNorm() + lever2 * step.angular.squaredNorm()) / (dt * dt);
+  if (!(debt > 0.0) || !(speed2 > 0.0))
+    return wanted;
+  m_damping = std::min(m_parameters.largestDamping, debt / (speed2 * dt));
+  m_sent.linear -= m_damping / dt * step.linear;
+  m_sent.angular -= m_damping * lever2 / dt * step.angular;
+  return m_sent;
+}
+
+void PassivityGuard::sent(const Wrench& wrench) noexcept
+{
+  m_sent = wrench.finite() ? wrench : Wrench{};
+}
+
+} // namespace petrous::haptics

@@ -1,0 +1,124 @@
+#include "Codestream.h"
+
+#include <cstdint>
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+/// Reads big-endian numbers; 0 beyond the end.
+class Head
+{
+public:
+  explicit Head(const std::vector<char>& bytes)
+    : m_bytes(bytes)
+  {
+  }
+
+  std::uint32_t number(std::size_t offset, std::size_t width) const
+  {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < width && offset + width <= m_bytes.size(); ++i)
+      value = (value << 8) | static_cast<unsigned char>(m_bytes[offset + i]);
+    return value;
+  }
+  std::size_t size() const { return m_bytes.size(); }
+
+private:
+  const std::vector<char>& m_bytes;
+};
+
+bool sizeFits(std::uint32_t columns, std::uint32_t rows, std::uint32_t components,
+              const SliceHeader& slice)
+{
+  return columns == static_cast<std::uint32_t>(slice.columns) &&
+         rows == static_cast<std::uint32_t>(slice.rows) && components == 1;
+}
+
+bool bitsFit(std::uint32_t bits, const SliceHeader& slice)
+{
+  return bits >= 2 && bits <= static_cast<std::uint32_t>(slice.pixels.bitsAllocated);
+}
+
+/// Tables and comments that may precede a scan (T.81 B.2.4, T.87 C.2.4).
+bool isTable(std::uint32_t marker)
+{
+  return marker == 0xffc4 || marker == 0xffcc || marker == 0xffdb || marker == 0xffdd ||
+         (marker >= 0xffe0 && marker <= 0xffef) || marker == 0xfff8 || marker == 0xfffe;
+}
+
+/// The scan header (SOS) of ITU-T T.81 B.2.3: one component, and for lossless frames one of
+/// predictors 1 to 7. GDCM aborts the program on any other.
+bool scanFits(const Head& head, std::size_t at, std::uint32_t frame)
+{
+  const bool isLossless = frame == 0xffc3 || frame == 0xffc7 || frame == 0xffcb || frame == 0xffcf;
+  const std::uint32_t predictor = head.number(at + 7, 1);
+  return head.number(at + 2, 2) == 8 && head.number(at + 4, 1) == 1 &&
+         (!isLossless || (predictor >= 1 && predictor <= 7));
+}
+
+/// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2, and the scan header after it.
+bool jpegFits(const Head& head, const SliceHeader& slice)
+{
+  if (head.number(0, 2) != 0xffd8)
+    return false;
+  std::size_t at = 2;
+  std::uint32_t frame = 0;
+  while (at + 4 <= head.size())
+  {
+    const std::uint32_t marker = head.number(at, 2);
+    if (marker == 0xffff) // fill byte
+    {
+      ++at;
+      continue;
+    }
+    const bool isFrame = (marker >= 0xffc0 && marker <= 0xffcf && marker != 0xffc4 &&
+                          marker != 0xffc8 && marker != 0xffcc) ||
+                         marker == 0xfff7;
+    if (isFrame &&
+        (frame != 0 || !bitsFit(head.number(at + 4, 1), slice) ||
+         !sizeFits(head.number(at + 7, 2), head.number(at + 5, 2), head.number(at + 9, 1), slice)))
+      return false;
+    if (isFrame)
+      frame = marker;
+    if (marker == 0xffda)
+      return frame != 0 && scanFits(head, at, frame);
+    const std::uint32_t length = head.number(at + 2, 2);
+    if ((!isFrame && !isTable(marker)) || length < 2)
+      return false;
+    at += 2 + length;
+  }
+  return false;
+}
+
+/// The SIZ segment of ITU-T T.800 A.5.1, always the second marker.
+bool jpeg2000Fits(const Head& head, const SliceHeader& slice)
+{
+  // Some writers wrap the codestream in a JP2 file.
+  std::size_t at = 0;
+  if (head.number(4, 4) == 0x6a502020U)
+    while (at + 4 <= head.size() && head.number(at, 4) != 0xff4fff51U)
+      ++at;
+  if (head.number(at, 4) != 0xff4fff51U)
+    return false;
+  const auto field = [&head, at](std::size_t offset) { return head.number(at + offset, 4); };
+  return sizeFits(field(8) - field(16), field(12) - field(20), head.number(at + 40, 2), slice) &&
+         bitsFit((head.number(at + 42, 1) & 0x7fU) + 1, slice);
+}
+
+} // namespace
+
+bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice)
+{
+  const std::string& syntax = slice.pixels.transferSyntax;
+  const Head head(bytes);
+  if (syntax == "1.2.840.10008.1.2.5")
+    return true;
+  if (syntax == "1.2.840.10008.1.2.4.90" || syntax == "1.2.840.10008.1.2.4.91")
+    return jpeg2000Fits(head, slice);
+  return jpegFits(head, slice);
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ByteSource.h"
+
+namespace petrous::imaging
+{
+
+/// Group and element as one number: (0028,0010) is 0x00280010.
+using Tag = std::uint32_t;
+
+constexpr Tag kFloatPixelData = 0x7fe00008;
+constexpr Tag kDoublePixelData = 0x7fe00009;
+constexpr Tag kPixelData = 0x7fe00010;
+
+/// The short top-level elements of a DICOM file up to its pixel data (PS3.5 section 7, PS3.10).
+///
+/// Used instead of gdcm::Reader, which as built by Debian has assertions enabled: a damaged file
+/// would abort the program and lose the user's work. GDCM decodes the pixels.
+class DicomElements
+{
+public:
+  enum class State
+  {
+    Foreign, ///< not DICOM
+    Damaged, ///< an element does not fit into the file
+    Complete ///< read to the pixel data or, without any, to the end
+  };
+
+  explicit DicomElements(ByteSource& source);
+
+  State state() const noexcept { return m_state; }
+  const std::string& transferSyntax() const noexcept ///< UID
+  {
+    return m_syntax;
+  }
+  bool isBigEndian() const noexcept { return m_bigEndian; }
+
+  struct Pixels
+  {
+    Tag tag = 0; ///< 0: no pixel data
+    std::uint64_t offset = 0;
+    std::uint32_t length = 0; ///< kUndefinedLength if encapsulated
+  };
+  const Pixels& pixels() const noexcept { return m_pixels; }
+  bool empty() const noexcept ///< no elements except file meta information
+  {
+    return m_count == 0;
+  }
+
+  bool hasModalityLut() const noexcept ///< a lookup table instead of rescale slope and intercept
+  {
+    return m_hasModalityLut;
+  }
+
+  /// Without padding and control characters, safe for a terminal or a JSON parser.
+  std::string text(Tag tag) const;
+  std::vector<std::string> words(Tag tag) const; ///< split at backslashes
+  std::optional<double> number(Tag tag) const;   ///< decimal string; nullopt if malformed
+  std::vector<double> numbers(Tag tag, std::size_t count) const;    ///< all of them, or empty
+  std::optional<int> integer(Tag tag, bool isSigned = false) const; ///< binary, two bytes
+
+  static constexpr std::uint32_t kUndefinedLength = 0xFFFFFFFFU;
+
+private:
+  struct Element
+  {
+    Tag tag = 0;
+    std::uint32_t length = 0;
+    std::uint64_t value = 0; ///< offset
+    bool isUnknown = false;  ///< VR UN: content of undefined length is implicit VR
+  };
+
+  bool findStart(std::uint64_t& offset);
+  bool readMeta(std::uint64_t& offset);
+  void readDataSet(std::uint64_t offset);
+  bool readElement(std::uint64_t offset, Element& element, bool explicitVr);
+  bool skipItems(std::uint64_t& offset, bool explicitVr, int depth);
+  bool skipItemContent(std::uint64_t& offset, bool explicitVr, int depth);
+  bool keep(const Element& element);
+  std::uint16_t number16(const unsigned char* bytes) const;
+  std::uint32_t number32(const unsigned char* bytes) const;
+
+  ByteSource& m_source;
+  State m_state = State::Foreign;
+  std::string m_syntax;
+  bool m_bigEndian = false;
+  bool m_explicit = true;
+  bool m_hasModalityLut = false;
+  std::size_t m_count = 0;
+  Pixels m_pixels;
+  std::map<Tag, std::string> m_values;
+};
+
+} // namespace petrous::imaging

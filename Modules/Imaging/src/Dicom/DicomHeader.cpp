@@ -1,0 +1,299 @@
+#include "DicomHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "DicomElements.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr const char* kCutShort = "is cut short";
+
+const char* const kDeflated = "1.2.840.10008.1.2.1.99";
+const char* const kImplicit = "1.2.840.10008.1.2";
+const char* const kExplicit = "1.2.840.10008.1.2.1";
+const char* const kBigEndian = "1.2.840.10008.1.2.2";
+const char* const kDirectoryClass = "1.2.840.10008.1.3.10";
+
+/// Single-image compressions that GDCM decodes: JPEG, JPEG-LS, JPEG 2000, RLE.
+bool isDecodable(const std::string& syntax)
+{
+  static const char* const kKnown[] = {
+      "1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51", "1.2.840.10008.1.2.4.57",
+      "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80", "1.2.840.10008.1.2.4.81",
+      "1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.91", "1.2.840.10008.1.2.5"};
+  return std::find(std::begin(kKnown), std::end(kKnown), syntax) != std::end(kKnown);
+}
+
+/// SOP classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
+bool isSliceClass(const std::string& sopClass)
+{
+  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
+  static const char* const kKnown[] = {"1", "2", "2.1", "4", "4.1", "7", "128"};
+  return std::any_of(std::begin(kKnown), std::end(kKnown),
+                     [&](const char* known) { return sopClass == kStorage + known; });
+}
+
+bool isNative(const std::string& syntax)
+{
+  return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
+}
+
+/// Walks the items of an encapsulated element; false if one extends beyond the end of the file.
+bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
+{
+  std::uint64_t bytes = 0;
+  std::array<unsigned char, 8> item{};
+  while (source.read(offset, item.data(), item.size()))
+  {
+    const bool isDelimiter = item[0] == 0xfe && item[1] == 0xff && item[2] == 0xdd;
+    const bool isItem = item[0] == 0xfe && item[1] == 0xff && item[2] == 0x00;
+    if (isDelimiter || !isItem)
+      break;
+    const std::uint64_t length =
+        item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint64_t>(item[7]) << 24);
+    offset += item.size() + length;
+    if (offset > source.size())
+      return false;
+    bytes += length;
+  }
+  return bytes > 0; // some writers omit the sequence delimiter
+}
+
+std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
+{
+  if (values.size() < first + 3)
+    return std::nullopt;
+  return Eigen::Vector3d(values[first], values[first + 1], values[first + 2]);
+}
+
+void readPlace(const DicomElements& elements, SliceHeader& slice)
+{
+  slice.position = vectorAt(elements.numbers(0x00200032, 3), 0);
+  const std::vector<double> cosines = elements.numbers(0x00200037, 6);
+  slice.rowDirection = vectorAt(cosines, 0);
+  slice.columnDirection = vectorAt(cosines, 3);
+  const std::vector<double> spacing = elements.numbers(0x00280030, 2);
+  if (!spacing.empty())
+    slice.pixelSpacing = Eigen::Vector2d(spacing[0], spacing[1]);
+  slice.thickness = elements.number(0x00180050);
+  slice.declaredSpacing = elements.number(0x00180088);
+  slice.declaredTilt = elements.number(0x00181120);
+  slice.frameOfReferenceUid = elements.text(0x00200052);
+  slice.instanceNumber =
+      static_cast<int>(std::clamp(elements.number(0x00200013).value_or(0.0), -1e9, 1e9));
+}
+
+/// 0 for an empty text. Writers differ in case and in trailing name delimiters.
+std::size_t keyOf(std::string text)
+{
+  text.erase(text.find_last_not_of(" ^") + 1);
+  for (char& c : text)
+    c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return text.empty() ? 0 : std::max<std::size_t>(std::hash<std::string>{}(text), 1);
+}
+
+// The first date present, with its time to the minute.
+std::string takenOf(const DicomElements& elements)
+{
+  constexpr std::pair<Tag, Tag> kDates[] = {
+      {0x00080022, 0x00080032}, {0x00080021, 0x00080031}, {0x00080020, 0x00080030}};
+  for (const auto& [date, time] : kDates)
+    if (const std::string day = elements.text(date); !day.empty())
+    {
+      const std::string minute = elements.text(time).substr(0, 4);
+      return minute.empty() ? day : day + " " + minute;
+    }
+  return {};
+}
+
+void readOrigin(const DicomElements& elements, SliceHeader& slice)
+{
+  slice.taken = takenOf(elements);
+  slice.patientPosition = elements.text(0x00185100);
+  slice.patient = {keyOf(elements.text(0x00100020)), keyOf(elements.text(0x00100010)),
+                   keyOf(elements.text(0x00100030))};
+  slice.studyUid = elements.text(0x0020000d);
+  slice.modality = elements.text(0x00080060);
+  slice.kernel = elements.text(0x00181210);
+  slice.tube = elements.number(0x00180060);
+  const auto whole = [&elements](Tag tag) -> std::optional<int>
+  {
+    const auto value = elements.number(tag);
+    return value && std::abs(*value) < 1e9 ? std::optional(static_cast<int>(*value)) : std::nullopt;
+  };
+  slice.seriesNumber = whole(0x00200011);
+  slice.acquisition = whole(0x00200012);
+  slice.hasModalityLut = elements.hasModalityLut();
+}
+
+void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
+{
+  slice.rows = elements.integer(0x00280010).value_or(0);
+  slice.columns = elements.integer(0x00280011).value_or(0);
+  slice.frames = static_cast<int>(std::clamp(elements.number(0x00280008).value_or(1.0), 1.0, 1e6));
+  PixelFormat& pixels = slice.pixels;
+  pixels.bitsAllocated = elements.integer(0x00280100).value_or(0);
+  pixels.bitsStored = elements.integer(0x00280101).value_or(pixels.bitsAllocated);
+  pixels.highBit = elements.integer(0x00280102).value_or(pixels.bitsStored - 1);
+  pixels.isSigned = elements.integer(0x00280103).value_or(0) == 1;
+  pixels.samplesPerPixel = elements.integer(0x00280002).value_or(1);
+  pixels.photometric = elements.text(0x00280004);
+  pixels.transferSyntax = elements.transferSyntax();
+  pixels.isBigEndian = elements.isBigEndian();
+  pixels.isDeflated = pixels.transferSyntax == kDeflated;
+  slice.padding = elements.integer(0x00280120, pixels.isSigned);
+  slice.paddingRangeLimit = elements.integer(0x00280121, pixels.isSigned);
+}
+
+/// What is wrong with the rescale, or an empty string.
+const char* readRescale(const DicomElements& elements, SliceHeader& slice)
+{
+  constexpr Tag kSlope = 0x00281053;
+  constexpr Tag kIntercept = 0x00281052;
+  slice.hasRescale = !elements.text(kSlope).empty() || !elements.text(kIntercept).empty();
+  if (!slice.hasRescale)
+    return "";
+  const auto slope = elements.number(kSlope);
+  const auto intercept = elements.number(kIntercept);
+  if (!slope || !intercept || *slope == 0.0 || std::abs(*slope) > 1e9 || std::abs(*intercept) > 1e9)
+    return "states a rescale slope and intercept that cannot be";
+  slice.slope = *slope;
+  slice.intercept = *intercept;
+  return "";
+}
+
+/// What is wrong with the encoding of a greyscale image, or an empty string.
+const char* checkFormat(const SliceHeader& slice)
+{
+  const PixelFormat& pixels = slice.pixels;
+  const int bits = pixels.bitsAllocated;
+  if (!isNative(pixels.transferSyntax) && !isDecodable(pixels.transferSyntax))
+    return "is compressed in a way that cannot be read";
+  // There were two packings of 12 bits allocated, and of 8 bits in big endian; they cannot be told
+  // apart.
+  if (bits != 16 && bits != 32 && (bits != 8 || pixels.isBigEndian))
+    return "has pixels of an unusual number of bits";
+  if (pixels.bitsStored < 1 || pixels.bitsStored > bits || pixels.highBit >= bits ||
+      pixels.highBit < pixels.bitsStored - 1)
+    return "contradicts itself about the bits of a pixel";
+  return "";
+}
+
+/// Locates the pixels; returns what is wrong with them, or an empty string.
+const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, SliceHeader& slice)
+{
+  if (found.tag != kPixelData)
+    return "holds floating-point pixels, which are not read";
+  PixelFormat& pixels = slice.pixels;
+  pixels.offset = found.offset;
+  pixels.isEncapsulated = found.length == DicomElements::kUndefinedLength;
+  pixels.length = pixels.isEncapsulated ? source.size() - found.offset : found.length;
+  if (pixels.isEncapsulated && isNative(pixels.transferSyntax))
+    return "is compressed, but does not say how";
+  if (pixels.offset + pixels.length > source.size())
+    return kCutShort;
+  if (slice.frames > 1 || pixels.samplesPerPixel != 1)
+    return ""; // excluded for that reason, which is the better one to report
+  if (pixels.isEncapsulated)
+  {
+    if (!fragmentsComplete(source, pixels.offset))
+      return kCutShort;
+  }
+  else
+  {
+    const auto count = static_cast<std::uint64_t>(slice.rows) * slice.columns;
+    if (!isNative(pixels.transferSyntax))
+      return "says it is compressed, but is not";
+    if (pixels.length < (count * pixels.bitsAllocated + 7) / 8)
+      return "holds fewer pixels than its header says";
+  }
+  return checkFormat(slice);
+}
+
+void readSlice(ByteSource& source, const DicomElements& elements, const std::string& sopClass,
+               FileHeader& header)
+{
+  SliceHeader& slice = header.slice;
+  header.seriesUid = elements.text(0x0020000e);
+  header.modality = elements.text(0x00080060);
+  header.description = elements.text(0x0008103e);
+  slice.imageType = elements.words(0x00080008);
+  readPlace(elements, slice);
+  readOrigin(elements, slice);
+  readPixelFormat(elements, slice);
+  const char* rescale = readRescale(elements, slice);
+
+  const bool complete = elements.state() == DicomElements::State::Complete;
+  if (!complete || elements.empty())
+  {
+    header.kind = header.seriesUid.empty() ? FileKind::Broken : FileKind::Dicom;
+    slice.damage = elements.empty() ? kCutShort : "is cut short or damaged";
+    return;
+  }
+  header.kind = FileKind::Dicom;
+  slice.isImage = elements.pixels().tag != 0;
+  if (slice.isImage)
+    slice.damage = checkPixels(source, elements.pixels(), slice);
+  else if (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass))
+  {
+    // Truncated between two elements, or stripped: in either case data are lost.
+    slice.damage = "holds no pixels";
+    if (header.seriesUid.empty())
+      header.kind = FileKind::Broken;
+  }
+  if (slice.damage.empty())
+    slice.damage = rescale;
+}
+
+/// Why a file that is not DICOM may have been, or an empty string: empty, or only zeros of the
+/// preamble before the DICM prefix.
+const char* shortDamage(ByteSource& source)
+{
+  std::array<unsigned char, 132> head{};
+  const std::uint64_t size = source.size();
+  if (size == 0)
+    return "is empty";
+  if (size >= head.size() || !source.read(0, head.data(), static_cast<std::size_t>(size)))
+    return "";
+  return std::all_of(head.begin(), head.end(), [](unsigned char c) { return c == 0; }) ? kCutShort
+                                                                                       : "";
+}
+
+} // namespace
+
+FileHeader readHeader(const std::filesystem::path& file)
+{
+  FileHeader header;
+  header.slice.file = file;
+  ByteSource source(file);
+  if (!source.isOpen())
+  {
+    header.kind = FileKind::Broken;
+    header.slice.damage = "cannot be opened";
+    return header;
+  }
+  const DicomElements elements(source);
+  if (elements.state() == DicomElements::State::Foreign)
+  {
+    header.slice.damage = shortDamage(source);
+    return header;
+  }
+  std::string sopClass = elements.text(0x00080016);
+  if (sopClass.empty())
+    sopClass = elements.text(0x00020002);
+  if (sopClass == kDirectoryClass)
+    header.kind = FileKind::Directory;
+  else
+    readSlice(source, elements, sopClass, header);
+  return header;
+}
+
+} // namespace petrous::imaging

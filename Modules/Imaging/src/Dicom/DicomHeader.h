@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "petrous/Imaging/SeriesGeometry.h"
+
+namespace petrous::imaging
+{
+
+/// Classification of a file.
+enum class FileKind
+{
+  Foreign,   ///< not DICOM; slice.damage is set if it may have been a slice
+  Directory, ///< a DICOMDIR: an index without an object of its own
+  Broken,    ///< DICOM, but damaged before its series is stated
+  Dicom      ///< an object of a series; slice.damage is set if its pixels cannot be read
+};
+
+struct FileHeader
+{
+  FileKind kind = FileKind::Foreign;
+  std::string seriesUid;
+  std::string modality;
+  std::string description;
+  SliceHeader slice;
+};
+
+/// Reads everything before the pixel data, and checks that the pixels are complete. Never throws on
+/// bad content. Thread-safe.
+FileHeader readHeader(const std::filesystem::path& file);
+
+} // namespace petrous::imaging

@@ -1,0 +1,367 @@
+#include "petrous/Imaging/DicomReader.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "PixelCodec.h"
+#include "SliceStack.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+using core::GridGeometry;
+using core::IndexBox;
+using volume::IntensityVolume;
+using volume::Volume;
+
+constexpr double kAir = -1024.0; // HU; the minimum of most CTs
+
+/// Minimum and maximum of a set of values; initially empty.
+struct Span
+{
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  bool empty() const { return min > max; }
+  void add(double value)
+  {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  template <class T>
+  bool fits() const
+  {
+    return empty() || (min >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+                       max <= static_cast<double>(std::numeric_limits<T>::max()));
+  }
+};
+
+bool isWhole(double value)
+{
+  return value == std::nearbyint(value) && std::abs(value) < 1e9;
+}
+
+/// The range of stored values that a slice declares as padding: [low, high].
+struct PaddingRange
+{
+  std::int32_t low = 1;
+  std::int32_t high = 0;
+
+  explicit PaddingRange(const SliceHeader& slice, bool wanted)
+  {
+    if (!wanted || !slice.padding)
+      return;
+    const auto value = static_cast<std::int32_t>(*slice.padding);
+    const auto limit = static_cast<std::int32_t>(slice.paddingRangeLimit.value_or(*slice.padding));
+    low = std::min(value, limit);
+    high = std::max(value, limit);
+  }
+  bool empty() const { return low > high; }
+  bool contains(std::int32_t stored) const { return stored >= low && stored <= high; }
+};
+
+double rescaled(const SliceHeader& slice, double stored)
+{
+  return slice.slope * stored + slice.intercept;
+}
+
+/// Statistics of filling the volume.
+struct Contents
+{
+  Span real;                  ///< values that are not padding
+  bool isPadded = false;      ///< padding occurs in the box
+  bool cornersPadded = false; ///< padding occurs in a slice corner, as outside a circular field
+};
+
+class SeriesReader
+{
+public:
+  SeriesReader(const DicomSeries& series, const IndexBox& box, const core::Progress& progress)
+    : m_slices(series.geometry.slices)
+    , m_modality(series.modality)
+    , m_geometry(series.geometry.grid->cropped(box))
+    , m_box(box)
+    , m_progress(progress)
+  {
+  }
+
+  IntensityVolume read(std::vector<std::string>* notes)
+  {
+    m_notes = notes;
+    Span declared;
+    bool whole = true;
+    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
+    {
+      const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
+      whole = whole && isWhole(slice.slope) && isWhole(slice.intercept);
+      const PixelFormat& pixels = slice.pixels;
+      const double count = std::ldexp(1.0, pixels.bitsStored);
+      declared.add(rescaled(slice, pixels.isSigned ? -0.5 * count : 0.0));
+      declared.add(rescaled(slice, pixels.isSigned ? 0.5 * count - 1.0 : count - 1.0));
+    }
+    m_needsRange = (whole && !declared.fits<std::int16_t>() && !declared.fits<std::uint16_t>()) ||
+                   std::any_of(m_slices.begin(), m_slices.end(),
+                               [](const SliceHeader& s) { return s.padding.has_value(); });
+    if (!whole)
+      return *tryRead<float>();
+    if (declared.fits<std::int16_t>() || !declared.fits<std::uint16_t>())
+      // 16 bits stored with an intercept of -1024 declare a larger range than is used.
+      if (auto result = tryRead<std::int16_t>())
+        return *result;
+    if (auto result = tryRead<std::uint16_t>())
+      return *result;
+    return *tryRead<float>();
+  }
+
+private:
+  /// nullopt if a real value does not fit T; the memory is freed then.
+  template <class T>
+  std::optional<IntensityVolume> tryRead()
+  {
+    if (!m_contents.real.fits<T>()) // known from an earlier attempt
+      return std::nullopt;
+    auto voxels = std::make_shared<Volume<T>>(m_geometry);
+    bool usePadding = true;
+    T stand = standIn<T>();
+    fill(*voxels, stand, usePadding);
+    if (!m_contents.real.fits<T>())
+      return std::nullopt;
+    if (!m_contents.isPadded || m_contents.real.empty())
+      return IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
+
+    const double lowest = m_contents.real.min;
+    if (static_cast<double>(stand) <= lowest && paddingValue() <= lowest)
+      return IntensityVolume(std::shared_ptr<const Volume<T>>(voxels), static_cast<double>(stand));
+    const std::string value = decimals(paddingValue(), 0);
+    if (!m_contents.cornersPadded)
+    {
+      // Some writers declare a tissue value (0, water) as padding; then it occurs only inside.
+      usePadding = false;
+      fill(*voxels, stand, usePadding);
+      if (!m_contents.real.fits<T>())
+        return std::nullopt;
+      note("The header calls the value " + value +
+           " padding, but it does not fill the corners of "
+           "any slice; it is kept as an ordinary value.");
+      return IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
+    }
+    const auto target =
+        static_cast<T>(std::max(m_modality == "CT" ? std::min(lowest, kAir) : lowest,
+                                static_cast<double>(std::numeric_limits<T>::lowest())));
+    replace(*voxels, stand, target);
+    note("Padding had the value " + value + ", which would pass for tissue; it was replaced by " +
+         decimals(static_cast<double>(target), 0) + ".");
+    return static_cast<double>(target) < lowest
+               ? IntensityVolume(std::shared_ptr<const Volume<T>>(voxels),
+                                 static_cast<double>(target))
+               : IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
+  }
+
+  /// The padding value of the first slice that has one, rescaled.
+  double paddingValue() const
+  {
+    for (const SliceHeader& slice : m_slices)
+    {
+      const PaddingRange padding(slice, true);
+      if (!padding.empty())
+        return std::min(rescaled(slice, padding.low), rescaled(slice, padding.high));
+    }
+    return 0.0;
+  }
+
+  /// Value of padding voxels until it is known whether their own value can be kept: one that no
+  /// other voxel has.
+  template <class T>
+  T standIn() const
+  {
+    const SliceHeader& first = m_slices.front();
+    const bool shared = std::all_of(m_slices.begin(), m_slices.end(),
+                                    [&](const SliceHeader& s)
+                                    {
+                                      return s.slope == first.slope &&
+                                             s.intercept == first.intercept &&
+                                             s.padding == first.padding &&
+                                             s.paddingRangeLimit == first.paddingRangeLimit;
+                                    });
+    Span value;
+    value.add(paddingValue());
+    return shared && value.fits<T>() ? static_cast<T>(value.min) : std::numeric_limits<T>::lowest();
+  }
+
+  template <class T>
+  void fill(Volume<T>& voxels, T stand, bool usePadding)
+  {
+    m_contents = {};
+    tbb::enumerable_thread_specific<StoredPixels> buffers;
+    std::atomic<int> done{0};
+    const int count = m_box.upper[2] - m_box.lower[2];
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, 1),
+                      [&](const tbb::blocked_range<int>& r)
+                      {
+                        for (int k = r.begin(); k != r.end(); ++k)
+                        {
+                          fillSlice(k, voxels, stand, usePadding, buffers.local());
+                          m_progress.report(static_cast<double>(++done) / count, "reading slices");
+                        }
+                      });
+  }
+
+  template <class T>
+  void fillSlice(int k, Volume<T>& voxels, T stand, bool usePadding, StoredPixels& pixels)
+  {
+    const SliceHeader& slice = m_slices[static_cast<std::size_t>(m_box.lower[2] + k)];
+    decodePixels(slice, pixels);
+    const PaddingRange padding(slice, usePadding);
+    const auto columns = static_cast<std::size_t>(slice.columns);
+    const auto width = static_cast<std::size_t>(m_box.upper[0] - m_box.lower[0]);
+    std::int32_t low = std::numeric_limits<std::int32_t>::max();
+    std::int32_t high = std::numeric_limits<std::int32_t>::min();
+    bool padded = false;
+    for (int j = m_box.lower[1]; j < m_box.upper[1]; ++j)
+    {
+      const std::int32_t* from = pixels.values.data() + static_cast<std::size_t>(j) * columns +
+                                 static_cast<std::size_t>(m_box.lower[0]);
+      T* to = &voxels.at(0, j - m_box.lower[1], k);
+      rescaleRow(slice, from, width, to);
+      if (!m_needsRange)
+        continue;
+      if (padding.empty())
+        for (std::size_t i = 0; i < width; ++i)
+        {
+          low = std::min(low, from[i]);
+          high = std::max(high, from[i]);
+        }
+      else
+        for (std::size_t i = 0; i < width; ++i)
+        {
+          const bool out = padding.contains(from[i]);
+          to[i] = out ? stand : to[i];
+          padded = padded || out;
+          low = out ? low : std::min(low, from[i]);
+          high = out ? high : std::max(high, from[i]);
+        }
+    }
+
+    const std::size_t lastRow = columns * static_cast<std::size_t>(slice.rows - 1);
+    bool corner = false;
+    for (const std::size_t at : {std::size_t{0}, columns - 1, lastRow, lastRow + columns - 1})
+      corner = corner || padding.contains(pixels.values[at]);
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_contents.isPadded = m_contents.isPadded || padded;
+    m_contents.cornersPadded = m_contents.cornersPadded || corner;
+    if (low <= high)
+    {
+      m_contents.real.add(rescaled(slice, low));
+      m_contents.real.add(rescaled(slice, high));
+    }
+  }
+
+  template <class T>
+  static void rescaleRow(const SliceHeader& slice, const std::int32_t* from, std::size_t count,
+                         T* to)
+  {
+    if constexpr (std::is_integral_v<T>)
+    {
+      const auto slope = static_cast<std::int64_t>(slice.slope);
+      const auto intercept = static_cast<std::int64_t>(slice.intercept);
+      if (slope == 1)
+      {
+        // In 16 bits the sum wraps the same way; a value that does not fit ends the attempt anyway.
+        const auto offset = static_cast<std::uint16_t>(intercept);
+        for (std::size_t i = 0; i < count; ++i)
+          to[i] = static_cast<T>(
+              static_cast<std::uint16_t>(static_cast<std::uint32_t>(from[i]) + offset));
+      }
+      else
+        for (std::size_t i = 0; i < count; ++i)
+          to[i] = static_cast<T>(slope * from[i] + intercept);
+    }
+    else
+      for (std::size_t i = 0; i < count; ++i)
+        to[i] = static_cast<T>(slice.slope * from[i] + slice.intercept);
+  }
+
+  template <class T>
+  static void replace(Volume<T>& voxels, T from, T to)
+  {
+    T* data = voxels.data();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.size(), 1 << 20),
+                      [=](const auto& range)
+                      { std::replace(data + range.begin(), data + range.end(), from, to); });
+  }
+
+  void note(std::string text)
+  {
+    if (m_notes)
+      m_notes->push_back(std::move(text));
+  }
+
+  const std::vector<SliceHeader>& m_slices;
+  const std::string& m_modality;
+  GridGeometry m_geometry;
+  IndexBox m_box;
+  const core::Progress& m_progress;
+  std::vector<std::string>* m_notes = nullptr;
+  bool m_needsRange = true; ///< whether the range of the real values is needed
+  std::mutex m_mutex;
+  Contents m_contents;
+};
+
+std::string boxText(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
+{
+  std::string text;
+  for (Eigen::Index a = 0; a < 3; ++a)
+    text += (a > 0 ? ", " : "") + decimals(lower[a], 1) + " to " + decimals(upper[a], 1);
+  return text;
+}
+
+IndexBox boxToRead(const GridGeometry& grid, const ReadOptions& options)
+{
+  if (!options.roi)
+    return grid.fullBox();
+  const Eigen::Vector3d& lower = options.roi->min();
+  const Eigen::Vector3d& upper = options.roi->max();
+  const IndexBox box = grid.boxCovering(lower, upper);
+  if (!box.empty())
+    return box;
+  const auto bounds = grid.patientBounds();
+  throw DicomError(DicomError::Reason::OutsideRoi, "the box asked for (" + boxText(lower, upper) +
+                                                       " mm) does not meet the image (" +
+                                                       boxText(bounds.min(), bounds.max()) +
+                                                       " mm, patient LPS)");
+}
+
+} // namespace
+
+IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
+                           const core::Progress& progress, std::vector<std::string>* notes)
+{
+  const SeriesGeometry& geometry = series.geometry;
+  const bool accepted = geometry.verdict == Verdict::Ok || options.acceptDefects;
+  if (!accepted || !geometry.grid || geometry.slices.empty())
+  {
+    std::string message = "series " + series.uid + ": ";
+    if (geometry.findings.empty())
+      message += "it holds no slices that make a volume";
+    for (std::size_t i = 0; i < geometry.findings.size(); ++i)
+      message += (i > 0 ? " " : "") + std::string(kindName(geometry.findings[i].kind)) + ": " +
+                 geometry.findings[i].text;
+    throw DicomError(DicomError::Reason::Misleading, message);
+  }
+  progress.check("reading slices");
+  return SeriesReader(series, boxToRead(*geometry.grid, options), progress).read(notes);
+}
+
+} // namespace petrous::imaging

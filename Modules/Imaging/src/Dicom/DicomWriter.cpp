@@ -1,0 +1,320 @@
+#include "petrous/Imaging/DicomWriter.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include <gdcmAttribute.h>
+#include <gdcmFile.h>
+#include <gdcmMediaStorage.h>
+#include <gdcmWriter.h>
+
+#include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Modality = SeriesDescription::Modality;
+
+/// A decimal string (DS) has at most 16 characters, the last possibly a space for even length:
+/// writes as many digits as fit.
+std::string decimal(double value)
+{
+  if (value == 0.0)
+    return "0"; // also for -0
+  std::string text;
+  for (int digits = 15; digits > 0; --digits)
+    if (text = core::generalText(value, digits); text.size() <= 15)
+      break;
+  return text;
+}
+
+std::string decimals(std::initializer_list<double> values)
+{
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : "\\") + decimal(value);
+  return text;
+}
+
+/// Adds an element with a text value, padded to even length as required by its VR.
+void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
+         std::string text)
+{
+  if (text.size() % 2 != 0)
+    text += vr == gdcm::VR::UI ? '\0' : ' ';
+  gdcm::DataElement de(gdcm::Tag(group, element));
+  de.SetVR(vr);
+  de.SetByteValue(text.data(), static_cast<std::uint32_t>(text.size()));
+  data.Replace(de);
+}
+
+void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::uint16_t value,
+         gdcm::VR::VRType vr = gdcm::VR::US)
+{
+  gdcm::DataElement de(gdcm::Tag(group, element));
+  de.SetVR(vr);
+  const std::array<char, 2> bytes{static_cast<char>(value & 0xFF), static_cast<char>(value >> 8)};
+  de.SetByteValue(bytes.data(), 2);
+  data.Replace(de);
+}
+
+/// The attributes common to all slices of a series.
+gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
+                         bool isSigned)
+{
+  const bool ct = series.modality == Modality::Ct;
+  const Eigen::Matrix3d& axes = grid.direction();
+  gdcm::DataSet d;
+  using gdcm::VR;
+  // patient, study
+  put(d, 0x0010, 0x0010, VR::PN, series.patientName);
+  put(d, 0x0010, 0x0020, VR::LO, series.patientId);
+  put(d, 0x0010, 0x0030, VR::DA, "");
+  put(d, 0x0010, 0x0040, VR::CS, "O");
+  put(d, 0x0020, 0x000D, VR::UI, series.studyUid);
+  put(d, 0x0008, 0x0020, VR::DA, "20200101");
+  put(d, 0x0008, 0x0030, VR::TM, "120000");
+  put(d, 0x0008, 0x0090, VR::PN, "");
+  put(d, 0x0020, 0x0010, VR::SH, "1");
+  put(d, 0x0008, 0x0050, VR::SH, "");
+  put(d, 0x0008, 0x1030, VR::LO, "Phantom temporal bone");
+  // series, frame of reference, equipment
+  put(d, 0x0008, 0x0060, VR::CS, ct ? "CT" : "MR");
+  put(d, 0x0020, 0x000E, VR::UI, series.seriesUid);
+  put(d, 0x0020, 0x0011, VR::IS, std::to_string(series.seriesNumber));
+  put(d, 0x0008, 0x0021, VR::DA, "20200101");
+  put(d, 0x0008, 0x0031, VR::TM, "120000");
+  put(d, 0x0008, 0x103E, VR::LO, series.description);
+  put(d, 0x0018, 0x0015, VR::CS, "SKULL");
+  put(d, 0x0018, 0x5100, VR::CS, "HFS");
+  put(d, 0x0020, 0x0060, VR::CS, "R");
+  put(d, 0x0020, 0x0052, VR::UI, series.frameOfReferenceUid);
+  put(d, 0x0020, 0x1040, VR::LO, "");
+  put(d, 0x0008, 0x0070, VR::LO, "Petrous");
+  put(d, 0x0008, 0x1090, VR::LO, "Phantom");
+  put(d, 0x0018, 0x1020, VR::LO, "1");
+  // image
+  put(d, 0x0008, 0x0008, VR::CS, ct ? "ORIGINAL\\PRIMARY\\AXIAL" : "ORIGINAL\\PRIMARY\\OTHER");
+  put(d, 0x0020, 0x0012, VR::IS, "1");
+  put(d, 0x0008, 0x0022, VR::DA, "20200101");
+  put(d, 0x0008, 0x0032, VR::TM, "120000");
+  put(d, 0x0008, 0x0023, VR::DA, "20200101");
+  put(d, 0x0008, 0x0033, VR::TM, "120000");
+  put(d, 0x0008, 0x0012, VR::DA, "20200101");
+  put(d, 0x0008, 0x0013, VR::TM, "120000");
+  put(d, 0x0020, 0x0037, VR::DS,
+      decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)}));
+  put(d, 0x0028, 0x0030, VR::DS, decimals({grid.spacing()[1], grid.spacing()[0]}));
+  put(d, 0x0018, 0x0050, VR::DS, decimal(grid.spacing()[2]));
+  put(d, 0x0028, 0x0002, 1);
+  put(d, 0x0028, 0x0004, VR::CS, "MONOCHROME2");
+  put(d, 0x0028, 0x0010, static_cast<std::uint16_t>(grid.dims()[1]));
+  put(d, 0x0028, 0x0011, static_cast<std::uint16_t>(grid.dims()[0]));
+  put(d, 0x0028, 0x0100, 16);
+  put(d, 0x0028, 0x0101, 16);
+  put(d, 0x0028, 0x0102, 15);
+  put(d, 0x0028, 0x0103, isSigned ? 1 : 0);
+  put(d, 0x0028, 0x1050, VR::DS, decimal(series.windowCenter));
+  put(d, 0x0028, 0x1051, VR::DS, decimal(series.windowWidth));
+  if (ct)
+  {
+    put(d, 0x0028, 0x1052, VR::DS, decimal(series.rescaleIntercept));
+    put(d, 0x0028, 0x1053, VR::DS, decimal(series.rescaleSlope));
+    put(d, 0x0028, 0x1054, VR::LO, "HU");
+    put(d, 0x0018, 0x0060, VR::DS, "120");
+    put(d, 0x0018, 0x1210, VR::SH, "BONE");
+  }
+  else
+  {
+    put(d, 0x0018, 0x0020, VR::CS, "SE");
+    put(d, 0x0018, 0x0021, VR::CS, "SK");
+    put(d, 0x0018, 0x0022, VR::CS, "");
+    put(d, 0x0018, 0x0023, VR::CS, "3D");
+    put(d, 0x0018, 0x0080, VR::DS, "2000");
+    put(d, 0x0018, 0x0081, VR::DS, "250");
+    put(d, 0x0018, 0x0091, VR::IS, "100");
+    put(d, 0x0018, 0x0088, VR::DS, decimal(grid.spacing()[2]));
+  }
+  return d;
+}
+
+void checkUid(const std::string& uid, const char* what)
+{
+  if (uid.empty() || uid.size() > 64 || uid.find_first_not_of("0123456789.") != std::string::npos)
+    throw core::InvalidParameter(std::string("DICOM series: the ") + what +
+                                 " is no UID (digits and dots, at most 64)");
+}
+
+template <class T>
+std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slope,
+                               double intercept)
+{
+  const core::Index3& dims = image.geometry().dims();
+  const std::size_t count = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  const T* values = image.data() + image.geometry().linearIndex(0, 0, k);
+  std::vector<char> bytes(2 * count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double stored = std::round((static_cast<double>(values[i]) - intercept) / slope);
+    const auto bits = static_cast<std::uint16_t>(
+        static_cast<T>(std::clamp(stored, static_cast<double>(std::numeric_limits<T>::lowest()),
+                                  static_cast<double>(std::numeric_limits<T>::max()))));
+    bytes[2 * i] = static_cast<char>(bits & 0xFF);
+    bytes[2 * i + 1] = static_cast<char>(bits >> 8);
+  }
+  return bytes;
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mix(std::uint64_t x) noexcept
+{
+  x += 0x9E3779B97F4A7C15ULL;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+  return x ^ (x >> 31);
+}
+
+} // namespace
+
+std::string deterministicUid(std::uint64_t seed, const std::string& role)
+{
+  std::uint64_t low = mix(seed ^ 0x706574726F7573ULL);
+  for (const char c : role)
+    low = mix(low ^ static_cast<unsigned char>(c));
+  const std::uint64_t high = mix(low);
+  // version 8 (free use) and variant bits of a UUID, written as one decimal integer
+  std::array<std::uint32_t, 4> words{static_cast<std::uint32_t>(high >> 32),
+                                     (static_cast<std::uint32_t>(high) & 0xFFFF0FFFU) | 0x00008000U,
+                                     (static_cast<std::uint32_t>(low >> 32) & 0x3FFFFFFFU) |
+                                         0x80000000U,
+                                     static_cast<std::uint32_t>(low)};
+  std::string digits;
+  while (words[0] != 0 || words[1] != 0 || words[2] != 0 || words[3] != 0)
+  {
+    std::uint64_t rest = 0;
+    for (std::uint32_t& word : words)
+    {
+      const std::uint64_t part = (rest << 32) | word;
+      word = static_cast<std::uint32_t>(part / 10);
+      rest = part % 10;
+    }
+    digits.insert(digits.begin(), static_cast<char>('0' + rest));
+  }
+  return "2.25." + digits;
+}
+
+void writeDicomSeries(const std::filesystem::path& folder, const volume::IntensityVolume& image,
+                      const SeriesDescription& description,
+                      const std::optional<Eigen::Vector3d>& sliceStep,
+                      const core::Progress& progress)
+{
+  checkUid(description.studyUid, "study's UID");
+  checkUid(description.seriesUid, "series' UID");
+  checkUid(description.frameOfReferenceUid, "frame of reference's UID");
+  if (!(description.rescaleSlope > 0.0))
+    throw core::InvalidParameter("DICOM series: the rescale slope must be above 0");
+  const bool ct = description.modality == Modality::Ct;
+  if (!ct && (description.rescaleSlope != 1.0 || description.rescaleIntercept != 0.0))
+    throw core::InvalidParameter("DICOM series: an MR image has no rescale");
+  const core::GridGeometry& grid = image.geometry();
+  if (grid.dims()[0] > 65535 || grid.dims()[1] > 65535)
+    throw core::InvalidParameter("DICOM series: a slice holds at most 65535 voxels a side");
+
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault)
+    throw core::Error(core::Fault::Refused,
+                      folder.string() + ": cannot be made: " + fault.message());
+
+  image.visit(
+      [&](const auto& voxels)
+      {
+        using T = typename std::decay_t<decltype(voxels)>::Value;
+        if constexpr (std::is_floating_point_v<T>)
+          throw core::InvalidParameter("DICOM series: float voxels cannot be stored as CT or MR");
+        else
+        {
+          const gdcm::MediaStorage storage(ct ? gdcm::MediaStorage::CTImageStorage
+                                              : gdcm::MediaStorage::MRImageStorage);
+          const Eigen::Vector3d step =
+              sliceStep.value_or(grid.spacing()[2] * grid.direction().col(2));
+          const int slices = grid.dims()[2];
+          std::atomic<int> done{0};
+          const auto writeSlice = [&](int k)
+          {
+            progress.report(static_cast<double>(done.fetch_add(1)) / slices,
+                            "writing DICOM slices");
+            gdcm::Writer writer;
+            gdcm::DataSet& data = writer.GetFile().GetDataSet();
+            // GDCM's reference counts are not thread-safe, so slices share no values
+            data = commonPart(description, grid, std::is_signed_v<T>);
+            if (image.padding())
+            {
+              const double stored =
+                  (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
+              put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
+                  std::is_signed_v<T> ? gdcm::VR::SS : gdcm::VR::US);
+            }
+            if (ct && sliceStep)
+            {
+              const double lean =
+                  std::acos(std::clamp(step.normalized().dot(grid.direction().col(2)), -1.0, 1.0));
+              put(data, 0x0018, 0x1120, gdcm::VR::DS,
+                  decimal(lean * 180.0 / 3.14159265358979323846));
+            }
+            const Eigen::Vector3d position = grid.origin() + k * step;
+            const std::string uid =
+                deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
+            put(data, 0x0008, 0x0016, gdcm::VR::UI, storage.GetString());
+            put(data, 0x0008, 0x0018, gdcm::VR::UI, uid);
+            put(data, 0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1));
+            put(data, 0x0020, 0x0032, gdcm::VR::DS,
+                decimals({position.x(), position.y(), position.z()}));
+            put(data, 0x0020, 0x1041, gdcm::VR::DS, decimal(position.z()));
+            gdcm::DataElement pixels(gdcm::Tag(0x7FE0, 0x0010));
+            pixels.SetVR(gdcm::VR::OW);
+            const std::vector<char> bytes =
+                storedValues(voxels, k, description.rescaleSlope, description.rescaleIntercept);
+            pixels.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+            data.Replace(pixels);
+            writer.GetFile().GetHeader().SetDataSetTransferSyntax(
+                gdcm::TransferSyntax::ExplicitVRLittleEndian);
+
+            std::array<char, 32> name{};
+            std::snprintf(name.data(), name.size(), "slice-%04d.dcm", k + 1);
+            const std::filesystem::path file = folder / name.data();
+            // into memory first: GDCM aborts the program on a full disk
+            std::ostringstream encoded;
+            encoded.imbue(std::locale::classic());
+            writer.SetStream(encoded);
+            if (!writer.Write())
+              throw core::Error(core::Fault::Internal, file.string() + ": cannot be encoded");
+            const std::string content = encoded.str();
+            std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+            stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+            stream.close();
+            if (!stream)
+              throw core::Error(core::Fault::Refused,
+                                file.string() + ": cannot be written; is the disk full?");
+          };
+          writeSlice(0); // GDCM's dictionaries are initialized on first use, so single-threaded
+          tbb::parallel_for(1, slices, writeSlice);
+        }
+      });
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,266 @@
+#include "PixelCodec.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <mutex>
+
+#include <gdcmDataElement.h>
+#include <gdcmFragment.h>
+#include <gdcmImage.h>
+#include <gdcmSequenceOfFragments.h>
+#include <gdcmTrace.h>
+#include <unistd.h>
+
+#include "ByteSource.h"
+#include "Codestream.h"
+#include "DicomElements.h"
+#include "petrous/Imaging/DicomScan.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+[[noreturn]] void fail(const SliceHeader& slice, const char* what)
+{
+  throw DicomError(DicomError::Reason::Unreadable, slice.file.filename().string() + " " + what +
+                                                       "; copy it again from where it "
+                                                       "came from");
+}
+
+/// Extraction of the stored value from its allocated bits: shift, mask, sign extension.
+struct BitField
+{
+  int shift = 0;  ///< unused bits below
+  int unused = 0; ///< unused bits above, relative to 32
+  bool isSigned = false;
+
+  std::int32_t operator()(std::uint32_t cell) const
+  {
+    const std::uint32_t top = (cell >> shift) << unused;
+    return isSigned ? static_cast<std::int32_t>(top) >> unused
+                    : static_cast<std::int32_t>(top >> unused);
+  }
+};
+
+/// Plain pointers and one branch outside the loop, so that the compiler can vectorize it.
+template <class Cell>
+void unpack(const unsigned char* bytes, bool swap, const BitField& field,
+            std::vector<std::int32_t>& values)
+{
+  std::int32_t* const out = values.data();
+  const std::size_t count = values.size();
+  const auto each = [=](auto convert)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      Cell cell = 0;
+      std::memcpy(&cell, bytes + i * sizeof(Cell), sizeof cell);
+      out[i] = convert(cell);
+    }
+  };
+  const int shift = field.shift;
+  const int unused = field.unused;
+  if (swap)
+    each(
+        [&field](Cell cell)
+        {
+          std::array<unsigned char, sizeof(Cell)> cellBytes{};
+          std::memcpy(cellBytes.data(), &cell, sizeof cell);
+          std::reverse(cellBytes.begin(), cellBytes.end());
+          std::memcpy(&cell, cellBytes.data(), sizeof cell);
+          return field(cell);
+        });
+  else if (field.isSigned)
+    each([=](Cell cell)
+         { return static_cast<std::int32_t>((std::uint32_t{cell} >> shift) << unused) >> unused; });
+  else
+    each(
+        [=](Cell cell) {
+          return static_cast<std::int32_t>(((std::uint32_t{cell} >> shift) << unused) >> unused);
+        });
+}
+
+void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& field, bool swap,
+                 StoredPixels& pixels)
+{
+  const unsigned char* bytes = pixels.scratch.data();
+  if (bitsAllocated == 8)
+    unpack<std::uint8_t>(bytes, false, field, pixels.values);
+  else if (bitsAllocated == 16)
+    unpack<std::uint16_t>(bytes, swap, field, pixels.values);
+  else if (bitsAllocated == 32)
+    unpack<std::uint32_t>(bytes, swap, field, pixels.values);
+  else
+    fail(slice, "has pixels of an unusual number of bits");
+  // Unsigned 32-bit values that do not fit appear as negative.
+  if (field.unused == 0 && !field.isSigned &&
+      *std::min_element(pixels.values.begin(), pixels.values.end()) < 0)
+    fail(slice, "holds values beyond 2147483647");
+}
+
+BitField bitField(int bitsStored, int highBit, bool isSigned)
+{
+  return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
+}
+
+/// The items after the offset table. There is one frame, so they form one codestream.
+std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
+{
+  std::uint64_t offset = slice.pixels.offset;
+  bool isTable = true;
+  std::array<unsigned char, 8> item{};
+  std::vector<char> bytes;
+  while (source.read(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
+         item[2] == 0x00)
+  {
+    const std::uint32_t length = static_cast<std::uint32_t>(item[4] | (item[5] << 8)) |
+                                 (static_cast<std::uint32_t>(item[6] | (item[7] << 8)) << 16);
+    offset += item.size();
+    if (offset + length > source.size())
+      fail(slice, "is cut short");
+    if (!isTable)
+    {
+      const std::size_t filled = bytes.size();
+      bytes.resize(filled + length);
+      if (!source.read(offset, bytes.data() + filled, length))
+        fail(slice, "cannot be read");
+    }
+    isTable = false;
+    offset += length;
+  }
+  return bytes;
+}
+
+/// Suppresses stderr output of the codecs used by GDCM, on this thread and during its lifetime: it
+/// is not part of this program's output. Codecs print nothing for a valid image; on damage they
+/// print a warning ("Corrupt JPEG data: premature end of data segment") and continue decoding.
+class CodecMessages
+{
+public:
+  CodecMessages()
+  {
+    static std::once_flag once;
+    std::call_once(once,
+                   []
+                   {
+                     gdcm::Trace::DebugOff();
+                     gdcm::Trace::WarningOff();
+                     gdcm::Trace::ErrorOff();
+                     // They print to C's stderr, which is a variable in glibc. Without buffering,
+                     // the write callback runs on the printing thread.
+                     cookie_io_functions_t functions{};
+                     functions.write = write;
+                     if (FILE* stream = ::fopencookie(nullptr, "w", functions))
+                     {
+                       std::setvbuf(stream, nullptr, _IONBF, 0);
+                       stderr = stream;
+                     }
+                   });
+    t_listener = this;
+  }
+  ~CodecMessages() { t_listener = nullptr; }
+  CodecMessages(const CodecMessages&) = delete;
+  CodecMessages& operator=(const CodecMessages&) = delete;
+
+  bool any() const noexcept { return m_any; }
+
+private:
+  static ssize_t write(void*, const char* bytes, std::size_t count)
+  {
+    if (!t_listener)
+      return ::write(STDERR_FILENO, bytes, count);
+    t_listener->m_any = true;
+    return static_cast<ssize_t>(count);
+  }
+
+  static thread_local CodecMessages* t_listener;
+  bool m_any = false;
+};
+
+thread_local CodecMessages* CodecMessages::t_listener = nullptr;
+
+void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
+{
+  const CodecMessages messages;
+  const PixelFormat& format = slice.pixels;
+  gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
+  element.SetVR(gdcm::VR::OB);
+  const std::vector<char> codestream = readCodestream(source, slice);
+  if (codestream.empty() || !codestreamFits(codestream, slice))
+    fail(slice, "has a damaged compressed image");
+  gdcm::Fragment fragment;
+  fragment.SetByteValue(codestream.data(), gdcm::VL(static_cast<std::uint32_t>(codestream.size())));
+  const gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = gdcm::SequenceOfFragments::New();
+  fragments->AddFragment(fragment);
+  element.SetValue(*fragments);
+
+  gdcm::Image image;
+  image.SetNumberOfDimensions(2);
+  image.SetDimension(0, static_cast<unsigned int>(slice.columns));
+  image.SetDimension(1, static_cast<unsigned int>(slice.rows));
+  image.SetPixelFormat(gdcm::PixelFormat(1, static_cast<unsigned short>(format.bitsAllocated),
+                                         static_cast<unsigned short>(format.bitsStored),
+                                         static_cast<unsigned short>(format.highBit),
+                                         static_cast<unsigned short>(format.isSigned ? 1 : 0)));
+  image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  image.SetTransferSyntax(
+      gdcm::TransferSyntax(gdcm::TransferSyntax::GetTSType(format.transferSyntax.c_str())));
+  image.SetDataElement(element);
+
+  bool decoded = false;
+  try
+  {
+    const std::size_t needed =
+        pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8);
+    if (image.GetBufferLength() == needed)
+    {
+      pixels.scratch.assign(needed, 0);
+      decoded = image.GetBuffer(reinterpret_cast<char*>(pixels.scratch.data()));
+    }
+  }
+  catch (const std::exception&) // the text may contain patient data
+  {
+    decoded = false;
+  }
+  // Bits and sign in the codestream take precedence over the header.
+  const gdcm::PixelFormat& real = image.GetPixelFormat();
+  if (!decoded || messages.any() || real.GetSamplesPerPixel() != 1 ||
+      real.GetBitsAllocated() != format.bitsAllocated)
+    fail(slice, "has a damaged compressed image");
+  const BitField field =
+      bitField(real.GetBitsStored(), real.GetHighBit(), real.GetPixelRepresentation() == 1);
+  unpackCells(slice, format.bitsAllocated, field, false, pixels);
+}
+
+} // namespace
+
+void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
+{
+  ByteSource source(slice.file);
+  if (!source.isOpen())
+    fail(slice, "cannot be opened");
+  const PixelFormat& format = slice.pixels;
+  pixels.values.resize(static_cast<std::size_t>(slice.rows) *
+                       static_cast<std::size_t>(slice.columns));
+  if (format.isDeflated)
+    const DicomElements inflated(source); // side effect: inflates the source
+  if (format.isEncapsulated)
+  {
+    decompress(source, slice, pixels);
+    return;
+  }
+  pixels.scratch.resize(pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8));
+  if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
+    fail(slice, "is cut short");
+  unpackCells(slice, format.bitsAllocated,
+              bitField(format.bitsStored, format.highBit, format.isSigned), format.isBigEndian,
+              pixels);
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,465 @@
+#include "petrous/Imaging/SeriesGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include "SliceStack.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+using Headers = std::vector<SliceHeader>;
+
+constexpr double kFarthest = 1e5;       // mm; positions beyond are invalid
+constexpr double kCoarsest = 1e3;       // mm
+constexpr double kPerpendicular = 1e-3; // dot product of direction cosines; ten times rounding
+constexpr double kUnitLength = 1e-2;
+
+bool isFinite(const std::optional<Eigen::Vector3d>& v)
+{
+  return v && v->allFinite() && v->norm() < kFarthest;
+}
+
+/// Whether the file states plausible position, orientation and spacing.
+bool isPlaced(const SliceHeader& slice)
+{
+  if (!isFinite(slice.position) || !isFinite(slice.rowDirection) ||
+      !isFinite(slice.columnDirection) || !slice.pixelSpacing || slice.rows < 1 ||
+      slice.columns < 1)
+    return false;
+  const Eigen::Vector2d& spacing = *slice.pixelSpacing;
+  return spacing.allFinite() && spacing.minCoeff() > 0.0 && spacing.maxCoeff() < kCoarsest &&
+         std::abs(slice.rowDirection->norm() - 1.0) < kUnitLength &&
+         std::abs(slice.columnDirection->norm() - 1.0) < kUnitLength &&
+         std::abs(slice.rowDirection->dot(*slice.columnDirection)) < kPerpendicular;
+}
+
+bool isColour(const SliceHeader& slice)
+{
+  return slice.pixels.samplesPerPixel != 1 || slice.pixels.photometric == "PALETTE COLOR";
+}
+
+bool isLocalizer(const SliceHeader& slice)
+{
+  return std::find(slice.imageType.begin(), slice.imageType.end(), "LOCALIZER") !=
+         slice.imageType.end();
+}
+
+/// Removes the slices that satisfy `test` from `from` and returns them, order preserved.
+Headers takeOut(Headers& from, const std::function<bool(const SliceHeader&)>& test)
+{
+  const auto rest = std::stable_partition(from.begin(), from.end(),
+                                          [&test](const SliceHeader& s) { return !test(s); });
+  Headers taken(std::make_move_iterator(rest), std::make_move_iterator(from.end()));
+  from.erase(rest, from.end());
+  return taken;
+}
+
+/// Keeps the largest group of equal slices (the first if tied); returns the others.
+Headers takeMinority(Headers& from,
+                     const std::function<bool(const SliceHeader&, const SliceHeader&)>& alike)
+{
+  std::vector<std::pair<const SliceHeader*, std::size_t>> groups;
+  for (const SliceHeader& slice : from)
+  {
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& g) { return alike(*g.first, slice); });
+    if (group == groups.end())
+      groups.emplace_back(&slice, 1);
+    else
+      ++group->second;
+  }
+  if (groups.size() < 2)
+    return {};
+  const auto largest = std::max_element(groups.begin(), groups.end(),
+                                        [](auto& a, auto& b) { return a.second < b.second; });
+  const SliceHeader model = *largest->first;
+  return takeOut(from, [&](const SliceHeader& s) { return !alike(model, s); });
+}
+
+std::string countOf(std::size_t part, std::size_t whole)
+{
+  return std::to_string(part) + " of " + std::to_string(whole) +
+         (whole == 1 ? " slice" : " slices");
+}
+
+Eigen::Vector2d fieldOfView(const SliceHeader& s) ///< width and height, mm
+{
+  return {s.columns * (*s.pixelSpacing)[1], s.rows * (*s.pixelSpacing)[0]};
+}
+
+double sizeError(const SliceHeader& a, const SliceHeader& b)
+{
+  return (fieldOfView(a) - fieldOfView(b)).cwiseAbs().maxCoeff();
+}
+
+bool sameSize(const SliceHeader& a, const SliceHeader& b)
+{
+  return a.rows == b.rows && a.columns == b.columns && sizeError(a, b) <= kJitterTolerance;
+}
+
+/// Maximum corner displacement, mm, if one slice is placed with the direction cosines of the other.
+double turnError(const SliceHeader& a, const SliceHeader& b)
+{
+  const Eigen::Vector2d field = fieldOfView(a);
+  const Eigen::Vector3d along = (*a.rowDirection - *b.rowDirection) * field[0];
+  const Eigen::Vector3d down = (*a.columnDirection - *b.columnDirection) * field[1];
+  return std::max({along.norm(), down.norm(), (along + down).norm()});
+}
+
+double normalAngle(const SliceHeader& a, const SliceHeader& b) ///< degrees, 0 to 90
+{
+  const Eigen::Vector3d na = a.rowDirection->cross(*a.columnDirection).normalized();
+  const Eigen::Vector3d nb = b.rowDirection->cross(*b.columnDirection).normalized();
+  return std::acos(std::min(1.0, std::abs(na.dot(nb)))) * 180.0 / M_PI;
+}
+
+/// Equal, or one of them not stated.
+template <class T>
+bool agree(const T& a, const T& b)
+{
+  return a == T{} || b == T{} || a == b;
+}
+
+bool samePatient(const SliceHeader& a, const SliceHeader& b)
+{
+  return agree(a.patient.id, b.patient.id) && agree(a.patient.name, b.patient.name) &&
+         agree(a.patient.birthDate, b.patient.birthDate);
+}
+
+class Assessor
+{
+public:
+  explicit Assessor(Headers slices)
+    : m_slices(std::move(slices))
+    , m_all(m_slices.size())
+  {
+    // The result must not depend on the order of the files.
+    std::sort(m_slices.begin(), m_slices.end(),
+              [](const SliceHeader& a, const SliceHeader& b)
+              { return std::tie(a.instanceNumber, a.file) < std::tie(b.instanceNumber, b.file); });
+  }
+
+  SeriesGeometry run()
+  {
+    setAsideUnreadable();
+    setAsideNonImages();
+    setAsideStrangers();
+    setAsideUnplaced();
+    setAsideMinorities();
+    judgeRescale();
+    judgeStack();
+    judgeAcquisitions();
+    m_result.verdict = m_result.findings.empty() ? Verdict::Ok : Verdict::Refused;
+    m_result.slices = std::move(m_slices);
+    return std::move(m_result);
+  }
+
+private:
+  void find(FindingKind kind, const std::string& text, double errorMm = 0.0)
+  {
+    m_result.findings.push_back({kind, text, errorMm});
+  }
+
+  void setAsideUnreadable()
+  {
+    const Headers damaged =
+        takeOut(m_slices, [](const SliceHeader& s) { return !s.damage.empty(); });
+    constexpr std::size_t kNamed = 3; // keeps findings readable if a whole disc is bad
+    for (std::size_t i = 0; i < std::min(damaged.size(), kNamed); ++i)
+      find(FindingKind::Unreadable,
+           damaged[i].file.filename().string() + " " + damaged[i].damage + ".");
+    if (damaged.size() > kNamed)
+      find(FindingKind::Unreadable,
+           std::to_string(damaged.size() - kNamed) + " more files of the series are damaged.");
+  }
+
+  void setAsideNonImages()
+  {
+    const Headers others = takeOut(m_slices, [](const SliceHeader& s) { return !s.isImage; });
+    if (!others.empty())
+    {
+      if (m_slices.empty())
+        find(FindingKind::NotAnImage, "The DICOM objects hold no pixels (a report, a structure "
+                                      "set or the like), so they are no image.");
+      else
+        m_result.notes.push_back(std::to_string(others.size()) +
+                                 " DICOM objects without pixels were left out.");
+    }
+    const Headers multi = takeOut(m_slices, [](const SliceHeader& s) { return s.frames > 1; });
+    if (!multi.empty())
+      find(FindingKind::MultiFrame, std::to_string(multi.size()) +
+                                        (multi.size() == 1 ? " file holds" : " files hold") +
+                                        " many frames in one; only one slice a file can be read.");
+    const Headers colour = takeOut(m_slices, isColour);
+    if (!colour.empty())
+      find(FindingKind::NotAnImage, "Colours instead of one CT or MR value a pixel in " +
+                                        countOf(colour.size(), m_all) + ".");
+  }
+
+  /// A SeriesInstanceUID may be missing, or copied with the header from another series.
+  void setAsideStrangers()
+  {
+    const std::size_t images = m_slices.size();
+    const Headers others = takeMinority(m_slices, samePatient);
+    if (!others.empty())
+      find(FindingKind::MixedPatients, "Another patient than in the rest is named in " +
+                                           countOf(others.size(), images) +
+                                           "; keep the files of one patient in the folder.");
+    const std::size_t ofPatient = m_slices.size();
+    const Headers studies = takeMinority(m_slices, [](const SliceHeader& a, const SliceHeader& b)
+                                         { return agree(a.studyUid, b.studyUid); });
+    if (!studies.empty())
+      find(FindingKind::MixedStudies, "Another study than the rest is named in " +
+                                          countOf(studies.size(), ofPatient) +
+                                          "; keep the files of one study in the folder.");
+  }
+
+  void setAsideUnplaced()
+  {
+    const std::size_t images = m_slices.size();
+    const bool mixed =
+        !std::all_of(m_slices.begin(), m_slices.end(), isLocalizer) && !m_slices.empty();
+    const Headers scouts = mixed ? takeOut(m_slices, isLocalizer) : Headers();
+    m_scouts = scouts.size();
+    const Headers unplaced = takeOut(m_slices, [](const SliceHeader& s) { return !isPlaced(s); });
+    if (!unplaced.empty())
+      find(FindingKind::NoGeometry, "No usable position, orientation and pixel spacing in " +
+                                        countOf(unplaced.size(), images) +
+                                        ", so nothing says where they lie in the patient.");
+    const Headers elsewhere =
+        takeMinority(m_slices, [](const SliceHeader& a, const SliceHeader& b)
+                     { return a.frameOfReferenceUid == b.frameOfReferenceUid; });
+    if (!elsewhere.empty())
+      find(FindingKind::NoGeometry, "Another frame of reference in " +
+                                        countOf(elsewhere.size(), images) +
+                                        ", so their place relative to the others is unknown.");
+  }
+
+  void setAsideMinorities()
+  {
+    const std::size_t placed = m_slices.size();
+    const auto sameTurn = [](const SliceHeader& a, const SliceHeader& b)
+    { return turnError(a, b) <= kJitterTolerance; };
+    const Headers turned = takeMinority(m_slices, sameTurn);
+    std::size_t odd = 0;
+    double worst = 0.0;
+    double angle = 0.0;
+    for (const SliceHeader& slice : turned)
+    {
+      const double slant = normalAngle(slice, m_slices.front());
+      // A few slices across a whole stack are scouts even if not labelled as such.
+      if (slant > 45.0 && turned.size() * 4 <= m_slices.size())
+      {
+        ++m_scouts;
+        continue;
+      }
+      ++odd;
+      worst = std::max(worst, turnError(m_slices.front(), slice));
+      angle = std::max(angle, slant);
+    }
+    if (m_scouts > 0)
+      find(FindingKind::LocalizerMixedIn,
+           std::to_string(m_scouts) +
+               (m_scouts == 1 ? " localizer (scout) is" : " localizers (scouts) are") +
+               " mixed in with the " + std::to_string(m_slices.size()) + " slices of the stack.");
+    if (odd > 0)
+      find(FindingKind::OddOrientation,
+           countOf(odd, placed) + " are turned against the others, their normals by up to " +
+               decimals(angle, 1) + " degrees; read as one stack, their corners would lie up to " +
+               decimals(worst, 1) + " mm off.",
+           worst);
+
+    const std::size_t straight = m_slices.size();
+    const Headers sized = takeMinority(m_slices, sameSize);
+    if (sized.empty())
+      return;
+    double error = 0.0;
+    for (const SliceHeader& slice : sized)
+      error = std::max(error, sizeError(slice, m_slices.front()));
+    find(FindingKind::OddSize,
+         countOf(sized.size(), straight) + " have another size than " +
+             std::to_string(m_slices.front().columns) + " x " +
+             std::to_string(m_slices.front().rows) + " pixels of " +
+             decimals((*m_slices.front().pixelSpacing)[1], 3) + " x " +
+             decimals((*m_slices.front().pixelSpacing)[0], 3) +
+             " mm: their fields of view differ by " + decimals(error, 1) + " mm.",
+         error);
+  }
+
+  void judgeRescale()
+  {
+    const Headers& s = m_slices;
+    const auto different =
+        std::count_if(s.begin(), s.end(),
+                      [&s](const SliceHeader& a)
+                      { return a.slope != s.front().slope || a.intercept != s.front().intercept; });
+    const auto tables =
+        std::count_if(s.begin(), s.end(), [](const SliceHeader& a) { return a.hasModalityLut; });
+    if (tables > 0)
+      find(FindingKind::ModalityLut,
+           "A table (Modality LUT) says what the values mean in " +
+               countOf(static_cast<std::size_t>(tables), s.size()) +
+               ", and tables are not read; export the series with rescale slope and intercept.");
+    if (different > 0)
+      find(FindingKind::MixedRescale,
+           "The slices do not share one rescale slope and intercept, so equal tissue may have "
+           "unequal values; no position is affected (0 mm).");
+  }
+
+  /// Slices of several scans may form an evenly spaced stack, each scan between the slices of the
+  /// other.
+  void judgeAcquisitions()
+  {
+    if (m_slices.size() < 2)
+      return;
+    const auto differs = [this](const auto& valueOf)
+    {
+      using Value = std::decay_t<decltype(valueOf(m_slices.front()))>;
+      Value stated{}; // of the first slice that states it
+      for (const SliceHeader& slice : m_slices)
+      {
+        if (!agree(stated, valueOf(slice)))
+          return true;
+        if (stated == Value{})
+          stated = valueOf(slice);
+      }
+      return false;
+    };
+    std::string what;
+    const auto add = [&what](const char* text)
+    { what += (what.empty() ? "" : ", ") + std::string(text); };
+    if (differs([](const SliceHeader& s) { return s.modality; }))
+      add("modalities");
+    if (differs([](const SliceHeader& s) { return s.seriesNumber; }))
+      add("series numbers");
+    if (differs([](const SliceHeader& s) { return s.kernel; }))
+      add("reconstruction kernels");
+    if (differs([](const SliceHeader& s) { return s.tube; }))
+      add("tube voltages");
+    if (isInterleaved())
+      add("acquisitions that take turns along the stack");
+    if (!what.empty())
+      find(FindingKind::MixedAcquisitions,
+           "The slices are of several scans or reconstructions: they differ in " + what +
+               ", so neighbours may show equal tissue unequally and at different times; keep the "
+               "files of one in the folder.");
+  }
+
+  /// Whether an acquisition number reappears after another one. Scanners that acquire a stack in
+  /// steps number the steps consecutively. Interleaving within one MR scan is usual: there the
+  /// slices must also overlap.
+  bool isInterleaved() const
+  {
+    std::vector<int> runs;
+    for (const SliceHeader& slice : m_slices)
+      if (slice.acquisition && (runs.empty() || runs.back() != *slice.acquisition))
+        runs.push_back(*slice.acquisition);
+    std::sort(runs.begin(), runs.end());
+    if (std::adjacent_find(runs.begin(), runs.end()) == runs.end())
+      return false;
+    const SliceHeader& first = m_slices.front();
+    constexpr double kOverlap = 1.5; // thickness / spacing
+    return first.modality == "CT" || (first.thickness && m_result.grid &&
+                                      *first.thickness > kOverlap * m_result.grid->spacing()[2]);
+  }
+
+  void judgeStack()
+  {
+    if (m_slices.size() < 2)
+    {
+      if (m_slices.empty() && m_result.findings.empty())
+        find(FindingKind::NotAnImage, "There is no slice.");
+      if (m_slices.size() == 1 && m_result.findings.empty())
+        find(FindingKind::NoGeometry, "One slice alone has no thickness that its position could "
+                                      "show; a stack of at least 2 slices is needed.");
+      return;
+    }
+    SliceStack stack(m_slices);
+    stack.judge(m_result);
+    try
+    {
+      m_result.grid = stack.grid();
+    }
+    catch (const core::InvalidParameter&)
+    {
+      find(FindingKind::NoGeometry, "The slices' positions do not make a grid.");
+    }
+  }
+
+  Headers m_slices;
+  std::size_t m_all;
+  std::size_t m_scouts = 0;
+  SeriesGeometry m_result;
+};
+
+} // namespace
+
+const char* kindName(FindingKind kind) noexcept
+{
+  switch (kind)
+  {
+  case FindingKind::GantryTilt:
+    return "gantry-tilt";
+  case FindingKind::MissingSlice:
+    return "missing-slice";
+  case FindingKind::UnevenSpacing:
+    return "uneven-spacing";
+  case FindingKind::DuplicateSlice:
+    return "duplicate-slice";
+  case FindingKind::OddOrientation:
+    return "odd-orientation";
+  case FindingKind::OddSize:
+    return "odd-size";
+  case FindingKind::MixedRescale:
+    return "mixed-rescale";
+  case FindingKind::ModalityLut:
+    return "modality-lut";
+  case FindingKind::MixedPatients:
+    return "mixed-patients";
+  case FindingKind::MixedStudies:
+    return "mixed-studies";
+  case FindingKind::MixedAcquisitions:
+    return "mixed-acquisitions";
+  case FindingKind::NoGeometry:
+    return "no-geometry";
+  case FindingKind::LocalizerMixedIn:
+    return "localizer-mixed-in";
+  case FindingKind::MultiFrame:
+    return "multi-frame";
+  case FindingKind::NotAnImage:
+    return "not-an-image";
+  case FindingKind::Unreadable:
+    return "unreadable";
+  }
+  return "unreadable";
+}
+
+const char* verdictName(Verdict verdict) noexcept
+{
+  switch (verdict)
+  {
+  case Verdict::Ok:
+    return "ok";
+  case Verdict::Repairable:
+    return "repairable";
+  case Verdict::Refused:
+    return "refused";
+  }
+  return "refused";
+}
+
+SeriesGeometry assess(std::vector<SliceHeader> slices)
+{
+  return Assessor(std::move(slices)).run();
+}
+
+} // namespace petrous::imaging

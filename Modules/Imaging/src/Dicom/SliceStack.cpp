@@ -1,0 +1,313 @@
+#include "SliceStack.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr double kSamePlace = 1e-3;    // mm
+constexpr double kSameFraction = 0.01; // of the usual gap: closer slices share one position
+constexpr double kWholeGap = 0.05;     // a gap this close to a multiple lacks whole slices
+constexpr std::size_t kPlacesNamed = 3;
+constexpr std::size_t kPitchChange = 3; // wide gaps in a row that are a pitch change, not a loss
+
+double median(std::vector<double> values) ///< the lower of two middle values; not empty
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Right-handed orthonormal axes closest to the direction cosines of a slice.
+Eigen::Matrix3d axesOf(const SliceHeader& slice)
+{
+  const Eigen::Vector3d row = slice.rowDirection->normalized();
+  const Eigen::Vector3d column = slice.columnDirection->normalized();
+  const Eigen::Vector3d normal = row.cross(column).normalized();
+  Eigen::Matrix3d axes;
+  axes.col(0) = (row + column.cross(normal)).normalized(); // splits the misfit between the two axes
+  axes.col(1) = normal.cross(axes.col(0));
+  axes.col(2) = normal;
+  return axes;
+}
+
+/// A line e(t) = offset + slope t fitted to sideways shifts, and the maximum deviation from it.
+struct ShiftLine
+{
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  double worst = 0.0;
+
+  void measure(const std::vector<double>& t, const std::vector<Eigen::Vector3d>& e)
+  {
+    worst = 0.0;
+    for (std::size_t k = 0; k < t.size(); ++k)
+      worst = std::max(worst, (e[k] - offset - slope * t[k]).norm());
+  }
+};
+
+ShiftLine leastSquares(const std::vector<double>& t, const std::vector<Eigen::Vector3d>& e)
+{
+  const auto n = static_cast<double>(t.size());
+  const double meanT = std::accumulate(t.begin(), t.end(), 0.0) / n;
+  Eigen::Vector3d meanE = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& shift : e)
+    meanE += shift / n;
+  Eigen::Vector3d covariance = Eigen::Vector3d::Zero();
+  double variance = 0.0;
+  for (std::size_t k = 0; k < t.size(); ++k)
+  {
+    covariance += (t[k] - meanT) * (e[k] - meanE);
+    variance += (t[k] - meanT) * (t[k] - meanT);
+  }
+  ShiftLine line;
+  if (variance > 0.0)
+    line.slope = covariance / variance;
+  line.offset = meanE - line.slope * meanT;
+  line.measure(t, e);
+  return line;
+}
+
+/// Robust fit by medians of the steps, so that a few misplaced slices do not look like a tilt.
+ShiftLine robustLine(const std::vector<double>& t, const std::vector<Eigen::Vector3d>& e)
+{
+  ShiftLine line;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    std::vector<double> slopes;
+    for (std::size_t k = 0; k + 1 < t.size(); ++k)
+      if (t[k + 1] - t[k] > kSamePlace)
+        slopes.push_back((e[k + 1][axis] - e[k][axis]) / (t[k + 1] - t[k]));
+    if (!slopes.empty())
+      line.slope[axis] = median(slopes);
+    std::vector<double> offsets;
+    for (std::size_t k = 0; k < t.size(); ++k)
+      offsets.push_back(e[k][axis] - line.slope[axis] * t[k]);
+    line.offset[axis] = median(offsets);
+  }
+  line.measure(t, e);
+  return line;
+}
+
+} // namespace
+
+std::string decimals(double value, int digits)
+{
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
+  return end.ec == std::errc() ? std::string(text, end.ptr) : "?";
+}
+
+SliceStack::SliceStack(std::vector<SliceHeader>& slices)
+  : m_slices(slices)
+{
+  m_direction = axesOf(slices.front());
+  const Eigen::Vector3d normal = m_direction.col(2);
+  std::stable_sort(slices.begin(), slices.end(),
+                   [&normal](const SliceHeader& a, const SliceHeader& b)
+                   { return normal.dot(*a.position) < normal.dot(*b.position); });
+  for (const SliceHeader& slice : slices)
+    m_place.push_back(normal.dot(*slice.position));
+}
+
+/// The usual gap between slices, ignoring missing and duplicate ones, mm; 0 if all coincide.
+double SliceStack::usualGap() const
+{
+  std::vector<double> gaps;
+  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+    gaps.push_back(m_place[k + 1] - m_place[k]);
+  std::sort(gaps.begin(), gaps.end());
+  // The upper quartile is a valid gap even if every slice is present twice.
+  double scale = gaps[(gaps.size() * 3) / 4 < gaps.size() ? (gaps.size() * 3) / 4 : 0];
+  if (scale <= kSamePlace)
+    scale = gaps.back();
+  if (scale <= kSamePlace)
+    return 0.0;
+  gaps.erase(gaps.begin(), std::upper_bound(gaps.begin(), gaps.end(), 0.05 * scale));
+  return median(gaps);
+}
+
+double SliceStack::tolerance() const
+{
+  return std::min(kJitterTolerance, kJitterShare * m_spacing);
+}
+
+void SliceStack::judge(SeriesGeometry& result)
+{
+  m_spacing = usualGap();
+  judgeGaps(result);
+  if (m_spacing <= 0.0)
+    return;
+  judgeEvenness(result);
+  judgeSideways(result);
+  noteDeclarations(result);
+}
+
+void SliceStack::judgeGaps(SeriesGeometry& result)
+{
+  const double usual = m_spacing;
+  std::size_t doubled = 0;
+  std::size_t firstDoubled = 0;
+  std::size_t missing = 0;
+  std::size_t wide = 0;
+  std::size_t run = 0;
+  std::size_t longestRun = 0;
+  std::string where;
+  std::vector<double> numbers{0.0};
+  std::vector<double> plain{0.0}; // as if no slice were missing
+  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+  {
+    const double gap = m_place[k + 1] - m_place[k];
+    double step = 1.0;
+    double plainStep = 1.0;
+    if (gap <= std::max(kSamePlace, kSameFraction * usual))
+    {
+      firstDoubled = doubled++ == 0 ? k : firstDoubled;
+      step = plainStep = 0.0;
+    }
+    else if (std::round(gap / usual) >= 2.0 &&
+             std::abs(gap / usual - std::round(gap / usual)) <= kWholeGap)
+    {
+      step = std::round(gap / usual);
+      if (wide < kPlacesNamed)
+        where += (wide == 0 ? "between " : ", between ") + decimals(m_place[k], 2) + " and " +
+                 decimals(m_place[k + 1], 2) + " mm";
+      else if (wide == kPlacesNamed)
+        where += " and elsewhere";
+      ++wide;
+      missing += static_cast<std::size_t>(std::min(step, 1e6)) - 1;
+    }
+    run = step > 1.0 ? run + 1 : 0;
+    longestRun = std::max(longestRun, run);
+    numbers.push_back(numbers.back() + step);
+    plain.push_back(plain.back() + plainStep);
+  }
+
+  if (doubled > 0)
+  {
+    const double step = usual > 0.0 ? usual : m_slices.front().thickness.value_or(0.0);
+    const double excess = static_cast<double>(doubled) * step;
+    result.findings.push_back({FindingKind::DuplicateSlice,
+                               std::to_string(doubled) + " of " + std::to_string(m_slices.size()) +
+                                   " slices share their place with another (the first at " +
+                                   decimals(m_place[firstDoubled], 2) +
+                                   " mm along the normal); stacked, the volume would be " +
+                                   decimals(excess, 1) + " mm too long.",
+                               excess});
+  }
+  if (missing > 0 && longestRun < kPitchChange)
+  {
+    const double lost = static_cast<double>(missing) * usual;
+    result.findings.push_back(
+        {FindingKind::MissingSlice,
+         std::to_string(missing) + (missing == 1 ? " slice is" : " slices are") +
+             " missing along the normal " + where + ", where slices stand " + decimals(usual, 2) +
+             " mm apart; closed up, what lies beyond would be " + decimals(lost, 1) + " mm off.",
+         lost});
+  }
+  m_number = longestRun < kPitchChange ? numbers : plain;
+}
+
+void SliceStack::judgeEvenness(SeriesGeometry& result)
+{
+  if (m_number.back() < 1.0)
+    return;
+  const double even = (m_place.back() - m_place.front()) / m_number.back();
+  double worst = 0.0;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < m_place.size(); ++k)
+  {
+    const double off = std::abs(m_place[k] - m_place.front() - m_number[k] * even);
+    if (off > worst)
+    {
+      worst = off;
+      at = k;
+    }
+  }
+  m_spacing = even;
+  if (worst > tolerance())
+    result.findings.push_back({FindingKind::UnevenSpacing,
+                               "The slices do not stand evenly: near " + decimals(m_place[at], 2) +
+                                   " mm along the normal one lies " + decimals(worst, 2) +
+                                   " mm from where an even spacing of " + decimals(even, 3) +
+                                   " mm would put it.",
+                               worst});
+  else if (worst > kSamePlace)
+    result.notes.push_back("Slices lie up to " + decimals(worst, 3) +
+                           " mm off an even spacing; accepted.");
+}
+
+void SliceStack::judgeSideways(SeriesGeometry& result) const
+{
+  std::vector<double> t;
+  std::vector<Eigen::Vector3d> shift;
+  const Eigen::Vector3d normal = m_direction.col(2);
+  for (std::size_t k = 0; k < m_slices.size(); ++k)
+  {
+    t.push_back(m_place[k] - m_place.front());
+    shift.push_back(*m_slices[k].position - *m_slices.front().position - normal * t[k]);
+  }
+  ShiftLine line = leastSquares(t, shift);
+  if (line.worst > tolerance())
+    line = robustLine(t, shift);
+
+  const double tangent = line.slope.norm();
+  const double slide = tangent * t.back();
+  if (slide > kJitterTolerance || tangent > kJitterShare)
+  {
+    // Half, since a straight stack can at best have the middle slice in place.
+    result.findings.push_back({FindingKind::GantryTilt,
+                               "The gantry was tilted: the stack leans by " +
+                                   decimals(std::atan(tangent) * 180.0 / M_PI, 1) +
+                                   " degrees and slides " + decimals(slide, 1) +
+                                   " mm sideways; read as a straight stack, its ends would lie " +
+                                   decimals(0.5 * slide, 1) + " mm off.",
+                               0.5 * slide});
+  }
+  if (line.worst > tolerance())
+    result.findings.push_back({FindingKind::UnevenSpacing,
+                               "Slices lie up to " + decimals(line.worst, 2) +
+                                   " mm sideways of one straight line through the stack.",
+                               line.worst});
+  else if (line.worst > kSamePlace || (slide > kSamePlace && slide <= kJitterTolerance))
+    result.notes.push_back("Slices lie up to " + decimals(std::max(line.worst, slide), 3) +
+                           " mm sideways of a straight stack; accepted.");
+}
+
+/// Headers often contradict the positions; the positions are what the scanner measured.
+void SliceStack::noteDeclarations(SeriesGeometry& result) const
+{
+  const SliceHeader& first = m_slices.front();
+  if (first.declaredSpacing &&
+      std::abs(std::abs(*first.declaredSpacing) - m_spacing) > kJitterShare * m_spacing)
+    result.notes.push_back("The header states slices " + decimals(*first.declaredSpacing, 3) +
+                           " mm apart, their positions " + decimals(m_spacing, 3) +
+                           " mm; the positions are used.");
+  const bool tilted =
+      std::any_of(result.findings.begin(), result.findings.end(),
+                  [](const Finding& f) { return f.kind == FindingKind::GantryTilt; });
+  if (first.declaredTilt && std::abs(*first.declaredTilt) > 0.1 && !tilted)
+    result.notes.push_back("The header states a gantry tilt of " +
+                           decimals(*first.declaredTilt, 1) +
+                           " degrees, but the slices make a straight stack.");
+}
+
+std::optional<core::GridGeometry> SliceStack::grid() const
+{
+  if (m_spacing <= 0.0)
+    return std::nullopt;
+  const SliceHeader& first = m_slices.front();
+  const Eigen::Vector2d& pixel = *first.pixelSpacing;
+  return core::GridGeometry({first.columns, first.rows, static_cast<int>(m_slices.size())},
+                            {pixel[1], pixel[0], m_spacing}, *first.position, m_direction);
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "petrous/Imaging/SeriesGeometry.h"
+
+namespace petrous::imaging
+{
+
+/// Fixed-point text with this many decimals, locale-independent.
+std::string decimals(double value, int digits);
+
+/// Slices of one size and orientation as a stack along their common normal.
+///
+///   t_k = n . p_k                 position of slice k along the normal n = row x column, mm
+///   e_k = (p_k - p_0) - n (t_k - t_0)   its sideways shift; 0 in a straight stack, mm
+///   e_k ~ a + b (t_k - t_0)       |b| is the tangent of the gantry tilt
+class SliceStack
+{
+public:
+  /// Sorts `slices` along the normal (stable). At least 2 slices, all with a position.
+  explicit SliceStack(std::vector<SliceHeader>& slices);
+
+  /// Adds the defects of the stack to `result`, and what was accepted.
+  void judge(SeriesGeometry& result);
+
+  /// The straight grid closest to the slices, or nullopt if all coincide. Throws
+  /// core::InvalidParameter.
+  std::optional<core::GridGeometry> grid() const;
+
+private:
+  void judgeGaps(SeriesGeometry& result);
+  void judgeEvenness(SeriesGeometry& result);
+  void judgeSideways(SeriesGeometry& result) const;
+  void noteDeclarations(SeriesGeometry& result) const;
+  double usualGap() const;
+  double tolerance() const;
+
+  const std::vector<SliceHeader>& m_slices;
+  Eigen::Matrix3d m_direction;
+  std::vector<double> m_place;  ///< t_k, mm
+  std::vector<double> m_number; ///< k, with jumps where slices are missing
+  double m_spacing = 0.0;       ///< mm
+};
+
+} // namespace petrous::imaging

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace petrous::imaging
+{
+
+/// The bytes of a regular file, or of a file inflated in memory. Not open if the file is missing,
+/// or is a pipe or device. Reading beyond the end fails; throws nothing but bad_alloc.
+class ByteSource
+{
+public:
+  explicit ByteSource(const std::filesystem::path& file);
+  ~ByteSource();
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  bool isOpen() const noexcept { return m_descriptor >= 0; }
+  std::uint64_t size() const noexcept { return m_size; }
+
+  /// Reads exactly `count` bytes from `offset`, or returns false.
+  bool read(std::uint64_t offset, void* bytes, std::size_t count);
+
+  /// Like `read`, buffered: for many small reads close together.
+  bool readNear(std::uint64_t offset, void* bytes, std::size_t count);
+
+  /// Replaces everything after `start` by its raw DEFLATE decompression (DICOM PS3.5 A.5). False if
+  /// it is damaged or larger than any slice can be.
+  bool inflateFrom(std::uint64_t start);
+
+private:
+  int m_descriptor = -1;
+  std::uint64_t m_size = 0;
+  std::vector<unsigned char> m_memory; ///< the inflated file; if empty, the file is read
+  std::vector<unsigned char> m_window;
+  std::uint64_t m_windowStart = 0;
+};
+
+} // namespace petrous::imaging

@@ -1,0 +1,190 @@
+#include "FileHelpers.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "petrous/Core/InputFile.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+/// "nan" and "inf" are not accepted.
+template <class T>
+std::optional<T> finite(const std::optional<T>& value)
+{
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+bool isSpace(char c)
+{
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
+
+} // namespace
+
+void fail(FileError::Reason reason, const std::filesystem::path& path, const std::string& text,
+          core::Fault fault)
+{
+  std::string name = path.string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < 32 || c == 127; }, '?');
+  throw FileError(reason, name + ": " + text, fault);
+}
+
+std::string lowerName(const std::filesystem::path& path)
+{
+  std::string name = path.filename().string();
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z')
+      c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+bool endsWith(std::string_view text, std::string_view end)
+{
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::string baseName(const std::filesystem::path& path)
+{
+  const std::string lower = lowerName(path);
+  const std::string name = path.filename().string();
+  for (const std::string_view end : {".seg.nrrd", ".seg.nhdr", ".nii.gz"})
+    if (lower.size() > end.size() && endsWith(lower, end))
+      return name.substr(0, name.size() - end.size());
+  return path.stem().string();
+}
+
+namespace
+{
+
+// Throws for an empty file.
+core::InputFile opened(const std::filesystem::path& path)
+try
+{
+  core::InputFile file(path);
+  if (file.size() == 0)
+    fail(FileError::Reason::Unreadable, path, "is empty; copy it again from where it came");
+  return file;
+}
+catch (const core::InputFileError& error)
+{
+  using Reason = core::InputFileError::Reason;
+  std::error_code ignored;
+  if (error.reason == Reason::NotFound)
+    fail(FileError::Reason::NotFound, path, "there is no such file; check the name");
+  if (error.reason == Reason::NotRegular && std::filesystem::is_directory(path, ignored))
+    fail(FileError::Reason::NotFound, path, "is a folder; name a file in it");
+  if (error.reason == Reason::NotRegular)
+    fail(FileError::Reason::Unreadable, path, "is not an ordinary file; name one that may be read");
+  fail(FileError::Reason::Unreadable, path, "may not be opened; allow reading it");
+}
+
+} // namespace
+
+std::uintmax_t checkedFileSize(const std::filesystem::path& path)
+{
+  return opened(path).size();
+}
+
+std::string readWholeFile(const std::filesystem::path& path)
+{
+  constexpr std::uintmax_t kMaxWhole = std::uintmax_t{4} << 30;
+  const std::uintmax_t size = checkedFileSize(path);
+  if (size > kMaxWhole)
+    fail(FileError::Reason::Unsupported, path,
+         "is " + roughText(static_cast<double>(size) / 1e9) +
+             " GB large; a file of this kind is read up to 4.3 GB");
+  return readBytes(path, size);
+}
+
+std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)
+try
+{
+  return opened(path).read(limit);
+}
+catch (const core::InputFileError&)
+{
+  fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
+}
+
+std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name)
+{
+  const std::filesystem::path file = header.parent_path() / name;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    fail(FileError::Reason::NotFound, header,
+         "is a header whose file of voxels is not there; keep both in one folder");
+  return file;
+}
+
+std::string roughText(double value)
+{
+  return core::generalText(value, 4);
+}
+
+std::string dimsText(const std::vector<std::uint64_t>& dims)
+{
+  std::string text;
+  for (const std::uint64_t n : dims)
+    text += (text.empty() ? "" : " x ") + std::to_string(n);
+  return text;
+}
+
+std::optional<double> parseDouble(std::string_view text)
+{
+  return finite(core::parseDouble(text));
+}
+
+std::optional<float> parseFloat(std::string_view text)
+{
+  return finite(core::parseFloat(text));
+}
+
+std::optional<std::int64_t> parseInteger(std::string_view text)
+{
+  if (!text.empty() && text.front() == '+')
+    text.remove_prefix(1);
+  std::int64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end ? std::optional(value) : std::nullopt;
+}
+
+std::string_view trimmed(std::string_view text)
+{
+  while (!text.empty() && isSpace(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && isSpace(text.back()))
+    text.remove_suffix(1);
+  return text;
+}
+
+std::string_view takeWord(std::string_view& text)
+{
+  while (!text.empty() && isSpace(text.front()))
+    text.remove_prefix(1);
+  std::size_t length = 0;
+  while (length < text.size() && !isSpace(text[length]))
+    ++length;
+  const std::string_view word = text.substr(0, length);
+  text.remove_prefix(length);
+  return word;
+}
+
+std::string_view takeLine(std::string_view& text)
+{
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  if (!line.empty() && line.back() == '\r')
+    line.remove_suffix(1);
+  return line;
+}
+
+} // namespace petrous::imaging

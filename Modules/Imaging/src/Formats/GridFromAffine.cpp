@@ -1,0 +1,108 @@
+#include "GridFromAffine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include "FileHelpers.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+constexpr double kLargestShear = 1e-3;  // dot product of two unit axes
+constexpr double kLargestCost = 0.1;    // mm
+constexpr double kNotedCost = 1e-3;     // mm
+constexpr double kCoarsest = 1e3;       // mm, voxel size
+constexpr double kFarthest = 1e5;       // mm; invalid beyond, as in SeriesGeometry.cpp
+constexpr double kRoundingShear = 1e-6; // float32 headers; not corrected
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+} // namespace
+
+core::GridGeometry gridFromAffine(const std::filesystem::path& path,
+                                  const std::vector<std::uint64_t>& dims,
+                                  const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
+                                  std::vector<std::string>& notes)
+{
+  core::Index3 size{};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (dims[a] < 1 || dims[a] > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+      fail(FileError::Reason::Unreadable, path,
+           "its header gives impossible dimensions, " + dimsText(dims) +
+               "; export it again from where it came");
+    size[a] = static_cast<int>(dims[a]);
+  }
+  const Eigen::Vector3d spacing = linear.colwise().norm().transpose();
+  if (!linear.allFinite() || !origin.allFinite() || spacing.minCoeff() < 1e-6 ||
+      spacing.maxCoeff() > kCoarsest)
+    fail(FileError::Reason::NoGeometry, path,
+         "its header gives no voxel size or place in the patient that can be true; export it "
+         "again with its geometry");
+  const Eigen::Vector3d last(size[0] - 1.0, size[1] - 1.0, size[2] - 1.0);
+  const double reach = origin.cwiseAbs().maxCoeff() + spacing.cwiseProduct(last).maxCoeff();
+  if (reach > kFarthest)
+    fail(FileError::Reason::NoGeometry, path,
+         "its header puts it " + roughText(reach) +
+             " mm from the origin of the patient's frame; a place within 100 m is believed, export "
+             "it again with its geometry");
+
+  Eigen::Matrix3d axes = linear;
+  for (int a = 0; a < 3; ++a)
+    axes.col(a) /= spacing[a];
+  const double shear =
+      (axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (shear > kRoundingShear)
+  {
+    // The nearest orthogonal axes (orthogonal Procrustes problem, solved by SVD).
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::Matrix3d straight = svd.matrixU() * svd.matrixV().transpose();
+    const Eigen::Vector3d half =
+        0.5 * Eigen::Vector3d(size[0] - 1.0, size[1] - 1.0, size[2] - 1.0).cwiseProduct(spacing);
+    double cost = 0.0;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const Eigen::Vector3d sign((corner & 1) ? 1.0 : -1.0, (corner & 2) ? 1.0 : -1.0, 1.0);
+      cost = std::max(cost, ((axes - straight) * half.cwiseProduct(sign)).norm());
+    }
+    if (shear > kLargestShear || cost > kLargestCost)
+      fail(FileError::Reason::NoGeometry, path,
+           "its axes are not perpendicular (off by " +
+               roughText(std::asin(std::min(shear, 1.0)) * kDegrees) +
+               " degrees): taken as perpendicular, voxels would lie wrong by up to " +
+               roughText(cost) + " mm; resample it to perpendicular axes");
+    if (cost > kNotedCost)
+      notes.push_back(
+          "axes off perpendicular were straightened, which moves no voxel by more than " +
+          roughText(cost) + " mm");
+    const Eigen::Vector3d center = origin + axes * half;
+    return {size, spacing, center - straight * half, straight};
+  }
+  return {size, spacing, origin, axes};
+}
+
+double unitInMillimetres(std::string name, std::vector<std::string>& notes)
+{
+  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  const std::string unit(trimmed(name));
+  if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit == "millimetre")
+    return 1.0;
+  for (const auto& [known, scale] :
+       {std::pair("um", 1e-3), std::pair("\xc2\xb5m", 1e-3), std::pair("micron", 1e-3),
+        std::pair("microns", 1e-3), std::pair("cm", 10.0), std::pair("m", 1e3)})
+    if (unit == known)
+    {
+      notes.push_back("counts in " + unit + ", turned into mm");
+      return scale;
+    }
+  notes.emplace_back(unit.empty() ? "states no unit of length; taken as mm"
+                                  : "states a unit of length that is not known; taken as mm");
+  return 1.0;
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,173 @@
+#include "petrous/Imaging/ImageFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "FileHelpers.h"
+#include "VoxelSource.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+using Voxels = volume::IntensityVolume::Voxels;
+
+template <class Out, class In>
+Voxels converted(const core::GridGeometry& geometry, const In* in)
+{
+  auto volume = std::make_shared<volume::Volume<Out>>(geometry);
+  std::transform(in, in + volume->size(), volume->data(),
+                 [](In value) { return static_cast<Out>(value); });
+  return std::shared_ptr<const volume::Volume<Out>>(std::move(volume));
+}
+
+template <class T>
+Voxels adopted(const core::GridGeometry& geometry, const std::shared_ptr<void>& raw)
+{
+  return std::make_shared<const volume::Volume<T>>(
+      geometry, std::shared_ptr<T>(raw, static_cast<T*>(raw.get())));
+}
+
+/// Minimum and maximum value, and whether all values are integral.
+struct Contents
+{
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  bool whole = true;
+};
+
+template <class T>
+Contents contentsOf(const T* in, std::size_t count)
+{
+  Contents contents;
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    const auto value = static_cast<double>(in[v]);
+    contents.min = std::min(contents.min, value);
+    contents.max = std::max(contents.max, value);
+    if constexpr (std::is_floating_point_v<T>)
+      contents.whole = contents.whole && std::isfinite(value) && value == std::floor(value);
+  }
+  return contents;
+}
+
+template <class Out>
+bool fits(const Contents& contents)
+{
+  return contents.whole && contents.min >= std::numeric_limits<Out>::lowest() &&
+         contents.max <= std::numeric_limits<Out>::max();
+}
+
+template <class T>
+Voxels keepOrNarrow(const core::GridGeometry& geometry, const std::shared_ptr<void>& raw,
+                    bool rescaled)
+{
+  const auto* in = static_cast<const T*>(raw.get());
+  constexpr bool kKept = std::is_same_v<T, std::int16_t> || std::is_same_v<T, std::uint16_t>;
+  if constexpr (kKept)
+    return adopted<T>(geometry, raw);
+  else if constexpr (sizeof(T) == 1)
+    return converted<std::int16_t>(geometry, in);
+  else
+  {
+    if constexpr (std::is_same_v<T, float>)
+      if (!rescaled)
+        return adopted<float>(geometry, raw);
+    const Contents contents = contentsOf(in, geometry.voxelCount());
+    if (fits<std::int16_t>(contents))
+      return converted<std::int16_t>(geometry, in);
+    if (fits<std::uint16_t>(contents))
+      return converted<std::uint16_t>(geometry, in);
+    if constexpr (std::is_same_v<T, float>)
+      return adopted<float>(geometry, raw);
+    else
+      return converted<float>(geometry, in);
+  }
+}
+
+/// A non-finite value would propagate to every sample, picture and force near it.
+void requireFinite(const std::filesystem::path& path, const Voxels& voxels)
+{
+  const auto* volume = std::get_if<std::shared_ptr<const volume::Volume<float>>>(&voxels);
+  if (!volume)
+    return;
+  const float* data = (*volume)->data();
+  const auto count = std::count_if(data, data + (*volume)->size(),
+                                   [](float value) { return !std::isfinite(value); });
+  if (count > 0)
+    fail(FileError::Reason::Unsupported, path,
+         "holds " + std::to_string(count) +
+             " voxels that are not finite numbers (NaN, infinite or beyond float); give them the "
+             "value of what lies outside the scanned field, such as -1024 in a CT");
+}
+
+core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry& geometry,
+                     const std::optional<core::PatientBox>& roi)
+{
+  if (!roi)
+    return geometry.fullBox();
+  const core::IndexBox box = geometry.boxCovering(roi->min(), roi->max());
+  const core::Index3 size = box.size();
+  if (*std::min_element(size.begin(), size.end()) >= 2)
+    return box;
+  const auto bounds = geometry.patientBounds();
+  std::string range;
+  for (int a = 0; a < 3; ++a)
+    range += (a ? ", " : "") + roughText(bounds.min()[a]) + " to " + roughText(bounds.max()[a]);
+  fail(FileError::Reason::Unsupported, path,
+       "lies outside the region of interest, or that is thinner than a voxel; the image spans (x, "
+       "y, z in LPS mm) " +
+           range);
+}
+
+} // namespace
+
+bool isImageFileName(const std::filesystem::path& path)
+{
+  const std::string name = lowerName(path);
+  const auto ends = {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd"};
+  return std::any_of(ends.begin(), ends.end(),
+                     [&name](const char* end) { return endsWith(name, end); });
+}
+
+LoadedImage readImageFile(const std::filesystem::path& path,
+                          const std::optional<core::PatientBox>& roi,
+                          const core::Progress& progress)
+{
+  progress.report(0.0, "reading image");
+  const VoxelSource source(path);
+  if (source.components() > 1)
+    fail(FileError::Reason::Unsupported, path,
+         "holds " + std::to_string(source.components()) +
+             " numbers a voxel (vectors or colours); an image of one number a voxel is needed");
+  const auto& dims = source.geometry().dims();
+  if (*std::min_element(dims.begin(), dims.end()) < 2)
+    fail(FileError::Reason::Unsupported, path,
+         "is a single slice; a volume of at least 2 voxels along each axis is needed");
+  const core::IndexBox box = boxOf(path, source.geometry(), roi);
+  const core::GridGeometry geometry = source.geometry().cropped(box);
+  auto raw = source.read(box, progress.part(0.0, 0.8));
+  Voxels voxels =
+      visitComponent(source.component(), [&](auto type)
+                     { return keepOrNarrow<decltype(type)>(geometry, raw, source.rescaled()); });
+  raw.reset();
+  requireFinite(path, voxels);
+
+  LoadedImage image;
+  image.notes = source.notes();
+  std::optional<double> padding;
+  if (source.nrrd())
+    if (const std::string* text = source.nrrd()->key("petrous_padding"))
+      padding = parseDouble(trimmed(*text));
+  image.volume = std::make_shared<const volume::IntensityVolume>(std::move(voxels), padding);
+  progress.report(1.0, "reading image");
+  return image;
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,192 @@
+#include "petrous/Imaging/LabelFile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "FileHelpers.h"
+#include "LabelNames.h"
+#include "VoxelSource.h"
+#include "VoxelWriter.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr double kLargestLabel = 65535.0;
+
+[[noreturn]] void failValue(const std::filesystem::path& path, double value)
+{
+  std::string what;
+  if (!std::isfinite(value) || value != std::floor(value))
+    what = "holds a value that is no whole number";
+  else
+    what = "holds the value " + exactText(value);
+  fail(FileError::Reason::Unsupported, path,
+       what +
+           "; labels are whole numbers from 0 to 65535 (an intensity image is given as CT or MR)");
+}
+
+/// One layer of the file as labels.
+using Labels = std::shared_ptr<volume::Volume<std::uint16_t>>;
+
+template <class T>
+Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
+                const std::shared_ptr<void>& raw, std::size_t layer)
+{
+  const core::GridGeometry& geometry = source.geometry();
+  const std::size_t stride = source.components();
+  if constexpr (std::is_same_v<T, std::uint16_t>)
+    if (stride == 1)
+      return std::make_shared<volume::Volume<std::uint16_t>>(
+          geometry, std::shared_ptr<std::uint16_t>(raw, static_cast<std::uint16_t*>(raw.get())));
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(geometry);
+  const T* in = static_cast<const T*>(raw.get()) + layer;
+  std::uint16_t* out = labels->data();
+  for (std::size_t v = 0; v < labels->size(); ++v)
+  {
+    const T value = in[v * stride];
+    if constexpr (std::is_floating_point_v<T>)
+    {
+      if (!(value >= T{0} && value <= static_cast<T>(kLargestLabel)) || value != std::floor(value))
+        failValue(path, static_cast<double>(value));
+    }
+    else if constexpr (!std::is_same_v<T, std::uint8_t>)
+    {
+      bool good = true;
+      if constexpr (std::is_signed_v<T>)
+        good = value >= T{0};
+      if constexpr (sizeof(T) > 2)
+        good = good && value <= static_cast<T>(kLargestLabel);
+      if (!good)
+        failValue(path, static_cast<double>(value));
+    }
+    out[v] = static_cast<std::uint16_t>(value);
+  }
+  return labels;
+}
+
+std::vector<bool> valuesIn(const volume::Volume<std::uint16_t>& labels)
+{
+  std::vector<char> seen(65536, 0);
+  const std::uint16_t* voxel = labels.data();
+  for (std::size_t v = 0; v < labels.size(); ++v)
+    seen[voxel[v]] = 1;
+  return {seen.begin(), seen.end()};
+}
+
+/// Names for a file that contains none; may renumber a single structure to 1, and reports whether
+/// only the file name names it.
+std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
+                                              volume::Volume<std::uint16_t>& labels,
+                                              bool& isNamedAfterFile)
+{
+  const std::vector<bool> seen = valuesIn(labels);
+  const auto count = std::count(seen.begin() + 1, seen.end(), true);
+  if (count == 0)
+    fail(FileError::Reason::Unsupported, path,
+         "holds no structure, every voxel is 0; voxels of a structure need a value from 1 on");
+  LabelTable table = findLabelTable(path);
+  // A table of another name matches a single structure only by chance.
+  if (count > 1 || table.sameName)
+  {
+    auto& list = table.segments;
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [&seen](const auto& segment) { return !seen[segment.index]; }),
+               list.end());
+    if (!list.empty() || count > 1)
+      return std::move(list);
+  }
+  std::transform(labels.data(), labels.data() + labels.size(), labels.data(),
+                 [](std::uint16_t v) { return static_cast<std::uint16_t>(v != 0); });
+  isNamedAfterFile = true;
+  volume::Segment segment;
+  segment.name = baseName(path);
+  segment.index = 1;
+  return {segment};
+}
+
+bool hasSegments(const VoxelSource& source)
+{
+  return source.nrrd() &&
+         (source.nrrd()->key("Segment0_Name") || source.nrrd()->key("Segment0_ID"));
+}
+
+LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
+                        const core::Progress& progress)
+{
+  progress.report(0.0, "reading labels");
+  const VoxelSource source(path);
+  const bool named = hasSegments(source);
+  if (source.components() > 1 && !named)
+    fail(FileError::Reason::Unsupported, path,
+         "holds " + std::to_string(source.components()) +
+             " numbers a voxel; a label file holds one whole number a voxel");
+  if (source.components() > 1 && oneOnly)
+    fail(FileError::Reason::Unsupported, path,
+         "holds structures that overlap, in " + std::to_string(source.components()) +
+             " layers; one layer is needed here");
+  const auto raw = source.read(source.geometry().fullBox(), progress.part(0.0, 0.7));
+  LoadedLabels loaded;
+  loaded.notes = source.notes();
+  if (named)
+    for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
+      loaded.notes.push_back("'" + name +
+                             "' was left out: the file puts it in a layer that it has "
+                             "not; save it again in 3D Slicer");
+  for (std::size_t layer = 0; layer < source.components(); ++layer)
+  {
+    progress.report(0.7, "reading labels");
+    const Labels labels =
+        visitComponent(source.component(), [&](auto type)
+                       { return toLabels<decltype(type)>(source, path, raw, layer); });
+    auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
+                       : namesFromOutside(path, *labels, loaded.isNamedAfterFile);
+    loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
+  }
+  progress.report(1.0, "reading labels");
+  return loaded;
+}
+
+} // namespace
+
+LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress)
+{
+  return readLayers(path, false, progress);
+}
+
+volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
+{
+  return std::move(readLayers(path, true, progress).maps.front());
+}
+
+void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels)
+{
+  if (!labels.voxels)
+    throw core::InvalidParameter("label map: no voxels given to write");
+  const std::string name = lowerName(path);
+  if (!endsWith(name, ".nrrd") && !endsWith(name, ".nii") && !endsWith(name, ".nii.gz"))
+    fail(FileError::Reason::UnknownFormat, path,
+         "cannot be written under this name; end it in .seg.nrrd, .nrrd, .nii.gz or .nii");
+  const volume::Volume<std::uint16_t>& voxels = *labels.voxels;
+  const std::string keys = endsWith(name, ".nrrd") ? segmentKeys(labels) : std::string();
+  const bool small = std::all_of(voxels.data(), voxels.data() + voxels.size(),
+                                 [](std::uint16_t v) { return v <= 255; });
+  if (!small)
+  {
+    writeVoxelFile(path, voxels.geometry(), voxelTypeOf<std::uint16_t>(), voxels.data(), keys, {});
+    return;
+  }
+  std::vector<std::uint8_t> bytes(voxels.size());
+  std::transform(voxels.data(), voxels.data() + voxels.size(), bytes.begin(),
+                 [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
+  writeVoxelFile(path, voxels.geometry(), voxelTypeOf<std::uint8_t>(), bytes.data(), keys, {});
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,280 @@
+#include "LabelNames.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <system_error>
+
+#include "FileHelpers.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr std::size_t kMaxSegments = 65535;
+constexpr std::uintmax_t kLargestTable = std::uintmax_t{4} << 20;
+
+std::array<float, 3> colorOf(const std::string* text)
+{
+  std::array<float, 3> color{};
+  std::string_view rest = text ? std::string_view(*text) : std::string_view();
+  for (float& channel : color)
+    channel = std::clamp(parseFloat(takeWord(rest)).value_or(0.0F), 0.0F, 1.0F);
+  return color;
+}
+
+/// Bounding boxes of all segments, (first, last) per axis; last < first for an empty segment.
+std::vector<std::array<int, 6>> extents(const volume::LabelMap& labels)
+{
+  std::vector<std::size_t> place(65536, labels.segments.size());
+  for (std::size_t s = 0; s < labels.segments.size(); ++s)
+    place[labels.segments[s].index] = s;
+  std::vector<std::array<int, 6>> boxes(labels.segments.size() + 1, {0, -1, 0, -1, 0, -1});
+  const auto& n = labels.voxels->geometry().dims();
+  const std::uint16_t* voxel = labels.voxels->data();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i, ++voxel)
+      {
+        if (*voxel == 0)
+          continue;
+        auto& box = boxes[place[*voxel]];
+        const bool first = box[1] < box[0];
+        const std::array<int, 3> at{i, j, k};
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          box[2 * a] = first ? at[a] : std::min(box[2 * a], at[a]);
+          box[2 * a + 1] = first ? at[a] : std::max(box[2 * a + 1], at[a]);
+        }
+      }
+  return boxes;
+}
+
+/// 3D Slicer: index name r g b a (0 to 255).
+std::optional<volume::Segment> slicerEntry(std::string_view line, std::uint16_t index)
+{
+  volume::Segment segment;
+  segment.index = index;
+  line = trimmed(line);
+  if (!line.empty() && line.front() == '"')
+  {
+    const std::size_t end = line.find('"', 1);
+    if (end == line.npos)
+      return std::nullopt;
+    segment.name = line.substr(1, end - 1);
+    line.remove_prefix(end + 1);
+  }
+  else
+    segment.name = takeWord(line);
+  for (float& channel : segment.color)
+  {
+    const auto value = parseDouble(takeWord(line));
+    if (!value)
+      return std::nullopt;
+    channel = static_cast<float>(std::clamp(*value / 255.0, 0.0, 1.0));
+  }
+  return segment.name.empty() ? std::nullopt : std::optional(segment);
+}
+
+/// ITK-SNAP: index r g b opacity visible mesh "name".
+std::optional<volume::Segment> snapEntry(std::string_view line, std::uint16_t index)
+{
+  volume::Segment segment;
+  segment.index = index;
+  for (std::size_t column = 0; column < 6; ++column)
+  {
+    const auto value = parseDouble(takeWord(line));
+    if (!value)
+      return std::nullopt;
+    if (column < 3)
+      segment.color[column] = static_cast<float>(std::clamp(*value / 255.0, 0.0, 1.0));
+  }
+  line = trimmed(line);
+  if (line.size() < 3 || line.front() != '"' || line.back() != '"')
+    return std::nullopt;
+  segment.name = line.substr(1, line.size() - 2);
+  return segment;
+}
+
+/// Lower-case words of a file name: split at punctuation, digits and capitals ("HeadAndNeck").
+std::vector<std::string> wordsOf(const std::string& name)
+{
+  std::vector<std::string> words(1);
+  bool lowerBefore = false;
+  for (const char c : name)
+  {
+    const auto letter = static_cast<unsigned char>(c);
+    const bool capital = std::isupper(letter) != 0;
+    if ((std::isalpha(letter) == 0 || (capital && lowerBefore)) && !words.back().empty())
+      words.emplace_back();
+    if (std::isalpha(letter) != 0)
+      words.back() += static_cast<char>(std::tolower(letter));
+    lowerBefore = std::islower(letter) != 0;
+  }
+  return words;
+}
+
+bool shareAWord(const std::string& a, const std::string& b)
+{
+  // Words common to label files and colour tables carry no information.
+  const std::array<std::string, 8> empty{"label", "labels", "color",        "colors",
+                                         "table", "colour", "segmentation", "file"};
+  const auto others = wordsOf(b);
+  for (const std::string& word : wordsOf(a))
+    if (word.size() >= 4 && std::find(empty.begin(), empty.end(), word) == empty.end() &&
+        std::find(others.begin(), others.end(), word) != others.end())
+      return true;
+  return false;
+}
+
+std::vector<volume::Segment> readTable(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size == 0 || size > kLargestTable)
+    return {};
+  return parseLabelTable(readBytes(path, kLargestTable));
+}
+
+std::string prefixOf(std::size_t segment)
+{
+  return "Segment" + std::to_string(segment) + "_";
+}
+
+bool hasSegment(const NrrdHeader& header, std::size_t segment)
+{
+  const std::string prefix = prefixOf(segment);
+  return header.key(prefix + "Name") || header.key(prefix + "LabelValue") ||
+         header.key(prefix + "ID");
+}
+
+/// -1 if the value is not a number. Older files have one layer and do not state it.
+std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
+{
+  const std::string* stated = header.key(prefixOf(segment) + "Layer");
+  return stated ? parseInteger(trimmed(*stated)).value_or(-1) : 0;
+}
+
+} // namespace
+
+std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers)
+{
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
+  {
+    const std::int64_t layer = layerOf(header, s);
+    if (layer >= 0 && layer < static_cast<std::int64_t>(layers))
+      continue;
+    const std::string* name = header.key(prefixOf(s) + "Name");
+    names.push_back(name && !name->empty() ? *name : "structure " + std::to_string(s));
+  }
+  return names;
+}
+
+std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
+                                             const NrrdHeader& header, std::size_t layer)
+{
+  std::vector<volume::Segment> segments;
+  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
+  {
+    const std::string prefix = prefixOf(s);
+    const std::string* name = header.key(prefix + "Name");
+    const std::string* value = header.key(prefix + "LabelValue");
+    if (layerOf(header, s) != static_cast<std::int64_t>(layer))
+      continue;
+    // Before Slicer supported layers it wrote no LabelValue: structures are numbered from 1.
+    const auto index =
+        value ? parseInteger(trimmed(*value)).value_or(0) : static_cast<std::int64_t>(s) + 1;
+    if (index < 1 || index > 65535)
+      fail(FileError::Reason::Unreadable, path,
+           "its structure number " + std::to_string(s) +
+               " has no label value from 1 to 65535; save it again in 3D Slicer");
+    volume::Segment segment;
+    segment.index = static_cast<std::uint16_t>(index);
+    segment.name = name && !name->empty() ? *name : "label " + std::to_string(index);
+    segment.color = colorOf(header.key(prefix + "Color"));
+    for (const auto& other : segments)
+      if (other.index == segment.index)
+        fail(FileError::Reason::Unreadable, path,
+             "gives two structures the label value " + std::to_string(index) +
+                 "; each needs its own, save it again in 3D Slicer");
+    segments.push_back(std::move(segment));
+  }
+  return segments;
+}
+
+std::string segmentKeys(const volume::LabelMap& labels)
+{
+  std::string keys;
+  const auto boxes = extents(labels);
+  for (std::size_t s = 0; s < labels.segments.size(); ++s)
+  {
+    const volume::Segment& segment = labels.segments[s];
+    const std::string prefix = prefixOf(s);
+    std::string color;
+    for (const float channel : segment.color)
+      color += (color.empty() ? "" : " ") + exactText(channel);
+    std::string box;
+    for (const int edge : boxes[s])
+      box += (box.empty() ? "" : " ") + std::to_string(edge);
+    keys += nrrdKeyText(prefix + "Color", color) + nrrdKeyText(prefix + "ColorAutoGenerated", "0") +
+            nrrdKeyText(prefix + "Extent", box) +
+            nrrdKeyText(prefix + "ID", "Segment_" + std::to_string(segment.index)) +
+            nrrdKeyText(prefix + "LabelValue", std::to_string(segment.index)) +
+            nrrdKeyText(prefix + "Layer", "0") + nrrdKeyText(prefix + "Name", segment.name) +
+            nrrdKeyText(prefix + "NameAutoGenerated", "0") + nrrdKeyText(prefix + "Tags", "|");
+  }
+  return keys + nrrdKeyText("Segmentation_ContainedRepresentationNames", "Binary labelmap|") +
+         nrrdKeyText("Segmentation_MasterRepresentation", "Binary labelmap") +
+         nrrdKeyText("Segmentation_ReferenceImageExtentOffset", "0 0 0");
+}
+
+std::vector<volume::Segment> parseLabelTable(const std::string& text)
+{
+  std::vector<volume::Segment> segments;
+  std::vector<bool> seen(65536, false);
+  std::string_view rest = text;
+  while (!rest.empty())
+  {
+    std::string_view line = trimmed(takeLine(rest));
+    if (line.empty() || line.front() == '#')
+      continue;
+    const auto value = parseInteger(takeWord(line));
+    if (!value || *value < 1 || *value > 65535 || seen[static_cast<std::size_t>(*value)])
+      continue;
+    const auto index = static_cast<std::uint16_t>(*value);
+    auto segment = snapEntry(line, index);
+    if (!segment)
+      segment = slicerEntry(line, index);
+    if (!segment)
+      continue;
+    seen[index] = true;
+    segments.push_back(std::move(*segment));
+  }
+  return segments;
+}
+
+LabelTable findLabelTable(const std::filesystem::path& labelFile)
+{
+  const std::filesystem::path folder =
+      labelFile.has_parent_path() ? labelFile.parent_path() : std::filesystem::path(".");
+  const std::string base = baseName(labelFile);
+  for (const char* end : {".ctbl", ".txt", ".label"})
+    if (auto segments = readTable(folder / (base + end)); !segments.empty())
+      return {std::move(segments), true};
+
+  std::vector<std::filesystem::path> tables;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (endsWith(lowerName(entry->path()), ".ctbl"))
+      tables.push_back(entry->path());
+  if (tables.size() == 1 && shareAWord(base, baseName(tables.front())))
+    return {readTable(tables.front()), false};
+  return {};
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/GridGeometry.h"
+
+namespace petrous::imaging
+{
+
+/// A NIfTI-1 header (nifti1.h of the NIfTI data format working group).
+struct NiftiHeader
+{
+  std::vector<std::uint64_t> dims; ///< without trailing ones, at least 3
+  int storedDims = 0;              ///< as stated in the file
+  int dataType = 0;                ///< DT_ code
+  bool swapped = false;            ///< big-endian
+  bool packed = false;             ///< the whole file is gzip-compressed
+  std::uint64_t voxelOffset = 0;   ///< bytes, in the uncompressed file
+  double slope = 0.0;              ///< scl_slope; 0: none
+  double intercept = 0.0;
+  Eigen::Matrix3d linear; ///< d patient / d voxel, LPS mm
+  Eigen::Vector3d origin; ///< LPS mm
+  std::vector<std::string> notes;
+
+  bool rescaled() const { return slope != 0.0 && (slope != 1.0 || intercept != 0.0); }
+};
+
+/// Reads the header of a .nii or .nii.gz according to the standard: sform if present, else qform,
+/// else voxel size only (noted). ITK would silently orthogonalize a sheared sform. Throws
+/// FileError.
+NiftiHeader readNiftiHeader(const std::filesystem::path& path);
+
+/// The 352 bytes before the voxels of a .nii: identical sform and qform, RAS, mm. `dataType` and
+/// `bits` as the standard's DT_ codes.
+std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits);
+
+} // namespace petrous::imaging

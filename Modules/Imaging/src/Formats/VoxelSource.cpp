@@ -1,0 +1,247 @@
+#include "VoxelSource.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "FileHelpers.h"
+#include "GridFromAffine.h"
+#include "MetaHeader.h"
+#include "NiftiHeader.h"
+#include "NrrdLayout.h"
+#include "VoxelStream.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+// Maximum compression ratio of zlib; beyond it the header does not belong to the voxels.
+constexpr long double kTightestPacking = 1032.0L;
+
+/// DT_ codes of nifti1.h.
+std::optional<Component> niftiComponent(int dataType)
+{
+  switch (dataType)
+  {
+  case 2:
+    return Component::UInt8;
+  case 4:
+    return Component::Int16;
+  case 8:
+    return Component::Int32;
+  case 16:
+    return Component::Float;
+  case 64:
+    return Component::Double;
+  case 256:
+    return Component::Int8;
+  case 512:
+    return Component::UInt16;
+  case 768:
+    return Component::UInt32;
+  case 1024:
+    return Component::Int64;
+  case 1280:
+    return Component::UInt64;
+  default:
+    return std::nullopt;
+  }
+}
+
+std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
+{
+  if (void* memory = std::malloc(std::max<std::size_t>(bytes, 1)))
+    return {memory, std::free};
+  fail(FileError::Reason::Unreadable, path,
+       "needs " + roughText(static_cast<double>(bytes) / 1e9) +
+           " GB of memory, which is not free; close programs or give a region of interest",
+       core::Fault::Internal);
+}
+
+} // namespace
+
+VoxelSource::VoxelSource(const std::filesystem::path& path)
+  : m_path(path)
+{
+  m_dataBytes = checkedFileSize(path);
+  const std::string name = lowerName(path);
+  if (endsWith(name, ".nii") || endsWith(name, ".nii.gz"))
+    openNifti();
+  else if (endsWith(name, ".nrrd") || endsWith(name, ".nhdr"))
+    openNrrd();
+  else if (endsWith(name, ".mha") || endsWith(name, ".mhd"))
+    openMeta();
+  else
+    fail(FileError::Reason::UnknownFormat, path,
+         "is of no format that is read; give a .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd file");
+}
+
+void VoxelSource::openNifti()
+{
+  NiftiHeader header = readNiftiHeader(m_path);
+  m_notes = std::move(header.notes);
+  if (header.dims.size() > 3)
+    fail(FileError::Reason::Unsupported, m_path,
+         "holds " + dimsText(header.dims) +
+             " voxels; one volume of 3 dimensions is needed, so save one of them alone");
+  const auto stored = niftiComponent(header.dataType);
+  if (!stored)
+    fail(FileError::Reason::Unsupported, m_path,
+         "its voxels are of a type that is not read (colours, complex or long double); save them "
+         "as whole numbers or float");
+  m_stored = *stored;
+  if (header.rescaled())
+  {
+    m_slope = header.slope;
+    m_intercept = header.intercept;
+  }
+  m_dims = header.dims;
+  m_place = Place{m_path, header.packed ? 0 : header.voxelOffset,
+                  header.packed ? header.voxelOffset : 0, header.packed, header.swapped};
+  checkRoom();
+  m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
+}
+
+void VoxelSource::openNrrd()
+{
+  m_nrrd = readNrrdHeader(m_path);
+  NrrdLayout layout = readNrrdLayout(m_path, *m_nrrd);
+  m_notes = std::move(layout.notes);
+  m_dims = std::move(layout.dims);
+  m_components = layout.components;
+  m_stored = layout.component;
+  m_dataBytes = layout.dataBytes;
+  using Encoding = NrrdLayout::Encoding;
+  m_place = Place{layout.file,           layout.offset,
+                  layout.unpackedOffset, layout.encoding == Encoding::Gzip,
+                  layout.swapped,        layout.encoding == Encoding::Text};
+  checkRoom();
+  m_geometry = gridFromAffine(m_path, m_dims, layout.linear, layout.origin, m_notes);
+}
+
+void VoxelSource::openMeta()
+{
+  MetaHeader header = readMetaHeader(m_path);
+  m_notes = std::move(header.notes);
+  m_dims = std::move(header.dims);
+  requireThreeDims();
+  m_stored = header.component;
+  if (header.slope != 1.0 || header.intercept != 0.0)
+  {
+    m_slope = header.slope;
+    m_intercept = header.intercept;
+  }
+  m_dataBytes = header.dataBytes;
+  m_place = Place{header.file, header.offset, 0, header.packed, header.swapped};
+  checkRoom();
+  // Unless declared binary, the voxels may be text, except if their length matches exactly.
+  if (!header.saysBinary && !header.packed &&
+      voxelBytes() !=
+          static_cast<long double>(m_dataBytes) - static_cast<long double>(header.offset))
+    failMetaKind(m_path);
+  m_geometry = gridFromAffine(m_path, m_dims, header.linear, header.origin, m_notes);
+}
+
+void VoxelSource::requireThreeDims() const
+{
+  std::vector<std::uint64_t> kept = m_dims;
+  while (kept.size() > 3 && kept.back() == 1)
+    kept.pop_back();
+  if (kept.size() != 3)
+    fail(FileError::Reason::Unsupported, m_path,
+         "holds " + dimsText(kept) + " voxels; one volume of 3 dimensions is needed");
+}
+
+long double VoxelSource::voxelBytes() const
+{
+  // Not in integers: absurd dimensions would overflow the product.
+  long double bytes = static_cast<long double>(m_components);
+  for (const std::uint64_t n : m_dims)
+    bytes *= static_cast<long double>(n);
+  return bytes * visitComponent(m_stored, [](auto type) { return sizeof type; });
+}
+
+void VoxelSource::checkRoom() const
+{
+  // A number as text takes a digit and a separator; the last needs no separator.
+  const long double numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
+  const long double needed =
+      m_place.isText ? 2.0L * voxelBytes() / numberBytes - 1.0L : voxelBytes();
+  const auto behind = static_cast<long double>(m_place.offset);
+  const long double there = static_cast<long double>(m_dataBytes) - behind;
+  if (needed > (m_place.packed ? kTightestPacking : 1.0L) * there)
+    fail(FileError::Reason::Unreadable, m_path,
+         "its header speaks of " + dimsText(m_dims) +
+             " voxels, which the file is too short to hold; copy it again from where it came");
+}
+
+std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count) const
+{
+  auto copy = allocate(m_path, count * sizeof(float));
+  auto* out = static_cast<float*>(copy.get());
+  visitComponent(m_stored,
+                 [&](auto type)
+                 {
+                   const auto* in = static_cast<const decltype(type)*>(stored);
+                   std::transform(in, in + count, out,
+                                  [this](auto value) {
+                                    return static_cast<float>(m_slope * static_cast<double>(value) +
+                                                              m_intercept);
+                                  });
+                 });
+  return copy;
+}
+
+std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
+                                        const core::Progress& progress) const
+{
+  const std::size_t numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
+  const std::size_t perVoxel = m_components * numberBytes;
+  progress.report(0.0, "reading voxels");
+  auto memory = allocate(m_path, box.count() * perVoxel);
+  if (m_place.isText)
+    readText(box, memory.get());
+  else
+  {
+    VoxelStream stream(m_place.file, m_place.offset, m_place.packed);
+    stream.skip(m_place.packedOffset);
+    readBox(stream, m_geometry->dims(), box, perVoxel, memory.get(), progress);
+    if (m_place.swapped)
+      swapBytes(memory.get(), box.count() * m_components, numberBytes);
+  }
+  return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
+}
+
+void VoxelSource::readText(const core::IndexBox& box, void* out) const
+{
+  std::string bytes = readWholeFile(m_place.file);
+  std::replace(bytes.begin(), bytes.end(), ',', ' ');
+  std::string_view rest = std::string_view(bytes).substr(static_cast<std::size_t>(m_place.offset));
+  const core::Index3& dims = m_geometry->dims();
+  visitComponent(
+      m_stored,
+      [&](auto type)
+      {
+        using T = decltype(type);
+        auto* next = static_cast<T*>(out);
+        for (int k = 0; k < box.upper[2]; ++k)
+          for (int j = 0; j < dims[1]; ++j)
+            for (int i = 0; i < dims[0]; ++i)
+              for (std::size_t c = 0; c < m_components; ++c)
+              {
+                const auto value = parseDouble(takeWord(rest));
+                if (!value || *value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
+                    *value > static_cast<double>(std::numeric_limits<T>::max()))
+                  fail(FileError::Reason::Unreadable, m_path,
+                       "breaks off or is damaged within its voxels; copy it again from where it "
+                       "came");
+                if (box.contains({i, j, k}))
+                  *next++ = static_cast<T>(*value);
+              }
+      });
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/Progress.h"
+
+#include "Component.h"
+#include "NrrdHeader.h"
+
+namespace petrous::imaging
+{
+
+/// A NIfTI, NRRD or MetaImage file with a validated header: the file is large enough for its
+/// dimensions, and its axes are perpendicular. Text from the file never reaches a message. All
+/// members throw FileError.
+class VoxelSource
+{
+public:
+  explicit VoxelSource(const std::filesystem::path& path);
+
+  const core::GridGeometry& geometry() const noexcept { return *m_geometry; }
+  Component component() const noexcept { return rescaled() ? Component::Float : m_stored; }
+  /// Numbers per voxel: above 1 for vectors, colours, and the layers of a segmentation.
+  std::size_t components() const noexcept { return m_components; }
+  /// Whether integers were converted to float by a rescale slope and intercept.
+  bool rescaled() const noexcept { return m_slope != 0.0; }
+  const std::vector<std::string>& notes() const noexcept { return m_notes; }
+  /// The text header of a NRRD; nullopt for other formats.
+  const std::optional<NrrdHeader>& nrrd() const noexcept { return m_nrrd; }
+
+  /// The voxels of a box, components interleaved, first axis fastest. Reads no more than the box if
+  /// the format allows it, and keeps no more.
+  std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
+
+private:
+  struct Place
+  {
+    std::filesystem::path file;
+    std::uint64_t offset = 0;       ///< in the file
+    std::uint64_t packedOffset = 0; ///< in the decompressed stream
+    bool packed = false;
+    bool swapped = false;
+    bool isText = false;
+  };
+  void openNifti();
+  void openNrrd();
+  void openMeta();
+  void requireThreeDims() const;
+  long double voxelBytes() const;
+  void checkRoom() const;
+  void readText(const core::IndexBox& box, void* out) const;
+  std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count) const;
+
+  std::filesystem::path m_path;
+  std::vector<std::uint64_t> m_dims;
+  std::optional<core::GridGeometry> m_geometry;
+  Place m_place;
+  Component m_stored = Component::Int16; ///< before rescaling
+  std::size_t m_components = 1;
+  double m_slope = 0.0; ///< 0: no rescaling
+  double m_intercept = 0.0;
+  std::vector<std::string> m_notes;
+  std::optional<NrrdHeader> m_nrrd;
+  std::uintmax_t m_dataBytes = 0; ///< upper limit of the bytes on disk available for voxels
+};
+
+} // namespace petrous::imaging

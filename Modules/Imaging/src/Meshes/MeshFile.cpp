@@ -1,0 +1,220 @@
+#include "petrous/Imaging/MeshFile.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "FileHelpers.h"
+#include "MeshReaders.h"
+#include "OutputFile.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+// The comment or header that states the frame is near the start.
+constexpr std::size_t kFrameWithin = 4096;
+constexpr const char* kStatement = "Petrous surface. SPACE=LPS, unit mm";
+
+template <class T>
+void append(std::string& bytes, T value)
+{
+  const std::size_t at = bytes.size();
+  bytes.resize(at + sizeof value);
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+std::string objText(const core::TriangleMesh& mesh)
+{
+  std::string text = "# " + std::string(kStatement) + "\n";
+  for (const auto& v : mesh.vertices)
+    text += "v " + exactText(v[0]) + " " + exactText(v[1]) + " " + exactText(v[2]) + "\n";
+  for (const auto& t : mesh.triangles)
+    text += "f " + std::to_string(t[0] + 1ULL) + " " + std::to_string(t[1] + 1ULL) + " " +
+            std::to_string(t[2] + 1ULL) + "\n";
+  return text;
+}
+
+std::string stlBytes(const core::TriangleMesh& mesh)
+{
+  std::string bytes(kStatement); // not "solid", which starts a text STL
+  bytes.resize(80, ' ');
+  bytes.reserve(84 + mesh.triangles.size() * 50);
+  append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& t : mesh.triangles)
+  {
+    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices[t[1]].cast<double>();
+    const Eigen::Vector3d c = mesh.vertices[t[2]].cast<double>();
+    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+    for (int n = 0; n < 3; ++n)
+      append(bytes, static_cast<float>(normal[n]));
+    for (const std::uint32_t corner : t)
+      for (int n = 0; n < 3; ++n)
+        append(bytes, mesh.vertices[corner][n]);
+    append(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+std::string plyBytes(const core::TriangleMesh& mesh)
+{
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment " + std::string(kStatement) +
+                      "\nelement vertex " + std::to_string(mesh.vertices.size()) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                      std::to_string(mesh.triangles.size()) +
+                      "\nproperty list uchar uint vertex_indices\nend_header\n";
+  bytes.reserve(bytes.size() + mesh.vertices.size() * 12 + mesh.triangles.size() * 13);
+  for (const auto& v : mesh.vertices)
+    for (int n = 0; n < 3; ++n)
+      append(bytes, v[n]);
+  for (const auto& t : mesh.triangles)
+  {
+    append(bytes, std::uint8_t{3});
+    for (const std::uint32_t corner : t)
+      append(bytes, corner);
+  }
+  return bytes;
+}
+
+/// A vertex without triangle is not part of the surface, and must not affect its bounds.
+void dropUnusedVertices(core::TriangleMesh& mesh)
+{
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle)
+      place[corner] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (place[v] != kUnused)
+    {
+      mesh.vertices[kept] = mesh.vertices[v];
+      place[v] = kept++;
+    }
+  if (kept == mesh.vertices.size())
+    return;
+  mesh.vertices.resize(kept);
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle)
+      corner = place[corner];
+}
+
+} // namespace
+
+MeshBuilder::MeshBuilder(const std::filesystem::path& path)
+  : m_path(path)
+{
+}
+
+void MeshBuilder::reserve(std::size_t vertices, std::size_t triangles)
+{
+  m_mesh.vertices.reserve(vertices);
+  m_mesh.triangles.reserve(triangles);
+}
+
+void MeshBuilder::addVertex(float x, float y, float z)
+{
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+    failUnreadable("a vertex has a coordinate that is no number");
+  if (m_mesh.vertices.size() >= std::numeric_limits<std::uint32_t>::max())
+    failUnreadable("it has more vertices than can be numbered");
+  m_mesh.vertices.emplace_back(x, y, z);
+}
+
+void MeshBuilder::addPolygon(const std::vector<std::int64_t>& corners)
+{
+  if (corners.size() < 3)
+    failUnreadable("a face has fewer than three corners");
+  std::array<std::uint32_t, 3> triangle{};
+  const auto checked = [this](std::int64_t corner)
+  {
+    if (corner < 0 || corner >= static_cast<std::int64_t>(m_mesh.vertices.size()))
+      failUnreadable("a face names a vertex that is not there");
+    return static_cast<std::uint32_t>(corner);
+  };
+  triangle[0] = checked(corners[0]);
+  triangle[2] = checked(corners[1]);
+  for (std::size_t c = 2; c < corners.size(); ++c)
+  {
+    triangle[1] = triangle[2];
+    triangle[2] = checked(corners[c]);
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+      m_mesh.triangles.push_back(triangle);
+  }
+}
+
+void MeshBuilder::failUnreadable(const char* what) const
+{
+  fail(FileError::Reason::Unreadable, m_path,
+       std::string("is damaged: ") + what + "; export it again from where it came");
+}
+
+core::TriangleMesh MeshBuilder::take()
+{
+  if (m_mesh.triangles.empty())
+    fail(FileError::Reason::Unsupported, m_path,
+         "holds no triangle; a surface of at least one is needed");
+  dropUnusedVertices(m_mesh);
+  return std::move(m_mesh);
+}
+
+bool isMeshFileName(const std::filesystem::path& path)
+{
+  const std::string name = lowerName(path);
+  return endsWith(name, ".obj") || endsWith(name, ".stl") || endsWith(name, ".ply");
+}
+
+LoadedMesh loadMesh(const std::filesystem::path& path)
+{
+  checkedFileSize(path);
+  const std::string name = lowerName(path);
+  if (!isMeshFileName(path))
+    fail(FileError::Reason::UnknownFormat, path,
+         "is of no surface format that is read; give a .obj, .stl or .ply file");
+  const std::string bytes = readWholeFile(path);
+  LoadedMesh loaded;
+  loaded.mesh = endsWith(name, ".obj")   ? parseObj(path, bytes)
+                : endsWith(name, ".stl") ? parseStl(path, bytes)
+                                         : parsePly(path, bytes);
+  const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
+  if (start.find("SPACE=RAS") != start.npos)
+  {
+    for (auto& v : loaded.mesh.vertices)
+    {
+      v[0] = -v[0];
+      v[1] = -v[1];
+    }
+    loaded.notes.emplace_back(
+        "counts to the right and front (SPACE=RAS); x and y were negated to the patient's LPS");
+  }
+  return loaded;
+}
+
+core::TriangleMesh readMesh(const std::filesystem::path& path)
+{
+  return loadMesh(path).mesh;
+}
+
+void writeMesh(const std::filesystem::path& path, const core::TriangleMesh& mesh)
+{
+  mesh.validate();
+  if (mesh.triangles.empty())
+    throw core::InvalidParameter("mesh: it has no triangle to write");
+  const std::string name = lowerName(path);
+  if (!isMeshFileName(path))
+    fail(FileError::Reason::UnknownFormat, path,
+         "cannot be written under this name; end it in .obj, .stl or .ply");
+  OutputFile file(path);
+  file.write(endsWith(name, ".obj")   ? objText(mesh)
+             : endsWith(name, ".stl") ? stlBytes(mesh)
+                                      : plyBytes(mesh));
+  file.commit();
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "petrous/Core/TriangleMesh.h"
+
+namespace petrous::imaging
+{
+
+/// Collects a mesh from a file and rejects invalid data: a non-finite vertex, or a corner with an
+/// invalid vertex index. Throws FileError.
+class MeshBuilder
+{
+public:
+  explicit MeshBuilder(const std::filesystem::path& path);
+
+  void reserve(std::size_t vertices, std::size_t triangles);
+  void addVertex(float x, float y, float z);
+  /// A polygon by its corners (from 0), triangulated as a fan from its first corner; degenerate
+  /// triangles that use a vertex twice are skipped.
+  void addPolygon(const std::vector<std::int64_t>& corners);
+  std::size_t vertexCount() const noexcept { return m_mesh.vertices.size(); }
+  [[noreturn]] void failUnreadable(const char* what) const;
+
+  /// Throws for a mesh without triangles.
+  core::TriangleMesh take();
+
+private:
+  std::filesystem::path m_path;
+  core::TriangleMesh m_mesh;
+};
+
+/// Parsers of a whole file.
+core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes);
+core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes);
+core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes);
+
+} // namespace petrous::imaging

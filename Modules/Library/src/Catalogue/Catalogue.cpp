@@ -1,0 +1,139 @@
+#include "Catalogue.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+namespace petrous::library
+{
+
+namespace
+{
+
+constexpr int kWriterWaits = 2000; // ms
+constexpr int kReaderWaits = 500;  // ms; the manifests are read instead
+
+// Rollback journal instead of WAL: WAL can be read from a read-only medium only with `immutable`,
+// which is wrong while others write, and leaves files behind even if only read.
+SQLite::Database openForWriting(const std::filesystem::path& file)
+{
+  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                            kWriterWaits);
+  database.exec("PRAGMA journal_mode=DELETE");
+  database.exec("PRAGMA synchronous=NORMAL");
+  database.exec("CREATE TABLE IF NOT EXISTS cases ("
+                "name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, modified TEXT,"
+                "nx INTEGER, ny INTEGER, nz INTEGER, structures INTEGER, strokes INTEGER,"
+                "removed_mm3 REAL)");
+  return database;
+}
+
+// SQLite would block on a pipe.
+bool isRegular(const std::filesystem::path& file)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error);
+}
+
+// Applies `change` to the database; to a new one if the old one is damaged.
+template <class Change>
+void write(const std::filesystem::path& file, const Change& change)
+{
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !isRegular(file))
+    return;
+  try
+  {
+    SQLite::Database database = openForWriting(file);
+    change(database);
+  }
+  catch (const SQLite::Exception& fault)
+  {
+    if (fault.getErrorCode() != SQLITE_NOTADB && fault.getErrorCode() != SQLITE_CORRUPT)
+      throw;
+    for (const char* ending : {"", "-journal", "-wal", "-shm"})
+      std::filesystem::remove(file.string() + ending, error);
+    SQLite::Database database = openForWriting(file);
+    change(database);
+  }
+}
+
+} // namespace
+
+Catalogue::Catalogue(std::filesystem::path file)
+  : m_file(std::move(file))
+{
+}
+
+std::map<std::string, Catalogue::Entry> Catalogue::entries() const noexcept
+try
+{
+  std::map<std::string, Entry> entries;
+  if (!isRegular(m_file))
+    return entries;
+  SQLite::Database database(m_file.string(), SQLite::OPEN_READONLY, kReaderWaits);
+  SQLite::Statement query(database, "SELECT name, size, changed, modified, nx, ny, nz, structures, "
+                                    "strokes, removed_mm3 FROM cases");
+  while (query.executeStep())
+  {
+    Entry entry;
+    CaseSummary& summary = entry.summary;
+    summary.name = query.getColumn(0).getString();
+    entry.stamp.size = static_cast<std::uintmax_t>(query.getColumn(1).getInt64());
+    entry.stamp.changed = query.getColumn(2).getInt64();
+    summary.modified = query.getColumn(3).getString();
+    for (int a = 0; a < 3; ++a)
+      summary.dims[static_cast<std::size_t>(a)] = query.getColumn(4 + a).getInt();
+    summary.structures = static_cast<std::size_t>(query.getColumn(7).getInt64());
+    summary.strokes = static_cast<std::size_t>(query.getColumn(8).getInt64());
+    summary.removed = query.getColumn(9).getDouble();
+    entries[summary.name] = std::move(entry);
+  }
+  return entries;
+}
+catch (const std::exception&)
+{
+  return {};
+}
+
+void Catalogue::put(const CaseSummary& summary, const Stamp& stamp) noexcept
+try
+{
+  write(m_file,
+        [&](SQLite::Database& database)
+        {
+          SQLite::Statement insert(
+              database, "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+          insert.bind(1, summary.name);
+          insert.bind(2, static_cast<std::int64_t>(stamp.size));
+          insert.bind(3, stamp.changed);
+          insert.bind(4, summary.modified);
+          for (int a = 0; a < 3; ++a)
+            insert.bind(5 + a, summary.dims[static_cast<std::size_t>(a)]);
+          insert.bind(8, static_cast<std::int64_t>(summary.structures));
+          insert.bind(9, static_cast<std::int64_t>(summary.strokes));
+          insert.bind(10, summary.removed);
+          insert.exec();
+        });
+}
+catch (const std::exception&)
+{
+  // The manifest is authoritative; `entries` will not match it, so it is read again.
+}
+
+void Catalogue::remove(const std::string& name) noexcept
+try
+{
+  write(m_file,
+        [&](SQLite::Database& database)
+        {
+          SQLite::Statement statement(database, "DELETE FROM cases WHERE name = ?");
+          statement.bind(1, name);
+          statement.exec();
+        });
+}
+catch (const std::exception&)
+{
+  // An entry without a manifest is never looked up.
+}
+
+} // namespace petrous::library

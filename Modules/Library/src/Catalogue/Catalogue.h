@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "petrous/Library/Library.h"
+
+namespace petrous::library
+{
+
+/// SQLite index of the manifests. It is only an optimization: an entry is valid while size and
+/// modification time of the manifest match, and if the database cannot be opened or written,
+/// everything is read from the manifests. A damaged database is recreated by `put`.
+class Catalogue
+{
+public:
+  /// The state of the manifest from which an entry was made.
+  struct Stamp
+  {
+    std::uintmax_t size = 0;
+    std::int64_t changed = 0; ///< file time, ticks
+  };
+
+  explicit Catalogue(std::filesystem::path file);
+
+  struct Entry
+  {
+    CaseSummary summary;
+    Stamp stamp;
+  };
+
+  /// Keyed by name; one consistent read that locks out writers. Creates no files.
+  std::map<std::string, Entry> entries() const noexcept;
+  void put(const CaseSummary& summary, const Stamp& stamp) noexcept;
+  void remove(const std::string& name) noexcept;
+
+private:
+  std::filesystem::path m_file;
+};
+
+} // namespace petrous::library

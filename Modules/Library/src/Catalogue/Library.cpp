@@ -1,0 +1,499 @@
+#include "petrous/Library/Library.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <random>
+
+#include <sys/stat.h>
+
+#include "Catalogue.h"
+#include "Graft.h"
+#include "JournalFile.h"
+#include "LibraryFolder.h"
+#include "ManifestFile.h"
+#include "ObjectChecks.h"
+#include "Recovery.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Manifest.h"
+#include "petrous/Volume/VolumeBytes.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using Reason = LibraryError::Reason;
+
+// A missing object (its last case was deleted meanwhile) is stored again if the part is still in
+// memory; else the case keeps the reference, and opening it reports the missing object.
+bool mustStore(const std::string& object, const ObjectStore& store, bool inMemory)
+{
+  return object.empty() || (inMemory && !store.contains(object));
+}
+
+// Stores the voxels of every part that has no object yet.
+void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& progress)
+{
+  const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
+  {
+    if (mustStore(image.object, store, image.volume.peek() != nullptr))
+      image.object = store.add("nrrd", [&](const fs::path& path)
+                               { imaging::writeRawNrrd(path, *image.volume.get(), part); });
+  };
+  storeImage(value.ct, progress.part(0.0, 0.7));
+  for (auto& mr : value.mr)
+    storeImage(mr, progress.part(0.7, 0.8));
+  for (auto& part : value.labels)
+    if (mustStore(part.object, store, part.labels.peek() != nullptr))
+      part.object = store.add("seg.nrrd", [&](const fs::path& path)
+                              { imaging::writeLabelFile(path, *part.labels.get()); });
+  progress.report(0.9, "saving");
+  for (auto& mesh : value.meshes)
+    if (mustStore(mesh.object, store, mesh.mesh.peek() != nullptr))
+      mesh.object = store.add("obj", [&](const fs::path& path)
+                              { imaging::writeMesh(path, *mesh.mesh.get()); });
+  for (scene::StrokePart& part : value.strokes)
+    if (mustStore(part.object, store, part.stroke != nullptr))
+    {
+      part.bytes = part.stroke->packed.size();
+      part.object = store.add("stroke", part.stroke->packed);
+    }
+}
+
+std::string randomId()
+{
+  std::random_device random;
+  char text[33];
+  std::snprintf(text, sizeof text, "%08x%08x%08x%08x", random(), random(), random(), random());
+  return text;
+}
+
+std::string structureNames(const scene::LabelPart& part)
+{
+  std::string names;
+  for (std::size_t n = 0; n < part.structures.size() && n < 3; ++n)
+    names += (n > 0 ? ", '" : "'") + part.structures[n].name + "'";
+  return names + (part.structures.size() > 3 ? " and others" : "");
+}
+
+std::string imageText(const scene::Case& value, const scene::ImagePart& image)
+{
+  return (&image == &value.ct ? "the CT" : "MR '" + image.name + "'") + " of case '" + value.name +
+         "'";
+}
+
+void refuse(const std::vector<std::string>& damage)
+{
+  if (damage.empty())
+    return;
+  std::string all;
+  for (const std::string& words : damage)
+    all += (all.empty() ? "" : "; ") + words;
+  throw LibraryError(Reason::Damaged, all);
+}
+
+constexpr std::size_t kSaltDigits = 64; // 256 bits
+
+/// The library's secret salt, generated once. The library must be locked.
+std::string saltOf(const fs::path& folder)
+{
+  const fs::path path = folder / "salt";
+  if (!fs::exists(path))
+    core::writeFile(path, randomId() + randomId()); // from the system's random generator
+  std::string salt;
+  try
+  {
+    salt = core::readFile(path, 2 * kSaltDigits);
+  }
+  catch (const core::InputFileError& error)
+  {
+    throw libraryError(error);
+  }
+  if (salt.size() != kSaltDigits)
+    throw LibraryError(Reason::Damaged,
+                       path.string() + ": is not what this program wrote; restore it from a copy, "
+                                       "or remove it (a new image's frame of reference is then "
+                                       "not known to be that of older ones)");
+  return salt;
+}
+
+/// A plain hash would allow anyone who knows a hospital's UIDs to test them against it.
+void saltFrames(scene::Case& value, const fs::path& folder)
+{
+  const auto salted = [&folder](scene::ImagePart& image)
+  {
+    if (!image.isFrameSalted && !image.frameOfReference.empty())
+    {
+      const std::string text = saltOf(folder) + image.frameOfReference;
+      image.frameOfReference =
+          sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    }
+    image.isFrameSalted = true;
+  };
+  salted(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), salted);
+}
+
+constexpr int kUnpackedLabelsVersion = 1; // incremented with every change of readLabelFile's result
+
+// Decompressing a label file takes longer than most uses of it.
+std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
+                                                       const std::string& object,
+                                                       const std::string& what,
+                                                       core::DerivedStore& derived)
+{
+  // No cached data replace a damaged object, or are derived from it.
+  const fs::path path = store.checkedPath(object, what);
+  const std::string key = "labels " + std::to_string(kUnpackedLabelsVersion) + " " + object;
+  if (const auto bytes = derived.find(key))
+    if (auto labels = volume::labelMapFrom(*bytes))
+      return labels;
+  auto labels = std::make_shared<const volume::LabelMap>(imaging::readLabelFile(path));
+  derived.put(key, volume::bytesOf(*labels));
+  return labels;
+}
+
+} // namespace
+
+Library::Library(fs::path folder)
+  : m_folder(std::move(folder))
+  , m_checks(std::make_shared<ObjectChecks>())
+{
+}
+
+fs::path Library::manifestPath(const std::string& name) const
+{
+  return m_folder / "cases" / (name + ".json");
+}
+
+fs::path Library::objectFolder() const
+{
+  return m_folder / "objects";
+}
+
+fs::path Library::checkedManifestPath(const std::string& name) const
+{
+  fs::path path = manifestPath(name);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(path, error)))
+    return path;
+  std::string there;
+  for (const CaseSummary& summary : list())
+    there += (there.empty() ? "" : ", ") + summary.name;
+  throw LibraryError(Reason::NotFound,
+                     "no case '" + name + "' in " + m_folder.string() + "; " +
+                         (there.empty() ? "the library is empty" : "there are: " + there));
+}
+
+scene::Case Library::readManifest(const std::string& name) const
+{
+  return manifestIn(manifestPath(name), name);
+}
+
+std::vector<CaseSummary> Library::list() const
+{
+  std::vector<CaseSummary> cases;
+  const auto known = Catalogue(m_folder / "library.sqlite").entries();
+  for (const std::string& name : namesIn(m_folder / "cases"))
+  {
+    const auto state = stateOf(manifestPath(name));
+    if (!state)
+      continue; // removed in the meantime
+    const auto entry = known.find(name);
+    if (entry != known.end() && entry->second.stamp.size == state->stamp.size &&
+        entry->second.stamp.changed == state->stamp.changed)
+    {
+      cases.push_back(entry->second.summary);
+      continue;
+    }
+    try
+    {
+      cases.push_back(summaryOf(readManifest(name), state->modified));
+    }
+    catch (const core::Error&)
+    {
+      CaseSummary damaged;
+      damaged.name = name;
+      damaged.modified = state->modified;
+      damaged.damaged = true;
+      cases.push_back(std::move(damaged));
+    }
+  }
+  return cases;
+}
+
+bool Library::contains(const std::string& name) const
+{
+  scene::checkCaseName(name);
+  std::error_code error;
+  return fs::exists(fs::symlink_status(manifestPath(name), error));
+}
+
+scene::Case Library::open(const std::string& name) const
+{
+  scene::checkCaseName(name);
+  checkedManifestPath(name);
+  const auto read = [this, &name] { return readManifest(name); };
+  scene::Case value = read();
+  if (fs::exists(journalPath(m_folder, name)))
+  {
+    const std::string words = recover(*this, value, read);
+    if (m_notice && !words.empty())
+      m_notice(words);
+  }
+  attach(value);
+  return value;
+}
+
+std::shared_ptr<core::DerivedStore> Library::derived() const
+{
+  return std::make_shared<DerivedCache>(derivedFolder(m_folder));
+}
+
+void Library::attach(scene::Case& value) const
+{
+  const ObjectStore store(objectFolder());
+  const auto attachImage = [&](scene::ImagePart& image)
+  {
+    image.volume = core::Lazy<volume::IntensityVolume>(
+        [store, checks = m_checks, object = image.object, what = imageText(value, image)]
+        {
+          const fs::path path = store.path(object, what);
+          auto volume = imaging::mapRawNrrd(path);
+          checks->start(path, what);
+          return volume;
+        });
+  };
+  attachImage(value.ct);
+  for (auto& mr : value.mr)
+    attachImage(mr);
+  value.derived = derived();
+  for (auto& part : value.labels)
+    part.labels = core::Lazy<volume::LabelMap>(
+        [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'",
+         derived = value.derived] { return unpackedLabels(store, object, what, *derived); });
+  for (auto& mesh : value.meshes)
+    mesh.mesh = core::Lazy<core::TriangleMesh>(
+        [store, object = mesh.object,
+         what = "mesh '" + mesh.name + "' of case '" + value.name + "'"]
+        {
+          return std::make_shared<const core::TriangleMesh>(
+              imaging::readMesh(store.checkedPath(object, what)));
+        });
+}
+
+void Library::loadDissection(scene::Case& value) const
+{
+  if (value.dissection)
+    return;
+  const ObjectStore store(objectFolder());
+  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
+  for (const scene::StrokePart& part : value.strokes)
+    strokes.push_back(
+        part.stroke
+            ? part.stroke
+            : std::make_shared<const dissection::Stroke>(dissection::Stroke{
+                  part.info,
+                  store.readChecked(part.object, "stroke " + std::to_string(strokes.size() + 1) +
+                                                     " of case '" + value.name + "'")}));
+  try
+  {
+    value.dissection =
+        std::make_shared<dissection::Dissection>(value.ct.geometry, strokes, value.history);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw LibraryError(Reason::Damaged, manifestPath(value.name).string() + ": " + error.what());
+  }
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    value.strokes[n].stroke = std::move(strokes[n]);
+}
+
+// The images that were read from here, each with a description.
+std::vector<std::pair<fs::path, std::string>> Library::mappedImages(const scene::Case& value) const
+{
+  std::vector<std::pair<fs::path, std::string>> images;
+  const auto add = [&](const scene::ImagePart& image)
+  {
+    const fs::path path = objectFolder() / image.object;
+    if (image.volume.peek() && m_checks->knows(path)) // others were created in memory
+      images.emplace_back(path, imageText(value, image));
+  };
+  add(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), add);
+  return images;
+}
+
+void Library::checkVoxels(const scene::Case& value, const core::Progress& progress) const
+{
+  std::vector<std::string> damage;
+  for (const auto& [path, what] : mappedImages(value))
+    if (const std::string words = m_checks->wait(path, what, progress); !words.empty())
+      damage.push_back(words);
+  refuse(damage);
+}
+
+void Library::checkAllRead(const core::Progress& progress) const
+{
+  refuse(m_checks->waitForAll(progress));
+}
+
+std::vector<std::string> Library::damageFound(const scene::Case& value) const
+{
+  std::vector<std::string> damage;
+  for (const auto& [path, what] : mappedImages(value))
+    if (const std::string words = m_checks->found(path); !words.empty())
+      damage.push_back(words);
+  return damage;
+}
+
+void Library::save(scene::Case& value, const core::Progress& progress)
+{
+  scene::checkCaseName(value.name);
+  makeFolder(m_folder / "cases");
+  makeFolder(objectFolder());
+  const FolderLock lock(m_folder / ".lock");
+
+  const fs::path path = manifestPath(value.name);
+  const bool there = contains(value.name);
+  if (value.revision == 0 && there)
+    throw LibraryError(Reason::NameTaken, "case '" + value.name + "' is there already in " +
+                                              m_folder.string() + "; choose another name");
+  if (value.revision == 0)
+    setOrphanAside(m_folder, value.name);
+  else
+  {
+    const scene::Case present = there ? readManifest(value.name) : scene::Case{};
+    if (present.revision != value.revision || present.id != value.id)
+      throw LibraryError(
+          Reason::Conflict,
+          "case '" + value.name + "' was " + (there ? "changed" : "removed") +
+              " by another program since it was opened; open it again and repeat what you did");
+  }
+
+  removeLeftovers(objectFolder());
+  removeLeftovers(m_folder / "cases");
+  ObjectStore store(objectFolder());
+  bool onDisk = true;
+  try
+  {
+    scene::Case next = value;
+    storeParts(next, store, progress);
+    if (next.revision == 0)
+      next.id = randomId();
+    saltFrames(next, m_folder);
+    ++next.revision;
+    progress.report(0.95, "saving");
+    const std::string manifest = scene::toManifest(next);
+    scene::fromManifest(manifest, path.string()); // never writes what cannot be read again
+    core::OutputFile file(path);
+    file.write(manifest);
+    onDisk = file.commit();
+    // The manifest is published: no rollback from here on.
+    store.forget();
+    value = std::move(next);
+  }
+  catch (const core::OutputFileError& error)
+  {
+    store.discardNew();
+    throw libraryError(error, "case '" + value.name + "' is as it was");
+  }
+  catch (...)
+  {
+    store.discardNew();
+    throw;
+  }
+  if (!onDisk && m_notice)
+    m_notice("case '" + value.name + "' is saved, but the disk reported an error; check the disk");
+  if (const auto state = stateOf(path))
+    Catalogue(m_folder / "library.sqlite").put(summaryOf(value, state->modified), state->stamp);
+}
+
+std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
+                                 const core::Progress& progress)
+{
+  constexpr int kAttempts = 20; // another program keeps saving
+  for (int attempt = 1;; ++attempt)
+  {
+    try
+    {
+      save(value, progress);
+      return {};
+    }
+    catch (const LibraryError& error)
+    {
+      if (error.reason != Reason::Conflict || attempt == kAttempts)
+        throw;
+    }
+    if (auto now = mergedWithSaved(value, base))
+    {
+      try
+      {
+        save(*now, progress);
+      }
+      catch (const LibraryError& error)
+      {
+        if (error.reason != Reason::Conflict || attempt == kAttempts)
+          throw;
+        continue;
+      }
+      value = std::move(*now);
+      return "case '" + value.name +
+             "' was changed by another program meanwhile; what was drilled was added to it, on "
+             "branch '" +
+             value.history.branch().name + "'";
+    }
+    scene::Case own = value;
+    own.revision = 0;
+    std::string stem = value.name.substr(0, 80);
+    // Truncate at a UTF-8 character boundary; names must not end in a space.
+    if (stem.size() < value.name.size())
+      while (!stem.empty() && (static_cast<unsigned char>(value.name[stem.size()]) & 0xC0) == 0x80)
+        stem.pop_back();
+    while (!stem.empty() && stem.back() == ' ')
+      stem.pop_back();
+    for (int n = 1; own.name == value.name || contains(own.name); ++n)
+      own.name = stem + " drilled " + std::to_string(n);
+    save(own, progress);
+    const std::string name = std::exchange(value, std::move(own)).name;
+    return "case '" + name +
+           "' was removed or changed by another program meanwhile so that what was drilled does "
+           "not fit; it was saved as case '" +
+           value.name + "'";
+  }
+}
+
+// The state saved by another program, with the strokes drilled since `base`; nullopt if they do not
+// fit.
+std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
+                                                    const SavedState& base) const
+{
+  if (!contains(value.name) || value.strokes.size() < base.strokes.size())
+    return std::nullopt;
+  try
+  {
+    scene::Case now = readManifest(value.name);
+    if (now.id != base.id || !goesOnFrom(now, base))
+      return std::nullopt;
+    attach(now);
+    loadDissection(now);
+    const auto first = value.strokes.begin() + static_cast<std::ptrdiff_t>(base.strokes.size());
+    return graft(now, base, {{first, value.strokes.end()}, value.history});
+  }
+  catch (const core::Error&) // damaged in the meantime
+  {
+    return std::nullopt;
+  }
+}
+
+} // namespace petrous::library

@@ -1,0 +1,99 @@
+#include "ManifestFile.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include <sys/stat.h>
+
+#include "JournalFile.h"
+#include "LibraryFolder.h"
+#include "petrous/Scene/Manifest.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+using Reason = LibraryError::Reason;
+
+namespace
+{
+constexpr std::uintmax_t kLargestManifest = 256U << 20;
+} // namespace
+
+scene::Case manifestIn(const fs::path& path, const std::string& name)
+{
+  std::string text;
+  try
+  {
+    text = core::readFile(path, kLargestManifest);
+  }
+  catch (const core::InputFileError& error)
+  {
+    throw libraryError(error);
+  }
+  scene::Case value = scene::fromManifest(text, core::printable(path));
+  value.name = name;
+  return value;
+}
+
+std::vector<std::string> namesIn(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
+  {
+    const fs::path& path = entry->path();
+    if (path.extension() == ".json" && path.filename().string()[0] != '.')
+      names.push_back(path.stem().string());
+  }
+  // A library that was never saved to has no folder yet; any other error is reported.
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw LibraryError(Reason::Damaged,
+                       core::printable(folder) + ": cannot be read (" + error.message() +
+                           "); give the library's folder and check its permissions");
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::optional<FileState> stateOf(const fs::path& path)
+{
+  struct stat info = {};
+  if (::stat(path.c_str(), &info) != 0 && ::lstat(path.c_str(), &info) != 0)
+    return std::nullopt;
+  std::tm utc{};
+  ::gmtime_r(&info.st_mtim.tv_sec, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return FileState{
+      {static_cast<std::uintmax_t>(info.st_size),
+       static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1000000000 + info.st_mtim.tv_nsec},
+      text};
+}
+
+CaseSummary summaryOf(const scene::Case& value, const std::string& modified)
+{
+  CaseSummary summary;
+  summary.name = value.name;
+  summary.modified = modified;
+  summary.dims = value.ct.geometry.dims();
+  for (const auto& part : value.labels)
+    summary.structures += part.structures.size();
+  summary.strokes = value.applied();
+  summary.removed = value.removedVolume();
+  return summary;
+}
+
+void setOrphanAside(const fs::path& library, const std::string& name)
+{
+  const fs::path path = journalPath(library, name);
+  const JournalFile journal(path);
+  if (journal.there() && !journal.held())
+    throw LibraryError(Reason::Conflict, "case '" + name +
+                                             "' was removed, and another process is still "
+                                             "drilling in it; end that first");
+  if (journal.there())
+    setAside(path);
+}
+
+} // namespace petrous::library

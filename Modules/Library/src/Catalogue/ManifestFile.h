@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Catalogue.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::library
+{
+
+// Files of the folder cases/.
+
+/// Reads a manifest, without voxels; the case is named `name`, whatever the manifest says. Throws
+/// LibraryError and ManifestError.
+scene::Case manifestIn(const std::filesystem::path& path, const std::string& name);
+
+/// Names of all cases, sorted, including damaged ones. Empty if the folder does not exist; throws
+/// LibraryError (Damaged) if it cannot be read.
+std::vector<std::string> namesIn(const std::filesystem::path& folder);
+
+struct FileState
+{
+  Catalogue::Stamp stamp;
+  std::string modified; ///< UTC, ISO 8601
+};
+std::optional<FileState> stateOf(const std::filesystem::path& path);
+
+CaseSummary summaryOf(const scene::Case& value, const std::string& modified);
+
+/// Sets aside a journal without a case, which must not be taken for that of a new case of this
+/// name. Throws LibraryError, Conflict if another process is still writing it.
+void setOrphanAside(const std::filesystem::path& library, const std::string& name);
+
+} // namespace petrous::library

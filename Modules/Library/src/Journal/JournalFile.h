@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "petrous/Library/Journal.h"
+
+namespace petrous::library
+{
+
+// A journal file is a sequence of frames, each with its length and hash, so that truncation by a
+// kill and flipped bits are detected. The layout is in Documentation/adr/0003.
+
+struct JournalFrame
+{
+  enum class Kind : std::uint8_t
+  {
+    Head = 'J',    ///< text: case and revision
+    Stroke = 'S',  ///< text: scene::toText(StrokePart), bytes: voxels
+    History = 'H', ///< text: scene::toText(History)
+    Part = 'P'     ///< of the open stroke: like Stroke, since the previous part
+  };
+  Kind kind = Kind::Head;
+  std::string text;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The state that the journal continues. The members after `strokes` are missing in journals of
+/// older programs.
+struct JournalHead
+{
+  JournalHead() = default;
+  explicit JournalHead(const SavedState& base);
+
+  std::string caseName;
+  std::uint64_t revision = 0; ///< of the manifest
+  std::size_t strokes = 0;    ///< in the manifest
+  std::string ct;             ///< object name
+  std::string strokesHash;    ///< of their object names
+  std::string history;        ///< scene::toText
+};
+
+/// JournalHead::strokesHash of these strokes.
+std::string hashOfNames(const std::vector<std::string>& strokes);
+
+struct JournalContent
+{
+  bool headed = false;  ///< else nothing else is known
+  bool started = false; ///< else the writer terminated before its head was complete
+  JournalHead head;
+  std::vector<JournalFrame> frames; ///< valid frames up to the first invalid one
+  std::size_t leftOver = 0;         ///< bytes after them
+};
+
+std::string encoded(const JournalFrame& frame);
+std::string encoded(const JournalHead& head);
+
+/// Throws only bad_alloc: unreadable content is reported as left over.
+JournalContent journalFrom(std::string_view bytes);
+
+/// Path of the journal of a case.
+std::filesystem::path journalPath(const std::filesystem::path& library, const std::string& name);
+
+/// Renames an unusable journal to an unused name and returns that. Throws LibraryError.
+std::filesystem::path setAside(const std::filesystem::path& journal);
+
+/// An open and locked journal: no other process writes it or considers it stale.
+class JournalFile
+{
+public:
+  /// Creates the file with its head. Throws LibraryError: Conflict if another process has one.
+  JournalFile(const std::filesystem::path& path, const JournalHead& head);
+
+  /// Opens an existing file. `held()` is false if a running program has it locked, `there()` if it
+  /// is gone.
+  explicit JournalFile(const std::filesystem::path& path);
+
+  ~JournalFile();
+  JournalFile(JournalFile&& other) noexcept;
+  JournalFile& operator=(JournalFile&& other) noexcept;
+
+  bool there() const noexcept { return m_descriptor >= 0; }
+  bool held() const noexcept { return m_held; }
+  std::size_t size() const noexcept { return m_size; }
+  std::string read() const; ///< the whole file
+
+  /// Appends frames, synced to disk on return. Throws LibraryError; the file is then unchanged.
+  void append(std::string_view frames);
+
+  /// Atomically replaces the file at `path`. Throws LibraryError.
+  void moveTo(const std::filesystem::path& path);
+
+  void remove() noexcept;
+
+private:
+  void write(std::string_view bytes);
+
+  std::filesystem::path m_path;
+  int m_descriptor = -1;
+  bool m_held = false;
+  std::size_t m_size = 0;
+};
+
+} // namespace petrous::library

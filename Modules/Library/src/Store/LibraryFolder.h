@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Library/LibraryError.h"
+
+namespace petrous::library
+{
+
+/// Converts a failed read or write to a LibraryError. `consequence` is appended to the message.
+LibraryError libraryError(const core::InputFileError& error, const std::string& consequence = {});
+LibraryError libraryError(const core::OutputFileError& error, const std::string& consequence = {});
+
+/// Throws the LibraryError for an errno value.
+[[noreturn]] void throwForErrno(int error, const std::filesystem::path& path);
+
+/// Creates a folder and its parents, durably. Throws LibraryError.
+void makeFolder(const std::filesystem::path& path);
+
+/// Removes leftovers of killed writers. Only while no other process writes there.
+void removeLeftovers(const std::filesystem::path& folder) noexcept;
+
+/// Exclusive inter-process lock during its lifetime; waits for it. Throws LibraryError.
+class FolderLock
+{
+public:
+  explicit FolderLock(const std::filesystem::path& file);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+  int m_descriptor;
+};
+
+} // namespace petrous::library

@@ -1,0 +1,248 @@
+#include "petrous/Library/ObjectStore.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <memory>
+
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include "LibraryFolder.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr std::size_t kHashDigits = 64;
+
+// Removes the file on destruction, unless it was renamed.
+struct TemporaryFile
+{
+  fs::path path;
+  ~TemporaryFile()
+  {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
+using Digest = std::array<unsigned char, 32>;
+
+std::string hexadecimal(const Digest& digest)
+{
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : digest)
+  {
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
+  }
+  return text;
+}
+
+bool isObjectName(const std::string& name)
+{
+  const auto hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  return name.size() > kHashDigits && name[kHashDigits] == '.' &&
+         std::all_of(name.begin(), name.begin() + kHashDigits, hex) &&
+         name.find('/') == std::string::npos;
+}
+
+[[noreturn]] void throwDamaged(const fs::path& object, const std::string& what)
+{
+  throw LibraryError(LibraryError::Reason::Damaged,
+                     core::printable(object) + ": " + what +
+                         " is not what was stored there; restore the file from a copy of the "
+                         "library, or import it again");
+}
+
+} // namespace
+
+std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
+try
+{
+  const core::InputFile file(path);
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                        &EVP_MD_CTX_free);
+  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1)
+    throw std::bad_alloc();
+  std::vector<char> block(1 << 20);
+  for (std::uintmax_t done = 0; done < file.size();)
+  {
+    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), "checking");
+    const ssize_t got =
+        ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got <= 0)
+      throw LibraryError(LibraryError::Reason::Damaged,
+                         core::printable(path) + ": cannot be read to its end");
+    EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(got));
+    done += static_cast<std::uintmax_t>(got);
+  }
+  Digest digest{};
+  EVP_DigestFinal_ex(context.get(), digest.data(), nullptr);
+  return hexadecimal(digest);
+}
+catch (const core::InputFileError& error)
+{
+  throw libraryError(error);
+}
+
+std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
+{
+  Digest digest{};
+  EVP_Digest(bytes, count, digest.data(), nullptr, EVP_sha256(), nullptr);
+  return hexadecimal(digest);
+}
+
+void checkObject(const fs::path& object, const std::string& what, const core::Progress& progress)
+{
+  if (sha256OfFile(object, progress) != object.filename().string().substr(0, kHashDigits))
+    throwDamaged(object, what);
+}
+
+ObjectStore::ObjectStore(fs::path folder)
+  : m_folder(std::move(folder))
+{
+}
+
+std::string ObjectStore::add(const std::string& ending,
+                             const std::function<void(const fs::path&)>& write)
+{
+  makeFolder(m_folder);
+  // Writers choose the format by the file extension.
+  const TemporaryFile temporary{core::temporaryBeside(m_folder / ending).string() + "." + ending};
+  write(temporary.path);
+  const std::string name = sha256OfFile(temporary.path) + "." + ending;
+  const fs::path target = m_folder / name;
+  if (!makeRoom(name))
+    return name;
+  if (::rename(temporary.path.c_str(), target.c_str()) != 0)
+    throwForErrno(errno, target);
+  settle(core::syncFolder(m_folder));
+  return name;
+}
+
+std::string ObjectStore::add(const std::string& ending, const std::vector<std::uint8_t>& bytes)
+{
+  makeFolder(m_folder);
+  const std::string name = sha256Of(bytes.data(), bytes.size()) + "." + ending;
+  const fs::path target = m_folder / name;
+  if (!makeRoom(name))
+    return name;
+  settle(core::writeFile(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+  return name;
+}
+
+// False if the object exists and is intact.
+bool ObjectStore::makeRoom(const std::string& object)
+{
+  const fs::path target = m_folder / object;
+  if (!contains(object))
+    m_new.push_back(target);
+  else if (sha256OfFile(target) == object.substr(0, kHashDigits))
+    return false;
+  return true;
+}
+
+// An object must be on disk before a manifest references it.
+void ObjectStore::settle(bool synced) const
+{
+  if (!synced)
+    throw LibraryError(LibraryError::Reason::Unwritable,
+                       core::printable(m_folder) +
+                           ": the disk does not confirm what was written; check the disk");
+}
+
+bool ObjectStore::contains(const std::string& object) const noexcept
+{
+  std::error_code error;
+  return isObjectName(object) && fs::is_regular_file(m_folder / object, error);
+}
+
+fs::path ObjectStore::path(const std::string& object, const std::string& what) const
+{
+  if (!isObjectName(object))
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       core::printable(m_folder) +
+                           ": the case names an object that is no object name");
+  fs::path result = m_folder / object;
+  if (!contains(object))
+    throw LibraryError(LibraryError::Reason::NotFound,
+                       core::printable(result) + ": " + (what.empty() ? "" : what + " is ") +
+                           "missing; restore the library from a copy");
+  return result;
+}
+
+fs::path ObjectStore::checkedPath(const std::string& object, const std::string& what) const
+{
+  fs::path result = path(object, what);
+  checkObject(result, what);
+  return result;
+}
+
+std::vector<std::uint8_t> ObjectStore::readChecked(const std::string& object,
+                                                   const std::string& what) const
+try
+{
+  const fs::path file = path(object, what);
+  const std::string text = core::readFile(file);
+  std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  if (sha256Of(bytes.data(), bytes.size()) != object.substr(0, kHashDigits))
+    throwDamaged(file, what);
+  return bytes;
+}
+catch (const core::InputFileError& error)
+{
+  throw libraryError(error);
+}
+
+std::vector<std::pair<std::string, std::uintmax_t>> ObjectStore::list() const
+{
+  std::vector<std::pair<std::string, std::uintmax_t>> objects;
+  std::error_code error;
+  for (fs::directory_iterator entry(m_folder, error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    std::error_code none;
+    const std::uintmax_t size = entry->file_size(none);
+    if (isObjectName(name) && !none)
+      objects.emplace_back(name, size);
+  }
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       core::printable(m_folder) + ": cannot be read; check the permissions");
+  std::sort(objects.begin(), objects.end());
+  return objects;
+}
+
+void ObjectStore::remove(const std::string& object)
+{
+  const fs::path file = path(object);
+  if (::unlink(file.c_str()) != 0)
+    throwForErrno(errno, file);
+}
+
+void ObjectStore::discardNew() noexcept
+{
+  for (const fs::path& path : m_new)
+  {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+  m_new.clear();
+}
+
+void ObjectStore::forget() noexcept
+{
+  m_new.clear();
+}
+
+} // namespace petrous::library

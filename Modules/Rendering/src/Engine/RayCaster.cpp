@@ -1,0 +1,389 @@
+#include "RayCaster.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "PresentShader.h"
+#include "RayCastVertexShader.h"
+#include "SceneCheck.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+bool drawable(const SceneContents& contents)
+{
+  // A box that is one sample thin has no volume: the field is air everywhere.
+  if (!contents.ct)
+    return false;
+  const core::IndexBox whole = contents.ct->geometry().fullBox();
+  const core::IndexBox box = contents.crop ? contents.crop->intersected(whole) : whole;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.upper[a] - box.lower[a] < 2)
+      return false;
+  return true;
+}
+
+bool translucent(const std::vector<appearance::Material>& materials)
+{
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const appearance::Material& m) { return m.surfaceOpacity < 1.0F; });
+}
+
+// Whether rays continue inside structures, so that each sample needs its structure.
+bool structuresTranslucent(const SceneContents& contents)
+{
+  return contents.labels && contents.materials.size() > 1 &&
+         std::any_of(contents.materials.begin() + 1, contents.materials.end(),
+                     [](const appearance::Material& m)
+                     { return !m.lumen && m.surfaceOpacity < 1.0F; });
+}
+
+bool readsSecond(const SceneContents& contents)
+{
+  return contents.second.volume &&
+         std::any_of(contents.materials.begin(), contents.materials.end(),
+                     [](const appearance::Material& m)
+                     { return m.source == appearance::IntensitySource::Second; });
+}
+
+bool sameMaterials(const std::vector<appearance::Material>& a,
+                   const std::vector<appearance::Material>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const appearance::Material& x, const appearance::Material& y)
+                    {
+                      return x.transfer == y.transfer && x.source == y.source &&
+                             x.surfaceOpacity == y.surfaceOpacity && x.shininess == y.shininess &&
+                             x.lumen == y.lumen;
+                    });
+}
+
+bool sameRules(const OccupancyGrid::Rules& a, const OccupancyGrid::Rules& b)
+{
+  return a.iso == b.iso && a.bone == b.bone && a.interior == b.interior &&
+         a.interiorEverywhere == b.interiorEverywhere &&
+         std::equal(a.opaque.begin(), a.opaque.end(), b.opaque.begin(), b.opaque.end(),
+                    [](const volume::ValueRange& x, const volume::ValueRange& y)
+                    { return x.min == y.min && x.max == y.max; });
+}
+
+// Intensity ranges in which a transfer function has opacity.
+std::vector<volume::ValueRange> opaqueRanges(const appearance::TransferFunction& transfer)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<volume::ValueRange> ranges;
+  const auto add = [&ranges](double lower, double upper)
+  {
+    if (!ranges.empty() && ranges.back().max >= lower)
+      ranges.back().max = upper;
+    else
+      ranges.push_back({lower, upper});
+  };
+  const auto& points = transfer.points();
+  if (points.front().opacity > 0.0F)
+    add(-infinity, points.front().value);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (points[i - 1].opacity > 0.0F || points[i].opacity > 0.0F)
+      add(points[i - 1].value, points[i].value);
+  if (points.back().opacity > 0.0F)
+    add(points.back().value, infinity);
+  return ranges;
+}
+
+} // namespace
+
+// ---- contents
+
+void RayCaster::setContents(const SceneContents& contents)
+{
+  checkContents(contents);
+  checkPlaneCount(contents);
+  const bool sameCt = contents.ct == m_contents.ct;
+  m_givenMask = contents.mask;
+  std::shared_ptr<const volume::CutMask> mask = maskInUse();
+  m_newCt |= !sameCt;
+  m_newLabels |= contents.labels != m_contents.labels;
+  m_newSecond |= contents.second.volume != m_contents.second.volume;
+  m_newThickness |= contents.thickness.distance != m_contents.thickness.distance ||
+                    contents.thickness.farthest != m_contents.thickness.farthest;
+  const OccupancyGrid::Rules before =
+      m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
+  m_newMaterials |= !sameMaterials(contents.materials, m_contents.materials);
+  m_newRules |= mask != m_contents.mask || !sameCt || m_newLabels;
+  if (mask != m_contents.mask || !sameCt)
+    m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
+  else
+    m_newRules |= m_mask.compare();
+  m_contents = contents;
+  m_contents.mask = std::move(mask);
+  if (m_contents.materials.empty())
+    m_contents.materials.emplace_back();
+  m_newRules |= !sameRules(before, rules());
+  if (!sameCt)
+    m_occupancy.reset();
+}
+
+void RayCaster::setQuality(const RenderQuality& quality)
+{
+  quality.validate();
+  const bool sameLimit = quality.largestTexture == m_quality.largestTexture;
+  if (quality.maskBits != m_quality.maskBits || !sameLimit)
+    m_mask.reset(m_contents.mask, quality.maskBits, quality.largestTexture);
+  m_newCt |= !sameLimit;
+  m_newLabels |= !sameLimit;
+  m_newSecond |= !sameLimit;
+  if (quality.brick != m_quality.brick)
+  {
+    m_occupancy.reset();
+    m_newRules = true;
+  }
+  m_newMaterials |= quality.tableSize != m_quality.tableSize;
+  m_quality = quality;
+}
+
+void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
+{
+  const bool wasCut = m_mask.inUse();
+  m_givenMask = std::move(mask);
+  mask = maskInUse();
+  m_contents.mask = mask;
+  if (static_cast<bool>(mask) != wasCut)
+    m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
+  else
+    m_mask.changed(mask, box);
+  if (m_occupancy && !m_newRules)
+    m_dirtyBricks = m_dirtyBricks.united(m_occupancy->maskChanged(mask.get(), box));
+}
+
+void RayCaster::expectCut(bool expected)
+{
+  m_cutExpected = expected;
+  std::shared_ptr<const volume::CutMask> mask = maskInUse();
+  if (static_cast<bool>(mask) == m_mask.inUse())
+    return;
+  // The bricks stay valid: a mask in which nothing is cut yields the same flags as no mask.
+  m_contents.mask = mask;
+  m_mask.reset(std::move(mask), m_quality.maskBits, m_quality.largestTexture);
+}
+
+// A mask in which nothing is cut is drawn as no mask.
+std::shared_ptr<const volume::CutMask> RayCaster::maskInUse() const
+{
+  return m_givenMask && (m_cutExpected || !m_givenMask->untouched()) ? m_givenMask : nullptr;
+}
+
+RayFeatures RayCaster::features() const
+{
+  RayFeatures features;
+  features.bone = m_contents.boneShown;
+  features.labels = static_cast<bool>(m_contents.labels);
+  features.borders = features.labels && m_labels.borders;
+  features.nested = structuresTranslucent(m_contents);
+  features.mask = m_mask.inUse();
+  features.second = readsSecond(m_contents);
+  features.interior = translucent(m_contents.materials);
+  features.thickness = static_cast<bool>(m_contents.thickness.distance);
+  features.clip = !m_contents.clipping.empty();
+  return features;
+}
+
+OccupancyGrid::Rules RayCaster::rules() const
+{
+  OccupancyGrid::Rules rules;
+  rules.iso = m_contents.iso;
+  rules.bone = m_contents.boneShown;
+  rules.interior = translucent(m_contents.materials);
+  rules.opaque = opaqueRanges(m_contents.materials.front().transfer);
+  rules.interiorEverywhere =
+      m_contents.materials.front().source == appearance::IntensitySource::Second &&
+      !m_contents.materials.front().transfer.transparent();
+  return rules;
+}
+
+// ---- textures
+
+void RayCaster::upload()
+{
+  const auto note = [this](const char* what, const core::Index3& by)
+  {
+    m_statistics.notes.push_back(std::string(what) + " is drawn reduced by " +
+                                 std::to_string(by[0]) + " x " + std::to_string(by[1]) + " x " +
+                                 std::to_string(by[2]) +
+                                 ": the graphics driver has no room for all of it");
+  };
+  if (m_newCt || !m_ct.texture)
+    m_ct.upload(*m_contents.ct, m_quality.largestTexture);
+  if (!m_occupancy)
+  {
+    m_occupancy = std::make_unique<OccupancyGrid>(*m_contents.ct, m_quality.brick);
+    m_ctRange = m_occupancy->range();
+    m_newRules = m_newMaterials = true;
+  }
+  if (readsSecond(m_contents) && (m_newSecond || !m_second.texture))
+  {
+    m_second.upload(*m_contents.second.volume, m_quality.largestTexture);
+    m_secondRange = m_contents.second.volume->range();
+    m_newMaterials = true;
+  }
+  if (!readsSecond(m_contents))
+    m_second.texture.release();
+  if (m_contents.labels && (m_newLabels || !m_labels.occupancy))
+    m_labels.upload(*m_contents.labels, m_quality.largestTexture);
+  if (!m_contents.labels)
+    m_labels.release();
+  if (!m_contents.thickness.distance)
+    m_thickness.texture.release();
+  else if (m_newThickness || !m_thickness.texture)
+    m_thickness.upload(m_contents.thickness);
+  if (m_newMaterials || !m_materials.look)
+    m_materials.upload(m_contents.materials, m_quality.tableSize, m_ctRange, m_secondRange);
+
+  const auto start = std::chrono::steady_clock::now();
+  const bool edited = m_mask.pendingVoxels() > 0;
+  m_mask.upload();
+  if (m_newRules || m_newLabels || m_newCt)
+  {
+    m_occupancy->rebuild(rules(), m_contents.labels.get(), m_contents.mask.get());
+    m_tissueBricks = {};
+    findTissue({{0, 0, 0}, m_occupancy->dims()});
+  }
+  findTissue(m_dirtyBricks);
+  if (m_newRules || m_newLabels || m_newCt || !m_bricks)
+    m_bricks.create(texel::kBrick, m_occupancy->dims(), m_occupancy->texels().data(), GL_NEAREST);
+  else if (!m_dirtyBricks.empty())
+  {
+    const core::Index3 size = m_dirtyBricks.size();
+    const core::Index3& dims = m_occupancy->dims();
+    std::vector<OccupancyGrid::Texel> texels;
+    texels.reserve(m_dirtyBricks.count());
+    for (int k = m_dirtyBricks.lower[2]; k < m_dirtyBricks.upper[2]; ++k)
+      for (int j = m_dirtyBricks.lower[1]; j < m_dirtyBricks.upper[1]; ++j)
+      {
+        const auto row =
+            m_occupancy->texels().begin() + m_dirtyBricks.lower[0] +
+            static_cast<std::ptrdiff_t>(dims[0]) * (j + static_cast<std::ptrdiff_t>(dims[1]) * k);
+        texels.insert(texels.end(), row, row + size[0]);
+      }
+    m_bricks.update(m_dirtyBricks, texels.data());
+  }
+  m_dirtyBricks = {};
+  if (edited)
+    m_statistics.editMilliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+  m_newCt = m_newLabels = m_newMaterials = m_newSecond = m_newRules = m_newThickness = false;
+  m_statistics.notes.clear();
+  if (m_ct.reduction != core::Index3{1, 1, 1})
+    note("the CT", m_ct.reduction);
+  if (m_labels.occupancy && m_labels.reduction != core::Index3{1, 1, 1})
+    note("the structures' label field", m_labels.reduction);
+  if (m_second.texture && m_second.reduction != core::Index3{1, 1, 1})
+    note("the second image", m_second.reduction);
+  m_statistics.pendingEdits = m_mask.pendingVoxels();
+  m_statistics.resources = {{"ct.texture", m_ct.texture.bytes()},
+                            {"ct.bricks", m_bricks.bytes() + m_occupancy->bytes()}};
+  const auto add = [this](const char* name, std::size_t bytes)
+  {
+    if (bytes > 0)
+      m_statistics.resources[name] = bytes;
+  };
+  add("mask.texture", m_mask.texture().bytes());
+  add("labels.texture", m_labels.occupancy.bytes() + m_labels.index.bytes());
+  add("labels.thickness", m_thickness.texture.bytes());
+  add("mr.texture", m_second.texture.bytes());
+}
+
+// ---- one frame
+
+GlProgram& RayCaster::program(bool count)
+{
+  RayFeatures wanted = features();
+  wanted.count = count;
+  m_statistics.variant = wanted.names();
+  GlProgram& result = m_programs[wanted.key()];
+  if (!result)
+    result.build(kRayCastVertexShader, rayFragmentShader(wanted));
+  return result;
+}
+
+void RayCaster::draw(const Frame& frame, bool count)
+{
+  const int width = std::max(1, static_cast<int>(std::lround(frame.width * m_quality.imageScale)));
+  const int height =
+      std::max(1, static_cast<int>(std::lround(frame.height * m_quality.imageScale)));
+  const bool anything = drawable(m_contents);
+  if (anything)
+    upload();
+  m_target.prepare(width, height, count);
+  glViewport(0, 0, width, height);
+  const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
+  const std::array<float, 4> noDepth{-1.0F, 0.0F, 0.0F, 0.0F};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClearBufferfv(GL_COLOR, 1, noDepth.data());
+  if (count)
+    glClearBufferfv(GL_COLOR, 2, nothing.data());
+  if (!anything)
+  {
+    m_statistics = {};
+    if (!m_contents.ct)
+      releaseData();
+    return;
+  }
+  GlProgram& shader = program(count);
+  shader.use();
+  bindTextures(shader, frame);
+  setRays(shader, frame);
+  setVolume(shader);
+  castRays(frame, width, height);
+  if (count)
+  {
+    const auto [fetches, samples] = m_target.meanCounts();
+    m_statistics.fetchesPerPixel = fetches;
+    m_statistics.samplesPerPixel = samples;
+  }
+}
+
+void RayCaster::present(int width, int height)
+{
+  if (!m_present)
+    m_present.build(kRayCastVertexShader, kPresentShader);
+  m_present.use();
+  m_target.color().bind(0);
+  m_present.set("picture", 0);
+  m_present.set("sameSize",
+                m_target.color().dims()[0] == width && m_target.color().dims()[1] == height ? 1
+                                                                                            : 0);
+  m_triangle.draw();
+}
+
+void RayCaster::releaseData()
+{
+  m_ct.texture.release();
+  m_second.texture.release();
+  m_mask.release();
+  m_labels.release();
+  m_thickness.texture.release();
+  m_materials.release();
+  m_bricks.release();
+}
+
+void RayCaster::release()
+{
+  releaseData();
+  for (auto& [features, shader] : m_programs)
+    shader.release();
+  m_programs.clear();
+  m_present.release();
+  m_target.release();
+  m_triangle.release();
+}
+
+} // namespace petrous::rendering

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <vtk_glew.h>
+
+#include "GlProgram.h"
+#include "RayShader.h"
+#include "RayTarget.h"
+#include "RayView.h"
+#include "SceneTextures.h"
+#include "ScreenTriangle.h"
+#include "petrous/Rendering/Picture.h"
+#include "petrous/Rendering/RenderQuality.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::rendering
+{
+
+/// Casts the rays of RayCast.frag.glsl into its own render target: the OpenGL side of
+/// vtkPetrousVolumeMapper, independent of VTK.
+///
+/// `draw`, `present`, `release` and the read-backs require the context of the first frame to be
+/// current; the setters make no OpenGL calls.
+class RayCaster
+{
+public:
+  /// Input of a frame. `opaque`: depth texture of the window's opaque polygons, or 0.
+  struct Frame
+  {
+    RayView view;
+    int width = 0; ///< of the viewport, pixels
+    int height = 0;
+    GLuint opaque = 0;
+    bool everywhere = false; ///< also cast rays that cannot meet tissue
+  };
+
+  /// Unchanged data stay on the GPU. Throws RenderingError BadContents.
+  void setContents(const SceneContents& contents);
+  void setQuality(const RenderQuality& quality); ///< throws InvalidParameter
+
+  /// The mask decreased or increased in a box of CT voxels; null: nothing is cut.
+  void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
+
+  /// A tool is in use: the mask takes part although nothing is cut yet, so that the first cut does
+  /// not wait for shader compilation and texture upload.
+  void expectCut(bool expected);
+
+  /// Renders into the own target; counting is slower. Throws RenderingError NoOpenGL.
+  void draw(const Frame& frame, bool count);
+
+  /// Draws the own target over the bound frame buffer; the caller sets up blending.
+  void present(int width, int height);
+
+  /// Target of the last frame.
+  const RayTarget& target() const noexcept { return m_target; }
+
+  void release();
+  const RenderStatistics& statistics() const noexcept { return m_statistics; }
+
+private:
+  std::shared_ptr<const volume::CutMask> maskInUse() const;
+  RayFeatures features() const;
+  OccupancyGrid::Rules rules() const;
+  void upload();
+  void findTissue(const core::IndexBox& bricks);
+  core::IndexBox tissueOnScreen(const Frame& frame, int width, int height) const;
+  GlProgram& program(bool count);
+  void bindTextures(GlProgram& program, const Frame& frame) const;
+  void setRays(GlProgram& program, const Frame& frame) const;
+  void setVolume(GlProgram& program) const;
+  void castRays(const Frame& frame, int width, int height);
+  void releaseData();
+
+  SceneContents m_contents; // its mask only if in use
+  std::shared_ptr<const volume::CutMask> m_givenMask;
+  bool m_cutExpected = false;
+  RenderQuality m_quality;
+  RenderStatistics m_statistics;
+  std::unique_ptr<OccupancyGrid> m_occupancy;
+
+  bool m_newCt = false, m_newLabels = false, m_newMaterials = false, m_newSecond = false;
+  bool m_newThickness = false;
+  bool m_newRules = false;
+  core::IndexBox m_dirtyBricks;
+  core::IndexBox m_tissueBricks; // bounding box of all visible tissue
+  volume::ValueRange m_ctRange, m_secondRange;
+
+  IntensityTexture m_ct, m_second;
+  MaskTexture m_mask;
+  LabelTextures m_labels;
+  ThicknessTexture m_thickness;
+  MaterialTables m_materials;
+  GlTexture m_bricks;
+  RayTarget m_target;
+  ScreenTriangle m_triangle;
+  std::unordered_map<unsigned, GlProgram> m_programs;
+  GlProgram m_present;
+};
+
+} // namespace petrous::rendering

@@ -1,0 +1,270 @@
+// Per-frame uniforms (rays, grids, light) and the pixels for which rays are cast.
+
+#include "RayCaster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "OpticalModel.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+constexpr double kFieldScale = 1000.0; // unit of c_CT, as the tissue field's default
+
+enum Unit : int
+{
+  CtUnit,
+  BrickUnit,
+  LookUnit,
+  MaterialUnit,
+  OpaqueUnit,
+  MaskUnit,
+  OccupancyUnit,
+  IndexUnit,
+  SecondUnit,
+  ThicknessUnit,
+  DepthUnit
+};
+
+} // namespace
+
+void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
+{
+  const auto bind = [&program](const GlTexture& texture, int unit, const char* name)
+  {
+    texture.bind(unit);
+    program.set(name, unit);
+  };
+  bind(m_ct.texture, CtUnit, "ctTexture");
+  bind(m_bricks, BrickUnit, "brickTexture");
+  bind(m_materials.look, LookUnit, "lookTexture");
+  bind(m_materials.material, MaterialUnit, "materialTexture");
+  bind(m_materials.depth, DepthUnit, "depthTexture");
+  if (m_mask.inUse())
+    bind(m_mask.texture(), MaskUnit, "maskTexture");
+  if (m_contents.labels)
+  {
+    bind(m_labels.occupancy, OccupancyUnit, "occupancyTexture");
+    bind(m_labels.index, IndexUnit, "indexTexture");
+  }
+  if (m_second.texture)
+    bind(m_second.texture, SecondUnit, "secondTexture");
+  if (m_thickness.texture)
+    bind(m_thickness.texture, ThicknessUnit, "thicknessTexture");
+  glActiveTexture(GL_TEXTURE0 + OpaqueUnit);
+  glBindTexture(GL_TEXTURE_2D, frame.opaque);
+  program.set("opaqueTexture", int{OpaqueUnit});
+  program.set("hasOpaque", frame.opaque ? 1 : 0);
+}
+
+void RayCaster::setRays(GlProgram& program, const Frame& frame) const
+{
+  const core::GridGeometry& grid = m_contents.ct->geometry();
+  const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
+  const RayView& view = frame.view;
+  program.set("originCenter", grid.voxelFromPatient(view.origin));
+  program.set("originX", Eigen::Vector3d(voxelFromMm * view.originX));
+  program.set("originY", Eigen::Vector3d(voxelFromMm * view.originY));
+  program.set("directionCenter", Eigen::Vector3d(voxelFromMm * view.direction));
+  program.set("directionX", Eigen::Vector3d(voxelFromMm * view.directionX));
+  program.set("directionY", Eigen::Vector3d(voxelFromMm * view.directionY));
+  program.set("viewCenter", view.direction);
+  program.set("viewX", view.directionX);
+  program.set("viewY", view.directionY);
+  program.set("parallel", view.parallel ? 1 : 0);
+  program.set("opaqueDepth", view.depth);
+
+  std::array<float, 4 * kMaxPlanes> planes{};
+  const std::size_t count = std::min(m_contents.clipping.size(), kMaxPlanes);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const ClippingPlane& plane = m_contents.clipping[i];
+    const Eigen::Vector3d normal = plane.normal.normalized();
+    const Eigen::Vector3d slope = voxelFromMm.inverse().transpose() * normal;
+    const double offset = normal.dot(grid.patientFromVoxel(Eigen::Vector3d::Zero()) - plane.point);
+    for (int a = 0; a < 3; ++a)
+      planes[4 * i + static_cast<std::size_t>(a)] = static_cast<float>(slope[a]);
+    planes[4 * i + 3] = static_cast<float>(offset);
+  }
+  program.set("planeCount", static_cast<int>(count));
+  program.setArray("planes", planes.data(), static_cast<int>(kMaxPlanes));
+}
+
+void RayCaster::setVolume(GlProgram& program) const
+{
+  const core::GridGeometry& grid = m_contents.ct->geometry();
+  const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
+  const auto upperOf = [](const core::Index3& dims)
+  { return Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0); };
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
+  Eigen::Vector3d upper = upperOf(grid.dims());
+  program.set("hullUpper", upper);
+  if (m_contents.crop)
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto axis = static_cast<std::size_t>(a);
+      lower[a] = std::max<double>(lower[a], m_contents.crop->lower[axis]);
+      upper[a] = std::min<double>(upper[a], m_contents.crop->upper[axis] - 1.0);
+    }
+  program.set("boxLower", lower);
+  program.set("boxUpper", upper);
+  program.set("ctScale", m_ct.map.scale);
+  program.set("ctOffset", m_ct.map.offset);
+  program.set("ctUnit", m_ct.unit);
+  program.set("iso", m_contents.iso);
+  program.set("perUnit", 1.0 / kFieldScale);
+  program.set("brickEdge", double(m_quality.brick));
+  program.set("stepLength", m_quality.step * grid.minSpacing());
+  program.set("bisections", m_quality.bisections);
+  program.set("termination", m_quality.termination);
+  program.set("normalFromVoxel", Eigen::Matrix3d(voxelFromMm.transpose()));
+  program.set("voxelFromMm", voxelFromMm);
+  program.set("colorDepth", optics::kColorDepth * grid.minSpacing());
+  const LightSettings& light = m_contents.light;
+  program.set("light",
+              Eigen::Vector4d(light.intensity, light.ambient, light.specular, light.wetness));
+  program.set("falloff", light.falloff);
+  program.set("maskScale", m_mask.map().scale);
+  program.set("maskOffset", m_mask.map().offset);
+  if (m_contents.labels)
+  {
+    const core::GridGeometry& labels = m_contents.labels->occupancy->geometry();
+    program.set("labelFromVoxel",
+                Eigen::Matrix3d(labels.voxelFromPatientLinear() * voxelFromMm.inverse()));
+    program.set("labelOrigin",
+                labels.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero())));
+    program.set("labelUpper", upperOf(labels.dims()));
+    program.set("labelScale", m_labels.map.scale);
+    program.set("labelOffset", m_labels.map.offset);
+    program.set("labelBlock", Eigen::Vector3d(m_labels.reduction[0], m_labels.reduction[1],
+                                              m_labels.reduction[2]));
+    program.set("normalFromLabel", Eigen::Matrix3d(labels.voxelFromPatientLinear().transpose()));
+  }
+  if (m_thickness.texture)
+  {
+    const core::GridGeometry& own = m_contents.thickness.distance->geometry();
+    program.set("thicknessFromVoxel",
+                Eigen::Matrix3d(own.voxelFromPatientLinear() * voxelFromMm.inverse()));
+    program.set("thicknessOrigin",
+                own.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero())));
+    program.set("thicknessUpper", upperOf(own.dims()));
+    program.set("thicknessScale", m_thickness.map.scale);
+    program.set("thicknessOffset", m_thickness.map.offset);
+    program.set("thicknessUnit", m_thickness.unit);
+    program.set("thicknessFarthest", m_contents.thickness.farthest);
+  }
+  if (m_second.texture && m_contents.second.volume)
+  {
+    const core::GridGeometry& second = m_contents.second.volume->geometry();
+    const core::RigidTransform& motion = m_contents.second.secondFromCt;
+    const Eigen::Matrix3d linear = second.voxelFromPatientLinear() *
+                                   motion.rotation().toRotationMatrix() * voxelFromMm.inverse();
+    program.set("secondFromVoxel", linear);
+    program.set("secondOrigin",
+                second.voxelFromPatient(motion * grid.patientFromVoxel(Eigen::Vector3d::Zero())));
+    program.set("secondUnit", m_second.unit);
+    program.set("secondUpper", upperOf(second.dims()));
+    program.set("secondScale", m_second.map.scale);
+    program.set("secondOffset", m_second.map.offset);
+  }
+}
+
+// Adds the bricks of a box that contain tissue. Bricks emptied by an edit remain until the next
+// rebuild.
+void RayCaster::findTissue(const core::IndexBox& bricks)
+{
+  const core::Index3& dims = m_occupancy->dims();
+  for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
+    for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+    {
+      const auto row =
+          m_occupancy->texels().begin() +
+          static_cast<std::ptrdiff_t>(dims[0]) * (j + static_cast<std::ptrdiff_t>(dims[1]) * k);
+      int first = bricks.upper[0];
+      int last = bricks.lower[0] - 1;
+      for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+        if (row[i].flags & OccupancyGrid::Tissue)
+        {
+          first = std::min(first, i);
+          last = i;
+        }
+      m_tissueBricks = m_tissueBricks.united({{first, j, k}, {last + 1, j + 1, k + 1}});
+    }
+}
+
+// Pixel rectangle whose rays may meet tissue.
+core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int height) const
+{
+  const core::IndexBox whole{{0, 0, 0}, {width, height, 1}};
+  if (frame.everywhere)
+    return whole;
+  if (m_tissueBricks.empty())
+    return {};
+  constexpr double margin = 0.01; // voxels; exceeds the error of single precision
+  const RayView& view = frame.view;
+  Eigen::Matrix3d axes;
+  if (view.parallel)
+    axes << view.originX, view.originY, view.direction;
+  else
+    axes << view.directionX, view.directionY, view.direction;
+  const Eigen::Matrix3d inverse = axes.inverse();
+  Eigen::Array2d least = Eigen::Array2d::Constant(1e30);
+  Eigen::Array2d most = -least;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d voxel;
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto axis = static_cast<std::size_t>(a);
+      voxel[a] = (corner >> a & 1) != 0 ? m_tissueBricks.upper[axis] * m_occupancy->edge() + margin
+                                        : m_tissueBricks.lower[axis] * m_occupancy->edge() - margin;
+    }
+    const Eigen::Vector3d at =
+        inverse * (m_contents.ct->geometry().patientFromVoxel(voxel) - view.origin);
+    if (!view.parallel && !(at.z() > 0.0))
+      return whole; // beside or behind the camera
+    const Eigen::Array2d ndc = at.head<2>().array() / (view.parallel ? 1.0 : at.z());
+    if (!ndc.isFinite().all())
+      return whole;
+    least = least.min(ndc);
+    most = most.max(ndc);
+  }
+  core::IndexBox pixels = whole;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    const double size = whole.upper[a];
+    const auto pixel = [&](double ndc, double more) {
+      return static_cast<int>(std::clamp(std::floor(0.5 * (ndc + 1.0) * size) + more, 0.0, size));
+    };
+    const auto axis = static_cast<Eigen::Index>(a);
+    pixels.lower[a] = pixel(least[axis], -1.0);
+    pixels.upper[a] = pixel(most[axis], 2.0);
+  }
+  return pixels;
+}
+
+// Rays that miss all tissue are not cast: on SIMT hardware their pixels would pay for the code
+// after a hit even without one.
+void RayCaster::castRays(const Frame& frame, int width, int height)
+{
+  const core::IndexBox pixels = tissueOnScreen(frame, width, height);
+  if (pixels.empty())
+    return;
+  std::array<GLint, 4> before{};
+  glGetIntegerv(GL_SCISSOR_BOX, before.data()); // VTK caches its state
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(pixels.lower[0], pixels.lower[1], pixels.size()[0], pixels.size()[1]);
+  m_triangle.draw();
+  glDisable(GL_SCISSOR_TEST);
+  glScissor(before[0], before[1], before[2], before[3]);
+}
+
+} // namespace petrous::rendering

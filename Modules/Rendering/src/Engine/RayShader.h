@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace petrous::rendering
+{
+
+constexpr std::size_t kMaxPlanes = 6; ///< max. number of clipping planes
+
+/// Compile-time features of a variant of the ray caster's shader.
+struct RayFeatures
+{
+  bool bone = false;      ///< the CT's isosurface
+  bool labels = false;    ///< structures
+  bool borders = false;   ///< touching structures
+  bool nested = false;    ///< translucent structures
+  bool mask = false;      ///< the cut mask
+  bool second = false;    ///< a second image that some materials read
+  bool interior = false;  ///< translucent tissue
+  bool clip = false;      ///< clipping planes
+  bool thickness = false; ///< bone is coloured by its distance to a structure
+  bool count = false;     ///< texture fetches and samples are counted
+
+  unsigned key() const noexcept;          ///< unique per variant
+  std::vector<std::string> names() const; ///< "ct" and the added features; counting is not named
+};
+
+/// Fragment shader of a variant (for GlProgram), with the constants of OpticalModel.h and
+/// OccupancyGrid.h inserted.
+std::string rayFragmentShader(const RayFeatures& features);
+
+} // namespace petrous::rendering

@@ -1,0 +1,68 @@
+#include "SceneCheck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "RayShader.h"
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+void require(bool holds, const std::string& what)
+{
+  if (!holds)
+    throw RenderingError(RenderingError::Reason::BadContents, "picture: " + what);
+}
+
+void checkLabels(const volume::LabelField& labels)
+{
+  require(labels.occupancy && labels.index &&
+              core::sameGrid(labels.occupancy->geometry(), labels.index->geometry()),
+          "the structures need an occupancy and an index on one grid");
+  require(!labels.borders || core::sameGrid(labels.borders->geometry(), labels.index->geometry()),
+          "the structures' borders do not lie on their grid");
+}
+
+} // namespace
+
+void checkContents(const SceneContents& contents)
+{
+  require(std::isfinite(contents.iso), "the surface's intensity is not a number");
+  require(!contents.mask || contents.ct, "there is a mask but no CT");
+  require(!contents.mask || core::sameGrid(contents.mask->geometry(), contents.ct->geometry()),
+          "the mask does not lie on the CT's grid");
+  require(!contents.labels || contents.ct, "there are structures but no CT");
+  if (contents.labels)
+    checkLabels(*contents.labels);
+  for (const appearance::Material& material : contents.materials)
+    require(material.source == appearance::IntensitySource::Ct || contents.second.volume,
+            "a material reads a second image, and there is none");
+  require(!contents.thickness.distance || contents.thickness.farthest > 0.0,
+          "the farthest thickness must be above 0 mm");
+}
+
+void checkMaterials(const SceneContents& contents)
+{
+  if (!contents.labels)
+    return;
+  const std::size_t rows = std::max<std::size_t>(contents.materials.size(), 1);
+  const volume::Volume<std::uint8_t>& index = *contents.labels->index;
+  const std::uint8_t largest = *std::max_element(index.data(), index.data() + index.size());
+  require(largest < rows, "structure " + std::to_string(int{largest}) +
+                              " has no material; there are " + std::to_string(rows - 1) +
+                              " beside bone's");
+}
+
+void checkPlaneCount(const SceneContents& contents)
+{
+  require(contents.clipping.size() <= kMaxPlanes, "at most " + std::to_string(kMaxPlanes) +
+                                                      " clipping planes can be drawn, not " +
+                                                      std::to_string(contents.clipping.size()));
+}
+
+} // namespace petrous::rendering

@@ -1,0 +1,310 @@
+#include "petrous/Rendering/VolumeMapper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <vtkColorTransferFunction.h>
+#include <vtkImageData.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
+#include <vtkRenderer.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+#include <vtkWeakPointer.h>
+
+#include "CameraPlacement.h"
+#include "OpaqueDepth.h"
+#include "RayCaster.h"
+#include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/VtkVolume.h"
+
+using petrous::rendering::SceneContents;
+
+namespace
+{
+
+// Material from component 0 of a vtkVolumeProperty.
+petrous::appearance::Material materialOf(vtkVolumeProperty* property, double surfaceOpacity)
+{
+  std::set<double> values;
+  vtkColorTransferFunction* colors = property->GetRGBTransferFunction(0);
+  vtkPiecewiseFunction* opacities = property->GetScalarOpacity(0);
+  double node[6];
+  for (int i = 0; i < colors->GetSize(); ++i)
+  {
+    colors->GetNodeValue(i, node);
+    values.insert(node[0]);
+  }
+  for (int i = 0; i < opacities->GetSize(); ++i)
+  {
+    opacities->GetNodeValue(i, node);
+    values.insert(node[0]);
+  }
+  if (values.empty())
+    values.insert(0.0);
+  const double unit = std::max(property->GetScalarOpacityUnitDistance(0), 1e-6);
+  std::vector<petrous::appearance::ControlPoint> points;
+  for (const double value : values)
+  {
+    petrous::appearance::ControlPoint point;
+    double color[3];
+    colors->GetColor(value, color);
+    point.value = value;
+    for (std::size_t c = 0; c < 3; ++c)
+      point.color[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
+    const double opacity = std::clamp(opacities->GetValue(value), 0.0, 1.0);
+    point.opacity = static_cast<float>(1.0 - std::pow(1.0 - opacity, 1.0 / unit));
+    points.push_back(point);
+  }
+  petrous::appearance::Material material;
+  material.transfer = petrous::appearance::TransferFunction(points);
+  material.surfaceOpacity = static_cast<float>(surfaceOpacity);
+  material.shininess = static_cast<float>(property->GetSpecularPower(0));
+  return material;
+}
+
+} // namespace
+
+class vtkPetrousVolumeMapper::Internals
+{
+public:
+  petrous::rendering::RayCaster caster;
+  petrous::rendering::OpaqueDepth opaque;
+  petrous::rendering::RenderQuality quality;
+  SceneContents contents;
+  bool given = false;                   // by SetContents, not by the pipeline
+  vtkMTimeType made = 0;                // when `contents` was created from the pipeline
+  const vtkDataObject* image = nullptr; // source of `contents`
+  vtkMTimeType clipped = 0;
+  vtkWeakPointer<vtkOpenGLRenderWindow> window; // whose context owns the textures
+  // The same window; weak pointers are cleared while it is destroyed.
+  const vtkWindow* owner = nullptr;
+  int width = 0;
+  int height = 0;
+  std::exception_ptr error;
+};
+
+vtkStandardNewMacro(vtkPetrousVolumeMapper);
+
+vtkPetrousVolumeMapper::vtkPetrousVolumeMapper()
+  : Internal(std::make_unique<Internals>())
+{
+}
+
+vtkPetrousVolumeMapper::~vtkPetrousVolumeMapper() = default;
+
+void vtkPetrousVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "IsoValue: " << this->IsoValue << "\n";
+  os << indent << "SurfaceOpacity: " << this->SurfaceOpacity << "\n";
+  os << indent << "Variant:";
+  for (const std::string& feature : this->GetStatistics().variant)
+    os << " " << feature;
+  os << "\n";
+}
+
+void vtkPetrousVolumeMapper::SetContents(const SceneContents& contents)
+{
+  const bool newCt = contents.ct != this->Internal->contents.ct;
+  this->Internal->contents = contents;
+  this->Internal->given = true;
+  if (newCt && contents.ct)
+    this->SetInputData(petrous::rendering::wrap(*contents.ct).Get());
+  this->Internal->clipped = 0; // to be merged with the mapper's own clipping
+  this->Modified();
+}
+
+void vtkPetrousVolumeMapper::MaskChanged(std::shared_ptr<const petrous::volume::CutMask> mask,
+                                         const petrous::core::IndexBox& box)
+{
+  this->Internal->contents.mask = mask;
+  if (this->Internal->clipped > 0)
+    this->Internal->caster.maskChanged(std::move(mask), box);
+}
+
+void vtkPetrousVolumeMapper::ExpectCut(bool expected)
+{
+  this->Internal->caster.expectCut(expected);
+}
+
+void vtkPetrousVolumeMapper::SetQuality(const petrous::rendering::RenderQuality& quality)
+{
+  this->Internal->quality = quality;
+  this->Internal->caster.setQuality(quality);
+}
+
+const petrous::rendering::RenderQuality& vtkPetrousVolumeMapper::GetQuality() const
+{
+  return this->Internal->quality;
+}
+
+const petrous::rendering::RenderStatistics& vtkPetrousVolumeMapper::GetStatistics() const
+{
+  return this->Internal->caster.statistics();
+}
+
+std::exception_ptr vtkPetrousVolumeMapper::TakeError()
+{
+  return std::exchange(this->Internal->error, nullptr);
+}
+
+void vtkPetrousVolumeMapper::UpdateContents(vtkVolume* volume)
+{
+  Internals& my = *this->Internal;
+  if (!my.given)
+  {
+    const vtkMTimeType changed = std::max(
+        {this->GetMTime(), this->GetInput()->GetMTime(), volume->GetProperty()->GetMTime()});
+    if (changed > my.made)
+    {
+      auto* image = vtkImageData::SafeDownCast(this->GetInput());
+      const bool sameVoxels = my.contents.ct && image == my.image && image->GetMTime() <= my.made;
+      if (!sameVoxels)
+        my.contents.ct = petrous::rendering::unwrap(image);
+      my.image = image;
+      my.contents.iso = this->IsoValue;
+      my.contents.materials = {materialOf(volume->GetProperty(), this->SurfaceOpacity)};
+      my.contents.light.ambient = std::clamp(volume->GetProperty()->GetAmbient(0), 0.0, 1.0);
+      my.contents.light.specular = std::clamp(volume->GetProperty()->GetSpecular(0), 0.0, 1.0);
+      my.made = changed;
+      my.clipped = 0;
+    }
+  }
+  vtkMTimeType changed = std::max(this->GetMTime(), volume->GetMTime());
+  if (this->ClippingPlanes)
+    for (int i = 0; i < this->ClippingPlanes->GetNumberOfItems(); ++i)
+      changed = std::max(changed, this->ClippingPlanes->GetItem(i)->GetMTime());
+  if (my.clipped > 0 && changed <= my.clipped)
+    return;
+  my.clipped = changed;
+  SceneContents contents = my.contents;
+  const Eigen::Matrix4d worldFromPatient = petrous::rendering::toEigen(volume->GetMatrix());
+  if (this->ClippingPlanes)
+    for (int i = 0; i < this->ClippingPlanes->GetNumberOfItems(); ++i)
+    {
+      vtkPlane* plane = this->ClippingPlanes->GetItem(i);
+      const Eigen::Vector4d point =
+          worldFromPatient.inverse() *
+          Eigen::Vector4d(plane->GetOrigin()[0], plane->GetOrigin()[1], plane->GetOrigin()[2], 1.0);
+      const Eigen::Vector3d normal = worldFromPatient.topLeftCorner<3, 3>().transpose() *
+                                     Eigen::Map<const Eigen::Vector3d>(plane->GetNormal());
+      contents.clipping.push_back({point.head<3>(), normal.normalized()});
+    }
+  if (this->Cropping && this->CroppingRegionFlags == VTK_CROP_SUBVOLUME && contents.ct)
+  {
+    const double* planes = this->VoxelCroppingRegionPlanes;
+    this->ConvertCroppingRegionPlanesToVoxels();
+    petrous::core::IndexBox box;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      box.lower[a] = static_cast<int>(std::lround(planes[2 * a]));
+      box.upper[a] = static_cast<int>(std::lround(planes[2 * a + 1])) + 1;
+    }
+    contents.crop = contents.crop ? contents.crop->intersected(box) : box;
+  }
+  my.caster.setContents(contents);
+}
+
+void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
+{
+  Internals& my = *this->Internal;
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!window)
+    throw petrous::rendering::RenderingError(petrous::rendering::RenderingError::Reason::NoOpenGL,
+                                             "the window does not draw with OpenGL");
+  if (my.window && my.window != window)
+  {
+    this->ReleaseGraphicsResources(my.window);
+    window->MakeCurrent();
+  }
+  my.window = window;
+  my.owner = window;
+  this->UpdateContents(volume);
+
+  int x = 0;
+  int y = 0;
+  petrous::rendering::RayCaster::Frame frame;
+  renderer->GetTiledSizeAndOrigin(&frame.width, &frame.height, &x, &y);
+  if (frame.width < 1 || frame.height < 1)
+    return;
+  my.width = frame.width;
+  my.height = frame.height;
+  frame.view =
+      petrous::rendering::raysOf(renderer->GetActiveCamera(), renderer->GetTiledAspectRatio(),
+                                 petrous::rendering::toEigen(volume->GetMatrix()));
+
+  vtkOpenGLState* state = window->GetState();
+  // Before copying the depth, which a scissor would clip as well.
+  const petrous::rendering::PlainDrawing plain(window);
+  const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
+  state->PushFramebufferBindings();
+  try
+  {
+    frame.opaque = my.opaque.capture(renderer, x, y, frame.width, frame.height);
+    my.caster.draw(frame, this->Counting);
+    state->ResetFramebufferBindings(); // bound outside of VTK's state cache
+    state->PopFramebufferBindings();
+    state->ResetGLViewportState();
+    state->vtkglViewport(x, y, frame.width, frame.height);
+    state->vtkglEnable(GL_BLEND);
+    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    my.caster.present(frame.width, frame.height);
+  }
+  catch (...)
+  {
+    state->ResetFramebufferBindings();
+    state->PopFramebufferBindings();
+    throw;
+  }
+}
+
+void vtkPetrousVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
+{
+  this->Internal->error = nullptr;
+  try
+  {
+    this->DrawRays(renderer, volume);
+  }
+  catch (const std::exception& error)
+  {
+    this->Internal->error = std::current_exception();
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+petrous::rendering::DepthImage vtkPetrousVolumeMapper::GetDepth()
+{
+  if (!this->Internal->window)
+    return {};
+  this->Internal->window->MakeCurrent();
+  return this->Internal->caster.target().readDepth();
+}
+
+float vtkPetrousVolumeMapper::GetDepthAt(double column, double row)
+{
+  if (!this->Internal->window)
+    return std::numeric_limits<float>::quiet_NaN();
+  this->Internal->window->MakeCurrent();
+  return this->Internal->caster.target().readDepth(column, row, this->Internal->width,
+                                                   this->Internal->height);
+}
+
+void vtkPetrousVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (!window || window != this->Internal->owner)
+    return;
+  window->MakeCurrent();
+  this->Internal->caster.release();
+  this->Internal->opaque.release();
+  this->Internal->window = nullptr;
+  this->Internal->owner = nullptr;
+}

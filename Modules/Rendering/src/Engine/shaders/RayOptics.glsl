@@ -1,0 +1,126 @@
+// Tissue appearance as defined in OpticalModel.h: light, surfaces, and the integral along a segment
+// of one tissue. Third part of the ray caster's fragment shader; see RayCast.frag.glsl.
+
+float lightAt(float t)
+{
+  float ratio = falloff > 0.0 ? t / falloff : 0.0;
+  return light.x / (1.0 + ratio * ratio);
+}
+
+// Intensity used by a material.
+float intensityAt(vec3 v, vec4 more)
+{
+#ifdef PETROUS_SECOND
+  if (more.y > 0.5)
+  {
+    COUNT(1);
+    vec3 s = clamp(secondFromVoxel * v + secondOrigin, vec3(0.0), secondUpper);
+    return texture(secondTexture, s * secondScale + secondOffset).r * secondUnit;
+  }
+#endif
+  return ctAt(clamp(v, vec3(0.0), hullUpper));
+}
+
+float rowCoordinate(int material)
+{
+  return (float(material) + 0.5) / float(textureSize(materialTexture, 0).y);
+}
+
+// Colour that replaces bone's own; a: 1 if it does, otherwise 0.
+vec4 overlayAt(vec3 v)
+{
+#ifdef PETROUS_THICKNESS
+  vec3 at = thicknessFromVoxel * v + thicknessOrigin;
+  if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, thicknessUpper)))
+    return vec4(0.0);
+  COUNT(1);
+  float distance = texture(thicknessTexture, at * thicknessScale + thicknessOffset).r * thicknessUnit;
+  float share = distance / thicknessFarthest;
+  if (share >= 1.0)
+    return vec4(0.0);
+  int last = kThicknessColors.length() - 1;
+  float place = float(last) * max(share, 0.0);
+  int below = min(int(place), last - 1);
+  return vec4(mix(kThicknessColors[below], kThicknessColors[below + 1], place - float(below)), 1.0);
+#else
+  return vec4(0.0);
+#endif
+}
+
+// `overlay`: see overlayAt.
+vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay)
+{
+  COUNT(1);
+  float width = float(textureSize(lookTexture, 0).x);
+  float u = clamp((value - row.x) * row.y, 0.0, 1.0) * (1.0 - 1.0 / width) + 0.5 / width;
+  vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
+  look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
+  float diffuse = light.y + (1.0 - light.y) * facing;
+  float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
+  return clamp(lightAt(t) * (look.rgb * diffuse + highlight), 0.0, 1.0);
+}
+
+#ifdef PETROUS_INTERIOR
+// Per-ray constants of the volume integral.
+struct Gathering
+{
+  float lastEntry; // of the tables
+  float exponent;  // log2 of the transmittance of a step with extinction 1/mm
+  float lamp;      // light inside tissue, near the camera
+  float dimming;   // 1 / steps, from the light's falloff
+  float enough;    // transmittance at which a ray terminates
+};
+
+Gathering makeGathering()
+{
+  Gathering g;
+  g.lastEntry = float(textureSize(depthTexture, 0).x - 1);
+  g.exponent = -1.44269504 * stepLength * g.lastEntry;
+  g.lamp = light.x * (light.y + (1.0 - light.y) * kInteriorFacing);
+  g.dimming = falloff > 0.0 ? stepLength / falloff : 0.0;
+  g.enough = max(termination, 0.0);
+  return g;
+}
+
+// Attenuation of the light at a distance in steps.
+float reaches(Gathering g, float steps)
+{
+  float dim = steps * g.dimming;
+  return 1.0 / (1.0 + dim * dim);
+}
+
+// Cumulative integrals up to a table entry.
+vec4 integralAt(int material, float entry)
+{
+  COUNT(1);
+  return texelFetch(depthTexture, ivec2(int(entry), material), 0);
+}
+
+// Nearest table entry, so that the difference of two entries is exact.
+float entryOf(vec4 row, Gathering g, float value)
+{
+  return floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry) + 0.5);
+}
+
+// Accumulates a segment of one tissue, `steps` long and centred at `middle` steps from the light,
+// over which the intensity changes from values.x to values.y. `lit` accumulates the opacity
+// weighted by the light's attenuation. The mean over the intensities in between is a difference of
+// cumulative integrals, over at least one entry.
+void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2 values,
+            inout vec3 color, inout float lit, inout float transmittance)
+{
+  float first = entryOf(row, g, values.x);
+  float last = entryOf(row, g, values.y);
+  if (last == first)
+    last += last > 0.5 * g.lastEntry ? -1.0 : 1.0;
+  vec4 rise = integralAt(material, last) - integralAt(material, first);
+  float run = last - first;
+  float inverse = 1.0 / max(rise.a * run, 1e-24);
+  float opacity = 1.0 - exp2(rise.a * rise.a * inverse * g.exponent * steps);
+  float reached = reaches(g, middle);
+  vec3 shade = clamp(rise.rgb * (run * inverse * g.lamp * reached), 0.0, 1.0);
+  color += transmittance * opacity * shade;
+  lit += transmittance * opacity * reached;
+  transmittance -= transmittance * opacity;
+}
+#endif

@@ -1,0 +1,82 @@
+#include "ClippedRegion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+constexpr double kParallel = 1e-14; // cosine below which a ray is parallel to a face
+constexpr double kInset = 1e-9; // relative to the distance: keeps the ends inside despite rounding
+} // namespace
+
+ClippedRegion::ClippedRegion(const core::GridGeometry& grid,
+                             const std::optional<core::IndexBox>& crop,
+                             const std::vector<ClippingPlane>& planes)
+{
+  const core::IndexBox box = crop ? crop->intersected(grid.fullBox()) : grid.fullBox();
+  for (std::size_t a = 0; a < 3; ++a)
+    m_empty = m_empty || box.upper[a] - box.lower[a] < 2;
+  const Eigen::Vector3d lower(box.lower[0], box.lower[1], box.lower[2]);
+  const Eigen::Vector3d upper(box.upper[0] - 1.0, box.upper[1] - 1.0, box.upper[2] - 1.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Eigen::Vector3d rising = grid.voxelFromPatientLinear().row(axis).transpose();
+    keep(rising, grid.patientFromVoxel(lower));
+    keep(-rising, grid.patientFromVoxel(upper));
+  }
+  for (const ClippingPlane& plane : planes)
+  {
+    if (!plane.point.allFinite() || !(plane.normal.norm() > 0.0) || !plane.normal.allFinite())
+      throw RenderingError(RenderingError::Reason::BadContents,
+                           "picture: a clipping plane needs a point and a normal");
+    keep(plane.normal, plane.point);
+  }
+}
+
+void ClippedRegion::keep(const Eigen::Vector3d& inwards, const Eigen::Vector3d& point)
+{
+  const Eigen::Vector3d unit = inwards.normalized();
+  m_sides.push_back({unit, -unit.dot(point)});
+}
+
+RaySpan ClippedRegion::clip(const PixelRay& ray) const
+{
+  RaySpan span;
+  if (m_empty)
+    return span;
+  span.last = std::numeric_limits<double>::infinity();
+  for (const HalfSpace& side : m_sides)
+  {
+    const double height = side.inwards.dot(ray.origin) + side.offset;
+    const double slope = side.inwards.dot(ray.direction);
+    if (std::abs(slope) < kParallel)
+    {
+      if (height < 0.0)
+        return {};
+      continue;
+    }
+    const double t = -height / slope;
+    if (slope < 0.0)
+      span.last = std::min(span.last, t);
+    else if (t > span.first)
+    {
+      span.first = t;
+      span.face = -side.inwards;
+    }
+  }
+  // Spans thinner than rounding are empty; the inset would reverse their ends.
+  const double inset = kInset * (1.0 + span.last);
+  if (!(span.last - span.first > 2.0 * inset))
+    return {};
+  span.first += inset;
+  span.last -= inset;
+  return span;
+}
+
+} // namespace petrous::rendering

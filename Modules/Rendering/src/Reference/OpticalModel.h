@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "petrous/Appearance/Material.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::rendering
+{
+
+/// The optical model of a ray, shared by the GPU renderer (shaders/RayCast.frag.glsl) and the
+/// reference (ReferenceRayCaster), after [Chan2013, 2.2] and [Chan2016, "Visual rendering"].
+///
+/// At a point x the ray is in one of these states; f is the tissue field of the scene:
+///   air              f <= 0, or outside the hull of the CT's voxel centres, of those in the crop
+///                    box or of a clipping plane; a hull of zero thickness is air
+///   bone             f > 0 and occupancy <= 0.5
+///   structure i      f > 0 and occupancy > 0.5, i = volume::structureAt(x): the label index of the
+///                    voxel nearest to x and, where two structures meet, the one with the greatest
+///                    weight among the eight voxels around x (Volume/LabelBorders.h)
+/// There is a surface where the state changes from air to anything else, or from anything to a
+/// structure; all other changes only change the material. A surface adds its lit colour weighted by
+/// the material's surface opacity; inside tissue the colour and extinction of the material's
+/// transfer function are integrated:
+///   C = sum_surfaces T a_s c_s + integral T sigma(v) c(v) l ds,  T the transmittance so far
+/// A ray ends at opaque polygons; the remaining T weights what is behind.
+///
+/// Surface at x, unit normal n (out of the tissue), from -grad of the deciding operand (c_CT,
+/// occupancy or mask), by central differences over +-1 voxel of its grid; for bone -> structure
+/// that of occupancy; for structure -> structure i that of the depth in i (without borders: of the
+/// fraction that belongs to i), from the 27 voxels around x with quadratic B-spline weights; c_CT
+/// by edgeGradientInPatient if the material's surface opacity is at least kSmoothOpacity:
+///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
+///           of the sampled image
+///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
+///   opacity material.surfaceOpacity
+/// The material is i's from structure to structure i; otherwise structureAt(x)'s where occupancy >
+/// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
+/// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
+/// and v is taken at x itself. A zero gradient (n = 0) faces the camera, as does tissue that
+/// contains the camera. Depth is that of the first surface, whatever its opacity.
+///
+/// Thickness over a structure: if a surface that is not such a face has the material of bone or of
+/// a lumen, and the distance d to the structure there (trilinear, ThicknessOverlay) is below
+/// `farthest`, thicknessColor(d / farthest) replaces the transfer function's colour; light and
+/// highlight stay.
+namespace optics
+{
+
+/// Depth below the surface, in smallest spacings, at which the intensity that colours it is
+/// sampled. Closer to the surface, partial volume with air produces voxel contour lines on smooth
+/// bone.
+constexpr double kColorDepth = 2.0;
+
+/// Effective cosine for all directions inside a scattering tissue (no normal is computed there).
+constexpr double kInteriorFacing = 2.0 / 3.0;
+
+/// Exponent of the highlight of a wet surface.
+constexpr double kWetShininess = 120.0;
+
+constexpr double kOccupancyThreshold = 0.5 - 1e-3;
+
+/// Surface opacity from which slice steps are smoothed when shading the CT's surface. They are less
+/// visible on more transparent surfaces, and a ray meets many of those.
+constexpr double kSmoothOpacity = 0.5;
+
+/// Light arriving at a distance (mm) from the light source at the camera: intensity / (1 + (d /
+/// falloff)^2), or intensity if falloff is 0.
+double lightAt(const LightSettings& light, double distance);
+
+/// light (c (ambient + (1 - ambient) facing) + k_s specular facing^shininess
+///        + wetness facing^kWetShininess), clamped to 0..1; k_s of the transfer function.
+Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
+                             double cosine, const LightSettings& light, double distance);
+
+/// light c (ambient + (1 - ambient) kInteriorFacing), clamped to 0..1.
+Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
+                              double distance);
+
+/// Background; RGB, 0 to 1.
+constexpr double kBackground[3] = {0.105, 0.115, 0.130};
+
+} // namespace optics
+} // namespace petrous::rendering

@@ -1,0 +1,146 @@
+#include "petrous/Rendering/ReferenceRayCaster.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "OpticalModel.h"
+#include "SceneCheck.h"
+#include "SurfaceGeometry.h"
+#include "TissueRay.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+std::uint8_t toByte(double value)
+{
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+}
+
+double checkedStep(const ReferenceRayCaster::Quality& quality)
+{
+  if (!(quality.step > 0.0 && quality.step <= 1.0))
+    throw core::InvalidParameter("reference picture: the step must lie above 0, up to 1 voxel");
+  return quality.step;
+}
+
+} // namespace
+
+class ReferenceRayCaster::Implementation
+{
+public:
+  struct Pixel
+  {
+    Eigen::Vector3d color;
+    double depth;
+  };
+
+  Implementation(const SceneContents& contents, const Quality& quality)
+    : m_shapes(contents)
+  {
+    const double step = checkedStep(quality);
+    checkContents(contents);
+    if (contents.ct)
+      m_tissue.emplace(contents, step);
+  }
+
+  Pixel see(const PixelRay& ray) const;
+
+private:
+  GatheredLight gather(const PixelRay& ray, double end) const;
+
+  SurfaceGeometry m_shapes;
+  std::optional<TissueRay> m_tissue;
+};
+
+GatheredLight ReferenceRayCaster::Implementation::gather(const PixelRay& ray, double end) const
+{
+  return m_tissue ? m_tissue->cast(ray, end) : GatheredLight();
+}
+
+ReferenceRayCaster::Implementation::Pixel
+ReferenceRayCaster::Implementation::see(const PixelRay& ray) const
+{
+  Eigen::Vector3d color = Eigen::Vector3d::Zero();
+  double occupancy = 1.0; // fraction of the pixels not yet covered by a screen door
+  for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
+  {
+    const GatheredLight light = gather(ray, hit.distance);
+    color += occupancy * hit.opacity * (light.color + light.transmittance * hit.color);
+    occupancy *= 1.0 - hit.opacity;
+    if (!(occupancy > 0.0))
+      return {color, light.depth};
+  }
+  const GatheredLight light = gather(ray, std::numeric_limits<double>::infinity());
+  const Eigen::Vector3d background(optics::kBackground[0], optics::kBackground[1],
+                                   optics::kBackground[2]);
+  return {color + occupancy * (light.color + light.transmittance * background), light.depth};
+}
+
+ReferenceRayCaster::ReferenceRayCaster(const SceneContents& contents)
+  : ReferenceRayCaster(contents, Quality())
+{
+}
+
+ReferenceRayCaster::ReferenceRayCaster(const SceneContents& contents, const Quality& quality)
+  : m_implementation(std::make_unique<Implementation>(contents, quality))
+{
+}
+
+ReferenceRayCaster::~ReferenceRayCaster() = default;
+
+ReferencePicture ReferenceRayCaster::render(const core::CameraPose& camera, int width, int height,
+                                            const core::Progress& progress) const
+{
+  if (width < 1 || height < 1)
+    throw RenderingError(RenderingError::Reason::BadSize, "a picture of " + std::to_string(width) +
+                                                              " x " + std::to_string(height) +
+                                                              " pixels; at least 1 x 1 is needed");
+  const PixelRays rays(camera, width, height);
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  ReferencePicture result;
+  result.picture = {width, height, std::vector<std::uint8_t>(3 * pixels)};
+  result.rgb.resize(3 * pixels);
+  result.depth = {width, height, std::vector<float>(pixels)};
+
+  const auto drawPixel = [&](int column, int row)
+  {
+    const std::size_t index = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                              static_cast<std::size_t>(column);
+    const Implementation::Pixel pixel = m_implementation->see(rays.through(column, row));
+    result.depth.millimetres[index] = static_cast<float>(pixel.depth);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      const double value = pixel.color[static_cast<Eigen::Index>(channel)];
+      result.rgb[3 * index + channel] = static_cast<float>(value);
+      result.picture.rgb[3 * index + channel] = toByte(value);
+    }
+  };
+
+  std::atomic<int> done{0};
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, 1),
+                    [&](const tbb::blocked_range<int>& rows)
+                    {
+                      for (int row = rows.begin(); row < rows.end(); ++row)
+                      {
+                        progress.check("reference picture");
+                        for (int column = 0; column < width; ++column)
+                          drawPixel(column, row);
+                        progress.report(static_cast<double>(++done) / height, "reference picture");
+                      }
+                    });
+  return result;
+}
+
+} // namespace petrous::rendering

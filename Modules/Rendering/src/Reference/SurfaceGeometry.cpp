@@ -1,0 +1,145 @@
+#include "SurfaceGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "OpticalModel.h"
+#include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ToolShape.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+using Hit = std::optional<TriangleTree::Hit>;
+
+void takeNearer(Hit& nearest, const Hit& other)
+{
+  if (other && (!nearest || other->distance < nearest->distance))
+    nearest = other;
+}
+
+Hit meetSphere(const PixelRay& ray, const Eigen::Vector3d& center, double radius)
+{
+  const Eigen::Vector3d to = center - ray.origin;
+  const double along = to.dot(ray.direction);
+  const double inside = radius * radius - (to - along * ray.direction).squaredNorm();
+  if (inside < 0.0)
+    return std::nullopt;
+  double t = along - std::sqrt(inside);
+  if (t <= 0.0)
+    t = along + std::sqrt(inside);
+  if (t <= 0.0)
+    return std::nullopt;
+  return TriangleTree::Hit{t, (t * ray.direction - to) / radius};
+}
+
+// A capped cylinder from `base` along the unit axis.
+Hit meetCylinder(const PixelRay& ray, const Eigen::Vector3d& base, const Eigen::Vector3d& axis,
+                 double length, double radius)
+{
+  Hit nearest;
+  const Eigen::Vector3d from = ray.origin - base;
+  const double rise = ray.direction.dot(axis);
+  const double height = from.dot(axis);
+  const Eigen::Vector3d across = ray.direction - rise * axis;
+  const Eigen::Vector3d aside = from - height * axis;
+  const auto offer = [&](double t, const Eigen::Vector3d& normal)
+  {
+    if (t > 0.0 && std::isfinite(t))
+      takeNearer(nearest, TriangleTree::Hit{t, normal});
+  };
+  const double a = across.squaredNorm();
+  const double b = across.dot(aside);
+  const double inside = b * b - a * (aside.squaredNorm() - radius * radius);
+  if (a > 0.0 && inside >= 0.0)
+    for (const double root : {-std::sqrt(inside), std::sqrt(inside)})
+    {
+      const double t = (-b + root) / a;
+      if (height + t * rise >= 0.0 && height + t * rise <= length)
+        offer(t, (aside + t * across) / radius);
+    }
+  if (rise != 0.0)
+    for (const double end : {0.0, length})
+    {
+      const double t = (end - height) / rise;
+      if ((aside + t * across).norm() <= radius)
+        offer(t, axis);
+    }
+  return nearest;
+}
+
+Eigen::Vector3d lit(const Eigen::Vector3d& color, const TriangleTree::Hit& hit, const PixelRay& ray,
+                    const LightSettings& light)
+{
+  return optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0}, light.shininess,
+                              hit.normal.dot(ray.direction), light, hit.distance);
+}
+
+void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ray,
+             std::vector<SurfaceGeometry::Hit>& hits)
+{
+  LightSettings light = lamp;
+  light.intensity = 1.0;
+  light.ambient = tool::kAmbient;
+  light.specular = tool::kSpecular;
+  light.shininess = tool::kShininess;
+  const Eigen::Vector3d axis = tool.axisToHand.normalized();
+  const auto add = [&](const Hit& hit, const std::array<double, 3>& color)
+  {
+    if (hit)
+      hits.push_back({hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, light), 1.0});
+  };
+  add(meetSphere(ray, tool.center, tool.radius),
+      tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
+  add(meetCylinder(ray, tool.center, axis, tool::kShaftLength, tool::shaftRadius(tool)),
+      tool::kShaftColor);
+  if (tool.handpiece)
+    add(meetCylinder(ray, tool.center + tool::kShaftLength * axis, axis, tool::kHandpieceLength,
+                     tool::kHandpieceRadius),
+        tool::kHandpieceColor);
+}
+
+} // namespace
+
+SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
+  : m_light(contents.light)
+{
+  for (const MeshContents& mesh : contents.meshes)
+  {
+    if (!mesh.mesh)
+      throw RenderingError(RenderingError::Reason::BadContents,
+                           "picture: mesh " + mesh.name + " has no triangles");
+    if (mesh.look.shown && mesh.look.opacity > 0.0F)
+      m_meshes.push_back({TriangleTree(mesh.mesh), mesh.look});
+  }
+  if (contents.tool && tool::isShown(*contents.tool))
+    m_tool = contents.tool;
+}
+
+std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray) const
+{
+  std::vector<Hit> hits;
+  for (const Mesh& mesh : m_meshes)
+    if (const auto hit = mesh.tree.first(ray))
+    {
+      const auto& color = mesh.look.color;
+      hits.push_back({hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, m_light),
+                      std::min(static_cast<double>(mesh.look.opacity), 1.0)});
+    }
+  if (m_tool)
+    addTool(*m_tool, m_light, ray, hits);
+  std::sort(hits.begin(), hits.end(),
+            [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+  const auto solid =
+      std::find_if(hits.begin(), hits.end(), [](const Hit& hit) { return hit.opacity >= 1.0; });
+  if (solid != hits.end())
+    hits.erase(solid + 1, hits.end());
+  return hits;
+}
+
+} // namespace petrous::rendering

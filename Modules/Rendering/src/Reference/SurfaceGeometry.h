@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "TriangleTree.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::rendering
+{
+
+/// Ray intersection with the meshes and the tool of a scene, shaded as tissue surfaces; the tool
+/// has its own highlight.
+class SurfaceGeometry
+{
+public:
+  struct Hit
+  {
+    double distance = 0.0; ///< mm along the ray
+    Eigen::Vector3d color; ///< lit, RGB
+    double opacity = 1.0;  ///< fraction of pixels that a translucent mesh covers (screen door)
+  };
+
+  /// Throws RenderingError BadContents for a mesh without triangles, InvalidParameter for an
+  /// inconsistent one.
+  explicit SurfaceGeometry(const SceneContents& contents);
+
+  /// Nearest first, at most one hit per mesh, up to and including the first opaque one.
+  std::vector<Hit> along(const PixelRay& ray) const;
+
+private:
+  struct Mesh
+  {
+    TriangleTree tree;
+    appearance::StructureAppearance look;
+  };
+
+  std::vector<Mesh> m_meshes;
+  std::optional<ToolPose> m_tool;
+  LightSettings m_light;
+};
+
+} // namespace petrous::rendering

@@ -1,0 +1,221 @@
+#include "TissueOptics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "SceneCheck.h"
+#include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ThicknessColor.h"
+#include "petrous/Volume/Sampling.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+constexpr double kScale = 1000.0; // HU; only the unit of f
+constexpr double kNoBone = 1e300; // HU; iso value above all bone
+
+const SceneContents& checked(const SceneContents& contents)
+{
+  if (!contents.ct)
+    throw RenderingError(RenderingError::Reason::BadContents, "picture: there is no CT");
+  checkContents(contents);
+  checkMaterials(contents);
+  return contents;
+}
+
+volume::TissueField makeField(const SceneContents& contents)
+{
+  std::vector<volume::TissueField::SolidUnion> solids;
+  if (contents.labels)
+    solids.push_back(contents.labels->occupancy);
+  return {contents.ct,
+          std::move(solids),
+          contents.mask,
+          {contents.boneShown ? contents.iso : kNoBone, kScale}};
+}
+
+} // namespace
+
+TissueOptics::TissueOptics(const SceneContents& contents)
+  : m_ct(checked(contents).ct)
+  , m_occupancy(contents.labels ? contents.labels->occupancy : nullptr)
+  , m_index(contents.labels ? contents.labels->index : nullptr)
+  , m_borders(contents.labels ? contents.labels->borders : nullptr)
+  , m_second(contents.second)
+  , m_materials(contents.materials)
+  , m_light(contents.light)
+  , m_thickness(contents.thickness)
+  , m_field(makeField(contents))
+{
+  if (m_materials.empty())
+    m_materials.emplace_back();
+}
+
+double TissueOptics::occupancyAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_occupancy)
+    return 0.0;
+  const Eigen::Vector3d voxel = m_occupancy->geometry().voxelFromPatient(patient);
+  return m_occupancy->geometry().hullContains(voxel) ? volume::sampleTrilinear(*m_occupancy, voxel)
+                                                     : 0.0;
+}
+
+std::size_t TissueOptics::indexAt(const Eigen::Vector3d& patient) const
+{
+  return m_index ? indexOfVoxel(m_index->geometry().voxelFromPatient(patient)) : 0;
+}
+
+// Of the voxel nearest to a position; 0 outside the grid.
+std::size_t TissueOptics::indexOfVoxel(const Eigen::Vector3d& voxel) const
+{
+  core::Index3 nearest{};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double rounded = std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5);
+    if (!(rounded >= 0.0 && rounded < m_index->geometry().dims()[a]))
+      return 0;
+    nearest[a] = static_cast<int>(rounded);
+  }
+  return m_index->at(nearest[0], nearest[1], nearest[2]);
+}
+
+// Depth of a voxel in a structure, negative in another one; without borders 1 or 0.
+double TissueOptics::depthIn(std::size_t index, const Eigen::Vector3d& voxel) const
+{
+  const bool inside = indexOfVoxel(voxel) == index;
+  if (!m_borders)
+    return inside ? 1.0 : 0.0;
+  const core::Index3 at{static_cast<int>(voxel[0]), static_cast<int>(voxel[1]),
+                        static_cast<int>(voxel[2])};
+  if (!m_borders->geometry().fullBox().contains(at))
+    return 0.0;
+  const double depth = m_borders->at(at[0], at[1], at[2]) & volume::kDeepest;
+  return inside ? depth : -depth;
+}
+
+// Only inside structures.
+volume::StructureChoice TissueOptics::structureAt(const Eigen::Vector3d& patient) const
+{
+  return m_index ? volume::structureAt(*m_index, m_borders.get(),
+                                       m_index->geometry().voxelFromPatient(patient))
+                 : volume::StructureChoice();
+}
+
+TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
+{
+  const double f = m_field.value(patient);
+  if (!(f > 0.0))
+    return {kAir, -f};
+  const double inside = occupancyAt(patient) - 0.5;
+  if (inside > 0.0)
+  {
+    const volume::StructureChoice structure = structureAt(patient);
+    return {kBone + 1 + static_cast<State>(structure.index),
+            std::min({f, inside, structure.margin})};
+  }
+  return {kBone, std::min(f, -inside)};
+}
+
+bool TissueOptics::isSurface(State from, State to)
+{
+  return from != to && to != kAir && (from == kAir || to > kBone);
+}
+
+const appearance::Material& TissueOptics::materialOf(State state) const
+{
+  return m_materials[state == kBone ? 0 : static_cast<std::size_t>(state - kBone - 1)];
+}
+
+const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d& patient) const
+{
+  if (occupancyAt(patient) > optics::kOccupancyThreshold)
+    return m_materials[structureAt(patient).index];
+  const appearance::Material& material = m_materials[indexAt(patient)];
+  return material.lumen ? material : m_materials.front();
+}
+
+double TissueOptics::intensity(const appearance::Material& material,
+                               const Eigen::Vector3d& patient) const
+{
+  if (material.source == appearance::IntensitySource::Second)
+    return m_second.volume->sample(
+        m_second.volume->geometry().voxelFromPatient(m_second.secondFromCt * patient));
+  return m_ct->sample(m_ct->geometry().voxelFromPatient(patient));
+}
+
+Eigen::Vector3d TissueOptics::occupancyNormal(const Eigen::Vector3d& patient) const
+{
+  const Eigen::Vector3d voxel = m_occupancy->geometry().voxelFromPatient(patient);
+  const Eigen::Vector3d slope = volume::sampleGradient(*m_occupancy, voxel, 1.0);
+  return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
+}
+
+// Out of a structure: along the negative gradient of the depth in it (without borders, of its
+// fraction of the neighbourhood), with quadratic B-spline weights.
+Eigen::Vector3d TissueOptics::borderNormal(const Eigen::Vector3d& patient, std::size_t index) const
+{
+  const core::GridGeometry& grid = m_index->geometry();
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  const Eigen::Vector3d nearest = (voxel.array() + 0.5).floor();
+  const Eigen::Vector3d d = voxel - nearest;
+  const auto weight = [&d](int axis, int step)
+  { return step == 0 ? 0.75 - d[axis] * d[axis] : 0.5 * std::pow(0.5 + step * d[axis], 2.0); };
+  const auto change = [&d](int axis, int step)
+  { return step == 0 ? -2.0 * d[axis] : step * (0.5 + step * d[axis]); };
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // per voxel
+  for (int k = -1; k <= 1; ++k)
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        slope += depthIn(index, nearest + Eigen::Vector3d(i, j, k)) *
+                 Eigen::Vector3d(change(0, i) * weight(1, j) * weight(2, k),
+                                 weight(0, i) * change(1, j) * weight(2, k),
+                                 weight(0, i) * weight(1, j) * change(2, k));
+  slope = grid.voxelFromPatientLinear().transpose() * slope;
+  return slope.norm() > 1e-12 ? (-slope.normalized()).eval() : Eigen::Vector3d::Zero().eval();
+}
+
+// The colour that replaces bone's own.
+std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector3d& patient) const
+{
+  if (!m_thickness.distance)
+    return std::nullopt;
+  const core::GridGeometry& grid = m_thickness.distance->geometry();
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  if (!grid.hullContains(voxel))
+    return std::nullopt;
+  const double fraction =
+      volume::sampleTrilinear(*m_thickness.distance, voxel) / m_thickness.farthest;
+  return fraction < 1.0 ? std::optional(thicknessColor(fraction)) : std::nullopt;
+}
+
+TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
+                                              const std::optional<Eigen::Vector3d>& face) const
+{
+  const Eigen::Vector3d point = ray.origin + t * ray.direction;
+  const bool between = from > kBone && to > kBone;
+  const appearance::Material& material = between ? materialOf(to) : surfaceMaterial(point);
+  Eigen::Vector3d normal;
+  Eigen::Vector3d below = point;
+  if (face)
+    normal = *face;
+  else
+  {
+    const bool smooth = double{material.surfaceOpacity} >= optics::kSmoothOpacity;
+    normal = between ? borderNormal(point, static_cast<std::size_t>(to - kBone - 1))
+             : from == kBone && to > kBone ? occupancyNormal(point)
+             : smooth                      ? m_field.smoothNormal(point)
+                                           : m_field.normal(point);
+    below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;
+  }
+  const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
+  auto look = material.transfer.at(intensity(material, below));
+  if (!face && (&material == &m_materials.front() || material.lumen))
+    look.color = overlayAt(point).value_or(look.color);
+  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t),
+          material.surfaceOpacity};
+}
+
+} // namespace petrous::rendering

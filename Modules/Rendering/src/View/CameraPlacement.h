@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "RayView.h"
+#include "petrous/Core/CameraPose.h"
+
+class vtkCamera;
+class vtkMatrix4x4;
+class vtkRenderer;
+
+namespace petrous::rendering
+{
+
+/// Sets VTK's camera from a pose, except for the lens shift.
+void aimCamera(vtkCamera* camera, const core::CameraPose& pose);
+
+/// Sets the lens shift of the renderer's camera; to be repeated when the aspect ratio changes.
+void shiftLens(vtkRenderer* renderer, const core::CameraPose& pose);
+
+/// The camera's rays for a picture of `aspect` (width / height), with the given pose of the patient
+/// in the world.
+RayView raysOf(vtkCamera* camera, double aspect, const Eigen::Matrix4d& worldFromPatient);
+
+Eigen::Matrix4d toEigen(vtkMatrix4x4* matrix);
+
+} // namespace petrous::rendering

@@ -1,0 +1,382 @@
+#include "petrous/Rendering/ScenePicture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCullerCollection.h>
+#include <vtkLight.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkVolume.h>
+#include <vtkWeakPointer.h>
+
+#include "CameraPlacement.h"
+#include "FrameTimer.h"
+#include "OpticalModel.h"
+#include "SceneCheck.h"
+#include "ShadedMesh.h"
+#include "SurfaceActor.h"
+#include "ToolProps.h"
+#include "petrous/Rendering/InteractionQuality.h"
+#include "petrous/Rendering/ReferenceRayCaster.h"
+#include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/VolumeMapper.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+
+void check(const SceneContents& contents)
+{
+  checkContents(contents);
+  checkPlaneCount(contents);
+  for (const MeshContents& mesh : contents.meshes)
+  {
+    if (!mesh.mesh)
+      throw RenderingError(RenderingError::Reason::BadContents,
+                           "picture: mesh " + mesh.name + " has no triangles");
+    mesh.mesh->validate();
+  }
+}
+
+struct MeshActor
+{
+  std::string name;
+  std::shared_ptr<const core::TriangleMesh> mesh;
+  std::size_t bytes = 0;
+  SurfaceActor actor;
+
+  MeshActor(const MeshContents& contents, int pattern)
+    : name(contents.name)
+    , mesh(contents.mesh)
+    , actor(pattern)
+  {
+    const auto surface = toPolyData(*mesh, vertexNormals(*mesh));
+    bytes = static_cast<std::size_t>(surface->GetActualMemorySize()) * 1024;
+    actor.setSurface(surface);
+  }
+};
+
+} // namespace
+
+class ScenePicture::Implementation
+{
+public:
+  Implementation();
+  ~Implementation();
+
+  void attach(vtkRenderer* renderer);
+  void setMeshes(const SceneContents& contents);
+  void setVolume(const SceneContents& contents);
+  void applyCamera();
+  void startFrame();
+  void endFrame();
+
+  vtkWeakPointer<vtkRenderer> renderer;
+  core::CameraPose pose;
+  std::shared_ptr<const volume::LabelField> labels; // whose indices were checked to have materials
+  std::size_t materials = 0;
+  vtkNew<vtkPetrousVolumeMapper> mapper;
+  vtkNew<vtkVolume> volume;
+  RenderQuality quality;
+  RenderQuality drawn; // of the last frame
+  InteractionQuality interaction;
+  bool interactive = false;
+  double milliseconds = 0.0; // of the latest frame with a known time
+  std::vector<std::unique_ptr<MeshActor>> meshes;
+  ToolProps tool;
+
+private:
+  template <class Visit>
+  void forEachProp(const Visit& visit);
+
+  vtkNew<vtkLight> m_lamp;
+  vtkNew<vtkCallbackCommand> m_onStart;
+  vtkNew<vtkCallbackCommand> m_onEnd;
+  unsigned long m_startObserver = 0;
+  unsigned long m_endObserver = 0;
+  FrameTimer m_timer;
+};
+
+ScenePicture::Implementation::Implementation()
+{
+  m_lamp->SetLightTypeToCameraLight(); // at the camera
+  m_lamp->SetConeAngle(180.0);         // omnidirectional
+  m_onStart->SetClientData(this);
+  m_onStart->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                         { static_cast<Implementation*>(self)->startFrame(); });
+  m_onEnd->SetClientData(this);
+  m_onEnd->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                       { static_cast<Implementation*>(self)->endFrame(); });
+  volume->SetMapper(mapper);
+  volume->PickableOff();
+}
+
+void ScenePicture::Implementation::startFrame()
+{
+  // The clipping range follows the props, whoever moved them or the camera.
+  renderer->ResetCameraClippingRange();
+  shiftLens(renderer, pose);
+  drawn = interactive ? interaction.coarser(quality) : quality;
+  mapper->SetQuality(drawn);
+  // The light is at the camera, as in the ray caster; a parallel projection has no such position.
+  m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
+  m_timer.begin();
+}
+
+void ScenePicture::Implementation::endFrame()
+{
+  m_timer.end(drawn);
+  // Also at rest, so that the first interactive frame is not slower than the others.
+  if (const auto frame = m_timer.take())
+  {
+    milliseconds = frame->milliseconds;
+    interaction.frameTook(frame->milliseconds, frame->quality);
+  }
+}
+
+void ScenePicture::Implementation::setVolume(const SceneContents& contents)
+{
+  if (contents.labels && (contents.labels != labels || contents.materials.size() != materials))
+    checkMaterials(contents);
+  labels = contents.labels;
+  materials = contents.materials.size();
+  const double falloff = contents.light.falloff;
+  m_lamp->SetAttenuationValues(1.0, 0.0, falloff > 0.0 ? 1.0 / (falloff * falloff) : 0.0);
+  mapper->SetContents(contents);
+  volume->SetVisibility(mapper->GetTotalNumberOfInputConnections() > 0 ? 1 : 0);
+}
+
+ScenePicture::Implementation::~Implementation()
+{
+  attach(nullptr);
+}
+
+template <class Visit>
+void ScenePicture::Implementation::forEachProp(const Visit& visit)
+{
+  visit(volume);
+  for (const auto& mesh : meshes)
+    visit(mesh->actor.prop());
+}
+
+void ScenePicture::Implementation::attach(vtkRenderer* next)
+{
+  if (renderer)
+  {
+    vtkRenderer* last = renderer;
+    vtkRenderWindow* window = last->GetRenderWindow();
+    const bool wasCurrent = window && window->IsCurrent();
+    forEachProp(
+        [last, window](vtkProp* prop)
+        {
+          last->RemoveViewProp(prop);
+          if (window)
+            prop->ReleaseGraphicsResources(window);
+        });
+    if (window && m_timer.holdsQueries())
+    {
+      window->MakeCurrent();
+      m_timer.release();
+    }
+    m_timer = FrameTimer(); // the next context may use another driver
+    tool.removeFrom(last);
+    last->RemoveLight(m_lamp);
+    last->RemoveObserver(m_startObserver);
+    last->RemoveObserver(m_endObserver);
+    if (window && !wasCurrent)
+      window->ReleaseCurrent(); // made current by releasing the textures
+  }
+  renderer = next;
+  if (!next)
+    return;
+  next->SetBackground(optics::kBackground[0], optics::kBackground[1], optics::kBackground[2]);
+  next->GradientBackgroundOff();
+  next->AutomaticLightCreationOff();
+  next->RemoveAllLights();
+  next->AddLight(m_lamp);
+  next->SetTwoSidedLighting(1);
+  // A culled volume must still be drawn; otherwise its depth would be that of an earlier frame.
+  next->GetCullers()->RemoveAllItems();
+  forEachProp([next](vtkProp* prop) { next->AddViewProp(prop); });
+  tool.addTo(next);
+  m_startObserver = next->AddObserver(vtkCommand::StartEvent, m_onStart);
+  m_endObserver = next->AddObserver(vtkCommand::EndEvent, m_onEnd);
+  applyCamera();
+}
+
+void ScenePicture::Implementation::applyCamera()
+{
+  if (!renderer)
+    return;
+  aimCamera(renderer->GetActiveCamera(), pose);
+}
+
+void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
+{
+  std::vector<std::unique_ptr<MeshActor>> next;
+  int pattern = 0;
+  for (const MeshContents& wanted : contents.meshes)
+  {
+    const auto found =
+        std::find_if(meshes.begin(), meshes.end(),
+                     [&wanted](const std::unique_ptr<MeshActor>& old)
+                     { return old && old->mesh == wanted.mesh && old->name == wanted.name; });
+    std::unique_ptr<MeshActor> actor;
+    if (found != meshes.end())
+      actor = std::move(*found);
+    else
+    {
+      actor = std::make_unique<MeshActor>(wanted, pattern);
+      if (renderer)
+        renderer->AddViewProp(actor->actor.prop());
+    }
+    ++pattern;
+    appearance::StructureAppearance look = wanted.look;
+    actor->actor.setLook(look, contents.light);
+    next.push_back(std::move(actor));
+  }
+  if (renderer)
+    for (const auto& old : meshes)
+      if (old)
+        renderer->RemoveViewProp(old->actor.prop());
+  meshes = std::move(next);
+}
+
+ScenePicture::ScenePicture()
+  : m_implementation(std::make_unique<Implementation>())
+{
+}
+
+ScenePicture::~ScenePicture() = default;
+
+void ScenePicture::attach(vtkRenderer* renderer)
+{
+  if (m_implementation->renderer)
+    m_implementation->pose = camera();
+  m_implementation->attach(renderer);
+}
+
+vtkRenderer* ScenePicture::renderer() const
+{
+  return m_implementation->renderer;
+}
+
+void ScenePicture::setContents(const SceneContents& contents)
+{
+  check(contents);
+  m_implementation->setVolume(contents);
+  m_implementation->setMeshes(contents);
+  setTool(contents.tool);
+}
+
+void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
+                               const core::IndexBox& box)
+{
+  m_implementation->mapper->MaskChanged(std::move(mask), box);
+}
+
+void ScenePicture::setTool(const std::optional<ToolPose>& tool)
+{
+  m_implementation->mapper->ExpectCut(tool.has_value());
+  m_implementation->tool.setPose(tool);
+}
+
+void ScenePicture::setCamera(const core::CameraPose& pose)
+{
+  m_implementation->pose = pose;
+  m_implementation->applyCamera();
+}
+
+core::CameraPose ScenePicture::camera() const
+{
+  core::CameraPose pose = m_implementation->pose;
+  if (!m_implementation->renderer)
+    return pose;
+  vtkCamera* camera = m_implementation->renderer->GetActiveCamera();
+  camera->GetPosition(pose.position.data());
+  camera->GetFocalPoint(pose.focalPoint.data());
+  camera->GetViewUp(pose.viewUp.data());
+  pose.viewAngle = camera->GetViewAngle();
+  pose.parallelScale.reset();
+  if (camera->GetParallelProjection())
+    pose.parallelScale = camera->GetParallelScale();
+  return pose;
+}
+
+void ScenePicture::setInteractive(bool interactive)
+{
+  m_implementation->interactive = interactive;
+}
+
+void ScenePicture::setInteractionRate(double hz)
+{
+  m_implementation->interaction = InteractionQuality(hz);
+}
+
+void ScenePicture::setQuality(const RenderQuality& quality)
+{
+  quality.validate();
+  m_implementation->quality = quality;
+}
+
+const RenderQuality& ScenePicture::quality() const
+{
+  return m_implementation->quality;
+}
+
+void ScenePicture::setCounting(bool counting)
+{
+  m_implementation->mapper->SetCounting(counting);
+}
+
+const RenderStatistics& ScenePicture::statistics() const
+{
+  return m_implementation->mapper->GetStatistics();
+}
+
+double ScenePicture::frameMilliseconds() const
+{
+  return m_implementation->milliseconds;
+}
+
+void ScenePicture::throwLastError()
+{
+  if (const std::exception_ptr error = m_implementation->mapper->TakeError())
+    std::rethrow_exception(error);
+}
+
+DepthImage ScenePicture::depth() const
+{
+  return m_implementation->mapper->GetDepth();
+}
+
+std::optional<Eigen::Vector3d> ScenePicture::pick(double column, double row) const
+{
+  if (!m_implementation->renderer)
+    return std::nullopt;
+  const double distance = static_cast<double>(m_implementation->mapper->GetDepthAt(column, row));
+  if (std::isnan(distance))
+    return std::nullopt;
+  const int* size = m_implementation->renderer->GetSize();
+  const PixelRay ray = PixelRays(camera(), size[0], size[1]).through(column, row);
+  return ray.origin + distance * ray.direction;
+}
+
+std::map<std::string, std::size_t> ScenePicture::resources() const
+{
+  std::map<std::string, std::size_t> resources = statistics().resources;
+  for (const auto& mesh : m_implementation->meshes)
+    resources["meshes." + mesh->name] = mesh->bytes;
+  return resources;
+}
+
+} // namespace petrous::rendering

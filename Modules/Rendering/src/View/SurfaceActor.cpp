@@ -1,0 +1,129 @@
+#include "SurfaceActor.h"
+
+#include <Eigen/Geometry>
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkShaderProperty.h>
+#include <vtkUniforms.h>
+
+#include "ScreenDoorShader.h"
+
+namespace petrous::rendering
+{
+
+namespace
+{
+// VTK's highlight falls off as cos(2a)^n, a being the angle between normal and view direction. For
+// small angles this equals the optical model's cos(a)^n with a quarter of the exponent.
+constexpr double kHighlight = 0.25;
+} // namespace
+
+vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
+                                        const std::vector<Eigen::Vector3f>& normals)
+{
+  const auto count = static_cast<vtkIdType>(mesh.vertices.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkFloatArray> directions;
+  directions->SetName("Normals");
+  directions->SetNumberOfComponents(3);
+  directions->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const auto v = static_cast<std::size_t>(i);
+    points->SetPoint(i, mesh.vertices[v].cast<double>().eval().data());
+    directions->SetTypedTuple(i, normals[v].data());
+  }
+  vtkNew<vtkIdTypeArray> connectivity;
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(3 * mesh.triangles.size()));
+  vtkIdType* corner = connectivity->GetPointer(0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t vertex : triangle)
+      *corner++ = vertex;
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(3, connectivity);
+
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(points);
+  surface->SetPolys(cells);
+  surface->GetPointData()->SetNormals(directions);
+  return surface;
+}
+
+std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh)
+{
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
+    const Eigen::Vector3f twiceArea =
+        (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+    for (const std::uint32_t vertex : triangle)
+      normals[vertex] += twiceArea;
+  }
+  for (Eigen::Vector3f& normal : normals)
+    if (normal.squaredNorm() > 0.0F)
+      normal.normalize();
+  return normals;
+}
+
+SurfaceActor::SurfaceActor(int pattern)
+  : m_pattern(pattern)
+{
+  m_mapper->ScalarVisibilityOff();
+  m_actor->SetMapper(m_mapper);
+  m_actor->SetVisibility(0);
+}
+
+SurfaceActor::~SurfaceActor() = default;
+
+vtkActor* SurfaceActor::prop() const
+{
+  return m_actor;
+}
+
+void SurfaceActor::setSurface(vtkPolyData* surface)
+{
+  m_mapper->SetInputData(surface);
+}
+
+void SurfaceActor::setLook(const appearance::StructureAppearance& look, const LightSettings& light)
+{
+  m_actor->SetVisibility(look.shown && look.opacity > 0.0F ? 1 : 0);
+  vtkProperty* property = m_actor->GetProperty();
+  property->SetColor(look.color[0], look.color[1], look.color[2]);
+  property->SetInterpolationToPhong();
+  property->SetAmbient(light.ambient * light.intensity);
+  property->SetDiffuse((1.0 - light.ambient) * light.intensity);
+  property->SetSpecular(light.specular * light.intensity);
+  property->SetSpecularPower(kHighlight * light.shininess);
+
+  const bool wantsPattern = look.opacity < 1.0F;
+  vtkShaderProperty* shader = m_actor->GetShaderProperty();
+  if (wantsPattern != m_hasPattern)
+  {
+    m_hasPattern = wantsPattern;
+    shader->ClearAllFragmentShaderReplacements();
+    shader->GetFragmentCustomUniforms()->RemoveAllUniforms();
+    if (wantsPattern)
+      shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+                                           "//VTK::Light::Impl\n" + std::string(kScreenDoorShader),
+                                           false);
+  }
+  if (wantsPattern)
+  {
+    shader->GetFragmentCustomUniforms()->SetUniformf("p_opacity", look.opacity);
+    shader->GetFragmentCustomUniforms()->SetUniformi("p_shift", 5 * m_pattern);
+  }
+}
+
+} // namespace petrous::rendering

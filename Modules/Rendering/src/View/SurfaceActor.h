@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include "petrous/Core/TriangleMesh.h"
+#include "petrous/Rendering/SceneContents.h"
+
+class vtkActor;
+class vtkPolyData;
+class vtkPolyDataMapper;
+
+namespace petrous::rendering
+{
+
+/// Triangles with vertex normals of any orientation.
+vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
+                                        const std::vector<Eigen::Vector3f>& normals);
+
+/// Area-weighted vertex normals.
+std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh);
+
+/// A surface shaded like bone, with screen-door transparency.
+class SurfaceActor
+{
+public:
+  /// `pattern` offsets the screen door, so that neighbours in a list do not share it.
+  explicit SurfaceActor(int pattern);
+  ~SurfaceActor();
+
+  vtkActor* prop() const;
+  void setSurface(vtkPolyData* surface);
+  void setLook(const appearance::StructureAppearance& look, const LightSettings& light);
+
+private:
+  int m_pattern;
+  bool m_hasPattern = false;
+  vtkNew<vtkPolyDataMapper> m_mapper;
+  vtkNew<vtkActor> m_actor;
+};
+
+} // namespace petrous::rendering

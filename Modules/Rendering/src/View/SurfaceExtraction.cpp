@@ -1,0 +1,66 @@
+#include "petrous/Rendering/SurfaceExtraction.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "IsoTriangles.h"
+
+namespace petrous::rendering
+{
+
+core::TriangleMesh extractSurface(const volume::TissueField& field, const core::IndexBox& box,
+                                  const core::Progress& progress)
+{
+  const core::GridGeometry& grid = field.geometry();
+  const core::IndexBox inside = box.intersected(grid.fullBox());
+  if (inside.empty())
+    return {};
+  // A surrounding layer of air closes the surface at the box. Its value is so far below 0 that the
+  // surface stays within a thousandth of a voxel of the border.
+  constexpr float air = -1000.0F;
+  const core::Index3 size = inside.size();
+  const core::GridGeometry padded(
+      {size[0] + 2, size[1] + 2, size[2] + 2}, grid.spacing(),
+      grid.patientFromVoxel(
+          Eigen::Vector3d(inside.lower[0] - 1, inside.lower[1] - 1, inside.lower[2] - 1)),
+      grid.direction());
+  volume::Volume<float> samples(padded, air);
+
+  // The outermost voxel centres lie on the hull's border, where rounding decides between f and air;
+  // they are sampled a millionth of a voxel further inside.
+  const auto sampleAt = [&](const core::Index3& index)
+  {
+    Eigen::Vector3d voxel;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const double last = grid.dims()[a] - 1.0;
+      const double in = std::min(1e-6, 0.5 * last);
+      voxel[static_cast<Eigen::Index>(a)] =
+          std::clamp(static_cast<double>(index[a]), in, last - in);
+    }
+    return static_cast<float>(field.value(grid.patientFromVoxel(voxel)));
+  };
+
+  std::atomic<int> done{0};
+  tbb::parallel_for(tbb::blocked_range<int>(0, size[2], 1),
+                    [&](const tbb::blocked_range<int>& range)
+                    {
+                      for (int k = range.begin(); k < range.end(); ++k)
+                      {
+                        progress.check("surface");
+                        for (int j = 0; j < size[1]; ++j)
+                          for (int i = 0; i < size[0]; ++i)
+                            samples.at(i + 1, j + 1, k + 1) = sampleAt(
+                                {inside.lower[0] + i, inside.lower[1] + j, inside.lower[2] + k});
+                        progress.report(0.8 * ++done / size[2], "surface");
+                      }
+                    });
+  core::TriangleMesh mesh = isoTriangles(samples);
+  progress.report(1.0, "surface");
+  return mesh;
+}
+
+} // namespace petrous::rendering

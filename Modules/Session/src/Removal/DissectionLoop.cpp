@@ -1,0 +1,221 @@
+#include "petrous/Session/DissectionLoop.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace petrous::session
+{
+
+namespace
+{
+
+// After a stall a tick must not remove for the time without drilling.
+constexpr double kMaxTick = 0.01; // s
+
+bool together(const TickRecord& record, const TickRecord& next)
+{
+  return next.drill && next.thrust > 0.0 &&
+         (next.proxy.pose().position - record.proxy.pose().position).norm() <=
+             DissectionLoop::kTogether;
+}
+
+} // namespace
+
+DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
+                               RemovalModel& removalModel, dissection::ProtectedTissue keep,
+                               Hooks hooks)
+  : m_dissection(dissection)
+  , m_mask(mask)
+  , m_removalModel(removalModel)
+  , m_keep(std::move(keep))
+  , m_hooks(std::move(hooks))
+{
+}
+
+double DissectionLoop::secondsOf(const TickRecord& record)
+{
+  const double past = m_hasTime ? record.time() - m_time : 0.0;
+  m_time = record.time();
+  m_hasTime = true;
+  return past > 0.0 ? std::min(past, kMaxTick) : 0.0; // 0 for NaN
+}
+
+// Opens and closes strokes as the drill is switched; returns whether it is on.
+bool DissectionLoop::follow(const TickRecord& record)
+{
+  const bool drill = record.drill && record.time() > m_ignoreUntil;
+  if (drill)
+    open();
+  else
+  {
+    m_removalModel.release();
+    endStroke();
+  }
+  return drill;
+}
+
+void DissectionLoop::open()
+{
+  if (m_dissection.strokeOpen())
+    return;
+  m_dissection.beginStroke(m_hooks.begin ? m_hooks.begin() : dissection::StrokeInfo());
+  notify({MaskEdit::Kind::Begin});
+}
+
+// The state number is known after publishing.
+void DissectionLoop::notify(MaskEdit edit) const
+{
+  edit.state = m_mask.number();
+  if (m_hooks.edited)
+    m_hooks.edited(edit);
+}
+
+bool DissectionLoop::cut(const dissection::SweptSphere& burr)
+{
+  try
+  {
+    if (!m_dissection.cut(burr, m_keep))
+      return false;
+  }
+  catch (...)
+  {
+    putBack();
+    throw;
+  }
+  ++m_cuts;
+  publish(false);
+  MaskEdit edit{MaskEdit::Kind::Cut};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    edit.from[axis] = burr.from[axis];
+    edit.to[axis] = burr.to[axis];
+  }
+  edit.radius = burr.radius;
+  notify(edit);
+  return true;
+}
+
+// Restores what an incomplete cut has changed, which no stroke would list.
+void DissectionLoop::putBack()
+{
+  volume::CutMask& mask = m_dissection.mask();
+  for (const std::size_t brick : mask.takeDirty())
+    mask.setBrick(brick, m_mask.brick(brick));
+  mask.takeDirty();
+}
+
+void DissectionLoop::publish(bool raised)
+{
+  const std::vector<std::size_t> bricks = m_dissection.mask().takeDirty();
+  m_mask.publish(m_dissection.mask(), bricks, raised);
+  if (m_hooks.changed && !bricks.empty())
+    m_hooks.changed(bricks);
+}
+
+bool DissectionLoop::step(const TickRecord& record)
+{
+  return step(&record, 1);
+}
+
+bool DissectionLoop::step(const TickRecord* records, std::size_t count)
+{
+  bool any = false;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const TickRecord& record = records[n];
+    const double seconds = secondsOf(record);
+    if (!follow(record))
+      continue;
+    m_dissection.openInfo().duration += seconds;
+    if (!(record.thrust > 0.0))
+    {
+      m_removalModel.release();
+      continue;
+    }
+    m_removalModel.press(record, seconds);
+    // If the tool hardly moves, this tick's bite is combined with the next.
+    if (n + 1 < count && together(record, records[n + 1]))
+      continue;
+    while (const auto bite = m_removalModel.bite(m_dissection.mask()))
+      if (cut(*bite))
+        any = true;
+      else
+        break;
+  }
+  return any;
+}
+
+bool DissectionLoop::sweep(const TickRecord& record, const dissection::SweptSphere& burr)
+{
+  const double seconds = secondsOf(record);
+  if (!(record.time() > m_ignoreUntil))
+    return false;
+  open();
+  m_removalModel.release();
+  m_dissection.openInfo().duration += seconds;
+  return cut(burr);
+}
+
+void DissectionLoop::endStroke()
+{
+  if (!m_dissection.strokeOpen())
+    return;
+  MaskEdit edit{MaskEdit::Kind::End};
+  edit.duration = m_dissection.openInfo().duration;
+  if (m_hooks.close)
+    m_hooks.close(m_dissection);
+  else
+    m_dissection.endStroke();
+  notify(edit);
+}
+
+bool DissectionLoop::turn(bool back)
+{
+  m_removalModel.release();
+  endStroke();
+  const bool done = m_hooks.turn ? m_hooks.turn(back)
+                    : back       ? m_dissection.undo()
+                                 : m_dissection.redo();
+  if (!done)
+    return false;
+  publish(true);
+  notify({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});
+  return true;
+}
+
+bool DissectionLoop::undo()
+{
+  return turn(true);
+}
+
+bool DissectionLoop::redo()
+{
+  return turn(false);
+}
+
+bool DissectionLoop::apply(const MaskEdit& edit)
+{
+  switch (edit.kind)
+  {
+  case MaskEdit::Kind::Begin:
+    open();
+    break;
+  case MaskEdit::Kind::Cut:
+    if (!m_dissection.strokeOpen() || !cut(edit.burr()))
+      return false;
+    break;
+  case MaskEdit::Kind::End:
+    if (m_dissection.strokeOpen())
+      m_dissection.openInfo().duration = edit.duration;
+    endStroke();
+    break;
+  case MaskEdit::Kind::Undo:
+  case MaskEdit::Kind::Redo:
+    if (!turn(edit.kind == MaskEdit::Kind::Undo))
+      return false;
+    break;
+  }
+  return m_mask.number() == edit.state;
+}
+
+} // namespace petrous::session

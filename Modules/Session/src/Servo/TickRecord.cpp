@@ -1,0 +1,80 @@
+#include "petrous/Session/TickRecord.h"
+
+#include "petrous/Haptics/DeviceGuard.h"
+
+namespace petrous::session
+{
+
+TickInput TickInput::of(double now, const haptics::DeviceReading& reading,
+                        const ServoParameters& parameters) noexcept
+{
+  TickInput input;
+  input.now = now;
+  input.time = reading.time;
+  input.device = PoseValues::of(reading.pose);
+  input.pedal = reading.pedal;
+  input.buttons = reading.buttons;
+  input.health = static_cast<std::uint32_t>(reading.health);
+  input.parameters = parameters;
+  return input;
+}
+
+haptics::DeviceReading TickInput::reading() const noexcept
+{
+  haptics::DeviceReading reading;
+  reading.time = time;
+  reading.pose = device.pose();
+  reading.buttons = buttons;
+  reading.pedal = pedal;
+  reading.health = health <= static_cast<std::uint32_t>(haptics::DeviceHealth::Faulty)
+                       ? static_cast<haptics::DeviceHealth>(health)
+                       : haptics::DeviceHealth::Faulty;
+  return reading;
+}
+
+bool isHeldOff(const TickRecord& record) noexcept
+{
+  const double force = record.wrench.wrench().linear.norm();
+  return record.drill != 0 && record.held != 0 && record.thrust < 0.5 * force;
+}
+
+std::string holderInWords(std::uint8_t held)
+{
+  const bool shaft = (held & TickRecord::kShaft) != 0;
+  const bool handpiece = (held & TickRecord::kHandpiece) != 0;
+  if (shaft && handpiece)
+    return "shaft and handpiece";
+  return shaft ? "the shaft" : handpiece ? "the handpiece" : "";
+}
+
+std::string toString(const TickRecord& record)
+{
+  switch (static_cast<ServoFault>(record.fault))
+  {
+  case ServoFault::None:
+    return {};
+  case ServoFault::Device:
+  {
+    haptics::DeviceGuard::Judgement judgement;
+    judgement.verdict = static_cast<haptics::DeviceVerdict>(record.verdict);
+    judgement.value = record.verdictValue;
+    return haptics::toString(judgement);
+  }
+  case ServoFault::Stalled:
+    return "The computer stood still for a moment; the tool stays where it was, and the force "
+           "comes back slowly.";
+  case ServoFault::Clock:
+    return "The computer's clock ran back; there is no force until it runs on.";
+  case ServoFault::Parameters:
+    return "A setting of the hand is out of its range; there is no force until it is put right.";
+  case ServoFault::Inside:
+    return "The tool stands inside tissue; it has no force until it is drawn out.";
+  case ServoFault::Retreated:
+    return "Tissue came back where the tool was; the tool went back on its path.";
+  case ServoFault::Wrench:
+    return "The force could not be computed; there is none for a moment.";
+  }
+  return "The servo reports a fault that this program does not know.";
+}
+
+} // namespace petrous::session

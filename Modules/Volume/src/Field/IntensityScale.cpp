@@ -1,0 +1,311 @@
+#include "petrous/Volume/IntensityScale.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace petrous::volume
+{
+
+namespace
+{
+
+constexpr double kAir = -1000.0; // HU
+constexpr double kSoft = 40.0;
+constexpr double kBone = IntensityScale{}.iso;
+constexpr double kDense = IntensityScale{}.dense;
+constexpr double kAirSlack = 100.0;
+constexpr double kSoftSlack = 120.0;
+
+constexpr std::size_t kLevels = 512;
+constexpr double kSmoothing = 3.0; // levels
+constexpr double kTrimmed = 5e-4;  // of the voxels at either end: metal, dead pixels
+
+// The histogram at few levels, smoothed, so that its extrema are modes rather than noise.
+class Density
+{
+public:
+  Density(const IntensityHistogram& histogram, bool withoutFirst)
+  {
+    const auto& bins = histogram.bins();
+    const double low = histogram.percentile(kTrimmed);
+    const double high = histogram.percentile(1.0 - kTrimmed);
+    // An integer number of bins per level avoids a comb of full and empty levels.
+    const double wanted = std::max(high - low, histogram.binWidth());
+    const double perLevel =
+        std::max(1.0, std::ceil(wanted / histogram.binWidth() / static_cast<double>(kLevels)));
+    m_width = perLevel * histogram.binWidth();
+    const double offset = std::floor((low - histogram.lower()) / histogram.binWidth());
+    m_lower = histogram.lower() + offset * histogram.binWidth();
+    const auto levels = static_cast<std::size_t>(std::ceil((high - m_lower) / m_width)) + 1;
+    counts.assign(std::max<std::size_t>(levels, 2), 0.0);
+    for (std::size_t bin = withoutFirst ? 1 : 0; bin < bins.size(); ++bin)
+    {
+      const double level = std::floor((static_cast<double>(bin) - offset) / perLevel);
+      const double last = static_cast<double>(counts.size()) - 1.0;
+      counts[static_cast<std::size_t>(std::clamp(level, 0.0, last))] +=
+          static_cast<double>(bins[bin]);
+    }
+    smooth();
+  }
+
+  double value(double level) const { return m_lower + (level + 0.5) * m_width; }
+
+  std::vector<double> counts;
+  std::vector<double> smoothed;
+
+private:
+  void smooth()
+  {
+    const int reach = static_cast<int>(3.0 * kSmoothing);
+    const int size = static_cast<int>(counts.size());
+    smoothed.assign(counts.size(), 0.0);
+    for (int i = 0; i < size; ++i)
+      for (int d = -reach; d <= reach; ++d)
+      {
+        // Mirrored at the ends, so that a peak truncated by the range remains a peak.
+        int from = i + d;
+        from = from < 0 ? -1 - from : from >= size ? 2 * size - 1 - from : from;
+        if (from >= 0 && from < size)
+          smoothed[static_cast<std::size_t>(i)] += counts[static_cast<std::size_t>(from)] *
+                                                   std::exp(-0.5 * d * d / kSmoothing / kSmoothing);
+      }
+  }
+
+  double m_lower = 0.0;
+  double m_width = 1.0;
+};
+
+// Sums over levels [first, last) in constant time.
+class Moments
+{
+public:
+  explicit Moments(const std::vector<double>& counts)
+    : m_weight(counts.size() + 1, 0.0)
+    , m_sum(counts.size() + 1, 0.0)
+  {
+    for (std::size_t i = 0; i < counts.size(); ++i)
+    {
+      m_weight[i + 1] = m_weight[i] + counts[i];
+      m_sum[i + 1] = m_sum[i] + counts[i] * static_cast<double>(i);
+    }
+  }
+  double mean(std::size_t first, std::size_t last) const
+  {
+    const double own = weight(first, last);
+    return own > 0.0 ? (m_sum[last] - m_sum[first]) / own : 0.0;
+  }
+  double weight(std::size_t first, std::size_t last) const
+  {
+    return m_weight[last] - m_weight[first];
+  }
+  // The class's contribution to the between-class variance, up to a constant.
+  double between(std::size_t first, std::size_t last) const
+  {
+    const double own = weight(first, last);
+    const double sum = m_sum[last] - m_sum[first];
+    return own > 0.0 ? sum * sum / own : 0.0;
+  }
+
+private:
+  std::vector<double> m_weight;
+  std::vector<double> m_sum;
+};
+
+// Otsu's thresholds for two and for three classes, as first levels of the upper classes.
+std::size_t twoClasses(const Moments& moments, std::size_t levels)
+{
+  std::size_t best = 1;
+  double most = -1.0;
+  for (std::size_t t = 1; t < levels; ++t)
+  {
+    const double between = moments.between(0, t) + moments.between(t, levels);
+    if (between > most)
+    {
+      most = between;
+      best = t;
+    }
+  }
+  return best;
+}
+
+std::array<std::size_t, 2> threeClasses(const Moments& moments, std::size_t levels)
+{
+  std::array<std::size_t, 2> best{1, 2};
+  double most = -1.0;
+  for (std::size_t t = 1; t < levels; ++t)
+    for (std::size_t u = t + 1; u < levels; ++u)
+    {
+      const double between =
+          moments.between(0, t) + moments.between(t, u) + moments.between(u, levels);
+      if (between > most)
+      {
+        most = between;
+        best = {t, u};
+      }
+    }
+  return best;
+}
+
+std::size_t modeIn(const std::vector<double>& smoothed, std::size_t first, std::size_t last)
+{
+  const auto begin = smoothed.begin();
+  return static_cast<std::size_t>(std::max_element(begin + static_cast<std::ptrdiff_t>(first),
+                                                   begin + static_cast<std::ptrdiff_t>(last)) -
+                                  begin);
+}
+
+// Distance from the mode to half its height on one side, in levels.
+double halfWidth(const std::vector<double>& smoothed, std::size_t mode, int side)
+{
+  const double half = 0.5 * smoothed[mode];
+  double before = smoothed[mode];
+  for (std::size_t i = mode, n = 1;; ++n)
+  {
+    if ((side < 0 && i == 0) || (side > 0 && i + 1 == smoothed.size()))
+      return static_cast<double>(n);
+    i = side < 0 ? i - 1 : i + 1;
+    if (smoothed[i] <= half)
+      return static_cast<double>(n) - (half - smoothed[i]) / (before - smoothed[i]);
+    before = smoothed[i];
+  }
+}
+
+struct Tissues
+{
+  double air = 0.0;
+  double soft = 0.0;
+  double softNoise = 0.0; // standard deviation
+  double upper = 0.0;     // Otsu's threshold between soft tissue and bone
+  bool cutOff = false;    // air is below the file's value range
+};
+
+// Peaks of air and of soft tissue, and a tail of bone above; nullopt if one is missing.
+std::optional<Tissues> findTissues(const Density& density)
+{
+  constexpr double kValley = 0.5;   // of the lower peak, at most
+  constexpr double kFall = 0.5;     // of the soft peak, at most, where bone begins
+  constexpr double kPresent = 0.01; // of the voxels, at least, in each of both
+  constexpr double kBoneAway = 0.3; // of the distance from air to soft tissue, above the latter
+  const std::vector<double>& s = density.smoothed;
+  if (s.size() < 8)
+    return std::nullopt;
+  const Moments moments(density.counts);
+  const auto [first, second] = threeClasses(moments, s.size());
+  const std::size_t air = modeIn(s, 0, first);
+  const std::size_t soft = modeIn(s, first, second);
+  const double lower = std::min(s[air], s[soft]);
+  const double valley = *std::min_element(s.begin() + static_cast<std::ptrdiff_t>(air),
+                                          s.begin() + static_cast<std::ptrdiff_t>(soft));
+  const double apart = static_cast<double>(soft) - static_cast<double>(air);
+  const double bone = moments.mean(second, s.size());
+  const double present = kPresent * moments.weight(0, s.size());
+  if (moments.weight(0, first) < present || moments.weight(first, second) < present ||
+      valley > kValley * lower || s[second] > kFall * s[soft] ||
+      bone - static_cast<double>(soft) < kBoneAway * apart)
+    return std::nullopt;
+  Tissues tissues;
+  tissues.air = density.value(static_cast<double>(air));
+  tissues.soft = density.value(static_cast<double>(soft));
+  // Fat widens one side, bone the other; the smoothing widens both.
+  const double half = std::min(halfWidth(s, soft, -1), halfWidth(s, soft, 1)) / 1.1774;
+  tissues.softNoise = (density.value(1.0) - density.value(0.0)) *
+                      std::sqrt(std::max(half * half - kSmoothing * kSmoothing, 0.0));
+  tissues.upper = density.value(static_cast<double>(second) - 0.5);
+  return tissues;
+}
+
+bool near(double value, double wanted, double slack)
+{
+  return std::abs(value - wanted) <= slack;
+}
+
+// Hounsfield units, judged by the main peak: air outside, or soft tissue in a region inside the
+// head.
+bool looksCalibrated(const IntensityHistogram& histogram, const Density& density)
+{
+  if (histogram.range().min > -100.0)
+    return false;
+  const double mode =
+      density.value(static_cast<double>(modeIn(density.smoothed, 0, density.smoothed.size())));
+  return near(mode, kAir, kAirSlack) || near(mode, kSoft, kSoftSlack);
+}
+
+// Outside the scanner's field of view, images often have one constant value, which is not tissue.
+bool hasFrame(const IntensityHistogram& histogram)
+{
+  const auto& bins = histogram.bins();
+  if (bins.size() < 16)
+    return false;
+  const double beside =
+      static_cast<double>(std::accumulate(bins.begin() + 1, bins.begin() + 9, std::uint64_t{0})) /
+      8.0;
+  const auto own = static_cast<double>(bins.front());
+  return own > 0.02 * static_cast<double>(histogram.count()) && own > 20.0 * beside;
+}
+
+// True if the values up to `air` have no peak of their own apart from the first bin.
+bool isFlank(const IntensityHistogram& histogram, double air)
+{
+  const auto& bins = histogram.bins();
+  const double bin = std::clamp((air - histogram.lower()) / histogram.binWidth(), 1.0,
+                                static_cast<double>(bins.size() - 2));
+  const auto last = bins.begin() + static_cast<std::ptrdiff_t>(bin) + 2;
+  return 2 * bins[1] > *std::max_element(bins.begin() + 1, last);
+}
+
+} // namespace
+
+IntensityScale suggestScale(const IntensityHistogram& histogram)
+{
+  if (histogram.count() == 0)
+    return {};
+  const Density density(histogram, false);
+  const bool framed = hasFrame(histogram);
+  std::optional<Tissues> tissues;
+  if (framed)
+    tissues = findTissues(Density(histogram, true));
+  if (tissues && isFlank(histogram, tissues->air))
+    tissues.reset();
+  if (!tissues)
+  {
+    tissues = findTissues(density);
+    if (tissues)
+      tissues->cutOff = framed;
+  }
+  if (tissues ? near(tissues->air, kAir, kAirSlack) && near(tissues->soft, kSoft, kSoftSlack)
+              : looksCalibrated(histogram, density))
+    return {};
+
+  IntensityScale scale;
+  scale.calibrated = false;
+  double dense = -std::numeric_limits<double>::infinity();
+  if (tissues)
+  {
+    const double gain = (tissues->soft - tissues->air) / (kSoft - kAir);
+    const auto from = [&](double hounsfield)
+    { return tissues->soft + gain * (hounsfield - kSoft); };
+    const double clear = tissues->soft + 2.5 * tissues->softNoise;
+    scale.iso = std::max(from(kBone), std::min(clear, tissues->upper));
+    if (tissues->cutOff) // the gain may be larger, so iso lies between the two
+      scale.iso = std::max(scale.iso, 0.5 * (scale.iso + tissues->upper));
+    else
+      dense = from(kDense);
+  }
+  else
+  {
+    const Moments moments(density.counts);
+    const std::size_t levels = density.counts.size();
+    const std::size_t t = twoClasses(moments, levels);
+    scale.iso = density.value(0.5 * (moments.mean(0, t) + moments.mean(t, levels)));
+  }
+  scale.iso = std::clamp(scale.iso, histogram.range().min, histogram.range().max);
+  const double least = std::max(histogram.binWidth(), 1e-6 * std::abs(scale.iso));
+  scale.dense = std::max({dense, histogram.percentile(0.99, scale.iso), scale.iso + least});
+  return scale;
+}
+
+} // namespace petrous::volume

@@ -1,0 +1,261 @@
+#include <cmath>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include "BenchCommand.h"
+#include "BenchPlot.h"
+#include "CutBenchmark.h"
+#include "DistanceBenchmark.h"
+#include "GrowthPlot.h"
+#include "HistoryBenchmark.h"
+#include "ImportBenchmark.h"
+#include "Numbers.h"
+#include "QpBenchmark.h"
+#include "RegistrationBenchmarkScenes.h"
+#include "RegistrationPlots.h"
+#include "RemovalBenchmark.h"
+#include "RendererBenchmark.h"
+#include "SaveBenchmark.h"
+#include "ServoBenchmark.h"
+#include "TouchBenchmark.h"
+#include "TouchBenchmarkScenes.h"
+#include "UndoBenchmark.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Rendering/RenderingError.h"
+
+namespace petrous::cli
+{
+
+extern const char* const kCommit; // written by Packaging/cmake/WriteCommit.cmake
+
+namespace
+{
+
+struct BenchOptions
+{
+  std::string name, out, data, pairs, rire;
+  std::vector<std::string> parts;
+  std::vector<int> edges;
+  bool quick = false;
+};
+
+struct Benchmark
+{
+  const char* name;
+  core::BenchmarkReport (*run)(const std::filesystem::path& work, const BenchOptions&,
+                               const core::Progress&);
+  std::map<std::string, std::string> (*plots)(const core::BenchmarkReport&) = plotsOf;
+};
+
+constexpr Benchmark kBenchmarks[] = {
+    {"import", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return imaging::runImportBenchmark(work, options.quick, progress); }},
+    {"cut", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return dissection::runCutBenchmark(work, options.quick, progress); }},
+    {"distance", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return volume::runDistanceBenchmark(options.quick, progress); }},
+    {"history",
+     [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     {
+       auto report = dissection::runHistoryBenchmark(options.quick, progress.part(0.0, 0.5));
+       try
+       {
+         const auto redrawn = undoWithRedraw(options.quick, progress.part(0.5, 1.0));
+         report.points.insert(report.points.end(), redrawn.begin(), redrawn.end());
+       }
+       catch (const rendering::RenderingError& error)
+       {
+         report.machine["redraw"] = error.what();
+       }
+       return report;
+     },
+     [](const core::BenchmarkReport& report) {
+       return std::map<std::string, std::string>{{"", growthSvg(report, "strokes", "memory_mb")}};
+     }},
+    {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return library::runSaveBenchmark(work, options.quick, progress); }},
+    {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return haptics::runQpBenchmark(options.quick, progress); }},
+    {"touch",
+     [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     {
+       return haptics::runTouchBenchmark(
+           options.quick, progress.part(0.1, 1.0),
+           touchBenchmarkScenes(options.quick, options.data, progress.part(0.0, 0.1)));
+     }},
+    {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return session::runServoBenchmark(work, options.quick, progress); }},
+    {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return session::runRemovalBenchmark(options.quick, progress); }},
+    {"registration",
+     [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     {
+       std::map<std::string, std::string> notes;
+       const auto input = registrationScenes({options.quick,
+                                              options.pairs,
+                                              options.data,
+                                              options.rire,
+                                              {options.parts.begin(), options.parts.end()},
+                                              work},
+                                             notes, progress.part(0.0, 0.05));
+       auto report = registration::runRegistrationBenchmark(input, progress.part(0.05, 1.0));
+       report.machine.insert(notes.begin(), notes.end());
+       return report;
+     },
+     registrationPlots},
+    {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
+       return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
+     }}};
+
+std::string processorName()
+{
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0)
+      return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+// Temporary folder for benchmark volumes.
+struct WorkFolder
+{
+  std::filesystem::path path;
+  explicit WorkFolder(const std::filesystem::path& out)
+    : path(out / (".work-" + std::to_string(::getpid())))
+  {
+    std::filesystem::create_directories(path);
+  }
+  ~WorkFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+nlohmann::json reportJson(const core::BenchmarkReport& report)
+{
+  nlohmann::json points = nlohmann::json::array();
+  for (const auto& point : report.points)
+  {
+    nlohmann::json setting{{"scene", point.scene}, {"default", point.isDefault}};
+    for (const auto& [name, value] : point.setting)
+      setting[name] = value;
+    if (!point.series.empty())
+      setting["varied"] = point.series;
+    points.push_back(
+        {{"setting", std::move(setting)},
+         {"seconds", point.seconds},
+         {"error", std::isnan(point.error) ? nlohmann::json(nullptr) : nlohmann::json(point.error)},
+         {"error_unit", point.errorUnit},
+         {"peer", point.peer.empty() ? nlohmann::json(nullptr) : nlohmann::json(point.peer)},
+         {"extra", point.extra}});
+  }
+  nlohmann::json machine{{"processor", processorName()},
+                         {"threads", std::thread::hardware_concurrency()}};
+  for (const auto& [name, value] : report.machine)
+    machine[name] = value;
+  return {{"name", report.name},
+          {"title", report.title},
+          {"commit", kCommit},
+          {"machine", std::move(machine)},
+          {"points", std::move(points)}};
+}
+
+std::string lineOf(const core::BenchmarkPoint& point)
+{
+  std::string line =
+      "  " + (point.peer.empty() ? std::string("petrous") : point.peer) + "  " + point.scene;
+  for (const auto& [key, value] : point.setting)
+    line += "  " + key + " " + value;
+  line += "  " + fixed(1e3 * point.seconds, 3) + " ms  error " +
+          (std::isnan(point.error) ? "" : core::generalText(point.error, 3) + " ") +
+          point.errorUnit;
+  for (const auto& [key, value] : point.extra)
+    line += "  " + key + " " + fixed(value, 3);
+  return line + (point.isDefault ? "  (default)" : "");
+}
+
+void bench(const Context& context, const BenchOptions& options)
+{
+  const std::string& name = options.name;
+  const std::string& out = options.out;
+  std::string names;
+  bool any = false;
+  for (const Benchmark& benchmark : kBenchmarks)
+  {
+    names += (names.empty() ? "" : ", ") + std::string(benchmark.name);
+    any = any || name == "all" || name == benchmark.name;
+  }
+  if (!any)
+    throw UsageError("bench: '" + name + "' is unknown; there are: " + names + ", all");
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error)
+    throw core::Error(core::Fault::Refused, out + ": the folder cannot be made; choose another");
+  nlohmann::json all = nlohmann::json::array();
+  for (const Benchmark& benchmark : kBenchmarks)
+  {
+    if (name != "all" && name != benchmark.name)
+      continue;
+    const WorkFolder work(out);
+    const auto report = benchmark.run(work.path, options, context.progress());
+    const auto json = reportJson(report);
+    const std::filesystem::path base = std::filesystem::path(out) / report.name;
+    core::writeFile(base.string() + ".json", json.dump(1) + "\n");
+    for (const auto& [part, text] : benchmark.plots(report))
+      core::writeFile(base.string() + part + (part.find('.') == std::string::npos ? ".svg" : ""),
+                      text);
+    all.push_back(json);
+    context.print(report.title);
+    for (const auto& [key, value] : report.machine)
+      context.print("  " + key + ": " + value);
+    for (const auto& point : report.points)
+      context.print(lineOf(point));
+  }
+  context.printJson(name == "all" ? nlohmann::json{{"benchmarks", all}} : all.front());
+}
+
+} // namespace
+
+void addBenchCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* command =
+      context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
+                         [options, &context] { bench(context, *options); });
+  command
+      ->add_option("NAME", options->name,
+                   "import, cut, distance, history, save, qp, touch, servo, removal, registration, "
+                   "renderer or all")
+      ->required();
+  command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
+      ->type_name("DIR")
+      ->required();
+  command
+      ->add_option("--data", options->data,
+                   "Folder that holds a real CT, for renderer, touch and registration")
+      ->type_name("DIR");
+  command
+      ->add_option("--edge", options->edges, "Voxels of the phantom's edge, for renderer (256,512)")
+      ->delimiter(',')
+      ->check(CLI::Range(16, 1024));
+  command
+      ->add_option("--pairs", options->pairs,
+                   "Folder of NAME/{fixed,moving}.nii.gz with NAME/truth.json, for registration")
+      ->type_name("DIR");
+  command
+      ->add_option("--rire", options->rire,
+                   "Folder with RIRE's patients: registration on those alone")
+      ->type_name("DIR");
+  command
+      ->add_option("--part", options->parts,
+                   "Of registration: pairs, capture, schedule, conditions, calibration, stress")
+      ->delimiter(',');
+  command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
+}
+
+} // namespace petrous::cli

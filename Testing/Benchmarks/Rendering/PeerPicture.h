@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "petrous/Core/CameraPose.h"
+#include "petrous/Rendering/SceneContents.h"
+
+class vtkRenderer;
+
+namespace petrous::rendering
+{
+
+/// VTK's mappers, as peers of ours in a benchmark.
+enum class Peer
+{
+  GpuComposite, ///< vtkGPUVolumeRayCastMapper: CT only
+  GpuLabelMap,  ///< the same with labels and cut as a label map mask, one transfer function each
+  GpuMulti,     ///< vtkMultiVolume: CT and smoothed union as two volumes; no cut
+  CpuFixedPoint ///< vtkFixedPointVolumeRayCastMapper: CT only, on the CPU
+};
+
+std::string nameOf(Peer peer);
+
+/// A scene as drawn by a peer: composite, shaded, linear, sampling distance 0.5 of the smallest
+/// spacing, no automatic adjustment. Bone has the scene's transfer function above the iso value.
+///
+/// The optical model differs from ours (no explicit surfaces, gradients that ignore the cut), so
+/// times are compared, but no error.
+class PeerPicture
+{
+public:
+  static constexpr double kStep = 0.5; ///< in units of the smallest CT spacing
+
+  /// Throws RenderingError BadContents if the scene lacks a CT, or the labels or mask that this
+  /// peer draws.
+  PeerPicture(Peer peer, const SceneContents& contents, const core::CameraPose& camera);
+  ~PeerPicture();
+  PeerPicture(const PeerPicture&) = delete;
+  PeerPicture& operator=(const PeerPicture&) = delete;
+
+  void attach(vtkRenderer* renderer);
+
+private:
+  class Implementation;
+  std::unique_ptr<Implementation> m_implementation;
+};
+
+} // namespace petrous::rendering

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Core/SplitMix64.h"
+
 namespace petrous::phantom::shapes
 {
 namespace
@@ -42,7 +44,7 @@ struct Cells
 
   std::uint64_t pair(std::uint32_t a, std::uint32_t b) const
   {
-    return mix(seed ^ (static_cast<std::uint64_t>(std::min(a, b)) << 32) ^ std::max(a, b));
+    return core::splitMix64(seed ^ (static_cast<std::uint64_t>(std::min(a, b)) << 32) ^ std::max(a, b));
   }
 
   double distance(const Point& p) const
@@ -88,7 +90,7 @@ Shape honeycomb(const Shape& region, const std::function<double(const Point&)>& 
                 std::uint64_t seed)
 {
   auto cells = std::make_shared<Cells>();
-  cells->seed = mix(seed ^ 0xCE115ULL);
+  cells->seed = core::splitMix64(seed ^ 0xCE115ULL);
   cells->box = region.box;
   const Eigen::Vector3d extent = region.box.sizes();
 

@@ -9,6 +9,7 @@
 
 #include "PhantomScene.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/SplitMix64.h"
 
 namespace petrous::phantom
 {
@@ -23,7 +24,7 @@ class GaussianNoise
 {
 public:
   GaussianNoise(std::uint64_t seed, double sigma)
-    : m_seed(shapes::mix(seed ^ 0x6E6F697365ULL))
+    : m_seed(core::splitMix64(seed ^ 0x6E6F697365ULL))
   {
     for (std::size_t i = 0; i <= kSteps; ++i)
     {
@@ -34,7 +35,7 @@ public:
 
   float at(std::uint64_t counter) const noexcept
   {
-    const std::uint64_t bits = shapes::mix(m_seed + counter);
+    const std::uint64_t bits = core::splitMix64(m_seed + counter);
     const std::size_t step = bits >> 52;
     const float part = static_cast<float>((bits >> 28) & 0xFFFFFF) * 0x1.0p-24F;
     return m_quantile[step] + part * (m_quantile[step + 1] - m_quantile[step]);

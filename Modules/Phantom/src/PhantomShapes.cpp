@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "petrous/Core/SplitMix64.h"
+
 namespace petrous::phantom::shapes
 {
 namespace
@@ -293,17 +295,9 @@ Shape blendCommon(const Shape& a, const Shape& b, double k)
           a.box.intersection(b.box)};
 }
 
-std::uint64_t mix(std::uint64_t x) noexcept
-{
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
-
 double uniform(std::uint64_t seed, std::uint64_t counter) noexcept
 {
-  return static_cast<double>(mix(mix(seed) ^ counter) >> 11) * 0x1.0p-53;
+  return static_cast<double>(core::splitMix64(core::splitMix64(seed) ^ counter) >> 11) * 0x1.0p-53;
 }
 
 Shape remembered(const Shape& a)
@@ -353,7 +347,7 @@ double mottling(const Point& p) noexcept
             static_cast<std::uint64_t>(cell[static_cast<std::size_t>(a)] + bit);
       weight *= bit ? part[a] : 1.0 - part[a];
     }
-    value += weight * (static_cast<double>(mix(key) >> 11) * 0x1.0p-53 - 0.5);
+    value += weight * (static_cast<double>(core::splitMix64(key) >> 11) * 0x1.0p-53 - 0.5);
   }
   return 2.0 * kContrast * value;
 }

@@ -68,10 +68,6 @@ Shape blend(std::vector<Shape> parts, double k);
 Shape blendCommon(const Shape& a, const Shape& b, double k);
 double smoothMin(double a, double b, double k);
 
-/// SplitMix64: a pseudorandom bijection of 64 bits (Steele, Lea, Flood 2014). The generator of
-/// every random number here, so that results are independent of library and machine.
-std::uint64_t mix(std::uint64_t x) noexcept;
-
 /// Uniform in [0, 1) from a seed and a counter.
 double uniform(std::uint64_t seed, std::uint64_t counter) noexcept;
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "petrous/Core/SplitMix64.h"
+
 namespace petrous::registration
 {
 
@@ -11,11 +13,11 @@ class CounterNoise
 {
 public:
   explicit CounterNoise(std::uint64_t seed)
-    : m_seed(mixed(seed ^ 0x9E3779B97F4A7C15ULL))
+    : m_seed(core::splitMix64(seed ^ 0x9E3779B97F4A7C15ULL))
   {
   }
 
-  std::uint64_t bits(std::uint64_t n) const noexcept { return mixed(m_seed + n); }
+  std::uint64_t bits(std::uint64_t n) const noexcept { return core::splitMix64(m_seed + n); }
 
   /// In [0, 1).
   double uniform(std::uint64_t n) const noexcept
@@ -35,15 +37,6 @@ public:
   }
 
 private:
-  // Finalizer of SplitMix64 (Steele, Lea and Flood 2014).
-  static std::uint64_t mixed(std::uint64_t x) noexcept
-  {
-    x += 0x9E3779B97F4A7C15ULL;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-    return x ^ (x >> 31);
-  }
-
   std::uint64_t m_seed;
 };
 

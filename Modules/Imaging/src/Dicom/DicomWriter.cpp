@@ -21,6 +21,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/SplitMix64.h"
 
 namespace petrous::imaging
 {
@@ -179,23 +180,14 @@ std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slo
   return bytes;
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mix(std::uint64_t x) noexcept
-{
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
-
 } // namespace
 
 std::string deterministicUid(std::uint64_t seed, const std::string& role)
 {
-  std::uint64_t low = mix(seed ^ 0x706574726F7573ULL);
+  std::uint64_t low = core::splitMix64(seed ^ 0x706574726F7573ULL);
   for (const char c : role)
-    low = mix(low ^ static_cast<unsigned char>(c));
-  const std::uint64_t high = mix(low);
+    low = core::splitMix64(low ^ static_cast<unsigned char>(c));
+  const std::uint64_t high = core::splitMix64(low);
   // version 8 (free use) and variant bits of a UUID, written as one decimal integer
   std::array<std::uint32_t, 4> words{static_cast<std::uint32_t>(high >> 32),
                                      (static_cast<std::uint32_t>(high) & 0xFFFF0FFFU) | 0x00008000U,

@@ -44,7 +44,8 @@ struct Cells
 
   std::uint64_t pair(std::uint32_t a, std::uint32_t b) const
   {
-    return core::splitMix64(seed ^ (static_cast<std::uint64_t>(std::min(a, b)) << 32) ^ std::max(a, b));
+    return core::splitMix64(seed ^ (static_cast<std::uint64_t>(std::min(a, b)) << 32) ^
+                            std::max(a, b));
   }
 
   double distance(const Point& p) const

@@ -5,7 +5,8 @@
 namespace petrous::phantom
 {
 
-/// A folder that appears complete or not at all: written under another name, then renamed.
+/// A folder that appears complete or not at all: written under another name, then renamed. Into an
+/// empty folder that exists already, the entries are renamed one by one.
 ///
 /// The target may exist as an empty folder. Without commit() the destructor removes everything
 /// created, including parent folders.

@@ -73,19 +73,19 @@ ReferenceRayCaster::Implementation::Pixel
 ReferenceRayCaster::Implementation::see(const PixelRay& ray) const
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
-  double occupancy = 1.0; // fraction of the pixels not yet covered by a screen door
+  double visible = 1.0; // fraction of the pixels not yet covered by a screen door
   for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
   {
     const GatheredLight light = gather(ray, hit.distance);
-    color += occupancy * hit.opacity * (light.color + light.transmittance * hit.color);
-    occupancy *= 1.0 - hit.opacity;
-    if (!(occupancy > 0.0))
+    color += visible * hit.opacity * (light.color + light.transmittance * hit.color);
+    visible *= 1.0 - hit.opacity;
+    if (!(visible > 0.0))
       return {color, light.depth};
   }
   const GatheredLight light = gather(ray, std::numeric_limits<double>::infinity());
   const Eigen::Vector3d background(optics::kBackground[0], optics::kBackground[1],
                                    optics::kBackground[2]);
-  return {color + occupancy * (light.color + light.transmittance * background), light.depth};
+  return {color + visible * (light.color + light.transmittance * background), light.depth};
 }
 
 ReferenceRayCaster::ReferenceRayCaster(const SceneContents& contents)

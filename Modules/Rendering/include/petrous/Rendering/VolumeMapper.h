@@ -11,7 +11,7 @@
 #include "petrous/Rendering/SceneContents.h"
 
 /// Single-pass ray caster for CT, structures, cut mask and a second image
-/// (Documentation/rendering.md), for vtkVolume in any VTK program.
+/// (Documentation/adr/0008-what-a-ray-sees.md), for vtkVolume in any VTK program.
 ///
 /// Two kinds of input. With SetInputData alone the image is drawn as CT: its isosurface at IsoValue
 /// with SurfaceOpacity, and inside it the colour and opacity (per ScalarOpacityUnitDistance) of the

@@ -68,8 +68,8 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
   EXPECT_EQ(varied, (std::set<std::string>{"bisections", "brick_voxels", "mask_bits", "step_voxels",
                                            "table_entries", "termination"}));
   EXPECT_EQ(marked, varied) << "each curve marks the setting that the product uses";
-  for (const char* name : {"renderer.json", "renderer.svg", "renderer-frames.svg"})
-    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(out / "renderer.json"));
+  expectPlots(out, {"renderer.svg", "renderer-frames.svg"});
 }
 
 // The law and the removed balls are the truth; whole-voxel deletion follows neither thrust nor law.
@@ -113,8 +113,22 @@ TEST_F(BenchCommand, MeasuresRemovalBesideTheLawAndWholeVoxels)
   // Six voxels of 0.2 mm per tick.
   EXPECT_NEAR(peerRates["1.0"], 6.0 * 0.008 / 1e-3, 0.5);
   EXPECT_NEAR(peerRates["2.0"], 6.0 * 0.008 / 2e-3, 0.5);
-  for (const char* name : {"removal.json", "removal.svg", "removal-5.svg"})
-    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(out / "removal.json"));
+  expectPlots(out, {"removal.svg", "removal-5.svg"});
+}
+
+// A plot that cannot be drawn costs no figures.
+TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
+{
+  const auto out = m_folder / "figures";
+  std::filesystem::create_directories(out);
+  std::ofstream(out / "broken.json") << "{}";
+  const auto outcome = run("bench distance --quick --out " + quoted(out));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("petrous-plots"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(out.string()), std::string::npos) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(out / "distance.json"));
+  expectPlots(out, {"distance.svg"});
 }
 
 TEST_F(BenchCommand, NamesTheBenchmarksThatThereAre)

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <map>
 #include <random>
@@ -117,6 +118,16 @@ protected:
     row(0.0, from, 1);
     row(1.0, to, 0);
     return path;
+  }
+
+  /// Expects plots of `petrous bench`, which are drawn only where matplotlib is installed.
+  static void expectPlots(const std::filesystem::path& folder,
+                          std::initializer_list<const char*> names)
+  {
+    if (std::system("/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") != 0)
+      return;
+    for (const char* name : names)
+      EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
 
   std::filesystem::path library() const { return m_folder / "library"; }

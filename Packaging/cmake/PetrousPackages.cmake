@@ -23,6 +23,8 @@ install(FILES
   Modules/Devices/include/petrous/Devices/DeviceServerExchange.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petrous/Devices COMPONENT petrous)
 install(TARGETS petrous-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT petrous-bench)
+install(PROGRAMS Testing/Benchmarks/plots.py
+  DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME petrous-plots COMPONENT petrous-bench)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME petrous)
@@ -47,6 +49,7 @@ set(CPACK_COMPONENT_PETROUS_DESCRIPTION
 set(CPACK_DEBIAN_PETROUS-BENCH_PACKAGE_NAME petrous-bench)
 set(CPACK_DEBIAN_PETROUS-BENCH_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PETROUS-BENCH_PACKAGE_DEPENDS "petrous (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_PETROUS-BENCH_PACKAGE_RECOMMENDS python3-matplotlib) # petrous-plots
 set(CPACK_DEBIAN_PETROUS-BENCH_PACKAGE_SUGGESTS elastix)
 set(CPACK_COMPONENT_PETROUS-BENCH_DESCRIPTION
   "benchmarks of Petrous beside its peers

@@ -6,16 +6,15 @@
 #include <unistd.h>
 
 #include "BenchCommand.h"
-#include "BenchPlot.h"
+#include "ChildProcess.h"
 #include "CutBenchmark.h"
 #include "DistanceBenchmark.h"
-#include "GrowthPlot.h"
 #include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
 #include "Numbers.h"
+#include "Program.h"
 #include "QpBenchmark.h"
 #include "RegistrationBenchmarkScenes.h"
-#include "RegistrationPlots.h"
 #include "RemovalBenchmark.h"
 #include "RendererBenchmark.h"
 #include "SaveBenchmark.h"
@@ -48,7 +47,6 @@ struct Benchmark
   const char* name;
   core::BenchmarkReport (*run)(const std::filesystem::path& work, const BenchOptions&,
                                const core::Progress&);
-  std::map<std::string, std::string> (*plots)(const core::BenchmarkReport&) = plotsOf;
 };
 
 constexpr Benchmark kBenchmarks[] = {
@@ -72,9 +70,6 @@ constexpr Benchmark kBenchmarks[] = {
          report.machine["redraw"] = error.what();
        }
        return report;
-     },
-     [](const core::BenchmarkReport& report) {
-       return std::map<std::string, std::string>{{"", growthSvg(report, "strokes", "memory_mb")}};
      }},
     {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return library::runSaveBenchmark(work, options.quick, progress); }},
@@ -105,8 +100,7 @@ constexpr Benchmark kBenchmarks[] = {
        auto report = registration::runRegistrationBenchmark(input, progress.part(0.05, 1.0));
        report.machine.insert(notes.begin(), notes.end());
        return report;
-     },
-     registrationPlots},
+     }},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
        return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
      }}};
@@ -179,6 +173,17 @@ std::string lineOf(const core::BenchmarkPoint& point)
   return line + (point.isDefault ? "  (default)" : "");
 }
 
+// Draws the JSON files of a folder. The script needs matplotlib, which measuring does not: its
+// absence is no error.
+void drawPlots(const Context& context, const std::string& folder)
+{
+  const auto beside = programBeside("petrous-plots", ".");
+  const std::string script = beside.empty() ? "petrous-plots" : beside.string();
+  if (registration::runProcess({script, folder}).status != 0)
+    context.warn("bench: the plots were not drawn; '" + script + " " + folder +
+                 "' draws them (needs python3-matplotlib) or says what is missing");
+}
+
 void bench(const Context& context, const BenchOptions& options)
 {
   const std::string& name = options.name;
@@ -204,11 +209,8 @@ void bench(const Context& context, const BenchOptions& options)
     const WorkFolder work(out);
     const auto report = benchmark.run(work.path, options, context.progress());
     const auto json = reportJson(report);
-    const std::filesystem::path base = std::filesystem::path(out) / report.name;
-    core::writeFile(base.string() + ".json", json.dump(1) + "\n");
-    for (const auto& [part, text] : benchmark.plots(report))
-      core::writeFile(base.string() + part + (part.find('.') == std::string::npos ? ".svg" : ""),
-                      text);
+    core::writeFile((std::filesystem::path(out) / (report.name + ".json")).string(),
+                    json.dump(1) + "\n");
     all.push_back(json);
     context.print(report.title);
     for (const auto& [key, value] : report.machine)
@@ -216,6 +218,7 @@ void bench(const Context& context, const BenchOptions& options)
     for (const auto& point : report.points)
       context.print(lineOf(point));
   }
+  drawPlots(context, out);
   context.printJson(name == "all" ? nlohmann::json{{"benchmarks", all}} : all.front());
 }
 
@@ -232,7 +235,9 @@ void addBenchCommand(CLI::App& app, Context& context)
                    "import, cut, distance, history, save, qp, touch, servo, removal, registration, "
                    "renderer or all")
       ->required();
-  command->add_option("--out", options->out, "Folder for NAME.json and NAME.svg")
+  command
+      ->add_option("--out", options->out,
+                   "Folder for NAME.json and NAME*.svg (needs python3-matplotlib)")
       ->type_name("DIR")
       ->required();
   command

@@ -14,6 +14,7 @@ a colour of its own (Okabe and Ito's palette, safe for colour-blind readers), an
 import json
 import math
 import sys
+import textwrap
 from collections import Counter
 from pathlib import Path
 
@@ -103,7 +104,7 @@ class Report:
         self.name = content["name"]
         self.title = content["title"]
         machine = content["machine"]
-        rest = [str(value) for key, value in sorted(machine.items())
+        rest = [f"{key}: {value}" for key, value in sorted(machine.items())
                 if key not in ("processor", "threads")]
         self.measured = "; ".join(
             [f"petrous bench {self.name}, commit {content['commit']}",
@@ -204,11 +205,14 @@ class Page:
     """A figure in pixels from its top left, with its title, and its origin in small print."""
 
     def __init__(self, report, width, height, title):
+        width = max(width, 48 + 8 * len(title))
+        print_lines = textwrap.wrap(report.measured, int((width - 48) / 4.8))
+        height += 11 * (len(print_lines) - 1)
         self.figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
         self.renderer = FigureCanvasAgg(self.figure).get_renderer()
         self.width, self.height = width, height
         self.text(24, 28, title, fontsize=13)
-        self.text(24, height - 12, report.measured, fontsize=8, color="#555555")
+        self.text(24, height - 12, "\n".join(print_lines), fontsize=8, color="#555555")
 
     def text(self, x, y, words, **style):
         return self.figure.text(x / self.width, 1.0 - y / self.height, words, **style)
@@ -622,7 +626,8 @@ def pages_of(report):
         measured = [point for point in plain if point.error is not None]
         if any(point.error > 0.0 for point in measured):
             return {"": scatter(report, report.title, measured, words)}
-        return {"": rows(report, f"{report.title}; error of all: 0 {plain[0].unit}", plain,
+        exact = f"; error of all: 0 {measured[0].unit}" if measured else ""
+        return {"": rows(report, report.title + exact, plain,
                          lambda p: ", ".join(filter(None, (p.scene, words(p)))),
                          lambda p: duration(p.seconds))}
     pages = {}

@@ -113,7 +113,7 @@ class Plots(unittest.TestCase):
         for words in ("What was measured: scene", "step, of rays", "petrous", "Peer", "the default",
                       "error, mm", "time", "100 ms", "2"):
             self.assertIn(words, texts)
-        self.assertTrue(any("commit 0123456789ab; Some CPU, 2 threads; some GL" in text
+        self.assertTrue(any("commit 0123456789ab; Some CPU, 2 threads; gl: some GL" in text
                             for text in texts))
         for words in ("other", "Rival", "300 ms"):
             self.assertIn(words, self.texts("bench-frames.svg"))

@@ -122,7 +122,8 @@ TEST_F(InputDevices, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
                                     !window().model().value().dissection->mask().untouched();
                            }));
   bench.play(capHeld(0, 350, 0, 0));
-  EXPECT_TRUE(waitFor([this] { return !window().model().value().strokes.empty(); }));
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().strokes.empty(); }));
+  ASSERT_TRUE(settled()); // it is saved by another thread
   EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
 }
 
@@ -141,13 +142,16 @@ TEST_F(InputDevices, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInChar
   ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
   EXPECT_TRUE(message().contains("unplugged")) << message().toStdString();
   EXPECT_TRUE(message().contains("The mouse leads the tool")) << message().toStdString();
-  ASSERT_EQ(library().open("ball").strokes.size(), 1u);
-  EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
+  ASSERT_TRUE(settled());
+  // One, or more if the cap's reports were late on a busy machine: a silent device ends a stroke.
+  const auto strokes = library().open("ball").strokes;
+  ASSERT_FALSE(strokes.empty());
+  EXPECT_GT(strokes.front().info.removed, 0.0);
   QTest::keyRelease(&view(), Qt::Key_Space);
 
   EXPECT_TRUE(action("Drill")->isChecked());
   drill(600, 20);
-  EXPECT_EQ(library().open("ball").strokes.size(), 2u);
+  EXPECT_EQ(library().open("ball").strokes.size(), strokes.size() + 1);
 }
 
 TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
@@ -273,7 +277,8 @@ TEST_F(InputDevices, APedalDrillsWithTheMouse)
   EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
   EXPECT_TRUE(window().model().value().strokes.empty());
   bench.play("report foot 00 00\n");
-  EXPECT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
+  ASSERT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
+  ASSERT_TRUE(settled());
   EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
   EXPECT_TRUE(library().open("ball").strokes.front().info.camera.has_value());
 }

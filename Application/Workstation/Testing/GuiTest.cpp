@@ -1,5 +1,10 @@
 #include "GuiTest.h"
 
+#include <csignal>
+
+#include <execinfo.h>
+#include <unistd.h>
+
 #include <QApplication>
 #include <QMimeData>
 #include <QScreen>
@@ -217,8 +222,26 @@ int pixelsUnlikeTheCorner(const QImage& image)
 
 } // namespace petrous::workstation
 
+namespace
+{
+
+// Where a crash happened, in the test's output: a core dump is mostly not kept.
+void printBacktrace(int signal)
+{
+  void* frames[64];
+  backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+} // namespace
+
 int main(int argc, char** argv)
 {
+  void* frame = nullptr;
+  backtrace(&frame, 1); // loads libgcc outside of the handler
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT})
+    std::signal(signal, printBacktrace);
   ::testing::InitGoogleTest(&argc, argv);
   if (::testing::GTEST_FLAG(list_tests)) // needs no display
     return RUN_ALL_TESTS();

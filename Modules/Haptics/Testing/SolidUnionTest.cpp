@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "CutBall.h"
 #include "SolidChecks.h"
 #include "SurfaceSamples.h"
 
@@ -162,4 +163,76 @@ TEST(SolidUnion, RestsOnBoneAsIfNoStructureLayBelow)
       tick = &proxy.step(poseAt({0.0, 0.0, shape.radius + 0.5 - 0.01 * t}));
     EXPECT_NEAR(tick->pose.position.z(), shape.radius + 0.03, 0.005);
   }
+}
+
+// Truth: another search that knows nothing yet. Bone, structures on the CT's grid and on another,
+// cuts and undone cuts.
+TEST(SolidUnion, SamplesKeptFromEarlierSearchesAreThoseOfANewOne)
+{
+  const double h = 0.3;
+  const double within = 0.3; // mm
+  const Matrix3d turn =
+      Eigen::AngleAxisd(0.4, Vector3d(0.2, 1.0, 0.5).normalized()).toRotationMatrix();
+  const SignedDistance ball = [](const Vector3d& p)
+  { return 1.2 - (p - Vector3d(1.5, 0.5, -0.5)).norm(); };
+  const auto ct = scanOn(
+      boxOf({5.0, 5.0, 3.0}, h, {0.31, 0.13, 0.47}), [](const Vector3d& p)
+      { return std::min(0.3 + 0.4 * std::sin(4.1 * p.x()) * std::cos(3.7 * p.y()), -p.z()); });
+  Scene scene = sceneOf(ct, {unionOn(turnedBox({2.0, 2.0, 2.0}, 0.21, turn), ball),
+                             unionOn(ct->geometry(), [&](const Vector3d& p)
+                                     { return ball(p + Vector3d(3.0, 0.0, 0.0)); })});
+  BurrShape shape;
+  shape.shaftLength = 6.0;
+  const ToolSolid solid = makeBurrShell(shape, h).solid;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto anywhere = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  // All samples near the pose, sorted.
+  const auto samplesAt = [&](SurfaceSamples& samples, const Pose& pose)
+  {
+    for (int tick = 0; tick < 200; ++tick)
+    {
+      samples.look(*scene.published->acquire());
+      if (samples.find(pose, within, 0.0, 0.0) >= 1.0)
+        break;
+    }
+    std::vector<std::array<double, 4>> places;
+    for (std::size_t part = 0; part < SolidParts::kParts; ++part)
+      for (std::size_t n = 0; n < samples.within(part, within); ++n)
+      {
+        const Vector3d& p = samples.place(part, n);
+        if (samples.parts().distance(part, pose.rotation.conjugate() * (p - pose.position)) <=
+            within)
+          places.push_back({double(part), p.x(), p.y(), p.z()});
+      }
+    scene.published->release();
+    std::sort(places.begin(), places.end());
+    return places;
+  };
+  SurfaceSamples kept(*scene.field, solid);
+  Pose pose{Vector3d(0.0, 0.0, 1.5), Eigen::Quaterniond::Identity()};
+  Vector3d cut = Vector3d::Zero();
+  std::size_t found = 0;
+  for (int step = 0; step < 120; ++step)
+  {
+    SCOPED_TRACE(step);
+    pose.position += 0.4 * anywhere();
+    pose.position =
+        pose.position.cwiseMax(Vector3d(-3.0, -3.0, -2.0)).cwiseMin(Vector3d(3.0, 3.0, 2.0));
+    pose.rotation = (pose.rotation * rotationFrom(Vector3d(0.1 * anywhere()))).normalized();
+    if (step % 3 == 0)
+      cutBall(scene, cut = pose.position + 0.5 * anywhere(), 1.0);
+    else if (step % 20 == 10)
+      cutBall(scene, cut, 1.0, true);
+    kept.moved(pose);
+    SurfaceSamples fresh(*scene.field, solid);
+    // Under another mask state the kept ones represent more tissue until the search has ended.
+    const auto expected = samplesAt(fresh, pose);
+    std::vector<std::array<double, 4>> actual;
+    for (int tick = 0; tick < 200 && actual != expected; ++tick)
+      actual = samplesAt(kept, pose);
+    EXPECT_EQ(actual, expected);
+    found += expected.size();
+  }
+  EXPECT_GT(found, 10000u);
 }

@@ -335,26 +335,34 @@ double HapticField::steepness(const Eigen::Vector3d& voxel) const noexcept
   return double{TissueBricks::steepnessOf()[m_steepness[brickAt(inside)]]} + 1e-6;
 }
 
+namespace
+{
+
+// The voxels of a brick that are in the grid: take(n, i, j, k), n counting all.
+template <class Take>
+void forEachVoxel(const core::Index3& brick, const core::Index3& dims, const Take& take) noexcept
+{
+  const core::Index3 first{kTissueBrick * brick[0], kTissueBrick * brick[1],
+                           kTissueBrick * brick[2]};
+  std::size_t n = 0;
+  for (int k = first[2]; k <= first[2] + kTissueBrick; ++k)
+    for (int j = first[1]; j <= first[1] + kTissueBrick; ++j)
+      for (int i = first[0]; i <= first[0] + kTissueBrick; ++i, ++n)
+        if (i < dims[0] && j < dims[1] && k < dims[2])
+          take(n, i, j, k);
+}
+
+} // namespace
+
 void HapticField::brickValues(const core::Index3& brick, const volume::MaskState& mask,
                               BrickValues& values) const noexcept
 {
   const core::Index3& dims = m_geometry.dims();
-  const core::Index3 first{kTissueBrick * brick[0], kTissueBrick * brick[1],
-                           kTissueBrick * brick[2]};
+  const auto forEach = [&](const auto& take) { forEachVoxel(brick, dims, take); };
   const auto air = static_cast<float>(TissueField::kAir);
-  const auto forEach = [&](const auto& take)
-  {
-    std::size_t n = 0;
-    for (int k = first[2]; k <= first[2] + kTissueBrick; ++k)
-      for (int j = first[1]; j <= first[1] + kTissueBrick; ++j)
-        for (int i = first[0]; i <= first[0] + kTissueBrick; ++i, ++n)
-          if (i < dims[0] && j < dims[1] && k < dims[2])
-            take(n, i, j, k);
-  };
   values.tissues = 1;
   values.others = false;
   values.tissue[0].fill(air);
-  values.mask.fill(air);
   values.hull.fill(air);
   const auto row = static_cast<std::size_t>(dims[0]);
   const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
@@ -376,7 +384,8 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
               values.tissue[0][n] = std::isnan(value) ? air : value;
             });
       });
-  const Eigen::Vector3d corner(first[0], first[1], first[2]);
+  const Eigen::Vector3d corner(kTissueBrick * brick[0], kTissueBrick * brick[1],
+                               kTissueBrick * brick[2]);
   if (m_distance[brickAt(corner)] & TissueBricks::kUnionHere)
     for (std::size_t s = 0; s < m_solids.size(); ++s)
     {
@@ -400,36 +409,46 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
       std::transform(last.begin(), last.end(), occupancy.begin(), last.begin(),
                      [](float a, float b) { return std::max(a, b); });
     }
+  maskValues(brick, mask, values.mask);
+  // A voxel or more away only its sign matters.
+  if (untouched(brick, mask))
+    values.hull.fill(static_cast<float>(kHullSlope));
+  else
+    forEach([&](std::size_t n, int i, int j, int k)
+            { values.hull[n] = static_cast<float>(hull(Eigen::Vector3d(i, j, k))); });
+}
+
+void HapticField::maskValues(const core::Index3& brick, const volume::MaskState& mask,
+                             std::array<float, 27>& values) const noexcept
+{
   if (untouched(brick, mask))
   {
-    // The hull is a voxel or more away: only its sign matters.
-    values.mask.fill(0.5F);
-    values.hull.fill(static_cast<float>(kHullSlope));
+    values.fill(0.5F);
     return;
   }
+  values.fill(static_cast<float>(TissueField::kAir));
   constexpr int edge = CutMask::kBrickEdge;
   const core::Index3& bricks = m_mask->brickDims();
   std::size_t known = static_cast<std::size_t>(-1);
   const CutMask::Brick* cut = nullptr;
-  forEach(
-      [&](std::size_t n, int i, int j, int k)
-      {
-        const std::size_t at =
-            static_cast<std::size_t>(i / edge) +
-            static_cast<std::size_t>(bricks[0]) *
-                (static_cast<std::size_t>(j / edge) +
-                 static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k / edge));
-        if (at != known)
-        {
-          known = at;
-          cut = mask.brick(at);
-        }
-        values.mask[n] = cut ? static_cast<float>((*cut)[offsetInBrick(i, j, k)]) /
-                                       static_cast<float>(CutMask::kUntouched) -
-                                   0.5F
-                             : 0.5F;
-        values.hull[n] = static_cast<float>(hull(Eigen::Vector3d(i, j, k)));
-      });
+  forEachVoxel(brick, m_geometry.dims(),
+               [&](std::size_t n, int i, int j, int k)
+               {
+                 const std::size_t at =
+                     static_cast<std::size_t>(i / edge) +
+                     static_cast<std::size_t>(bricks[0]) *
+                         (static_cast<std::size_t>(j / edge) +
+                          static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(k / edge));
+                 if (at != known)
+                 {
+                   known = at;
+                   cut = mask.brick(at);
+                 }
+                 values[n] = cut ? static_cast<float>((*cut)[offsetInBrick(i, j, k)]) /
+                                           static_cast<float>(CutMask::kUntouched) -
+                                       0.5F
+                                 : 0.5F;
+               });
 }
 
 bool HapticField::untouched(const core::Index3& brick, const volume::MaskState& mask) const noexcept

@@ -30,12 +30,14 @@ constexpr double kUsed = 0.75;  // of the margin: the next search begins
 // Units, see SurfaceSamples::kUnit.
 constexpr std::size_t kBoxCost = 4;
 constexpr std::size_t kBrickCost = 24;
+constexpr std::size_t kMaskCost = 8; // of one that is known, after a cut
 constexpr std::size_t kCellCost = 8;
 constexpr std::size_t kUnionCellCost = 4;
 constexpr std::size_t kCheap = 800; // per search: the next may have a larger margin
 constexpr std::size_t kDear = 3000; // per search: the next has a smaller margin
 constexpr float kWithin = 1e-5F;    // of f: another tissue continues there
 constexpr int kHalvings = 10;       // of a line in a union's cell, to locate a cut
+constexpr int kBlock = 4;           // bricks per side of a block
 } // namespace
 
 SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
@@ -50,11 +52,16 @@ SurfaceSamples::SurfaceSamples(const HapticField& field, const ToolSolid& solid)
       m_lists[part].places.assign(kMaxSamples, Eigen::Vector3d::Zero());
   m_search.places.assign(kMaxSamples, Eigen::Vector3d::Zero());
   m_search.distances.assign(kMaxSamples, 0.0F);
-  const core::Index3& dims = field.brickDims();
-  const std::size_t bricks = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) *
-                             static_cast<std::size_t>(dims[2]);
-  m_empty.assign((bricks + 63) / 64, 0);
-  m_full.assign(m_empty.size(), 0);
+  std::size_t blocks = 1;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    m_blocks[a] = (field.brickDims()[a] + kBlock - 1) / kBlock;
+    blocks *= static_cast<std::size_t>(m_blocks[a]);
+  }
+  m_empty.assign(blocks, 0);
+  m_full.assign(blocks, 0);
+  m_places.assign(kPlaces, Eigen::Vector3d::Zero());
+  m_known.assign(kBricks, Brick{});
   for (List& list : m_lists)
     list.wish = kFirst * field.voxel();
 }
@@ -317,8 +324,13 @@ void SurfaceSamples::run(Search& search, std::size_t until) noexcept
     const double radius = 0.5 * extent.norm();
     if (!reaches(search, grid.patientFromVoxel(middle), radius))
       continue;
-    if (m_field.clearance(middle) > radius)
+    if (isEmpty(box))
       continue;
+    if (m_field.clearance(middle) > radius)
+    {
+      markEmpty(box);
+      continue;
+    }
     Eigen::Index longest = 0;
     int most = 0;
     for (std::size_t a = 0; a < 3; ++a)
@@ -338,7 +350,12 @@ void SurfaceSamples::run(Search& search, std::size_t until) noexcept
       continue;
     }
     const auto axis = static_cast<std::size_t>(longest);
-    const int cut = (box.lower[axis] + box.upper[axis]) / 2;
+    // Between blocks, while there are several.
+    const int cut = box.lower[axis] / kBlock == (box.upper[axis] - 1) / kBlock
+                        ? (box.lower[axis] + box.upper[axis]) / 2
+                        : std::max((box.lower[axis] + box.upper[axis]) / 2 / kBlock,
+                                   box.lower[axis] / kBlock + 1) *
+                              kBlock;
     Box first = box;
     Box second = box;
     first.upper[axis] = cut;
@@ -359,6 +376,16 @@ bool SurfaceSamples::reaches(const Search& search, const Eigen::Vector3d& middle
 void SurfaceSamples::add(Search& search, const Eigen::Vector3d& place) noexcept
 {
   spend(search, 1);
+  if (m_making)
+  {
+    if (m_making->count < kMaxInBrick)
+    {
+      m_places[m_nextPlace++ % kPlaces] = place;
+      ++m_making->count;
+    }
+    else
+      m_making->key = UINT64_MAX;
+  }
   const double distance =
       m_parts.distance(search.part, search.toTool * (place - search.pose.position));
   if (search.inside)
@@ -512,24 +539,84 @@ struct SurfaceSamples::Cell
   bool others = false; // there may be unions on grids of their own
 };
 
+// Bricks of a block are consecutive.
+std::size_t SurfaceSamples::indexOf(const core::Index3& brick) const noexcept
+{
+  const auto at = [&](std::size_t a) { return static_cast<std::size_t>(brick[a] / kBlock); };
+  const auto in = [&](std::size_t a) { return static_cast<std::size_t>(brick[a] % kBlock); };
+  const std::size_t block = at(0) + static_cast<std::size_t>(m_blocks[0]) *
+                                        (at(1) + static_cast<std::size_t>(m_blocks[1]) * at(2));
+  return kBlock * kBlock * kBlock * block + in(0) + kBlock * (in(1) + kBlock * in(2));
+}
+
+// The bits of a box within one block; 0 if it is in several.
+namespace
+{
+std::uint64_t bitsOf(const core::Index3& lower, const core::Index3& upper) noexcept
+{
+  std::uint64_t bits = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (lower[a] / kBlock != (upper[a] - 1) / kBlock)
+      return 0;
+  for (int k = lower[2] % kBlock; k <= (upper[2] - 1) % kBlock; ++k)
+    for (int j = lower[1] % kBlock; j <= (upper[1] - 1) % kBlock; ++j)
+      for (int i = lower[0] % kBlock; i <= (upper[0] - 1) % kBlock; ++i)
+        bits |= std::uint64_t{1} << (i + kBlock * (j + kBlock * k));
+  return bits;
+}
+} // namespace
+
+void SurfaceSamples::markEmpty(const Box& box) noexcept
+{
+  if (const std::uint64_t bits = bitsOf(box.lower, box.upper))
+    m_empty[indexOf(box.lower) / 64] |= bits;
+}
+
+bool SurfaceSamples::isEmpty(const Box& box) const noexcept
+{
+  const std::uint64_t bits = bitsOf(box.lower, box.upper);
+  return bits != 0 && (m_empty[indexOf(box.lower) / 64] & bits) == bits;
+}
+
+// Whether the brick's samples are known for the present mask.
+bool SurfaceSamples::valid(Search& search, Brick& known, std::uint64_t key,
+                           const core::Index3& brick) noexcept
+{
+  if (known.key != key || m_nextPlace - known.first > kPlaces)
+    return false;
+  if (known.state == m_number)
+    return true;
+  spend(search, kMaskCost);
+  std::array<float, 27> mask;
+  m_field.maskValues(brick, *m_state, mask);
+  if (mask != known.mask)
+    return false;
+  known.state = m_number;
+  return true;
+}
+
 void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcept
 {
-  const core::Index3& bricks = m_field.brickDims();
-  const std::size_t index =
-      static_cast<std::size_t>(brick[0]) +
-      static_cast<std::size_t>(bricks[0]) *
-          (static_cast<std::size_t>(brick[1]) +
-           static_cast<std::size_t>(bricks[1]) * static_cast<std::size_t>(brick[2]));
+  const std::size_t index = indexOf(brick);
   const std::uint64_t bit = std::uint64_t{1} << (index % 64);
-  if (m_empty[index / 64] & bit)
-    return;
   if ((m_full[index / 64] & bit) && m_field.untouched(brick, *m_state))
     return;
+  const std::uint64_t key = SolidParts::kParts * index + search.part;
+  Brick& known = m_known[(key * 0x9E3779B97F4A7C15ULL) >> 51];
+  static_assert(kBricks == std::size_t{1} << (64 - 51));
+  if (valid(search, known, key, brick))
+  {
+    spend(search, 1);
+    for (std::uint64_t n = known.first; n < known.first + known.count; ++n)
+      add(search, m_places[n % kPlaces]);
+    return;
+  }
   spend(search, kBrickCost);
   HapticField::BrickValues values;
   m_field.brickValues(brick, *m_state, values);
+  known = {key, m_number, m_nextPlace, 0, values.mask};
+  m_making = &known;
   const core::GridGeometry& grid = m_field.geometry();
-  const double halfCell = 0.5 * grid.spacing().norm();
   const core::Index3& dims = grid.dims();
   bool empty = !values.others;
   bool full = empty;
@@ -564,24 +651,25 @@ void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcep
     if (corners.tissues == 0 && (corners.whole || !corners.others))
       continue;
     empty = false;
-    if (corners.whole && all)
-      continue;
-    const Eigen::Vector3d middle =
-        grid.patientFromVoxel(Eigen::Vector3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5));
-    if (reaches(search, middle, halfCell))
+    if (!(corners.whole && all))
       addCell(search, cell, corners);
   }
   if (empty)
     m_empty[index / 64] |= bit;
   else if (full)
     m_full[index / 64] |= bit;
-  if (!values.others)
-    return;
-  const bool whole = *std::min_element(values.mask.begin(), values.mask.end()) > 0.0F &&
-                     *std::min_element(values.hull.begin(), values.hull.end()) > 0.0F;
-  for (std::size_t n = 0; n < m_field.unions(); ++n)
-    if (!m_field.onGrid(n))
-      addUnion(search, brick, n, whole);
+  if (values.others)
+  {
+    const bool whole = *std::min_element(values.mask.begin(), values.mask.end()) > 0.0F &&
+                       *std::min_element(values.hull.begin(), values.hull.end()) > 0.0F;
+    for (std::size_t n = 0; n < m_field.unions(); ++n)
+      if (!m_field.onGrid(n))
+        addUnion(search, brick, n, whole);
+    // Where a union on another grid is cut, the end of a line may be in another brick.
+    if (!whole)
+      known.key = UINT64_MAX;
+  }
+  m_making = nullptr;
 }
 
 void SurfaceSamples::addCell(Search& search, const core::Index3& cell, const Cell& values) noexcept
@@ -700,7 +788,6 @@ void SurfaceSamples::addUnion(Search& search, const core::Index3& brick, std::si
     first[a] = static_cast<int>(std::clamp(std::floor(lower[axis]), 0.0, cells - 1.0));
     last[a] = static_cast<int>(std::clamp(std::floor(upper[axis]), 0.0, cells - 1.0));
   }
-  const double halfCell = 0.5 * own.spacing().norm();
   core::Index3 cell;
   for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2])
     for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
@@ -715,10 +802,7 @@ void SurfaceSamples::addUnion(Search& search, const core::Index3& brick, std::si
           border = border || cell[a] == 0 || cell[a] == own.dims()[a] - 2;
         if (least(share) > 0.0F && whole && !border)
           continue;
-        const Eigen::Vector3d middle =
-            own.patientFromVoxel(Eigen::Vector3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5));
-        if (reaches(search, middle, halfCell))
-          addUnionCell(search, brick, n, whole, cell, share);
+        addUnionCell(search, brick, n, whole, cell, share);
       }
 }
 

@@ -23,6 +23,9 @@ namespace petrous::haptics
 /// thin. They depend on the field only and not on the tool, so a pose free of them stays free
 /// however often they are found again.
 ///
+/// The samples of a brick are kept, as most of what a search finds was found by the one before it;
+/// they are found again when the mask has changed there.
+///
 /// Samples are found within a `margin` around the tool and kept until the tool has moved that far.
 /// The cost of finding them per tick is bounded: a search continues in following ticks, while the
 /// known samples are used, and a smaller margin is used where they are many. The tool may have to
@@ -134,6 +137,18 @@ private:
     search.work += units;
   }
   struct Cell; // operands at a cell's corners
+  struct Brick // whose samples for a part are known
+  {
+    std::uint64_t key = UINT64_MAX; // of brick and part
+    std::uint64_t state = 0;        // number of the mask state for which they are known
+    std::uint64_t first = 0;        // number of its first place
+    std::uint32_t count = 0;
+    std::array<float, 27> mask{};
+  };
+  std::size_t indexOf(const core::Index3& brick) const noexcept;
+  void markEmpty(const Box& box) noexcept;
+  bool isEmpty(const Box& box) const noexcept;
+  bool valid(Search& search, Brick& known, std::uint64_t key, const core::Index3& brick) noexcept;
   void addBrick(Search& search, const core::Index3& brick) noexcept;
   void addCell(Search& search, const core::Index3& cell, const Cell& values) noexcept;
   void addUnion(Search& search, const core::Index3& brick, std::size_t n, bool whole) noexcept;
@@ -149,10 +164,19 @@ private:
   std::array<List, SolidParts::kParts> m_lists;
   Search m_search; // for a list
   Search m_query;  // whether a pose is free
-  // One bit per brick. A brick that was tissue throughout before cutting is skipped until it is
-  // cut.
+  // A bit per brick, a word per block of 4^3 bricks. A brick that was tissue throughout before
+  // cutting is skipped until it is cut.
   std::vector<std::uint64_t> m_empty; // nothing is left in them
   std::vector<std::uint64_t> m_full;  // tissue throughout before cutting
+  core::Index3 m_blocks{};
+  // Places of known bricks, the oldest overwritten.
+  static constexpr std::size_t kPlaces = std::size_t{1} << 16;
+  static constexpr std::size_t kBricks = std::size_t{1} << 13;
+  static constexpr std::uint32_t kMaxInBrick = 4096; // with more they are not kept
+  std::vector<Eigen::Vector3d> m_places;
+  std::uint64_t m_nextPlace = 0; // number
+  std::vector<Brick> m_known;    // by a hash of the key
+  Brick* m_making = nullptr;     // the brick whose samples are being found
   const volume::MaskState* m_state = nullptr;
   std::uint64_t m_number = 0;
   std::uint64_t m_raises = 0;

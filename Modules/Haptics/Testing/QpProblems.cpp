@@ -184,7 +184,7 @@ QpProblem QpProblemSource::make(QpFamily family, int count, double spread)
 void QpProblemSource::addRandom(int count, double softShare, QpProblem& problem)
 {
   for (double& compliance : problem.compliances)
-    compliance = power(-3.0, 2.0);
+    compliance = power(-3.0, 3.0);
   for (int i = 0; i < count; ++i)
     if (uniform(0.0, 1.0) < softShare)
       problem.add(anyRow(), uniform(-0.1, 0.2), whole(0, kMaxSprings - 1));
@@ -200,7 +200,7 @@ void QpProblemSource::addPatch(int count, bool soft, QpProblem& problem)
   Eigen::Vector3d center(0.0, 0.0, 0.0);
   if (whole(0, 3) > 0)
     center = uniform(0.0, 60.0) * direction();
-  problem.compliances[0] = power(-2.0, 2.0);
+  problem.compliances[0] = power(-3.0, 3.0);
   const double depth = uniform(0.0, 0.5 * radius);
   problem.unconstrained.head<3>() -= uniform(0.0, 2.0) * pole;
   for (int i = 0; i < count; ++i)

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "LoopScene.h"
-#include "petrous/Haptics/SimulatedDevice.h"
+#include "SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/ServoThread.h"

@@ -14,12 +14,11 @@
 #include <unistd.h>
 
 #include "BoneBlock.h"
+#include "SimulatedDevice.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/PointProxy.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/RecordingReplay.h"
-#include "petrous/Session/Replay.h"
 #include "petrous/Session/ServoThread.h"
 #include "petrous/Session/SessionRecorder.h"
 

@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <functional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,6 @@
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Session/RecordingReader.h"
 #include "petrous/Session/RecordingWriter.h"
-#include "petrous/Session/Replay.h"
 
 using namespace petrous;
 using namespace petrous::session;
@@ -40,6 +41,20 @@ void perform(Session& session, DissectionLoop& loop)
     }
     loop.step(session.tick(hand));
   }
+}
+
+// The servo on recorded inputs; `after` with each new record, to update the mask.
+std::vector<TickRecord> replay(const std::vector<TickRecord>& recorded, Servo& servo,
+                               const std::function<void(const TickRecord&)>& after = {})
+{
+  std::vector<TickRecord> result;
+  for (const TickRecord& record : recorded)
+  {
+    result.push_back(servo.tick(record.input));
+    if (after)
+      after(result.back());
+  }
+  return result;
 }
 
 } // namespace

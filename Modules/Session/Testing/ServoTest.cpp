@@ -4,7 +4,6 @@
 
 #include "Session.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Session/Replay.h"
 
 using namespace petrous::session;
 using namespace petrous::session::testing;

@@ -144,7 +144,7 @@ TEST(Placement, MeshesComeAlong)
   const auto through = [&](double shift)
   {
     const core::RigidTransform turn = there(0.0);
-    return core::RigidTransform(turn.rotation(), turn.rotate(-Vector3d::Constant(shift)));
+    return core::RigidTransform(turn.rotation(), turn.rotation() * -Vector3d::Constant(shift));
   };
   scene::layMr(value, "T2", through(8.0), {});
   const Vector3d inside = through(8.0).inverse() * Vector3d(1.2, 1.2, 1.2);

@@ -460,6 +460,8 @@ TEST(MeshSolid, StopsWhenAskedTo)
   token->cancel();
   const core::Progress progress({}, token);
   const auto mesh = sphere({0, 0, 0}, 2.0, 16);
-  EXPECT_THROW(volume::solidOf(mesh, kSpacing, progress), core::CancelledError);
+  MeshSolidLimits limits;
+  limits.spacing = kSpacing;
+  EXPECT_THROW(volume::planMeshSolid(mesh, limits, progress), core::CancelledError);
   EXPECT_THROW(volume::solidOf(mesh, planned(mesh), progress), core::CancelledError);
 }

@@ -180,7 +180,7 @@ TEST_F(WorkstationModelTest, AnMrThatMovesPutsTheToolAwayOnlyWhereSomethingWasDr
   part.drawnOn = "T2";
   part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
   value.labels = {part};
-  scene::layMr(value, "T2", {}, {});
+  scene::applyRegistration(value, "T2", {}, {});
   model.adopt(std::move(value));
   model.prepareNow();
   int told = 0;
@@ -189,7 +189,7 @@ TEST_F(WorkstationModelTest, AnMrThatMovesPutsTheToolAwayOnlyWhereSomethingWasDr
   {
     model.changeMr(
         [&](scene::Case& c) {
-          scene::layMr(c, mr, {Eigen::Quaterniond::Identity(), {shift, 0.0, 0.0}}, {});
+          scene::applyRegistration(c, mr, {Eigen::Quaterniond::Identity(), {shift, 0.0, 0.0}}, {});
         });
   };
   HeldTool hand({6, 6, 8.5});
@@ -613,7 +613,7 @@ TEST_F(WorkstationModelTest, AnMrThatMovedAStructureHasThatPreparedAgain)
   int wanted = 0;
   model.events.preparationWanted = [&wanted] { ++wanted; };
   const core::RigidTransform moved(Eigen::Quaterniond::Identity(), {1, 0, 0});
-  model.changeMr([&](scene::Case& open) { scene::layMr(open, "mr", moved, {}); });
+  model.changeMr([&](scene::Case& open) { scene::applyRegistration(open, "mr", moved, {}); });
   EXPECT_EQ(wanted, 1);
   EXPECT_TRUE(model.preparationHelps());
   EXPECT_TRUE(model.ready()) << "whoever asks waits for it";

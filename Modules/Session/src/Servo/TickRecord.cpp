@@ -41,7 +41,7 @@ bool isHeldOff(const TickRecord& record) noexcept
   return record.drill != 0 && record.held != 0 && record.thrust < 0.5 * force;
 }
 
-std::string holderInWords(std::uint8_t held)
+std::string holderToString(std::uint8_t held)
 {
   const bool shaft = (held & TickRecord::kShaft) != 0;
   const bool handpiece = (held & TickRecord::kHandpiece) != 0;

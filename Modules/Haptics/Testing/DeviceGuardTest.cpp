@@ -139,7 +139,7 @@ TEST(DeviceGuard, TheOtherSignOfAQuaternionIsNoJump)
   EXPECT_EQ(meet(reading).verdict, DeviceVerdict::Good);
 }
 
-TEST(DeviceGuard, TheFastestHandPassesAndAFasterOneDoesNot)
+TEST(DeviceGuard, TheFastestMotionPassesAndAFasterOneDoesNot)
 {
   DeviceReading reading = at(100);
   reading.pose.position = at(99).pose.position + Vector3d(0, 4.99, 0); // 5 m/s is 5 mm per tick
@@ -199,7 +199,7 @@ TEST(DeviceGuard, AfterAFaultTheForceReturnsWithTheTwentiethSoundReading)
   EXPECT_EQ(judgement.pose.position, at(120).pose.position);
 }
 
-TEST(DeviceGuard, AHandThatJumpedAndStaysThereIsAcceptedThere)
+TEST(DeviceGuard, ADeviceThatJumpedAndStaysThereIsAcceptedThere)
 {
   DeviceGuard guard;
   feed(guard, 0, 100);

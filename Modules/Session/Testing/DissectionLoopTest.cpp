@@ -186,15 +186,15 @@ TEST(DissectionLoop, UndoInContactPutsTheToolOutAndTheForceBackSlowly)
   EXPECT_LT(session.records.back().proxy.pose().position.z(), 0.0);
   const std::size_t before = session.records.size() - 1;
   ASSERT_TRUE(loop.undo());
-  const haptics::Pose hand{{0.0, 0.0, -2.0}, Quaterniond::Identity()};
-  const TickRecord back = session.tick(hand);
+  const haptics::Pose devicePose{{0.0, 0.0, -2.0}, Quaterniond::Identity()};
+  const TickRecord back = session.tick(devicePose);
   EXPECT_EQ(faultOf(back), ServoFault::Retreated);
   EXPECT_GT(toString(back).size(), 20u);
   EXPECT_FALSE(back.drill);
   EXPECT_NEAR(back.proxy.pose().position.z(), 2.0, 1e-6);
   session.pedal = 0.0;
   for (int n = 0; n < 200; ++n)
-    session.tick(hand);
+    session.tick(devicePose);
   const double most = forceOf(session.records[before].output).norm();
   for (std::size_t n = before + 1; n < session.records.size(); ++n)
     EXPECT_LE(forceOf(session.records[n].output).norm(), most + 1e-12);

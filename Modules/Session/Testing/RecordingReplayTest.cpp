@@ -343,5 +343,5 @@ TEST(Replay, NamesWhatDiffers)
   b.wrench.torque[2] = -0.0;
   EXPECT_EQ(differenceOf(a, b), "the force");
   b.input.pedal = 1.0;
-  EXPECT_EQ(differenceOf(a, b), "what the hand gave");
+  EXPECT_EQ(differenceOf(a, b), "the device's reading");
 }

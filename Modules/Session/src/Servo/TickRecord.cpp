@@ -69,7 +69,7 @@ std::string toString(const TickRecord& record)
   case ServoFault::Clock:
     return "The computer's clock ran back; there is no force until it runs on.";
   case ServoFault::Parameters:
-    return "A setting of the hand is out of its range; there is no force until it is put right.";
+    return "A setting of the device is out of its range; there is no force until it is put right.";
   case ServoFault::Inside:
     return "The tool stands inside tissue; it has no force until it is drawn out.";
   case ServoFault::Retreated:
@@ -94,8 +94,8 @@ std::string differenceOf(const TickRecord& a, const TickRecord& b)
     const char* name;
   };
   constexpr Part parts[] = {{0, "the tick's number"},
-                            {offsetof(TickRecord, input), "what the hand gave"},
-                            {offsetof(TickRecord, mapped), "the hand's place in the patient"},
+                            {offsetof(TickRecord, input), "the device's reading"},
+                            {offsetof(TickRecord, mapped), "the device's pose in the patient"},
                             {offsetof(TickRecord, proxy), "the tool's pose"},
                             {offsetof(TickRecord, wrench), "the force"},
                             {offsetof(TickRecord, output), "what the device was sent"},

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "CommandRunner.h"
-#include "petrous/Haptics/SimulatedDevice.h"
+#include "SimulatedDevice.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/RecordingPlayer.h"
 #include "petrous/Session/TouchSession.h"

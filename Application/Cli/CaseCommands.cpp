@@ -68,7 +68,7 @@ void printCase(const Context& context, const scene::Case& value)
                 display.text(value.iso));
   for (const auto& mr : value.mr)
     context.print("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
-                  scene::registrationInWords(mr));
+                  scene::registrationToString(mr));
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +

@@ -79,7 +79,7 @@ void DrillReport::print(const Context& context) const
     context.warn("the tool stood in tissue for " + std::to_string(m_inside) +
                  " ticks: there nothing is felt, and the drill takes what the burr sweeps");
   if (m_heldOff > 0)
-    context.warn(session::holderInWords(m_holder) + " lay on tissue and held the burr off for " +
+    context.warn(session::holderToString(m_holder) + " lay on tissue and held the burr off for " +
                  std::to_string(m_heldOff) +
                  " ticks of drilling: give the tool another angle or more room");
   context.print(std::to_string(result.strokes) +

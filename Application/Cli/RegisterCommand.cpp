@@ -132,7 +132,7 @@ void sign(const Context& context, const Options& options)
   scene::signOff(value, options.mr, options.signOff, session::utcNow());
   library.save(value);
   const scene::ImagePart& mr = *scene::findMr(value, options.mr);
-  context.print("MR '" + mr.name + "': " + scene::registrationInWords(mr));
+  context.print("MR '" + mr.name + "': " + scene::registrationToString(mr));
   context.printJson(
       answerJson(value, mr.name, mr.mrFromCt, *mr.registration, nameOf(mr.registration->verdict)));
 }
@@ -147,7 +147,7 @@ void printOutcome(const Context& context, const scene::Case& value, const Option
     context.print("  the case is as it was");
     return;
   }
-  context.print("MR '" + options.mr + "' registered by " + methodInWords(how) + ": " +
+  context.print("MR '" + options.mr + "' registered by " + methodToString(how) + ": " +
                 nameOf(how.verdict) + ". " + how.text);
   printError(context, how);
   if (!options.asIs)

@@ -142,7 +142,7 @@ nlohmann::json overlayJson(const scene::ImagePart& mr, const presenters::SliceOv
           {"opacity", overlay.mode == OverlayMode::Blend ? nlohmann::json(overlay.opacity)
                                                          : nlohmann::json(nullptr)},
           {"window", {{"width", overlay.window.width}, {"level", overlay.window.level}}},
-          {"text", scene::registrationInWords(mr)}};
+          {"text", scene::registrationToString(mr)}};
 }
 
 void slice(const Context& context, const SliceOptions& options)

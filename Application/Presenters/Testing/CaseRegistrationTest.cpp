@@ -155,7 +155,7 @@ TEST_F(CaseRegistration, GoesToTheCtThroughAnotherMr)
   {
     EXPECT_NE(std::string(error.what()).find("register it first"), std::string::npos);
   }
-  scene::layMr(value, "T2", motion(), known());
+  scene::applyRegistration(value, "T2", motion(), known());
   int heard = 0;
   const RegistrationOutcome outcome =
       registerMr(value, request, {},
@@ -192,7 +192,7 @@ TEST_F(CaseRegistration, SaysWhereTheFrameOfReferenceIsContradicted)
 {
   const core::RigidTransform moved = turned(1.0, {5.0, 1.0, -2.0});
   scene::Case value = makeCase(moved);
-  scene::layMr(value, "T2", motion(), known());
+  scene::applyRegistration(value, "T2", motion(), known());
   RegistrationRequest request;
   request.mr = "DWI";
   request.onto = "T2";

@@ -33,7 +33,7 @@ core::CameraPose camera()
 
 } // namespace
 
-TEST(DeviceMapping, TheHandNeverFeelsAStifferSpringThanTheDeviceRenders)
+TEST(DeviceMapping, TheUserNeverFeelsAStifferSpringThanTheDeviceRenders)
 {
   for (const double stiffness : {0.1, 0.4, 2.0})
     for (const double scale : {0.05, 0.25, 0.5, 1.0, 2.0})
@@ -70,7 +70,7 @@ TEST(DeviceMapping, TheUsersLimitOnlyLowersTheDevices)
   EXPECT_EQ(most(-1.0), 0.0);
 }
 
-TEST(DeviceMapping, AHandWithoutMotorsIsOnALeashOfItsThrust)
+TEST(DeviceMapping, ADeviceWithoutMotorsHasADriftLimitOfItsThrust)
 {
   const haptics::DeviceDescription cap;
   DeviceMapping lead;

@@ -62,11 +62,11 @@ protected:
         return true;
     return false;
   }
-  static void stroke(WorkstationModel& model, HeldTool& hand)
+  static void stroke(WorkstationModel& model, HeldTool& held)
   {
-    hand.drill(true);
+    held.drill(true);
     ASSERT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
-    hand.drill(false);
+    held.drill(false);
     ASSERT_TRUE(until([&model] { return !model.advanceTouch().strokes.empty(); }));
   }
 
@@ -81,9 +81,9 @@ TEST_F(JournalThreadTest, BringsBackTheStrokesOfAProgramThatWasKilled)
 {
   WorkstationModel model{library::Library(folder)};
   model.open("block");
-  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
-  model.startTouch(hand.device, hand.setup);
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  HeldTool held(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(held.device, held.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   EXPECT_TRUE(model.unsaved());
   scene::Case again;
   ASSERT_TRUE(until([&] { return reopened(again).size() > 10 && again.strokes.size() == 1; }));
@@ -100,7 +100,7 @@ TEST_F(JournalThreadTest, BringsBackTheStrokesOfAProgramThatWasKilled)
   model.undo();
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.applied() == 0; }));
   EXPECT_EQ(again.strokes.size(), 1u);
-  model.startTouch(hand.device, hand.setup);
+  model.startTouch(held.device, held.setup);
   model.redo();
   ASSERT_TRUE(until(
       [&]
@@ -115,16 +115,16 @@ TEST_F(JournalThreadTest, HasAPartOfAStrokeThatIsOpenForLong)
 {
   WorkstationModel model{library::Library(folder)};
   model.open("block");
-  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
-  model.startTouch(hand.device, hand.setup);
-  hand.drill(true);
+  HeldTool held(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(held.device, held.setup);
+  held.drill(true);
   const auto start = std::chrono::steady_clock::now();
   ASSERT_TRUE(until(
       [&]
       {
         const auto news = model.advanceTouch();
         if (news.record)
-          hand.device.see(*news.record);
+          held.device.see(*news.record);
         return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(4000) &&
                journalled();
       }));
@@ -169,15 +169,15 @@ TEST_F(JournalThreadTest, GoesOnInTheLibraryThatTheCaseWasSavedTo)
 {
   WorkstationModel model{library::Library(folder)};
   model.open("block");
-  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
-  model.startTouch(hand.device, hand.setup);
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  HeldTool held(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(held.device, held.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   const std::filesystem::path elsewhere = folder.string() + "-elsewhere";
   std::filesystem::remove_all(elsewhere);
   model.saveElsewhere(elsewhere, "block");
   ASSERT_TRUE(model.touching());
   EXPECT_TRUE(until([this] { return !journalled(); })) << "the old journal is of no more use";
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   ASSERT_TRUE(until([&] { return std::filesystem::exists(elsewhere / "cases/block.journal"); }));
   std::filesystem::remove_all(folder);
   std::filesystem::rename(elsewhere, folder); // open files stay open
@@ -193,15 +193,15 @@ TEST_F(JournalThreadTest, HasWhatWasDrilledWhileTheImportWasStored)
   WorkstationModel model{library};
   model.adopt(block());
   StoreTask task = model.beginStore();
-  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
-  model.startTouch(hand.device, hand.setup);
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  HeldTool held(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(held.device, held.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   task.run();
   model.stored(task);
   scene::Case again;
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 2; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
 }
@@ -212,10 +212,10 @@ TEST_F(JournalThreadTest, HasAnUndoThatFollowsManyStepsOfTheTool)
 {
   WorkstationModel model{library::Library(folder)};
   model.open("block");
-  HeldTool hand(Vector3d(6.0, 6.0, kTop + 2.5));
-  model.startTouch(hand.device, hand.setup);
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
-  ASSERT_NO_FATAL_FAILURE(stroke(model, hand));
+  HeldTool held(Vector3d(6.0, 6.0, kTop + 2.5));
+  model.startTouch(held.device, held.setup);
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
+  ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   model.stopTouch();
   for (const std::size_t done : {1U, 0U, 1U, 2U, 1U})
   {

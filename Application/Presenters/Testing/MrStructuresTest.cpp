@@ -104,7 +104,7 @@ std::unique_ptr<scene::Case> MrStructures::s_case;
 TEST_F(MrStructures, LandOnTheCtWithinAVoxel)
 {
   scene::Case value = *s_case;
-  scene::layMr(value, "T2", s_phantom->mrFromCt(), {});
+  scene::applyRegistration(value, "T2", s_phantom->mrFromCt(), {});
   EXPECT_LT(farthestOutside(value), 0.1 * kMrVoxel);
 
   // Conversely, the surface of the phantom's structure is that of the label.
@@ -129,7 +129,7 @@ TEST_F(MrStructures, LandOnTheCtWithinAVoxel)
   }
   EXPECT_EQ(compared, 3U);
 
-  scene::layMr(value, "T2", {}, {});
+  scene::applyRegistration(value, "T2", {}, {});
   EXPECT_GT(farthestOutside(value), 4.0 * kMrVoxel) << "elsewhere without the motion";
 }
 
@@ -149,7 +149,7 @@ TEST_F(MrStructures, AreFeltReadAndDrawnWhereTheyLand)
   const std::size_t without = colourful(value);
   EXPECT_TRUE(scene::tissueField(value).solids().empty()) << "not silently touchable";
 
-  scene::layMr(value, "T2", s_phantom->mrFromCt(), {});
+  scene::applyRegistration(value, "T2", s_phantom->mrFromCt(), {});
   const volume::TissueField field = scene::tissueField(value);
   PointProbe reader(value, field);
   for (const char* name : {"cochlea", "facial_nerve"})

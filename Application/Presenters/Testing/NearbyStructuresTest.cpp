@@ -177,7 +177,7 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   value.mr.push_back(mr);
   EXPECT_EQ(StructureSurfaces(value).count(), 0U) << "nobody knows where they are";
 
-  scene::layMr(value, "T2", {}, {});
+  scene::applyRegistration(value, "T2", {}, {});
   found = uncertainty();
   EXPECT_EQ(found.drawnOn, "T2");
   EXPECT_TRUE(found.incomplete());
@@ -192,7 +192,7 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
 
   scene::Registration how;
   how.error = scene::RegistrationError{kNerve + Vector3d(0.0, 0.0, 14.0), "the incus", 0.1, 0.3, 1};
-  scene::layMr(value, "T2", {}, how);
+  scene::applyRegistration(value, "T2", {}, how);
   found = uncertainty();
   EXPECT_FALSE(found.incomplete());
   EXPECT_NEAR(found.millimetres(), 0.5, 1e-12);
@@ -214,7 +214,7 @@ TEST(NearbyStructures, AreWhereTheirMrLiesOnTheCt)
   mr.name = "T2";
   mr.geometry = value.labels[0].labels.get()->voxels->geometry();
   value.mr.push_back(mr);
-  scene::layMr(value, "T2", mrFromCt, {});
+  scene::applyRegistration(value, "T2", mrFromCt, {});
   NearbyStructures nearby(value);
   nearby.surfaces();
   const auto near = nearby.around(value, mrFromCt.inverse() * kNerve, 1.0, 5.0);

@@ -35,12 +35,12 @@ protected:
   // As in a window: drills, slides on, undoes while pressed, redoes.
   void liveSession(scene::Case& value, session::TouchScene& scene)
   {
-    HeldTool hand(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
-    hand.setup.recording = file;
+    HeldTool held(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
+    held.setup.recording = file;
     // A burr that sinks into bone removes at once what it overlaps; it must not emerge below.
     const bool sinks = GetParam() == session::TouchTool::Mode::ThreeDof;
     const std::uint64_t states = sinks ? 1 : 8;
-    session::TouchSession session(value, scene, hand.device, hand.setup);
+    session::TouchSession session(value, scene, held.device, held.setup);
     std::uint64_t felt = 0; // number of the mask's state
     double thrust = 0.0;    // N
     std::size_t steps = 0;
@@ -53,7 +53,7 @@ protected:
             steps += news.steps.size();
             if (news.record)
             {
-              hand.device.see(*news.record);
+              held.device.see(*news.record);
               felt = news.record->maskState;
               thrust = news.record->thrust;
             }
@@ -69,16 +69,16 @@ protected:
     frames(after(80));
     for (int round = 0; round < (sinks ? 1 : 3); ++round)
     {
-      hand.drill(true);
+      held.drill(true);
       frames([&, end = felt + states] { return felt >= end; });
       if (sinks)
-        hand.drill(false);
+        held.drill(false);
       haptics::Pose aside;
       aside.position = Vector3d(5.5 + 0.5 * round, 6.0, kTop + 2.5);
-      hand.device.want(aside);
+      held.device.want(aside);
       frames(after(150));
       if (round == 0)
-        hand.drill(false);
+        held.drill(false);
       frames(after(20));
       session.undo();
       frames([&, end = steps + 1] { return steps >= end; });
@@ -172,9 +172,9 @@ TEST_P(RecordingPlayerTest, GoesOnFromWhereASceneWasThatOthersHadUsed)
   session::TouchScene scene(first);
   {
     // An earlier session, not recorded: the case and the mask's state numbers continue from it.
-    HeldTool hand(Vector3d(5.0, 5.0, kTop + 2.5), GetParam());
-    session::TouchSession session(first, scene, hand.device, hand.setup);
-    hand.drill(true);
+    HeldTool held(Vector3d(5.0, 5.0, kTop + 2.5), GetParam());
+    session::TouchSession session(first, scene, held.device, held.setup);
+    held.drill(true);
     ASSERT_TRUE(until(
         [&]
         {
@@ -266,9 +266,9 @@ TEST_P(RecordingPlayerTest, SaysThatARecordingCannotBeBegun)
 {
   scene::Case value = block();
   session::TouchScene scene(value);
-  HeldTool hand(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
-  hand.setup.recording = folder / "missing" / "session.ticks";
-  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+  HeldTool held(Vector3d(5.0, 6.0, kTop + 2.5), GetParam());
+  held.setup.recording = folder / "missing" / "session.ticks";
+  EXPECT_THROW(session::TouchSession(value, scene, held.device, held.setup),
                session::RecordingError);
 }
 

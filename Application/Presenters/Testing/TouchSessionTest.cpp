@@ -22,21 +22,21 @@ class TouchSessionTest : public ::testing::Test
 protected:
   scene::Case value = block();
   session::TouchScene scene{value};
-  HeldTool hand{Vector3d(6.0, 6.0, kTop + 2.5), session::TouchTool::Mode::SixDof};
-  session::TouchSession session{value, scene, hand.device, hand.setup};
+  HeldTool held{Vector3d(6.0, 6.0, kTop + 2.5), session::TouchTool::Mode::SixDof};
+  session::TouchSession session{value, scene, held.device, held.setup};
 
   // One frame: applies the removal and feeds the device.
   session::TouchSession::News frame()
   {
     auto news = session.advance();
     if (news.record)
-      hand.device.see(*news.record);
+      held.device.see(*news.record);
     return news;
   }
   // Half a millimetre deep: the first bites only shave partial voxels.
   bool drillSome()
   {
-    hand.drill(true);
+    held.drill(true);
     return until(
         [this]
         {
@@ -70,7 +70,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   session.setCamera(camera);
   ASSERT_TRUE(drillSome());
   EXPECT_TRUE(session.drilling());
-  hand.drill(false);
+  held.drill(false);
   session::TouchSession::News news;
   ASSERT_TRUE(until(
       [&]
@@ -91,7 +91,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
 
 TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)
 {
-  hand.drill(true);
+  held.drill(true);
   double lowest = 100.0;
   ASSERT_TRUE(until(
       [&]
@@ -127,7 +127,7 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
         frame();
         return session.drilling() && !value.dissection->mask().untouched();
       }));
-  hand.drill(false);
+  held.drill(false);
   ASSERT_TRUE(until([this] { return !frame().strokes.empty(); }));
   ASSERT_EQ(value.strokes.size(), 2u) << "the one undone is kept";
   EXPECT_TRUE(value.history.find("main~1"));
@@ -269,13 +269,13 @@ TEST(TouchSession, RefusesBadParameters)
 {
   scene::Case value = block();
   session::TouchScene scene(value);
-  HeldTool hand(Vector3d(6.0, 6.0, 10.0));
-  hand.setup.tool.burr.rpm = -1.0;
-  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+  HeldTool held(Vector3d(6.0, 6.0, 10.0));
+  held.setup.tool.burr.rpm = -1.0;
+  EXPECT_THROW(session::TouchSession(value, scene, held.device, held.setup),
                core::InvalidParameter);
-  hand.setup.tool.burr.rpm = 60000.0;
-  hand.setup.parameters.thrust = 50.0;
-  EXPECT_THROW(session::TouchSession(value, scene, hand.device, hand.setup),
+  held.setup.tool.burr.rpm = 60000.0;
+  held.setup.parameters.thrust = 50.0;
+  EXPECT_THROW(session::TouchSession(value, scene, held.device, held.setup),
                core::InvalidParameter);
 }
 

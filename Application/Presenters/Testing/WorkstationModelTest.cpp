@@ -51,12 +51,12 @@ protected:
 
   static void stroke(WorkstationModel& model)
   {
-    HeldTool hand({6, 6, 8.5});
-    model.startTouch(hand.device, hand.setup);
-    hand.drill(true);
+    HeldTool held({6, 6, 8.5});
+    model.startTouch(held.device, held.setup);
+    held.drill(true);
     EXPECT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
     EXPECT_TRUE(model.drilling());
-    hand.drill(false);
+    held.drill(false);
     EXPECT_TRUE(until([&model] { return model.advanceTouch().strokes.size() == 1; }));
     model.stopTouch();
     EXPECT_FALSE(model.touching());
@@ -110,17 +110,17 @@ TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)
   EXPECT_FALSE(model.canRedo());
 }
 
-TEST_F(WorkstationModelTest, UndoesTheOpenStrokeWhileTheToolIsInTheHand)
+TEST_F(WorkstationModelTest, UndoesTheOpenStrokeWhileTheToolIsActive)
 {
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
   model.prepareNow();
-  HeldTool hand({6, 6, 8.5});
-  model.startTouch(hand.device, hand.setup);
-  hand.drill(true);
+  HeldTool held({6, 6, 8.5});
+  model.startTouch(held.device, held.setup);
+  held.drill(true);
   ASSERT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
   EXPECT_TRUE(model.canUndo());
-  hand.drill(false);
+  held.drill(false);
   bool back = false;
   model.events.stepped = [&back](bool undone) { back = undone; };
   model.undo();
@@ -143,15 +143,15 @@ TEST_F(WorkstationModelTest, AnotherThresholdPutsTheToolAway)
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
   model.prepareNow();
-  HeldTool hand({6, 6, 8.5});
-  model.startTouch(hand.device, hand.setup);
+  HeldTool held({6, 6, 8.5});
+  model.startTouch(held.device, held.setup);
   EXPECT_TRUE(model.touching());
   model.setIso(700.0);
   EXPECT_FALSE(model.touching());
   EXPECT_FALSE(model.advanceTouch().record.has_value());
   model.adopt(block("other"));
   model.prepareNow();
-  model.startTouch(hand.device, hand.setup);
+  model.startTouch(held.device, held.setup);
   model.adopt(block("block"));
   model.prepareNow();
   EXPECT_FALSE(model.touching());
@@ -180,39 +180,39 @@ TEST_F(WorkstationModelTest, AnMrThatMovesPutsTheToolAwayOnlyWhereSomethingWasDr
   part.drawnOn = "T2";
   part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
   value.labels = {part};
-  scene::layMr(value, "T2", {}, {});
+  scene::applyRegistration(value, "T2", {}, {});
   model.adopt(std::move(value));
   model.prepareNow();
-  int told = 0;
-  model.events.toolPutAway = [&told] { ++told; };
+  int notified = 0;
+  model.events.toolPutAway = [&notified] { ++notified; };
   const auto lay = [&model](const std::string& mr, double shift)
   {
     model.changeMr(
         [&](scene::Case& c) {
-          scene::layMr(c, mr, {Eigen::Quaterniond::Identity(), {shift, 0.0, 0.0}}, {});
+          scene::applyRegistration(c, mr, {Eigen::Quaterniond::Identity(), {shift, 0.0, 0.0}}, {});
         });
   };
-  HeldTool hand({6, 6, 8.5});
-  model.startTouch(hand.device, hand.setup);
+  HeldTool held({6, 6, 8.5});
+  model.startTouch(held.device, held.setup);
   lay("DWI", 1.0);
   EXPECT_TRUE(model.touching()) << "nothing was drawn on that";
   model.changeMr([](scene::Case& c) { scene::signOff(c, "T2", "A. Surgeon", "2026-01-31"); });
   EXPECT_TRUE(model.touching()) << "a signature moves nothing";
-  EXPECT_EQ(told, 0);
+  EXPECT_EQ(notified, 0);
   lay("T2", 1.0);
   EXPECT_FALSE(model.touching());
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(notified, 1);
   lay("T2", 2.0);
-  EXPECT_EQ(told, 1) << "nothing was in the hand";
+  EXPECT_EQ(notified, 1) << "nothing was in the hand";
   EXPECT_EQ(model.readPlace({6.0 - 2.0, 6.0, 6.6}).structure, "tumour") << "read where it lies now";
 
-  model.startTouch(hand.device, hand.setup);
-  hand.drill(true);
+  model.startTouch(held.device, held.setup);
+  held.drill(true);
   ASSERT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
   lay("T2", 3.0);
   EXPECT_EQ(model.value().mr[0].mrFromCt.translation()[0], 2.0) << "it stays while the drill runs";
   EXPECT_TRUE(model.touching());
-  hand.drill(false);
+  held.drill(false);
   EXPECT_TRUE(until([&model] { return model.advanceTouch().strokes.size() == 1; }));
 }
 
@@ -355,8 +355,8 @@ TEST_F(WorkstationModelTest, ShowsTheCtUntilItsStructuresAreLoaded)
   EXPECT_FALSE(model.sceneContents().labels);
   EXPECT_TRUE(model.presentable().labels.empty());
   EXPECT_FALSE(model.surfaceAt(line()));
-  HeldTool hand({6, 6, 11.5});
-  EXPECT_THROW(model.startTouch(hand.device, hand.setup), core::InvalidParameter);
+  HeldTool held({6, 6, 11.5});
+  EXPECT_THROW(model.startTouch(held.device, held.setup), core::InvalidParameter);
 
   int shown = 0;
   model.events.appearanceChanged = [&shown] { ++shown; };
@@ -369,7 +369,7 @@ TEST_F(WorkstationModelTest, ShowsTheCtUntilItsStructuresAreLoaded)
   EXPECT_TRUE(model.sceneContents().labels);
   ASSERT_TRUE(model.surfaceAt(line()));
   EXPECT_NEAR(model.surfaceAt(line())->z(), 0.3 * 34, 0.3); // of the sphere
-  model.startTouch(hand.device, hand.setup);
+  model.startTouch(held.device, held.setup);
   EXPECT_TRUE(model.touching());
 }
 
@@ -458,8 +458,8 @@ TEST_F(WorkstationModelTest, NothingIsDrilledInADamagedCtAndNothingIsStoredOfIt)
     model.open("block");
     ASSERT_EQ(model.damage().size(), 1u);
     EXPECT_NE(model.damage()[0].find("the CT of case 'block'"), std::string::npos);
-    HeldTool hand({6, 6, 8.5});
-    EXPECT_THROW(model.startTouch(hand.device, hand.setup), library::LibraryError);
+    HeldTool held({6, 6, 8.5});
+    EXPECT_THROW(model.startTouch(held.device, held.setup), library::LibraryError);
   }
   // Stored elsewhere it would be valid by the hash of its current content.
   WorkstationModel model{library::Library(folder / "library")};
@@ -540,11 +540,11 @@ TEST_F(WorkstationModelTest, NoToolIsTakenUpInACaseThatIsLeft)
   WorkstationModel model{library::Library(folder)};
   model.adopt(block("block"));
   model.prepareNow();
-  HeldTool hand({6, 6, 8.5});
-  model.startTouch(hand.device, hand.setup);
+  HeldTool held({6, 6, 8.5});
+  model.startTouch(held.device, held.setup);
   model.beginLeave();
   EXPECT_FALSE(model.touching());
-  EXPECT_THROW(model.startTouch(hand.device, hand.setup), core::InvalidParameter);
+  EXPECT_THROW(model.startTouch(held.device, held.setup), core::InvalidParameter);
   model.notOpened(); // the case stays
   stroke(model);
   model.beginLeave();
@@ -613,7 +613,7 @@ TEST_F(WorkstationModelTest, AnMrThatMovedAStructureHasThatPreparedAgain)
   int wanted = 0;
   model.events.preparationWanted = [&wanted] { ++wanted; };
   const core::RigidTransform moved(Eigen::Quaterniond::Identity(), {1, 0, 0});
-  model.changeMr([&](scene::Case& open) { scene::layMr(open, "mr", moved, {}); });
+  model.changeMr([&](scene::Case& open) { scene::applyRegistration(open, "mr", moved, {}); });
   EXPECT_EQ(wanted, 1);
   EXPECT_TRUE(model.preparationHelps());
   EXPECT_TRUE(model.ready()) << "whoever asks waits for it";

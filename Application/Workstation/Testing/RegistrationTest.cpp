@@ -372,7 +372,7 @@ TEST_F(RegistrationWindow, AnMrGoesToTheCtThroughOneThatIsThere)
   value.mr.push_back(second);
   for (scene::ImagePart& each : value.mr)
     each.frameOfReference = std::string(64, 'f');
-  scene::layMr(value, "T2", phantom.mrFromCt(), {});
+  scene::applyRegistration(value, "T2", phantom.mrFromCt(), {});
   library().save(value);
   const_cast<presenters::WorkstationModel&>(window().model()).open("ear");
   showPanel();

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 namespace petrous::core
@@ -130,12 +129,6 @@ LockedMemory::~LockedMemory()
     const auto [from, to] = pagesOf(range);
     PageLocks::ofProcess().unlock(from, to);
   }
-}
-
-long majorPageFaults() noexcept
-{
-  rusage usage{};
-  return getrusage(RUSAGE_THREAD, &usage) == 0 ? usage.ru_majflt : 0;
 }
 
 } // namespace petrous::core

@@ -55,9 +55,4 @@ RigidTransform RigidTransform::operator*(const RigidTransform& other) const
   return {m_rotation * other.m_rotation, m_rotation * other.m_translation + m_translation};
 }
 
-Eigen::Vector3d RigidTransform::rotate(const Eigen::Vector3d& vector) const
-{
-  return m_rotation * vector;
-}
-
 } // namespace petrous::core

@@ -29,7 +29,6 @@ std::string refusal(const std::string& path)
 TEST(HidLibrary, ListsWithTheLinkedHidapiWhateverIsPluggedIn)
 {
   const HidLibrary library;
-  EXPECT_EQ(library.version().rfind("0.", 0), 0U) << library.version();
   for (const HidInterface& interface : library.list())
     EXPECT_FALSE(interface.path.empty());
   EXPECT_EQ(library.open("/nowhere/hidraw0"), nullptr);

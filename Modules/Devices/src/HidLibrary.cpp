@@ -50,8 +50,8 @@ HidError::HidError(const std::string& message)
 }
 
 HidLibrary::HidLibrary()
-  : m_functions{::hid_init,      ::hid_exit,  ::hid_enumerate,    ::hid_free_enumeration,
-                ::hid_open_path, ::hid_close, ::hid_read_timeout, ::hid_version_str}
+  : m_functions{::hid_init,      ::hid_exit,  ::hid_enumerate,   ::hid_free_enumeration,
+                ::hid_open_path, ::hid_close, ::hid_read_timeout}
 {
   initialise("hidapi");
 }
@@ -68,7 +68,6 @@ HidLibrary::HidLibrary(const std::string& path)
   find(handle, path, "hid_open_path", m_functions.openPath);
   find(handle, path, "hid_close", m_functions.close);
   find(handle, path, "hid_read_timeout", m_functions.readTimeout);
-  find(handle, path, "hid_version_str", m_functions.versionText);
   m_handle = handle;
   try
   {
@@ -92,11 +91,6 @@ void HidLibrary::initialise(const std::string& name)
 {
   if (m_functions.init() != 0)
     throw HidError(name + ": cannot be initialised");
-}
-
-std::string HidLibrary::version() const
-{
-  return m_functions.versionText();
 }
 
 std::vector<HidInterface> HidLibrary::list() const

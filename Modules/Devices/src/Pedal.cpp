@@ -101,9 +101,4 @@ Pedal::Reading Pedal::read() noexcept
           m_sample.connected};
 }
 
-std::string Pedal::problem() const
-{
-  return m_reader->problem();
-}
-
 } // namespace petrous::devices

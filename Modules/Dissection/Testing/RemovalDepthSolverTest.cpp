@@ -42,10 +42,10 @@ public:
   }
 
   // Applies the step and returns the removed volume by an independent quadrature.
-  double take(const RemovalStep& bite)
+  double take(const RemovalStep& step)
   {
     const volume::CutMask before = mask;
-    const auto bricks = dissection::cut(mask, bite.burr);
+    const auto bricks = dissection::cut(mask, step.burr);
     return dissection::measureRemoved(tissue, before, mask, bricks, {}).total;
   }
 
@@ -99,17 +99,17 @@ TEST(RemovalDepthSolver, GoesAsDeepAsACapOfTheVolumeIs)
       int bites = 0;
       for (; left > 0.05 * volume && bites < 20; ++bites)
       {
-        const auto bite = bone.search.find(bone.mask, BoneBelow::down(kRadius, left));
-        ASSERT_TRUE(bite);
-        EXPECT_LE(bite->work, kResistance * left * (1.0 + 1e-9));
-        EXPECT_NEAR(bite->work, kResistance * bite->volume, 1e-4 * bite->work);
+        const auto step = bone.search.find(bone.mask, BoneBelow::down(kRadius, left));
+        ASSERT_TRUE(step);
+        EXPECT_LE(step->work, kResistance * left * (1.0 + 1e-9));
+        EXPECT_NEAR(step->work, kResistance * step->volume, 1e-4 * step->work);
         if (bites > 0)
         {
-          EXPECT_LE(bite->depth - end, 0.251 * h);
+          EXPECT_LE(step->depth - end, 0.251 * h);
         }
-        end = bite->depth;
-        bone.take(*bite);
-        left -= bite->volume;
+        end = step->depth;
+        bone.take(*step);
+        left -= step->volume;
       }
       EXPECT_LT(left, 0.1 * volume);
       EXPECT_GE(left, 0.0);
@@ -128,11 +128,11 @@ TEST(RemovalDepthSolver, SaysWhereTheBurrTakesIt)
       SCOPED_TRACE(h);
       SCOPED_TRACE(volume);
       BoneBelow bone(h);
-      const auto bite = bone.search.find(bone.mask, BoneBelow::down(kRadius, volume));
-      ASSERT_TRUE(bite);
-      ASSERT_GT(bite->volume, 0.0);
+      const auto step = bone.search.find(bone.mask, BoneBelow::down(kRadius, volume));
+      ASSERT_TRUE(step);
+      ASSERT_GT(step->volume, 0.0);
       const double r = kRadius + RemovalDepthSolver::kClearance * h;
-      const double depth = bite->depth + RemovalDepthSolver::kClearance * h;
+      const double depth = step->depth + RemovalDepthSolver::kClearance * h;
       double all = 0.0, moment = 0.0;
       const int steps = 2000;
       const double widest = std::acos(1.0 - depth / r);
@@ -143,8 +143,8 @@ TEST(RemovalDepthSolver, SaysWhereTheBurrTakesIt)
         all += part;
         moment += part * r * std::sin(t);
       }
-      EXPECT_LT(std::acos(bite->patch.middle.dot(-Vector3d::UnitZ())), 0.02);
-      EXPECT_NEAR(bite->patch.spread, moment / all, 0.05 * moment / all + 0.02 * h);
+      EXPECT_LT(std::acos(step->patch.middle.dot(-Vector3d::UnitZ())), 0.02);
+      EXPECT_NEAR(step->patch.spread, moment / all, 0.05 * moment / all + 0.02 * h);
     }
 }
 
@@ -162,10 +162,10 @@ TEST(RemovalDepthSolver, SaysHowFarFromTheSpindleTheBurrTakesIt)
       RemovalDepthSolver::Wish wish = BoneBelow::down(kRadius, volume);
       const double theta = degrees * kPi / 180.0;
       wish.spindle = Vector3d(0.6 * std::cos(theta), 0.8 * std::cos(theta), std::sin(theta));
-      const auto bite = bone.search.find(bone.mask, wish);
-      ASSERT_TRUE(bite);
+      const auto step = bone.search.find(bone.mask, wish);
+      ASSERT_TRUE(step);
       const double r = kRadius + RemovalDepthSolver::kClearance * h;
-      const double depth = bite->depth + RemovalDepthSolver::kClearance * h;
+      const double depth = step->depth + RemovalDepthSolver::kClearance * h;
       const double widest = std::sqrt(2.0 * r * depth);
       double sum = 0.0;
       int places = 0;
@@ -178,7 +178,7 @@ TEST(RemovalDepthSolver, SaysHowFarFromTheSpindleTheBurrTakesIt)
         sum += kRadius * p.normalized().cross(wish.spindle).norm();
         ++places;
       }
-      EXPECT_NEAR(bite->patch.arm, sum / places, 0.02 * sum / places + 0.01 * h);
+      EXPECT_NEAR(step->patch.arm, sum / places, 0.02 * sum / places + 0.01 * h);
     }
 }
 
@@ -198,16 +198,16 @@ TEST(RemovalDepthSolver, TakesNothingFromAirNorBeyondItsReach)
   {
     auto wish = BoneBelow::down(kRadius, 0.1);
     wish.place.x() = x;
-    const auto bite = bone.search.find(bone.mask, wish);
-    ASSERT_TRUE(bite);
-    EXPECT_EQ(bite->volume > 0.0, x < 0.0);
+    const auto step = bone.search.find(bone.mask, wish);
+    ASSERT_TRUE(step);
+    EXPECT_EQ(step->volume > 0.0, x < 0.0);
   }
   RemovalDepthSolver huge(bone.tissue, bone.resistance, {}, 500.0);
   auto wish = BoneBelow::down(500.0, 0.5);
-  const auto bite = huge.find(bone.mask, wish);
-  ASSERT_TRUE(bite);
-  EXPECT_GT(bite->volume, 0.0);
-  EXPECT_LE(bite->volume, 0.5);
+  const auto step = huge.find(bone.mask, wish);
+  ASSERT_TRUE(step);
+  EXPECT_GT(step->volume, 0.0);
+  EXPECT_LE(step->volume, 0.5);
 }
 
 TEST(RemovalDepthSolver, LeavesWhatIsProtected)
@@ -215,10 +215,10 @@ TEST(RemovalDepthSolver, LeavesWhatIsProtected)
   const core::GridGeometry grid = BoneBelow::gridOf(0.3);
   auto all = std::make_shared<const volume::Volume<float>>(grid, 1.0F);
   BoneBelow bone(0.3, {all});
-  const auto bite = bone.search.find(bone.mask, BoneBelow::down(kRadius, 0.1));
-  ASSERT_TRUE(bite);
-  EXPECT_EQ(bite->volume, 0.0);
-  EXPECT_TRUE(bite->capped);
+  const auto step = bone.search.find(bone.mask, BoneBelow::down(kRadius, 0.1));
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->volume, 0.0);
+  EXPECT_TRUE(step->capped);
 }
 
 // A ball that already penetrates the tissue deeply (like the centre of a burr that is held at the
@@ -229,19 +229,19 @@ TEST(RemovalDepthSolver, DrawsASunkenBurrBack)
   double taken = 0.0;
   for (int n = 0; n < 400; ++n)
   {
-    const auto bite = bone.search.find(bone.mask, BoneBelow::down(0.3, 0.05));
-    ASSERT_TRUE(bite) << n;
-    ASSERT_LE(bite->volume, 0.05 * (1.0 + 1e-6)) << n;
-    if (bite->depth > 0.0)
+    const auto step = bone.search.find(bone.mask, BoneBelow::down(0.3, 0.05));
+    ASSERT_TRUE(step) << n;
+    ASSERT_LE(step->volume, 0.05 * (1.0 + 1e-6)) << n;
+    if (step->depth > 0.0)
       break;
-    taken += bone.take(*bite);
+    taken += bone.take(*step);
   }
   // Everything that the ball overlapped: a cap of 1.7 mm.
   const double r = kRadius + RemovalDepthSolver::kClearance * 0.3;
   EXPECT_NEAR(taken, kPi * 1.7 * 1.7 * (r - 1.7 / 3.0), 0.5);
 }
 
-TEST(RemovalDepthSolver, TissuesShareTheWork)
+TEST(RemovalDepthSolver, TissuesDivideTheWork)
 {
   const core::GridGeometry grid = BoneBelow::gridOf(0.2);
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
@@ -256,23 +256,23 @@ TEST(RemovalDepthSolver, TissuesShareTheWork)
   double spent = 0.0;
   for (int n = 0; n < 12; ++n)
   {
-    const auto bite = bone.search.find(bone.mask, BoneBelow::down(kRadius - 0.04 * n, 0.1));
-    ASSERT_TRUE(bite);
+    const auto step = bone.search.find(bone.mask, BoneBelow::down(kRadius - 0.04 * n, 0.1));
+    ASSERT_TRUE(step);
     const volume::CutMask before = bone.mask;
-    const auto bricks = dissection::cut(bone.mask, bite->burr);
+    const auto bricks = dissection::cut(bone.mask, step->burr);
     const auto parts =
         dissection::measureRemoved(bone.tissue, before, bone.mask, bricks, {{"soft", labels, 1}});
     ASSERT_EQ(parts.structures.size(), 1u);
     const double soft = parts.structures[0].volume;
     work += kResistance * (0.25 * soft + (parts.total - soft));
-    spent += bite->work;
+    spent += step->work;
   }
   EXPECT_NEAR(work, spent, 0.01 * spent);
 }
 
 // A burr that barely touches its own cavity removes almost nothing; its work must match the volume,
 // instead of being the rounding error of one of the sums.
-TEST(RemovalDepthSolver, ABiteOfNextToNothingHasItsWork)
+TEST(RemovalDepthSolver, AStepOfNextToNothingHasItsWork)
 {
   BoneBelow bone(0.5);
   const double r = kRadius + RemovalDepthSolver::kClearance * bone.grid.minSpacing();
@@ -286,12 +286,12 @@ TEST(RemovalDepthSolver, ABiteOfNextToNothingHasItsWork)
     const double depth = 0.01 * std::pow(10.0, -2.0 * std::abs(unit(random)));
     const Vector3d place = Vector3d(0.0, 0.0, kRadius - 1.0) + 1e-3 * unit(random) * into;
     bone.search.forget();
-    const auto bite = bone.search.find(bone.mask, {place, into, 1e6, depth});
-    if (!bite || !(bite->volume > 0.0))
+    const auto step = bone.search.find(bone.mask, {place, into, 1e6, depth});
+    if (!step || !(step->volume > 0.0))
       continue;
     ++taken;
-    EXPECT_NEAR(bite->work, kResistance * bite->volume, 0.01 * kResistance * bite->volume)
-        << n << " " << bite->volume;
+    EXPECT_NEAR(step->work, kResistance * step->volume, 0.01 * kResistance * step->volume)
+        << n << " " << step->volume;
   }
   EXPECT_GT(taken, 100);
 }

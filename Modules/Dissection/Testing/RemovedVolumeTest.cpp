@@ -39,7 +39,7 @@ TEST(RemovedVolume, CountsOnlyTissueNotAir)
               0.005);
 }
 
-TEST(RemovedVolume, IsRightForAShallowBite)
+TEST(RemovedVolume, IsRightForAShallowCut)
 {
   // A cap of depth 0.1 mm: here voxel volume times coverage is three times too large.
   const volume::CutMask before(kGrid);
@@ -52,7 +52,7 @@ TEST(RemovedVolume, IsRightForAShallowBite)
               0.2);
 }
 
-TEST(RemovedVolume, CountsASecondBiteOnce)
+TEST(RemovedVolume, CountsASecondCutOnce)
 {
   const volume::CutMask untouched(kGrid);
   volume::CutMask first = untouched;

@@ -64,7 +64,7 @@ Walk walkOnPlate(const Vector3d& toward, double thickness, double offset, unsign
 
 } // namespace
 
-TEST(ConstrainedProxy, NeverEntersOrCrossesAThinPlateWhateverTheHandDoes)
+TEST(ConstrainedProxy, NeverEntersOrCrossesAThinPlateWhateverTheDeviceDoes)
 {
   const double h = 0.3;
   unsigned seed = 1;
@@ -163,7 +163,7 @@ TEST(ConstrainedProxy, DoesNotCreepAtRest)
 // hand's work is not below zero by more than the peak force times the allowed ripple of height,
 // 0.02 h. The force is integrated as it changes from tick to tick (trapezoidal rule), so that the
 // rest is due to the renderer and not to a delay of one tick.
-TEST(ConstrainedProxy, ReturnsNoMoreEnergyThanTheHandPutIn)
+TEST(ConstrainedProxy, ReturnsNoMoreEnergyThanTheDevicePutIn)
 {
   const double radius = 1.5;
   const int ticks = 3000;

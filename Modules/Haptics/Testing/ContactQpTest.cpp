@@ -57,35 +57,14 @@ TEST(ContactQp, StopsAtAPlaneAndPressesWithTheCouplingsForce)
 // A contact at a lever arm rotates the tool: both springs deflect in proportion.
 TEST(ContactQp, SharesAContactBetweenTranslationAndRotation)
 {
-  QpProblem problem{kCoupling, six(0, 0, -1), {}, {}, {}};
+  QpProblem problem{kCoupling, six(0, 0, -1), {}, {}, {}, {}};
   problem.addContact({0, 0, 1}, {10, 0, 0}, 0.0);
-  ContactQp qp = solverOf(problem);
+  ProxyQp qp = solverOf(problem);
   ASSERT_EQ(qp.solve(problem.unconstrained), Status::Solved);
   const double lambda = 1.0 / (1.0 / 1.0 + 100.0 / 20.0);
   EXPECT_NEAR(qp.lambda(0), lambda, 1e-13);
   EXPECT_NEAR(qp.solution()[2], -1.0 + lambda, 1e-13);
   EXPECT_NEAR(qp.solution()[4], -10.0 * lambda / 20.0, 1e-13);
-}
-
-TEST(ContactQp, PutsCompliantTissueInSeriesWithTheCoupling)
-{
-  ContactQp qp(1, six(2, 2, 2, 20, 20, 20));
-  ASSERT_TRUE(qp.add(six(0, 0, 1), 0.1, 0.5));
-  ASSERT_EQ(qp.solve(six(0, 0, -0.9)), Status::Solved);
-  EXPECT_NEAR(qp.lambda(0), 1.0 / (1.0 / 2.0 + 0.5), 1e-14);
-  EXPECT_NEAR(qp.solution()[2], 0.1 - 0.5 * qp.lambda(0), 1e-14);
-}
-
-TEST(ContactQp, LetsFourHundredSpringsPressAtOnce)
-{
-  ContactQp qp(400, kCoupling);
-  for (int i = 0; i < 400; ++i)
-    ASSERT_TRUE(qp.add(six(0, 0, 1), 0.0, 50.0));
-  ASSERT_EQ(qp.solve(six(0, 0, -1)), Status::Solved);
-  const double together = 400.0 / 50.0;
-  EXPECT_NEAR(qp.solution()[2], -1.0 / (1.0 + together), 1e-13);
-  for (std::size_t i = 0; i < 400; ++i)
-    ASSERT_NEAR(qp.lambda(i), 1.0 / (1.0 + together) / 50.0, 1e-14);
 }
 
 // Closed form: the motion ends where both walls hold, at the edge of the wedge.
@@ -114,7 +93,7 @@ TEST(ContactQp, StopsTinyMotionsToo)
   {
     ContactQp qp(2, kCoupling);
     ASSERT_TRUE(qp.add(six(0, 0.6, 0.8), 0.0));
-    ASSERT_TRUE(qp.add(six(0, 0.6, 0.8), -1.0, 2.0));
+    ASSERT_TRUE(qp.add(six(0, 0.6, 0.8), -1.0));
     ASSERT_EQ(qp.solve(way * six(1, 0, -1)), Status::Solved);
     EXPECT_LE((qp.solution() - way * six(1, 0.48, -0.36)).norm(), 1e-12 * way + 1e-100);
   }
@@ -134,13 +113,13 @@ TEST(ContactQp, SlidesBetweenParallelWalls)
 
 TEST(ContactQp, GivesIdenticalRowsTheThrustOfOne)
 {
-  QpProblem problem{kCoupling, six(0.1, 0.2, -1, 0.01, 0, 0), {}, {}, {}};
+  QpProblem problem{kCoupling, six(0.1, 0.2, -1, 0.01, 0, 0), {}, {}, {}, {}};
   problem.addContact({0, 0.6, 0.8}, {3, 1, -2}, 0.02);
-  ContactQp one = solverOf(problem);
+  ProxyQp one = solverOf(problem);
   ASSERT_EQ(one.solve(problem.unconstrained), Status::Solved);
   for (int i = 0; i < 40; ++i)
     problem.addContact({0, 0.6, 0.8}, {3, 1, -2}, 0.02);
-  ContactQp many = solverOf(problem);
+  ProxyQp many = solverOf(problem);
   ASSERT_EQ(many.solve(problem.unconstrained), Status::Solved);
   double sum = 0.0;
   for (std::size_t i = 0; i < many.count(); ++i)
@@ -151,22 +130,22 @@ TEST(ContactQp, GivesIdenticalRowsTheThrustOfOne)
 
 TEST(ContactQp, TakesRowsOfZerosForNothing)
 {
-  ContactQp qp(4, kCoupling);
+  ProxyQp qp(4, kCoupling, true);
   ASSERT_TRUE(qp.add(Vector6::Zero(), -0.1));
   ASSERT_TRUE(qp.add(Vector6::Zero(), 0.0));
   ASSERT_TRUE(qp.add(six(0, 0, 1), 0.0));
-  ASSERT_TRUE(qp.add(Vector6::Zero(), 0.2, 0.5));
+  ASSERT_TRUE(qp.addSoft(Vector6::Zero(), 0.2, 0, std::sqrt(0.5)));
   ASSERT_EQ(qp.solve(six(1, 0, -1)), Status::Solved);
   EXPECT_LT((qp.solution() - six(1, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(qp.lambda(0), 0.0);
   EXPECT_EQ(qp.lambda(1), 0.0);
   EXPECT_NEAR(qp.lambda(2), 1.0, 1e-12);
-  EXPECT_NEAR(qp.lambda(3), 0.2 / 0.5, 1e-14); // 0 a + c lambda >= b
+  EXPECT_NEAR(qp.lambda(3), 0.2 / 0.5, 1e-14); // 0 a + s >= b
 }
 
 TEST(ContactQp, StaysWhereRowsContradictEachOther)
 {
-  const auto expectRefused = [](ContactQp& qp)
+  const auto expectRefused = [](auto& qp)
   {
     EXPECT_EQ(qp.solve(six(0.3, 0, -1)), Status::Infeasible);
     EXPECT_EQ(qp.solution(), Vector6(Vector6::Zero()));
@@ -184,10 +163,10 @@ TEST(ContactQp, StaysWhereRowsContradictEachOther)
   expectRefused(zero);
 
   // Three walls around a ball too large for them, and soft tissue as well.
-  ContactQp ring(4, kCoupling);
+  ProxyQp ring(4, kCoupling, true);
   for (int i = 0; i < 3; ++i)
     ASSERT_TRUE(ring.add(six(std::cos(2.1 * i), std::sin(2.1 * i), 0), 0.01));
-  ASSERT_TRUE(ring.add(six(0, 0, 1), 0.01, 1.0));
+  ASSERT_TRUE(ring.addSoft(six(0, 0, 1), 0.01, 0, 1.0));
   expectRefused(ring);
 }
 
@@ -211,10 +190,7 @@ TEST(ContactQp, RefusesRowsThatAreNoNumbers)
   EXPECT_FALSE(qp.add(six(0, 0, 1, kInfinity), 0.0));
   EXPECT_FALSE(qp.add(six(0, 0, 1), kNaN));
   EXPECT_FALSE(qp.add(six(0, 0, 1), -kInfinity));
-  EXPECT_FALSE(qp.add(six(0, 0, 1), 0.0, kNaN));
-  EXPECT_FALSE(qp.add(six(0, 0, 1), 0.0, -1.0));
   EXPECT_FALSE(qp.add(six(0, 0, 1e200), 0.0));
-  EXPECT_FALSE(qp.add(Vector6::Zero(), 0.1, 1e-310));
   EXPECT_EQ(qp.count(), 0u);
   ASSERT_TRUE(qp.add(six(0, 0, 1), 0.0));
   ASSERT_EQ(qp.solve(six(0, 0, -1)), Status::Solved);
@@ -225,7 +201,7 @@ TEST(ContactQp, RefusesRowsBeyondItsCapacity)
 {
   ContactQp qp(2, kCoupling);
   EXPECT_TRUE(qp.add(six(0, 0, 1), 0.0));
-  EXPECT_TRUE(qp.add(six(0, 1, 0), 0.0, 1.0));
+  EXPECT_TRUE(qp.add(six(0, 1, 0), 0.0));
   EXPECT_FALSE(qp.add(six(1, 0, 0), 0.0));
   EXPECT_EQ(qp.count(), 2u);
 }
@@ -234,7 +210,7 @@ TEST(ContactQp, StaysWhereTheMotionIsNoNumber)
 {
   ContactQp qp(2, kCoupling);
   qp.add(six(0, 0, 1), -0.1);
-  qp.add(six(0, 1, 0), 0.1, 1.0);
+  qp.add(six(0, 1, 0), 0.1);
   for (const double bad : {kNaN, kInfinity, -kInfinity, 1e300})
   {
     EXPECT_EQ(qp.solve(six(0, 0, -1, bad)), Status::Exhausted);
@@ -247,14 +223,16 @@ TEST(ContactQp, StaysWhereTheMotionIsNoNumber)
 TEST(ContactQp, GivesTheSameBitsWhateverItSolvedBefore)
 {
   QpProblemSource source(29);
-  ContactQp used(1000, kCoupling);
+  ProxyQp usedRigid(1000, kCoupling, false);
+  ProxyQp usedSoft(1000, kCoupling, true);
   for (const QpFamily family : kQpFamilies)
     for (int n = 0; n < 20; ++n)
     {
       const QpProblem problem = source.make(family, source.whole(1, 200));
+      ProxyQp& used = problem.isSoft() ? usedSoft : usedRigid;
       problem.fill(used);
       used.solve(problem.unconstrained);
-      ContactQp fresh = solverOf(problem);
+      ProxyQp fresh = solverOf(problem);
       fresh.solve(problem.unconstrained);
       ASSERT_EQ(used.solution(), fresh.solution()) << nameOf(family) << n;
       ASSERT_EQ(used.iterations(), fresh.iterations()) << nameOf(family) << n;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,15 +11,16 @@ namespace petrous::haptics::testing
 {
 
 /// Deviation of a motion and its multipliers from the Karush-Kuhn-Tucker conditions, which for this
-/// convex problem characterise the solution. Lengths are M^1/2 a and rows are scaled to unit
-/// length; all values are relative to the root of twice the objective at a = 0, plus the largest
-/// positive bound.
+/// convex problem characterise the solution. The springs' compressions s = c * (sum of lambda over
+/// the spring's rows) are eliminated. Lengths are M^1/2 a and rows, with their component along s,
+/// are scaled to unit length; all values are relative to the root of twice the objective at a = 0,
+/// plus the largest positive bound.
 struct KktError
 {
-  double primal = 0.0;          ///< largest b - J a - c lambda
+  double primal = 0.0;          ///< largest b - J a - s
   double dual = 0.0;            ///< largest -lambda
   double stationarity = 0.0;    ///< |M (a - u) - J^T lambda|
-  double complementarity = 0.0; ///< largest min(|lambda|, |J a + c lambda - b|)
+  double complementarity = 0.0; ///< largest min(|lambda|, |J a + s - b|)
 
   double worst() const { return std::max({primal, dual, stationarity, complementarity}); }
 };
@@ -29,18 +31,18 @@ KktError kktError(const QpProblem& problem, const QpProblem::Vector6& a, const L
 {
   const QpProblem::Vector6 root = problem.stiffness.cwiseSqrt();
   double highest = 0.0;
-  double energy = root.cwiseProduct(problem.unconstrained).squaredNorm();
   std::vector<double> lengths;
+  std::array<double, kMaxSprings> compression{};
   for (std::size_t i = 0; i < problem.rows.size(); ++i)
   {
-    const double length = problem.rows[i].cwiseQuotient(root).norm();
+    const double compliance = problem.complianceOf(i);
+    const double length = std::sqrt(problem.rows[i].cwiseQuotient(root).squaredNorm() + compliance);
     lengths.push_back(length > 0.0 ? length : 1.0);
-    const double inside = std::max(0.0, problem.bounds[i]);
-    highest = std::max(highest, inside / lengths.back());
-    if (problem.compliances[i] > 0.0)
-      energy += inside * inside / problem.compliances[i];
+    highest = std::max(highest, problem.bounds[i] / lengths.back());
+    if (problem.springs[i] != QpProblem::kRigid)
+      compression[static_cast<std::size_t>(problem.springs[i])] += compliance * lambda(i);
   }
-  const double size = highest + std::sqrt(energy);
+  const double size = highest + root.cwiseProduct(problem.unconstrained).norm();
   const double scale = size > 0.0 ? size : 1.0;
 
   KktError error;
@@ -48,7 +50,9 @@ KktError kktError(const QpProblem& problem, const QpProblem::Vector6& a, const L
   for (std::size_t i = 0; i < problem.rows.size(); ++i)
   {
     const double thrust = lambda(i);
-    const double reached = problem.rows[i].dot(a) + problem.compliances[i] * thrust;
+    double reached = problem.rows[i].dot(a);
+    if (problem.springs[i] != QpProblem::kRigid)
+      reached += compression[static_cast<std::size_t>(problem.springs[i])];
     const double slack = (reached - problem.bounds[i]) / (lengths[i] * scale);
     const double multiplier = thrust * lengths[i] / scale;
     residual -= thrust * problem.rows[i];
@@ -63,7 +67,7 @@ KktError kktError(const QpProblem& problem, const QpProblem::Vector6& a, const L
   return error;
 }
 
-inline KktError kktError(const QpProblem& problem, const ContactQp& solved)
+inline KktError kktError(const QpProblem& problem, const ProxyQp& solved)
 {
   return kktError(problem, solved.solution(), [&](std::size_t i) { return solved.lambda(i); });
 }

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "SimulatedDevice.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/PassivityGuard.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 
 using namespace petrous::haptics;
 using Eigen::Vector3d;

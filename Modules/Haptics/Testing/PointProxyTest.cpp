@@ -221,7 +221,7 @@ TEST(PointProxy, GivesAndTakesTheSameOverClosedPaths)
   EXPECT_NEAR(workOver(onBall, 2000, loop(3.5, 1.2)), 0.0, 0.02 * stored);
 }
 
-TEST(PointProxy, GivesNoTorqueAndTurnsWithTheHand)
+TEST(PointProxy, GivesNoTorqueAndTurnsWithTheDevice)
 {
   const Scene scene = sceneOf(scanOf(ball(3.0), 0.3, 6.0));
   PointProxy proxy(scene.field, {2.0, 500, 2.0 / 3.0});

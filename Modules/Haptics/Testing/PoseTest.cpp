@@ -90,7 +90,7 @@ TEST(Pose, MovedAndMotionBetweenAreInverse)
   }
 }
 
-TEST(Pose, SharesOfAMotionLieOnItsWay)
+TEST(Pose, FractionsOfAMotionLieOnItsPath)
 {
   std::mt19937 random(5);
   for (int n = 0; n < 200; ++n)

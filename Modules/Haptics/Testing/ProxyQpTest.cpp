@@ -76,7 +76,7 @@ TEST(ProxyQp, CountsASpringOnceHoweverManyRowsItHas)
 }
 
 // The solution minimises the stated objective: no nearby motion does better.
-TEST(ProxyQp, FindsTheLeastEnergyOfHandAndSprings)
+TEST(ProxyQp, FindsTheLeastEnergyOfCouplingAndSprings)
 {
   std::mt19937 random(9);
   std::normal_distribution<double> normal;

@@ -22,29 +22,38 @@ Vector6 six(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular)
 
 } // namespace
 
-void QpProblem::add(const Vector6& row, double bound, double compliance)
+void QpProblem::add(const Vector6& row, double bound, int spring)
 {
   rows.push_back(row);
   bounds.push_back(bound);
-  compliances.push_back(compliance);
+  springs.push_back(spring);
 }
 
 void QpProblem::addContact(const Eigen::Vector3d& n, const Eigen::Vector3d& r, double gap,
-                           double compliance)
+                           int spring)
 {
-  add(six(n, r.cross(n)), -gap, compliance);
+  add(six(n, r.cross(n)), -gap, spring);
 }
 
-void QpProblem::fill(ContactQp& qp) const
+bool QpProblem::isSoft() const
+{
+  return std::any_of(springs.begin(), springs.end(), [](int spring) { return spring != kRigid; });
+}
+
+void QpProblem::fill(ProxyQp& qp) const
 {
   qp.clear();
   for (std::size_t i = 0; i < rows.size(); ++i)
-    qp.add(rows[i], bounds[i], compliances[i]);
+    if (springs[i] == kRigid)
+      qp.add(rows[i], bounds[i]);
+    else
+      qp.addSoft(rows[i], bounds[i], static_cast<std::size_t>(springs[i]),
+                 std::sqrt(complianceOf(i)));
 }
 
-ContactQp solverOf(const QpProblem& problem)
+ProxyQp solverOf(const QpProblem& problem)
 {
-  ContactQp qp(problem.rows.size() + 1, problem.stiffness);
+  ProxyQp qp(problem.rows.size() + 1, problem.stiffness, problem.isSoft());
   problem.fill(qp);
   return qp;
 }
@@ -174,9 +183,11 @@ QpProblem QpProblemSource::make(QpFamily family, int count, double spread)
 
 void QpProblemSource::addRandom(int count, double softShare, QpProblem& problem)
 {
+  for (double& compliance : problem.compliances)
+    compliance = power(-3.0, 3.0);
   for (int i = 0; i < count; ++i)
     if (uniform(0.0, 1.0) < softShare)
-      problem.add(anyRow(), uniform(-0.1, 0.2), power(-3.0, 2.0));
+      problem.add(anyRow(), uniform(-0.1, 0.2), whole(0, kMaxSprings - 1));
     else
       problem.add(anyRow(), -gap(0.1));
 }
@@ -189,7 +200,7 @@ void QpProblemSource::addPatch(int count, bool soft, QpProblem& problem)
   Eigen::Vector3d center(0.0, 0.0, 0.0);
   if (whole(0, 3) > 0)
     center = uniform(0.0, 60.0) * direction();
-  const double compliance = power(-2.0, 2.0);
+  problem.compliances[0] = power(-3.0, 3.0);
   const double depth = uniform(0.0, 0.5 * radius);
   problem.unconstrained.head<3>() -= uniform(0.0, 2.0) * pole;
   for (int i = 0; i < count; ++i)
@@ -200,8 +211,7 @@ void QpProblemSource::addPatch(int count, bool soft, QpProblem& problem)
     const Eigen::Vector3d n = (radial + power(-6.0, -1.5) * direction()).normalized();
     const Eigen::Vector3d arm = center - radius * radial;
     if (soft && i % 8 != 0)
-      problem.addContact(n, arm, radius * (1.0 - std::cos(tilt)) - depth + uniform(0.0, 0.01),
-                         compliance);
+      problem.addContact(n, arm, radius * (1.0 - std::cos(tilt)) - depth + uniform(0.0, 0.01), 0);
     else
       problem.addContact(n, arm, gap(0.05));
   }

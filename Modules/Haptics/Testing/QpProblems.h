@@ -7,34 +7,44 @@
 
 #include <Eigen/Core>
 
-#include "petrous/Haptics/ContactQp.h"
+#include "petrous/Haptics/ProxyQp.h"
 
 namespace petrous::haptics::testing
 {
 
-/// One problem of ContactQp.
+/// One problem of ProxyQp.
 struct QpProblem
 {
-  using Vector6 = ContactQp::Vector6;
+  using Vector6 = ProxyQp::Vector6;
+  static constexpr int kRigid = -1;
 
   Vector6 stiffness;
   Vector6 unconstrained;
   std::vector<Vector6> rows;
   std::vector<double> bounds;
-  std::vector<double> compliances;
+  std::vector<int> springs;                         ///< of each row: its spring, or kRigid
+  std::array<double, kMaxSprings> compliances = {}; ///< of each spring, mm/N
 
-  void add(const Vector6& row, double bound, double compliance = 0.0);
+  void add(const Vector6& row, double bound, int spring = kRigid);
 
   /// A contact with unit normal n at lever arm r, mm.
   void addContact(const Eigen::Vector3d& n, const Eigen::Vector3d& r, double gap,
-                  double compliance = 0.0);
+                  int spring = kRigid);
+
+  bool isSoft() const;
+
+  /// Of row i: its spring's compliance; 0 if it is rigid.
+  double complianceOf(std::size_t i) const
+  {
+    return springs[i] == kRigid ? 0.0 : compliances[static_cast<std::size_t>(springs[i])];
+  }
 
   /// Replaces the rows of `qp`.
-  void fill(ContactQp& qp) const;
+  void fill(ProxyQp& qp) const;
 };
 
 /// Contains the problem's rows, and room for one more.
-ContactQp solverOf(const QpProblem& problem);
+ProxyQp solverOf(const QpProblem& problem);
 
 enum class QpFamily
 {
@@ -47,7 +57,7 @@ enum class QpFamily
   Identical,  ///< the same contact repeated
   Lattice,    ///< rows of small integers: ties, exact dependence, zero rows
   Violated,   ///< a = 0 violates the rows, another motion satisfies them
-  Soft,       ///< contacts anywhere, half of them compliant, some inside
+  Soft,       ///< contacts anywhere, half of them of soft structures, some inside
   SoftPatch,  ///< a burr sunk into soft tissue over bone
   Slit,       ///< between opposing walls 1e-9 to 1e-3 rad from parallel
   Dependent   ///< rows within 1e-14 to 1e-2 of a lower-dimensional subspace
@@ -61,7 +71,7 @@ constexpr std::array<QpFamily, 13> kQpFamilies{
 
 std::string nameOf(QpFamily family);
 
-/// Families with rows nearer than 1e-5 to linear dependence, which ContactQp satisfies to 1e-7.
+/// Families with rows nearer than 1e-5 to linear dependence, which ProxyQp satisfies to 1e-7.
 inline bool isNearlyDependent(QpFamily family)
 {
   return family == QpFamily::Slit || family == QpFamily::Dependent;

@@ -10,7 +10,6 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/PointShell.h"
 
-// Shared by the tests of burrs and meshes.
 namespace petrous::haptics::checks
 {
 

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "SimulatedDevice.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/DeviceGuard.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 
 using namespace petrous::haptics;
 using Eigen::Vector3d;
@@ -287,7 +287,7 @@ TEST(SimulatedDevice, EachFaultIsSeenByTheGuard)
   faults.jumpFrom = 0.5;
   EXPECT_EQ(verdictAt(faults, 0.5).verdict, DeviceVerdict::Jump);
   EXPECT_EQ(verdictAt(faults, 0.519).verdict, DeviceVerdict::Settling);
-  EXPECT_TRUE(verdictAt(faults, 0.52).returned);
+  EXPECT_TRUE(verdictAt(faults, 0.52).usable);
   faults = {};
   faults.repeatFrom = 0.5;
   EXPECT_EQ(verdictAt(faults, 0.52).verdict, DeviceVerdict::Repeated);

@@ -54,7 +54,7 @@ TEST(SolidBound, HandpieceOnCellularBoneCostsNoMoreAtAnySpeed)
       };
       proxy.place(pose(0.0, 6.5, 0.2));
       std::size_t most = 0;
-      double told = 0.0;
+      double reported = 0.0;
       double way = 0.0;
       for (int t = 0; t < 600; ++t)
       {
@@ -63,7 +63,7 @@ TEST(SolidBound, HandpieceOnCellularBoneCostsNoMoreAtAnySpeed)
         const ProxyTick& tick = proxy.step(
             pose(2.0 * std::sin(0.5 * s), 6.5 - std::min(2.0, 0.1 * t), 0.2 + 0.02 * std::sin(s)));
         most = std::max(most, tick.samples);
-        told = std::max(told, tick.penetration);
+        reported = std::max(reported, tick.penetration);
         way += (tick.pose.position - before).norm();
         if (t % 200 == 199)
         {
@@ -71,7 +71,7 @@ TEST(SolidBound, HandpieceOnCellularBoneCostsNoMoreAtAnySpeed)
         }
       }
       EXPECT_LE(most, bound(shell));
-      EXPECT_LE(told, kMax);
+      EXPECT_LE(reported, kMax);
       EXPECT_GT(way, 2.0) << "it must go on";
     }
   }
@@ -98,7 +98,7 @@ TEST(SolidBound, AToolInTissueCostsNoMore)
 }
 
 // While the search is unfinished the tool waits, and continues later.
-TEST(SolidBound, WaitsForWhatWasNotLookedAt)
+TEST(SolidBound, WaitsForWhatWasNotSearched)
 {
   const double h = 0.1;
   const BurrShape shape;

@@ -110,9 +110,9 @@ inline const Eigen::Quaterniond kAlongX =
 
 struct Dragged
 {
-  double deepest = 0.0; // mm, truth
-  double told = 0.0;    // mm, largest penetration reported
-  double stretch = 0.0; // mm, distance of goal and tool at the end
+  double deepest = 0.0;  // mm, truth
+  double reported = 0.0; // mm, largest penetration reported
+  double stretch = 0.0;  // mm, distance of goal and tool at the end
 };
 
 /// The tool is parallel to x and lowered onto the bone by 3 mm in 300 ticks; `at` is the position
@@ -135,7 +135,7 @@ inline Dragged drag(const Scene& scene, const BurrShape& shape, double radius, d
   for (int t = 1; t <= 300; ++t)
   {
     const ProxyTick& tick = proxy.step(pose(start - 0.01 * t));
-    result.told = std::max(result.told, tick.penetration);
+    result.reported = std::max(result.reported, tick.penetration);
     if (t % 150 == 0)
       result.deepest =
           std::max(result.deepest, deepestIn(truth ? *truth : scene.field->geometry(), scene, shape,

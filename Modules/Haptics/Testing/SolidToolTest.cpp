@@ -39,7 +39,7 @@ TEST(SolidTool, ShaftDoesNotSinkIntoAPlateOnEdge)
             sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), plateOnEdge(thickness)));
         const Dragged result = drag(scene, shape, 1.2, at);
         EXPECT_LE(result.deepest, kMax);
-        EXPECT_LE(result.told, kMax);
+        EXPECT_LE(result.reported, kMax);
       }
     }
 }
@@ -65,7 +65,7 @@ TEST(SolidTool, ShaftDoesNotSinkIntoObliquePlatesRidgesAndSpikes)
       const Scene scene = sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.2, 0.4, 0.1}), bone));
       const Dragged result = drag(scene, shape, 1.2, 10.2, 6.0);
       EXPECT_LE(result.deepest, kMax);
-      EXPECT_LE(result.told, kMax);
+      EXPECT_LE(result.reported, kMax);
     }
   }
 }
@@ -82,7 +82,7 @@ TEST(SolidTool, BurrDoesNotTakeASpikeBetweenItsPoints)
           sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), spike(1.5 * h)));
       const Dragged result = drag(scene, shape, 3.5, across, 6.0);
       EXPECT_LE(result.deepest, kMax);
-      EXPECT_LE(result.told, kMax);
+      EXPECT_LE(result.reported, kMax);
     }
 }
 
@@ -97,7 +97,7 @@ TEST(SolidTool, HandpieceDoesNotSinkIntoAThinPlate)
           sceneOf(scanOn(boxOf({2.0, 2.0, 4.0}, h, {0.31, 0.13, 0.47}), plateOnEdge(0.6)));
       const Dragged result = drag(scene, shape, 6.0, at);
       EXPECT_LE(result.deepest, kMax);
-      EXPECT_LE(result.told, kMax);
+      EXPECT_LE(result.reported, kMax);
     }
 }
 

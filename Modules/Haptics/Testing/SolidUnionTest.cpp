@@ -67,7 +67,7 @@ TEST(SolidUnion, ShaftDoesNotSinkIntoAThinStructureOnAFinerGrid)
       const Scene scene = sceneOf(ct, {unionOn(grid, structure)});
       const Dragged result = drag(scene, shape, 1.2, 10.2, 4.0, &grid);
       EXPECT_LE(result.deepest, kMax);
-      EXPECT_LE(result.told, kMax);
+      EXPECT_LE(result.reported, kMax);
       EXPECT_GT(result.stretch, 1.0) << "the structure must hold it";
     }
 }
@@ -82,7 +82,7 @@ TEST(SolidUnion, ShaftDoesNotSinkIntoAStructureOnACoarserGrid)
   const Scene scene = sceneOf(ct, {unionOn(grid, plateOnEdge(1.0))});
   const Dragged result = drag(scene, {}, 1.2, 10.2, 4.0);
   EXPECT_LE(result.deepest, kMax);
-  EXPECT_LE(result.told, kMax);
+  EXPECT_LE(result.reported, kMax);
   EXPECT_GT(result.stretch, 1.0) << "the structure must hold it";
 }
 

@@ -42,22 +42,22 @@ Registration measured(const std::string& through = {})
 TEST(ApplyRegistration, SaysHowAndHowWell)
 {
   scene::Case value = caseWith({"T2"});
-  EXPECT_EQ(scene::registrationInWords(value.mr[0]), "not registered");
+  EXPECT_EQ(scene::registrationToString(value.mr[0]), "not registered");
   Registration how = measured();
   how.method = Registration::Method::Landmarks;
   how.refined = true;
-  scene::layMr(value, "T2", turned(0.1, 0.0, 0.0, 5.0), how);
+  scene::applyRegistration(value, "T2", turned(0.1, 0.0, 0.0, 5.0), how);
   EXPECT_TRUE(value.mr[0].registered);
-  EXPECT_EQ(scene::registrationInWords(value.mr[0]),
+  EXPECT_EQ(scene::registrationToString(value.mr[0]),
             "registered by landmarks, refined by mutual information, good, error 0.24 mm (p95) at "
             "incus, not signed off");
-  EXPECT_THROW(scene::layMr(value, "T1", {}, how), core::InvalidParameter);
+  EXPECT_THROW(scene::applyRegistration(value, "T1", {}, how), core::InvalidParameter);
   Registration hand;
   hand.method = Registration::Method::ByHand;
-  scene::layMr(value, "T2", {}, hand);
-  EXPECT_EQ(scene::registrationInWords(value.mr[0]),
+  scene::applyRegistration(value, "T2", {}, hand);
+  EXPECT_EQ(scene::registrationToString(value.mr[0]),
             "registered by hand, not judged, its error unknown, not signed off");
-  scene::unlayMr(value, "T2");
+  scene::removeRegistration(value, "T2");
   EXPECT_FALSE(value.mr[0].registered);
   EXPECT_EQ(value.mr[0].mrFromCt.matrix(), Eigen::Matrix4d::Identity());
 }
@@ -68,14 +68,14 @@ TEST(ApplyRegistration, ASignOffHoldsForTheTransformThatWasSigned)
   EXPECT_THROW(scene::signOff(value, "T2", "A. Surgeon", "2026-01-02T03:04:05Z"),
                core::InvalidParameter);
   const core::RigidTransform there = turned(0.1, 0.2, 0.0, 5.0);
-  scene::layMr(value, "T2", there, measured());
+  scene::applyRegistration(value, "T2", there, measured());
   EXPECT_FALSE(scene::validSignOff(value.mr[0])) << "never assumed";
   for (const std::string& bad : {std::string(), std::string("  "), std::string("a\nb"),
                                  std::string(101, 'a'), std::string("\xff")})
     EXPECT_THROW(scene::signOff(value, "T2", bad, "2026-01-02T03:04:05Z"), core::InvalidParameter);
   scene::signOff(value, "T2", "A. Surgeon", "2026-01-02T03:04:05Z");
   ASSERT_TRUE(scene::validSignOff(value.mr[0]));
-  EXPECT_NE(scene::registrationInWords(value.mr[0])
+  EXPECT_NE(scene::registrationToString(value.mr[0])
                 .find("signed off by A. Surgeon on 2026-01-02T03:04:05Z"),
             std::string::npos);
 
@@ -84,7 +84,7 @@ TEST(ApplyRegistration, ASignOffHoldsForTheTransformThatWasSigned)
   EXPECT_FALSE(scene::validSignOff(nudged.mr[0]));
 
   Registration again = *value.mr[0].registration; // including the sign-off
-  scene::layMr(value, "T2", there, again);
+  scene::applyRegistration(value, "T2", there, again);
   EXPECT_FALSE(scene::validSignOff(value.mr[0])) << "another registration, nobody looked at it";
 }
 
@@ -94,34 +94,34 @@ TEST(ApplyRegistration, WhatCameThroughAnotherMovesAlongAndSaysSo)
   const core::RigidTransform first = turned(0.1, 0.2, 0.0, 5.0);
   const core::RigidTransform step = turned(0.0, 0.01, 0.02, 0.3); // DWI from T2
   const core::RigidTransform second = turned(-0.1, 0.0, 0.3, -8.0);
-  scene::layMr(value, "T2", first, measured());
-  scene::layMr(value, "DWI", step * first, measured("T2"));
+  scene::applyRegistration(value, "T2", first, measured());
+  scene::applyRegistration(value, "DWI", step * first, measured("T2"));
   scene::signOff(value, "DWI", "A. Surgeon", "2026-01-02T03:04:05Z");
-  scene::layMr(value, "T2", first, measured());
+  scene::applyRegistration(value, "T2", first, measured());
   EXPECT_TRUE(value.mr[0].registration->error) << "nothing has moved";
   EXPECT_TRUE(scene::validSignOff(value.mr[0]));
 
-  scene::layMr(value, "T2", second, measured());
+  scene::applyRegistration(value, "T2", second, measured());
   const Vector3d point(10.0, -20.0, 30.0);
   EXPECT_LT((value.mr[0].mrFromCt * point - step * (second * point)).norm(), 1e-12);
   EXPECT_EQ(value.mr[0].registration->verdict, Registration::Verdict::NotJudged);
   EXPECT_FALSE(value.mr[0].registration->error);
   EXPECT_FALSE(scene::validSignOff(value.mr[0]));
-  EXPECT_NE(scene::registrationInWords(value.mr[0]).find("through 'T2', not judged"),
+  EXPECT_NE(scene::registrationToString(value.mr[0]).find("through 'T2', not judged"),
             std::string::npos);
 
-  scene::unlayMr(value, "T2");
+  scene::removeRegistration(value, "T2");
   EXPECT_FALSE(value.mr[0].registered) << "it hung on the other";
 }
 
 TEST(ApplyRegistration, RefusesACircle)
 {
   scene::Case value = caseWith({"A", "B", "C"});
-  EXPECT_THROW(scene::layMr(value, "A", {}, measured("A")), core::InvalidParameter);
-  scene::layMr(value, "A", {}, measured());
-  scene::layMr(value, "B", {}, measured("A"));
-  scene::layMr(value, "C", {}, measured("B"));
-  EXPECT_THROW(scene::layMr(value, "A", turned(0.1, 0.0, 0.0, 1.0), measured("C")),
+  EXPECT_THROW(scene::applyRegistration(value, "A", {}, measured("A")), core::InvalidParameter);
+  scene::applyRegistration(value, "A", {}, measured());
+  scene::applyRegistration(value, "B", {}, measured("A"));
+  scene::applyRegistration(value, "C", {}, measured("B"));
+  EXPECT_THROW(scene::applyRegistration(value, "A", turned(0.1, 0.0, 0.0, 1.0), measured("C")),
                core::InvalidParameter);
   EXPECT_EQ(value.mr[0].registration->through, "");
 }
@@ -129,9 +129,9 @@ TEST(ApplyRegistration, RefusesACircle)
 TEST(ApplyRegistration, AChainIsLaidAsItLayWhateverTheOrderOfItsLinks)
 {
   scene::Case value = caseWith({"ADC", "DWI", "T2"}); // the last link comes first
-  scene::layMr(value, "T2", turned(0.1, 0.0, 0.0, 5.0), measured());
-  scene::layMr(value, "DWI", turned(0.1, 0.2, 0.0, 3.0), measured("T2"));
-  scene::layMr(value, "ADC", turned(0.0, 0.2, 0.1, 1.0), measured("DWI"));
+  scene::applyRegistration(value, "T2", turned(0.1, 0.0, 0.0, 5.0), measured());
+  scene::applyRegistration(value, "DWI", turned(0.1, 0.2, 0.0, 3.0), measured("T2"));
+  scene::applyRegistration(value, "ADC", turned(0.0, 0.2, 0.1, 1.0), measured("DWI"));
   const auto before = scene::mrPlaces(value);
   const auto expectAsBefore = [&]
   {
@@ -144,11 +144,11 @@ TEST(ApplyRegistration, AChainIsLaidAsItLayWhateverTheOrderOfItsLinks)
       EXPECT_TRUE(value.mr[n].registration->error) << before[n].name;
     }
   };
-  scene::layMr(value, "T2", turned(0.0, 0.0, 0.3, -2.0), measured());
+  scene::applyRegistration(value, "T2", turned(0.0, 0.0, 0.3, -2.0), measured());
   EXPECT_FALSE(value.mr[0].registration->error) << "moved along";
   scene::layAs(value, before);
   expectAsBefore();
-  scene::unlayMr(value, "T2");
+  scene::removeRegistration(value, "T2");
   EXPECT_FALSE(value.mr[0].registered);
   scene::layAs(value, before);
   expectAsBefore();
@@ -160,19 +160,19 @@ TEST(ApplyRegistration, WhatWasNotSaidOfAnOlderCaseIsNotMadeUpByUndo)
   value.mr[0].registered = true;
   value.mr[0].mrFromCt = turned(0.1, 0.0, 0.0, 5.0);
   const auto before = scene::mrPlaces(value);
-  scene::layMr(value, "T2", {}, measured());
+  scene::applyRegistration(value, "T2", {}, measured());
   scene::layAs(value, before);
   EXPECT_TRUE(value.mr[0].registered);
-  EXPECT_EQ(scene::registrationInWords(value.mr[0]), "registered, not said how");
+  EXPECT_EQ(scene::registrationToString(value.mr[0]), "registered, not said how");
 }
 
 TEST(ApplyRegistration, OnlyWhatMovesLosesItsSignatureWhenMrsAreLaidAsTheyLay)
 {
   scene::Case value = caseWith({"T2", "DWI"});
-  scene::layMr(value, "T2", turned(0.1, 0.0, 0.0, 5.0), measured());
-  scene::layMr(value, "DWI", turned(0.1, 0.2, 0.0, 3.0), measured());
+  scene::applyRegistration(value, "T2", turned(0.1, 0.0, 0.0, 5.0), measured());
+  scene::applyRegistration(value, "DWI", turned(0.1, 0.2, 0.0, 3.0), measured());
   const auto before = scene::mrPlaces(value);
-  scene::layMr(value, "T2", {}, measured());
+  scene::applyRegistration(value, "T2", {}, measured());
   for (const char* name : {"T2", "DWI"})
     scene::signOff(value, name, "A. Surgeon", "2026-01-31T10:00:00Z");
   scene::layAs(value, before);
@@ -184,13 +184,13 @@ TEST(ApplyRegistration, RefusesATransformThatLeavesTheImagesNothingInCommon)
 {
   scene::Case value = caseWith({"T2"});
   for (const double far : {1e39, 1e5, 600.0})
-    EXPECT_THROW(scene::layMr(value, "T2",
-                              {Eigen::Quaterniond::Identity(), Vector3d(0.0, far, 0.0)},
-                              measured()),
+    EXPECT_THROW(scene::applyRegistration(value, "T2",
+                                          {Eigen::Quaterniond::Identity(), Vector3d(0.0, far, 0.0)},
+                                          measured()),
                  core::InvalidParameter)
         << far;
   EXPECT_FALSE(value.mr[0].registered);
-  scene::layMr(value, "T2", {Eigen::Quaterniond::Identity(), Vector3d(0.0, 400.0, 0.0)},
-               measured());
+  scene::applyRegistration(value, "T2", {Eigen::Quaterniond::Identity(), Vector3d(0.0, 400.0, 0.0)},
+                           measured());
   EXPECT_TRUE(value.mr[0].registered);
 }

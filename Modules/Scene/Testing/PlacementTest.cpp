@@ -82,7 +82,7 @@ TEST(Placement, WhatWasDrawnOnAnMrThatIsNotRegisteredIsNowhere)
 TEST(Placement, ItComesToTheCtThroughThatMr)
 {
   scene::Case value = drawnOnMr();
-  scene::layMr(value, "T2", kMrFromCt, {});
+  scene::applyRegistration(value, "T2", kMrFromCt, {});
   EXPECT_EQ(scene::missingPlace(value, "cholesteatoma"), "");
   const auto placed = scene::labelsOnCt(value, value.labels[0]);
   ASSERT_TRUE(placed);
@@ -95,7 +95,7 @@ TEST(Placement, ItComesToTheCtThroughThatMr)
   EXPECT_LT(scene::tissueField(value).value(kCtGrid.center() + Vector3d(9.0, 9.0, 9.0)), 0.0);
 
   EXPECT_EQ(scene::labelsOnCt(value, value.labels[0]), placed) << "kept";
-  scene::layMr(value, "T2", {}, {});
+  scene::applyRegistration(value, "T2", {}, {});
   const auto elsewhere = scene::labelsOnCt(value, value.labels[0]);
   EXPECT_NE(elsewhere, placed);
   EXPECT_EQ(elsewhere->voxels->geometry().origin(), kMrGrid.origin());
@@ -109,8 +109,8 @@ TEST(Placement, AnOlderCaseKnowsTheMrByItsGrid)
   scene::ImagePart second = value.mr[0];
   second.name = "DWI";
   value.mr.push_back(second);
-  scene::layMr(value, "T2", kMrFromCt, {});
-  scene::layMr(value, "DWI", kMrFromCt, {});
+  scene::applyRegistration(value, "T2", kMrFromCt, {});
+  scene::applyRegistration(value, "DWI", kMrFromCt, {});
   const std::string missing = scene::missingPlace(value, "cholesteatoma");
   EXPECT_NE(missing.find("any of the MR images 'T2', 'DWI'"), std::string::npos) << missing;
   EXPECT_FALSE(scene::labelsOnCt(value, value.labels[0]));
@@ -144,9 +144,9 @@ TEST(Placement, MeshesComeAlong)
   const auto through = [&](double shift)
   {
     const core::RigidTransform turn = there(0.0);
-    return core::RigidTransform(turn.rotation(), turn.rotate(-Vector3d::Constant(shift)));
+    return core::RigidTransform(turn.rotation(), turn.rotation() * -Vector3d::Constant(shift));
   };
-  scene::layMr(value, "T2", through(8.0), {});
+  scene::applyRegistration(value, "T2", through(8.0), {});
   const Vector3d inside = through(8.0).inverse() * Vector3d(1.2, 1.2, 1.2);
   EXPECT_LT((scene::meshOnCt(value, value.meshes[0])->vertices[0].cast<double>() -
              Vector3d::Constant(8.0))
@@ -156,7 +156,7 @@ TEST(Placement, MeshesComeAlong)
   EXPECT_GT(scene::tissueField(value).value(inside), 0.0);
   ASSERT_EQ(scene::structureOccupancies(value).size(), 1U);
 
-  scene::layMr(value, "T2", through(11.0), {});
+  scene::applyRegistration(value, "T2", through(11.0), {});
   EXPECT_TRUE(scene::structureOccupancies(value).empty()) << "its voxels lay where it was before";
   EXPECT_LT(scene::tissueField(value).value(inside), 0.0);
 }

@@ -88,8 +88,8 @@ void checkThrough(const Case& value, const std::string& name, const std::string&
                                  "', which lies there through '" + name + "'");
 }
 
-void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
-           Registration how)
+void applyRegistration(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
+                       Registration how)
 {
   checkThrough(value, name, how.through);
   checkMeets(value.ct.geometry, mrNamed(value, name), mrFromCt);
@@ -129,7 +129,7 @@ void lay(Case& value, const std::string& name, const core::RigidTransform& mrFro
 
 } // namespace
 
-void unlayMr(Case& value, const std::string& name)
+void removeRegistration(Case& value, const std::string& name)
 {
   ImagePart& mr = mrNamed(value, name);
   mr.mrFromCt = {};
@@ -138,7 +138,7 @@ void unlayMr(Case& value, const std::string& name)
   forgetVoxels(value, name);
   for (const ImagePart& other : value.mr)
     if (came(other, name))
-      unlayMr(value, other.name);
+      removeRegistration(value, other.name);
 }
 
 void signOff(Case& value, const std::string& name, const std::string& who, const std::string& when)
@@ -158,14 +158,14 @@ const SignOff* validSignOff(const ImagePart& mr) noexcept
   return same(signOff.transform, mr.mrFromCt) ? &signOff : nullptr;
 }
 
-std::string registrationInWords(const ImagePart& mr)
+std::string registrationToString(const ImagePart& mr)
 {
   if (!mr.registered)
     return "not registered";
   if (!mr.registration)
     return "registered, not said how";
   const Registration& how = *mr.registration;
-  std::string words = "registered by " + methodInWords(how) + ", " + nameOf(how.verdict);
+  std::string words = "registered by " + methodToString(how) + ", " + nameOf(how.verdict);
   if (how.error)
     words += ", error " + core::fixedText(how.error->p95, 2) + " mm (p95) at " + how.error->place;
   else

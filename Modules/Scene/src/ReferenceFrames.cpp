@@ -37,9 +37,10 @@ bool lies(const ImagePart& mr, const MrPlace& place)
 void lay(Case& value, const MrPlace& place)
 {
   if (place.registered)
-    layMr(value, place.name, place.mrFromCt, place.registration.value_or(Registration{}));
+    applyRegistration(value, place.name, place.mrFromCt,
+                      place.registration.value_or(Registration{}));
   else
-    unlayMr(value, place.name);
+    removeRegistration(value, place.name);
   for (ImagePart& mr : value.mr)
     if (mr.name == place.name && !place.registration)
       mr.registration.reset(); // from an older case: method unknown

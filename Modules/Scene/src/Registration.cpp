@@ -64,7 +64,7 @@ Verdict verdictFromName(const std::string& name)
   return valueIn(kVerdicts, name, "verdict");
 }
 
-std::string methodInWords(const Registration& registration)
+std::string methodToString(const Registration& registration)
 {
   const bool hand = registration.method == Registration::Method::ByHand;
   std::string words = hand ? "hand" : nameOf(registration.method);

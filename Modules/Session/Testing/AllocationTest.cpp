@@ -7,9 +7,9 @@
 
 #include "AllocationHook.h"
 #include "BoneBlock.h"
+#include "SimulatedDevice.h"
 #include "petrous/Core/SnapshotBuffer.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/ServoThread.h"
 #include "petrous/Session/SpscRing.h"

@@ -242,7 +242,7 @@ TEST(BurrRemovalModel, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
 
 // Half of the burr meets bone that takes a third of the work: the total work is the sum over the
 // volumes, each in its tissue.
-TEST(BurrRemovalModel, TissuesShareTheWorkOfABite)
+TEST(BurrRemovalModel, TissuesDivideTheWorkOfAStep)
 {
   LawScene::Setting setting;
   setting.border = 0.0;

@@ -147,7 +147,7 @@ TEST(ConstantThrust, PullsSidewaysNoHarderThanItPresses)
   EXPECT_LT(pulled, 1.0); // F / k
 }
 
-TEST(ConstantThrust, LeadsOnWhatFollows)
+TEST(ConstantThrust, GuidesWhatFollows)
 {
   Session session(setupWith(10.0));
   session.proxy.stiffness = 10.0;
@@ -171,9 +171,9 @@ haptics::ProxyTick held(const Vector3d& at, const Vector3d& goal, double stiffne
   haptics::ProxyTick tick;
   tick.status = haptics::ProxyStatus::Contact;
   tick.pose.position = at;
-  Vector3d lead = goal - at;
-  lead *= 1.0 - planned / lead.norm();
-  tick.wrench.linear = -stiffness * lead;
+  Vector3d stretch = goal - at;
+  stretch *= 1.0 - planned / stretch.norm();
+  tick.wrench.linear = -stiffness * stretch;
   tick.contactCount = 1;
   tick.contacts[0].thrust = tick.wrench.linear.norm();
   tick.contacts[0].normal = tick.wrench.linear / tick.contacts[0].thrust;
@@ -236,7 +236,7 @@ TEST(ConstantThrust, SlidingInAHollowDoesNotTurnIt)
 }
 
 // A tick's work is bounded: a tool may plan a motion that it does not make, and push less.
-TEST(ConstantThrust, MakesUpForAToolThatPushesLessThanItWasTold)
+TEST(ConstantThrust, MakesUpForAToolThatPushesLessThanRequested)
 {
   const Vector3d at(0.0, 0.0, 2.0);
   ConstantThrust thrust = onAPlane(at, 10.0);

@@ -94,7 +94,7 @@ TEST(DissectionLoop, PublishesEachCutAndSaysWhereTissueCameBack)
   scene.mask->release();
 }
 
-TEST(DissectionLoop, DoesNotBiteForTheTimeInWhichTheServoStoodStill)
+TEST(DissectionLoop, RemovesNothingForTheTimeInWhichTheServoStoodStill)
 {
   LoopScene scene;
   DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
@@ -120,7 +120,7 @@ TEST(DissectionLoop, DoesNotCutWhatCameBackByTicksFromBefore)
   EXPECT_TRUE(loop.step(pressed(0.013, {0.0, 0.0, 0.0}, 1.0, true)));
 }
 
-TEST(DissectionLoop, TakesBitesAtOnePlaceTogether)
+TEST(DissectionLoop, TakesStepsAtOnePlaceTogether)
 {
   LoopScene one, all;
   DissectionLoop each(one.work, *one.mask, one.removalModel);
@@ -136,7 +136,7 @@ TEST(DissectionLoop, TakesBitesAtOnePlaceTogether)
     each.step(record);
   batch.step(records.data(), records.size());
   EXPECT_EQ(batch.cuts(), 1u);
-  // Combined they go as deep as one after the other at positions that follow each bite.
+  // Combined they go as deep as one after the other at positions that follow each step.
   LoopScene deep;
   deep.work.beginStroke({});
   deep.work.cut({{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0 - 39 * 0.001}, 2.0});
@@ -166,7 +166,7 @@ TEST(DissectionLoop, DrillsAPlaneAtTheRateOfTheRemovalModel)
   const double depth0 = session.records[200].proxy.pose().position.z();
   const double depth1 = session.records[399].proxy.pose().position.z();
   // 1 N at 20 mm/s per N. The ball's pole feels the interpolated mask, which is within a hundredth
-  // of a voxel of the ball that cut it; at 0.02 mm per bite that is up to a sixth.
+  // of a voxel of the ball that cut it; at 0.02 mm per step that is up to a sixth.
   EXPECT_NEAR((depth0 - depth1) / 0.199, 20.0, 3.4);
   EXPECT_EQ(scene.work.strokes().size(), 0u);
   session.pedal = 0.0;
@@ -186,15 +186,15 @@ TEST(DissectionLoop, UndoInContactPutsTheToolOutAndTheForceBackSlowly)
   EXPECT_LT(session.records.back().proxy.pose().position.z(), 0.0);
   const std::size_t before = session.records.size() - 1;
   ASSERT_TRUE(loop.undo());
-  const haptics::Pose hand{{0.0, 0.0, -2.0}, Quaterniond::Identity()};
-  const TickRecord back = session.tick(hand);
+  const haptics::Pose devicePose{{0.0, 0.0, -2.0}, Quaterniond::Identity()};
+  const TickRecord back = session.tick(devicePose);
   EXPECT_EQ(faultOf(back), ServoFault::Retreated);
   EXPECT_GT(toString(back).size(), 20u);
   EXPECT_FALSE(back.drill);
   EXPECT_NEAR(back.proxy.pose().position.z(), 2.0, 1e-6);
   session.pedal = 0.0;
   for (int n = 0; n < 200; ++n)
-    session.tick(hand);
+    session.tick(devicePose);
   const double most = forceOf(session.records[before].output).norm();
   for (std::size_t n = before + 1; n < session.records.size(); ++n)
     EXPECT_LE(forceOf(session.records[n].output).norm(), most + 1e-12);

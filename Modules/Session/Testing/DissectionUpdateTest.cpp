@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "LoopScene.h"
-#include "petrous/Haptics/SimulatedDevice.h"
+#include "SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/DissectionUpdate.h"
 #include "petrous/Session/ServoThread.h"
@@ -180,13 +180,13 @@ TEST_F(Following, RandomSessionsWithUndoAndRedoAreFollowedToTheLastBit)
     proxy.mask = scene.mask;
     Servo servo(proxy, Session::plainSetup());
     ServoParameters parameters;
-    ServoThread hand(servo, device, ring, parameters);
+    ServoThread servoThread(servo, device, ring, parameters);
     DissectionThread thread(ring, loop, hooks());
     const int pictures = 10 + upTo(25);
     for (int n = 0; n < pictures; ++n)
     {
       parameters.drill = upTo(3) > 0 ? 1 : 0;
-      hand.setParameters(parameters);
+      servoThread.setParameters(parameters);
       for (int asked = upTo(5) - 3; asked > 0; --asked)
         upTo(2) > 0 ? thread.undo() : thread.redo();
       if (upTo(1) == 0)
@@ -194,10 +194,10 @@ TEST_F(Following, RandomSessionsWithUndoAndRedoAreFollowedToTheLastBit)
       follow();
       open += seen.strokeOpen();
     }
-    hand.stop();
+    servoThread.stop();
     thread.stop();
     EXPECT_EQ(thread.takeFailure(), "");
-    ticks += hand.state().ticks;
+    ticks += servoThread.state().ticks;
     follow();
     ASSERT_EQ(voxelsOf(seen), scene.voxels());
     ASSERT_EQ(seen.strokes(), scene.work.strokes());
@@ -248,7 +248,7 @@ TEST_F(Following, StopLosesNoStrokeAndNoRequest)
   EXPECT_EQ(seen.strokes().size(), 1u);
 }
 
-TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
+TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsReportedOnce)
 {
   int cuts = 0; // out of memory after the 21st
   const auto failing = [&cuts](const MaskEdit& edit)
@@ -269,7 +269,7 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsToldOnce)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (const std::string statusMessage = thread.takeFailure(); !statusMessage.empty())
     {
-      EXPECT_EQ(failure, "") << "told twice";
+      EXPECT_EQ(failure, "") << "reported twice";
       failure = statusMessage;
     }
   }

@@ -49,9 +49,9 @@ public:
 
   std::vector<dissection::SweptSphere> bites; // in chronological order
 
-  /// Presses, with the drill on, for a number of seconds of contact; `told` is called for each such
-  /// tick.
-  void drill(double seconds, const std::function<void(const TickRecord&)>& told = {})
+  /// Presses, with the drill on, for a number of seconds of contact; `notify` is called for each
+  /// such tick.
+  void drill(double seconds, const std::function<void(const TickRecord&)>& notify = {})
   {
     const double angle = 0.5 * 3.14159265358979323846 - m_setting.elevation;
     const Eigen::Vector3d at = m_setting.place + Eigen::Vector3d(0.0, 0.0, -3.0);
@@ -74,8 +74,8 @@ public:
       if (const TickRecord& record = tick(there); record.drill && record.thrust > 0.0)
       {
         ++done;
-        if (told)
-          told(record);
+        if (notify)
+          notify(record);
       }
     }
   }

@@ -84,15 +84,15 @@ TEST(PoseMapping, MovesAlongTheScreenWhateverTheCamera)
     const double* q = parameters.camera;
     const PoseMapping::View view{{q[0], q[1], q[2], q[3]}, 0.5};
     PoseMapping mapping;
-    Pose hand = random.pose();
-    const Vector3d start = mapping.map(hand, view).position;
-    hand.position.x() += 3.0;
-    EXPECT_LT((mapping.map(hand, view).position - start - 1.5 * screen.right).norm(), 1e-11);
-    hand.position.y() += 4.0;
+    Pose devicePose = random.pose();
+    const Vector3d start = mapping.map(devicePose, view).position;
+    devicePose.position.x() += 3.0;
+    EXPECT_LT((mapping.map(devicePose, view).position - start - 1.5 * screen.right).norm(), 1e-11);
+    devicePose.position.y() += 4.0;
     const Vector3d twice = 1.5 * screen.right + 2.0 * screen.up;
-    EXPECT_LT((mapping.map(hand, view).position - start - twice).norm(), 1e-11);
-    hand.position.z() -= 5.0;
-    EXPECT_LT((mapping.map(hand, view).position - start - twice + 2.5 * screen.toEye).norm(),
+    EXPECT_LT((mapping.map(devicePose, view).position - start - twice).norm(), 1e-11);
+    devicePose.position.z() -= 5.0;
+    EXPECT_LT((mapping.map(devicePose, view).position - start - twice + 2.5 * screen.toEye).norm(),
               1e-11);
   }
 }
@@ -108,25 +108,26 @@ TEST(PoseMapping, TurnsAboutTheScreensAxes)
     const double* q = parameters.camera;
     const PoseMapping::View view{{q[0], q[1], q[2], q[3]}, 0.3};
     PoseMapping mapping;
-    Pose hand = random.pose();
-    const Quaterniond start = mapping.map(hand, view).rotation;
+    Pose devicePose = random.pose();
+    const Quaterniond start = mapping.map(devicePose, view).rotation;
     // The device tilts right on the screen: a rotation about the axis towards the camera.
-    hand.rotation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d::UnitZ())) * hand.rotation;
+    devicePose.rotation =
+        Quaterniond(Eigen::AngleAxisd(0.7, Vector3d::UnitZ())) * devicePose.rotation;
     const Quaterniond expected = Eigen::AngleAxisd(0.7, screen.toEye) * start;
-    EXPECT_LT(angle(mapping.map(hand, view).rotation, expected), 1e-12);
+    EXPECT_LT(angle(mapping.map(devicePose, view).rotation, expected), 1e-12);
   }
 }
 
-TEST(PoseMapping, IsTheHandItselfWithoutCameraAndScale)
+TEST(PoseMapping, IsTheDevicePoseItselfWithoutCameraAndScale)
 {
   Random random;
   PoseMapping mapping;
   for (int n = 0; n < 100; ++n)
   {
-    const Pose hand = random.pose();
-    const Pose tool = mapping.map(hand, {});
-    EXPECT_EQ(tool.position, hand.position);
-    EXPECT_EQ(tool.rotation.coeffs(), hand.rotation.coeffs());
+    const Pose devicePose = random.pose();
+    const Pose tool = mapping.map(devicePose, {});
+    EXPECT_EQ(tool.position, devicePose.position);
+    EXPECT_EQ(tool.rotation.coeffs(), devicePose.rotation.coeffs());
   }
 }
 
@@ -137,11 +138,11 @@ TEST(PoseMapping, FirstPlacesTheToolAboutTheCentreWithTheHeadingOnTheScreen)
   {
     const Vector3d center = random.vector(100.0);
     const PoseMapping::View view = random.view();
-    const Pose hand = random.pose();
+    const Pose devicePose = random.pose();
     PoseMapping mapping(center);
-    const Pose tool = mapping.map(hand, view);
-    expectSame(tool,
-               {center + view.scale * (view.camera * hand.position), view.camera * hand.rotation});
+    const Pose tool = mapping.map(devicePose, view);
+    expectSame(tool, {center + view.scale * (view.camera * devicePose.position),
+                      view.camera * devicePose.rotation});
   }
 }
 
@@ -149,13 +150,13 @@ TEST(PoseMapping, NeverMovesTheToolWhenTheCameraMoves)
 {
   Random random;
   PoseMapping mapping(random.vector(50.0));
-  Pose hand = random.pose();
+  Pose devicePose = random.pose();
   for (int n = 0; n < 50; ++n)
   {
-    const Pose before = mapping.map(hand, random.view());
+    const Pose before = mapping.map(devicePose, random.view());
     for (int turn = 0; turn < 20; ++turn)
-      expectSame(mapping.map(hand, random.view()), before, 1e-10);
-    hand = random.pose();
+      expectSame(mapping.map(devicePose, random.view()), before, 1e-10);
+    devicePose = random.pose();
   }
 }
 
@@ -163,20 +164,20 @@ TEST(PoseMapping, StaysAUnitRotationWhileTheCameraTurnsForHours)
 {
   Random random;
   PoseMapping mapping;
-  const Pose hand = random.pose();
-  const Pose before = mapping.map(hand, random.view());
+  const Pose devicePose = random.pose();
+  const Pose before = mapping.map(devicePose, random.view());
   Pose after;
   for (int n = 0; n < 1000000; ++n)
   {
     PoseMapping::View view;
     view.camera = Quaterniond(std::cos(1e-5 * n), 0.0, std::sin(1e-5 * n), 0.0);
-    after = mapping.map(hand, view);
+    after = mapping.map(devicePose, view);
   }
   EXPECT_NEAR(after.rotation.norm(), 1.0, 1e-14);
   expectSame(after, before, 1e-8);
 }
 
-TEST(PoseMapping, ClutchMovesTheHandAndNotTheTool)
+TEST(PoseMapping, ClutchMovesTheDeviceAndNotTheTool)
 {
   Random random;
   PoseMapping mapping;
@@ -185,14 +186,14 @@ TEST(PoseMapping, ClutchMovesTheHandAndNotTheTool)
   {
     const Pose tool = random.pose();
     const PoseMapping::View view = random.view();
-    Pose hand;
+    Pose devicePose;
     for (int tick = 0; tick < 20; ++tick)
-      mapping.hold(hand = random.pose(), view, tool);
-    expectSame(mapping.map(hand, view), tool);
+      mapping.hold(devicePose = random.pose(), view, tool);
+    expectSame(mapping.map(devicePose, view), tool);
     // From here on only the device's own motion counts.
     const Vector3d step = random.vector(5.0);
     const Quaterniond turn(Eigen::AngleAxisd(0.4, random.vector(1.0).normalized()));
-    const Pose moved = mapping.map({hand.position + step, turn * hand.rotation}, view);
+    const Pose moved = mapping.map({devicePose.position + step, turn * devicePose.rotation}, view);
     expectSame(moved, {tool.position + view.scale * (view.camera * step),
                        view.camera * turn * view.camera.conjugate() * tool.rotation});
   }
@@ -206,11 +207,11 @@ TEST(PoseMapping, KeepsThePowerTimesTheGain)
     const PoseMapping::View view = random.view();
     const double gain = 0.2 + 0.01 * n;
     PoseMapping mapping(random.vector(20.0));
-    const Pose hand = random.pose();
-    const Pose tool = mapping.map(hand, view);
+    const Pose devicePose = random.pose();
+    const Pose tool = mapping.map(devicePose, view);
     const haptics::Motion slow{random.vector(1e-4), random.vector(1e-5)};
     const haptics::Motion moved =
-        haptics::motionBetween(tool, mapping.map(haptics::moved(hand, slow), view));
+        haptics::motionBetween(tool, mapping.map(haptics::moved(devicePose, slow), view));
     const haptics::Wrench force{random.vector(3.0), random.vector(60.0)};
     const haptics::Wrench felt = mapping.toHand(force, gain);
     const double atTool = force.linear.dot(moved.linear) + force.angular.dot(moved.angular);
@@ -219,7 +220,7 @@ TEST(PoseMapping, KeepsThePowerTimesTheGain)
   }
 }
 
-TEST(PoseMapping, PushesTheHandTheWayTheScreenShows)
+TEST(PoseMapping, PushesTheDeviceTheWayTheScreenShows)
 {
   Random random;
   const Screen screen = screenOf(random);

@@ -24,7 +24,7 @@ public:
     m_at = record.proxy.pose().position;
   }
 
-  std::optional<dissection::SweptSphere> bite(const volume::CutMask&) override
+  std::optional<dissection::SweptSphere> nextCut(const volume::CutMask&) override
   {
     const Eigen::Vector3d way = m_way;
     m_way.setZero();

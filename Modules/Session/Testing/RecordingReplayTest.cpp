@@ -14,12 +14,11 @@
 #include <unistd.h>
 
 #include "BoneBlock.h"
+#include "SimulatedDevice.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Haptics/PointProxy.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/RecordingReplay.h"
-#include "petrous/Session/Replay.h"
 #include "petrous/Session/ServoThread.h"
 #include "petrous/Session/SessionRecorder.h"
 
@@ -344,5 +343,5 @@ TEST(Replay, NamesWhatDiffers)
   b.wrench.torque[2] = -0.0;
   EXPECT_EQ(differenceOf(a, b), "the force");
   b.input.pedal = 1.0;
-  EXPECT_EQ(differenceOf(a, b), "what the hand gave");
+  EXPECT_EQ(differenceOf(a, b), "the device's reading");
 }

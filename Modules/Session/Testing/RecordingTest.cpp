@@ -11,7 +11,6 @@
 
 #include "petrous/Session/RecordingReader.h"
 #include "petrous/Session/RecordingWriter.h"
-#include "petrous/Session/Replay.h"
 
 using namespace petrous;
 using namespace petrous::session;

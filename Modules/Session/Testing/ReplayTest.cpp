@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <functional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,6 @@
 #include "petrous/Haptics/ConstrainedProxy.h"
 #include "petrous/Session/RecordingReader.h"
 #include "petrous/Session/RecordingWriter.h"
-#include "petrous/Session/Replay.h"
 
 using namespace petrous;
 using namespace petrous::session;
@@ -25,7 +26,7 @@ void perform(Session& session, DissectionLoop& loop)
   for (int n = 0; n < 1500; ++n)
   {
     const double t = 0.001 * n;
-    const haptics::Pose hand{
+    const haptics::Pose devicePose{
         {3.0 * std::sin(2.0 * t), 2.0 * std::cos(3.0 * t), 2.5 + 2.0 * std::cos(5.0 * t)},
         Quaterniond(Eigen::AngleAxisd(0.3 * t, Vector3d(0.6, 0.0, 0.8)))};
     session.pedal = n % 400 < 300 ? 1.0 : 0.0;
@@ -38,8 +39,22 @@ void perform(Session& session, DissectionLoop& loop)
       session.parameters.camera[0] = std::cos(0.2 * t);
       session.parameters.camera[2] = std::sin(0.2 * t);
     }
-    loop.step(session.tick(hand));
+    loop.step(session.tick(devicePose));
   }
+}
+
+// The servo on recorded inputs; `after` with each new record, to update the mask.
+std::vector<TickRecord> replay(const std::vector<TickRecord>& recorded, Servo& servo,
+                               const std::function<void(const TickRecord&)>& after = {})
+{
+  std::vector<TickRecord> result;
+  for (const TickRecord& record : recorded)
+  {
+    result.push_back(servo.tick(record.input));
+    if (after)
+      after(result.back());
+  }
+  return result;
 }
 
 } // namespace

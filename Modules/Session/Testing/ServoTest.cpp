@@ -4,7 +4,6 @@
 
 #include "Session.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Session/Replay.h"
 
 using namespace petrous::session;
 using namespace petrous::session::testing;
@@ -18,7 +17,7 @@ namespace
 const Vector3d kAbove(0.0, 0.0, 5.0);
 const Vector3d kPressing(0.0, 0.0, 1.0); // 1 mm into the plane for a ball of 2 mm: 1 N
 
-const Pose kHand{kPressing, Eigen::Quaterniond::Identity()};
+const Pose kDevicePose{kPressing, Eigen::Quaterniond::Identity()};
 
 void settle(Session& session)
 {
@@ -78,7 +77,7 @@ TEST(Servo, ReportsRadiusAndElevationOfTheContact)
   }
 }
 
-TEST(Servo, TurnsTheForceToTheHandsAxes)
+TEST(Servo, TurnsTheForceToTheDevicesAxes)
 {
   Session session;
   // The camera looks along patient x: the device's right is patient y, its up is z.
@@ -99,29 +98,29 @@ TEST(Servo, DrillsByPedalButtonOrKeyAndOnlyWhileAllIsWell)
 {
   Session session;
   settle(session);
-  EXPECT_FALSE(session.tick(kHand).drill);
+  EXPECT_FALSE(session.tick(kDevicePose).drill);
   session.pedal = 0.7;
-  EXPECT_TRUE(session.tick(kHand).drill);
+  EXPECT_TRUE(session.tick(kDevicePose).drill);
   session.pedal = 0.0;
   session.parameters.drillButtons = 2;
   session.buttons = 1;
-  EXPECT_FALSE(session.tick(kHand).drill);
+  EXPECT_FALSE(session.tick(kDevicePose).drill);
   session.buttons = 3;
-  EXPECT_TRUE(session.tick(kHand).drill);
+  EXPECT_TRUE(session.tick(kDevicePose).drill);
   session.buttons = 0;
   session.parameters.drill = 1;
-  EXPECT_TRUE(session.tick(kHand).drill);
+  EXPECT_TRUE(session.tick(kDevicePose).drill);
   session.parameters.clutch = 1;
-  EXPECT_FALSE(session.tick(kHand).drill);
+  EXPECT_FALSE(session.tick(kDevicePose).drill);
   session.parameters.clutch = 0;
   session.parameters.pause = 1;
-  EXPECT_FALSE(session.tick(kHand).drill);
+  EXPECT_FALSE(session.tick(kDevicePose).drill);
   session.parameters.pause = 0;
   session.health = petrous::haptics::DeviceHealth::Disconnected;
-  EXPECT_FALSE(session.tick(kHand).drill);
+  EXPECT_FALSE(session.tick(kDevicePose).drill);
 }
 
-TEST(Servo, ClutchKeepsTheToolWhileTheHandGoesAway)
+TEST(Servo, ClutchKeepsTheToolWhileTheDeviceGoesAway)
 {
   Session session;
   settle(session);
@@ -171,22 +170,22 @@ TEST_P(ServoFaults, EndInASafeForceAndTheSessionGoesOn)
   const Vector3d tool = session.records.back().proxy.pose().position;
   for (int n = 0; n < 60; ++n)
   {
-    Pose hand = kHand;
+    Pose devicePose = kDevicePose;
     session.now += 0.001;
     switch (GetParam())
     {
     case 0: // NaN
       session.deviceTime += 0.001;
-      hand.position.x() = nan;
+      devicePose.position.x() = nan;
       break;
     case 1: // infinite rotation
       session.deviceTime += 0.001;
-      hand.rotation.w() = std::numeric_limits<double>::infinity();
+      devicePose.rotation.w() = std::numeric_limits<double>::infinity();
       break;
     case 2: // jumps of 50 mm back and forth
       session.deviceTime += 0.001;
-      hand.position.x() += n % 2 ? 50.0 : 0.0;
-      hand.position.x() += n == 0 ? 50.0 : 0.0;
+      devicePose.position.x() += n % 2 ? 50.0 : 0.0;
+      devicePose.position.x() += n == 0 ? 50.0 : 0.0;
       break;
     case 3: // time runs backward
       session.deviceTime -= 0.001;
@@ -196,12 +195,12 @@ TEST_P(ServoFaults, EndInASafeForceAndTheSessionGoesOn)
       break;
     case 5: // an invalid rotation
       session.deviceTime += 0.001;
-      hand.rotation.coeffs() *= 3.0;
+      devicePose.rotation.coeffs() *= 3.0;
       break;
     default: // a time that is NaN
       session.deviceTime = nan;
     }
-    const TickRecord& record = session.tickAsItIs(hand);
+    const TickRecord& record = session.tickAsItIs(devicePose);
     EXPECT_EQ(faultOf(record), ServoFault::Device);
     EXPECT_GT(toString(record).size(), 20u);
     EXPECT_FALSE(record.drill);
@@ -231,7 +230,7 @@ TEST(Servo, HoldsTheForceThroughTicksWithoutANewReadingUntilTheyAreStale)
   for (int n = 0; n < 200; ++n)
   {
     session.now += 0.001;
-    session.tickAsItIs(kHand);
+    session.tickAsItIs(kDevicePose);
   }
   EXPECT_EQ(faultOf(session.records[first + 40]), ServoFault::None);
   EXPECT_NEAR(forceOf(session.records[first + 40].output).z(), 1.0, 1e-9);
@@ -266,7 +265,7 @@ TEST(Servo, GivesNoForceWhileItsOwnClockRunsBack)
   {
     session.now -= 0.0005;
     session.deviceTime += 1e-6;
-    EXPECT_EQ(faultOf(session.tickAsItIs(kHand)), ServoFault::Clock);
+    EXPECT_EQ(faultOf(session.tickAsItIs(kDevicePose)), ServoFault::Clock);
   }
   EXPECT_EQ(forceOf(session.records.back().output).norm(), 0.0);
   EXPECT_GT(toString(session.records.back()).size(), 20u);

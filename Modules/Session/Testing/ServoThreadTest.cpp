@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "BoneBlock.h"
+#include "SimulatedDevice.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
 #include "petrous/Session/ServoThread.h"
 

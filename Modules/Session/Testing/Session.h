@@ -43,19 +43,19 @@ struct Session
   {
   }
 
-  const TickRecord& tick(const haptics::Pose& hand, double seconds = 0.001)
+  const TickRecord& tick(const haptics::Pose& devicePose, double seconds = 0.001)
   {
     now += seconds;
     deviceTime += seconds;
-    return tickAsItIs(hand);
+    return tickAsItIs(devicePose);
   }
 
   /// Without advancing the clocks.
-  const TickRecord& tickAsItIs(const haptics::Pose& hand)
+  const TickRecord& tickAsItIs(const haptics::Pose& devicePose)
   {
     haptics::DeviceReading reading;
     reading.time = deviceTime;
-    reading.pose = hand;
+    reading.pose = devicePose;
     reading.buttons = buttons;
     reading.pedal = pedal;
     reading.health = health;

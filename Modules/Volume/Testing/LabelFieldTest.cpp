@@ -81,7 +81,7 @@ TEST(LabelField, HasTheSmoothedUnionOfASingleMap)
   }
 }
 
-TEST(LabelField, HasASolidsIndexWhereverItsShareIsInside)
+TEST(LabelField, HasASolidsIndexWhereverItsOccupancyIsInside)
 {
   std::mt19937 random(11);
   const auto blobs = [](double phase, double level)

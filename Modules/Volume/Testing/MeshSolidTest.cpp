@@ -168,6 +168,11 @@ volume::MeshSolidPlan planned(const core::TriangleMesh& mesh)
   return volume::planMeshSolid(mesh, limits);
 }
 
+std::shared_ptr<const volume::Volume<float>> solidOf(const core::TriangleMesh& mesh)
+{
+  return volume::solidOf(mesh, planned(mesh));
+}
+
 } // namespace
 
 TEST(MeshSolid, HasASpheresSurfaceWithinATwentiethOfAVoxel)
@@ -175,7 +180,7 @@ TEST(MeshSolid, HasASpheresSurfaceWithinATwentiethOfAVoxel)
   for (const double radius : {0.5, 1.3, 4.0})
   {
     const Vector3d center(3.21, -7.13, 40.02);
-    const auto occupancy = volume::solidOf(sphere(center, radius), kSpacing);
+    const auto occupancy = solidOf(sphere(center, radius));
     ASSERT_TRUE(occupancy);
     for (int n = 0; n < 500; ++n)
       EXPECT_NEAR(crossing(*occupancy, center, spread(n, 500), radius + 1.0), radius,
@@ -190,7 +195,7 @@ TEST(MeshSolid, KeepsATubeWholeThatIsThinnerThanAVoxel)
   constexpr double length = 12.0;
   const auto mesh = tube(radius, length);
   EXPECT_NEAR(planned(mesh).thickness, 2.0 * radius, 0.01);
-  const auto occupancy = volume::solidOf(mesh, kSpacing);
+  const auto occupancy = solidOf(mesh);
   ASSERT_TRUE(occupancy);
   const Vector3d side = kAxis.unitOrthogonal();
   const Vector3d other = kAxis.cross(side);
@@ -211,7 +216,7 @@ TEST(MeshSolid, IsTheDistanceItselfNearAPlane)
   auto mesh = box(Vector3d::Constant(-4.0), Vector3d::Constant(4.0));
   for (auto& vertex : mesh.vertices)
     vertex = (turn * vertex.cast<double>()).cast<float>();
-  const auto occupancy = volume::solidOf(mesh, kSpacing);
+  const auto occupancy = solidOf(mesh);
   ASSERT_TRUE(occupancy);
   const double edge = occupancy->geometry().minSpacing();
   EXPECT_LE(edge, kSpacing);
@@ -241,7 +246,7 @@ TEST(MeshSolid, HasTheVolumeOfATorus)
   const double truth = 2.0 * kPi * kPi * ring * radius * radius;
   for (const auto& either : {mesh, turned(mesh)}) // either orientation
   {
-    const auto occupancy = volume::solidOf(either, kSpacing);
+    const auto occupancy = solidOf(either);
     ASSERT_TRUE(occupancy);
     EXPECT_NEAR(volumeOf(*occupancy) / truth, 1.0, 0.05); // a surface 0.012 mm too deep
     EXPECT_LT(valueAt(*occupancy, Vector3d::Zero()), 0.5) << "the hole";
@@ -253,8 +258,8 @@ TEST(MeshSolid, TakesTheInnerOfNestedShellsForACavityWhenItFacesTheOtherWay)
   const Vector3d center(0.1, 0.2, 0.3);
   const auto outer = sphere(center, 3.0, 48);
   const auto inner = sphere(center, 1.5, 48);
-  const auto hollow = volume::solidOf(joined(outer, turned(inner)), kSpacing);
-  const auto filled = volume::solidOf(joined(outer, inner), kSpacing);
+  const auto hollow = solidOf(joined(outer, turned(inner)));
+  const auto filled = solidOf(joined(outer, inner));
   ASSERT_TRUE(hollow && filled);
   EXPECT_LT(valueAt(*hollow, center), 0.01);
   for (int n = 0; n < 50; ++n)
@@ -273,7 +278,7 @@ TEST(MeshSolid, UnitesShellsThatTouchOrOverlap)
   for (const double start : {3.0, 2.4})
   {
     const auto mesh = joined(left, box({start, 0, 0}, {6, 2, 2}));
-    const auto occupancy = volume::solidOf(mesh, kSpacing);
+    const auto occupancy = solidOf(mesh);
     ASSERT_TRUE(occupancy) << planned(mesh).refusal;
     for (double x = 0.7; x < 5.4; x += 0.013)
       EXPECT_GT(valueAt(*occupancy, {x, 1.0, 1.0}), 0.75) << "x = " << x << ", from " << start;
@@ -281,7 +286,7 @@ TEST(MeshSolid, UnitesShellsThatTouchOrOverlap)
   }
   // Two boxes that share only an edge: four triangles meet there.
   auto corner = joined(left, box({3, 2, 0}, {6, 4, 2}));
-  const auto occupancy = volume::solidOf(corner, kSpacing);
+  const auto occupancy = solidOf(corner);
   ASSERT_TRUE(occupancy) << planned(corner).refusal;
   EXPECT_GT(valueAt(*occupancy, {1.5, 1.0, 1.0}), 0.9);
   EXPECT_GT(valueAt(*occupancy, {4.5, 3.0, 1.0}), 0.9);
@@ -293,8 +298,8 @@ TEST(MeshSolid, DoesNotCareWhichWaySingleTrianglesFace)
   auto mesh = sphere({0, 0, 0}, 2.0, 32);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
     std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
-  const auto occupancy = volume::solidOf(mesh, kSpacing);
-  const auto straight = volume::solidOf(sphere({0, 0, 0}, 2.0, 32), kSpacing);
+  const auto occupancy = solidOf(mesh);
+  const auto straight = solidOf(sphere({0, 0, 0}, 2.0, 32));
   ASSERT_TRUE(occupancy && straight);
   ASSERT_EQ(occupancy->size(), straight->size());
   for (std::size_t n = 0; n < occupancy->size(); ++n)
@@ -323,7 +328,6 @@ TEST(MeshSolid, RefusesWhatHasNoInsideAndSaysWhy)
   EXPECT_NE(planned(open).refusal.find("not closed: its surface ends at 3 edges"),
             std::string::npos)
       << planned(open).refusal;
-  EXPECT_EQ(volume::solidOf(open, kSpacing), nullptr);
   EXPECT_THROW(volume::solidOf(open, planned(open)), core::InvalidParameter);
 
   core::TriangleMesh sheet; // front and back of one triangle
@@ -414,7 +418,7 @@ TEST(MeshSolid, IsTheSameInTheRegionWhereTheMeshGoesFarBeyond)
 TEST(MeshSolid, GuardsAllOfATubeThatFitsBetweenVoxels)
 {
   constexpr double length = 12.0;
-  const auto occupancy = volume::solidOf(tube(0.15, length), kSpacing);
+  const auto occupancy = solidOf(tube(0.15, length));
   const core::GridGeometry ct({40, 30, 30}, Vector3d::Constant(kSpacing), {-1.0, -2.0, -2.0});
   const auto guard = volume::protectionMaskOf(*occupancy, ct);
   ASSERT_TRUE(guard);
@@ -456,6 +460,8 @@ TEST(MeshSolid, StopsWhenAskedTo)
   token->cancel();
   const core::Progress progress({}, token);
   const auto mesh = sphere({0, 0, 0}, 2.0, 16);
-  EXPECT_THROW(volume::solidOf(mesh, kSpacing, progress), core::CancelledError);
+  MeshSolidLimits limits;
+  limits.spacing = kSpacing;
+  EXPECT_THROW(volume::planMeshSolid(mesh, limits, progress), core::CancelledError);
   EXPECT_THROW(volume::solidOf(mesh, planned(mesh), progress), core::CancelledError);
 }

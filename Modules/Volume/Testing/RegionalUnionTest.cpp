@@ -147,7 +147,7 @@ TEST(RegionalUnion, IsNothingWithoutVoxelsAndRefusesWhatALabelFieldRefuses)
   EXPECT_THROW(volume::RegionalUnion::make({{nullptr, 1, 1, true}}), core::InvalidParameter);
 }
 
-TEST(SolidShare, IsTheShareOfTheLabelFieldOnOneGridAndOnTwo)
+TEST(RegionalUnion, IsTheOccupancyOfTheLabelFieldOnOneGridAndOnTwo)
 {
   const auto labels = windingLabels();
   auto sources = sourcesOf(labels);

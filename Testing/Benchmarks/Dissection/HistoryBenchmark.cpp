@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "MaskComparison.h"
 #include "petrous/Dissection/Dissection.h"
-#include "petrous/Volume/MaskComparison.h"
 
 namespace petrous::dissection
 {

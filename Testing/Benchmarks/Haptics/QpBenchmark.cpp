@@ -1,6 +1,7 @@
 #include "QpBenchmark.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -40,11 +41,15 @@ public:
     m_normals.resize(count);
     m_lengths.resize(count);
     m_multipliers.assign(count, 0.0);
+    m_gives.resize(count);
+    m_compressions.fill(0.0);
     for (std::size_t i = 0; i < count; ++i)
     {
       const Vector6 whitened = problem.rows[i].cwiseQuotient(root);
-      m_lengths[i] = std::max(whitened.norm(), 1e-12);
+      const double compliance = problem.complianceOf(i);
+      m_lengths[i] = std::max(std::sqrt(whitened.squaredNorm() + compliance), 1e-12);
       m_normals[i] = whitened / m_lengths[i];
+      m_gives[i] = std::sqrt(compliance) / m_lengths[i];
     }
     Vector6 y = root.cwiseProduct(problem.unconstrained);
     const double settled = kSettled * y.norm();
@@ -54,13 +59,15 @@ public:
       change = 0.0;
       for (std::size_t i = 0; i < count; ++i)
       {
-        const double give = problem.compliances[i] / (m_lengths[i] * m_lengths[i]);
+        // A rigid row has a give of 0, whichever spring it is given.
+        double& compression = m_compressions[std::max(0, problem.springs[i])];
         const double missing =
-            problem.bounds[i] / m_lengths[i] - m_normals[i].dot(y) - give * m_multipliers[i];
-        const double next = std::max(0.0, m_multipliers[i] + missing / (1.0 + give));
+            problem.bounds[i] / m_lengths[i] - m_normals[i].dot(y) - m_gives[i] * compression;
+        const double next = std::max(0.0, m_multipliers[i] + missing);
         const double step = next - m_multipliers[i];
         m_multipliers[i] = next;
         y += step * m_normals[i];
+        compression += step * m_gives[i];
         change = std::max(change, std::abs(step));
       }
     }
@@ -75,6 +82,8 @@ private:
   std::vector<Vector6> m_normals;
   std::vector<double> m_lengths;
   std::vector<double> m_multipliers;
+  std::vector<double> m_gives;                      // component of a row along its spring
+  std::array<double, kMaxSprings> m_compressions{}; // each times the root of its stiffness
   Vector6 m_solution;
   int m_sweeps = 0;
 };
@@ -118,9 +127,9 @@ double timed(const Work& work)
   return least;
 }
 
-void solveOurs(const QpProblem& problem, double allowed, ContactQp& qp, Outcome& outcome)
+void solveOurs(const QpProblem& problem, double allowed, ProxyQp& qp, Outcome& outcome)
 {
-  ContactQp::Status status{};
+  ProxyQp::Status status{};
   const double time = timed(
       [&]
       {
@@ -128,7 +137,7 @@ void solveOurs(const QpProblem& problem, double allowed, ContactQp& qp, Outcome&
         status = qp.solve(problem.unconstrained);
       });
   // A problem given up has no solution to check: it counts as failed.
-  const bool solved = status == ContactQp::Status::Solved;
+  const bool solved = status == ProxyQp::Status::Solved;
   const double error = solved ? testing::kktError(problem, qp).worst() : 0.0;
   outcome.add(time, error, qp.iterations(), !solved || error > allowed);
 }
@@ -167,7 +176,7 @@ void measureRows(QpFamily family, int rows, bool quick, core::BenchmarkReport& r
   for (int n = 0; n < problems; ++n)
   {
     const QpProblem problem = source.make(family, rows);
-    ContactQp qp(kCapacity, problem.stiffness);
+    ProxyQp qp(kCapacity, problem.stiffness, problem.isSoft());
     if (n == 0)
       solvePeer(problem, peer, theirs), theirs = {}; // warm-up
     solveOurs(problem, kAllowed, qp, ours);
@@ -200,7 +209,7 @@ void measureAll(bool quick, const core::Progress& progress, core::BenchmarkRepor
     const bool close = testing::isNearlyDependent(family);
     const int rows = source.whole(1, source.whole(0, 99) == 0 ? 800 : 60);
     const QpProblem problem = source.make(family, rows, 10.0);
-    ContactQp qp(kCapacity, problem.stiffness);
+    ProxyQp qp(kCapacity, problem.stiffness, problem.isSoft());
     solveOurs(problem, close ? kAllowedNearly : kAllowed, qp, close ? nearly : apart);
   }
   for (Outcome* outcome : {&apart, &nearly})

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "MaskComparison.h"
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Library.h"
-#include "petrous/Volume/MaskComparison.h"
 
 namespace petrous::library
 {

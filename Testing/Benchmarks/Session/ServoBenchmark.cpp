@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "SimulatedDevice.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/TickTimes.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
-#include "petrous/Haptics/SimulatedDevice.h"
 #include "petrous/Session/BurrRemovalModel.h"
 #include "petrous/Session/DissectionLoop.h"
 #include "petrous/Session/RecordingReplay.h"

@@ -40,42 +40,43 @@ double usualScale(const haptics::DeviceDescription& device)
 }
 
 void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& device,
-         const DeviceMapping& lead, bool endless)
+         const DeviceMapping& mapping, bool endless)
 {
-  setup.tool.coupling.stiffness = stiffnessFor(device, lead.scale);
-  setup.tool.coupling.angularStiffness = angularStiffnessFor(device, lead.scale);
+  setup.tool.coupling.stiffness = stiffnessFor(device, mapping.scale);
+  setup.tool.coupling.angularStiffness = angularStiffnessFor(device, mapping.scale);
   setup.guard = {};
   if (endless)
     setup.guard.reach = kEndless;
   setup.limits = {};
-  setup.limits.maxForce = device.givesForce ? std::clamp(lead.forceLimit.value_or(device.maxForce),
-                                                         0.0, device.maxForce)
-                                            : 0.0;
+  setup.limits.maxForce =
+      device.givesForce
+          ? std::clamp(mapping.forceLimit.value_or(device.maxForce), 0.0, device.maxForce)
+          : 0.0;
   setup.limits.maxTorque = device.givesTorque ? device.maxTorque : 0.0;
   setup.passivity.reset();
   if (!device.givesForce)
     return;
   // As felt at the device, at a gain of 1 / scale.
   haptics::PassivityGuard::Parameters passivity;
-  passivity.stiffness = setup.tool.coupling.stiffness * lead.scale;
-  passivity.angularStiffness = setup.tool.coupling.angularStiffness / lead.scale;
+  passivity.stiffness = setup.tool.coupling.stiffness * mapping.scale;
+  passivity.angularStiffness = setup.tool.coupling.angularStiffness / mapping.scale;
   setup.passivity = passivity;
 }
 
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                       const DeviceMapping& lead, const core::CameraPose& camera,
+                                       const DeviceMapping& mapping, const core::CameraPose& camera,
                                        const DeviceSwitches& switches)
 {
   session::ServoParameters parameters;
   session::setCamera(parameters, camera);
-  parameters.scale = lead.scale;
-  parameters.forceGain = 1.0 / lead.scale;
+  parameters.scale = mapping.scale;
+  parameters.forceGain = 1.0 / mapping.scale;
   parameters.drillButtons = ActiveDevice::kDrill;
   parameters.clutchButtons = ActiveDevice::kClutch;
   parameters.clutch = switches.clutch ? 1 : 0;
   parameters.drill = switches.drill ? 1 : 0;
   if (!device.givesForce)
-    parameters.maxLead = static_cast<float>(lead.thrust / stiffnessFor(device, lead.scale));
+    parameters.maxLead = static_cast<float>(mapping.thrust / stiffnessFor(device, mapping.scale));
   session::check(parameters);
   return parameters;
 }

@@ -107,7 +107,7 @@ void JournalThread::write(Tasks& tasks)
 void JournalThread::run()
 {
   Tasks tasks;
-  bool told = false;
+  bool notified = false;
   for (;;)
   {
     bool stop = false;
@@ -138,12 +138,12 @@ void JournalThread::run()
     {
       why = error.what();
     }
-    if (!why.empty() && !told)
+    if (!why.empty() && !notified)
     {
       const std::lock_guard<std::mutex> lock(m_mutex);
       m_failure = why;
     }
-    told = !why.empty();
+    notified = !why.empty();
     if (stop)
       break;
   }

@@ -291,7 +291,7 @@ RegistrationOutcome registerMr(const scene::Case& value, const RegistrationReque
 void accept(scene::Case& value, const std::string& mr, const RegistrationOutcome& outcome)
 {
   if (!outcome.failed)
-    scene::layMr(value, mr, outcome.mrFromCt, outcome.how);
+    scene::applyRegistration(value, mr, outcome.mrFromCt, outcome.how);
 }
 
 } // namespace petrous::presenters

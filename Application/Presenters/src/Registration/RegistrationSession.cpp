@@ -61,14 +61,14 @@ std::vector<std::string> RegistrationSession::mrNames() const
 
 std::string RegistrationSession::stateInWords() const
 {
-  return part() ? scene::registrationInWords(*part()) : std::string();
+  return part() ? scene::registrationToString(*part()) : std::string();
 }
 
 void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Registration& how)
 {
   if (!part() || m_model.drilling())
     return;
-  change([&](scene::Case& value) { scene::layMr(value, m_name, mrFromCt, how); });
+  change([&](scene::Case& value) { scene::applyRegistration(value, m_name, mrFromCt, how); });
 }
 
 // The undo entry is pushed before listeners are notified.
@@ -212,7 +212,7 @@ void RegistrationSession::unregister()
 {
   if (!part() || !part()->registered || m_model.drilling())
     return;
-  change([this](scene::Case& value) { scene::unlayMr(value, m_name); });
+  change([this](scene::Case& value) { scene::removeRegistration(value, m_name); });
 }
 
 void RegistrationSession::signOff(const std::string& who, const std::string& when)

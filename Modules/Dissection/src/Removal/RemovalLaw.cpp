@@ -46,8 +46,8 @@ OrthogonalCutting::OrthogonalCutting(double specificEnergy, double friction, dou
   require(1.0 + friction * slope > 0.0,
           "1 + friction x the rake's tangent must be above 0, it is " +
               text(1.0 + friction * slope));
-  m_ratio = (1.0 + friction * slope) / (friction - slope);
-  m_resistance = specificEnergy / m_ratio;
+  const double ratio = (1.0 + friction * slope) / (friction - slope); // F_c / F_t
+  m_resistance = specificEnergy / ratio;
 }
 
 AbrasiveWear::AbrasiveWear(double hardness, double wearCoefficient)

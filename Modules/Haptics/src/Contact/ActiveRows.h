@@ -32,12 +32,6 @@ public:
     double square = 0.0; ///< squared length, > 0
   };
 
-  struct Members
-  {
-    std::array<Eigen::Index, kMax> row;
-    Coefficients multiplier;
-  };
-
   explicit ActiveRows(double compliance)
     : m_compliance(compliance)
   {
@@ -45,10 +39,9 @@ public:
 
   int size() const noexcept { return m_size; }
   void clear() noexcept { m_size = 0; }
-  const Members& members() const noexcept { return m_members; }
-  Eigen::Index row(int j) const noexcept { return m_members.row[j]; }
-  double& multiplier(int j) noexcept { return m_members.multiplier[j]; }
-  double multiplier(int j) const noexcept { return m_members.multiplier[j]; }
+  Eigen::Index row(int j) const noexcept { return m_row[j]; }
+  double& multiplier(int j) noexcept { return m_multiplier[j]; }
+  double multiplier(int j) const noexcept { return m_multiplier[j]; }
 
   /// (n, sqrt(c) e) = Q d + rest. Orthogonalised twice: a single pass leaves an error of eps |n| /
   /// |rest| in the direction of a short rest.
@@ -119,8 +112,8 @@ public:
     m_r[k][k] = length;
     m_head[k] = rest.head / length;
     m_tail[k][k] = std::sqrt(m_compliance) / length;
-    m_members.row[k] = row;
-    m_members.multiplier[k] = multiplier;
+    m_row[k] = row;
+    m_multiplier[k] = multiplier;
     ++m_size;
   }
 
@@ -132,8 +125,8 @@ public:
     for (int k = j; k < m_size; ++k)
     {
       m_r[k] = m_r[k + 1];
-      m_members.row[k] = m_members.row[k + 1];
-      m_members.multiplier[k] = m_members.multiplier[k + 1];
+      m_row[k] = m_row[k + 1];
+      m_multiplier[k] = m_multiplier[k + 1];
     }
     for (int k = 0; k <= m_size; ++k)
       for (int i = j; i < m_size; ++i)
@@ -176,7 +169,8 @@ private:
   std::array<Vector, kMax> m_head;
   std::array<Coefficients, kMax> m_tail;
   std::array<Coefficients, kMax> m_r; // columns of R
-  Members m_members{};
+  std::array<Eigen::Index, kMax> m_row{};
+  Coefficients m_multiplier{};
 };
 
 } // namespace petrous::haptics

@@ -513,13 +513,4 @@ std::vector<core::LockedMemory::Range> HapticField::memory() const
   return ranges;
 }
 
-std::size_t HapticField::residentBytes() const noexcept
-{
-  std::size_t bytes = m_distance.size() * sizeof(m_distance.front()) +
-                      m_steepness.size() * sizeof(m_steepness.front());
-  for (const SoftStructure& structure : m_soft)
-    bytes += structure.depth->bytes();
-  return bytes;
-}
-
 } // namespace petrous::haptics

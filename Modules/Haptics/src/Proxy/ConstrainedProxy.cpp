@@ -68,9 +68,9 @@ ConstrainedProxy::~ConstrainedProxy() = default;
 
 void ConstrainedProxy::place(const Pose& pose) noexcept
 {
-  if (!pose.finite())
+  if (!m_backtracker->place(pose))
     return;
-  m_backtracker->place(pose);
+  m_tick.pose = m_sweep.pose();
   m_hitCount = 0; // stops at the previous pose
   m_caught = false;
   if (m_soft)
@@ -79,7 +79,7 @@ void ConstrainedProxy::place(const Pose& pose) noexcept
 
 bool ConstrainedProxy::placeFree(const Pose& pose) noexcept
 {
-  if (!pose.finite() || !m_backtracker->freeAt(pose))
+  if (!m_backtracker->freeAt(pose))
     return false;
   place(pose);
   return true;
@@ -253,39 +253,18 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
 
 const ProxyTick& ConstrainedProxy::step(const Pose& goal) noexcept
 {
-  m_tick.status = ProxyStatus::Free;
-  m_tick.wrench = {};
-  m_tick.contactCount = 0;
-  m_tick.thrust = 0.0;
-  m_tick.penetration = 0.0;
-  m_tick.rounds = 0;
-  m_tick.nearPoints = 0;
-  m_tick.samples = 0;
   m_found = 0;
-  if (!goal.finite())
-  {
-    m_tick.status = ProxyStatus::BadGoal;
-    m_tick.pose = m_sweep.pose();
-    return m_tick;
-  }
-  if (m_soft)
-    m_soft->begin(goal);
-  const volume::PublishedMask& mask = m_sweep.field().mask();
-  m_sweep.look(*mask.acquire());
-  m_tick.maskState = m_sweep.state().number();
-  if (m_backtracker->notice())
-    m_tick.status = ProxyStatus::Retreated;
-  if (m_backtracker->inside())
-  {
-    m_backtracker->follow(goal);
-    m_tick.status = m_backtracker->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
-  }
-  else
-    follow(goal);
-  m_tick.pose = m_sweep.pose();
-  m_tick.penetration = m_sweep.penetration();
-  m_tick.samples = m_sweep.samples() + m_sweep.surfaceSamples() + m_found;
-  mask.release();
+  m_backtracker->tick(goal, m_tick,
+                      [&](bool free)
+                      {
+                        if (m_soft)
+                          m_soft->begin(goal);
+                        if (free)
+                          follow(goal);
+                        m_tick.pose = m_sweep.pose();
+                        m_tick.penetration = m_sweep.penetration();
+                        m_tick.samples = m_sweep.samples() + m_sweep.surfaceSamples() + m_found;
+                      });
   return m_tick;
 }
 

@@ -101,9 +101,8 @@ const std::vector<Vector3d>& PointProxy::points() const noexcept
 
 void PointProxy::place(const Pose& pose) noexcept
 {
-  if (!pose.finite())
+  if (!m_backtracker->place(pose))
     return;
-  m_backtracker->place(pose);
   if (m_soft)
     m_soft->begin({pose.position, Eigen::Quaterniond::Identity()});
   m_tick.pose = m_sweep.pose();
@@ -111,7 +110,7 @@ void PointProxy::place(const Pose& pose) noexcept
 
 bool PointProxy::placeFree(const Pose& pose) noexcept
 {
-  if (!pose.finite() || !m_backtracker->freeAt(pose))
+  if (!m_backtracker->freeAt(pose))
     return false;
   place(pose);
   return true;
@@ -324,39 +323,20 @@ void PointProxy::report() noexcept
 
 const ProxyTick& PointProxy::step(const Pose& goal) noexcept
 {
-  m_tick.status = ProxyStatus::Free;
-  m_tick.wrench = {};
-  m_tick.contactCount = 0;
-  m_tick.thrust = 0.0;
-  m_tick.penetration = 0.0;
-  m_tick.rounds = 0;
-  m_tick.nearPoints = 0;
-  if (!goal.finite())
-  {
-    m_tick.status = ProxyStatus::BadGoal;
-    return m_tick;
-  }
-  if (m_soft)
-    m_soft->begin({goal.position, Eigen::Quaterniond::Identity()});
-  const volume::PublishedMask& mask = m_sweep.field().mask();
-  m_sweep.look(*mask.acquire());
-  m_tick.maskState = m_sweep.state().number();
-  if (m_backtracker->notice())
-    m_tick.status = ProxyStatus::Retreated;
-  if (m_backtracker->inside())
-  {
-    m_backtracker->follow(goal);
-    m_tick.status = m_backtracker->inside() ? ProxyStatus::Inside : ProxyStatus::Free;
-    if (m_backtracker->inside())
-      m_tick.penetration = m_radius;
-  }
-  else
-  {
-    follow(goal.position);
-    report();
-  }
-  m_tick.pose = {m_sweep.pose().position, goal.rotation.normalized()};
-  mask.release();
+  m_backtracker->tick(goal, m_tick,
+                      [&](bool free)
+                      {
+                        if (m_soft)
+                          m_soft->begin({goal.position, Eigen::Quaterniond::Identity()});
+                        if (free)
+                        {
+                          follow(goal.position);
+                          report();
+                        }
+                        else if (m_tick.status == ProxyStatus::Inside)
+                          m_tick.penetration = m_radius;
+                        m_tick.pose = {m_sweep.pose().position, goal.rotation.normalized()};
+                      });
   return m_tick;
 }
 

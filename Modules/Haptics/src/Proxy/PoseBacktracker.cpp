@@ -17,6 +17,18 @@ PoseBacktracker::PoseBacktracker(ShellSweep& sweep)
 {
 }
 
+void PoseBacktracker::clear(ProxyTick& tick) noexcept
+{
+  tick.status = ProxyStatus::Free;
+  tick.wrench = {};
+  tick.contactCount = 0;
+  tick.thrust = 0.0;
+  tick.penetration = 0.0;
+  tick.rounds = 0;
+  tick.nearPoints = 0;
+  tick.samples = 0;
+}
+
 void PoseBacktracker::settle(std::size_t most) noexcept
 {
   m_inside = !m_sweep.measure(most);
@@ -25,8 +37,10 @@ void PoseBacktracker::settle(std::size_t most) noexcept
     remember();
 }
 
-void PoseBacktracker::place(const Pose& pose) noexcept
+bool PoseBacktracker::place(const Pose& pose) noexcept
 {
+  if (!pose.finite())
+    return false;
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   m_raises = m_sweep.state().raises();
@@ -34,10 +48,13 @@ void PoseBacktracker::place(const Pose& pose) noexcept
   m_trailLength = 0;
   settle(SIZE_MAX);
   mask.release();
+  return true;
 }
 
 bool PoseBacktracker::freeAt(const Pose& pose) noexcept
 {
+  if (!pose.finite())
+    return false;
   const volume::PublishedMask& mask = m_sweep.field().mask();
   m_sweep.look(*mask.acquire());
   const bool free = m_sweep.freeAt(pose);

@@ -111,7 +111,6 @@ DeviceGuard::Judgement DeviceGuard::judge(const DeviceReading& reading, double n
     m_sound = std::min(m_sound + 1, m_limits.goodTicks);
   else if (!repeated)
     m_sound = 0;
-  const bool wasUsable = m_usable;
   m_usable = m_sound == m_limits.goodTicks;
   if (sound && m_usable)
     m_good = m_latest;
@@ -122,7 +121,6 @@ DeviceGuard::Judgement DeviceGuard::judge(const DeviceReading& reading, double n
   }
   result.pose = m_good;
   result.usable = m_usable;
-  result.returned = m_usable && !wasUsable;
   return result;
 }
 

@@ -5,8 +5,8 @@
 
 #include "Covering.h"
 #include "PointGrid.h"
-#include "ShellBudget.h"
 #include "SphereCover.h"
+#include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::haptics
@@ -190,7 +190,9 @@ double measureSpacing(const PointShell& shell, const BurrShape& shape, double ne
 
 PointShell makeBurrShell(const BurrShape& wanted, double voxel, std::size_t budget)
 {
-  checkShellBudget(budget, "burr");
+  if (budget < 200 || budget > 20000)
+    throw core::InvalidParameter("burr: a shell has 200 to 20000 points, not " +
+                                 std::to_string(budget));
   check("the voxel", voxel, 0.01, 10.0);
   const BurrShape shape = checked(wanted);
 

@@ -38,7 +38,7 @@ public:
       const Eigen::Vector3d centre = (t[0] + t[1] + t[2]) / 3.0;
       const double radius =
           std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()});
-      const double distance = m_grid.nearest(map(centre)).distance;
+      const double distance = m_grid.distance(map(centre));
       m_worst = std::max(m_worst, distance);
       if (distance + radius <= kSlack * m_worst)
         continue;

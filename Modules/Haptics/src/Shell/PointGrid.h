@@ -17,8 +17,6 @@ namespace petrous::haptics
 class PointGrid
 {
 public:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
   /// `cell` is the desired edge of a cube; increased if the box would hold too many cubes.
   PointGrid(const std::vector<Eigen::Vector3d>& points, double cell)
     : m_points(points)
@@ -72,37 +70,20 @@ public:
         }
   }
 
-  struct Nearest
-  {
-    std::size_t index = kNone;
-    double distance = std::numeric_limits<double>::infinity();
-  };
-
-  /// The nearest point for which allowed(index) holds; ties go to the first in `points`.
-  template <typename Allowed>
-  Nearest nearest(const Eigen::Vector3d& place, Allowed allowed) const
+  /// Distance to the nearest point; infinite without points.
+  double distance(const Eigen::Vector3d& place) const
   {
     // A ball that contains a point contains the nearest one; doubled until it does or contains all.
     const double all = (m_cell * Eigen::Vector3d(m_count[0], m_count[1], m_count[2])).norm() +
                        2.0 * (place - m_low).norm();
     for (double radius = m_cell;; radius *= 2.0)
     {
-      Nearest best;
+      double least = std::numeric_limits<double>::infinity();
       near(place, radius,
-           [&](std::size_t i)
-           {
-             const double d = (m_points[i] - place).norm();
-             if ((d < best.distance || (d == best.distance && i < best.index)) && allowed(i))
-               best = {i, d};
-           });
-      if (best.distance <= radius || radius > all)
-        return best;
+           [&](std::size_t i) { least = std::min(least, (m_points[i] - place).norm()); });
+      if (least <= radius || radius > all)
+        return least;
     }
-  }
-
-  Nearest nearest(const Eigen::Vector3d& place) const
-  {
-    return nearest(place, [](std::size_t) { return true; });
   }
 
 private:

@@ -51,7 +51,6 @@ public:
   }
 
   const Cylinder& cylinder(std::size_t part) const noexcept { return m_cylinders[part - 1]; }
-  double ballRadius() const noexcept { return m_ball; }
 
   /// Of the part, from the tool's origin.
   double reach(std::size_t part) const noexcept

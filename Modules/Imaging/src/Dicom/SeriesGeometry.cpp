@@ -445,16 +445,7 @@ const char* kindName(FindingKind kind) noexcept
 
 const char* verdictName(Verdict verdict) noexcept
 {
-  switch (verdict)
-  {
-  case Verdict::Ok:
-    return "ok";
-  case Verdict::Repairable:
-    return "repairable";
-  case Verdict::Refused:
-    return "refused";
-  }
-  return "refused";
+  return verdict == Verdict::Ok ? "ok" : "refused";
 }
 
 SeriesGeometry assess(std::vector<SliceHeader> slices)

@@ -59,7 +59,8 @@ QualityVerdict judge(const QualityFeatures& e)
   if (!e.pointCovered)
     doubt("the point lies outside one of the images: its error is extrapolated");
   if (e.mirrored > kMirror)
-    doubt("the MR mirrored left to right fits as well (" + core::fixedText(e.mirrored, 2) +
+    doubt("the moving image mirrored left to right fits as well (" +
+          core::fixedText(e.mirrored, 2) +
           " times the score): wrong side, or a header with the sides exchanged?");
   if (e.runnerUp > kRival)
     doubt("another pose fits nearly as well (" + core::fixedText(e.runnerUp, 2) +

@@ -26,7 +26,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& file)
   }
   std::vector<std::uint8_t> head;
   if (!read(head, kMagicBytes) || std::memcmp(head.data(), kMagic, kMagicBytes) != 0)
-    throw RecordingError(Reason::NotRecording, m_name + ": is not a recording of the hand");
+    throw RecordingError(Reason::NotRecording, m_name + ": is not a recording of a session");
   if (!read(head, 12))
     corrupt("its head is cut short");
   const std::uint32_t version = getU32(head.data());

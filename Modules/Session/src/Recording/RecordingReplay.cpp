@@ -1,7 +1,5 @@
 #include "petrous/Session/RecordingReplay.h"
 
-#include "petrous/Session/Replay.h"
-
 namespace petrous::session
 {
 

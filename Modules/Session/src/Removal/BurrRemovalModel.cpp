@@ -84,7 +84,7 @@ double BurrRemovalModel::armOf(double radius, double elevation, double spread) n
 double BurrRemovalModel::armOfPatch() const noexcept
 {
   const double now = armOf(m_patch.middle, m_patch.spread);
-  // The spindle may have rotated since the bite.
+  // The spindle may have rotated since the step.
   return m_biteArm > 0.0 ? std::min(m_search.radius(), m_patch.arm * now / m_biteArm) : now;
 }
 
@@ -111,7 +111,7 @@ void BurrRemovalModel::press(const TickRecord& record, double seconds)
   m_pressed = true;
 }
 
-// From the last bite; initially from the tissue ahead.
+// From the last step; initially from the tissue ahead.
 double BurrRemovalModel::resistance(const volume::CutMask& mask)
 {
   if (m_resistance > 0.0)
@@ -122,18 +122,18 @@ double BurrRemovalModel::resistance(const volume::CutMask& mask)
   return m_resistance;
 }
 
-void BurrRemovalModel::account(const dissection::RemovalStep& bite)
+void BurrRemovalModel::account(const dissection::RemovalStep& step)
 {
-  m_owed -= bite.work;
-  m_balance.removed += bite.volume;
-  m_resistance = bite.work / bite.volume;
-  m_patch = bite.patch;
+  m_owed -= step.work;
+  m_balance.removed += step.volume;
+  m_resistance = step.work / step.volume;
+  m_patch = step.patch;
   m_bitten = true;
-  // The patch grew with the bite, which used the mean of its old and new arm.
+  // The patch grew with the step, which used the mean of its old and new arm.
   m_biteArm = armOf(m_patch.middle, m_patch.spread);
   const double arm = m_patch.arm;
   m_arm = 0.5 * (std::exchange(m_patchArm, arm) + arm);
-  const double more = std::max((m_arm / m_pressedArm - 1.0) * bite.work, -std::max(m_owed, 0.0));
+  const double more = std::max((m_arm / m_pressedArm - 1.0) * step.work, -std::max(m_owed, 0.0));
   m_owed += more;
   m_balance.predicted += more / m_resistance;
 }
@@ -147,7 +147,7 @@ void BurrRemovalModel::forfeit(double work)
     m_unpriced -= work; // nothing could be removed: no volume was predicted
 }
 
-std::optional<dissection::SweptSphere> BurrRemovalModel::bite(const volume::CutMask& mask)
+std::optional<dissection::SweptSphere> BurrRemovalModel::nextCut(const volume::CutMask& mask)
 {
   if (!std::exchange(m_pressed, false))
     return std::nullopt;
@@ -160,15 +160,15 @@ std::optional<dissection::SweptSphere> BurrRemovalModel::bite(const volume::CutM
   if (little && m_search.yielding() > 0.0 && m_owed < kMaxWait * m_rate)
     return std::nullopt;
   m_wish.work = m_owed;
-  const auto bite = m_search.find(mask, m_wish);
-  if (bite && bite->volume > 0.0)
+  const auto step = m_search.find(mask, m_wish);
+  if (step && step->volume > 0.0)
   {
-    account(*bite);
-    m_pressed = bite->capped;
-    return bite->burr;
+    account(*step);
+    m_pressed = step->capped;
+    return step->burr;
   }
   // Nothing within reach may be removed, or the tool is held back: work is not saved for later.
-  if (bite)
+  if (step)
     forfeit(m_owed);
   else if (const double most = kMaxOwed * m_rate; m_owed > most)
     forfeit(m_owed - most);

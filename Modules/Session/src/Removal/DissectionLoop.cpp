@@ -133,11 +133,11 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
       continue;
     }
     m_removalModel.press(record, seconds);
-    // If the tool hardly moves, this tick's bite is combined with the next.
+    // If the tool hardly moves, this tick's removal is combined with the next.
     if (n + 1 < count && together(record, records[n + 1]))
       continue;
-    while (const auto bite = m_removalModel.bite(m_dissection.mask()))
-      if (cut(*bite))
+    while (const auto swept = m_removalModel.nextCut(m_dissection.mask()))
+      if (cut(*swept))
         any = true;
       else
         break;

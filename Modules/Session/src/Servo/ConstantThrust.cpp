@@ -43,7 +43,7 @@ constexpr double kStiffest = 10.0; // N/mm
 constexpr double kAngular = 10.0;  // mm^2/rad, ratio to the stiffness
 
 // Fraction of the force that may pull sideways on a tool that is held back; a moving tool may be
-// led at up to this speed, and an excessive lead pulls for one tick only.
+// led at up to this speed, and an excessive stretch pulls for one tick only.
 constexpr double kMaxSideways = 0.7;
 constexpr double kFollowSpeed = 200.0; // mm/s
 
@@ -150,11 +150,11 @@ haptics::Pose ConstantThrust::goal(const haptics::Pose& place, const haptics::Po
   const double length = sideways.norm();
   if (m_contact && length > most)
     sideways *= most / length;
-  Vector3d lead = sideways + along * direction;
+  Vector3d stretch = sideways + along * direction;
   // Held by something other than the burr.
-  if (const double pulls = lead.norm(); m_touches && !m_contact && pulls > whole)
-    lead *= whole / pulls;
-  m_goal = proxy.position + lead;
+  if (const double pulls = stretch.norm(); m_touches && !m_contact && pulls > whole)
+    stretch *= whole / pulls;
+  m_goal = proxy.position + stretch;
   m_heading = direction;
   m_pressed = true;
   return {m_goal, place.rotation};

@@ -124,9 +124,9 @@ void Servo::map(Step& step, bool anew) noexcept
   if (step.usable && !step.clutch && (!anew || m_record.input.parameters.constantThrust))
   {
     step.mapped = m_mapping.map(step.device, step.view);
-    if (const double lead = static_cast<double>(m_record.input.parameters.maxLead);
-        lead > 0.0 && m_touches)
-      boundLead(step, lead);
+    if (const double limit = static_cast<double>(m_record.input.parameters.maxLead);
+        limit > 0.0 && m_touches)
+      limitDrift(step, limit);
     return;
   }
   step.mapped = m_proxy.pose();
@@ -134,19 +134,19 @@ void Servo::map(Step& step, bool anew) noexcept
     m_mapping.hold(step.device, step.view, step.mapped);
 }
 
-void Servo::boundLead(Step& step, double maxLead) noexcept
+void Servo::limitDrift(Step& step, double limit) noexcept
 {
   const Pose& tool = m_proxy.pose();
-  haptics::Motion lead = haptics::motionBetween(tool, step.mapped);
-  const double distance = lead.linear.norm();
-  const double angle = lead.angular.norm();
-  if (distance <= maxLead && angle <= ServoParameters::kMaxTurn)
+  haptics::Motion drift = haptics::motionBetween(tool, step.mapped);
+  const double distance = drift.linear.norm();
+  const double angle = drift.angular.norm();
+  if (distance <= limit && angle <= ServoParameters::kMaxTurn)
     return;
-  if (distance > maxLead)
-    lead.linear *= maxLead / distance;
+  if (distance > limit)
+    drift.linear *= limit / distance;
   if (angle > ServoParameters::kMaxTurn)
-    lead.angular *= ServoParameters::kMaxTurn / angle;
-  step.mapped = haptics::moved(tool, lead);
+    drift.angular *= ServoParameters::kMaxTurn / angle;
+  step.mapped = haptics::moved(tool, drift);
   m_mapping.hold(step.device, step.view, step.mapped);
 }
 
@@ -207,14 +207,15 @@ bool Servo::placeAnew(const Step& step) noexcept
 
 // A tool without progress is held, and the wrench includes the coupling's stretch, even where the
 // contacts do not fully account for it.
-void Servo::notifyStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept
+void Servo::notifyStretch(const Eigen::Vector3d& stretch, const Eigen::Vector3d& way) noexcept
 {
-  const double told = m_record.wrench.wrench().linear.norm();
-  const double pulls = std::min(m_setup.stiffness * lead.norm(), m_record.input.parameters.thrust);
-  const bool holds = way.norm() <= kNoWay && lead.norm() > kAtGoal && !m_inside;
-  if (!holds || !(pulls > told))
+  const double rendered = m_record.wrench.wrench().linear.norm();
+  const double pulls =
+      std::min(m_setup.stiffness * stretch.norm(), m_record.input.parameters.thrust);
+  const bool holds = way.norm() <= kNoWay && stretch.norm() > kAtGoal && !m_inside;
+  if (!holds || !(pulls > rendered))
     return;
-  const Eigen::Vector3d force = -pulls / lead.norm() * lead;
+  const Eigen::Vector3d force = -pulls / stretch.norm() * stretch;
   std::copy(force.data(), force.data() + 3, m_record.wrench.force);
 }
 

@@ -1,5 +1,8 @@
 #include "petrous/Session/TickRecord.h"
 
+#include <cstddef>
+#include <cstring>
+
 #include "petrous/Haptics/DeviceGuard.h"
 
 namespace petrous::session
@@ -38,7 +41,7 @@ bool isHeldOff(const TickRecord& record) noexcept
   return record.drill != 0 && record.held != 0 && record.thrust < 0.5 * force;
 }
 
-std::string holderInWords(std::uint8_t held)
+std::string holderToString(std::uint8_t held)
 {
   const bool shaft = (held & TickRecord::kShaft) != 0;
   const bool handpiece = (held & TickRecord::kHandpiece) != 0;
@@ -66,7 +69,7 @@ std::string toString(const TickRecord& record)
   case ServoFault::Clock:
     return "The computer's clock ran back; there is no force until it runs on.";
   case ServoFault::Parameters:
-    return "A setting of the hand is out of its range; there is no force until it is put right.";
+    return "A setting of the device is out of its range; there is no force until it is put right.";
   case ServoFault::Inside:
     return "The tool stands inside tissue; it has no force until it is drawn out.";
   case ServoFault::Retreated:
@@ -75,6 +78,43 @@ std::string toString(const TickRecord& record)
     return "The force could not be computed; there is none for a moment.";
   }
   return "The servo reports a fault that this program does not know.";
+}
+
+bool identical(const TickRecord& a, const TickRecord& b) noexcept
+{
+  return std::memcmp(&a, &b, sizeof(TickRecord)) == 0;
+}
+
+std::string differenceOf(const TickRecord& a, const TickRecord& b)
+{
+  // In the record's order; each part ends where the next begins.
+  struct Part
+  {
+    std::size_t begin;
+    const char* name;
+  };
+  constexpr Part parts[] = {{0, "the tick's number"},
+                            {offsetof(TickRecord, input), "the device's reading"},
+                            {offsetof(TickRecord, mapped), "the device's pose in the patient"},
+                            {offsetof(TickRecord, proxy), "the tool's pose"},
+                            {offsetof(TickRecord, wrench), "the force"},
+                            {offsetof(TickRecord, output), "what the device was sent"},
+                            {offsetof(TickRecord, thrust), "the contact"},
+                            {offsetof(TickRecord, maskState), "the state of the mask"},
+                            {offsetof(TickRecord, contacts), "contacts, faults or drill"}};
+  const auto* bytesOfA = reinterpret_cast<const unsigned char*>(&a);
+  const auto* bytesOfB = reinterpret_cast<const unsigned char*>(&b);
+  const char* name = "";
+  for (std::size_t n = 0; n < sizeof(TickRecord); ++n)
+  {
+    if (bytesOfA[n] == bytesOfB[n])
+      continue;
+    for (const Part& part : parts)
+      if (part.begin <= n)
+        name = part.name;
+    break;
+  }
+  return name;
 }
 
 } // namespace petrous::session

@@ -17,10 +17,10 @@ constexpr double kStill = 1e-4;       // mm per tick: no progress
 constexpr double kMinThrust = 0.1;    // N: a tool with zero thrust must move, too
 constexpr double kMaxTurn = 0.05;     // rad per tick, when held by tissue
 
-Vector3d atMost(const Vector3d& lead, double most) noexcept
+Vector3d atMost(const Vector3d& vector, double most) noexcept
 {
-  const double length = lead.norm();
-  return length > most ? Vector3d(most / length * lead) : lead;
+  const double length = vector.norm();
+  return length > most ? Vector3d(most / length * vector) : vector;
 }
 
 } // namespace
@@ -79,18 +79,18 @@ haptics::Pose Traverse::goal(const haptics::Pose& place, const haptics::Pose& pr
   const double held = kShare * std::max(thrust, kMinThrust) / m_stiffness;
   const double most = m_touches ? held : kSpeed * dt;
 
-  Vector3d lead = offset;
+  Vector3d toGoal = offset;
   bool retracts = false;
   if (!over && !m_down)
   {
     const double lift = std::max(m_lift, -depth);
     retracts = lift > kBeside || m_lift > 0.0;
     m_up = m_byShaft ? Vector3d(proxy.rotation * Vector3d::UnitZ()) : Vector3d(-down);
-    lead = retracts ? Vector3d(std::max(lift, kBeside) * m_up) : beside;
+    toGoal = retracts ? Vector3d(std::max(lift, kBeside) * m_up) : beside;
   }
   m_asked = true;
   // Rotating in a hole would jam it.
-  const haptics::Pose goal{proxy.position + atMost(lead, most),
+  const haptics::Pose goal{proxy.position + atMost(toGoal, most),
                            retracts && m_touches ? proxy.rotation : place.rotation};
   if (!m_touches)
     return goal;

@@ -314,15 +314,6 @@ solidOf(const core::TriangleMesh& mesh, const MeshSolidPlan& plan, const core::P
   return occupancy;
 }
 
-std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh, double spacing,
-                                             const core::Progress& progress)
-{
-  MeshSolidLimits limits;
-  limits.spacing = spacing;
-  const MeshSolidPlan plan = planMeshSolid(mesh, limits, progress.part(0.0, 0.2));
-  return plan ? solidOf(mesh, plan, progress.part(0.2, 1.0)) : nullptr;
-}
-
 bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexcept
 {
   const Eigen::Vector3d voxel = solid.geometry().voxelFromPatient(patient);

@@ -84,7 +84,7 @@ RegistrationOutcome registerMr(const scene::Case& value, const RegistrationReque
                                const core::Progress& progress = {},
                                const registration::MetricListener& listener = {});
 
-/// Applies the registration to the MR (scene::layMr); no effect if it failed.
+/// Applies the registration to the MR (scene::applyRegistration); no effect if it failed.
 void accept(scene::Case& value, const std::string& mr, const RegistrationOutcome& outcome);
 
 } // namespace petrous::presenters

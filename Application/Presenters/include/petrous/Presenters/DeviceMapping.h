@@ -36,7 +36,7 @@ double usualScale(const haptics::DeviceDescription& device);
 /// Sets coupling, force limits and passivity, overwriting what `setup` had. `endless`: the device
 /// is rate-controlled, so its workspace is unbounded.
 void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& device,
-         const DeviceMapping& lead, bool endless);
+         const DeviceMapping& mapping, bool endless);
 
 /// Inputs that are held down now.
 struct DeviceSwitches
@@ -47,7 +47,7 @@ struct DeviceSwitches
 
 /// Throws InvalidParameter for a degenerate camera.
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                       const DeviceMapping& lead, const core::CameraPose& camera,
+                                       const DeviceMapping& mapping, const core::CameraPose& camera,
                                        const DeviceSwitches& switches);
 
 /// The centre (TouchSession::Setup) that brings the tool to `tool` (patient mm) while the device is

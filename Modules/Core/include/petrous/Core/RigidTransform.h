@@ -30,9 +30,6 @@ public:
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
   RigidTransform operator*(const RigidTransform& other) const;
 
-  /// Rotates a free vector; not translated.
-  Eigen::Vector3d rotate(const Eigen::Vector3d& vector) const;
-
 private:
   Eigen::Quaterniond m_rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d m_translation = Eigen::Vector3d::Zero();

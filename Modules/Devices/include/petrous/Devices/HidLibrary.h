@@ -52,8 +52,6 @@ public:
   HidLibrary(const HidLibrary&) = delete;
   HidLibrary& operator=(const HidLibrary&) = delete;
 
-  std::string version() const;
-
   /// Connected interfaces, including those without permission to open them.
   std::vector<HidInterface> list() const;
 
@@ -89,7 +87,6 @@ private:
     hid_device_* (*openPath)(const char*) = nullptr;
     void (*close)(hid_device_*) = nullptr;
     int (*readTimeout)(hid_device_*, unsigned char*, std::size_t, int) = nullptr;
-    const char* (*versionText)() = nullptr;
   };
   void initialise(const std::string& name);
 

@@ -69,9 +69,6 @@ public:
   /// From the servo thread: does not wait.
   Reading read() noexcept;
 
-  /// Why no pedal is read, for display; empty while one is. Not from the servo thread.
-  std::string problem() const;
-
 private:
   struct Sample
   {

@@ -32,17 +32,7 @@ public:
 
   double resistance() const noexcept { return m_resistance; } ///< Pa
 
-  /// F_c, N, for a thrust in N.
-  double cuttingForce(double thrust) const noexcept { return m_ratio * thrust; }
-
-  /// dV/dt, m^3/s.
-  double rate(double thrust, double arm, double speed) const noexcept
-  {
-    return thrust * arm * speed / m_resistance;
-  }
-
 private:
-  double m_ratio = 0.0; // F_c / F_t
   double m_resistance = 0.0;
 };
 
@@ -58,12 +48,6 @@ public:
   AbrasiveWear(double hardness, double wearCoefficient);
 
   double resistance() const noexcept { return m_resistance; } ///< Pa
-
-  /// dV/dt, m^3/s.
-  double rate(double thrust, double arm, double speed) const noexcept
-  {
-    return thrust * arm * speed / m_resistance;
-  }
 
 private:
   double m_resistance = 0.0;

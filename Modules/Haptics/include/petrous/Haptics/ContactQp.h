@@ -11,26 +11,22 @@ namespace petrous::haptics
 
 /// Motion of a constrained body: Gauss' principle with gaps [Chan2016, Eq. 1 corrected]
 ///
-///   a = argmin 1/2 (a - u)^T M (a - u)   subject to   J_i a + c_i lambda_i >= b_i,  lambda >= 0
+///   a = argmin 1/2 (a - u)^T M (a - u)   subject to   J_i a >= b_i
 ///
 /// a, u   N-vectors; the first six are translation mm and rotation rad
 /// M      diagonal, > 0: the coupling's stiffness, N/mm and N mm/rad; then M (a - u) = J^T lambda
-///        is the wrench on the hand, and lambda_i the thrust at contact i, N
+///        is the wrench on the device, and lambda_i >= 0 the thrust at contact i, N
 /// J_i    row of contact i: (n, r x n), n the unit normal out of the tissue, r the lever arm, mm
 /// b_i    -gap, mm (> 0 only where the contact is violated already)
-/// c_i    compliance of the tissue, mm/N; 0 rigid
 ///
-/// Rigid rows: dual active set (Goldfarb and Idnani 1983, doi 10.1007/BF02591962) in the space
-/// whitened by M. Compliant rows are springs, any number of which may be active; they are part of
-/// the objective, which becomes piecewise quadratic. The active springs are found by Newton's
-/// method or, where that does not converge, by following each of them along the dual path.
+/// Dual active set (Goldfarb and Idnani 1983, doi 10.1007/BF02591962) in the space whitened by M.
 ///
-/// Rigid rows have a compliance of up to 1e-14 of the coupling's. Linearly dependent rows therefore
-/// need no special case, and nearly opposed walls push with at most about 1e7 times the hand's
-/// force. Rows are satisfied to 1e-9 of the problem's scale (the square root of twice the objective
-/// at a = 0, and the largest bound) where none is closer than 1e-5 to linear dependence, and always
-/// to 1e-7. Where rows are linearly dependent, lambda is one of the possible solutions.
-/// Deterministic: the same rows in the same order give bit-identical results.
+/// Rows have a compliance of up to 1e-14 of the coupling's. Linearly dependent rows therefore need
+/// no special case, and nearly opposed walls push with at most about 1e7 times the device's force.
+/// Rows are satisfied to 1e-9 of the problem's scale (the square root of twice the objective at
+/// a = 0, and the largest bound) where none is closer than 1e-5 to linear dependence, and always to
+/// 1e-7. Where rows are linearly dependent, lambda is one of the possible solutions. Deterministic:
+/// the same rows in the same order give bit-identical results.
 ///
 /// One problem per tick. Only the constructor allocates or throws.
 template <int N>
@@ -43,7 +39,7 @@ public:
   enum class Status
   {
     Solved,
-    Infeasible, ///< rigid rows contradict each other; a = 0, lambda = 0
+    Infeasible, ///< rows contradict each other; a = 0, lambda = 0
     Exhausted   ///< iteration limit, or u not finite; a = 0, lambda = 0
   };
 
@@ -56,9 +52,9 @@ public:
   void clear() noexcept;
   std::size_t count() const noexcept { return m_count; }
 
-  /// Adds a row. Returns false and adds nothing if the capacity is reached, a number is not finite
-  /// or the compliance is negative. A compliance below 1e-9 of the coupling's counts as rigid.
-  bool add(const Vector& row, double bound, double compliance = 0.0) noexcept;
+  /// Adds a row. Returns false and adds nothing if the capacity is reached or a number is not
+  /// finite.
+  bool add(const Vector& row, double bound) noexcept;
 
   Status solve(const Vector& unconstrained) noexcept;
 
@@ -68,7 +64,7 @@ public:
   /// Of the last solve; `row` is the index in the order of addition.
   double lambda(std::size_t row) const noexcept { return m_lambda[row]; }
 
-  /// Of the last solve: changes of the active set plus Newton steps.
+  /// Of the last solve: changes of the active set.
   int iterations() const noexcept { return m_iterations; }
 
 private:

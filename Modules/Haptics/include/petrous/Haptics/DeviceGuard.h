@@ -33,10 +33,9 @@ const char* toString(DeviceVerdict verdict) noexcept;
 ///
 /// A bad reading is not used: the pose remains the last good one and no force may be rendered.
 /// Afterwards `goodTicks` consecutive new readings must be valid, each compared with its
-/// predecessor (not with the held pose: the hand may have moved on). Then the verdict is Good
-/// again, `returned` is set once, and the pose may be anywhere: place the tool anew and fade the
-/// force in. The very first readings are checked the same way. Repeated readings neither count nor
-/// reset the count.
+/// predecessor (not with the held pose: the device may have moved on). Then the verdict is Good
+/// again, and the pose may be anywhere: place the tool anew and fade the force in. The very first
+/// readings are checked the same way. Repeated readings neither count nor reset the count.
 ///
 /// Not thread-safe. `judge` does not allocate, lock or throw.
 class DeviceGuard
@@ -55,11 +54,10 @@ public:
   struct Judgement
   {
     DeviceVerdict verdict = DeviceVerdict::NotReady;
-    Pose pose;             ///< of the last good reading, unit quaternion; hold it
-    bool usable = false;   ///< Good, or Repeated after Good: force may be rendered
-    bool returned = false; ///< usable now but not before
-    double value = 0.0;    ///< mm of a jump or distance, s of a time, |q|, or readings left to wait
-                           ///< for; 0 if the verdict has no number
+    Pose pose;           ///< of the last good reading, unit quaternion; hold it
+    bool usable = false; ///< Good, or Repeated after Good: force may be rendered
+    double value = 0.0;  ///< mm of a jump or distance, s of a time, |q|, or readings left to wait
+                         ///< for; 0 if the verdict has no number
   };
 
   /// Throws InvalidParameter naming the first invalid limit.

@@ -145,8 +145,6 @@ public:
   /// states, which come and go and are not file-backed. Valid as long as the field.
   std::vector<core::LockedMemory::Range> memory() const;
 
-  std::size_t residentBytes() const noexcept; ///< of derived data and soft maps
-
 private:
   struct Solid
   {

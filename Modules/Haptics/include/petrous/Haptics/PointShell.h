@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "petrous/Core/TriangleMesh.h"
 
 namespace petrous::haptics
 {
@@ -73,15 +70,5 @@ struct BurrShape
 /// Throws InvalidParameter naming the value out of range. If the budget is too small for the bound,
 /// the burr gets what is available (at least 3/5 of it) and `burrSpacing` gives the result.
 PointShell makeBurrShell(const BurrShape& shape, double voxel, std::size_t budget = 2000);
-
-/// Samples a closed surface evenly, tool frame, mm, starting with sharp corners and edges. Each
-/// side of a thin blade has points of its own. Normals are those of the triangles, averaged at
-/// corners and edges, and point outward even if the mesh is inside out. `name` is used in messages.
-/// `budget` as above; `burrCount` is 0. Deterministic.
-///
-/// Throws InvalidParameter "NAME: ..." if the mesh is empty, not closed or degenerate (triangles
-/// without area only), or has an index out of range or a vertex that is not finite.
-PointShell makeMeshShell(const core::TriangleMesh& mesh, const std::string& name,
-                         std::size_t budget = 2000);
 
 } // namespace petrous::haptics

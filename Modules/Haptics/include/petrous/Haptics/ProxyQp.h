@@ -43,6 +43,10 @@ public:
   {
     return m_shared ? m_shared->lambda(row) : m_rigid.lambda(row);
   }
+  int iterations() const noexcept
+  {
+    return m_shared ? m_shared->iterations() : m_rigid.iterations();
+  }
 
 private:
   ContactQp m_rigid;

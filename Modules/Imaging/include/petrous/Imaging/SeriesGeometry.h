@@ -108,9 +108,8 @@ struct Finding
 
 enum class Verdict
 {
-  Ok,         ///< the grid describes the slices correctly
-  Repairable, ///< would be misleading; a repair is known
-  Refused     ///< would be misleading
+  Ok,     ///< the grid describes the slices correctly
+  Refused ///< would be misleading
 };
 const char* verdictName(Verdict verdict) noexcept;
 

@@ -15,18 +15,18 @@ namespace petrous::scene
 /// or a decimal point is wrong.
 ///
 /// mrFromCt  X_MC: CT patient points to this MR's patient points, LPS mm
-void layMr(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
-           Registration how);
+void applyRegistration(Case& value, const std::string& name, const core::RigidTransform& mrFromCt,
+                       Registration how);
 
 /// Whether the MR is `through` itself, or is registered through it, directly or indirectly.
 bool liesThrough(const Case& value, const std::string& name, const std::string& through);
 
-/// Throws InvalidParameter if `through` is itself registered through the MR of that name; layMr
-/// rejects such a cycle, in which the two would move each other forever.
+/// Throws InvalidParameter if `through` is itself registered through the MR of that name;
+/// applyRegistration rejects such a cycle, in which the two would move each other forever.
 void checkThrough(const Case& value, const std::string& name, const std::string& through);
 
 /// Removes the registration of an MR; MRs registered through it lose theirs.
-void unlayMr(Case& value, const std::string& name);
+void removeRegistration(Case& value, const std::string& name);
 
 /// Records who accepts the current registration of the MR. Throws InvalidParameter if it is not
 /// registered, or if the name is invalid (1 to 100 bytes of UTF-8 without control characters).
@@ -37,6 +37,6 @@ const SignOff* validSignOff(const ImagePart& mr) noexcept;
 
 /// "registered by mutual information, good, error 0.24 mm (p95) at 'incus', signed off by A.
 /// Surgeon on 2026-01-31T10:00:00Z", "not registered".
-std::string registrationInWords(const ImagePart& mr);
+std::string registrationToString(const ImagePart& mr);
 
 } // namespace petrous::scene

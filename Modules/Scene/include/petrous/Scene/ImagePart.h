@@ -24,7 +24,7 @@ struct ImagePart
   /// X_MC: CT patient points to this image's patient points, LPS mm; identity until registered.
   core::RigidTransform mrFromCt;
   bool registered = false;
-  /// Set by layMr (ApplyRegistration.h). nullopt until registered.
+  /// Set by applyRegistration (ApplyRegistration.h). nullopt until registered.
   std::optional<Registration> registration;
   /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images with the same value were
   /// acquired in one position of the patient, according to the scanner. Empty: unknown.

@@ -9,7 +9,7 @@
 namespace petrous::scene
 {
 
-/// Registration state of one MR: the fields of ImagePart that layMr changes.
+/// Registration state of one MR: the fields of ImagePart that applyRegistration changes.
 struct MrPlace
 {
   std::string name;
@@ -20,8 +20,9 @@ struct MrPlace
 
 std::vector<MrPlace> mrPlaces(const Case& value);
 
-/// Restores the registrations of the MRs with layMr and unlayMr. Unchanged MRs keep their sign-off;
-/// for an MR that is changed no sign-off is restored. Names not in the case are ignored.
+/// Restores the registrations of the MRs with applyRegistration and removeRegistration. Unchanged
+/// MRs keep their sign-off; for an MR that is changed no sign-off is restored. Names not in the
+/// case are ignored.
 void layAs(Case& value, const std::vector<MrPlace>& places);
 
 } // namespace petrous::scene

@@ -65,6 +65,6 @@ Registration::Verdict verdictFromName(const std::string& name);
 
 /// Phrase following "by": "hand", "mutual information", "landmarks, refined by mutual information,
 /// through 'T2'".
-std::string methodInWords(const Registration& registration);
+std::string methodToString(const Registration& registration);
 
 } // namespace petrous::scene

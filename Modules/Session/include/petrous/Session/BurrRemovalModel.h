@@ -22,13 +22,13 @@ struct RemovalBalance
 ///   dW = F_t r omega dt,
 ///
 /// which removes tissue up to the depth it allows (RemovalDepthSolver); work below a step of the
-/// search is owed and added to the next bite.
+/// search is owed and added to the next step.
 ///
 /// F_t  N, vector sum of the burr's contact forces, so that opposing walls that wedge the burr do
 ///      not count twice
 /// r    mm, distance of the contact from the spindle axis: the mean over the patch removed by the
-///      last bite, weighted by volume. For a small patch away from the pole that is r_b cos(theta)
-///      of its middle. A bite uses the mean of the patch before and after it.
+///      last step, weighted by volume. For a small patch away from the pole that is r_b cos(theta)
+///      of its middle. A step uses the mean of the patch before and after it.
 class BurrRemovalModel : public RemovalModel
 {
 public:
@@ -39,7 +39,7 @@ public:
   static constexpr double kMinAhead = 0.1;     ///< mm
   static constexpr double kMaxOwed = 0.05;     ///< s of work at the present rate
 
-  /// A bite that would advance the burr by less waits for more work, at most kMaxWait.
+  /// A step that would advance the burr by less waits for more work, at most kMaxWait.
   static constexpr double kMinAdvance = 0.005; ///< voxels
   static constexpr double kMaxWait = 0.02;     ///< s of work at the present rate
 
@@ -49,7 +49,7 @@ public:
                    double voxel);
 
   void press(const TickRecord& record, double seconds) override;
-  std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) override;
+  std::optional<dissection::SweptSphere> nextCut(const volume::CutMask& mask) override;
   void release() override;
 
   RemovalBalance balance() const noexcept;
@@ -71,7 +71,7 @@ private:
   double armOf(const Eigen::Vector3d& normal, double spread) const noexcept;
   double armOfPatch() const noexcept;
   double resistance(const volume::CutMask& mask);
-  void account(const dissection::RemovalStep& bite);
+  void account(const dissection::RemovalStep& step);
   void forfeit(double work);
 
   dissection::RemovalDepthSolver& m_search;
@@ -79,17 +79,17 @@ private:
   double m_voxel; // mm
   double m_ahead; // mm
   dissection::RemovalDepthSolver::Wish m_wish;
-  bool m_pressed = false; // since the last bite that returned nothing more
+  bool m_pressed = false; // since the last step that returned nothing more
   double m_thrust = 0.0;
   double m_arm = 0.0;
   bool m_bitten = false;            // in this contact
-  dissection::ContactPatch m_patch; // of the last bite
+  dissection::ContactPatch m_patch; // of the last step
   Eigen::Vector3d m_spindle{0.0, 0.0, 1.0};
   double m_pressedArm = 0.0; // mm, used by the last press
-  double m_patchArm = 0.0;   // mm, of the last bite's patch
+  double m_patchArm = 0.0;   // mm, of the last step's patch
   double m_biteArm = 0.0;    // mm, of an equivalent round patch, with the spindle as it was then
   double m_rate = 0.0;       // N mm/s
-  double m_resistance = 0.0; // N/mm^2, of the last bite; 0: unknown in this contact
+  double m_resistance = 0.0; // N/mm^2, of the last step; 0: unknown in this contact
   double m_unpriced = 0.0;   // N mm done before the resistance was known
   double m_owed = 0.0;       // N mm
   RemovalBalance m_balance;  // except for what is owed

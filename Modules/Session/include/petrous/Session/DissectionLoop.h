@@ -45,7 +45,7 @@ public:
   bool step(const TickRecord& record);
 
   /// Processes `count` ticks, oldest first: while the tool hardly moves (`kTogether`), only the
-  /// last bite is made, with the accumulated work (RemovalModel).
+  /// last step is made, with the accumulated work (RemovalModel).
   bool step(const TickRecord* records, std::size_t count);
   static constexpr double kTogether = 0.05; ///< mm
 

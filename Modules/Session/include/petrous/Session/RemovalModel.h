@@ -18,7 +18,7 @@ public:
   virtual void press(const TickRecord& record, double seconds) = 0;
 
   /// The next step of removal; called again, after cutting it from `mask`, until nullopt.
-  virtual std::optional<dissection::SweptSphere> bite(const volume::CutMask& mask) = 0;
+  virtual std::optional<dissection::SweptSphere> nextCut(const volume::CutMask& mask) = 0;
 
   /// The drill is off, or the burr has lost contact.
   virtual void release() = 0;
@@ -29,7 +29,7 @@ class NoRemovalModel : public RemovalModel
 {
 public:
   void press(const TickRecord&, double) override {}
-  std::optional<dissection::SweptSphere> bite(const volume::CutMask&) override { return {}; }
+  std::optional<dissection::SweptSphere> nextCut(const volume::CutMask&) override { return {}; }
   void release() override {}
 };
 

@@ -73,11 +73,11 @@ private:
   };
   Step judge(const TickInput& input) noexcept;
   void map(Step& step, bool anew) noexcept;
-  void boundLead(Step& step, double maxLead) noexcept;
+  void limitDrift(Step& step, double limit) noexcept;
   bool isFar(const Step& step) const noexcept;
   bool placeAnew(const Step& step) noexcept;
   haptics::Pose goalOf(const Step& step) noexcept;
-  void notifyStretch(const Eigen::Vector3d& lead, const Eigen::Vector3d& way) noexcept;
+  void notifyStretch(const Eigen::Vector3d& stretch, const Eigen::Vector3d& way) noexcept;
   void reportContacts(const haptics::ProxyTick& tick, double share) noexcept;
   void giveForce(const Step& step, const haptics::Wrench& wrench, bool anew) noexcept;
 

@@ -83,9 +83,15 @@ std::string toString(const TickRecord& record);
 
 /// "the shaft", "the handpiece", "shaft and handpiece": which parts other than the burr press on
 /// tissue; empty if none. Allocates.
-std::string holderInWords(std::uint8_t held);
+std::string holderToString(std::uint8_t held);
 
 /// The drill is on, and shaft or handpiece carry most of the burr's force.
 bool isHeldOff(const TickRecord& record) noexcept;
+
+/// Whether two records are bit-identical.
+bool identical(const TickRecord& a, const TickRecord& b) noexcept;
+
+/// The first difference of two records, for display ("the tool's pose"); empty if none.
+std::string differenceOf(const TickRecord& a, const TickRecord& b);
 
 } // namespace petrous::session

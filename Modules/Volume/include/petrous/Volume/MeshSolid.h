@@ -79,10 +79,6 @@ std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh,
                                              const MeshSolidPlan& plan,
                                              const core::Progress& progress = {});
 
-/// Plan and voxelisation in one; nullptr if the plan refuses.
-std::shared_ptr<const Volume<float>> solidOf(const core::TriangleMesh& mesh, double spacing,
-                                             const core::Progress& progress = {});
-
 /// Whether a point (patient LPS mm) lies inside a solid.
 bool isInside(const Volume<float>& solid, const Eigen::Vector3d& patient) noexcept;
 

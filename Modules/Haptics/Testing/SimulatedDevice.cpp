@@ -1,4 +1,4 @@
-#include "petrous/Haptics/SimulatedDevice.h"
+#include "SimulatedDevice.h"
 
 #include <algorithm>
 #include <cmath>

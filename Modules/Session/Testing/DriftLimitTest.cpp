@@ -16,7 +16,7 @@ const Vector3d kAbove(0.0, 0.0, 5.0);
 
 } // namespace
 
-TEST(Leash, BoundsTheForceAndForgetsWhatTheHandRanAhead)
+TEST(DriftLimit, BoundsTheForceAndForgetsWhatTheDeviceRanAhead)
 {
   Session session;
   session.parameters.maxLead = 0.5F;
@@ -32,23 +32,23 @@ TEST(Leash, BoundsTheForceAndForgetsWhatTheHandRanAhead)
   EXPECT_EQ(forceOf(back.wrench).norm(), 0.0);
 }
 
-TEST(Leash, LeavesAFreeHandAlone)
+TEST(DriftLimit, LeavesAFreeDeviceAlone)
 {
   Session free;
-  Session leashed;
-  leashed.parameters.maxLead = 0.5F;
-  for (Session* session : {&free, &leashed})
+  Session limited;
+  limited.parameters.maxLead = 0.5F;
+  for (Session* session : {&free, &limited})
   {
     session->go(kAbove, kAbove, 50);
     session->go(kAbove, {40.0, -20.0, 60.0}, 100, Eigen::Quaterniond(0.8, 0.0, 0.6, 0.0));
   }
   const Pose a = free.records.back().proxy.pose();
-  const Pose b = leashed.records.back().proxy.pose();
+  const Pose b = limited.records.back().proxy.pose();
   EXPECT_NEAR((a.position - b.position).norm(), 0.0, 1e-9);
   EXPECT_LE(petrous::haptics::motionBetween(a, b).angular.norm(), 1e-9);
 }
 
-TEST(Leash, RefusesABoundThatIsNone)
+TEST(DriftLimit, RefusesABoundThatIsNone)
 {
   Session session;
   session.go(kAbove, kAbove, 50);

@@ -1,4 +1,4 @@
-#include "petrous/Volume/MaskComparison.h"
+#include "MaskComparison.h"
 
 namespace petrous::volume
 {

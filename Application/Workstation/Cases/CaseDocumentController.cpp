@@ -522,7 +522,6 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
 {
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
-  value->dissection.reset();                                         // another thread writes to it
   work(tr("Adding to %1").arg(words(value->name)),
        [this, value, parts, what,
         shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply

@@ -48,7 +48,7 @@ TEST_F(Damage, OfTheCtIsToldAndNothingIsDrilled)
   EXPECT_FALSE(window().model().touching());
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
   EXPECT_TRUE(settled());
-  EXPECT_TRUE(window().model().value().strokes.empty());
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
 }
 
 TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)
@@ -60,7 +60,7 @@ TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)
   EXPECT_TRUE(banner().text().contains("'nerve' of case 'ball'")) << banner().text().toStdString();
   EXPECT_TRUE(window().model().ready());
   drill(600);
-  EXPECT_EQ(library().open("ball").strokes.size(), 1u);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
   // Nothing is reported for another case.
   auto* close = banner().findChild<QPushButton*>("dismissDamage");
   ASSERT_TRUE(close);
@@ -92,5 +92,5 @@ TEST_F(Damage, APreparationThatWasStoppedIsDoneForATool)
   stop.stop();
   QApplication::setActiveWindow(&window()); // after the progress dialogs
   drill(600);
-  EXPECT_EQ(library().open("ball").strokes.size(), 1u);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
 }

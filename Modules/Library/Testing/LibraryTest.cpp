@@ -62,17 +62,17 @@ TEST(Library, StrokesComeBackAfterReopening)
   drill(value, {8, 8, 8});
   drill(value, {14, 8, 8});
   drill(value, {14, 14, 8});
-  scene::undo(value, 1);
+  value.dissection.undo();
   library.save(value);
 
   scene::Case back = library.open("ear");
   EXPECT_EQ(back.applied(), 2u);
-  EXPECT_EQ(back.strokes.size(), 3u);
+  EXPECT_EQ(back.dissection.strokes().size(), 3u);
   library.loadDissection(back);
-  EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));
-  scene::redo(back, 1);
-  scene::redo(value, 1);
-  EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));
+  EXPECT_TRUE(sameVoxels(back.dissection.mask(), value.dissection.mask()));
+  back.dissection.redo();
+  value.dissection.redo();
+  EXPECT_TRUE(sameVoxels(back.dissection.mask(), value.dissection.mask()));
 }
 
 TEST(Library, StoresOneCtForManyCases)
@@ -134,7 +134,7 @@ TEST(Library, RefusesToOverwriteWhatAnotherProgramSaved)
   drill(mine, {8, 8, 8});
   EXPECT_EQ(refusal([&] { library.save(mine); }).first, LibraryError::Reason::Conflict);
   EXPECT_EQ(contentOf(folder.path()), before);
-  EXPECT_EQ(mine.strokes.size(), 1u) << "the work is still in memory";
+  EXPECT_EQ(mine.dissection.strokes().size(), 1u) << "the work is still in memory";
 }
 
 TEST(Library, NamesTheCasesThereAreWhenOneIsMissing)
@@ -217,10 +217,10 @@ TEST(Library, AFullDiskLeavesTheCaseAsItWas)
       }
     }
     EXPECT_EQ(refusal([&] { library.save(value); }).first, LibraryError::Reason::DiskFull);
-    EXPECT_EQ(library.open("ear").strokes.size(), 0u);
+    EXPECT_EQ(library.open("ear").dissection.strokes().size(), 0u);
     std::filesystem::remove(disk / "filler");
     library.save(value);
-    EXPECT_EQ(library.open("ear").strokes.size(), 1u);
+    EXPECT_EQ(library.open("ear").dissection.strokes().size(), 1u);
   }
   ::umount2(disk.c_str(), MNT_DETACH);
 }
@@ -255,7 +255,7 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
   std::mt19937 random(23);
   for (int round = 0; round < 25; ++round)
   {
-    const std::size_t before = library.open("ear").strokes.size();
+    const std::size_t before = library.open("ear").dissection.strokes().size();
     const pid_t child = ::fork();
     if (child == 0)
     {
@@ -281,7 +281,7 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
 
     ASSERT_EQ(library.list().size(), 1u);
     scene::Case after = library.open("ear");
-    EXPECT_GE(after.strokes.size(), before);
+    EXPECT_GE(after.dissection.strokes().size(), before);
     ASSERT_NO_THROW(library.loadDissection(after)) << "round " << round;
     EXPECT_EQ(after.ct.volume.get()->at(3, 0, 0), 403.0);
   }

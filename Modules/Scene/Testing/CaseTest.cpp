@@ -28,20 +28,20 @@ TEST(Case, UndoAndRedoMoveListAndVoxelsTogether)
 {
   scene::Case value = drilledCase(3);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 33.0);
-  EXPECT_EQ(scene::undo(value, 2), 2u);
-  EXPECT_EQ(value.dissection->applied(), 1u);
+  EXPECT_EQ(value.dissection.undo(2), 2u);
+  EXPECT_EQ(value.dissection.applied(), 1u);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 10.0);
-  EXPECT_EQ(scene::redo(value, 9), 2u);
-  EXPECT_EQ(value.dissection->applied(), 3u);
-  EXPECT_EQ(scene::undo(value, 9), 3u);
-  EXPECT_EQ(scene::undo(value, 1), 0u);
+  EXPECT_EQ(value.dissection.redo(9), 2u);
+  EXPECT_EQ(value.dissection.applied(), 3u);
+  EXPECT_EQ(value.dissection.undo(9), 3u);
+  EXPECT_EQ(value.dissection.undo(), 0u);
 }
 
 TEST(Case, UndoNeedsNoVoxels)
 {
   scene::Case value = drilledCase(2);
-  value.dissection = nullptr;
-  EXPECT_EQ(scene::undo(value, 1), 1u);
+  value.dissection.unload();
+  EXPECT_EQ(value.dissection.undo(), 1u);
   EXPECT_EQ(value.applied(), 1u);
 }
 

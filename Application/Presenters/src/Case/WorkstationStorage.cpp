@@ -91,7 +91,7 @@ void WorkstationModel::notOpened()
     return;
   keepJournal(*m_saved);
   if (m_journal)
-    m_journal->follow(*m_case->dissection);
+    m_journal->follow(m_case->dissection);
 }
 
 void WorkstationModel::adopt(scene::Case value)
@@ -161,7 +161,8 @@ void StoreTask::run(const core::Progress& progress)
     std::for_each(value.mr.begin(), value.mr.end(), asNew);
     std::for_each(value.labels.begin(), value.labels.end(), asNew);
     std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
-    std::for_each(value.strokes.begin(), value.strokes.end(), asNew);
+    for (std::size_t n = 0; n < value.dissection.strokes().size(); ++n)
+      value.dissection.setStored(n, "", value.dissection.strokes()[n]->packed);
   }
   own.save(value, source ? progress.part(0.2, 1.0) : progress);
 }
@@ -169,7 +170,7 @@ void StoreTask::run(const core::Progress& progress)
 StoreTask WorkstationModel::beginStore()
 {
   StoreTask task{m_library, *m_case, m_case->name, m_changes, std::nullopt};
-  task.value.dissection.reset();
+  task.value.dissection.unload(); // only the strokes are stored
   for (const auto& one : m_unreadLabels)
     task.value.labels[one.part].labels = one.whole;
   for (const auto& one : m_unreadMeshes)
@@ -220,9 +221,9 @@ void WorkstationModel::stored(const StoreTask& done)
     takeFrame(m_case->mr[n], saved.mr[n]);
   takeObjects(m_case->labels, saved.labels);
   takeObjects(m_case->meshes, saved.meshes);
-  takeObjects(m_case->strokes, saved.strokes);
-  for (std::size_t n = 0; n < std::min(m_case->strokes.size(), saved.strokes.size()); ++n)
-    m_case->strokes[n].bytes = saved.strokes[n].bytes;
+  const auto& strokes = saved.dissection.strokes();
+  for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)
+    m_case->dissection.setStored(n, strokes[n]->object, strokes[n]->packed);
   const bool other = done.source || m_case->name != saved.name;
   m_case->name = saved.name;
   if (done.source)

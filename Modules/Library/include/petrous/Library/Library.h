@@ -82,7 +82,8 @@ public:
   /// LibraryError (NotFound, Damaged) and ManifestError.
   scene::Case open(const std::string& name) const;
 
-  /// Reads the strokes into `value.dissection` unless already loaded.
+  /// Loads `value.dissection` unless already loaded (Dissection::load). Throws LibraryError
+  /// (Damaged, NotFound) naming the stroke.
   void loadDissection(scene::Case& value) const;
 
   /// Cache of data derived from the library's objects (DerivedCache.h).

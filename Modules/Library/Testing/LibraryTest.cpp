@@ -75,6 +75,28 @@ TEST(Library, StrokesComeBackAfterReopening)
   EXPECT_TRUE(sameVoxels(back.dissection.mask(), value.dissection.mask()));
 }
 
+TEST(Library, ReadsTheVoxelsOfAppliedStrokesOnly)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = test::savedCase(library);
+  test::drill(value, {4, 4, 4});
+  test::drill(value, {12, 4, 4});
+  value.dissection.undo();
+  library.save(value);
+  scene::Case back = library.open("ear");
+  const auto resident = [&back](std::size_t n)
+  { return back.dissection.strokes()[n]->packed.peek() != nullptr; };
+  EXPECT_EQ(back.dissection.strokes()[1]->bytes, value.dissection.strokes()[1]->bytes);
+  EXPECT_FALSE(back.dissection.loaded());
+  EXPECT_FALSE(resident(0));
+  library.loadDissection(back);
+  EXPECT_TRUE(resident(0));
+  EXPECT_FALSE(resident(1));
+  EXPECT_EQ(back.dissection.redo(), 1u);
+  EXPECT_TRUE(resident(1));
+}
+
 TEST(Library, StoresOneCtForManyCases)
 {
   const TemporaryFolder folder;

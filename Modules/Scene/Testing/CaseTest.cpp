@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "DrilledCase.h"
+#include "petrous/Volume/MaskComparison.h"
 
 using namespace petrous;
 using scene::test::drilledCase;
@@ -43,6 +44,24 @@ TEST(Case, UndoNeedsNoVoxels)
   value.dissection.unload();
   EXPECT_EQ(value.dissection.undo(), 1u);
   EXPECT_EQ(value.applied(), 1u);
+}
+
+TEST(Case, ACopyIsTheCaseAtThatMoment)
+{
+  scene::Case value = drilledCase(2);
+  const auto shown = value.dissection.sharedMask();
+  scene::Case copy = value;
+  scene::test::drill(value, {12, 4, 8}, 1.0);
+  value.dissection.undo(2);
+  EXPECT_EQ(copy.applied(), 2u);
+  EXPECT_EQ(copy.dissection.strokes().size(), 2u);
+  const scene::Case before = drilledCase(2);
+  EXPECT_EQ(volume::differentVoxels(copy.dissection.mask(), before.dissection.mask()), 0u);
+  // A picture of the case stays one of the case.
+  EXPECT_EQ(volume::differentVoxels(*shown, value.dissection.mask()), 0u);
+  value = std::move(copy);
+  EXPECT_EQ(volume::differentVoxels(*shown, before.dissection.mask()), 0u);
+  EXPECT_EQ(value.dissection.sharedMask(), shown);
 }
 
 TEST(Case, RemovesPartsByNameAndEmptyMapsWithThem)

@@ -590,6 +590,13 @@ void CaseDocumentController::lookForDamage()
                  .arg(words(one));
   for (const std::string& one : m_model.leftOut())
     lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
+  for (const std::string& one : m_model.damagedStrokes())
+    lines += tr("Damaged, and not applied: %1.").arg(words(one));
+  if (const std::size_t undone = m_model.undoneForDamage())
+    lines +=
+        (undone == 1
+             ? tr("The case is shown without its last stroke, which stays in it.")
+             : tr("The case is shown without its last %1 strokes, which stay in it.").arg(undone));
   const QString text = lines.join('\n');
   if (text == m_damageTold)
     return;

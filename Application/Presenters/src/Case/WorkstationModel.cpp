@@ -34,6 +34,8 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_assembly = {}; // its cache is of the previous case
   m_unreadLabels.clear();
   m_unreadMeshes.clear();
+  m_damagedStrokes.clear();
+  m_undoneForDamage = 0;
   m_case = std::move(next);
   ++m_shown;
   m_leaving = false;
@@ -233,6 +235,10 @@ bool WorkstationModel::canRedo() const noexcept
 
 void WorkstationModel::step(bool back)
 {
+  const std::size_t stroke =
+      back ? dissection::History::kStart : m_case->dissection.history().next();
+  if (stroke != dissection::History::kStart)
+    m_case->dissection.strokes()[stroke]->packed.get(); // a damaged one is refused here
   if (m_touch)
     return back ? m_touch->undo() : m_touch->redo();
   if ((back ? m_case->dissection.undo() : m_case->dissection.redo()) == 0)

@@ -41,7 +41,9 @@ ReadCase ReadCase::from(const library::Library& library, const std::string& name
   progress.report(0.0, "opening " + name);
   result.value = std::make_unique<scene::Case>(own.open(name));
   progress.report(0.3, "reading what was drilled");
-  own.loadDissection(*result.value);
+  const std::size_t applied = result.value->applied();
+  result.strokes = own.loadSoundDissection(*result.value);
+  result.undone = applied - result.value->applied();
   progress.report(0.8, "reading the CT");
   result.value->ct.volume.get(); // reports a missing object now
   progress.check("opening " + name);
@@ -79,6 +81,8 @@ void WorkstationModel::beginOpen(const std::string& name)
 void WorkstationModel::opened(ReadCase next)
 {
   show(std::move(next.value), false);
+  m_damagedStrokes = std::move(next.strokes);
+  m_undoneForDamage = next.undone;
   keepJournal(*m_case);
   for (const std::string& words : next.notices)
     notify(events.noticed, words);
@@ -138,6 +142,8 @@ void WorkstationModel::close()
   m_loaded = m_drawable = m_feelable = m_checked = true;
   m_unreadLabels.clear();
   m_unreadMeshes.clear();
+  m_damagedStrokes.clear();
+  m_undoneForDamage = 0;
   ++m_parts;
   ++m_shown;
   notify(events.caseClosed);

@@ -308,6 +308,21 @@ void Library::attach(scene::Case& value) const
 
 void Library::loadDissection(scene::Case& value) const
 {
+  if (value.dissection.loaded())
+    return;
+  const auto line = value.dissection.history().lineTo(value.dissection.history().position());
+  for (std::size_t n = 0; n < line.size(); ++n)
+    try
+    {
+      value.dissection.strokes()[line[n]]->packed.get();
+    }
+    catch (const LibraryError& error)
+    {
+      throw LibraryError(error.reason,
+                         std::string(error.what()) +
+                             "; or go back to before it, which loses nothing: " + "petrous undo '" +
+                             value.name + "' " + std::to_string(line.size() - n));
+    }
   try
   {
     value.dissection.load(value.ct.geometry);
@@ -316,6 +331,28 @@ void Library::loadDissection(scene::Case& value) const
   {
     throw LibraryError(Reason::Damaged, manifestPath(value.name).string() + ": " + error.what());
   }
+}
+
+std::vector<std::string> Library::loadSoundDissection(scene::Case& value) const
+{
+  const auto& strokes = value.dissection.strokes();
+  const auto line = value.dissection.history().lineTo(value.dissection.history().position());
+  std::size_t sound = line.size();
+  std::vector<std::string> damage;
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    try
+    {
+      strokes[n]->packed.get();
+    }
+    catch (const LibraryError& error)
+    {
+      damage.emplace_back(error.what());
+      const auto at = std::find(line.begin(), line.end(), n);
+      sound = std::min(sound, static_cast<std::size_t>(at - line.begin()));
+    }
+  value.dissection.undo(line.size() - sound);
+  loadDissection(value);
+  return damage;
 }
 
 // The images that were read from here, each with a description.

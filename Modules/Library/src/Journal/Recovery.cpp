@@ -218,9 +218,13 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
                  "the case");
   scene::Case next = value;
   Recovered what;
+  const std::vector<std::string> damage = library.loadSoundDissection(next);
+  const std::string sound = scene::toText(next.dissection.history());
+  // The journal continues a state that cannot be made now, unless the case was open without it.
+  if (sound != scene::toText(value.dissection.history()) && sound != content.head.history)
+    throw LibraryError(LibraryError::Reason::Damaged, damage.front());
   try
   {
-    library.loadDissection(next);
     if (base)
     {
       dissection::Dissection work = atState(next, *base);

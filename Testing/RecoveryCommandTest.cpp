@@ -231,6 +231,55 @@ TEST_F(RecoveryCommand, OneFlippedBitOfTheCtIsToldBeforeAnythingIsDrilledOrWritt
   EXPECT_EQ(libraryContent(), before);
 }
 
+TEST_F(RecoveryCommand, ADamagedStrokeHindersOnlyWhatNeedsIt)
+{
+  const auto session = writeSession();
+  json("drill bone --path " + quoted(session));
+  const std::size_t all = json("history bone")["strokes"].size();
+  ASSERT_GE(all, 5u);
+  const auto manifest = nlohmann::json::parse(textOf(library() / "cases/bone.json"));
+  const std::string object = manifest["dissection"]["strokes"][2]["object"];
+  const auto file = library() / "objects" / object;
+  const std::string whole = textOf(file);
+  std::string spoilt = whole;
+  spoilt[spoilt.size() / 2] = static_cast<char>(spoilt[spoilt.size() / 2] ^ 4);
+  std::ofstream(file, std::ios::binary) << spoilt;
+
+  const auto points = m_folder / "points.csv";
+  std::ofstream(points) << "x_mm,y_mm,z_mm\n0,0,0\n";
+  const std::string render =
+      "render bone --engine reference --size 16x16 --out " + quoted(m_folder / "a.png");
+  const std::string drill = "drill bone --path " + quoted(session);
+  const auto before = libraryContent();
+  for (const std::string& arguments :
+       {render, drill, "probe bone --points " + quoted(points),
+        "export bone --what mask --out " + quoted(m_folder / "a.nrrd")})
+  {
+    expectRefused(arguments, 3, object);
+    expectRefused(arguments, 3, "stroke 3 of case 'bone'");
+    expectRefused(arguments, 3, "petrous undo 'bone' " + std::to_string(all - 2));
+  }
+  EXPECT_EQ(libraryContent(), before);
+  json("info bone"); // it needs no voxels
+
+  json("undo bone " + std::to_string(all - 2));
+  json(render);
+  const auto undone = libraryContent();
+  expectRefused("redo bone", 3, "stroke 3 of case 'bone'");
+  EXPECT_EQ(libraryContent(), undone);
+  json("branch bone other");
+  json(drill);
+  json("branch bone main");
+  EXPECT_EQ(json("info bone")["dissection"]["undo"], 2);
+  json(drill);
+  expectRefused("branch bone 'main~1'", 3, object);
+  EXPECT_GT(json("history bone")["strokes"].size(), all) << "nothing is lost";
+
+  std::ofstream(file, std::ios::binary) << whole;
+  EXPECT_EQ(json("branch bone 'main~1'")["undo"], all);
+  json(render);
+}
+
 // The CT is checked against its hash in parallel with the command, which must not finish before the
 // check.
 TEST_F(RecoveryCommand, NothingIsSavedOrSaidOfADamagedCt)

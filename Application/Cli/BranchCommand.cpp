@@ -36,7 +36,7 @@ std::string strokesInWords(std::size_t count)
 std::string toString(const scene::Case& value, const Branch& branch)
 {
   const auto summary = scene::summaryOf(value, branch.position);
-  const std::size_t ahead = value.history.lineTo(branch.tip).size() - summary.strokes;
+  const std::size_t ahead = value.dissection.history().lineTo(branch.tip).size() - summary.strokes;
   return branch.name + ": " + strokesInWords(summary.strokes) + ", " + fixed(summary.removed, 1) +
          " mm3 removed" + (ahead > 0 ? ", " + std::to_string(ahead) + " to redo" : "") +
          (branch.setAside ? " (set aside by drilling after an undo)" : "");
@@ -45,24 +45,24 @@ std::string toString(const scene::Case& value, const Branch& branch)
 nlohmann::json allJson(const scene::Case& value)
 {
   nlohmann::json branches = nlohmann::json::array();
-  for (const Branch& branch : value.history.branches())
+  for (const Branch& branch : value.dissection.history().branches())
     branches.push_back(branchJson(value, branch));
   return {{"case", value.name},
-          {"branch", value.history.branch().name},
-          {"strokes", value.strokes.size()},
+          {"branch", value.dissection.history().branch().name},
+          {"strokes", value.dissection.strokes().size()},
           {"undo", value.applied()},
-          {"redo", value.history.ahead()},
+          {"redo", value.dissection.history().ahead()},
           {"removed_mm3", value.removedVolume()},
           {"branches", std::move(branches)}};
 }
 
 const Branch& branchOf(const scene::Case& value, const std::string& name)
 {
-  if (const Branch* branch = value.history.find(name))
+  if (const Branch* branch = value.dissection.history().find(name))
     return *branch;
-  dissection::History history = value.history;
+  dissection::History history = value.dissection.history();
   history.goTo(name); // throws, listing the branches
-  return value.history.branch();
+  return value.dissection.history().branch();
 }
 
 void printRow(const Context& context, const std::string& what, const std::string& a,
@@ -75,9 +75,9 @@ void printRow(const Context& context, const std::string& what, const std::string
 
 dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
 {
-  dissection::History there = value.history;
+  dissection::History there = value.dissection.history();
   there.goTo(branch.name);
-  dissection::Dissection work = *value.dissection;
+  dissection::Dissection work = value.dissection;
   work.follow(there);
   return work;
 }
@@ -126,7 +126,8 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   const Branch& b = branchOf(value, options.compared[1]);
   const auto ofA = scene::summaryOf(value, a.position);
   const auto ofB = scene::summaryOf(value, b.position);
-  const std::size_t common = ofA.strokes - value.history.path(a.position, b.position).undone.size();
+  const std::size_t common =
+      ofA.strokes - value.dissection.history().path(a.position, b.position).undone.size();
   printRow(context, "", a.name, b.name);
   printRow(context, "strokes (" + std::to_string(common) + " in common)",
            std::to_string(ofA.strokes), std::to_string(ofB.strokes));
@@ -143,8 +144,9 @@ void compare(const Context& context, const scene::Case& value, const Options& op
 
 void list(const Context& context, const scene::Case& value)
 {
-  for (const Branch& branch : value.history.branches())
-    context.print((&branch == &value.history.branch() ? "* " : "  ") + toString(value, branch));
+  for (const Branch& branch : value.dissection.history().branches())
+    context.print((&branch == &value.dissection.history().branch() ? "* " : "  ") +
+                  toString(value, branch));
   context.printJson(allJson(value));
 }
 
@@ -160,7 +162,7 @@ std::string change(scene::Case& value, const Options& options)
   if (options.remove)
     return "branch '" + name + "' deleted, and " +
            strokesInWords(scene::removeBranch(value, name)) + " that only it led to";
-  const bool there = value.history.find(name) != nullptr;
+  const bool there = value.dissection.history().find(name) != nullptr;
   if (there && options.given("--from"))
     throw core::InvalidParameter("branch '" + name + "' is there already; --from is for a new one");
   if (there)
@@ -170,7 +172,7 @@ std::string change(scene::Case& value, const Options& options)
   else
     scene::startBranch(value, name);
   return std::string(there ? "on branch " : "new branch ") +
-         toString(value, value.history.branch());
+         toString(value, value.dissection.history().branch());
 }
 
 void branch(const Context& context, const Options& options)

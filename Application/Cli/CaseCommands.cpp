@@ -81,7 +81,7 @@ void printCase(const Context& context, const scene::Case& value)
                   placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +
-                std::to_string(value.history.ahead()) + " to redo, " +
+                std::to_string(value.dissection.history().ahead()) + " to redo, " +
                 fixed(value.removedVolume(), 1) + " mm3 removed");
 }
 

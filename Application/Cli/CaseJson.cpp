@@ -174,11 +174,11 @@ json infoJson(const scene::Case& value)
           {"labels", std::move(labels)},
           {"meshes", std::move(meshes)},
           {"dissection",
-           {{"strokes", value.strokes.size()},
+           {{"strokes", value.dissection.strokes().size()},
             {"undo", value.applied()},
-            {"redo", value.history.ahead()},
+            {"redo", value.dissection.history().ahead()},
             {"removed_mm3", value.removedVolume()},
-            {"branch", value.history.branch().name}}},
+            {"branch", value.dissection.history().branch().name}}},
           {"resources", residentResources(value)}};
 }
 
@@ -192,16 +192,17 @@ json touchedJson(const std::vector<dissection::TouchedStructure>& structures)
 
 json strokesJson(const scene::Case& value)
 {
-  std::vector<bool> done(value.strokes.size(), false);
-  for (const std::size_t n : value.history.lineTo(value.history.position()))
+  const dissection::History& history = value.dissection.history();
+  std::vector<bool> done(history.size(), false);
+  for (const std::size_t n : history.lineTo(history.position()))
     done[n] = true;
   json strokes = json::array();
-  for (std::size_t n = 0; n < value.strokes.size(); ++n)
+  for (std::size_t n = 0; n < history.size(); ++n)
   {
-    const scene::StrokePart& stroke = value.strokes[n];
+    const dissection::Stroke& stroke = *value.dissection.strokes()[n];
     const auto& burr = stroke.info.burr;
     strokes.push_back({{"number", n + 1},
-                       {"parent", value.history.parent(n) + 1},
+                       {"parent", history.parent(n) + 1},
                        {"done", static_cast<bool>(done[n])},
                        {"recovered", stroke.info.recovered},
                        {"started_at", stroke.info.startedAt},
@@ -220,12 +221,12 @@ json branchJson(const scene::Case& value, const dissection::History::Branch& bra
 {
   const scene::StateSummary summary = scene::summaryOf(value, branch.position);
   return {{"name", branch.name},
-          {"present", &branch == &value.history.branch()},
+          {"present", &branch == &value.dissection.history().branch()},
           {"set_aside", branch.setAside},
           {"tip", branch.tip + 1},
           {"position", branch.position + 1},
           {"strokes", summary.strokes},
-          {"redo", value.history.lineTo(branch.tip).size() - summary.strokes},
+          {"redo", value.dissection.history().lineTo(branch.tip).size() - summary.strokes},
           {"removed_mm3", summary.removed},
           {"structures_touched", touchedJson(summary.structures)}};
 }
@@ -251,10 +252,10 @@ std::map<std::string, std::size_t> residentResources(const scene::Case& value)
   }
   if (const std::uintmax_t bytes = value.derived ? value.derived->bytes() : 0)
     resources["disk.derived"] = bytes;
-  if (value.dissection)
+  if (value.dissection.loaded())
   {
-    resources["mask.bricks"] = std::as_const(*value.dissection).mask().residentBytes();
-    if (const std::size_t bytes = value.dissection->historyBytes())
+    resources["mask.bricks"] = value.dissection.mask().residentBytes();
+    if (const std::size_t bytes = value.dissection.historyBytes())
       resources["history.strokes"] = bytes;
   }
   return resources;

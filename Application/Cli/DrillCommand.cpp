@@ -200,13 +200,13 @@ void play(const Context& context, const Options& options)
               const session::TickRecord& record =
                   report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
               session.cut(tick);
-              journal->follow(*value.dissection);
+              journal->follow(value.dissection);
               const session::RemovalBalance balance = session.removal().balance();
               report.add(record, TickRemoval{record.thrust > 0.0 ? armAt(session, record) : 0.0,
                                              balance.removed + session.swept(), balance.predicted});
             });
   session.end();
-  journal->follow(*value.dissection);
+  journal->follow(value.dissection);
   report.close();
   save(context, library, value, report, opened, *journal, progress);
 
@@ -248,7 +248,7 @@ void replay(const Context& context, const Options& options)
     const session::TickRecord& record =
         report.feel([&]() -> const session::TickRecord& { return session.feel(); });
     session.follow();
-    journal->follow(*value.dissection);
+    journal->follow(value.dissection);
     report.add(record);
   }
   report.close();

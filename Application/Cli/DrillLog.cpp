@@ -37,7 +37,7 @@ DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
   , m_file(core::outputTarget(file))
   , m_case(value)
   , m_scene(scene)
-  , m_before(value.dissection->mask())
+  , m_before(value.dissection.mask())
 {
   if (!m_file)
     throw core::InvalidParameter(m_name + ": cannot be written");
@@ -50,7 +50,7 @@ DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
 
 void DrillLog::measure()
 {
-  const volume::CutMask& now = m_case.dissection->mask();
+  const volume::CutMask& now = m_case.dissection.mask();
   std::vector<std::size_t> bricks;
   for (std::size_t n = 0; n < now.brickCount(); ++n)
     if (now.brick(n) != m_before.brick(n))

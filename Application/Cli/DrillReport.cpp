@@ -11,8 +11,8 @@ namespace petrous::cli
 DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene, double radius,
                          const std::string& log, bool distances)
   : m_case(value)
-  , m_position(value.history.position())
-  , m_before(value.strokes.size())
+  , m_position(value.dissection.history().position())
+  , m_before(value.dissection.strokes().size())
 {
   if (!log.empty())
     m_log.emplace(log, value, scene);
@@ -52,21 +52,24 @@ void DrillReport::close()
 
 bool DrillReport::changed() const
 {
-  return m_case.history.position() != m_position || m_case.strokes.size() != m_before;
+  return m_case.dissection.history().position() != m_position ||
+         m_case.dissection.strokes().size() != m_before;
 }
 
 // Of the strokes made here that are applied.
 DrillReport::Cut DrillReport::cut() const
 {
   Cut result;
-  for (const std::size_t n : m_case.history.lineTo(m_case.history.position()))
+  const dissection::History& history = m_case.dissection.history();
+  for (const std::size_t n : history.lineTo(history.position()))
   {
     if (n < m_before)
       continue;
+    const dissection::Stroke& stroke = *m_case.dissection.strokes()[n];
     ++result.strokes;
-    result.removed += m_case.strokes[n].info.removed;
-    result.bytes += m_case.strokes[n].bytes;
-    for (const auto& structure : m_case.strokes[n].info.structures)
+    result.removed += stroke.info.removed;
+    result.bytes += stroke.bytes;
+    for (const auto& structure : stroke.info.structures)
       result.structures[structure.name] += structure.volume;
   }
   return result;

@@ -130,7 +130,7 @@ void exportCase(const Context& context, const Options& options)
   const auto mask = [&]() -> const volume::CutMask&
   {
     library.loadDissection(value);
-    return std::as_const(*value.dissection).mask();
+    return value.dissection.mask();
   };
   if (options.what == "ct")
     imaging::writeVolume(options.out, *checked(value.ct), progress);

@@ -10,7 +10,7 @@ namespace
 {
 
 void addStep(CLI::App& app, Context& context, const std::string& name, const std::string& text,
-             std::size_t (*step)(scene::Case&, std::size_t))
+             std::size_t (dissection::Dissection::*step)(std::size_t))
 {
   struct Options
   {
@@ -26,19 +26,20 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
           throw UsageError(name + ": N must be at least 1");
         library::Library library = context.openLibrary();
         scene::Case value = library.open(options->caseName);
-        const std::size_t steps = step(value, static_cast<std::size_t>(options->count));
+        const std::size_t steps =
+            (value.dissection.*step)(static_cast<std::size_t>(options->count));
         if (steps == 0)
           context.warn("nothing to " + name + " in case '" + value.name + "'");
         else
           library.save(value);
-        const std::size_t ahead = value.history.ahead();
+        const std::size_t ahead = value.dissection.history().ahead();
         context.print(std::to_string(steps) + " " + (steps == 1 ? "stroke" : "strokes") + "; " +
                       std::to_string(value.applied()) + " done, " + std::to_string(ahead) +
                       " to redo, " + fixed(value.removedVolume(), 1) + " mm3 removed");
         context.printJson({{"case", value.name},
-                           {"branch", value.history.branch().name},
+                           {"branch", value.dissection.history().branch().name},
                            {"steps", steps},
-                           {"strokes", value.strokes.size()},
+                           {"strokes", value.dissection.strokes().size()},
                            {"undo", value.applied()},
                            {"redo", ahead},
                            {"removed_mm3", value.removedVolume()}});
@@ -49,7 +50,7 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
 
 void printStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)
 {
-  const auto& info = value.strokes[n].info;
+  const auto& info = value.dissection.strokes()[n]->info;
   std::string line = std::to_string(n + 1) + state + info.startedAt + "  " +
                      fixed(info.burr.diameter, 1) + " mm " + dissection::nameOf(info.burr.kind) +
                      ", " + fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
@@ -60,8 +61,8 @@ void printStroke(const Context& context, const scene::Case& value, std::size_t n
 
 void printHistory(const Context& context, const scene::Case& value)
 {
-  const dissection::History& history = value.history;
-  if (value.strokes.empty())
+  const dissection::History& history = value.dissection.history();
+  if (value.dissection.strokes().empty())
     return context.print("no stroke yet");
   context.print("branch " + history.branch().name + ":");
   const auto line = history.lineTo(history.branch().tip);
@@ -84,8 +85,8 @@ void printHistory(const Context& context, const scene::Case& value)
 
 void addHistoryCommands(CLI::App& app, Context& context)
 {
-  addStep(app, context, "undo", "Take back the last strokes", &scene::undo);
-  addStep(app, context, "redo", "Do again what was taken back", &scene::redo);
+  addStep(app, context, "undo", "Take back the last strokes", &dissection::Dissection::undo);
+  addStep(app, context, "redo", "Do again what was taken back", &dissection::Dissection::redo);
   auto name = std::make_shared<std::string>();
   context
       .addCommand(app, "history", "The strokes of a case",
@@ -94,14 +95,14 @@ void addHistoryCommands(CLI::App& app, Context& context)
                     const scene::Case value = context.openLibrary().open(*name);
                     printHistory(context, value);
                     nlohmann::json branches = nlohmann::json::array();
-                    for (const auto& branch : value.history.branches())
+                    for (const auto& branch : value.dissection.history().branches())
                       branches.push_back(branchJson(value, branch));
                     context.printJson({{"case", value.name},
-                                       {"branch", value.history.branch().name},
+                                       {"branch", value.dissection.history().branch().name},
                                        {"branches", std::move(branches)},
                                        {"strokes", strokesJson(value)},
                                        {"undo", value.applied()},
-                                       {"redo", value.history.ahead()}});
+                                       {"redo", value.dissection.history().ahead()}});
                   })
       ->add_option("CASE", *name)
       ->required();

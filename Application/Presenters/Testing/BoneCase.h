@@ -25,7 +25,7 @@ inline scene::Case block()
             std::clamp(300.0 + 3000.0 * (kTop - 0.3 * k), -1000.0, 1600.0));
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
-  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  value.dissection = dissection::Dissection(value.ct.geometry);
   return value;
 }
 

@@ -51,7 +51,7 @@ protected:
   }
   static std::vector<std::uint16_t> voxels(const scene::Case& value)
   {
-    const auto dense = value.dissection->mask().dense();
+    const auto dense = value.dissection.mask().dense();
     return {dense.data(), dense.data() + dense.size()};
   }
   bool journalled() const
@@ -86,9 +86,11 @@ TEST_F(JournalThreadTest, BringsBackTheStrokesOfAProgramThatWasKilled)
   ASSERT_NO_FATAL_FAILURE(stroke(model, held));
   EXPECT_TRUE(model.unsaved());
   scene::Case again;
-  ASSERT_TRUE(until([&] { return reopened(again).size() > 10 && again.strokes.size() == 1; }));
+  ASSERT_TRUE(
+      until([&] { return reopened(again).size() > 10 && again.dissection.strokes().size() == 1; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
-  EXPECT_EQ(again.strokes[0].info.removed, model.value().strokes[0].info.removed);
+  EXPECT_EQ(again.dissection.strokes()[0]->info.removed,
+            model.value().dissection.strokes()[0]->info.removed);
 
   model.save();
   ASSERT_TRUE(until([this] { return !journalled(); }));
@@ -99,7 +101,7 @@ TEST_F(JournalThreadTest, BringsBackTheStrokesOfAProgramThatWasKilled)
   model.stopTouch();
   model.undo();
   ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.applied() == 0; }));
-  EXPECT_EQ(again.strokes.size(), 1u);
+  EXPECT_EQ(again.dissection.strokes().size(), 1u);
   model.startTouch(held.device, held.setup);
   model.redo();
   ASSERT_TRUE(until(
@@ -130,9 +132,10 @@ TEST_F(JournalThreadTest, HasAPartOfAStrokeThatIsOpenForLong)
       }));
   EXPECT_TRUE(model.drilling());
   scene::Case again; // the file may still be partly written
-  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
-  EXPECT_GT(again.strokes[0].info.removed, 0.0);
-  EXPECT_FALSE(again.dissection->mask().untouched());
+  ASSERT_TRUE(
+      until([&] { return !reopened(again).empty() && again.dissection.strokes().size() == 1; }));
+  EXPECT_GT(again.dissection.strokes()[0]->info.removed, 0.0);
+  EXPECT_FALSE(again.dissection.mask().untouched());
 }
 
 TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
@@ -143,13 +146,13 @@ TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
   JournalThread journal;
   journal.begin(library, value);
   EXPECT_EQ(journal.takeFailure(), "");
-  value.dissection->beginStroke({});
-  value.dissection->cut({{6.0, 6.0, kTop}, {6.0, 6.0, kTop}, 1.0});
-  const auto stroke = value.dissection->endStroke();
+  value.dissection.beginStroke({});
+  value.dissection.cut({{6.0, 6.0, kTop}, {6.0, 6.0, kTop}, 1.0});
+  const auto stroke = value.dissection.endStroke();
   // Nothing can be created at the library's path.
   const std::filesystem::path away = folder.string() + "-away";
   std::filesystem::rename(folder, away);
-  journal.follow(*value.dissection);
+  journal.follow(value.dissection);
   std::string why;
   EXPECT_TRUE(until(
       [&]
@@ -161,7 +164,8 @@ TEST_F(JournalThreadTest, TellsThatTheDiskRefusesAndWritesItLater)
   EXPECT_EQ(journal.takeFailure(), "") << "told once";
   std::filesystem::rename(away, folder);
   scene::Case again;
-  EXPECT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
+  EXPECT_TRUE(
+      until([&] { return !reopened(again).empty() && again.dissection.strokes().size() == 1; }));
   EXPECT_EQ(voxels(again), voxels(value));
 }
 
@@ -182,7 +186,8 @@ TEST_F(JournalThreadTest, GoesOnInTheLibraryThatTheCaseWasSavedTo)
   std::filesystem::remove_all(folder);
   std::filesystem::rename(elsewhere, folder); // open files stay open
   scene::Case again;
-  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 2; }));
+  ASSERT_TRUE(
+      until([&] { return !reopened(again).empty() && again.dissection.strokes().size() == 2; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
 }
 
@@ -199,10 +204,12 @@ TEST_F(JournalThreadTest, HasWhatWasDrilledWhileTheImportWasStored)
   task.run();
   model.stored(task);
   scene::Case again;
-  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 1; }));
+  ASSERT_TRUE(
+      until([&] { return !reopened(again).empty() && again.dissection.strokes().size() == 1; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
   ASSERT_NO_FATAL_FAILURE(stroke(model, held));
-  ASSERT_TRUE(until([&] { return !reopened(again).empty() && again.strokes.size() == 2; }));
+  ASSERT_TRUE(
+      until([&] { return !reopened(again).empty() && again.dissection.strokes().size() == 2; }));
   EXPECT_EQ(voxels(again), voxels(model.value()));
 }
 

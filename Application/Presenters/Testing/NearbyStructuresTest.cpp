@@ -51,11 +51,11 @@ scene::Case balls()
   return value;
 }
 
-scene::StrokePart stroke(const std::string& name, double volume)
+std::shared_ptr<const dissection::Stroke> stroke(const std::string& name, double volume)
 {
-  scene::StrokePart part;
-  part.info.structures = {{name, volume}};
-  return part;
+  dissection::Stroke stroke;
+  stroke.info.structures = {{name, volume}};
+  return std::make_shared<const dissection::Stroke>(stroke);
 }
 
 } // namespace
@@ -119,8 +119,9 @@ TEST(NearbyStructures, LeaveOutWhatIsHidden)
 TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
 {
   scene::Case value = balls();
-  value.strokes = {stroke("carotid", 0.5), stroke("carotid", 0.25), stroke("facial_nerve", 4.0)};
-  value.history = dissection::History::line(3, 2);
+  value.dissection = dissection::Dissection(
+      {stroke("carotid", 0.5), stroke("carotid", 0.25), stroke("facial_nerve", 4.0)},
+      dissection::History::line(3, 2));
   NearbyStructures nearby(value);
   nearby.surfaces();
   const auto near = nearby.around(value, kNerve + Vector3d(-30.0, 0.0, 0.0), 1.0, 5.0);
@@ -135,8 +136,8 @@ TEST(NearbyStructures, ALumenIsOpenedAndNotInjured)
   scene::Case value = balls();
   appearance::StructureAppearance& look = value.labels[0].structures[1].look;
   look.solid = false;
-  value.strokes = {stroke("carotid", 0.5), stroke("facial_nerve", 0.001)};
-  value.history = dissection::History::line(2, 2);
+  value.dissection = dissection::Dissection({stroke("carotid", 0.5), stroke("facial_nerve", 0.001)},
+                                            dissection::History::line(2, 2));
   NearbyStructures nearby(value);
   nearby.surfaces();
   const auto within = [&] { return nearby.around(value, kVessel, 1.0, 50.0); };

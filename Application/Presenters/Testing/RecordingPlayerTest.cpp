@@ -127,7 +127,7 @@ protected:
 
   static std::vector<std::uint16_t> voxels(const scene::Case& value)
   {
-    const auto dense = value.dissection->mask().dense();
+    const auto dense = value.dissection.mask().dense();
     return {dense.data(), dense.data() + dense.size()};
   }
 
@@ -153,15 +153,18 @@ TEST_P(RecordingPlayerTest, OfALiveSessionIsTheSessionToTheLastBit)
   EXPECT_EQ(differences, 0u);
   EXPECT_GT(outcome.ticks, 250u);
   EXPECT_GT(pressed, 50u);
-  EXPECT_FALSE(first.dissection->mask().untouched());
+  EXPECT_FALSE(first.dissection.mask().untouched());
   EXPECT_EQ(voxels(second), voxels(first));
-  ASSERT_EQ(second.strokes.size(), first.strokes.size());
+  ASSERT_EQ(second.dissection.strokes().size(), first.dissection.strokes().size());
   EXPECT_EQ(second.applied(), first.applied());
-  for (std::size_t n = 0; n < first.strokes.size(); ++n)
+  for (std::size_t n = 0; n < first.dissection.strokes().size(); ++n)
   {
-    EXPECT_EQ(second.strokes[n].info.removed, first.strokes[n].info.removed);
-    EXPECT_EQ(second.strokes[n].info.duration, first.strokes[n].info.duration);
-    EXPECT_EQ(second.strokes[n].info.burr.diameter, first.strokes[n].info.burr.diameter);
+    EXPECT_EQ(second.dissection.strokes()[n]->info.removed,
+              first.dissection.strokes()[n]->info.removed);
+    EXPECT_EQ(second.dissection.strokes()[n]->info.duration,
+              first.dissection.strokes()[n]->info.duration);
+    EXPECT_EQ(second.dissection.strokes()[n]->info.burr.diameter,
+              first.dissection.strokes()[n]->info.burr.diameter);
   }
 }
 
@@ -183,9 +186,7 @@ TEST_P(RecordingPlayerTest, GoesOnFromWhereASceneWasThatOthersHadUsed)
         }));
     session.stop();
   }
-  second.dissection->append(first.dissection->strokes().front());
-  second.strokes = first.strokes;
-  second.history = first.history;
+  second.dissection = first.dissection;
   liveSession(first, scene);
   const auto outcome = replayed(second);
   EXPECT_TRUE(outcome.equal()) << outcome.difference;
@@ -204,7 +205,7 @@ TEST_P(RecordingPlayerTest, RefusesACaseThatIsNotAsItWas)
       << done;
   EXPECT_NE(done.find("petrous undo 'block' " + std::to_string(first.applied())), std::string::npos)
       << done;
-  scene::undo(first, first.applied());
+  first.dissection.undo(first.applied());
   EXPECT_TRUE(replayed(first).equal());
 
   scene::Case other = block();
@@ -258,8 +259,8 @@ TEST_P(RecordingPlayerTest, OfAToolPathIsThePath)
   EXPECT_TRUE(outcome.equal()) << outcome.difference;
   EXPECT_EQ(outcome.ticks, 600u);
   EXPECT_EQ(voxels(second), voxels(first));
-  ASSERT_EQ(second.strokes.size(), first.strokes.size());
-  EXPECT_GE(first.strokes.size(), 2u);
+  ASSERT_EQ(second.dissection.strokes().size(), first.dissection.strokes().size());
+  EXPECT_GE(first.dissection.strokes().size(), 2u);
 }
 
 TEST_P(RecordingPlayerTest, SaysThatARecordingCannotBeBegun)

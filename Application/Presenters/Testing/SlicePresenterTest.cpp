@@ -195,14 +195,14 @@ TEST(SlicePresenter, ShowsInRedWhereLessThanHalfIsLeft)
 {
   const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());
   scene::Case value = planeCase(grid);
-  value.dissection = std::make_shared<dissection::Dissection>(grid);
+  value.dissection = dissection::Dissection(grid);
   const SliceGeometry slice(SliceOrientation::Coronal, {19.5, 20, 19.5}, 1.0, 40, 40);
   const GreyWindow white{1.0, -1000.0};
   const SlicePresenter presenter(value); // made before the cut: it sees the current mask
   EXPECT_EQ(presenter.draw(slice, white).at(20, 20)[1], 255);
-  value.dissection->beginStroke({});
-  value.dissection->cut({{20, 20, 20}, {20, 20, 20}, 6.0});
-  value.dissection->endStroke();
+  value.dissection.beginStroke({});
+  value.dissection.cut({{20, 20, 20}, {20, 20, 20}, 6.0});
+  value.dissection.endStroke();
   const auto pixels = presenter.draw(slice, white);
   int red = 0;
   for (int row = 0; row < 40; ++row)

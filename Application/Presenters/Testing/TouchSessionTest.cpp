@@ -58,7 +58,7 @@ TEST_F(TouchSessionTest, PressesOnTheBoneWithoutTakingAnyWhileTheDrillIsOff)
         return std::abs(record.thrust - 1.0) < 0.05;
       }));
   EXPECT_NEAR(record.proxy.pose().position.z(), kTop + 2.0, 0.1); // the burr's radius is 2 mm
-  EXPECT_TRUE(value.dissection->mask().untouched());
+  EXPECT_TRUE(value.dissection.mask().untouched());
   EXPECT_FALSE(session.drilling());
   EXPECT_TRUE(session.stop().strokes.empty());
 }
@@ -84,7 +84,7 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   EXPECT_GT(news.strokes.front()->info.removed, 0.0);
   ASSERT_TRUE(news.strokes.front()->info.camera);
   EXPECT_EQ(news.strokes.front()->info.camera->position, camera.position);
-  ASSERT_EQ(value.strokes.size(), 1u);
+  ASSERT_EQ(value.dissection.strokes().size(), 1u);
   EXPECT_EQ(value.applied(), 1u);
   EXPECT_TRUE(session.stop().strokes.empty()); // already closed
 }
@@ -125,17 +125,17 @@ TEST_F(TouchSessionTest, SurvivesUndoAndRedoInContact)
       [this]
       {
         frame();
-        return session.drilling() && !value.dissection->mask().untouched();
+        return session.drilling() && !value.dissection.mask().untouched();
       }));
   held.drill(false);
   ASSERT_TRUE(until([this] { return !frame().strokes.empty(); }));
-  ASSERT_EQ(value.strokes.size(), 2u) << "the one undone is kept";
-  EXPECT_TRUE(value.history.find("main~1"));
+  ASSERT_EQ(value.dissection.strokes().size(), 2u) << "the one undone is kept";
+  EXPECT_TRUE(value.dissection.history().find("main~1"));
   step(true);
-  EXPECT_TRUE(value.dissection->mask().untouched());
+  EXPECT_TRUE(value.dissection.mask().untouched());
   step(false);
   EXPECT_EQ(value.applied(), 1u);
-  EXPECT_FALSE(value.dissection->mask().untouched());
+  EXPECT_FALSE(value.dissection.mask().untouched());
   ASSERT_TRUE(until(
       [this]
       {
@@ -212,8 +212,8 @@ Drilled drilledAt(double picturesPerSecond)
     drilled.states = news.record ? news.record->maskState : 0;
   }
   session.stop();
-  EXPECT_EQ(value.strokes.size(), 1u);
-  const auto& info = value.strokes.front().info;
+  EXPECT_EQ(value.dissection.strokes().size(), 1u);
+  const auto& info = value.dissection.strokes().front()->info;
   EXPECT_GT(info.duration, 0.3);
   drilled.rate = info.removed / info.duration;
   return drilled;

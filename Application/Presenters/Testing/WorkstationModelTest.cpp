@@ -87,7 +87,7 @@ TEST_F(WorkstationModelTest, OpensSavesAndFindsTheStrokeAgain)
   EXPECT_TRUE(model.unsaved());
   model.save();
   EXPECT_FALSE(model.unsaved());
-  EXPECT_EQ(library.open("block").strokes.size(), 1u);
+  EXPECT_EQ(library.open("block").dissection.strokes().size(), 1u);
 }
 
 TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)
@@ -102,7 +102,7 @@ TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)
   ASSERT_TRUE(model.canUndo());
   model.undo();
   EXPECT_TRUE(box.contains({20, 20, 19}));
-  EXPECT_TRUE(model.value().dissection->mask().untouched());
+  EXPECT_TRUE(model.value().dissection.mask().untouched());
   EXPECT_FALSE(model.canUndo());
   box = {};
   model.redo();
@@ -134,7 +134,7 @@ TEST_F(WorkstationModelTest, UndoesTheOpenStrokeWhileTheToolIsActive)
   EXPECT_FALSE(model.drilling());
   EXPECT_TRUE(model.unsaved());
   EXPECT_EQ(model.value().applied(), 0u);
-  EXPECT_TRUE(model.value().dissection->mask().untouched());
+  EXPECT_TRUE(model.value().dissection.mask().untouched());
   EXPECT_TRUE(model.canRedo());
 }
 
@@ -231,7 +231,7 @@ TEST_F(WorkstationModelTest, WorkGoesOnWhileSomebodyElseStoresTheCase)
   EXPECT_FALSE(model.beingStored());
   EXPECT_TRUE(model.unsaved()); // the stroke
   model.save();
-  EXPECT_EQ(library.open("block").strokes.size(), 1u);
+  EXPECT_EQ(library.open("block").dissection.strokes().size(), 1u);
 }
 
 TEST_F(WorkstationModelTest, ARefusedSaveChangesNothingAndAnotherNameHelps)
@@ -245,13 +245,13 @@ TEST_F(WorkstationModelTest, ARefusedSaveChangesNothingAndAnotherNameHelps)
   stroke(model);
   EXPECT_THROW(model.save(), library::LibraryError);
   EXPECT_TRUE(model.unsaved());
-  EXPECT_EQ(model.value().strokes.size(), 1u);
+  EXPECT_EQ(model.value().dissection.strokes().size(), 1u);
   EXPECT_THROW(model.saveAs("block"), library::LibraryError);
   EXPECT_EQ(freeCaseName(library, "block"), "block 2");
   model.saveAs("block 2");
   EXPECT_FALSE(model.unsaved());
-  EXPECT_EQ(library.open("block 2").strokes.size(), 1u);
-  EXPECT_TRUE(library.open("block").strokes.empty());
+  EXPECT_EQ(library.open("block 2").dissection.strokes().size(), 1u);
+  EXPECT_TRUE(library.open("block").dissection.strokes().empty());
 }
 
 TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
@@ -400,16 +400,15 @@ TEST_F(WorkstationModelTest, PartsComeToTheOpenCaseAndItsStrokesStay)
   model.adopt(block("block"));
   model.save();
   scene::Case with = model.value(); // for another thread that reads files
-  with.dissection.reset();
   with.labels.push_back(ballOf(with.ct.geometry, "tumour"));
   stroke(model);
   model.takeParts(std::move(with));
   model.prepareNow();
   EXPECT_TRUE(model.unsaved());
-  EXPECT_EQ(model.value().strokes.size(), 1u);
+  EXPECT_EQ(model.value().dissection.strokes().size(), 1u);
   model.save();
   const auto saved = library.open("block");
-  EXPECT_EQ(saved.strokes.size(), 1u);
+  EXPECT_EQ(saved.dissection.strokes().size(), 1u);
   ASSERT_EQ(saved.labels.size(), 1u);
   EXPECT_EQ(saved.labels[0].structures[0].name, "tumour");
 }

@@ -60,7 +60,7 @@ void BranchController::stateChanged()
 {
   const bool open = m_model.hasCase();
   m_start->setEnabled(open);
-  const bool several = open && m_model.value().history.branches().size() > 1;
+  const bool several = open && m_model.value().dissection.history().branches().size() > 1;
   m_next->setEnabled(several);
   m_previous->setEnabled(several);
 }
@@ -74,29 +74,30 @@ void BranchController::fill()
     return;
   const scene::Case& value = m_model.value();
   int number = 0;
-  for (const Branch& branch : value.history.branches())
+  for (const Branch& branch : value.dissection.history().branches())
   {
     QAction* action = m_menu.addAction(lineOf(value, branch, ++number));
     action->setCheckable(true);
-    action->setChecked(&branch == &value.history.branch());
+    action->setChecked(&branch == &value.dissection.history().branch());
     connect(action, &QAction::triggered, this, [this, name = branch.name] { goTo(name); });
   }
 }
 
 void BranchController::goTo(const std::string& name)
 {
-  if (!m_model.hasCase() || name == m_model.value().history.branch().name)
+  if (!m_model.hasCase() || name == m_model.value().dissection.history().branch().name)
     return;
   if (change([this, &name] { m_model.goToBranch(name); }))
     emit statusMessage(
-        tr("Approach %1").arg(lineOf(m_model.value(), m_model.value().history.branch(), 10)));
+        tr("Approach %1")
+            .arg(lineOf(m_model.value(), m_model.value().dissection.history().branch(), 10)));
 }
 
 void BranchController::goOn(int steps)
 {
   if (!m_model.hasCase())
     return;
-  const auto& history = m_model.value().history;
+  const auto& history = m_model.value().dissection.history();
   const auto& branches = history.branches();
   const int count = static_cast<int>(branches.size());
   const int present = static_cast<int>(&history.branch() - branches.data());

@@ -522,7 +522,6 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
 {
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
-  value->dissection.reset();                                         // another thread writes to it
   work(tr("Adding to %1").arg(words(value->name)),
        [this, value, parts, what,
         shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
@@ -591,6 +590,13 @@ void CaseDocumentController::lookForDamage()
                  .arg(words(one));
   for (const std::string& one : m_model.leftOut())
     lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
+  for (const std::string& one : m_model.damagedStrokes())
+    lines += tr("Damaged, and not applied: %1.").arg(words(one));
+  if (const std::size_t undone = m_model.undoneForDamage())
+    lines +=
+        (undone == 1
+             ? tr("The case is shown without its last stroke, which stays in it.")
+             : tr("The case is shown without its last %1 strokes, which stay in it.").arg(undone));
   const QString text = lines.join('\n');
   if (text == m_damageTold)
     return;

@@ -185,7 +185,6 @@ void RegistrationController::begin(Way way)
     m_panel->curve().clear();
   m_panel->setRunning(true);
   scene::Case value = m_model.value(); // shares voxels
-  value.dissection.reset();            // another thread writes to it
   const auto listener =
       [this](const registration::MetricSample& sample, const core::RigidTransform& best)
   { m_run->post([=] { heard(sample, best); }); };

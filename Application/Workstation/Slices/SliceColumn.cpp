@@ -43,7 +43,8 @@ void SliceColumn::caseChanged()
 
 void SliceColumn::appearanceChanged()
 {
-  const auto presenter = std::make_shared<const presenters::SlicePresenter>(m_model.presentable());
+  const auto presenter = std::make_shared<const presenters::SlicePresenter>(
+      m_model.presentable(), m_model.value().dissection.sharedMask());
   for (SliceView* view : m_views)
   {
     view->setPresenter(presenter, m_model.value().ct.geometry);

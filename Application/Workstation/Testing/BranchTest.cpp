@@ -61,7 +61,7 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   openWindow();
   EXPECT_EQ(lines(), QStringList(QString::fromUtf8("*&1  main: 0 strokes, 0.0 mm³")));
   startBranch("other");
-  EXPECT_EQ(value().history.branch().name, "other");
+  EXPECT_EQ(value().dissection.history().branch().name, "other");
   drill(800, 30);
   ASSERT_EQ(value().applied(), 1u);
   const double removed = value().removedVolume();
@@ -69,21 +69,21 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   // To main, by its shortcut in the menu.
   emit menu().aboutToShow();
   menu().actions().at(4)->trigger();
-  EXPECT_EQ(value().history.branch().name, "main");
+  EXPECT_EQ(value().dissection.history().branch().name, "main");
   EXPECT_EQ(value().applied(), 0u);
-  EXPECT_TRUE(std::as_const(*value().dissection).mask().untouched());
+  EXPECT_TRUE(value().dissection.mask().untouched());
   EXPECT_EQ(lines().size(), 2);
   EXPECT_TRUE(lines().at(1).startsWith("&2  other: 1 stroke, ")) << lines().at(1).toStdString();
   // The next one by key: wraps around to the other.
   QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
-  EXPECT_EQ(value().history.branch().name, "other");
+  EXPECT_EQ(value().dissection.history().branch().name, "other");
   EXPECT_EQ(value().removedVolume(), removed);
-  EXPECT_FALSE(std::as_const(*value().dissection).mask().untouched());
+  EXPECT_FALSE(value().dissection.mask().untouched());
   EXPECT_TRUE(settled());
   EXPECT_FALSE(window().model().unsaved());
   const scene::Case saved = library().open("ball");
-  EXPECT_EQ(saved.history.branch().name, "other");
-  EXPECT_EQ(saved.history.branches().size(), 2u);
+  EXPECT_EQ(saved.dissection.history().branch().name, "other");
+  EXPECT_EQ(saved.dissection.history().branches().size(), 2u);
 }
 
 TEST_F(Branches, RefuseANameThatIsTakenInWords)
@@ -101,5 +101,5 @@ TEST_F(Branches, RefuseANameThatIsTakenInWords)
                      });
   startBranch("main");
   EXPECT_TRUE(words.contains("main")) << words.toStdString();
-  EXPECT_EQ(value().history.branches().size(), 1u);
+  EXPECT_EQ(value().dissection.history().branches().size(), 1u);
 }

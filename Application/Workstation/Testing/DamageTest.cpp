@@ -29,6 +29,26 @@ protected:
     stream.put(byte);
   }
 
+  // Three strokes through the middle of the ball, the second of which is then damaged; `applied` of
+  // them are.
+  void saveDamagedStroke(std::size_t applied)
+  {
+    saveBall("ball");
+    library::Library store = library();
+    scene::Case value = store.open("ball");
+    store.loadDissection(value);
+    const Eigen::Vector3d middle = value.ct.geometry.center();
+    for (int n = 0; n < 3; ++n)
+    {
+      value.dissection.beginStroke({});
+      value.dissection.cut({middle, middle + Eigen::Vector3d(n, 0, 0), 1.0});
+      value.dissection.endStroke();
+    }
+    value.dissection.undo(3 - applied);
+    store.save(value);
+    flipBit(value.dissection.strokes()[1]->object);
+  }
+
   Banner& banner() { return *window().findChild<Banner*>("damageBanner"); }
 };
 
@@ -48,7 +68,7 @@ TEST_F(Damage, OfTheCtIsToldAndNothingIsDrilled)
   EXPECT_FALSE(window().model().touching());
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
   EXPECT_TRUE(settled());
-  EXPECT_TRUE(window().model().value().strokes.empty());
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
 }
 
 TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)
@@ -60,12 +80,43 @@ TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)
   EXPECT_TRUE(banner().text().contains("'nerve' of case 'ball'")) << banner().text().toStdString();
   EXPECT_TRUE(window().model().ready());
   drill(600);
-  EXPECT_EQ(library().open("ball").strokes.size(), 1u);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
   // Nothing is reported for another case.
   auto* close = banner().findChild<QPushButton*>("dismissDamage");
   ASSERT_TRUE(close);
   close->click();
   EXPECT_FALSE(banner().isVisible());
+}
+
+TEST_F(Damage, OfAStrokeIsToldAndTheCaseOpensWithWhatIsSound)
+{
+  saveDamagedStroke(3);
+  openWindow();
+  ASSERT_TRUE(waitFor([this] { return banner().isVisible(); }));
+  EXPECT_TRUE(banner().text().contains("stroke 2 of case 'ball'")) << banner().text().toStdString();
+  EXPECT_TRUE(banner().text().contains("without its last 2 strokes"));
+  EXPECT_EQ(window().model().value().applied(), 1u);
+  EXPECT_TRUE(window().model().ready());
+  action("Redo")->trigger();
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(window().model().value().applied(), 1u);
+  drill(600);
+  const scene::Case saved = library().open("ball");
+  EXPECT_EQ(saved.applied(), 2u);
+  EXPECT_EQ(saved.dissection.strokes().size(), 4u) << "nothing is lost";
+  EXPECT_TRUE(saved.dissection.history().find("main~1"));
+}
+
+TEST_F(Damage, OfAStrokeThatIsUndoneHindersNothing)
+{
+  saveDamagedStroke(1);
+  openWindow();
+  ASSERT_TRUE(waitFor([this] { return banner().isVisible(); }));
+  EXPECT_TRUE(banner().text().contains("stroke 2 of case 'ball'")) << banner().text().toStdString();
+  EXPECT_FALSE(banner().text().contains("without its last"));
+  EXPECT_EQ(window().model().value().applied(), 1u);
+  drill(600);
+  EXPECT_EQ(library().open("ball").applied(), 2u);
 }
 
 // Taking up a tool after stopping the preparation resumes it.
@@ -92,5 +143,5 @@ TEST_F(Damage, APreparationThatWasStoppedIsDoneForATool)
   stop.stop();
   QApplication::setActiveWindow(&window()); // after the progress dialogs
   drill(600);
-  EXPECT_EQ(library().open("ball").strokes.size(), 1u);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
 }

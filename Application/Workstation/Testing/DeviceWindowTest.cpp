@@ -119,12 +119,12 @@ TEST_F(InputDevices, ASpaceMouseLeadsTheToolAlongTheViewAndDrillsWithItsButton)
                            [this]
                            {
                              return window().model().value().applied() > 0 ||
-                                    !window().model().value().dissection->mask().untouched();
+                                    !window().model().value().dissection.mask().untouched();
                            }));
   bench.play(capHeld(0, 350, 0, 0));
-  ASSERT_TRUE(waitFor([this] { return !window().model().value().strokes.empty(); }));
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().dissection.strokes().empty(); }));
   ASSERT_TRUE(settled()); // it is saved by another thread
-  EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
+  EXPECT_GT(library().open("ball").dissection.strokes().front()->info.removed, 0.0);
 }
 
 TEST_F(InputDevices, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInCharge)
@@ -137,21 +137,21 @@ TEST_F(InputDevices, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInChar
   ASSERT_TRUE(hasTool());
   QTest::keyPress(&view(), Qt::Key_Space);
   ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
-                           { return !window().model().value().dissection->mask().untouched(); }));
+                           { return !window().model().value().dissection.mask().untouched(); }));
   bench.play("unplug cap\n");
   ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
   EXPECT_TRUE(message().contains("unplugged")) << message().toStdString();
   EXPECT_TRUE(message().contains("The mouse leads the tool")) << message().toStdString();
   ASSERT_TRUE(settled());
   // One, or more if the cap's reports were late on a busy machine: a silent device ends a stroke.
-  const auto strokes = library().open("ball").strokes;
+  const auto strokes = library().open("ball").dissection.strokes();
   ASSERT_FALSE(strokes.empty());
-  EXPECT_GT(strokes.front().info.removed, 0.0);
+  EXPECT_GT(strokes.front()->info.removed, 0.0);
   QTest::keyRelease(&view(), Qt::Key_Space);
 
   EXPECT_TRUE(action("Drill")->isChecked());
   drill(600, 20);
-  EXPECT_EQ(library().open("ball").strokes.size(), strokes.size() + 1);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), strokes.size() + 1);
 }
 
 TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
@@ -261,7 +261,7 @@ TEST_F(InputDevices, AServerThatCannotBeUsedIsNamedAndTheWindowGoesOnMeanwhile)
   ASSERT_TRUE(waitFor([this] { return started("silent-" + serverName()); }));
   choose("Mouse");
   drill(500, 10);
-  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
 }
 
 TEST_F(InputDevices, APedalDrillsWithTheMouse)
@@ -274,13 +274,14 @@ TEST_F(InputDevices, APedalDrillsWithTheMouse)
   QTest::mouseMove(&view(), view().rect().center() + QPoint(2, 0));
   ASSERT_TRUE(hasTool());
   bench.play("await foot\nreport foot 02 00\n");
-  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
-  EXPECT_TRUE(window().model().value().strokes.empty());
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection.mask().untouched(); }));
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
   bench.play("report foot 00 00\n");
-  ASSERT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
+  ASSERT_TRUE(
+      waitFor([this] { return window().model().value().dissection.strokes().size() == 1; }));
   ASSERT_TRUE(settled());
-  EXPECT_GT(library().open("ball").strokes.front().info.removed, 0.0);
-  EXPECT_TRUE(library().open("ball").strokes.front().info.camera.has_value());
+  EXPECT_GT(library().open("ball").dissection.strokes().front()->info.removed, 0.0);
+  EXPECT_TRUE(library().open("ball").dissection.strokes().front()->info.camera.has_value());
 }
 
 // It is detected shortly after being plugged in; the mouse need not move for that.
@@ -295,9 +296,10 @@ TEST_F(InputDevices, APedalThatComesWhileTheBurrIsUpDrills)
   bench.play(kPlugFoot);
   ASSERT_TRUE(waitFor([this] { return message().contains("The pedal drills"); }));
   bench.play("await foot\nreport foot 02 00\n");
-  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection.mask().untouched(); }));
   bench.play("report foot 00 00\n");
-  EXPECT_TRUE(waitFor([this] { return window().model().value().strokes.size() == 1; }));
+  EXPECT_TRUE(
+      waitFor([this] { return window().model().value().dissection.strokes().size() == 1; }));
 }
 
 TEST_F(InputDevices, TheClutchHoldsTheMousesToolWhileThePointerGoes)

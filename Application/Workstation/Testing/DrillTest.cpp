@@ -28,11 +28,11 @@ TEST_F(Drill, AStrokeRemovesBoneAndIsSavedAtOnce)
   const QImage after = picture();
   EXPECT_GT(differentPixels(before, after, 12), 200);
   const auto saved = library().open("ball");
-  ASSERT_EQ(saved.strokes.size(), 1u);
+  ASSERT_EQ(saved.dissection.strokes().size(), 1u);
   EXPECT_EQ(saved.applied(), 1u);
-  EXPECT_GT(saved.strokes.front().info.removed, 0.5);
-  EXPECT_TRUE(saved.strokes.front().info.camera.has_value());
-  EXPECT_GT(saved.strokes.front().info.duration, 0.5);
+  EXPECT_GT(saved.dissection.strokes().front()->info.removed, 0.5);
+  EXPECT_TRUE(saved.dissection.strokes().front()->info.camera.has_value());
+  EXPECT_GT(saved.dissection.strokes().front()->info.duration, 0.5);
   EXPECT_FALSE(window().model().unsaved());
 }
 
@@ -44,7 +44,7 @@ TEST_F(Drill, ADragWithoutDrillModeCutsNothing)
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
   QTest::qWait(200);
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
-  EXPECT_TRUE(window().model().value().strokes.empty());
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
 }
 
 TEST_F(Drill, UndoBringsThePictureBackAndRedoTheHole)
@@ -87,7 +87,7 @@ TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
   QTest::qWait(500);
   QTest::keyRelease(&view(), Qt::Key_Space);
   EXPECT_TRUE(strokeEnds());
-  ASSERT_EQ(window().model().value().strokes.size(), 1u);
+  ASSERT_EQ(window().model().value().dissection.strokes().size(), 1u);
   EXPECT_GT(window().model().value().removedVolume(), 0.0);
 }
 
@@ -124,10 +124,10 @@ TEST_F(Drill, AnotherBurrIsTakenUpAndDrillsAWiderHole)
   window().findChild<QDoubleSpinBox*>("burrDiameter")->setValue(6.0);
   EXPECT_FALSE(window().model().touching()); // until the pointer is back
   drill(500);
-  const auto& strokes = window().model().value().strokes;
+  const auto& strokes = window().model().value().dissection.strokes();
   ASSERT_EQ(strokes.size(), 2u);
-  EXPECT_EQ(strokes.back().info.burr.diameter, 6.0);
-  EXPECT_GT(strokes.back().info.removed, 0.1);
+  EXPECT_EQ(strokes.back()->info.burr.diameter, 6.0);
+  EXPECT_GT(strokes.back()->info.removed, 0.1);
 }
 
 TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
@@ -150,12 +150,12 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   };
   turn(12); // 3 mm: through the air in front of the bone, and below its surface
   EXPECT_EQ(view().picture().camera().position, before.position);
-  EXPECT_TRUE(window().model().value().dissection->mask().untouched());
+  EXPECT_TRUE(window().model().value().dissection.mask().untouched());
   QTest::keyPress(&view(), Qt::Key_Space);
-  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection->mask().untouched(); }));
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection.mask().untouched(); }));
   QTest::keyRelease(&view(), Qt::Key_Space);
   EXPECT_TRUE(strokeEnds());
-  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
   QTest::keyClick(&view(), Qt::Key_M);
   turn(1); // zooms again
   EXPECT_NE(view().picture().camera().position, before.position);
@@ -288,7 +288,7 @@ TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
     EXPECT_EQ(atMiddle, 0) << "the burr leapt to the middle";
     QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, inside);
   }
-  EXPECT_TRUE(window().model().value().dissection->mask().untouched());
+  EXPECT_TRUE(window().model().value().dissection.mask().untouched());
 }
 
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
@@ -304,8 +304,8 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_TRUE(banner->text().contains("ball")) << banner->text().toStdString();
   EXPECT_TRUE(window().model().unsaved());
   EXPECT_TRUE(window().windowTitle().startsWith(QString::fromUtf8("•")));
-  EXPECT_EQ(window().model().value().strokes.size(), 1u);
-  EXPECT_TRUE(library().open("ball").strokes.empty());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  EXPECT_TRUE(library().open("ball").dissection.strokes().empty());
 
   // No modal dialog blocks the window; the next stroke cannot be saved either.
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
@@ -334,7 +334,8 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   banner->findChild<QPushButton*>("saveAsOther")->click();
   EXPECT_TRUE(settled());
   EXPECT_FALSE(banner->isVisible());
-  EXPECT_EQ(window().model().value().strokes.size(), library().open("ball 2").strokes.size());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(),
+            library().open("ball 2").dissection.strokes().size());
   EXPECT_TRUE(window().close());
 }
 
@@ -391,15 +392,15 @@ TEST_F(Drill, NoStrokeWaitsForTheDisk)
     EXPECT_TRUE(end());
     QTest::qWait(50);
   }
-  EXPECT_EQ(window().model().value().strokes.size(), 2u);
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 2u);
   EXPECT_TRUE(window().model().unsaved());
   EXPECT_TRUE(window().busy());
   action("Undo")->trigger(); // while it is being saved
   EXPECT_TRUE(waitFor([this] { return window().model().value().applied() == 1; }));
-  EXPECT_TRUE(library().open("ball").strokes.empty());
+  EXPECT_TRUE(library().open("ball").dissection.strokes().empty());
   ASSERT_EQ(::flock(lock, LOCK_UN), 0);
   EXPECT_TRUE(settled());
-  EXPECT_EQ(library().open("ball").strokes.size(), 2u);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 2u);
   // Later changes are saved when the window closes, which waits for it.
   closeWindow();
   EXPECT_EQ(library().open("ball").applied(), 1u);

@@ -47,7 +47,7 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
   drill(600);
   ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
   QTest::qWait(50);
-  EXPECT_EQ(library().open("ct").strokes.size(), 1u);
+  EXPECT_EQ(library().open("ct").dissection.strokes().size(), 1u);
 }
 
 TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
@@ -312,7 +312,7 @@ TEST_F(Import, ACtBeginsACaseAndTheOpenOneIsSafe)
   ASSERT_TRUE(waitFor([this] { return window().model().value().name == "ear"; }));
   EXPECT_TRUE(settled());
   const auto ball = library().open("ball");
-  EXPECT_EQ(ball.strokes.size(), 1u);
+  EXPECT_EQ(ball.dissection.strokes().size(), 1u);
   EXPECT_EQ(ball.applied(), 0u);
   EXPECT_EQ(library().list().size(), 2u) << "the second drop came while the first was read";
 }

@@ -100,11 +100,11 @@ TEST_F(Killed, AWindowLosesOnlyWhatItsJournalDoesNotHoldYet)
   m_victim.waitForFinished();
   const QString told = reopened();
   EXPECT_TRUE(told.contains("ended without saving")) << told.toStdString();
-  const auto strokes = library().open("ball").strokes;
+  const auto strokes = library().open("ball").dissection.strokes();
   ASSERT_EQ(strokes.size(), 2u);
-  EXPECT_FALSE(strokes[0].info.recovered);
-  EXPECT_TRUE(strokes[1].info.recovered);
-  EXPECT_GT(strokes[1].info.removed, strokes[0].info.removed);
+  EXPECT_FALSE(strokes[0]->info.recovered);
+  EXPECT_TRUE(strokes[1]->info.recovered);
+  EXPECT_GT(strokes[1]->info.removed, strokes[0]->info.removed);
   // It is shown, can be undone, and is reported once.
   EXPECT_EQ(window().model().value().applied(), 2u);
   const QImage drilled = picture();

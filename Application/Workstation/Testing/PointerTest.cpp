@@ -123,8 +123,8 @@ TEST_F(Pointer, CutsNothingWhateverAsksForTheDrill)
   EXPECT_NE(begin, tool());
   QTest::keyRelease(&view(), Qt::Key_Space);
   QTest::keyClick(&view(), Qt::Key_P);
-  EXPECT_TRUE(window().model().value().dissection->mask().untouched());
-  EXPECT_TRUE(window().model().value().strokes.empty());
+  EXPECT_TRUE(window().model().value().dissection.mask().untouched());
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
   EXPECT_TRUE(view().display().reading().isEmpty());
 }
 
@@ -148,5 +148,5 @@ TEST_F(Pointer, OneToolIsInTheHand)
   QApplication::sendEvent(&view(), &move);
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(40, 0));
   EXPECT_NE(view().picture().camera().position, before);
-  EXPECT_TRUE(window().model().value().strokes.empty());
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
 }

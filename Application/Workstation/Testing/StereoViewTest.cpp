@@ -253,7 +253,7 @@ TEST_F(PictureView, TheSurgeonDrillsInTheirOwnWindow)
     QTest::mouseRelease(&surgeon, Qt::LeftButton, Qt::NoModifier, middle);
     EXPECT_TRUE(strokeEnds());
   }
-  ASSERT_GE(window().model().value().strokes.size(), 1u);
+  ASSERT_GE(window().model().value().dissection.strokes().size(), 1u);
   EXPECT_GT(removed(), 0.1);
   closeWindow();
   EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }));
@@ -295,7 +295,7 @@ TEST_F(PictureView, TheWindowMayBeResizedWhileTheDrillIsOn)
   }
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
   EXPECT_TRUE(strokeEnds());
-  ASSERT_EQ(window().model().value().strokes.size(), 1u);
+  ASSERT_EQ(window().model().value().dissection.strokes().size(), 1u);
   const QImage image = picture();
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
 }

@@ -278,7 +278,7 @@ TEST_F(Window, WhatASlotThrowsIsToldAndTheWindowGoesOn)
   QTimer::singleShot(0, &window(), [] { throw 7; });
   EXPECT_TRUE(waitFor([banner] { return banner->text().contains("unexpected"); }));
   drill(300);
-  EXPECT_EQ(window().model().value().strokes.size(), 1u);
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
   banner->findChild<QPushButton*>("dismissFault")->click();
   EXPECT_FALSE(banner->isVisible());
 }
@@ -337,8 +337,8 @@ TEST_F(Window, CasesAreRenamedAndDeletedWhereTheyAreChosen)
   ASSERT_TRUE(settled());
   ASSERT_TRUE(window().model().hasCase());
   EXPECT_EQ(window().model().value().name, "third");
-  EXPECT_EQ(window().model().value().strokes.size(), 1u);
-  EXPECT_EQ(library().open("third").strokes.size(), 1u);
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  EXPECT_EQ(library().open("third").dissection.strokes().size(), 1u);
   EXPECT_FALSE(library().contains("first"));
 
   const auto remove = [&](const QString& name, const QString& answer)

@@ -432,7 +432,7 @@ void MainWindow::maskChanged(const core::IndexBox& box)
 {
   const auto& value = m_model.value();
   // Shared with the dissection: a single thread writes and renders.
-  m_view->display().maskChanged({value.dissection, &std::as_const(*value.dissection).mask()}, box);
+  m_view->display().maskChanged(value.dissection.sharedMask(), box);
   m_slices->maskChanged(box);
 }
 
@@ -471,10 +471,12 @@ void MainWindow::showView(rendering::StandardView view)
 void MainWindow::stepped(bool back)
 {
   const scene::Case& value = m_model.value();
-  const std::size_t stroke = back ? value.history.next() : value.history.position();
-  if (m_actions->strokeCamera->isChecked() && stroke < value.strokes.size() &&
-      value.strokes[stroke].info.camera)
-    m_view->setCamera(*value.strokes[stroke].info.camera);
+  const auto& strokes = value.dissection.strokes();
+  const dissection::History& history = value.dissection.history();
+  const std::size_t stroke = back ? history.next() : history.position();
+  if (m_actions->strokeCamera->isChecked() && stroke < strokes.size() &&
+      strokes[stroke]->info.camera)
+    m_view->setCamera(*strokes[stroke]->info.camera);
   statusBar()->showMessage(back ? tr("Stroke %1 undone").arg(value.applied() + 1)
                                 : tr("Stroke %1 drilled again").arg(value.applied()),
                            kMessage);

@@ -164,9 +164,9 @@ TEST(Dissection, WhatWasTakenElsewhereIsTakenAgainWithinAStroke)
   drill(work, {5, 5, 5}, {7, 5, 5});
   Dissection other(kGrid);
   other.beginStroke({});
-  other.cutAgain(work.strokes()[0]->packed);
+  other.cutAgain(*work.strokes()[0]->packed.get());
   EXPECT_EQ(other.openBricks().size(), 8u);
-  EXPECT_THROW(other.cutAgain(work.strokes()[0]->packed), core::InvalidParameter);
+  EXPECT_THROW(other.cutAgain(*work.strokes()[0]->packed.get()), core::InvalidParameter);
   other.endStroke();
   EXPECT_EQ(voxels(other.mask()), voxels(work.mask()));
   EXPECT_TRUE(other.undo());
@@ -182,7 +182,7 @@ TEST(Dissection, KeepsStrokesPacked)
   work.cut({{4, 9, 9}, {14, 9, 9}, 2.0});
   EXPECT_GE(work.historyBytes(), 0u);
   work.endStroke();
-  EXPECT_GE(work.historyBytes(), work.strokes()[0]->packed.size());
+  EXPECT_GE(work.historyBytes(), work.strokes()[0]->bytes);
   EXPECT_LT(work.historyBytes(), 64000u);
 }
 

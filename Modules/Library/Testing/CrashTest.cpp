@@ -89,8 +89,8 @@ TEST(Crash, KilledAtEachStepOfASaveIsTheOldCaseOrTheNew)
         scene::Case after = library.open("ear");
         ASSERT_NO_THROW(library.loadDissection(after)) << step;
         EXPECT_TRUE(library.verify().damaged.empty()) << step;
-        olds += after.strokes.empty();
-        EXPECT_TRUE(!ended || after.strokes.size() == 1);
+        olds += after.dissection.strokes().empty();
+        EXPECT_TRUE(!ended || after.dissection.strokes().size() == 1);
         after.iso = 111;
         library.save(after); // removes leftovers
         for (const auto& [name, content] : contentOf(library.folder()))
@@ -127,7 +127,7 @@ TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
     scene::Case value = test::savedCase(library, "ear", 16);
     Journal journal(library, value);
     drill(value, {8, 8, 8});
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
     journal.leave();
   }
   killedAtEachStep(
@@ -142,7 +142,7 @@ TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
         }
         scene::Case next = smallCase("ear", 16);
         library.save(next);
-        EXPECT_EQ(library.open("ear").strokes.size(), 0u) << step;
+        EXPECT_EQ(library.open("ear").dissection.strokes().size(), 0u) << step;
       });
 }
 
@@ -158,7 +158,6 @@ TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
     {
       const auto before = contentOf(folder.path());
       scene::Case next = value;
-      next.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
       drill(next, {3.0 + n, 8.0, 4.0 + static_cast<double>(call[0] % 7)});
       std::string told;
       library.onNotice([&told](const std::string& words) { told = words; });
@@ -184,7 +183,7 @@ TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
       else
       {
         ++saved;
-        EXPECT_EQ(after.strokes.size(), next.strokes.size()) << call << n;
+        EXPECT_EQ(after.dissection.strokes().size(), next.dissection.strokes().size()) << call << n;
         value = next;
       }
     }

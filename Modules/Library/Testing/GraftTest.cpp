@@ -38,7 +38,7 @@ protected:
 
   std::vector<std::uint16_t> voxels(const scene::Case& value) const
   {
-    const auto dense = std::as_const(*value.dissection).mask().dense();
+    const auto dense = value.dissection.mask().dense();
     return {dense.data(), dense.data() + dense.size()};
   }
 
@@ -68,15 +68,15 @@ TEST_F(Graft, KeepsBothStrokesAndWhatAnotherProgramSet)
   EXPECT_NE(m_library.saveDrilled(m_mine, m_base).find("branch 'main'"), std::string::npos);
   const scene::Case after = open();
   EXPECT_EQ(after.iso, 500);
-  EXPECT_EQ(after.strokes.size(), 3u);
-  EXPECT_EQ(after.history.branches().size(), 1u);
+  EXPECT_EQ(after.dissection.strokes().size(), 3u);
+  EXPECT_EQ(after.dissection.history().branches().size(), 1u);
   EXPECT_EQ(voxels(after), expected);
 }
 
 TEST_F(Graft, AnUndoBesideADrillCostsNeither)
 {
   scene::Case theirs = open();
-  scene::undo(theirs, 1);
+  theirs.dissection.undo();
   m_library.save(theirs);
   drill(m_mine, {10, 10, 10});
   const auto expected = voxels(m_mine);
@@ -94,16 +94,16 @@ TEST_F(Graft, TwoLinesOfStrokesBecomeTwoBranches)
   drill(theirs, {14, 14, 14});
   drill(theirs, {14, 14, 10});
   m_library.save(theirs);
-  scene::undo(m_mine, 1);
+  m_mine.dissection.undo();
   drill(m_mine, {10, 10, 10});
   const auto expected = voxels(m_mine);
   m_library.saveDrilled(m_mine, m_base);
   scene::Case after = open();
-  EXPECT_EQ(after.strokes.size(), 4u);
+  EXPECT_EQ(after.dissection.strokes().size(), 4u);
   EXPECT_EQ(voxels(after), expected);
   scene::goToBranch(after, "main");
   EXPECT_EQ(voxels(after), voxels(theirs));
-  EXPECT_EQ(after.history.find("main~1") != nullptr, true);
+  EXPECT_EQ(after.dissection.history().find("main~1") != nullptr, true);
 }
 
 TEST_F(Graft, ABranchThatWasDeletedMeanwhileMakesACaseOfItsOwn)
@@ -118,14 +118,14 @@ TEST_F(Graft, ABranchThatWasDeletedMeanwhileMakesACaseOfItsOwn)
   scene::Case after = m_library.open("ear drilled 1");
   m_library.loadDissection(after);
   EXPECT_EQ(voxels(after), expected);
-  EXPECT_EQ(m_library.open("ear").strokes.size(), 0u);
+  EXPECT_EQ(m_library.open("ear").dissection.strokes().size(), 0u);
 }
 
 TEST_F(Graft, AKilledDrillComesBackThoughAnotherProgramSavedTheCase)
 {
   Journal journal(m_library, m_base);
   drill(m_mine, {10, 10, 10});
-  journal.follow(*m_mine.dissection);
+  journal.follow(m_mine.dissection);
   scene::Case theirs = open();
   theirs.iso = 500;
   m_library.save(theirs);
@@ -137,6 +137,6 @@ TEST_F(Graft, AKilledDrillComesBackThoughAnotherProgramSavedTheCase)
   EXPECT_EQ(voxels(after), voxels(m_mine));
   EXPECT_NE(told.find("1 stroke came back"), std::string::npos) << told;
   told.clear();
-  EXPECT_EQ(open().strokes.size(), 2u) << "once";
+  EXPECT_EQ(open().dissection.strokes().size(), 2u) << "once";
   EXPECT_EQ(told, "");
 }

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::uint16_t> voxelsOf(const scene::Case& value)
 {
-  const auto dense = std::as_const(*value.dissection).mask().dense();
+  const auto dense = value.dissection.mask().dense();
   return {dense.data(), dense.data() + dense.size()};
 }
 
@@ -38,20 +38,20 @@ void drillStep(scene::Case& value, int step, int line)
   const auto at = [&](double i) {
     return value.ct.geometry.patientFromVoxel({2.0 + i, 3.0 + line, 4.0 + line});
   };
-  value.dissection->cut({at(step), at(step + 1), 0.7});
-  value.dissection->openInfo().duration += 0.5;
+  value.dissection.cut({at(step), at(step + 1), 0.7});
+  value.dissection.openInfo().duration += 0.5;
 }
 
 void drillLine(scene::Case& value, Journal& journal, int line, int steps)
 {
-  value.dissection->beginStroke({});
+  value.dissection.beginStroke({});
   for (int step = 0; step < steps; ++step)
   {
     drillStep(value, step, line);
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
   }
-  scene::endStroke(value);
-  journal.follow(*value.dissection);
+  value.dissection.endStroke();
+  journal.follow(value.dissection);
 }
 
 // The result of a kill: the files as they are now, in a separate library.
@@ -85,17 +85,17 @@ TEST(Journal, BringsBackStrokesThatWereNotSaved)
   Journal journal(library, value);
   drillLine(value, journal, 0, 4);
   drillLine(value, journal, 3, 4);
-  scene::undo(value, 1);
-  journal.follow(*value.dissection);
+  value.dissection.undo();
+  journal.follow(value.dissection);
   drillLine(value, journal, 6, 4);
 
   Killed killed(library);
   const scene::Case back = killed.open();
   EXPECT_EQ(voxelsOf(back), voxelsOf(value));
-  EXPECT_EQ(back.strokes.size(), 3u);
+  EXPECT_EQ(back.dissection.strokes().size(), 3u);
   EXPECT_EQ(back.applied(), 2u);
-  EXPECT_TRUE(back.history.find("main~1"));
-  EXPECT_FALSE(back.strokes[2].info.recovered) << "it had ended";
+  EXPECT_TRUE(back.dissection.history().find("main~1"));
+  EXPECT_FALSE(back.dissection.strokes()[2]->info.recovered) << "it had ended";
   EXPECT_FALSE(fs::exists(killed.journal()));
   ASSERT_EQ(killed.notices.size(), 1u);
   EXPECT_NE(killed.notices[0].find("3 strokes came back"), std::string::npos) << killed.notices[0];
@@ -118,21 +118,21 @@ TEST(Journal, LosesAtMostFiveSecondsOfALongStroke)
                     info.removed = info.duration; // 1 mm^3 per s
                     return info;
                   });
-  value.dissection->beginStroke({});
+  value.dissection.beginStroke({});
   std::vector<std::vector<std::uint16_t>> states;
   for (int step = 0; step < 34; ++step)
   {
     drillStep(value, step % 17, step / 17 * 6);
     states.push_back(voxelsOf(value));
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
   }
   Killed killed(library); // after 17 s
   const scene::Case back = killed.open();
   EXPECT_TRUE(voxelsOf(back) == states[26]) << "of 13.5 s: written every 4.5 s";
-  ASSERT_EQ(back.strokes.size(), 1u);
-  EXPECT_TRUE(back.strokes[0].info.recovered);
-  EXPECT_DOUBLE_EQ(back.strokes[0].info.duration, 13.5);
-  EXPECT_DOUBLE_EQ(back.strokes[0].info.removed, 13.5);
+  ASSERT_EQ(back.dissection.strokes().size(), 1u);
+  EXPECT_TRUE(back.dissection.strokes()[0]->info.recovered);
+  EXPECT_DOUBLE_EQ(back.dissection.strokes()[0]->info.duration, 13.5);
+  EXPECT_DOUBLE_EQ(back.dissection.strokes()[0]->info.removed, 13.5);
   EXPECT_NE(killed.notices.at(0).find(" s of a stroke"), std::string::npos);
 }
 
@@ -145,7 +145,7 @@ TEST(Journal, IsThereOnlyWhileSomethingIsNotSaved)
   const fs::path path = folder.path() / "cases/ear.journal";
   {
     Journal journal(library, value);
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
     EXPECT_EQ(contentOf(folder.path()), before);
     drillLine(value, journal, 0, 3);
     EXPECT_TRUE(fs::exists(path));
@@ -168,13 +168,13 @@ TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
   Journal journal(library, value);
   drillLine(value, journal, 0, 4);
   scene::Case snapshot = value;
-  snapshot.dissection = nullptr;
+  snapshot.dissection.unload();
   drillLine(value, journal, 3, 4);
-  value.dissection->beginStroke({});
+  value.dissection.beginStroke({});
   for (int step = 0; step < 11; ++step)
   {
     drillStep(value, step, 6);
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
   }
   const std::size_t all = journal.bytes();
   library.save(snapshot);
@@ -185,8 +185,8 @@ TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
   const auto expected = voxelsOf(between.open());
   EXPECT_EQ(voxelsOf(after.open()), expected);
   const scene::Case back = after.open();
-  EXPECT_EQ(back.strokes.size(), 3u);
-  EXPECT_TRUE(back.strokes[2].info.recovered);
+  EXPECT_EQ(back.dissection.strokes().size(), 3u);
+  EXPECT_TRUE(back.dissection.strokes()[2]->info.recovered);
   for (auto* killed : {&between, &after})
     for (const auto& [name, content] : contentOf(killed->folder.path()))
       EXPECT_EQ(name.find("journal"), std::string::npos) << name;
@@ -201,7 +201,7 @@ TEST(Journal, IsLeftAloneWhileItsProgramRuns)
   drillLine(value, journal, 0, 4);
   const auto before = contentOf(folder.path());
   scene::Case other = library.open("ear");
-  EXPECT_EQ(other.strokes.size(), 0u);
+  EXPECT_EQ(other.dissection.strokes().size(), 0u);
   EXPECT_EQ(contentOf(folder.path()), before);
   library.loadDissection(other);
   try
@@ -233,7 +233,7 @@ TEST(Journal, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
       fs::copy(elsewhere.path() / part, killed.folder.path() / part,
                fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
-  EXPECT_EQ(killed.open().strokes.size(), 0u);
+  EXPECT_EQ(killed.open().dissection.strokes().size(), 0u);
   ASSERT_EQ(killed.notices.size(), 1u);
   EXPECT_NE(killed.notices[0].find("ear.journal.aside-1"), std::string::npos) << killed.notices[0];
   EXPECT_TRUE(fs::exists(killed.folder.path() / "cases/ear.journal.aside-1"));
@@ -255,7 +255,8 @@ TEST(Journal, ADamagedEndCostsOnlyTheEnd)
     Killed killed(library);
     fs::resize_file(killed.journal(), size);
     const scene::Case back = killed.open();
-    EXPECT_EQ(back.strokes.size() == 2 ? voxelsOf(value) : first, voxelsOf(back)) << size;
+    EXPECT_EQ(back.dissection.strokes().size() == 2 ? voxelsOf(value) : first, voxelsOf(back))
+        << size;
     EXPECT_EQ(killed.notices.at(0).find("not whole") == std::string::npos, size == good);
   }
 }
@@ -273,7 +274,7 @@ TEST(Journal, OneThatFitsNothingIsSetAside)
   {
     Killed killed(library);
     std::ofstream(killed.journal(), std::ios::binary) << journalBytes;
-    EXPECT_EQ(killed.open().strokes.size(), 0u);
+    EXPECT_EQ(killed.open().dissection.strokes().size(), 0u);
     EXPECT_EQ(contentOf(killed.folder.path()).at("cases/ear.journal.aside-1"), journalBytes);
     EXPECT_EQ(killed.notices.size(), 1u);
   };
@@ -353,8 +354,8 @@ TEST(Journal, AFullDiskIsToldAndARetryWorks)
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(words.find("disk is full"), std::string::npos) << words;
   EXPECT_EQ(then, before);
-  EXPECT_EQ(value.strokes.size(), 2u) << "the stroke is still there";
-  journal.follow(*value.dissection);
+  EXPECT_EQ(value.dissection.strokes().size(), 2u) << "the stroke is still there";
+  journal.follow(value.dissection);
   Killed killed(library);
   EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
 }
@@ -369,7 +370,7 @@ TEST(Journal, WhatCannotBeBroughtBackNowStays)
   Killed killed(library);
   fs::rename(killed.folder.path() / "objects", killed.folder.path() / "gone");
   std::ofstream(killed.folder.path() / "objects") << "a file stands here";
-  EXPECT_EQ(killed.library.open("ear").strokes.size(), 0u);
+  EXPECT_EQ(killed.library.open("ear").dissection.strokes().size(), 0u);
   EXPECT_NE(killed.notices.at(0).find("stays there"), std::string::npos);
   fs::remove(killed.folder.path() / "objects");
   fs::rename(killed.folder.path() / "gone", killed.folder.path() / "objects");
@@ -389,12 +390,12 @@ void session(Library& library, scene::Case& value, Each each)
   double seconds = 0.0;
   const auto changed = [&]
   {
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
     each(seconds, value);
   };
   for (int stroke = 0; seconds < 120.0; ++stroke)
   {
-    value.dissection->beginStroke({});
+    value.dissection.beginStroke({});
     const int length = 1 + static_cast<int>(random() % 17);
     for (int n = 0; n < length; ++n)
     {
@@ -402,7 +403,7 @@ void session(Library& library, scene::Case& value, Each each)
       seconds += 0.5;
       changed();
     }
-    scene::endStroke(value);
+    value.dissection.endStroke();
     changed();
     switch (random() % 6)
     {
@@ -411,17 +412,19 @@ void session(Library& library, scene::Case& value, Each each)
       journal.saved(value);
       break;
     case 1:
-      scene::undo(value, 1 + random() % 2);
+      value.dissection.undo(1 + random() % 2);
       break;
     case 2:
-      scene::redo(value, 1);
+      value.dissection.redo();
       break;
     case 3:
       scene::startBranch(value, "b" + std::to_string(stroke), random() % (value.applied() + 1));
       break;
     case 4:
       scene::goToBranch(value,
-                        value.history.branches()[random() % value.history.branches().size()].name);
+                        value.dissection.history()
+                            .branches()[random() % value.dissection.history().branches().size()]
+                            .name);
       break;
     default:
       break;

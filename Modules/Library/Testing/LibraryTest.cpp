@@ -62,17 +62,39 @@ TEST(Library, StrokesComeBackAfterReopening)
   drill(value, {8, 8, 8});
   drill(value, {14, 8, 8});
   drill(value, {14, 14, 8});
-  scene::undo(value, 1);
+  value.dissection.undo();
   library.save(value);
 
   scene::Case back = library.open("ear");
   EXPECT_EQ(back.applied(), 2u);
-  EXPECT_EQ(back.strokes.size(), 3u);
+  EXPECT_EQ(back.dissection.strokes().size(), 3u);
   library.loadDissection(back);
-  EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));
-  scene::redo(back, 1);
-  scene::redo(value, 1);
-  EXPECT_TRUE(sameVoxels(back.dissection->mask(), value.dissection->mask()));
+  EXPECT_TRUE(sameVoxels(back.dissection.mask(), value.dissection.mask()));
+  back.dissection.redo();
+  value.dissection.redo();
+  EXPECT_TRUE(sameVoxels(back.dissection.mask(), value.dissection.mask()));
+}
+
+TEST(Library, ReadsTheVoxelsOfAppliedStrokesOnly)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = test::savedCase(library);
+  test::drill(value, {4, 4, 4});
+  test::drill(value, {12, 4, 4});
+  value.dissection.undo();
+  library.save(value);
+  scene::Case back = library.open("ear");
+  const auto resident = [&back](std::size_t n)
+  { return back.dissection.strokes()[n]->packed.peek() != nullptr; };
+  EXPECT_EQ(back.dissection.strokes()[1]->bytes, value.dissection.strokes()[1]->bytes);
+  EXPECT_FALSE(back.dissection.loaded());
+  EXPECT_FALSE(resident(0));
+  library.loadDissection(back);
+  EXPECT_TRUE(resident(0));
+  EXPECT_FALSE(resident(1));
+  EXPECT_EQ(back.dissection.redo(), 1u);
+  EXPECT_TRUE(resident(1));
 }
 
 TEST(Library, StoresOneCtForManyCases)
@@ -134,7 +156,7 @@ TEST(Library, RefusesToOverwriteWhatAnotherProgramSaved)
   drill(mine, {8, 8, 8});
   EXPECT_EQ(refusal([&] { library.save(mine); }).first, LibraryError::Reason::Conflict);
   EXPECT_EQ(contentOf(folder.path()), before);
-  EXPECT_EQ(mine.strokes.size(), 1u) << "the work is still in memory";
+  EXPECT_EQ(mine.dissection.strokes().size(), 1u) << "the work is still in memory";
 }
 
 TEST(Library, NamesTheCasesThereAreWhenOneIsMissing)
@@ -217,10 +239,10 @@ TEST(Library, AFullDiskLeavesTheCaseAsItWas)
       }
     }
     EXPECT_EQ(refusal([&] { library.save(value); }).first, LibraryError::Reason::DiskFull);
-    EXPECT_EQ(library.open("ear").strokes.size(), 0u);
+    EXPECT_EQ(library.open("ear").dissection.strokes().size(), 0u);
     std::filesystem::remove(disk / "filler");
     library.save(value);
-    EXPECT_EQ(library.open("ear").strokes.size(), 1u);
+    EXPECT_EQ(library.open("ear").dissection.strokes().size(), 1u);
   }
   ::umount2(disk.c_str(), MNT_DETACH);
 }
@@ -255,7 +277,7 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
   std::mt19937 random(23);
   for (int round = 0; round < 25; ++round)
   {
-    const std::size_t before = library.open("ear").strokes.size();
+    const std::size_t before = library.open("ear").dissection.strokes().size();
     const pid_t child = ::fork();
     if (child == 0)
     {
@@ -281,7 +303,7 @@ TEST(Library, KilledWhileSavingKeepsTheOldStateOrTheNew)
 
     ASSERT_EQ(library.list().size(), 1u);
     scene::Case after = library.open("ear");
-    EXPECT_GE(after.strokes.size(), before);
+    EXPECT_GE(after.dissection.strokes().size(), before);
     ASSERT_NO_THROW(library.loadDissection(after)) << "round " << round;
     EXPECT_EQ(after.ct.volume.get()->at(3, 0, 0), 403.0);
   }

@@ -80,7 +80,7 @@ TEST_F(Maintenance, RenamesWithoutTouchingAnotherCase)
   EXPECT_EQ(contentOf(m_folder.path()), before);
   m_library.rename("a", "c");
   EXPECT_FALSE(m_library.contains("a"));
-  EXPECT_EQ(m_library.open("c").strokes.size(), 1u);
+  EXPECT_EQ(m_library.open("c").dissection.strokes().size(), 1u);
   EXPECT_EQ(m_library.list().at(1).name, "c");
   // A program that opened it under its old name gets an error, and does not write a second case.
   EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
@@ -95,9 +95,9 @@ TEST_F(Maintenance, ACopyIsACaseOfItsOwnAndSharesTheObjects)
   m_library.copy("a", "b");
   EXPECT_EQ(m_library.verify().objects, objects);
   scene::Case copy = m_library.open("b");
-  EXPECT_EQ(copy.strokes.size(), 1u);
+  EXPECT_EQ(copy.dissection.strokes().size(), 1u);
   EXPECT_EQ(copy.revision, 1u);
-  scene::undo(copy, 1);
+  copy.dissection.undo();
   m_library.save(copy);
   EXPECT_EQ(m_library.open("a").applied(), 1u);
   EXPECT_EQ(refusal([&] { m_library.copy("a", "b"); }).first, LibraryError::Reason::NameTaken);
@@ -151,10 +151,10 @@ TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
   {
     Journal journal(m_library, value);
     drill(value, {4, 8, 8});
-    journal.follow(*value.dissection);
+    journal.follow(value.dissection);
     journal.leave();
   }
-  const fs::path stroke = object(value.strokes[0].object);
+  const fs::path stroke = object(value.dissection.strokes()[0]->object);
   fs::rename(stroke, m_folder.path() / "gone");
   const auto before = contentOf(m_folder.path());
   const auto [reason, words] = refusal([&] { m_library.rename("a", "b"); });
@@ -163,7 +163,7 @@ TEST_F(Maintenance, ACaseIsNotRenamedAwayFromAJournalThatCannotBeBroughtBack)
   EXPECT_EQ(contentOf(m_folder.path()), before);
   fs::rename(m_folder.path() / "gone", stroke);
   m_library.rename("a", "b");
-  EXPECT_EQ(m_library.open("b").strokes.size(), 2u);
+  EXPECT_EQ(m_library.open("b").dissection.strokes().size(), 2u);
 }
 
 // A process that only inspects the journal, as on opening the case, does not count as drilling.
@@ -201,7 +201,7 @@ TEST_F(Maintenance, DeletionTakesJournalsAlong)
   scene::Case value = make("a");
   Journal journal(m_library, value);
   drill(value, {8, 8, 8});
-  journal.follow(*value.dissection);
+  journal.follow(value.dissection);
   journal.leave();
   std::ofstream(m_folder.path() / "cases/a.journal.aside-1") << "x";
   m_library.remove("a");
@@ -229,7 +229,7 @@ TEST_F(Maintenance, OneFlippedBitOfAnyObjectIsFound)
                          [](scene::Case& c) { c.labels[0].labels.get(); }},
                         {value.meshes[0].object, "mesh 'incus' of case 'a'",
                          [](scene::Case& c) { c.meshes[0].mesh.get(); }},
-                        {value.strokes[0].object, "stroke 1 of case 'a'",
+                        {value.dissection.strokes()[0]->object, "stroke 1 of case 'a'",
                          [this](scene::Case& c) { m_library.loadDissection(c); }}};
   for (const Part& part : parts)
   {
@@ -371,11 +371,11 @@ TEST_F(Maintenance, RepairBringsStrokesBackAndMakesTheIndexAgain)
   scene::Case value = make("a");
   Journal journal(m_library, value);
   drill(value, {8, 8, 8});
-  journal.follow(*value.dissection);
+  journal.follow(value.dissection);
   journal.leave();
   std::ofstream(m_folder.path() / "library.sqlite") << "no database";
   EXPECT_EQ(m_library.repair().size(), 2u);
-  EXPECT_EQ(m_library.open("a").strokes.size(), 1u);
+  EXPECT_EQ(m_library.open("a").dissection.strokes().size(), 1u);
   std::ifstream index(m_folder.path() / "library.sqlite", std::ios::binary);
   std::string magic(6, ' ');
   index.read(magic.data(), 6);

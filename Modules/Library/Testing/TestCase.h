@@ -102,10 +102,10 @@ std::pair<LibraryError::Reason, std::string> refusal(const Action& action)
 inline void drill(scene::Case& value, const Eigen::Vector3d& voxel)
 {
   const Eigen::Vector3d p = value.ct.geometry.patientFromVoxel(voxel);
-  value.dissection->beginStroke({});
-  value.dissection->cut({p, p + Eigen::Vector3d(0.5, 0, 0), 1.0});
-  value.dissection->openInfo().removed = 4.0;
-  scene::endStroke(value);
+  value.dissection.beginStroke({});
+  value.dissection.cut({p, p + Eigen::Vector3d(0.5, 0, 0), 1.0});
+  value.dissection.openInfo().removed = 4.0;
+  value.dissection.endStroke();
 }
 
 /// Every file below a folder with its content, except the lock and the index.

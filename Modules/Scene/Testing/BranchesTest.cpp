@@ -2,6 +2,7 @@
 
 #include "DrilledCase.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Volume/MaskComparison.h"
 
 using namespace petrous;
 using scene::test::drill;
@@ -12,11 +13,11 @@ namespace
 
 void expectTogether(const scene::Case& value)
 {
-  ASSERT_TRUE(value.dissection);
-  EXPECT_EQ(value.history.position(), value.dissection->history().position());
-  EXPECT_EQ(value.history.branch().name, value.dissection->history().branch().name);
-  EXPECT_EQ(value.strokes.size(), value.dissection->strokes().size());
-  EXPECT_EQ(value.history.size(), value.strokes.size());
+  const dissection::Dissection& work = value.dissection;
+  ASSERT_TRUE(work.loaded());
+  ASSERT_EQ(work.history().size(), work.strokes().size());
+  const dissection::Dissection again(value.ct.geometry, work.strokes(), work.history());
+  EXPECT_EQ(volume::differentVoxels(work.mask(), again.mask()), 0u);
 }
 
 } // namespace
@@ -24,10 +25,10 @@ void expectTogether(const scene::Case& value)
 TEST(Branches, ANewStrokeKeepsTheUndoneInTheList)
 {
   scene::Case value = drilledCase(3);
-  scene::undo(value, 2);
+  value.dissection.undo(2);
   drill(value, {4, 4, 8}, 5.0);
   expectTogether(value);
-  EXPECT_EQ(value.strokes.size(), 4u);
+  EXPECT_EQ(value.dissection.strokes().size(), 4u);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 15.0);
   scene::goToBranch(value, "main~1");
   expectTogether(value);
@@ -37,16 +38,16 @@ TEST(Branches, ANewStrokeKeepsTheUndoneInTheList)
 TEST(Branches, BeginWhereOneIsOrAfterSoManyStrokes)
 {
   scene::Case value = drilledCase(3);
-  scene::undo(value, 1);
+  value.dissection.undo();
   scene::startBranch(value, "here");
   EXPECT_EQ(value.applied(), 2u);
-  EXPECT_EQ(value.history.ahead(), 0u);
+  EXPECT_EQ(value.dissection.history().ahead(), 0u);
   scene::goToBranch(value, "main");
-  EXPECT_EQ(value.history.ahead(), 1u);
+  EXPECT_EQ(value.dissection.history().ahead(), 1u);
   scene::startBranch(value, "all", 3);
   EXPECT_EQ(value.applied(), 3u);
   scene::startBranch(value, "none", 0);
-  EXPECT_TRUE(std::as_const(*value.dissection).mask().untouched());
+  EXPECT_TRUE(value.dissection.mask().untouched());
   expectTogether(value);
   EXPECT_THROW(scene::startBranch(value, "x", 1), core::InvalidParameter);
   EXPECT_THROW(scene::startBranch(value, "all"), core::InvalidParameter);
@@ -58,11 +59,11 @@ TEST(Branches, BeginWhereOneIsOrAfterSoManyStrokes)
 TEST(Branches, NeedNoVoxels)
 {
   scene::Case value = drilledCase(3);
-  value.dissection = nullptr;
+  value.dissection.unload();
   scene::startBranch(value, "other", 1);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 10.0);
   scene::renameBranch(value, "other", "antrum first");
-  EXPECT_EQ(value.history.branch().name, "antrum first");
+  EXPECT_EQ(value.dissection.history().branch().name, "antrum first");
 }
 
 TEST(Branches, RemovalTakesWhatNothingElseLeadsTo)
@@ -75,15 +76,21 @@ TEST(Branches, RemovalTakesWhatNothingElseLeadsTo)
   EXPECT_EQ(scene::removeBranch(value, "other"), 1u);
   expectTogether(value);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 24.0);
-  EXPECT_EQ(scene::undo(value, 9), 3u);
-  EXPECT_TRUE(std::as_const(*value.dissection).mask().untouched());
+  EXPECT_EQ(value.dissection.undo(9), 3u);
+  EXPECT_TRUE(value.dissection.mask().untouched());
 }
 
 TEST(Branches, TellWhatEachTook)
 {
   scene::Case value = drilledCase(2);
-  value.strokes[0].info.structures = {{"nerve", 0.25}, {"sinus", 1.0}};
-  value.strokes[1].info.structures = {{"nerve", 0.5}};
+  dissection::Dissection& work = value.dissection;
+  dissection::Stroke a = *work.strokes()[0];
+  dissection::Stroke b = *work.strokes()[1];
+  a.info.structures = {{"nerve", 0.25}, {"sinus", 1.0}};
+  b.info.structures = {{"nerve", 0.5}};
+  work = dissection::Dissection({std::make_shared<const dissection::Stroke>(a),
+                                 std::make_shared<const dissection::Stroke>(b)},
+                                work.history());
   const auto both = scene::summaryOf(value, 1);
   EXPECT_EQ(both.strokes, 2u);
   EXPECT_DOUBLE_EQ(both.removed, 21.0);

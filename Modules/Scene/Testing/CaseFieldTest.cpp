@@ -110,14 +110,14 @@ TEST(CaseField, KeepsRigidStructuresBesideSoftOnes)
 TEST(CaseField, FollowsTheCutAsItGoesOn)
 {
   scene::Case value = cubeInAir(true, true);
-  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  value.dissection = dissection::Dissection(value.ct.geometry);
   const auto field = scene::tissueField(value);
   EXPECT_GT(field.value(kInside), 0.0);
-  value.dissection->beginStroke({});
-  value.dissection->cut({kInside, kInside, 1.5});
+  value.dissection.beginStroke({});
+  value.dissection.cut({kInside, kInside, 1.5});
   EXPECT_LT(field.value(kInside), 0.0);
-  scene::endStroke(value);
-  scene::undo(value, 1);
+  value.dissection.endStroke();
+  value.dissection.undo();
   EXPECT_GT(field.value(kInside), 0.0);
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "DrilledCase.h"
+#include "petrous/Volume/MaskComparison.h"
 
 using namespace petrous;
 using scene::test::drilledCase;
@@ -28,21 +29,39 @@ TEST(Case, UndoAndRedoMoveListAndVoxelsTogether)
 {
   scene::Case value = drilledCase(3);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 33.0);
-  EXPECT_EQ(scene::undo(value, 2), 2u);
-  EXPECT_EQ(value.dissection->applied(), 1u);
+  EXPECT_EQ(value.dissection.undo(2), 2u);
+  EXPECT_EQ(value.dissection.applied(), 1u);
   EXPECT_DOUBLE_EQ(value.removedVolume(), 10.0);
-  EXPECT_EQ(scene::redo(value, 9), 2u);
-  EXPECT_EQ(value.dissection->applied(), 3u);
-  EXPECT_EQ(scene::undo(value, 9), 3u);
-  EXPECT_EQ(scene::undo(value, 1), 0u);
+  EXPECT_EQ(value.dissection.redo(9), 2u);
+  EXPECT_EQ(value.dissection.applied(), 3u);
+  EXPECT_EQ(value.dissection.undo(9), 3u);
+  EXPECT_EQ(value.dissection.undo(), 0u);
 }
 
 TEST(Case, UndoNeedsNoVoxels)
 {
   scene::Case value = drilledCase(2);
-  value.dissection = nullptr;
-  EXPECT_EQ(scene::undo(value, 1), 1u);
+  value.dissection.unload();
+  EXPECT_EQ(value.dissection.undo(), 1u);
   EXPECT_EQ(value.applied(), 1u);
+}
+
+TEST(Case, ACopyIsTheCaseAtThatMoment)
+{
+  scene::Case value = drilledCase(2);
+  const auto shown = value.dissection.sharedMask();
+  scene::Case copy = value;
+  scene::test::drill(value, {12, 4, 8}, 1.0);
+  value.dissection.undo(2);
+  EXPECT_EQ(copy.applied(), 2u);
+  EXPECT_EQ(copy.dissection.strokes().size(), 2u);
+  const scene::Case before = drilledCase(2);
+  EXPECT_EQ(volume::differentVoxels(copy.dissection.mask(), before.dissection.mask()), 0u);
+  // A picture of the case stays one of the case.
+  EXPECT_EQ(volume::differentVoxels(*shown, value.dissection.mask()), 0u);
+  value = std::move(copy);
+  EXPECT_EQ(volume::differentVoxels(*shown, before.dissection.mask()), 0u);
+  EXPECT_EQ(value.dissection.sharedMask(), shown);
 }
 
 TEST(Case, RemovesPartsByNameAndEmptyMapsWithThem)

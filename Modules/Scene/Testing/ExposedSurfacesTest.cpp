@@ -43,7 +43,7 @@ scene::Case twoBalls()
     part.structures.push_back(structure);
   }
   value.labels = {part};
-  value.dissection = std::make_shared<dissection::Dissection>(grid);
+  value.dissection = dissection::Dissection(grid);
   return value;
 }
 
@@ -53,12 +53,12 @@ TEST(ExposedSurfaces, TellTheStructureThatWasReachedAndItsArea)
 {
   scene::Case value = twoBalls();
   EXPECT_TRUE(scene::exposedSurfaces(value).empty());
-  value.dissection->beginStroke({});
+  value.dissection.beginStroke({});
   // A large burr: nearly a plane 1 mm above the centre of the left ball.
   const double reach = 4.0;
   const Vector3d burr = kLeft + Vector3d(0.0, 0.0, 1.0 + reach);
-  value.dissection->cut({burr, burr, reach});
-  const auto stroke = scene::endStroke(value);
+  value.dissection.cut({burr, burr, reach});
+  const auto stroke = value.dissection.endStroke();
   ASSERT_TRUE(stroke);
   const auto exposed = scene::exposedSurfaces(value);
   ASSERT_EQ(exposed.size(), 1U);
@@ -68,14 +68,13 @@ TEST(ExposedSurfaces, TellTheStructureThatWasReachedAndItsArea)
   const double height = (d * d + kRadius * kRadius - reach * reach) / (2.0 * d);
   EXPECT_NEAR(exposed[0].area / (2.0 * kPi * kRadius * (kRadius - height)), 1.0, 0.08);
   const volume::CutMask before(value.ct.geometry);
-  const auto both =
-      scene::exposedSurfaces(value, {&before, &std::as_const(*value.dissection).mask()});
+  const auto both = scene::exposedSurfaces(value, {&before, &value.dissection.mask()});
   ASSERT_EQ(both.size(), 2u);
   EXPECT_TRUE(both[0].empty()) << "another state";
   ASSERT_EQ(both[1].size(), exposed.size());
   EXPECT_EQ(both[1].front().area, exposed.front().area);
-  scene::undo(value, 1);
+  value.dissection.undo();
   EXPECT_TRUE(scene::exposedSurfaces(value).empty());
-  value.dissection.reset();
+  value.dissection.unload();
   EXPECT_THROW(scene::exposedSurfaces(value), core::InvalidParameter);
 }

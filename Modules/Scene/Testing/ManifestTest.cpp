@@ -70,7 +70,7 @@ scene::Case fullCase()
   core::CameraPose camera;
   camera.parallelScale = 33.0;
   value.camera = camera;
-  scene::StrokePart stroke;
+  dissection::Stroke stroke;
   stroke.object = "jkl.stroke";
   stroke.bytes = 1234;
   stroke.info.startedAt = "2026-01-01T00:00:00Z";
@@ -79,12 +79,13 @@ scene::Case fullCase()
   stroke.info.structures = {{"nerve", 0.25}};
   stroke.info.camera = core::CameraPose{};
   stroke.info.recovered = true;
-  value.strokes = {stroke, stroke, stroke};
-  value.history = dissection::History::line(1, 1);
-  value.history.start("zweiter Zugang ü", 0);
-  value.history.add();
-  value.history.add();
-  value.history.undo();
+  auto history = dissection::History::line(1, 1);
+  history.start("zweiter Zugang ü", 0);
+  history.add();
+  history.add();
+  history.undo();
+  const auto listed = std::make_shared<const dissection::Stroke>(stroke);
+  value.dissection = dissection::Dissection({listed, listed, listed}, history);
   return value;
 }
 
@@ -99,7 +100,7 @@ TEST(Manifest, ComesBackAsItWent)
   EXPECT_EQ(back.iso, value.iso);
   EXPECT_EQ(back.ct.geometry.spacing(), value.ct.geometry.spacing());
   EXPECT_EQ(back.ct.geometry.origin(), value.ct.geometry.origin());
-  EXPECT_EQ(back.strokes[0].info.removed, 1.0 / 7.0);
+  EXPECT_EQ(back.dissection.strokes()[0]->info.removed, 1.0 / 7.0);
   EXPECT_FALSE(back.labels[0].structures[0].look.touchable);
   EXPECT_EQ(back.labels[0].structures[0].voxels, 123456789012ULL);
   EXPECT_LT((back.mr[0].mrFromCt.matrix() - value.mr[0].mrFromCt.matrix()).norm(), 1e-15);
@@ -220,12 +221,13 @@ TEST(Manifest, RefusesADamagedTransferFunctionByName)
 TEST(Manifest, KeepsTheTreeOfStrokes)
 {
   const scene::Case back = scene::fromManifest(scene::toManifest(fullCase()), "m.json");
-  EXPECT_EQ(back.history.branch().name, "zweiter Zugang ü");
-  EXPECT_EQ(back.history.lineTo(back.history.branch().tip), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(back.dissection.history().branch().name, "zweiter Zugang ü");
+  EXPECT_EQ(back.dissection.history().lineTo(back.dissection.history().branch().tip),
+            (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(back.applied(), 2u);
-  EXPECT_EQ(back.history.ahead(), 1u);
-  EXPECT_EQ(back.history.find("main")->tip, 0u);
-  EXPECT_TRUE(back.strokes[1].info.recovered);
+  EXPECT_EQ(back.dissection.history().ahead(), 1u);
+  EXPECT_EQ(back.dissection.history().find("main")->tip, 0u);
+  EXPECT_TRUE(back.dissection.strokes()[1]->info.recovered);
 }
 
 // The history of the first format: a list and a count.
@@ -236,9 +238,9 @@ TEST(Manifest, OpensOneWithoutBranches)
   j["dissection"].erase("history");
   j["dissection"]["applied"] = 2;
   const scene::Case back = scene::fromManifest(j.dump(), "m.json");
-  EXPECT_EQ(back.history.branch().name, "main");
+  EXPECT_EQ(back.dissection.history().branch().name, "main");
   EXPECT_EQ(back.applied(), 2u);
-  EXPECT_EQ(back.history.ahead(), 1u);
+  EXPECT_EQ(back.dissection.history().ahead(), 1u);
   j["dissection"]["applied"] = 4;
   EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError);
 }
@@ -291,9 +293,9 @@ TEST(Manifest, RefusesEveryTruncation)
 TEST(Manifest, RefusesWhatContradictsItself)
 {
   scene::Case value = fullCase();
-  value.history.add();
-  EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "m.json"), scene::ManifestError);
-  value = fullCase();
+  auto j = nlohmann::json::parse(scene::toManifest(value));
+  j["dissection"]["strokes"].erase(0);
+  EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError);
   value.name = "../escape";
   EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "m.json"), scene::ManifestError);
 }

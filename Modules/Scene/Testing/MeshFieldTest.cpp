@@ -141,11 +141,11 @@ TEST(MeshField, LetsTheDrillTakeItAndNamesWhatWasTaken)
   scene::Case value = barInAir();
   value.meshes[0].mesh = std::make_shared<const core::TriangleMesh>(
       box({2.0, 5.25, 5.25}, {10.0, 6.25, 6.25})); // eight quadrature points thick
-  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  value.dissection = dissection::Dissection(value.ct.geometry);
   const auto field = scene::tissueField(value);
   const auto structures = scene::drillableStructures(value);
   EXPECT_TRUE(scene::protectedTissue(value).empty());
-  auto& work = *value.dissection;
+  auto& work = value.dissection;
   work.beginStroke({});
   work.cut({kInside, kInside, 1.5}, {});
   EXPECT_LT(field.value(kInside), 0.0);
@@ -163,13 +163,13 @@ TEST(MeshField, IsLeftByTheDrillWhereItMayNotBeDrilled)
 {
   scene::Case value = barInAir();
   value.meshes[0].look.drillable = false;
-  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  value.dissection = dissection::Dissection(value.ct.geometry);
   const auto field = scene::tissueField(value);
   const auto keep = scene::protectedTissue(value);
   ASSERT_EQ(keep.size(), 1u);
   EXPECT_TRUE(scene::drillableStructures(value).empty());
-  value.dissection->beginStroke({});
-  value.dissection->cut({kInside - Vector3d(2, 0, 0), kInside + Vector3d(2, 0, 0), 1.5}, keep);
+  value.dissection.beginStroke({});
+  value.dissection.cut({kInside - Vector3d(2, 0, 0), kInside + Vector3d(2, 0, 0), 1.5}, keep);
   for (double x = 2.2; x < 9.8; x += 0.05)
     EXPECT_GT(field.value({x, 5.75, 5.75}), 0.0) << x;
 }

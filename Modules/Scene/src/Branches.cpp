@@ -6,17 +6,10 @@
 namespace petrous::scene
 {
 
-void follow(Case& value, dissection::History next)
-{
-  if (value.dissection)
-    value.dissection->follow(next);
-  value.history = std::move(next);
-}
-
 void startBranch(Case& value, const std::string& name, std::optional<std::size_t> after)
 {
   checkBranchName(name);
-  dissection::History next = value.history;
+  dissection::History next = value.dissection.history();
   std::size_t state = next.position();
   if (after)
   {
@@ -28,45 +21,37 @@ void startBranch(Case& value, const std::string& name, std::optional<std::size_t
     state = *after == 0 ? dissection::History::kStart : line[*after - 1];
   }
   next.start(name, state);
-  follow(value, std::move(next));
+  value.dissection.follow(next);
 }
 
 void goToBranch(Case& value, const std::string& name)
 {
-  dissection::History next = value.history;
+  dissection::History next = value.dissection.history();
   next.goTo(name);
-  follow(value, std::move(next));
+  value.dissection.follow(next);
 }
 
 void renameBranch(Case& value, const std::string& from, const std::string& to)
 {
   checkBranchName(to);
-  dissection::History next = value.history;
+  dissection::History next = value.dissection.history();
   next.rename(from, to);
-  follow(value, std::move(next));
+  value.dissection.follow(next);
 }
 
 std::size_t removeBranch(Case& value, const std::string& name)
 {
-  const std::vector<std::size_t> kept =
-      value.dissection ? value.dissection->removeBranch(name) : value.history.remove(name);
-  if (value.dissection)
-    value.history = value.dissection->history();
-  const std::size_t before = value.strokes.size();
-  std::vector<StrokePart> strokes;
-  for (const std::size_t stroke : kept)
-    strokes.push_back(std::move(value.strokes[stroke]));
-  value.strokes = std::move(strokes);
-  return before - kept.size();
+  const std::size_t before = value.dissection.strokes().size();
+  return before - value.dissection.removeBranch(name).size();
 }
 
 StateSummary summaryOf(const Case& value, std::size_t state)
 {
   StateSummary summary;
   std::map<std::string, double> structures;
-  for (const std::size_t stroke : value.history.lineTo(state))
+  for (const std::size_t stroke : value.dissection.history().lineTo(state))
   {
-    const dissection::StrokeInfo& info = value.strokes[stroke].info;
+    const dissection::StrokeInfo& info = value.dissection.strokes()[stroke]->info;
     ++summary.strokes;
     summary.removed += info.removed;
     for (const auto& touched : info.structures)

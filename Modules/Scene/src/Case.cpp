@@ -11,49 +11,7 @@ namespace petrous::scene
 
 double Case::removedVolume() const
 {
-  return summaryOf(*this, history.position()).removed;
-}
-
-namespace
-{
-
-std::size_t step(Case& value, std::size_t count, bool back)
-{
-  dissection::History next = value.history;
-  std::size_t steps = 0;
-  while (steps < count && (back ? next.undo() : next.redo()))
-    ++steps;
-  if (steps > 0)
-    follow(value, std::move(next));
-  return steps;
-}
-
-} // namespace
-
-std::size_t undo(Case& value, std::size_t count)
-{
-  return step(value, count, true);
-}
-
-std::size_t redo(Case& value, std::size_t count)
-{
-  return step(value, count, false);
-}
-
-std::shared_ptr<const dissection::Stroke> endStroke(Case& value)
-{
-  if (!value.dissection)
-    return nullptr;
-  auto stroke = value.dissection->endStroke();
-  if (stroke)
-    listStroke(value, stroke);
-  return stroke;
-}
-
-void listStroke(Case& value, const std::shared_ptr<const dissection::Stroke>& stroke)
-{
-  value.strokes.push_back({"", stroke->packed.size(), stroke->info, stroke});
-  value.history.add();
+  return summaryOf(*this, dissection.history().position()).removed;
 }
 
 const StructurePart* findStructure(const Case& value, const std::string& name)

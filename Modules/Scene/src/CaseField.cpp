@@ -262,10 +262,7 @@ namespace
 
 volume::TissueField fieldOf(const Case& value, std::vector<volume::TissueField::SolidUnion> solids)
 {
-  std::shared_ptr<const volume::CutMask> mask;
-  if (value.dissection)
-    mask = {value.dissection, &std::as_const(*value.dissection).mask()};
-  return {value.ct.volume.get(), std::move(solids), std::move(mask),
+  return {value.ct.volume.get(), std::move(solids), value.dissection.sharedMask(),
           volume::TissueField::Parameters{value.iso, kFieldScale}};
 }
 

@@ -78,7 +78,7 @@ core::CameraPose cameraIn(const json& j)
   return camera;
 }
 
-json strokeOut(const StrokePart& stroke)
+json strokeOut(const dissection::Stroke& stroke)
 {
   json structures = json::array();
   for (const auto& touched : stroke.info.structures)
@@ -100,9 +100,9 @@ json strokeOut(const StrokePart& stroke)
   return j;
 }
 
-StrokePart strokeIn(const json& j)
+dissection::Stroke strokeIn(const json& j)
 {
-  StrokePart stroke;
+  dissection::Stroke stroke;
   stroke.object = j.at("object").get<std::string>();
   stroke.bytes = j.at("bytes").get<std::size_t>();
   stroke.info.startedAt = j.at("started_at").get<std::string>();
@@ -160,7 +160,7 @@ History historyIn(const json& j)
   return {std::move(parents), std::move(branches), present};
 }
 
-std::string toText(const StrokePart& stroke)
+std::string toText(const dissection::Stroke& stroke)
 {
   return strokeOut(stroke).dump();
 }
@@ -170,7 +170,7 @@ std::string toText(const History& history)
   return historyOut(history).dump();
 }
 
-StrokePart strokeFromText(std::string_view text)
+dissection::Stroke strokeFromText(std::string_view text)
 {
   return parsed(text, strokeIn);
 }

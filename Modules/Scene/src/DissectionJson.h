@@ -16,8 +16,8 @@ Eigen::Vector3d vectorIn(const nlohmann::json& j);
 nlohmann::json cameraOut(const core::CameraPose& camera);
 core::CameraPose cameraIn(const nlohmann::json& j);
 
-nlohmann::json strokeOut(const StrokePart& stroke);
-StrokePart strokeIn(const nlohmann::json& j);
+nlohmann::json strokeOut(const dissection::Stroke& stroke);
+dissection::Stroke strokeIn(const nlohmann::json& j);
 
 /// Strokes are numbered from 1 in JSON; 0 is the undrilled state.
 nlohmann::json historyOut(const dissection::History& history);

@@ -36,9 +36,9 @@ exposedSurfaces(const Case& value, const std::vector<const volume::CutMask*>& ma
 
 std::vector<ExposedSurface> exposedSurfaces(const Case& value, const core::Progress& progress)
 {
-  if (!value.dissection)
+  if (!value.dissection.loaded())
     throw core::InvalidParameter("what was laid open: the case's dissection is not loaded");
-  return exposedSurfaces(value, {&std::as_const(*value.dissection).mask()}, progress).front();
+  return exposedSurfaces(value, {&value.dissection.mask()}, progress).front();
 }
 
 } // namespace petrous::scene

@@ -208,16 +208,15 @@ Case caseIn(const json& j)
   }
   if (j.contains("camera"))
     value.camera = cameraIn(j.at("camera"));
-  const json& dissection = j.at("dissection");
-  for (const json& stroke : dissection.at("strokes"))
-    value.strokes.push_back(strokeIn(stroke));
-  if (j.at("petrous_case").get<int>() < kFirstFormatWithBranches)
-    value.history = dissection::History::line(value.strokes.size(),
-                                              dissection.at("applied").get<std::size_t>());
-  else
-    value.history = historyIn(dissection.at("history"));
-  if (value.history.size() != value.strokes.size())
-    throw core::InvalidParameter("the history is that of other strokes");
+  const json& drilled = j.at("dissection");
+  dissection::Dissection::Strokes strokes;
+  for (const json& stroke : drilled.at("strokes"))
+    strokes.push_back(std::make_shared<const dissection::Stroke>(strokeIn(stroke)));
+  const auto history =
+      j.at("petrous_case").get<int>() < kFirstFormatWithBranches
+          ? dissection::History::line(strokes.size(), drilled.at("applied").get<std::size_t>())
+          : historyIn(drilled.at("history"));
+  value.dissection = dissection::Dissection(std::move(strokes), history);
   checkCaseName(value.name);
   return value;
 }
@@ -255,9 +254,10 @@ std::string toManifest(const Case& value)
   if (value.camera)
     j["camera"] = cameraOut(*value.camera);
   json strokes = json::array();
-  for (const StrokePart& stroke : value.strokes)
-    strokes.push_back(strokeOut(stroke));
-  j["dissection"] = {{"history", historyOut(value.history)}, {"strokes", std::move(strokes)}};
+  for (const auto& stroke : value.dissection.strokes())
+    strokes.push_back(strokeOut(*stroke));
+  j["dissection"] = {{"history", historyOut(value.dissection.history())},
+                     {"strokes", std::move(strokes)}};
   requireFinite(j, "");
   return j.dump(1) + "\n";
 }

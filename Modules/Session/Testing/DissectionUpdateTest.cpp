@@ -155,6 +155,35 @@ TEST_F(Following, AStrokeThatIsOpenIsSeenAsTheThreadHasIt)
   EXPECT_EQ(closed, 1u);
 }
 
+TEST_F(Following, AStrokeThatWasStoredMeanwhileStaysSo)
+{
+  TickRecord record;
+  record.thrust = 1.0;
+  record.burrForce[2] = 1.0;
+  for (int n = 1; n <= 20; ++n)
+  {
+    record.number = static_cast<std::uint64_t>(n);
+    record.input.now = 0.001 * n;
+    record.drill = n != 10;
+    record.proxy = PoseValues::of({{0.0, n < 10 ? 0.0 : 4.0, 1.0}, Eigen::Quaterniond::Identity()});
+    loop.step(record);
+    if (n != 10)
+      continue;
+    reporter.post();
+    follow();
+    ASSERT_EQ(seen.strokes().size(), 1u);
+    seen.setStored(0, "a.stroke", seen.strokes()[0]->packed);
+  }
+  loop.endStroke();
+  reporter.post();
+  follow();
+  ASSERT_EQ(seen.strokes().size(), 2u);
+  EXPECT_EQ(seen.strokes()[0]->object, "a.stroke");
+  EXPECT_EQ(seen.strokes()[0]->packed.peek(), scene.work.strokes()[0]->packed.peek());
+  EXPECT_EQ(seen.strokes()[1]->object, "");
+  EXPECT_EQ(voxelsOf(seen), scene.voxels());
+}
+
 // Hundreds of frames of live sessions stopped at random times: the follower is bit-identical to the
 // thread and misses nothing in between.
 TEST_F(Following, RandomSessionsWithUndoAndRedoAreFollowedToTheLastBit)

@@ -17,7 +17,7 @@ scene::Case boneCase()
   value.ct.geometry = core::GridGeometry({50, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry, std::int16_t{1500}));
-  value.dissection = std::make_shared<dissection::Dissection>(value.ct.geometry);
+  value.dissection = dissection::Dissection(value.ct.geometry);
   return value;
 }
 
@@ -28,16 +28,16 @@ TEST(DrillSession, ListsWhatAStrokeRemoved)
   scene::Case value = boneCase();
   session::DrillSession session(value);
   EXPECT_EQ(session.end(), nullptr) << "no stroke is open";
-  value.dissection->beginStroke({});
-  value.dissection->cut({{4.0, 6.0, 6.0}, {9.0, 6.0, 6.0}, 2.0}, session.protectedTissue());
+  value.dissection.beginStroke({});
+  value.dissection.cut({{4.0, 6.0, 6.0}, {9.0, 6.0, 6.0}, 2.0}, session.protectedTissue());
   const double truth = 4.0 / 3.0 * kPi * 8.0 + kPi * 4.0 * 5.0; // a capsule
-  EXPECT_NEAR(session.measure(*value.dissection).total / truth, 1.0, 0.01);
+  EXPECT_NEAR(session.measure(value.dissection).total / truth, 1.0, 0.01);
   const auto stroke = session.end();
   ASSERT_TRUE(stroke);
   EXPECT_NEAR(stroke->info.removed / truth, 1.0, 0.01);
-  EXPECT_EQ(value.strokes.size(), 1u);
+  EXPECT_EQ(value.dissection.strokes().size(), 1u);
   EXPECT_LT(session.field().value({6.0, 6.0, 6.0}), 0.0) << "the field follows the cut";
-  value.dissection->beginStroke({});
+  value.dissection.beginStroke({});
   EXPECT_EQ(session.end(), nullptr) << "it changed nothing";
 }
 
@@ -60,8 +60,8 @@ TEST(DrillSession, LeavesAStructureThatIsNotDrillable)
   part.structures = {nerve};
   value.labels = {part};
   session::DrillSession session(value);
-  value.dissection->beginStroke({});
-  value.dissection->cut({{6, 6, 6}, {6, 6, 6}, 2.0}, session.protectedTissue());
+  value.dissection.beginStroke({});
+  value.dissection.cut({{6, 6, 6}, {6, 6, 6}, 2.0}, session.protectedTissue());
   const auto stroke = session.end();
   ASSERT_TRUE(stroke);
   EXPECT_GT(session.field().value({6, 5.85, 5.85}), 0.0) << "the nerve is whole";
@@ -83,16 +83,15 @@ TEST(DrillSession, AnotherLikeItSharesWhatWasMadeOfTheStructures)
   part.structures[0].index = 1;
   value.labels = {part};
   scene::Case copy = value;
-  copy.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
   const session::DrillSession like(copy);
   value.iso = 1600.0;
   session::DrillSession session(value, like);
   EXPECT_EQ(session.field().solids(), like.field().solids());
   EXPECT_LT(session.field().value({3, 3, 3}), 0.0) << "bone of 1500 HU below the threshold";
   EXPECT_GT(like.field().value({3, 3, 3}), 0.0);
-  value.dissection->beginStroke({});
-  value.dissection->cut({{6, 6, 6}, {6, 6, 6}, 1.0}, session.protectedTissue());
+  value.dissection.beginStroke({});
+  value.dissection.cut({{6, 6, 6}, {6, 6, 6}, 1.0}, session.protectedTissue());
   EXPECT_TRUE(session.end()) << "of its own case";
-  EXPECT_EQ(value.strokes.size(), 1u);
+  EXPECT_EQ(value.dissection.strokes().size(), 1u);
   EXPECT_GT(like.field().value({6, 6, 6}), 0.0);
 }

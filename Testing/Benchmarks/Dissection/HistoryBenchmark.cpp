@@ -78,7 +78,7 @@ std::size_t packedBytes(const Dissection& work)
 {
   std::size_t sum = 0;
   for (const auto& stroke : work.strokes())
-    sum += stroke->packed.size();
+    sum += stroke->bytes;
   return sum;
 }
 

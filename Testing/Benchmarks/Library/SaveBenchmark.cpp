@@ -55,15 +55,15 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   for (int s = 0; s < strokes; ++s)
   {
     progress.report(static_cast<double>(s) / strokes, "saving strokes");
-    value.dissection->beginStroke({});
+    value.dissection.beginStroke({});
     const double edge = 0.15 * (n - 1);
     const Eigen::Vector3d start(0.2 * edge, edge * (s + 1.0) / (strokes + 1.0), 0.5 * edge);
     for (int step = 0; step < 100; ++step)
     {
       const Eigen::Vector3d way(0.1, 0.0, 0.0);
-      value.dissection->cut({start + step * way, start + (step + 1) * way, 2.0});
+      value.dissection.cut({start + step * way, start + (step + 1) * way, 2.0});
     }
-    scene::endStroke(value);
+    value.dissection.endStroke();
     const auto before = bytesBelow(work / "library");
     const auto from = Clock::now();
     library.save(value);
@@ -73,7 +73,7 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   }
 
   const auto from = Clock::now();
-  imaging::writeRawNrrd(work / "whole.nrrd", value.dissection->mask().dense());
+  imaging::writeRawNrrd(work / "whole.nrrd", value.dissection.mask().dense());
   const double wholeSeconds = std::chrono::duration<double>(Clock::now() - from).count();
 
   scene::Case again = library.open("bench");
@@ -83,7 +83,7 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   ours.isDefault = true;
   ours.seconds = median(seconds);
   ours.error = static_cast<double>(
-      volume::differentVoxels(value.dissection->mask(), again.dissection->mask()));
+      volume::differentVoxels(value.dissection.mask(), again.dissection.mask()));
   ours.errorUnit = "voxels that differ after reopening";
   ours.extra["slowest_ms"] = 1e3 * *std::max_element(seconds.begin(), seconds.end());
   ours.extra["written_kb"] = median(written) / 1e3;

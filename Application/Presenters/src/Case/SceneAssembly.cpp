@@ -99,8 +99,7 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
   rendering::SceneContents contents;
   contents.ct = value.ct.volume.get();
   contents.iso = value.iso;
-  if (value.dissection)
-    contents.mask = {value.dissection, &std::as_const(*value.dissection).mask()};
+  contents.mask = value.dissection.sharedMask();
 
   auto shown = scene::labelSources(value, [](const auto& look) { return look.shown; });
   if (!sameVoxels(shown.sources, m_sources))

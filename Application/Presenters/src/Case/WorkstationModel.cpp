@@ -34,6 +34,8 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_assembly = {}; // its cache is of the previous case
   m_unreadLabels.clear();
   m_unreadMeshes.clear();
+  m_damagedStrokes.clear();
+  m_undoneForDamage = 0;
   m_case = std::move(next);
   ++m_shown;
   m_leaving = false;
@@ -73,7 +75,11 @@ scene::Case WorkstationModel::presentable() const
 
 rendering::SceneContents WorkstationModel::sceneContents()
 {
-  return m_loaded ? m_assembly.contents(*m_case) : SceneAssembly().contents(presentable());
+  if (m_loaded)
+    return m_assembly.contents(*m_case);
+  rendering::SceneContents contents = SceneAssembly().contents(presentable());
+  contents.mask = m_case->dissection.sharedMask(); // not that of the copy
+  return contents;
 }
 
 namespace
@@ -128,8 +134,6 @@ core::Lazy<core::TriangleMesh> noMesh()
 std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation() const
 {
   scene::Case value = *m_case;
-  if (value.dissection) // a tool may be cutting the case's own
-    value.dissection = std::make_shared<dissection::Dissection>(*value.dissection);
   return [value = std::move(value), library = m_library, assembly = m_assembly, parts = m_parts,
           tissue = m_tissue, felt = m_session || m_scene](const core::Progress& progress) mutable
   {
@@ -226,14 +230,18 @@ bool WorkstationModel::canUndo() const noexcept
 
 bool WorkstationModel::canRedo() const noexcept
 {
-  return m_case && !drilling() && m_case->history.ahead() > 0;
+  return m_case && !drilling() && m_case->dissection.history().ahead() > 0;
 }
 
 void WorkstationModel::step(bool back)
 {
+  const std::size_t stroke =
+      back ? dissection::History::kStart : m_case->dissection.history().next();
+  if (stroke != dissection::History::kStart)
+    m_case->dissection.strokes()[stroke]->packed.get(); // a damaged one is refused here
   if (m_touch)
     return back ? m_touch->undo() : m_touch->redo();
-  if ((back ? scene::undo(*m_case, 1) : scene::redo(*m_case, 1)) == 0)
+  if ((back ? m_case->dissection.undo() : m_case->dissection.redo()) == 0)
     return;
   followHistory();
   notify(events.stepped, back);
@@ -242,11 +250,11 @@ void WorkstationModel::step(bool back)
 // Call after the case itself moved to another state.
 void WorkstationModel::followHistory()
 {
-  const std::vector<std::size_t> bricks = m_case->dissection->mask().takeDirty();
+  const std::vector<std::size_t> bricks = m_case->dissection.mask().takeDirty();
   if (m_scene)
     m_scene->publish(bricks);
   if (m_journal)
-    m_journal->follow(*m_case->dissection);
+    m_journal->follow(m_case->dissection);
   notifyMask(bricks);
   setUnsaved(true);
 }
@@ -495,7 +503,7 @@ void WorkstationModel::notifyMask(const std::vector<std::size_t>& bricks)
   if (bricks.empty())
     return;
   m_reader.reset();
-  notify(events.maskChanged, m_case->dissection->mask().boxOf(bricks));
+  notify(events.maskChanged, m_case->dissection.mask().boxOf(bricks));
 }
 
 } // namespace petrous::presenters

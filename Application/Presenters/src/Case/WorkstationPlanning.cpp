@@ -41,9 +41,9 @@ std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& bur
 const dissection::RemovedVolume& WorkstationModel::strokeSoFar()
 {
   static const dissection::RemovedVolume kNothing;
-  if (!m_case || !m_case->dissection || !m_scene)
+  if (!m_case || !m_case->dissection.loaded() || !m_scene)
     return kNothing;
-  return m_meter.soFar(*m_case->dissection, m_scene->drill().measurer());
+  return m_meter.soFar(m_case->dissection, m_scene->drill().measurer());
 }
 
 void WorkstationModel::forgetNearby()

@@ -41,7 +41,9 @@ ReadCase ReadCase::from(const library::Library& library, const std::string& name
   progress.report(0.0, "opening " + name);
   result.value = std::make_unique<scene::Case>(own.open(name));
   progress.report(0.3, "reading what was drilled");
-  own.loadDissection(*result.value);
+  const std::size_t applied = result.value->applied();
+  result.strokes = own.loadSoundDissection(*result.value);
+  result.undone = applied - result.value->applied();
   progress.report(0.8, "reading the CT");
   result.value->ct.volume.get(); // reports a missing object now
   progress.check("opening " + name);
@@ -79,6 +81,8 @@ void WorkstationModel::beginOpen(const std::string& name)
 void WorkstationModel::opened(ReadCase next)
 {
   show(std::move(next.value), false);
+  m_damagedStrokes = std::move(next.strokes);
+  m_undoneForDamage = next.undone;
   keepJournal(*m_case);
   for (const std::string& words : next.notices)
     notify(events.noticed, words);
@@ -91,7 +95,7 @@ void WorkstationModel::notOpened()
     return;
   keepJournal(*m_saved);
   if (m_journal)
-    m_journal->follow(*m_case->dissection);
+    m_journal->follow(m_case->dissection);
 }
 
 void WorkstationModel::adopt(scene::Case value)
@@ -138,6 +142,8 @@ void WorkstationModel::close()
   m_loaded = m_drawable = m_feelable = m_checked = true;
   m_unreadLabels.clear();
   m_unreadMeshes.clear();
+  m_damagedStrokes.clear();
+  m_undoneForDamage = 0;
   ++m_parts;
   ++m_shown;
   notify(events.caseClosed);
@@ -161,7 +167,8 @@ void StoreTask::run(const core::Progress& progress)
     std::for_each(value.mr.begin(), value.mr.end(), asNew);
     std::for_each(value.labels.begin(), value.labels.end(), asNew);
     std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
-    std::for_each(value.strokes.begin(), value.strokes.end(), asNew);
+    for (std::size_t n = 0; n < value.dissection.strokes().size(); ++n)
+      value.dissection.setStored(n, "", value.dissection.strokes()[n]->packed);
   }
   own.save(value, source ? progress.part(0.2, 1.0) : progress);
 }
@@ -169,7 +176,7 @@ void StoreTask::run(const core::Progress& progress)
 StoreTask WorkstationModel::beginStore()
 {
   StoreTask task{m_library, *m_case, m_case->name, m_changes, std::nullopt};
-  task.value.dissection.reset();
+  task.value.dissection.unload(); // only the strokes are stored
   for (const auto& one : m_unreadLabels)
     task.value.labels[one.part].labels = one.whole;
   for (const auto& one : m_unreadMeshes)
@@ -220,9 +227,9 @@ void WorkstationModel::stored(const StoreTask& done)
     takeFrame(m_case->mr[n], saved.mr[n]);
   takeObjects(m_case->labels, saved.labels);
   takeObjects(m_case->meshes, saved.meshes);
-  takeObjects(m_case->strokes, saved.strokes);
-  for (std::size_t n = 0; n < std::min(m_case->strokes.size(), saved.strokes.size()); ++n)
-    m_case->strokes[n].bytes = saved.strokes[n].bytes;
+  const auto& strokes = saved.dissection.strokes();
+  for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)
+    m_case->dissection.setStored(n, strokes[n]->object, strokes[n]->packed);
   const bool other = done.source || m_case->name != saved.name;
   m_case->name = saved.name;
   if (done.source)

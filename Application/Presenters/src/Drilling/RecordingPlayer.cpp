@@ -25,7 +25,7 @@ std::string wayTo(std::uint64_t then, const scene::Case& value)
   if (value.applied() > then)
     return "; take back what came after: petrous undo '" + value.name + "' " +
            std::to_string(value.applied() - then);
-  if (value.applied() < then && value.applied() + value.history.ahead() >= then)
+  if (value.applied() < then && value.applied() + value.dissection.history().ahead() >= then)
     return "; bring back what was there: petrous redo '" + value.name + "' " +
            std::to_string(then - value.applied());
   return {};
@@ -87,7 +87,7 @@ RecordingPlayer::RecordingPlayer(scene::Case& value, session::TouchScene& scene,
                                  std::optional<core::CameraPose> camera)
   : m_proxy(scene.proxyOf(toolOf(fitting(value, scene, reader.setup(), name))))
   , m_servo(*m_proxy, reader.setup().servo)
-  , m_loop(*value.dissection, *scene.mask(), m_removalModel, scene.drill().protectedTissue(),
+  , m_loop(value.dissection, *scene.mask(), m_removalModel, scene.drill().protectedTissue(),
            scene.hooksOf(reader.setup().burr, [camera] { return camera; }))
   , m_replay(reader, m_servo, m_loop)
 {

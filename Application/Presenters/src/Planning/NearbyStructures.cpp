@@ -83,7 +83,8 @@ std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open)
 {
   std::map<std::string, double> volumes;
-  for (const auto& touched : scene::summaryOf(value, value.history.position()).structures)
+  for (const auto& touched :
+       scene::summaryOf(value, value.dissection.history().position()).structures)
     volumes[touched.name] = touched.volume;
   for (const auto& touched : open.structures)
     volumes[touched.name] += touched.volume;
@@ -96,7 +97,7 @@ NearbyStructures::NearbyStructures(const scene::Case& value)
   : m_stop(std::make_shared<core::CancelToken>())
 {
   scene::Case copy = value; // shares voxels
-  copy.dissection.reset();  // another thread writes to it
+  copy.dissection.unload(); // not needed
   m_surfaces = std::async(std::launch::async,
                           [copy = std::move(copy), progress = core::Progress(nullptr, m_stop)]
                           {

@@ -37,12 +37,12 @@ void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, co
 }
 } // namespace
 
-SlicePresenter::SlicePresenter(const scene::Case& value)
+SlicePresenter::SlicePresenter(const scene::Case& value,
+                               std::shared_ptr<const volume::CutMask> mask)
   : m_ct(value.ct.volume.get())
   , m_edges(edgeLevels(calibratedScale(value)))
+  , m_mask(std::move(mask))
 {
-  if (value.dissection)
-    m_mask = {value.dissection, &std::as_const(*value.dissection).mask()};
   for (const scene::LabelPart& part : value.labels)
   {
     Layer layer;

@@ -62,12 +62,11 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
     if (mustStore(mesh.object, store, mesh.mesh.peek() != nullptr))
       mesh.object = store.add("obj", [&](const fs::path& path)
                               { imaging::writeMesh(path, *mesh.mesh.get()); });
-  for (scene::StrokePart& part : value.strokes)
-    if (mustStore(part.object, store, part.stroke != nullptr))
-    {
-      part.bytes = part.stroke->packed.size();
-      part.object = store.add("stroke", part.stroke->packed);
-    }
+  const auto& strokes = value.dissection.strokes();
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    if (const auto packed = strokes[n]->packed;
+        mustStore(strokes[n]->object, store, !!packed.peek()))
+      value.dissection.setStored(n, store.add("stroke", *packed.get()), packed);
 }
 
 std::string randomId()
@@ -243,15 +242,20 @@ scene::Case Library::open(const std::string& name) const
 {
   scene::checkCaseName(name);
   checkedManifestPath(name);
-  const auto read = [this, &name] { return readManifest(name); };
+  const auto read = [this, &name]
+  {
+    scene::Case manifest = readManifest(name);
+    attach(manifest);
+    return manifest;
+  };
   scene::Case value = read();
   if (fs::exists(journalPath(m_folder, name)))
   {
     const std::string words = recover(*this, value, read);
     if (m_notice && !words.empty())
       m_notice(words);
+    attach(value); // without what recovery read
   }
-  attach(value);
   return value;
 }
 
@@ -290,33 +294,65 @@ void Library::attach(scene::Case& value) const
           return std::make_shared<const core::TriangleMesh>(
               imaging::readMesh(store.checkedPath(object, what)));
         });
+  const auto& strokes = value.dissection.strokes();
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    value.dissection.setStored(
+        n, strokes[n]->object,
+        core::Lazy<dissection::Stroke::Voxels>(
+            [store, object = strokes[n]->object,
+             what = "stroke " + std::to_string(n + 1) + " of case '" + value.name + "'"] {
+              return std::make_shared<const dissection::Stroke::Voxels>(
+                  store.readChecked(object, what));
+            }));
 }
 
 void Library::loadDissection(scene::Case& value) const
 {
-  if (value.dissection)
+  if (value.dissection.loaded())
     return;
-  const ObjectStore store(objectFolder());
-  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
-  for (const scene::StrokePart& part : value.strokes)
-    strokes.push_back(
-        part.stroke
-            ? part.stroke
-            : std::make_shared<const dissection::Stroke>(dissection::Stroke{
-                  part.info,
-                  store.readChecked(part.object, "stroke " + std::to_string(strokes.size() + 1) +
-                                                     " of case '" + value.name + "'")}));
+  const auto line = value.dissection.history().lineTo(value.dissection.history().position());
+  for (std::size_t n = 0; n < line.size(); ++n)
+    try
+    {
+      value.dissection.strokes()[line[n]]->packed.get();
+    }
+    catch (const LibraryError& error)
+    {
+      throw LibraryError(error.reason,
+                         std::string(error.what()) +
+                             "; or go back to before it, which loses nothing: " + "petrous undo '" +
+                             value.name + "' " + std::to_string(line.size() - n));
+    }
   try
   {
-    value.dissection =
-        std::make_shared<dissection::Dissection>(value.ct.geometry, strokes, value.history);
+    value.dissection.load(value.ct.geometry);
   }
   catch (const core::InvalidParameter& error)
   {
     throw LibraryError(Reason::Damaged, manifestPath(value.name).string() + ": " + error.what());
   }
+}
+
+std::vector<std::string> Library::loadSoundDissection(scene::Case& value) const
+{
+  const auto& strokes = value.dissection.strokes();
+  const auto line = value.dissection.history().lineTo(value.dissection.history().position());
+  std::size_t sound = line.size();
+  std::vector<std::string> damage;
   for (std::size_t n = 0; n < strokes.size(); ++n)
-    value.strokes[n].stroke = std::move(strokes[n]);
+    try
+    {
+      strokes[n]->packed.get();
+    }
+    catch (const LibraryError& error)
+    {
+      damage.emplace_back(error.what());
+      const auto at = std::find(line.begin(), line.end(), n);
+      sound = std::min(sound, static_cast<std::size_t>(at - line.begin()));
+    }
+  value.dissection.undo(line.size() - sound);
+  loadDissection(value);
+  return damage;
 }
 
 // The images that were read from here, each with a description.
@@ -451,7 +487,7 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
       return "case '" + value.name +
              "' was changed by another program meanwhile; what was drilled was added to it, on "
              "branch '" +
-             value.history.branch().name + "'";
+             value.dissection.history().branch().name + "'";
     }
     scene::Case own = value;
     own.revision = 0;
@@ -478,7 +514,7 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
 std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
                                                     const SavedState& base) const
 {
-  if (!contains(value.name) || value.strokes.size() < base.strokes.size())
+  if (!contains(value.name) || value.dissection.strokes().size() < base.strokes.size())
     return std::nullopt;
   try
   {
@@ -487,8 +523,7 @@ std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
       return std::nullopt;
     attach(now);
     loadDissection(now);
-    const auto first = value.strokes.begin() + static_cast<std::ptrdiff_t>(base.strokes.size());
-    return graft(now, base, {{first, value.strokes.end()}, value.history});
+    return graft(now, base, value.dissection);
   }
   catch (const core::Error&) // damaged in the meantime
   {

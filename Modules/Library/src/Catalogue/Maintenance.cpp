@@ -35,8 +35,9 @@ std::map<std::string, std::string> objectsOf(const scene::Case& value)
     objects[part.object] = "structures";
   for (const auto& mesh : value.meshes)
     objects[mesh.object] = "mesh '" + mesh.name + "'";
-  for (std::size_t n = 0; n < value.strokes.size(); ++n)
-    objects[value.strokes[n].object] = "stroke " + std::to_string(n + 1);
+  const auto& strokes = value.dissection.strokes();
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    objects[strokes[n]->object] = "stroke " + std::to_string(n + 1);
   return objects;
 }
 

@@ -49,28 +49,31 @@ bool sameHistory(const History& a, const History& b)
 
 bool goesOnFrom(const scene::Case& value, const SavedState& base)
 {
-  return value.ct.object == base.ct && value.strokes.size() >= base.strokes.size() &&
-         std::equal(base.strokes.begin(), base.strokes.end(), value.strokes.begin(),
-                    [](const std::string& object, const scene::StrokePart& stroke)
-                    { return object == stroke.object; });
+  const auto& strokes = value.dissection.strokes();
+  return value.ct.object == base.ct && strokes.size() >= base.strokes.size() &&
+         std::equal(base.strokes.begin(), base.strokes.end(), strokes.begin(),
+                    [](const std::string& object, const auto& stroke)
+                    { return object == stroke->object; });
 }
 
-scene::Case graft(const scene::Case& now, const SavedState& base, const Drilled& drilled)
+scene::Case graft(const scene::Case& now, const SavedState& base,
+                  const dissection::Dissection& drilled)
 {
+  const History& theirHistory = now.dissection.history();
   const std::size_t before = base.strokes.size();
-  const std::size_t shift = now.strokes.size() - before;
+  const std::size_t shift = now.dissection.strokes().size() - before;
   const auto moved = [before, shift](std::size_t state)
   { return state == History::kStart || state < before ? state : state + shift; };
 
   std::vector<std::size_t> parents;
-  for (std::size_t n = 0; n < now.history.size(); ++n)
-    parents.push_back(now.history.parent(n));
-  for (std::size_t n = before; n < drilled.history.size(); ++n)
-    parents.push_back(moved(drilled.history.parent(n)));
+  for (std::size_t n = 0; n < theirHistory.size(); ++n)
+    parents.push_back(theirHistory.parent(n));
+  for (std::size_t n = before; n < drilled.history().size(); ++n)
+    parents.push_back(moved(drilled.history().parent(n)));
 
-  std::vector<History::Branch> branches = now.history.branches();
+  std::vector<History::Branch> branches = theirHistory.branches();
   std::string present;
-  for (const History::Branch& branch : drilled.history.branches())
+  for (const History::Branch& branch : drilled.history().branches())
   {
     History::Branch mine{branch.name, moved(branch.tip), moved(branch.position), branch.setAside};
     const History::Branch* old = base.history.find(branch.name);
@@ -85,19 +88,17 @@ scene::Case graft(const scene::Case& now, const SavedState& base, const Drilled&
       mine.setAside = true;
       branches.push_back(mine);
     }
-    if (&branch == &drilled.history.branch())
+    if (&branch == &drilled.history().branch())
       present = mine.name;
   }
   const auto at = static_cast<std::size_t>(findIn(branches, present) - branches.data());
 
+  dissection::Dissection::Strokes strokes = now.dissection.strokes();
+  strokes.insert(strokes.end(), drilled.strokes().begin() + static_cast<std::ptrdiff_t>(before),
+                 drilled.strokes().end());
   scene::Case result = now;
-  result.strokes.insert(result.strokes.end(), drilled.strokes.begin(), drilled.strokes.end());
-  result.history = History(std::move(parents), std::move(branches), at);
-  std::vector<std::shared_ptr<const dissection::Stroke>> voxels;
-  for (const scene::StrokePart& stroke : result.strokes)
-    voxels.push_back(stroke.stroke);
-  result.dissection =
-      std::make_shared<dissection::Dissection>(now.ct.geometry, std::move(voxels), result.history);
+  result.dissection = dissection::Dissection(now.ct.geometry, std::move(strokes),
+                                             History(std::move(parents), std::move(branches), at));
   return result;
 }
 

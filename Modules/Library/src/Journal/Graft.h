@@ -13,20 +13,14 @@ bool sameHistory(const dissection::History& a, const dissection::History& b);
 /// Whether a case has the CT of an earlier state and its strokes, before all others.
 bool goesOnFrom(const scene::Case& value, const SavedState& base);
 
-/// What was drilled since `base`.
-struct Drilled
-{
-  std::vector<scene::StrokePart> strokes; ///< new strokes, with their voxels
-  dissection::History history;            ///< of the strokes of `base` and these
-};
-
-/// Three-way merge of two continuations of `base`: `now`, saved by another program, and what was
-/// drilled. New strokes keep their parent stroke. Branches changed on one side only are taken from
-/// that side; if both changed a branch, the drilled one gets a name of its own ("main~1"). The
-/// current branch is the drilled one.
+/// Three-way merge of two continuations of `base`: `now`, saved by another program, and `drilled`,
+/// with the voxels of its new strokes. New strokes keep their parent stroke. Branches changed on
+/// one side only are taken from that side; if both changed a branch, the drilled one gets a name of
+/// its own ("main~1"). The current branch is the drilled one.
 ///
 /// `now` must continue `base` and have its dissection loaded, as has the result. Throws
 /// InvalidParameter if the strokes do not fit.
-scene::Case graft(const scene::Case& now, const SavedState& base, const Drilled& drilled);
+scene::Case graft(const scene::Case& now, const SavedState& base,
+                  const dissection::Dissection& drilled);
 
 } // namespace petrous::library

@@ -12,27 +12,15 @@ namespace petrous::library
 
 namespace fs = std::filesystem;
 
-namespace
-{
-
-std::string frameOf(JournalFrame::Kind kind, const dissection::StrokeInfo& info,
-                    const std::vector<std::uint8_t>& packed)
-{
-  return encoded(
-      JournalFrame{kind, scene::toText(scene::StrokePart{{}, packed.size(), info, {}}), packed});
-}
-
-} // namespace
-
 SavedState::SavedState(const scene::Case& saved)
   : name(saved.name)
   , id(saved.id)
   , revision(saved.revision)
   , ct(saved.ct.object)
-  , history(saved.history)
+  , history(saved.dissection.history())
 {
-  for (const scene::StrokePart& stroke : saved.strokes)
-    strokes.push_back(stroke.object);
+  for (const auto& stroke : saved.dissection.strokes())
+    strokes.push_back(stroke->object);
 }
 
 Journal::Journal(const Library& library, SavedState saved, Measure measure)
@@ -134,9 +122,9 @@ std::optional<Journal::Kept> Journal::partOf(const dissection::Dissection& work)
       deltas.push_back({brick, last.brick(brick), work.mask().brick(brick)});
   if (deltas.empty())
     return std::nullopt;
-  return Kept{work.strokes().size(),
-              frameOf(JournalFrame::Kind::Part, m_measure ? m_measure(work) : work.openInfo(),
-                      dissection::encodeDeltas(deltas))};
+  return Kept{work.strokes().size(), encoded(frameOf(JournalFrame::Kind::Part,
+                                                     {m_measure ? m_measure(work) : work.openInfo(),
+                                                      dissection::encodeDeltas(deltas)}))};
 }
 
 void Journal::follow(const dissection::Dissection& work)
@@ -146,8 +134,7 @@ void Journal::follow(const dissection::Dissection& work)
   {
     std::vector<Kept> frames;
     for (std::size_t n = m_written; n < work.strokes().size(); ++n)
-      frames.push_back({n, frameOf(JournalFrame::Kind::Stroke, work.strokes()[n]->info,
-                                   work.strokes()[n]->packed)});
+      frames.push_back({n, encoded(frameOf(JournalFrame::Kind::Stroke, *work.strokes()[n]))});
     frames.push_back(
         {work.strokes().size(),
          encoded(JournalFrame{JournalFrame::Kind::History, scene::toText(work.history()), {}})});

@@ -139,6 +139,12 @@ JournalHead::JournalHead(const SavedState& base)
 {
 }
 
+JournalFrame frameOf(JournalFrame::Kind kind, dissection::Stroke stroke)
+{
+  stroke.object.clear(); // the voxels are here
+  return {kind, scene::toText(stroke), *stroke.packed.get()};
+}
+
 std::string encoded(const JournalFrame& frame)
 {
   std::string rest(1, static_cast<char>(frame.kind));

@@ -55,6 +55,9 @@ struct JournalContent
   std::size_t leftOver = 0;         ///< bytes after them
 };
 
+/// The frame of a stroke, or of a part of one, with its voxels.
+JournalFrame frameOf(JournalFrame::Kind kind, dissection::Stroke stroke);
+
 std::string encoded(const JournalFrame& frame);
 std::string encoded(const JournalHead& head);
 

@@ -39,17 +39,18 @@ Standing standingOf(const JournalContent& content, const scene::Case& value)
 {
   Standing standing;
   const JournalHead& head = content.head;
-  if (head.caseName != value.name || head.strokes > value.strokes.size() ||
+  const auto& strokes = value.dissection.strokes();
+  if (head.caseName != value.name || head.strokes > strokes.size() ||
       (!head.ct.empty() && head.ct != value.ct.object))
     return standing;
-  const std::size_t since = value.strokes.size() - head.strokes;
+  const std::size_t since = strokes.size() - head.strokes;
   if (head.revision == value.revision)
     standing.fits = since == 0;
   else if (head.revision + 1 == value.revision && since > 0)
   {
     for (const JournalFrame& frame : content.frames)
       if (frame.kind == Kind::Stroke && standing.saved < since &&
-          nameIn(frame) == value.strokes[head.strokes + standing.saved].object)
+          nameIn(frame) == strokes[head.strokes + standing.saved]->object)
         ++standing.saved;
     standing.fits = standing.saved == since;
   }
@@ -64,8 +65,7 @@ struct Recovered
 
 std::shared_ptr<dissection::Stroke> strokeOf(const JournalFrame& frame)
 {
-  return std::make_shared<dissection::Stroke>(
-      dissection::Stroke{scene::strokeFromText(frame.text).info, frame.bytes});
+  return std::make_shared<dissection::Stroke>(scene::strokeFromText(frame.text).info, frame.bytes);
 }
 
 // Throws InvalidParameter if a frame does not fit its predecessors.
@@ -130,13 +130,14 @@ std::string toString(const Recovered& what, std::size_t leftOver)
 std::optional<SavedState> commonState(const JournalContent& content, const scene::Case& value)
 {
   const JournalHead& head = content.head;
-  if (head.history.empty() || head.caseName != value.name || head.strokes > value.strokes.size())
+  const auto& strokes = value.dissection.strokes();
+  if (head.history.empty() || head.caseName != value.name || head.strokes > strokes.size())
     return std::nullopt;
   SavedState base;
   base.name = value.name;
   base.ct = head.ct;
   for (std::size_t n = 0; n < head.strokes; ++n)
-    base.strokes.push_back(value.strokes[n].object);
+    base.strokes.push_back(strokes[n]->object);
   if (head.ct != value.ct.object || hashOfNames(base.strokes) != head.strokesHash)
     return std::nullopt;
   try
@@ -155,6 +156,7 @@ std::optional<SavedState> commonState(const JournalContent& content, const scene
 // Whether the case has all strokes of the journal: saved before the program was killed.
 bool isSpent(const JournalContent& content, const scene::Case& value)
 {
+  const auto& strokes = value.dissection.strokes();
   std::size_t at = content.head.strokes;
   bool any = false;
   bool open = false;
@@ -164,9 +166,9 @@ bool isSpent(const JournalContent& content, const scene::Case& value)
     if (frame.kind != Kind::Stroke)
       continue;
     any = true;
-    while (at < value.strokes.size() && value.strokes[at].object != nameIn(frame))
+    while (at < strokes.size() && strokes[at]->object != nameIn(frame))
       ++at;
-    if (at == value.strokes.size())
+    if (at == strokes.size())
       return false;
     ++at;
   }
@@ -176,22 +178,10 @@ bool isSpent(const JournalContent& content, const scene::Case& value)
 // The dissection at an earlier state.
 dissection::Dissection atState(const scene::Case& value, const SavedState& base)
 {
-  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
-  for (std::size_t n = 0; n < base.strokes.size(); ++n)
-    strokes.push_back(value.strokes[n].stroke);
-  return {value.ct.geometry, std::move(strokes), base.history};
-}
-
-// The case with the additional strokes of the dissection.
-scene::Case withNew(scene::Case value, const dissection::Dissection& work)
-{
-  for (std::size_t n = value.strokes.size(); n < work.strokes().size(); ++n)
-  {
-    const auto& stroke = work.strokes()[n];
-    value.strokes.push_back({"", stroke->packed.size(), stroke->info, stroke});
-  }
-  value.history = work.history();
-  return value;
+  const auto first = value.dissection.strokes().begin();
+  return {value.ct.geometry,
+          {first, first + static_cast<std::ptrdiff_t>(base.strokes.size())},
+          base.history};
 }
 
 std::string recoverFrom(JournalFile& file, const fs::path& path, Library& library,
@@ -228,43 +218,35 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
                  "the case");
   scene::Case next = value;
   Recovered what;
+  const std::vector<std::string> damage = library.loadSoundDissection(next);
+  const std::string sound = scene::toText(next.dissection.history());
+  // The journal continues a state that cannot be made now, unless the case was open without it.
+  if (sound != scene::toText(value.dissection.history()) && sound != content.head.history)
+    throw LibraryError(LibraryError::Reason::Damaged, damage.front());
   try
   {
-    library.loadDissection(next);
     if (base)
     {
-      Drilled drilled;
       dissection::Dissection work = atState(next, *base);
       what = play(content, 0, work);
-      drilled.history = work.history();
-      for (std::size_t n = base->strokes.size(); n < work.strokes().size(); ++n)
-        drilled.strokes.push_back(
-            {"", work.strokes()[n]->packed.size(), work.strokes()[n]->info, work.strokes()[n]});
-      next = graft(next, *base, drilled);
+      next = graft(next, *base, work);
     }
     else
-      what = play(content, standing.saved, *next.dissection);
+      what = play(content, standing.saved, next.dissection);
   }
   catch (const core::InvalidParameter& error)
   {
     return aside(std::string("the journal of a session that ended without saving does not fit (") +
                  error.what() + ")");
   }
-  const dissection::Dissection work = *next.dissection;
-  const bool moved = scene::toText(work.history()) != scene::toText(value.history);
+  const bool moved =
+      scene::toText(next.dissection.history()) != scene::toText(value.dissection.history());
   if (what.strokes > 0 || what.part >= 0.0 || moved)
   {
     if (what.part >= 0.0) // so that the journal is recognized as spent once this is saved
-    {
-      const auto& last = work.strokes().back();
-      file.append(encoded(JournalFrame{
-          Kind::Stroke, scene::toText(scene::StrokePart{{}, last->packed.size(), last->info, {}}),
-          last->packed}));
-    }
-    next = withNew(value, work);
+      file.append(encoded(frameOf(Kind::Stroke, *next.dissection.strokes().back())));
     library.save(next);
-    for (scene::StrokePart& stroke : next.strokes)
-      stroke.stroke = nullptr;
+    next.dissection.unload();
     value = std::move(next);
   }
   file.remove();
@@ -272,7 +254,7 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
     return {};
   return about + "the last session ended without saving; " + toString(what, content.leftOver) +
          " came back" +
-         (base ? ", on branch '" + value.history.branch().name +
+         (base ? ", on branch '" + value.dissection.history().branch().name +
                      "', as another program had changed the case"
                : "");
 }

@@ -21,15 +21,14 @@ dissection::RemovedVolume removedBy(const dissection::Dissection& work,
 
 void checkLoaded(const scene::Case& value)
 {
-  if (!value.dissection)
+  if (!value.dissection.loaded())
     throw core::InvalidParameter("drill: the case's dissection is not loaded");
 }
 
-// Shares the dissection.
 std::shared_ptr<const volume::CutMask> maskOf(const scene::Case& value)
 {
   checkLoaded(value);
-  return {value.dissection, &std::as_const(*value.dissection).mask()};
+  return value.dissection.sharedMask();
 }
 
 } // namespace
@@ -54,13 +53,13 @@ DrillSession::DrillSession(scene::Case& value, const DrillSession& like)
 
 std::shared_ptr<const dissection::Stroke> DrillSession::end()
 {
-  auto& work = *m_case.dissection;
+  auto& work = m_case.dissection;
   if (!work.strokeOpen())
     return nullptr;
   auto removed = measure(work);
   work.openInfo().removed = removed.total;
   work.openInfo().structures = std::move(removed.structures);
-  return scene::endStroke(m_case);
+  return work.endStroke();
 }
 
 dissection::RemovedVolume DrillSession::measure(const dissection::Dissection& work) const

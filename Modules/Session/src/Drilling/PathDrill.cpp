@@ -23,7 +23,7 @@ ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 } // namespace
 
 PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& options)
-  : m_dissection(*value.dissection)
+  : m_dissection(value.dissection)
   , m_tissue(scene.drill().field())
   , m_radius(0.5 * options.tool.burr.diameter)
   , m_turns(options.tool.burr.rpm > 0.0)
@@ -35,7 +35,7 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
             : std::make_unique<RecordingWriter>(
                   options.recording, scene.recordingOf(options.tool, m_servo.setup(), "tool path")))
   , m_removal(scene.removalOf(options.tool.burr, options.catalogues))
-  , m_loop(*value.dissection, *scene.mask(), m_removal->removalModel,
+  , m_loop(value.dissection, *scene.mask(), m_removal->removalModel,
            scene.drill().protectedTissue(), hooks(scene, options))
   , m_approach(m_tissue)
 {

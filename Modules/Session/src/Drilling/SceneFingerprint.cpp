@@ -70,7 +70,7 @@ RecordedScene TouchScene::fingerprint() const
   }
   result.tissue = tissue.value();
 
-  result.mask = printOf(m_case.dissection->mask());
+  result.mask = printOf(m_case.dissection.mask());
   result.applied = m_case.applied();
   result.firstState = m_mask->number();
   return result;

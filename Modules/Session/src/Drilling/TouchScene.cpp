@@ -30,7 +30,7 @@ TouchScene::TouchScene(scene::Case& value, const DrillSession& drill,
                        const core::Progress& progress, std::uint64_t firstState)
   : m_case(value)
   , m_drill(drill)
-  , m_mask(std::make_shared<volume::PublishedMask>(value.dissection->mask(), firstState))
+  , m_mask(std::make_shared<volume::PublishedMask>(value.dissection.mask(), firstState))
 {
   progress.check("feeling the tissue");
   scene::TouchTissue tissue = scene::touchTissue(value, m_drill.field(), progress);
@@ -55,7 +55,7 @@ std::shared_ptr<const core::LockedMemory> TouchScene::lockedMemory() const
 
 void TouchScene::publish(const std::vector<std::size_t>& bricks)
 {
-  m_mask->publish(m_case.dissection->mask(), bricks, true);
+  m_mask->publish(m_case.dissection.mask(), bricks, true);
 }
 
 const haptics::PointShell& TouchScene::shellOf(const TouchTool& tool) const
@@ -128,8 +128,6 @@ DissectionLoop::Hooks TouchScene::hooksOf(const dissection::Burr& burr,
   DissectionLoop::Hooks hooks;
   hooks.begin = beginOf(burr, std::move(camera));
   hooks.close = [this](dissection::Dissection&) { m_drill.end(); };
-  hooks.turn = [this](bool back)
-  { return (back ? scene::undo(m_case, 1) : scene::redo(m_case, 1)) > 0; };
   return hooks;
 }
 

@@ -33,24 +33,19 @@ std::unique_ptr<SessionRecorder> recorderOf(const TouchScene& scene,
       setup.recording, scene.recordingOf(setup.tool, servo.setup(), "live session"));
 }
 
-// Updates the case's history, which the dissection already follows.
-void list(const Event& event, scene::Case& value, TouchSession::News& news)
+void list(const Event& event, TouchSession::News& news)
 {
   switch (event.kind)
   {
   case Event::Kind::StrokeBegun:
     break;
   case Event::Kind::StrokeClosed:
-    if (event.stroke)
-      scene::listStroke(value, event.stroke);
     news.strokes.push_back(event.stroke);
     break;
   case Event::Kind::Undone:
-    value.history.undo();
     news.steps.push_back(true);
     break;
   case Event::Kind::Redone:
-    value.history.redo();
     news.steps.push_back(false);
     break;
   }
@@ -77,7 +72,7 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
   , m_servo(*m_proxy, setupOf(scene, setup))
   , m_recorder(recorderOf(scene, setup, m_servo))
   , m_ring(kRing)
-  , m_fork(forkOf(*value.dissection))
+  , m_fork(forkOf(value.dissection))
   , m_changes(m_fork.changes())
   , m_removal(scene.removalOf(setup.tool.burr, setup.catalogues))
   , m_reporter(m_fork, m_queue)
@@ -157,7 +152,7 @@ TouchSession::~TouchSession()
 
 bool TouchSession::drilling() const noexcept
 {
-  return m_case.dissection->strokeOpen();
+  return m_case.dissection.strokeOpen();
 }
 
 void TouchSession::setParameters(const ServoParameters& parameters)
@@ -170,9 +165,9 @@ TouchSession::News TouchSession::advance()
   News news;
   news.failure = m_dissectionThread.takeFailure();
   DissectionUpdate update = m_queue.take();
-  news.bricks = follow(update, *m_case.dissection);
+  news.bricks = follow(update, m_case.dissection);
   for (const Event& event : update.events)
-    list(event, m_case, news);
+    list(event, news);
   if (update.fault)
     news.fault = toString(*update.fault);
   news.recordingFault = std::move(update.recordingFault);

@@ -173,10 +173,7 @@ bool DissectionLoop::turn(bool back)
 {
   m_removalModel.release();
   endStroke();
-  const bool done = m_hooks.turn ? m_hooks.turn(back)
-                    : back       ? m_dissection.undo()
-                                 : m_dissection.redo();
-  if (!done)
+  if ((back ? m_dissection.undo() : m_dissection.redo()) == 0)
     return false;
   publish(true);
   notify({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});

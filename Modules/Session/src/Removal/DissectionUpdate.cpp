@@ -165,7 +165,7 @@ std::vector<std::size_t> follow(DissectionUpdate& update, dissection::Dissection
     for (std::size_t brick = 0; brick < now.brickCount(); ++brick)
       if (now.brick(brick) != copy.mask().brick(brick))
         update.bricks.emplace(brick, now.brick(brick));
-    copy = *std::exchange(update.history, std::nullopt);
+    copy.catchUp(*std::exchange(update.history, std::nullopt));
   }
   std::vector<std::size_t> bricks;
   bricks.reserve(update.bricks.size());

@@ -23,7 +23,12 @@ class SlicePresenter
 public:
   /// Copies what a slice shows of the case; voxels are shared. Loads the CT, and label maps if a
   /// structure is visible.
-  explicit SlicePresenter(const scene::Case& value);
+  explicit SlicePresenter(const scene::Case& value)
+    : SlicePresenter(value, value.dissection.sharedMask())
+  {
+  }
+  /// With the mask of another copy of the case, which is the one that is drilled.
+  SlicePresenter(const scene::Case& value, std::shared_ptr<const volume::CutMask> mask);
 
   /// `overlay`: an MR shown with the CT; contours of bone and skin are drawn on top of everything.
   SlicePixels draw(const SliceGeometry& slice, const GreyWindow& window,

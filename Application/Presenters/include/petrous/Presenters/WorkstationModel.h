@@ -24,8 +24,10 @@ namespace petrous::presenters
 /// A case read from the library, in any thread.
 struct ReadCase
 {
-  std::unique_ptr<scene::Case> value; ///< with its dissection
+  std::unique_ptr<scene::Case> value; ///< with its dissection, as far as it is sound
   std::vector<std::string> notices;   ///< Library::onNotice
+  std::vector<std::string> strokes;   ///< damage, see Library::loadSoundDissection
+  std::size_t undone = 0;             ///< applied strokes that were undone for it
 
   /// Throws as Library::open does, also where the CT is missing; CancelledError.
   static ReadCase from(const library::Library& library, const std::string& name,
@@ -158,11 +160,16 @@ public:
   /// Structures that are missing or damaged, one sentence each: they are neither shown nor
   /// touchable, and the case keeps them as they are on disk.
   std::vector<std::string> leftOut() const;
+  /// Strokes that are missing or damaged, one sentence each. Applied ones, and those after them,
+  /// were undone when the case was opened; the case keeps them.
+  const std::vector<std::string>& damagedStrokes() const noexcept { return m_damagedStrokes; }
+  std::size_t undoneForDamage() const noexcept { return m_undoneForDamage; }
 
   bool canUndo() const noexcept;
   bool canRedo() const noexcept;
   /// During a touch session they are only requested, and reported some milliseconds later; see
-  /// Events::stepped.
+  /// Events::stepped. `redo` throws LibraryError if the stroke is damaged; nothing has changed
+  /// then.
   void undo();
   void redo();
 
@@ -272,6 +279,8 @@ private:
   };
   std::vector<Unread<volume::LabelMap>> m_unreadLabels;
   std::vector<Unread<core::TriangleMesh>> m_unreadMeshes;
+  std::vector<std::string> m_damagedStrokes;
+  std::size_t m_undoneForDamage = 0;
   std::uint64_t m_shown = 0;
   std::uint64_t m_parts = 0;  ///< of the case and its parts
   std::uint64_t m_tissue = 0; ///< of what is tissue

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Core/Lazy.h"
 #include "petrous/Volume/CutMask.h"
 
 namespace petrous::dissection
@@ -52,10 +54,23 @@ struct BrickDelta
   volume::CutMask::BrickVersion after;
 };
 
+/// A stroke of a history. Its metadata are always there, its voxels are read when they are needed.
 struct Stroke
 {
+  using Voxels = std::vector<std::uint8_t>; ///< encoded, see StrokeCodec.h
+
+  Stroke() = default;
+  Stroke(StrokeInfo i, Voxels encoded)
+    : info(std::move(i))
+    , bytes(encoded.size())
+    , packed(std::make_shared<const Voxels>(std::move(encoded)))
+  {
+  }
+
   StrokeInfo info;
-  std::vector<std::uint8_t> packed; ///< encoded voxels, see StrokeCodec.h
+  std::string object;        ///< name of the stored voxels; empty: not stored
+  std::size_t bytes = 0;     ///< size of the encoded voxels
+  core::Lazy<Voxels> packed; ///< throws what reading them throws
 };
 
 } // namespace petrous::dissection

@@ -38,7 +38,7 @@ struct SavedState
 /// Only one program at a time has a journal of a case.
 ///
 ///     Journal journal(library, value);
-///     ... journal.follow(*value.dissection);    // after each step, on the drilling thread
+///     ... journal.follow(value.dissection);    // after each step, on the drilling thread
 ///     library.save(value);
 ///     journal.saved(value);                     // on any thread
 class Journal

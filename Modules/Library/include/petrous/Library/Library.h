@@ -82,8 +82,14 @@ public:
   /// LibraryError (NotFound, Damaged) and ManifestError.
   scene::Case open(const std::string& name) const;
 
-  /// Reads the strokes into `value.dissection` unless already loaded.
+  /// Loads `value.dissection` unless already loaded (Dissection::load). Throws LibraryError
+  /// (Damaged, NotFound) naming the applied stroke that cannot be read, and how to go on without.
   void loadDissection(scene::Case& value) const;
+
+  /// The same for a case that opens with what is sound of it: undoes the first applied stroke that
+  /// cannot be read, and those after it. Reads all strokes, also those not applied; returns the
+  /// damage, one sentence a stroke.
+  std::vector<std::string> loadSoundDissection(scene::Case& value) const;
 
   /// Cache of data derived from the library's objects (DerivedCache.h).
   std::shared_ptr<core::DerivedStore> derived() const;

@@ -9,13 +9,10 @@
 namespace petrous::scene
 {
 
-/// Changes the history to `next`, including the voxels if they are loaded. Throws like
-/// Dissection::follow; nothing has changed then.
-void follow(Case& value, dissection::History next);
-
 /// Creates a branch (an approach) and switches to it: at the current state, or at the state after
 /// the first `after` strokes of the current branch, including undone ones. Throws InvalidParameter
-/// if the name is taken or invalid, or if the branch has fewer strokes.
+/// if the name is taken or invalid, or if the branch has fewer strokes, and what
+/// Dissection::follow throws, as the functions below.
 void startBranch(Case& value, const std::string& name,
                  std::optional<std::size_t> after = std::nullopt);
 

@@ -57,21 +57,11 @@ struct MeshPart
   MeshTouch touch; ///< its voxels for haptics and drilling: see CaseField.h
 };
 
-/// A stroke as listed in the case; its voxels are in `object`.
-struct StrokePart
-{
-  std::string object;
-  std::size_t bytes = 0; ///< on disk
-  dissection::StrokeInfo info;
-  std::shared_ptr<const dissection::Stroke> stroke; ///< with its voxels; nullptr until loaded
-};
-
 /// One patient's case as a value: its parts, their appearance, and what was drilled.
 ///
-/// The metadata of the strokes is always present; their voxels are in `dissection`, which is loaded
-/// only for drilling, rendering or queries of the field (Library::loadDissection). `history` is
-/// then that of `dissection` as of the last call of a function here: another thread may have
-/// advanced it since.
+/// A copy is the case at this moment, also for another thread: a tool that cuts this one does not
+/// change it. The mask is loaded only for drilling, rendering or queries of the field
+/// (Library::loadDissection).
 struct Case
 {
   std::string name;
@@ -87,28 +77,15 @@ struct Case
   std::vector<MeshPart> meshes;
   std::optional<core::CameraPose> camera; ///< last view; nullopt: lateral view
 
-  std::vector<StrokePart> strokes; ///< all, in order of creation
-  dissection::History history;     ///< the stroke tree and which strokes are applied
-  std::shared_ptr<dissection::Dissection> dissection;
+  dissection::Dissection dissection; ///< the strokes, their history and the mask
 
   /// Persistent cache of data derived from the parts; nullptr: none.
   std::shared_ptr<core::DerivedStore> derived;
 
-  std::size_t applied() const { return history.applied(); } ///< applied strokes
-  double removedVolume() const;                             ///< mm^3, of the applied strokes
+  std::size_t applied() const { return dissection.applied(); } ///< applied strokes
+  double removedVolume() const;                                ///< mm^3, of the applied strokes
   volume::IntensityScale intensityScale() const { return {iso, denseBone}; }
 };
-
-/// Undoes (or redoes) `count` strokes of the current branch, including the voxels if they are
-/// loaded. Returns the number of steps taken. Throws like Dissection::follow.
-std::size_t undo(Case& value, std::size_t count);
-std::size_t redo(Case& value, std::size_t count);
-
-/// Ends the open stroke of `dissection` and lists it. Returns nullptr if it changed nothing.
-std::shared_ptr<const dissection::Stroke> endStroke(Case& value);
-
-/// Lists a stroke that `dissection` already contains, at the current state.
-void listStroke(Case& value, const std::shared_ptr<const dissection::Stroke>& stroke);
 
 /// The structure, or nullptr.
 StructurePart* findStructure(Case& value, const std::string& name);

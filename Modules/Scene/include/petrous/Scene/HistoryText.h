@@ -10,9 +10,9 @@ namespace petrous::scene
 
 /// One line of JSON each, in the manifest's format: for a journal. Numbers round-trip exactly.
 /// `...FromText` throws InvalidParameter if the text was not written by these functions.
-std::string toText(const StrokePart& stroke);
+std::string toText(const dissection::Stroke& stroke);
 std::string toText(const dissection::History& history);
-StrokePart strokeFromText(std::string_view text);
+dissection::Stroke strokeFromText(std::string_view text);
 dissection::History historyFromText(std::string_view text);
 
 } // namespace petrous::scene

@@ -30,8 +30,6 @@ public:
     Begin begin;
     std::function<void(dissection::Dissection&)> close; ///< closes the open stroke; empty:
                                                         ///< Dissection::endStroke
-    std::function<bool(bool back)> turn; ///< undoes (true) or redoes (false) a stroke, false if
-                                         ///< there is none; empty: Dissection::undo, redo
     std::function<void(const std::vector<std::size_t>&)> changed; ///< bricks, after publishing
     Edited edited;
   };

@@ -91,9 +91,8 @@ public:
   static DissectionLoop::Begin beginOf(const dissection::Burr& burr,
                                        std::function<std::optional<core::CameraPose>()> camera);
 
-  /// Hooks for a dissection loop that cuts the case's own dissection: strokes are opened and added
-  /// to the history as by a DrillSession, and the case follows undo and redo. Not for a loop that
-  /// cuts a fork of it (TouchSession).
+  /// Hooks for a dissection loop that cuts the case's own dissection: strokes are opened and closed
+  /// as by a DrillSession. Not for a loop that cuts a fork of it (TouchSession).
   DissectionLoop::Hooks hooksOf(const dissection::Burr& burr,
                                 std::function<std::optional<core::CameraPose>()> camera);
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "DrilledCase.h"
+#include "MaskComparison.h"
 #include "petrous/Scene/Branches.h"
-#include "petrous/Volume/MaskComparison.h"
 
 using namespace petrous;
 using scene::test::drill;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "DrilledCase.h"
-#include "petrous/Volume/MaskComparison.h"
+#include "MaskComparison.h"
 
 using namespace petrous;
 using scene::test::drilledCase;

@@ -1,9 +1,14 @@
-#include "MaskComparison.h"
+#pragma once
+
+#include <cstddef>
+
+#include "petrous/Volume/CutMask.h"
 
 namespace petrous::volume
 {
 
-std::size_t differentVoxels(const CutMask& a, const CutMask& b)
+/// Number of voxels that differ between two masks on one grid.
+inline std::size_t differentVoxels(const CutMask& a, const CutMask& b)
 {
   std::size_t count = 0;
   for (std::size_t n = 0; n < a.brickCount(); ++n)

@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "HeldTool.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/RecordingPlayer.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/ApplyRegistration.h"
 
@@ -88,6 +91,93 @@ TEST_F(WorkstationModelTest, OpensSavesAndFindsTheStrokeAgain)
   model.save();
   EXPECT_FALSE(model.unsaved());
   EXPECT_EQ(library.open("block").dissection.strokes().size(), 1u);
+}
+
+// One after another they lead a copy of the case to the same dissection.
+TEST_F(WorkstationModelTest, RecordsEachSessionToAFileOfItsOwnUntilAnotherCaseIsOpen)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case copy = block("copy");
+  model.library().loadDissection(copy);
+  model.adopt(block("block"));
+  model.prepareNow();
+  std::vector<std::filesystem::path> files;
+  model.events.recordingChanged = [&](const std::string& fault)
+  {
+    EXPECT_EQ(fault, "");
+    if (files.empty() || files.back() != model.recording())
+      files.push_back(model.recording());
+  };
+  std::filesystem::create_directories(folder);
+  const auto first = folder / "ear.ticks", second = folder / "ear (2).ticks";
+  model.record(first);
+  EXPECT_FALSE(std::filesystem::exists(first)) << "it begins with the tool";
+  stroke(model);
+  stroke(model);
+  EXPECT_EQ(files, (std::vector{first, second}));
+  for (const auto& file : files)
+  {
+    session::RecordingReader reader(file);
+    session::TouchScene scene(copy, {}, reader.setup().scene.firstState);
+    RecordingPlayer player(copy, scene, reader, "ear.ticks");
+    while (player.next())
+      player.feel();
+    EXPECT_TRUE(player.outcome().equal()) << player.outcome().difference;
+    EXPECT_TRUE(reader.complete());
+  }
+  ASSERT_EQ(copy.strokes.size(), 2u);
+  ASSERT_EQ(model.value().strokes.size(), 2u);
+  EXPECT_EQ(copy.strokes[0].info.removed, model.value().strokes[0].info.removed);
+  EXPECT_EQ(copy.strokes[1].info.removed, model.value().strokes[1].info.removed);
+  model.adopt(block("other"));
+  EXPECT_TRUE(model.recording().empty());
+  EXPECT_EQ(files.size(), 3u);
+  model.prepareNow();
+  stroke(model);
+  EXPECT_FALSE(std::filesystem::exists(folder / "ear (3).ticks"));
+}
+
+TEST_F(WorkstationModelTest, DrillsOnWhereItCannotBeRecorded)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.prepareNow();
+  std::filesystem::create_directories(folder);
+  std::string fault;
+  model.events.recordingChanged = [&fault](const std::string& why) { fault = why; };
+  model.record(folder / "missing" / "ear.ticks");
+  EXPECT_EQ(fault, "");
+  stroke(model);
+  EXPECT_NE(fault.find("ear.ticks: could not be written"), std::string::npos) << fault;
+  EXPECT_TRUE(model.recording().empty());
+  EXPECT_EQ(model.value().strokes.size(), 1u);
+
+  // The disk is full once the recording has begun.
+  fault.clear();
+  model.record(folder / "ear.ticks");
+  HeldTool hand({6, 6, 8.5});
+  model.startTouch(hand.device, hand.setup);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 4;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_TRUE(until(
+      [&]
+      {
+        model.advanceTouch();
+        return !fault.empty();
+      }));
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, old);
+  EXPECT_NE(fault.find("ear.ticks: could not be written"), std::string::npos) << fault;
+  EXPECT_TRUE(model.recording().empty());
+  EXPECT_TRUE(model.touching());
+  hand.drill(true);
+  EXPECT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
+  model.stopTouch();
+  EXPECT_EQ(model.value().strokes.size(), 2u);
 }
 
 TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)

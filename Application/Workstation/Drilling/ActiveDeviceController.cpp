@@ -94,7 +94,10 @@ void ActiveDeviceController::take()
 
 void ActiveDeviceController::giveUp(const QString& why)
 {
+  const bool had = m_device != nullptr;
   choose(InputDevice());
+  if (had)
+    emit lost();
   emit statusMessage(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
 }
 

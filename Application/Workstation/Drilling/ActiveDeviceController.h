@@ -40,6 +40,7 @@ signals:
   /// The device must not be used from here on; emitted before `device` is released.
   void leaving();
   void came(); ///< another device is ready
+  void lost(); ///< the device went by itself; the mouse has taken over
   void leadChanged();
   void pedalCame();
   void statusMessage(const QString& line);

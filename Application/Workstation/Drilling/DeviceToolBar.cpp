@@ -9,6 +9,7 @@
 #include <QSignalBlocker>
 #include <QStandardItemModel>
 
+#include "Bind.h"
 #include "Theme.h"
 #include "petrous/Presenters/DeviceMapping.h"
 
@@ -26,38 +27,24 @@ QString titleOf(const InputDevice& input)
   return input.kind == InputDevice::Kind::Mouse ? DeviceToolBar::tr("Mouse") : words(input.name);
 }
 
-QDoubleSpinBox* numberBox(const char* name, const QString& suffix, double least, double most,
-                          double step, int decimals)
-{
-  auto* box = new QDoubleSpinBox;
-  box->setObjectName(name);
-  box->setDecimals(decimals);
-  box->setRange(least, most);
-  box->setSingleStep(step);
-  box->setSuffix(suffix);
-  box->setKeyboardTracking(false);
-  return box;
-}
-
 } // namespace
 
 DeviceToolBar::DeviceToolBar(QWidget* parent)
   : QToolBar(tr("Device"), parent)
-  , m_choice(new QComboBox)
-  , m_scale(numberBox("deviceScale", tr(" mm/mm"), DeviceMapping::kMinScale,
-                      DeviceMapping::kMaxScale, 0.05, 2))
-  , m_limit(numberBox("forceLimit", tr(" N"), 0.0, 200.0, 0.1, 1))
+  , m_choice(choiceBox("deviceChoice",
+                       tr("What leads the tool: the mouse, a SpaceMouse, or a device behind a "
+                          "device server. What is plugged in comes up by itself.\n"
+                          "X, or the device's second button, held: the hand moves alone.")))
+  , m_scale(numberBox("deviceScale",
+                      tr("Millimetres that the tool goes for a millimetre of the hand"),
+                      {DeviceMapping::kMinScale, DeviceMapping::kMaxScale, tr(" mm/mm"), 2, 0.05}))
+  , m_limit(numberBox("forceLimit", tr("The strongest force that the device may give, N"),
+                      {0.0, 200.0, tr(" N"), 1, 0.1}))
   , m_here(new QAction(tr("Bring the tool &here"), this))
 {
   setObjectName("deviceBar");
   setMovable(false);
-  m_choice->setObjectName("deviceChoice");
   m_choice->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  m_choice->setToolTip(tr("What leads the tool: the mouse, a SpaceMouse, or a device behind a "
-                          "device server. What is plugged in comes up by itself.\n"
-                          "X, or the device's second button, held: the hand moves alone."));
-  m_scale->setToolTip(tr("Millimetres that the tool goes for a millimetre of the hand"));
-  m_limit->setToolTip(tr("The strongest force that the device may give, N"));
   m_here->setShortcut(Qt::Key_H);
   m_here->setToolTip(
       tr("Brings the tool of a device before what is in the middle of the view (H)"));

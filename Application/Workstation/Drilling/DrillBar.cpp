@@ -9,6 +9,7 @@
 #include <QSpinBox>
 #include <QToolButton>
 
+#include "Bind.h"
 #include "DiameterBox.h"
 
 namespace petrous::workstation
@@ -22,7 +23,10 @@ DrillBar::DrillBar(QWidget* parent)
   , m_diameter(new DiameterBox)
   , m_kind(new QComboBox)
   , m_speed(new QSpinBox)
-  , m_thrust(new QDoubleSpinBox)
+  , m_thrust(numberBox("thrust",
+                       tr("How hard a hand without force (mouse, SpaceMouse) presses the burr on "
+                          "the bone, N: the harder, the faster it goes in"),
+                       {0.1, 10.0, tr(" N"), 1, 0.1}))
 {
   setObjectName("drillBar");
   setMovable(false);
@@ -58,15 +62,7 @@ DrillBar::DrillBar(QWidget* parent)
   m_speed->setObjectName("spindleSpeed");
   m_speed->setToolTip(tr("Speed of the spindle, thousands of turns a minute: the faster it turns, "
                          "the faster the burr goes in"));
-  m_thrust->setRange(0.1, 10.0);
-  m_thrust->setSingleStep(0.1);
-  m_thrust->setDecimals(1);
   m_thrust->setValue(1.0);
-  m_thrust->setSuffix(tr(" N"));
-  m_thrust->setObjectName("thrust");
-  m_thrust->setToolTip(
-      tr("How hard a hand without force (mouse, SpaceMouse) presses the burr on the "
-         "bone, N: the harder, the faster it goes in"));
   m_wheel->setCheckable(true);
   m_wheel->setShortcut(Qt::Key_M);
   m_wheel->setToolTip(

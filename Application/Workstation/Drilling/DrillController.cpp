@@ -124,11 +124,8 @@ void DrillController::connectDevices()
   connect(&m_devices, &ActiveDeviceController::pedalCame, this,
           [this]
           {
-            if (m_model.drilling())
-              return;
-            restartTool(); // with the pedal
-            if (!m_devices.device())
-              takeAtPointer();
+            if (!m_model.drilling())
+              renewTool(); // with the pedal
           });
 }
 
@@ -208,6 +205,13 @@ void DrillController::restartTool()
   applyBar();
   if (m_devices.device())
     m_anew.start();
+}
+
+void DrillController::renewTool()
+{
+  restartTool();
+  if (!m_devices.device())
+    takeAtPointer();
 }
 
 void DrillController::tissueCame()

@@ -31,6 +31,7 @@ public:
 
   void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
   void releaseTool();                ///< no tool; ends an open stroke
+  void renewTool();                  ///< puts the tool away and takes it up again
   void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< moves a device's tool in front of the view's centre
 

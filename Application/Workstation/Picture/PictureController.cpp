@@ -67,13 +67,11 @@ void PictureController::caseChanged()
 {
   m_view.display().setTool(std::nullopt);
   showScene();
-  m_panel->caseChanged();
 }
 
 void PictureController::appearanceChanged()
 {
   showScene();
-  m_panel->caseChanged();
 }
 
 void PictureController::showScene()

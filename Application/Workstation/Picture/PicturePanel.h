@@ -1,13 +1,10 @@
 #pragma once
 
-#include <QTimer>
-#include <QWidget>
-
+#include "Bind.h"
+#include "Panels.h"
 #include "petrous/Presenters/ViewSettings.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QSlider;
 
@@ -15,7 +12,7 @@ namespace petrous::workstation
 {
 
 /// Rendering settings: bone, lamp, stereo. Every number has its unit.
-class PicturePanel : public QWidget
+class PicturePanel : public Panel
 {
   Q_OBJECT
 public:
@@ -23,27 +20,19 @@ public:
   PicturePanel(presenters::WorkstationModel& model, presenters::ViewSettings& settings,
                bool quadBuffer, QWidget* parent = nullptr);
 
-  void caseChanged();     ///< or its parts' appearance
+  void caseChanged() override;
+  void appearanceChanged() override;
   void settingsChanged(); ///< light or stereo
 
 private:
-  QSlider* addFractionSlider(QFormLayout* form, const QString& name, const QString& tip,
-                             const QString& objectName);
-  QDoubleSpinBox* addLength(QFormLayout* form, const QString& name, const QString& tip,
-                            const QString& objectName, const QString& atZero, double largest);
+  void addPercent(QFormLayout* form, const QString& name, QSlider* slider);
   void addStereo(QFormLayout* form, bool quadBuffer);
-  void setBoneOpacity();
+  void setBoneOpacity(double opacity);
 
   presenters::WorkstationModel& m_model;
   presenters::ViewSettings& m_settings;
   QSlider* m_bone;
-  QDoubleSpinBox* m_falloff;
-  QSlider* m_wetness;
-  QComboBox* m_stereo;
-  QDoubleSpinBox* m_separation;
-  QDoubleSpinBox* m_convergence;
-  QTimer m_apply;         // coalesces the changes of a moving slider
-  bool m_showing = false; // values are being set from model or settings
+  Bindings m_bound;
 };
 
 } // namespace petrous::workstation

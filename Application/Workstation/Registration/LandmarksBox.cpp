@@ -6,8 +6,8 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "Bind.h"
 #include "LandmarkModel.h"
-#include "PanelButton.h"
 
 namespace petrous::workstation
 {

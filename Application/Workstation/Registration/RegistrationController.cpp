@@ -151,7 +151,6 @@ void RegistrationController::caseChanged()
   m_firstMetric.reset();
   m_session.caseChanged();
   m_panel->setRunning(false);
-  m_panel->caseChanged();
   m_overlay->reset();
   showMarks();
 }

@@ -7,17 +7,16 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScopedValueRollback>
 #include <QScrollArea>
 #include <QSlider>
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "Bind.h"
 #include "FoldBox.h"
 #include "HandlesBox.h"
 #include "LandmarksBox.h"
 #include "MetricCurve.h"
-#include "PanelButton.h"
 #include "RegistrationTargetBox.h"
 #include "Theme.h"
 
@@ -70,7 +69,7 @@ QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 } // namespace
 
 RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent)
-  : QWidget(parent)
+  : Panel(parent)
   , m_session(session)
   , m_mr(new QComboBox)
   , m_state(new QLabel)
@@ -90,16 +89,15 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
     label->setTextFormat(Qt::PlainText);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
-  connect(m_mr, qOverload<int>(&QComboBox::currentIndexChanged), this,
-          [this]
-          {
-            if (m_showing)
-              return;
-            m_session.choose(bytes(m_mr->currentText()));
-            say({});
-            refresh();
-            emit mrChosen();
-          });
+  m_bound.add(
+      m_mr, [this] { return m_mr->findText(words(m_session.mr())); },
+      [this](int row)
+      {
+        m_session.choose(bytes(m_mr->itemText(row)));
+        say({});
+        refresh();
+        emit mrChosen();
+      });
   auto* inside = new QWidget;
   auto* layout = new QVBoxLayout(inside);
   layout->setContentsMargins(10, 8, 10, 8);
@@ -148,33 +146,27 @@ void RegistrationPanel::addSteps(QVBoxLayout& layout)
 
 void RegistrationPanel::addSeeing(QVBoxLayout& layout)
 {
-  m_overlay = new QComboBox;
-  m_overlay->setObjectName("overlayMode");
+  m_overlay = choiceBox("overlayMode",
+                        tr("How the slices show the MR (O: the next way, V: CT or MR alone by "
+                           "turns)"));
   m_overlay->addItem(tr("CT alone"), kOff);
   m_overlay->addItem(tr("Blend"), static_cast<int>(OverlayMode::Blend));
   m_overlay->addItem(tr("CT's edges over the MR"), static_cast<int>(OverlayMode::Edges));
   m_overlay->addItem(tr("Checkerboard"), static_cast<int>(OverlayMode::Checker));
-  m_overlay->setToolTip(tr("How the slices show the MR (O: the next way, V: CT or MR alone by "
-                           "turns)"));
-  connect(m_overlay, qOverload<int>(&QComboBox::currentIndexChanged), this,
-          [this]
-          {
-            const int mode = m_overlay->currentData().toInt();
-            if (!m_showing)
-              emit overlayChosen(mode == kOff ? std::nullopt
-                                              : std::optional(static_cast<OverlayMode>(mode)));
-          });
-  m_opacity = new QSlider(Qt::Horizontal);
-  m_opacity->setObjectName("overlayOpacity");
-  m_opacity->setRange(0, 100);
-  m_opacity->setPageStep(10);
-  m_opacity->setToolTip(tr("Opacity of the MR in the blend"));
-  connect(m_opacity, &QSlider::valueChanged, this,
-          [this](int percent)
-          {
-            if (!m_showing)
-              emit opacityChosen(0.01 * percent);
-          });
+  m_bound.add(
+      m_overlay,
+      [this]
+      { return m_overlay->findData(m_overlayMode ? static_cast<int>(*m_overlayMode) : kOff); },
+      [this](int row)
+      {
+        const int mode = m_overlay->itemData(row).toInt();
+        emit overlayChosen(mode == kOff ? std::nullopt
+                                        : std::optional(static_cast<OverlayMode>(mode)));
+      });
+  m_opacity = m_bound.add(
+      percentSlider("overlayOpacity", tr("Opacity of the MR in the blend")),
+      [this] { return percent(m_overlayOpacity); },
+      [this](int percent) { emit opacityChosen(0.01 * percent); });
   auto* form = new QFormLayout;
   form->addRow(tr("&Slices show"), m_overlay);
   form->addRow(tr("MR &opacity"), m_opacity);
@@ -280,8 +272,7 @@ void RegistrationPanel::sign()
 
 void RegistrationPanel::caseChanged()
 {
-  const QScopedValueRollback<bool> showing(m_showing, true);
-  m_mr->clear();
+  m_bound.quietly([this] { m_mr->clear(); });
   m_name->clear();
   m_curve->clear();
   setMetric({});
@@ -291,7 +282,6 @@ void RegistrationPanel::caseChanged()
 
 void RegistrationPanel::refresh()
 {
-  const QScopedValueRollback<bool> showing(m_showing, true);
   QStringList names;
   for (const std::string& name : m_session.mrNames())
     names << words(name);
@@ -299,11 +289,13 @@ void RegistrationPanel::refresh()
   for (int n = 0; n < m_mr->count(); ++n)
     shown << m_mr->itemText(n);
   if (names != shown)
-  {
-    m_mr->clear();
-    m_mr->addItems(names);
-  }
-  m_mr->setCurrentText(words(m_session.mr()));
+    m_bound.quietly(
+        [&]
+        {
+          m_mr->clear();
+          m_mr->addItems(names);
+        });
+  m_bound.refresh();
   m_state->setText(m_session.part()
                        ? words(m_session.stateInWords())
                        : tr("The case has no MR; add one with File > Open DICOM… or Open files…"));
@@ -322,7 +314,7 @@ void RegistrationPanel::enable()
   const bool free = there && !m_running;
   m_mr->setEnabled(free);
   m_overlay->setEnabled(there);
-  const bool blends = m_overlay->currentData().toInt() == static_cast<int>(OverlayMode::Blend);
+  const bool blends = m_overlayMode == OverlayMode::Blend;
   m_opacity->setEnabled(there);
   m_opacity->setVisible(blends);
   m_opacityLabel->setVisible(blends);
@@ -341,9 +333,9 @@ void RegistrationPanel::enable()
 
 void RegistrationPanel::setOverlay(const std::optional<OverlayMode>& mode, double opacity)
 {
-  const QScopedValueRollback<bool> showing(m_showing, true);
-  m_overlay->setCurrentIndex(m_overlay->findData(mode ? static_cast<int>(*mode) : kOff));
-  m_opacity->setValue(static_cast<int>(100.0 * opacity + 0.5));
+  m_overlayMode = mode;
+  m_overlayOpacity = opacity;
+  m_bound.refresh();
   enable();
 }
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include <QWidget>
-
+#include "Bind.h"
+#include "Panels.h"
 #include "petrous/Presenters/RegistrationSession.h"
 
 class QComboBox;
@@ -24,14 +24,14 @@ class LandmarksBox;
 class MetricCurve;
 
 /// Registration of an MR of the case: display, fit, manual motion, landmarks, sign-off.
-class RegistrationPanel : public QWidget
+class RegistrationPanel : public Panel
 {
   Q_OBJECT
 public:
   explicit RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent = nullptr);
 
-  void caseChanged(); ///< another case, or other MRs in it
-  void refresh();     ///< registration, landmarks, undo state
+  void caseChanged() override;
+  void refresh(); ///< registration, landmarks, undo state
   void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
   void setRunning(bool running);
   void setProgress(double fraction, const QString& text);
@@ -73,6 +73,8 @@ private:
   QLabel* m_state;
   QLabel* m_error;
   QLabel* m_line;
+  std::optional<presenters::OverlayMode> m_overlayMode; ///< none: CT alone
+  double m_overlayOpacity = 0.5;
   QComboBox* m_overlay;
   QSlider* m_opacity;
   QWidget* m_opacityLabel;
@@ -93,7 +95,7 @@ private:
   QLineEdit* m_name;
   QPushButton* m_sign;
   bool m_running = false;
-  bool m_showing = false; // values are being set from the case
+  Bindings m_bound;
 };
 
 } // namespace petrous::workstation

@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
-#include <QScopedValueRollback>
 #include <QSpinBox>
 
 #include "Theme.h"
@@ -34,60 +33,83 @@ RegistrationTargetBox::RegistrationTargetBox(presenters::RegistrationSession& se
   addStart();
   addBox();
   addPlace();
-  m_showing = false;
 }
 
-QComboBox* RegistrationTargetBox::addChoice(const QString& label, const char* name,
-                                            const QString& tip)
+void RegistrationTargetBox::addChoice(const QString& label, QComboBox* box)
 {
-  auto* box = new QComboBox;
-  box->setObjectName(name);
-  box->setToolTip(tip);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(12);
   m_form->addRow(label, box);
-  connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this,
-          &RegistrationTargetBox::choose);
-  return box;
 }
 
 void RegistrationTargetBox::addOnto()
 {
-  m_onto = addChoice(tr("Fits t&o"), "registrationOnto",
+  m_onto = choiceBox("registrationOnto",
                      tr("A diffusion image finds more to hold on to in the T2 of the same session, "
                         "and comes to the CT through that, once it is registered itself"));
+  addChoice(tr("Fits t&o"), m_onto);
+  m_bound.add(
+      m_onto, [this] { return std::max(0, m_onto->findData(words(m_session.aim().onto))); },
+      [this](int row)
+      { choose([&](Aim& aim) { aim.onto = bytes(m_onto->itemData(row).toString()); }); });
 }
 
 void RegistrationTargetBox::addStart()
 {
-  m_start = addChoice(tr("S&tart"), "registrationStart",
+  m_start = choiceBox("registrationStart",
                       tr("Register looks around this place, 40 mm and 40° far; images of one frame "
                          "of reference begin where that puts them"));
   m_start->addItem(tr("as the files say"));
   m_start->addItem(tr("middle on middle"));
   m_start->addItem(tr("where the MR lies now"));
+  addChoice(tr("S&tart"), m_start);
+  m_bound.add(
+      m_start, [this] { return static_cast<int>(m_session.aim().start); },
+      [this](int row) { choose([row](Aim& aim) { aim.start = static_cast<Aim::Start>(row); }); });
 }
 
 void RegistrationTargetBox::addBox()
 {
-  m_box = new QSpinBox;
-  m_box->setObjectName("registrationBox");
-  m_box->setRange(kWhole, kLargestBox);
-  m_box->setSingleStep(10);
-  m_box->setSuffix(tr(" mm about the crosshair"));
-  m_box->setSpecialValueText(tr("the whole CT"));
-  m_box->setToolTip(tr("What of the CT counts: all of it, or a box of this edge about the "
-                       "crosshair, as for one ear where the jaw or neck has moved"));
-  m_form->addRow(tr("Re&gion"), m_box);
-  connect(m_box, qOverload<int>(&QSpinBox::valueChanged), this, &RegistrationTargetBox::choose);
+  auto* box = new QSpinBox;
+  box->setObjectName("registrationBox");
+  box->setRange(kWhole, kLargestBox);
+  box->setSingleStep(10);
+  box->setSuffix(tr(" mm about the crosshair"));
+  box->setSpecialValueText(tr("the whole CT"));
+  box->setToolTip(tr("What of the CT counts: all of it, or a box of this edge about the "
+                     "crosshair, as for one ear where the jaw or neck has moved"));
+  m_form->addRow(tr("Re&gion"), box);
+  m_bound.add(
+      box,
+      [this] { return m_session.aim().box > 0.0 ? static_cast<int>(m_session.aim().box) : kWhole; },
+      [this](int mm) { choose([mm](Aim& aim) { aim.box = mm > kWhole ? mm : 0.0; }); });
 }
 
 void RegistrationTargetBox::addPlace()
 {
-  m_place = addChoice(tr("Error &at"), "registrationPlace",
+  m_place = choiceBox("registrationPlace",
                       tr("Where the error is stated. The middle ear: an ossicle, or else the "
                          "tympanic cavity or the inner ear; without these the centre of what both "
                          "images show"));
+  addChoice(tr("Error &at"), m_place);
+  m_bound.add(
+      m_place,
+      [this]
+      {
+        const Aim& aim = m_session.aim();
+        return aim.place == Aim::Place::Structure ? m_place->findData(words(aim.structure))
+                                                  : static_cast<int>(aim.place);
+      },
+      [this](int row)
+      {
+        choose(
+            [&](Aim& aim)
+            {
+              const bool structure = row >= kFirstStructure;
+              aim.place = structure ? Aim::Place::Structure : static_cast<Aim::Place>(row);
+              aim.structure = structure ? bytes(m_place->itemData(row).toString()) : std::string();
+            });
+      });
 }
 
 void RegistrationTargetBox::fillPlaces()
@@ -109,40 +131,26 @@ void RegistrationTargetBox::fillPlaces()
 
 void RegistrationTargetBox::refresh()
 {
-  const QScopedValueRollback<bool> showing(m_showing, true);
   m_session.setAim(m_session.aim());
-  const Aim& aim = m_session.aim();
-  m_onto->clear();
-  m_onto->addItem(tr("the CT"));
-  for (const std::string& name : m_session.ontoNames())
-    m_onto->addItem(words(name), words(name));
-  m_onto->setCurrentIndex(std::max(0, m_onto->findData(words(aim.onto))));
+  m_bound.quietly(
+      [this]
+      {
+        m_onto->clear();
+        m_onto->addItem(tr("the CT"));
+        for (const std::string& name : m_session.ontoNames())
+          m_onto->addItem(words(name), words(name));
+        fillPlaces();
+      });
   const bool choice = m_onto->count() > 1;
   m_onto->setVisible(choice);
   m_form->labelForField(m_onto)->setVisible(choice);
-  m_start->setCurrentIndex(static_cast<int>(aim.start));
-  m_box->setValue(aim.box > 0.0 ? static_cast<int>(aim.box) : kWhole);
-  fillPlaces();
-  m_place->setCurrentIndex(aim.place == Aim::Place::Structure
-                               ? m_place->findData(words(aim.structure))
-                               : static_cast<int>(aim.place));
+  m_bound.refresh();
 }
 
-void RegistrationTargetBox::choose()
+void RegistrationTargetBox::choose(const std::function<void(Aim&)>& change)
 {
-  if (m_showing)
-    return;
-  Aim aim;
-  aim.onto = bytes(m_onto->currentData().toString());
-  aim.start = static_cast<Aim::Start>(m_start->currentIndex());
-  aim.box = m_box->value() > kWhole ? m_box->value() : 0.0;
-  if (m_place->currentIndex() >= kFirstStructure)
-  {
-    aim.place = Aim::Place::Structure;
-    aim.structure = bytes(m_place->currentData().toString());
-  }
-  else
-    aim.place = static_cast<Aim::Place>(m_place->currentIndex());
+  Aim aim = m_session.aim();
+  change(aim);
   m_session.setAim(aim);
   emit chosen();
 }

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <functional>
+
 #include <QWidget>
 
+#include "Bind.h"
 #include "petrous/Presenters/RegistrationSession.h"
 
 class QComboBox;
 class QFormLayout;
-class QSpinBox;
 
 namespace petrous::workstation
 {
@@ -30,17 +32,17 @@ private:
   void addOnto();
   void addPlace();
   void addBox();
-  QComboBox* addChoice(const QString& label, const char* name, const QString& tip);
+  void addChoice(const QString& label, QComboBox* box);
   void fillPlaces();
-  void choose(); // applies what the boxes show
+  /// Changes the session's aim.
+  void choose(const std::function<void(presenters::RegistrationAim&)>& change);
 
   presenters::RegistrationSession& m_session;
   QFormLayout* m_form;
   QComboBox* m_start;
   QComboBox* m_onto;
   QComboBox* m_place;
-  QSpinBox* m_box;
-  bool m_showing = true; // values are being set from the session
+  Bindings m_bound;
 };
 
 } // namespace petrous::workstation

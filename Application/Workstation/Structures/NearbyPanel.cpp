@@ -17,7 +17,7 @@ constexpr int kAgain = 60; // ms; faster than anyone can read
 }
 
 NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
-  : QWidget(parent)
+  : Panel(parent)
   , m_model(model)
   , m_structures(new NearbyModel(this))
   , m_removed(new QLabel)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QWidget>
 
+#include "Panels.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QLabel;
@@ -14,18 +14,16 @@ class NearbyModel;
 
 /// Structures near the burr, injured ones, and the removed volume. Queries the model only while
 /// visible.
-class NearbyPanel : public QWidget
+class NearbyPanel : public Panel
 {
   Q_OBJECT
 public:
   explicit NearbyPanel(presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
-  void caseChanged();
-  void stateChanged(); ///< strokes
-
-  /// The burr's centre, patient LPS mm, and radius, mm.
-  void burrMoved(const Eigen::Vector3d& center, double radius);
-  void burrGone(); ///< it was put away
+  void caseChanged() override;
+  void stateChanged() override;
+  void burrMoved(const Eigen::Vector3d& center, double radius) override;
+  void burrGone() override;
 
   const NearbyModel& structures() const { return *m_structures; }
 

@@ -1,13 +1,15 @@
 #include "StructuresPanel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <QDoubleSpinBox>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
-#include <QSignalBlocker>
+#include <QScopedValueRollback>
 #include <QSlider>
 #include <QTreeView>
 #include <QVBoxLayout>
@@ -20,53 +22,33 @@
 namespace petrous::workstation
 {
 
-namespace
-{
-constexpr int kApplyAfter = 60; // ms
-} // namespace
-
 StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
-  : QWidget(parent)
+  : Panel(parent)
   , m_model(model)
   , m_structures(new StructuresModel(model, this))
   , m_list(new QTreeView)
   , m_slider(new QSlider(Qt::Horizontal))
-  , m_box(new QDoubleSpinBox)
+  , m_box(numberBox("isoBox", {}, {0.0, 0.0, {}, 0, 1.0}))
+{
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  addThreshold(*layout);
+  addList(*layout);
+  setMinimumWidth(280);
+  showRange();
+}
+
+void StructuresPanel::addThreshold(QVBoxLayout& layout)
 {
   m_slider->setPageStep(50);
   m_slider->setObjectName("isoSlider");
-  m_box->setObjectName("isoBox");
-  showRange();
-  connect(m_slider, &QSlider::valueChanged, this,
-          [this](int steps) { m_box->setValue(m_step * steps); });
-  connect(m_box, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-          [this](double value)
-          {
-            const QSignalBlocker quiet(m_slider);
-            m_slider->setValue(static_cast<int>(std::lround(value / m_step)));
-            m_apply.start();
-          });
-  m_apply.setSingleShot(true);
-  m_apply.setInterval(kApplyAfter);
-  connect(&m_apply, &QTimer::timeout, this, [this] { m_model.setIso(m_box->value()); });
-
-  m_list->setModel(m_structures);
-  m_list->setObjectName("structures");
-  m_list->setRootIsDecorated(false);
-  m_list->setUniformRowHeights(true);
-  m_list->setAlternatingRowColors(true);
-  m_list->setAllColumnsShowFocus(true);
-  m_list->header()->setStretchLastSection(false);
-  m_list->header()->setSectionsMovable(false);
-  m_list->header()->setMinimumSectionSize(20);
-  m_list->header()->setSectionResizeMode(QHeaderView::Fixed);
-  for (int column = StructuresModel::VolumeColumn; column < StructuresModel::ColumnCount; ++column)
-    m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 46 : 48);
-  m_list->header()->setSectionResizeMode(StructuresModel::Name, QHeaderView::Stretch);
-
-  m_list->setContextMenuPolicy(Qt::CustomContextMenu);
-  connect(m_list, &QTreeView::customContextMenuRequested, this, &StructuresPanel::offer);
-
+  m_bound.add(
+      m_box, [this] { return m_model.hasCase() ? m_model.value().iso : m_box->value(); },
+      [this](double value) { m_model.setIso(value); }, Bindings::kSettle);
+  m_bound.add(
+      m_slider, [this] { return static_cast<int>(std::lround(m_box->value() / m_step)); },
+      [this](int steps) { m_box->setValue(m_step * steps); });
   auto* threshold = new QLabel(tr("&Bone threshold"));
   threshold->setBuddy(m_box);
   auto* top = new QHBoxLayout;
@@ -77,12 +59,55 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   head->setContentsMargins(10, 8, 10, 6);
   head->addLayout(top);
   head->addWidget(m_slider);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addLayout(head);
-  layout->addWidget(m_list, 1);
-  setMinimumWidth(280);
+  layout.addLayout(head);
+}
+
+void StructuresPanel::addList(QVBoxLayout& layout)
+{
+  m_list->setModel(m_structures);
+  m_list->setObjectName("structures");
+  m_list->setRootIsDecorated(false);
+  m_list->setUniformRowHeights(true);
+  m_list->setAlternatingRowColors(true);
+  m_list->setAllColumnsShowFocus(true);
+  m_list->setTextElideMode(Qt::ElideMiddle); // names often differ at their end: left, right
+  m_list->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  QHeaderView* header = m_list->header();
+  header->setStretchLastSection(false);
+  header->setSectionsMovable(false);
+  header->setMinimumSectionSize(20);
+  header->setSectionResizeMode(QHeaderView::Fixed);
+  for (int column = StructuresModel::VolumeColumn; column < StructuresModel::ColumnCount; ++column)
+    header->resizeSection(column, column == StructuresModel::VolumeColumn ? 46 : 48);
+  header->setSectionResizeMode(StructuresModel::Name, QHeaderView::Interactive);
+  connect(header, &QHeaderView::sectionResized, this,
+          [this](int column, int, int width)
+          {
+            if (column == StructuresModel::Name && !m_fitting)
+              m_nameWidth = width;
+          });
+  m_list->viewport()->installEventFilter(this);
+
+  m_list->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(m_list, &QTreeView::customContextMenuRequested, this, &StructuresPanel::offer);
+  layout.addWidget(m_list, 1);
+}
+
+bool StructuresPanel::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() == QEvent::Resize)
+    fitNames();
+  return Panel::eventFilter(watched, event);
+}
+
+// The names take what the other columns leave, or as much more as the user gave them.
+void StructuresPanel::fitNames()
+{
+  const QScopedValueRollback<bool> fitting(m_fitting, true);
+  QHeaderView* header = m_list->header();
+  const int others = header->length() - header->sectionSize(StructuresModel::Name);
+  header->resizeSection(StructuresModel::Name,
+                        std::max(m_list->viewport()->width() - others, m_nameWidth));
 }
 
 QString StructuresPanel::chosen() const
@@ -129,48 +154,42 @@ void StructuresPanel::offer(const QPoint& position)
     emit thicknessAsked(name);
 }
 
-// The image's range, in its unit.
+// The threshold, within the image's range and in its unit.
 void StructuresPanel::showRange()
 {
   const auto display =
       m_model.hasCase() ? presenters::displayOf(m_model.value()) : presenters::IntensityDisplay();
-  m_step = display.step;
-  m_slider->setRange(static_cast<int>(std::floor(display.least / m_step)),
-                     static_cast<int>(std::ceil(display.most / m_step)));
-  m_box->setDecimals(display.decimals);
-  m_box->setRange(display.least, display.most);
-  m_box->setSingleStep(10.0 * m_step);
-  m_box->setSuffix(words(display.suffix()));
+  m_bound.quietly(
+      [&]
+      {
+        m_step = display.step;
+        m_slider->setRange(static_cast<int>(std::floor(display.least / m_step)),
+                           static_cast<int>(std::ceil(display.most / m_step)));
+        m_box->setDecimals(display.decimals);
+        m_box->setRange(display.least, display.most);
+        m_box->setSingleStep(10.0 * m_step);
+        m_box->setSuffix(words(display.suffix()));
+      });
   const QString tip = display.hounsfield
                           ? tr("Bone is what is denser than this, in Hounsfield units (HU)")
                           : tr("Bone is what is denser than this, in the image's own unit: it is "
                                "not in Hounsfield units");
   m_slider->setToolTip(tip);
   m_box->setToolTip(tip);
-}
-
-void StructuresPanel::showIso()
-{
-  if (!m_model.hasCase() || m_apply.isActive())
-    return;
-  const QSignalBlocker quietBox(m_box);
-  const QSignalBlocker quietSlider(m_slider);
-  showRange();
-  m_box->setValue(m_model.value().iso);
-  m_slider->setValue(static_cast<int>(std::lround(m_model.value().iso / m_step)));
+  m_bound.refresh();
 }
 
 void StructuresPanel::caseChanged()
 {
-  m_apply.stop();
+  m_bound.drop();
   m_structures->caseChanged();
-  showIso();
+  showRange();
 }
 
 void StructuresPanel::appearanceChanged()
 {
   m_structures->appearanceChanged();
-  showIso();
+  showRange();
 }
 
 } // namespace petrous::workstation

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <QTimer>
-#include <QWidget>
-
+#include "Bind.h"
+#include "Panels.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QDoubleSpinBox;
 class QMenu;
 class QSlider;
 class QTreeView;
+class QVBoxLayout;
 
 namespace petrous::workstation
 {
@@ -16,7 +16,7 @@ namespace petrous::workstation
 class StructuresModel;
 
 /// Bone threshold and list of structures.
-class StructuresPanel : public QWidget
+class StructuresPanel : public Panel
 {
   Q_OBJECT
 public:
@@ -25,16 +25,21 @@ public:
   /// The selected structure; empty: none.
   QString chosen() const;
 
-  void caseChanged();
-  void appearanceChanged();
+  void caseChanged() override;
+  void appearanceChanged() override;
 
 signals:
   void thicknessAsked(const QString& structure); ///< a second request turns it off
 
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
+  void addThreshold(QVBoxLayout& layout);
+  void addList(QVBoxLayout& layout);
+  void fitNames();
   void offer(const QPoint& position);
   void addTissues(QMenu& menu, const QString& name);
-  void showIso();
   void showRange();
 
   presenters::WorkstationModel& m_model;
@@ -43,7 +48,9 @@ private:
   QSlider* m_slider;
   QDoubleSpinBox* m_box;
   double m_step = 1.0; // of the slider, in the CT's unit
-  QTimer m_apply;      // coalesces the changes of a moving slider
+  int m_nameWidth = 0; // of the names' column as the user set it, px; 0: not set
+  bool m_fitting = false;
+  Bindings m_bound;
 };
 
 } // namespace petrous::workstation

@@ -16,17 +16,17 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
   : QObject(&view)
   , m_model(model)
   , m_panel(panel)
-  , m_action(action)
   , m_legend(new ThicknessLegend(view))
 {
-  connect(&action, &QAction::triggered, this,
-          [this](bool on)
-          {
-            const QString chosen = m_panel.chosen();
-            if (on && chosen.isEmpty())
-              emit statusMessage(tr("Choose a structure in the list (F9) first"));
-            showOver(on ? chosen : QString());
-          });
+  m_bound.add(
+      &action, [this] { return !m_model.thicknessOver().empty(); },
+      [this](bool on)
+      {
+        const QString chosen = m_panel.chosen();
+        if (on && chosen.isEmpty())
+          emit statusMessage(tr("Choose a structure in the list (F9) first"));
+        showOver(on ? chosen : QString());
+      });
   connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
 }
 
@@ -57,7 +57,7 @@ void ThicknessController::bringUpToDate()
 {
   const QString over = words(m_model.thicknessOver()).replace('_', ' ');
   m_legend->setStructure(over);
-  m_action.setChecked(!over.isEmpty());
+  m_bound.refresh();
 }
 
 void ThicknessController::caseChanged()

@@ -2,6 +2,7 @@
 
 #include <QObject>
 
+#include "Bind.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QAction;
@@ -33,8 +34,8 @@ private:
 
   presenters::WorkstationModel& m_model;
   StructuresPanel& m_panel;
-  QAction& m_action;
   ThicknessLegend* m_legend;
+  Bindings m_bound;
 };
 
 } // namespace petrous::workstation

@@ -154,6 +154,40 @@ TEST_F(InputDevices, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInChar
   EXPECT_EQ(library().open("ball").dissection.strokes().size(), strokes.size() + 1);
 }
 
+TEST_F(InputDevices, ARecordingEndsWithItsDeviceAndTheCommandRepeatsItToTheBit)
+{
+  saveBall("copy");
+  saveBall("ball");
+  bench.play(kPlugCap);
+  openWindow("ball");
+  choose("SpaceMouse Compact");
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  const auto file = record();
+  ASSERT_TRUE(waitFor([&] { return std::filesystem::exists(file); }));
+  ASSERT_TRUE(hasTool());
+  QTest::keyPress(&view(), Qt::Key_Space);
+  ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
+                           { return !window().model().value().dissection->mask().untouched(); }));
+  bench.play("unplug cap\n");
+  ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_TRUE(window().model().recording().empty());
+  EXPECT_FALSE(action(QString::fromUtf8("Record session…"))->isChecked());
+  EXPECT_FALSE(window().findChild<QLabel*>("recording")->isVisible());
+  EXPECT_TRUE(settled());
+
+  const QJsonObject replay = replayed(file, "copy");
+  EXPECT_TRUE(replay["equal"].toBool());
+  EXPECT_TRUE(replay["complete"].toBool());
+  const auto ball = library().open("ball");
+  const auto copy = library().open("copy");
+  ASSERT_EQ(ball.strokes.size(), 1u);
+  ASSERT_EQ(copy.strokes.size(), 1u);
+  EXPECT_GT(ball.strokes[0].info.removed, 0.0);
+  EXPECT_EQ(copy.strokes[0].info.removed, ball.strokes[0].info.removed);
+}
+
 TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)
 {
   ASSERT_NO_FATAL_FAILURE(drillByServer());

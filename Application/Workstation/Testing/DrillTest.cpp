@@ -339,6 +339,76 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_TRUE(window().close());
 }
 
+// It ends when it is chosen again and with the program; another burr begins another file.
+TEST_F(Drill, ASessionIsRecordedAndTheCommandRepeatsItToTheBit)
+{
+  saveBall("copy");
+  saveBall("ball");
+  openWindow("ball");
+  auto* label = window().findChild<QLabel*>("recording");
+  EXPECT_FALSE(label->isVisible());
+  const auto first = record();
+  EXPECT_EQ(first.parent_path(), folder() / "library" / "recordings");
+  EXPECT_EQ(first.extension(), ".ticks");
+  EXPECT_TRUE(label->isVisible());
+  EXPECT_TRUE(label->text().contains("ball")) << label->text().toStdString();
+  drill(600, 30);
+  auto* chosen = action(QString::fromUtf8("Record session…"));
+  EXPECT_TRUE(chosen->isChecked());
+  chosen->trigger();
+  EXPECT_FALSE(chosen->isChecked());
+  EXPECT_FALSE(label->isVisible());
+  EXPECT_TRUE(window().model().recording().empty());
+
+  const auto second = record(); // with the burr in use
+  EXPECT_NE(second, first);
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
+  drill(600, -30);
+  EXPECT_EQ(window().model().recording(), second);
+  window().findChild<QDoubleSpinBox*>("burrDiameter")->setValue(6.0);
+  drill(600, 40);
+  const auto third = window().model().recording();
+  EXPECT_EQ(third.stem(), second.stem().string() + " (2)");
+  closeWindow();
+
+  for (const auto& file : {first, second, third})
+  {
+    const QJsonObject replay = replayed(file, "copy");
+    EXPECT_TRUE(replay["equal"].toBool()) << file;
+    EXPECT_TRUE(replay["complete"].toBool()) << file;
+  }
+  const auto ball = library().open("ball");
+  const auto copy = library().open("copy");
+  ASSERT_EQ(ball.strokes.size(), 3u);
+  ASSERT_EQ(copy.strokes.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    EXPECT_GT(ball.strokes[n].info.removed, 0.0);
+    EXPECT_EQ(copy.strokes[n].info.removed, ball.strokes[n].info.removed);
+    EXPECT_EQ(copy.strokes[n].info.duration, ball.strokes[n].info.duration);
+    EXPECT_EQ(copy.strokes[n].info.burr.diameter, ball.strokes[n].info.burr.diameter);
+  }
+}
+
+TEST_F(Drill, ARecordingThatCannotBeWrittenIsToldAndTheDrillGoesOn)
+{
+  saveBall("ball");
+  openWindow();
+  auto* banner = window().findChild<Banner*>("recordingBanner");
+  const auto file = record();
+  EXPECT_FALSE(banner->isVisible());
+  std::filesystem::remove_all(file.parent_path());
+  drill(500, 20);
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(banner->text().contains(".ticks: could not be written"))
+      << banner->text().toStdString();
+  EXPECT_FALSE(window().findChild<QLabel*>("recording")->isVisible());
+  EXPECT_FALSE(action(QString::fromUtf8("Record session…"))->isChecked());
+  EXPECT_EQ(library().open("ball").strokes.size(), 1u);
+  banner->findChild<QPushButton*>("dismissRecording")->click();
+  EXPECT_FALSE(banner->isVisible());
+}
+
 // A view that is pushed down would move under a resting mouse, and the burr with it.
 TEST_F(Drill, ABannerMovesNoPictureWhileTheToolIsInTheHandAndWidensNoWindow)
 {

@@ -6,7 +6,11 @@
 #include <unistd.h>
 
 #include <QApplication>
+#include <QFile>
+#include <QFileDialog>
+#include <QJsonDocument>
 #include <QMimeData>
+#include <QProcess>
 #include <QScreen>
 
 #include "Application.h"
@@ -173,6 +177,39 @@ bool GuiTest::strokeEnds()
 bool GuiTest::settled()
 {
   return waitFor([this] { return !m_window->busy(); });
+}
+
+std::filesystem::path GuiTest::record()
+{
+  std::filesystem::path file;
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer,
+                   [&]
+                   {
+                     auto* ask = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+                     if (!ask)
+                       return;
+                     answer.stop();
+                     file = QFile::encodeName(ask->selectedFiles().value(0)).toStdString();
+                     static_cast<QDialog*>(ask)->accept();
+                   });
+  answer.start(20);
+  action(QString::fromUtf8("Record session…"))->trigger();
+  // In case no window manager returns the keyboard focus to the window.
+  m_window->activateWindow();
+  view().setFocus();
+  return file;
+}
+
+QJsonObject GuiTest::replayed(const std::filesystem::path& file, const QString& name) const
+{
+  QProcess command;
+  command.start(PETROUS_COMMAND,
+                {"drill", name, "--replay", QString::fromStdString(file.string()), "--library",
+                 QString::fromStdString((folder() / "library").string()), "--json"});
+  EXPECT_TRUE(command.waitForFinished(60000));
+  EXPECT_EQ(command.exitCode(), 0) << command.readAllStandardError().toStdString();
+  return QJsonDocument::fromJson(command.readAllStandardOutput()).object()["replay"].toObject();
 }
 
 void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)

@@ -7,6 +7,7 @@
 
 #include <QAction>
 #include <QImage>
+#include <QJsonObject>
 #include <QMessageBox>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -48,6 +49,11 @@ protected:
   void drill(int milliseconds, int pixels = 0);
   bool strokeEnds(); ///< after the drill was released: removed in a separate thread, and saved
   bool settled();    ///< nothing is being read or written
+
+  /// Begins a recording in the file that the dialog offers; returns it.
+  std::filesystem::path record();
+  /// What the command says ("replay") when it plays a recording on that case of the library.
+  QJsonObject replayed(const std::filesystem::path& file, const QString& name) const;
 
   /// Calls `react` with the next message box (polling), which must close it.
   void onMessage(const std::function<void(QMessageBox&)>& react);

@@ -1,8 +1,12 @@
 #include "DeviceTest.h"
 
+#include <QAction>
+#include <QCheckBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QSlider>
 
+#include "Bind.h"
 #include "WindowSettings.h"
 
 using namespace petrous;
@@ -55,6 +59,23 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_EQ(widget<QDoubleSpinBox>("deviceScale").value(), 0.4);
 }
 
+TEST_F(Settings, PanelsComeBackAsTheyWereLeft)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  QTest::keyClick(&window(), Qt::Key_F8); // raised
+  QTest::keyClick(&window(), Qt::Key_F8); // hidden
+  EXPECT_FALSE(widget<QDockWidget>("nearbyDock").isHidden());
+  EXPECT_TRUE(widget<QDockWidget>("pictureDock").isHidden());
+  closeWindow();
+  openWindow();
+  EXPECT_TRUE(widget<QDockWidget>("nearbyDock").isVisible());
+  EXPECT_TRUE(widget<QDockWidget>("pictureDock").isHidden());
+  EXPECT_TRUE(widget<QDockWidget>("structuresDock").isVisible());
+  EXPECT_TRUE(widget<QDockWidget>("registrationDock").isHidden());
+}
+
 TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
 {
   const QString file = QString::fromStdString((folder() / "odd.conf").string());
@@ -85,4 +106,89 @@ TEST_F(Settings, AModeThatTheDriverHasNotIsNotTaken)
   settings.restore(without, false);
   EXPECT_EQ(without.stereo(), rendering::StereoMode::None);
   openWindow();
+}
+
+TEST(Bindings, ShowWhatWasTakenAndSetNothingByShowing)
+{
+  Bindings bound;
+  double value = 3.0;
+  int sets = 0;
+  const std::unique_ptr<QDoubleSpinBox> box(
+      numberBox("box", "how far", {0.0, 10.0, " mm", 2, 0.5}));
+  bound.add(
+      box.get(), [&] { return value; },
+      [&](double entered)
+      {
+        value = std::min(entered, 5.0);
+        ++sets;
+      });
+  bound.refresh();
+  EXPECT_EQ(box->text(), "3.00 mm");
+  box->setValue(8.0);
+  EXPECT_EQ(value, 5.0);
+  EXPECT_EQ(box->value(), 5.0) << "what was taken";
+  EXPECT_EQ(sets, 1);
+  value = 4.0;
+  bound.refresh();
+  EXPECT_EQ(box->value(), 4.0);
+  bound.quietly([&] { box->setRange(6.0, 10.0); });
+  EXPECT_EQ(value, 4.0);
+  EXPECT_EQ(sets, 1);
+}
+
+TEST(Bindings, MakeOneChangeOfASliderThatMoves)
+{
+  Bindings bound;
+  int value = 10, sets = 0;
+  const std::unique_ptr<QSlider> slider(percentSlider("slider", {}));
+  bound.add(
+      slider.get(), [&] { return value; },
+      [&](int entered)
+      {
+        value = entered;
+        ++sets;
+      },
+      Bindings::kSettle);
+  bound.refresh();
+  EXPECT_EQ(slider->value(), 10);
+  for (const int at : {20, 30, 40})
+    slider->setValue(at);
+  EXPECT_EQ(sets, 0);
+  bound.refresh(); // something else changed
+  EXPECT_EQ(slider->value(), 40) << "not set yet, not taken back";
+  EXPECT_TRUE(QTest::qWaitFor([&] { return sets > 0; }, 60000));
+  EXPECT_EQ(value, 40);
+  EXPECT_EQ(sets, 1);
+  slider->setValue(50);
+  bound.drop();
+  bound.refresh();
+  EXPECT_EQ(slider->value(), 40);
+}
+
+TEST(Bindings, CoupleChoicesAndSwitches)
+{
+  Bindings bound;
+  int row = 1;
+  bool on = true;
+  const std::unique_ptr<QComboBox> choice(choiceBox("choice", {}));
+  choice->addItems({"none", "some", "all"});
+  QAction action;
+  QCheckBox check;
+  action.setCheckable(true);
+  bound.add(
+      choice.get(), [&] { return row; }, [&](int chosen) { row = chosen; });
+  bound.add(
+      &action, [&] { return on; }, [&](bool checked) { on = checked && row > 0; });
+  bound.add(
+      &check, [&] { return on; }, [&](bool checked) { on = checked; });
+  bound.refresh();
+  EXPECT_EQ(choice->currentText(), "some");
+  EXPECT_TRUE(action.isChecked());
+  check.click();
+  EXPECT_FALSE(on);
+  EXPECT_FALSE(action.isChecked()) << "it shows the same value";
+  choice->setCurrentIndex(0);
+  EXPECT_EQ(row, 0);
+  action.trigger();
+  EXPECT_FALSE(action.isChecked()) << "refused";
 }

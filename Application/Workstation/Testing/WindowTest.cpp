@@ -5,8 +5,11 @@
 
 #include <QAbstractItemModelTester>
 #include <QDockWidget>
+#include <QHeaderView>
 #include <QInputDialog>
+#include <QMenuBar>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTemporaryDir>
@@ -50,6 +53,70 @@ TEST_F(Window, ThePanelsKeyRaisesAPanelThatLiesBehindAnother)
   EXPECT_TRUE(waitFor([&] { return picture->isHidden() && inFront(structures); }));
   QTest::keyClick(&window(), Qt::Key_F8);
   EXPECT_TRUE(waitFor([&] { return inFront(picture); }));
+}
+
+TEST_F(Window, EachPanelOfTheTableHasADockAKeyAndAnEntryInTheMenu)
+{
+  openWindow();
+  QMenu* menu = nullptr;
+  for (QAction* top : window().menuBar()->actions())
+    if (top->text() == "&View")
+      menu = top->menu();
+  ASSERT_TRUE(menu);
+  const auto toggles = [this]
+  {
+    std::vector<QAction*> all;
+    for (const PanelEntry& entry : panelEntries())
+    {
+      auto* dock = window().findChild<QDockWidget*>(entry.name);
+      all.push_back(dock ? dock->toggleViewAction() : nullptr);
+    }
+    return all;
+  };
+  const auto entries = panelEntries();
+  EXPECT_GE(entries.size(), 4u);
+  for (std::size_t n = 0; n < entries.size(); ++n)
+  {
+    SCOPED_TRACE(entries[n].name);
+    const QAction* toggle = toggles()[n];
+    ASSERT_TRUE(toggle);
+    EXPECT_EQ(toggle->text(), entries[n].title);
+    EXPECT_EQ(toggle->shortcut(), QKeySequence(entries[n].key));
+    EXPECT_TRUE(menu->actions().contains(toggles()[n]));
+    EXPECT_EQ(window().dockWidgetArea(window().findChild<QDockWidget*>(entries[n].name)),
+              entries[n].area);
+    EXPECT_EQ(toggle->isEnabled(), !entries[n].needsCase);
+  }
+  saveBall("ball");
+  window().begin("ball");
+  EXPECT_TRUE(settled());
+  for (std::size_t n = 0; n < entries.size(); ++n)
+  {
+    EXPECT_TRUE(toggles()[n]->isEnabled()) << entries[n].name;
+    EXPECT_EQ(toggles()[n]->isChecked(), entries[n].atFirst) << entries[n].name;
+  }
+}
+
+TEST_F(Window, ALongNameIsElidedInItsMiddleAndItsColumnCanBeWidened)
+{
+  const std::string name = "superior_semicircular_canal_of_the_left_ear";
+  scene::Case value = ballCase("ball");
+  value.labels[0].structures[0].name = name;
+  library().save(value);
+  openWindow();
+  auto& list = *window().findChild<QTreeView*>("structures");
+  ASSERT_TRUE(waitFor([&] { return list.model()->rowCount() == 1; }));
+  const QModelIndex cell = list.model()->index(0, StructuresModel::Name);
+  EXPECT_TRUE(cell.data(Qt::ToolTipRole).toString().contains(QString::fromStdString(name)));
+  EXPECT_EQ(list.textElideMode(), Qt::ElideMiddle);
+  const auto width = [&] { return list.header()->sectionSize(StructuresModel::Name); };
+  EXPECT_LT(width(), list.fontMetrics().horizontalAdvance(cell.data().toString()));
+  EXPECT_EQ(list.header()->length(), list.viewport()->width()) << "the names fill the list";
+  list.header()->resizeSection(StructuresModel::Name, 480); // as by its handle
+  window().resize(1260, 700);
+  QTest::qWait(50);
+  EXPECT_EQ(width(), 480);
+  EXPECT_TRUE(list.horizontalScrollBar()->isVisible());
 }
 
 TEST_F(Window, ASentenceEndsWithAFullStop)

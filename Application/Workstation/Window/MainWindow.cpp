@@ -1,12 +1,17 @@
 #include "MainWindow.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include <QAction>
 #include <QCloseEvent>
+#include <QDir>
 #include <QDockWidget>
 #include <QDragEnterEvent>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -29,12 +34,9 @@
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
 #include "DrillController.h"
-#include "NearbyPanel.h"
 #include "PictureController.h"
-#include "PicturePanel.h"
 #include "ProbeLabel.h"
 #include "RegistrationController.h"
-#include "RegistrationPanel.h"
 #include "SliceColumn.h"
 #include "StartPage.h"
 #include "StructuresPanel.h"
@@ -46,6 +48,7 @@
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/Recordings.h"
 
 namespace petrous::workstation
 {
@@ -53,6 +56,7 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kMessage = 8000; // ms
+constexpr int kFileName = 300; // px
 
 QStringList dropped(const QMimeData& data)
 {
@@ -93,17 +97,17 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_deviceBar(new DeviceToolBar)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
-  , m_panel(new StructuresPanel(m_model))
-  , m_nearby(new NearbyPanel(m_model))
   , m_pages(new QStackedWidget)
   , m_unsavedBanner(new Banner("unsavedBanner", Banner::Kind::Warning))
   , m_loadingBanner(new Banner("loadingBanner", Banner::Kind::Notice))
   , m_faultBanner(new Banner("faultBanner", Banner::Kind::Warning))
   , m_notesBanner(new Banner("notesBanner", Banner::Kind::Notice))
   , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
+  , m_recordingBanner(new Banner("recordingBanner", Banner::Kind::Warning))
   , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
+  , m_recording(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
   , m_saver(new CaseSaver(m_model))
   , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
@@ -114,9 +118,11 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
-  , m_thickness(new ThicknessController(m_model, *m_view, *m_panel, *m_actions->boneThickness))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
 {
+  addPanels();
+  m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
+                                        *m_actions->boneThickness);
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
   m_picture->flush = [this] { return flush(); };
@@ -139,7 +145,8 @@ MainWindow::~MainWindow()
   delete m_registration;  // ends its threads
   delete m_drill;
   delete m_devices;
-  delete m_nearby;  // queries the model when hidden
+  for (const auto& [entry, panel] : m_panels)
+    delete panel;   // one may query the model when hidden
   delete m_watcher; // stops a server
   delete m_picture; // the surgeon's window follows the view
   delete m_keeper;  // its threads must not outlive the model
@@ -164,10 +171,12 @@ void MainWindow::layOut()
   m_pages->addWidget(across);
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
+  m_recordingBanner->addButton("dismissRecording", tr("Close"),
+                               [this] { m_recordingBanner->hide(); });
   auto* whole = new QWidget;
   auto* banners = new BannerStack(*whole);
-  for (Banner* banner :
-       {m_damageBanner, m_faultBanner, m_unsavedBanner, m_loadingBanner, m_notesBanner})
+  for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
+                         m_loadingBanner, m_notesBanner})
     banners->add(banner);
   const auto hold = [this, banners]
   { banners->setHeld(m_view->drillMode() || m_view->pointing()); };
@@ -183,15 +192,7 @@ void MainWindow::layOut()
   stack->addWidget(m_pages, 1);
   setCentralWidget(whole);
 
-  auto* structures = addDock(tr("Structures"), "structuresDock", m_panel, Qt::Key_F9);
-  auto* picture = addDock(tr("Picture"), "pictureDock", m_picture->panel(), Qt::Key_F8);
-  addDock(tr("Near the burr"), "nearbyDock", m_nearby, Qt::Key_F7);
-  auto* registration =
-      addDock(tr("Registration"), "registrationDock", m_registration->panel(), Qt::Key_F5);
   menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
-  tabifyDockWidget(structures, picture);
-  tabifyDockWidget(picture, registration);
-  structures->raise();
 
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
@@ -199,21 +200,41 @@ void MainWindow::layOut()
   m_touch->setObjectName("touchFault");
   m_touch->setToolTip(tr("Why the tool gives no force, or less than it would"));
   m_touch->setContentsMargins(8, 0, 8, 0);
+  m_recording->setObjectName("recording");
+  m_recording->setContentsMargins(8, 0, 8, 0);
+  m_recording->hide();
+  statusBar()->addPermanentWidget(m_recording);
   statusBar()->addPermanentWidget(m_touch);
   statusBar()->addPermanentWidget(m_picture->speed());
   statusBar()->addPermanentWidget(m_place);
   statusBar()->addPermanentWidget(m_sum);
 }
 
-QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget* widget, int key)
+void MainWindow::addPanels()
 {
-  auto* dock = new QDockWidget(title, this);
-  dock->setObjectName(name);
+  const PanelContext context{m_model, *m_picture, *m_registration};
+  std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
+  for (const PanelEntry& entry : panelEntries())
+  {
+    Panel* panel = entry.make(context);
+    QDockWidget* dock = addDock(entry, panel);
+    m_panels.emplace_back(entry, panel);
+    if (!entry.tabbed)
+      continue;
+    if (QDockWidget* before = std::exchange(tabs[entry.area], dock))
+      tabifyDockWidget(before, dock);
+  }
+}
+
+QDockWidget* MainWindow::addDock(const PanelEntry& entry, Panel* panel)
+{
+  auto* dock = new QDockWidget(entry.title, this);
+  dock->setObjectName(entry.name);
   dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
-  dock->setWidget(widget);
-  addDockWidget(Qt::LeftDockWidgetArea, dock);
-  dock->toggleViewAction()->setShortcut(key);
-  m_actions->addPanelToggle(dock->toggleViewAction());
+  dock->setWidget(panel);
+  addDockWidget(entry.area, dock);
+  dock->toggleViewAction()->setShortcut(entry.key);
+  m_actions->addPanelToggle(dock->toggleViewAction(), entry.needsCase);
   // Unlike Qt's default, a dock hidden behind others in the same tab group is raised.
   QAction* toggle = dock->toggleViewAction();
   disconnect(toggle, SIGNAL(triggered(bool)), dock, nullptr);
@@ -230,6 +251,33 @@ QDockWidget* MainWindow::addDock(const QString& title, const char* name, QWidget
   return dock;
 }
 
+// As the user left them; the first one in front.
+void MainWindow::showPanels()
+{
+  QDockWidget* front = nullptr;
+  for (const auto& [entry, panel] : m_panels)
+  {
+    auto* dock = findChild<QDockWidget*>(entry.name);
+    const bool shown = m_settings->panelShown(entry.name, entry.atFirst);
+    dock->setVisible(shown);
+    if (shown && !front)
+      front = dock;
+  }
+  if (!front)
+    return;
+  front->raise();
+  resizeDocks({front}, {395}, Qt::Horizontal);
+}
+
+// Another case is open, or its parts are others, or none is open any more.
+void MainWindow::tellPanels()
+{
+  m_registration->caseChanged();
+  m_thickness->caseChanged();
+  for (const auto& [entry, panel] : m_panels)
+    panel->caseChanged();
+}
+
 void MainWindow::connectModel()
 {
   m_model.events.caseChanged = [this] { caseChanged(); };
@@ -240,7 +288,8 @@ void MainWindow::connectModel()
   {
     m_picture->appearanceChanged();
     m_slices->appearanceChanged();
-    m_panel->appearanceChanged();
+    for (const auto& [entry, panel] : m_panels)
+      panel->appearanceChanged();
   };
   if (auto* application = qobject_cast<Application*>(QCoreApplication::instance()))
     connect(application, &Application::faulted, this, &MainWindow::showFault);
@@ -251,14 +300,19 @@ void MainWindow::connectModel()
   { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };
   m_model.events.stateChanged = [this] { stateChanged(); };
   m_model.events.stepped = [this](bool back) { stepped(back); };
+  m_model.events.recordingChanged = [this](const std::string& fault)
+  { showRecording(words(fault)); };
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
   connect(m_slices, &SliceColumn::pointed, m_place, &ProbeLabel::showPlace);
   connect(m_drill, &DrillController::pointed, m_place, &ProbeLabel::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
-  connect(m_drill, &DrillController::burrMoved, m_nearby, &NearbyPanel::burrMoved);
-  connect(m_drill, &DrillController::burrGone, m_nearby, &NearbyPanel::burrGone);
+  for (const auto& [entry, panel] : m_panels)
+  {
+    connect(m_drill, &DrillController::burrMoved, panel, &Panel::burrMoved);
+    connect(m_drill, &DrillController::burrGone, panel, &Panel::burrGone);
+  }
   auto* warnings = new BurrWarnings(m_model, this);
   connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
   connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
@@ -272,6 +326,7 @@ void MainWindow::connectModel()
   };
   connect(m_drill, &DrillController::statusMessage, this, say);
   connect(m_devices, &ActiveDeviceController::statusMessage, this, say);
+  connect(m_devices, &ActiveDeviceController::lost, this, [this] { m_model.record({}); });
   connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
@@ -318,6 +373,9 @@ void MainWindow::connectActions()
   on(m_actions->smallerBurr, [this] { m_bar->stepDiameter(-1); });
   on(m_actions->largerBurr, [this] { m_bar->stepDiameter(1); });
   on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
+  m_bound.add(
+      m_actions->record, [this] { return !m_model.recording().empty(); },
+      [this](bool chosen) { record(chosen); });
   connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
   connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
 }
@@ -348,10 +406,7 @@ void MainWindow::caseClosed()
   m_drill->releaseTool();
   m_view->display().setContents({});
   m_slices->clear();
-  m_panel->caseChanged();
-  m_nearby->caseChanged();
-  m_thickness->caseChanged();
-  m_registration->caseChanged();
+  tellPanels();
   m_place->clear();
   m_sum->clear();
   m_picture->speed()->clear();
@@ -365,10 +420,7 @@ void MainWindow::partsChanged()
   m_drill->releaseTool();
   m_picture->appearanceChanged();
   m_slices->appearanceChanged();
-  m_panel->caseChanged();
-  m_nearby->caseChanged();
-  m_thickness->caseChanged();
-  m_registration->caseChanged();
+  tellPanels();
   notifyNotes();
 }
 
@@ -378,22 +430,13 @@ void MainWindow::caseChanged()
   const bool first = m_pages->currentIndex() == 0;
   m_pages->setCurrentIndex(1);
   if (first)
-  {
-    auto* dock = findChild<QDockWidget*>("structuresDock");
-    findChild<QDockWidget*>("pictureDock")->show();
-    dock->show();
-    dock->raise();
-    resizeDocks({dock}, {395}, Qt::Horizontal);
-  }
+    showPanels();
   m_drill->releaseTool();
   offerBurrs();
   m_picture->caseChanged();
   m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
-  m_panel->caseChanged();
-  m_nearby->caseChanged();
-  m_thickness->caseChanged();
-  m_registration->caseChanged();
+  tellPanels();
   m_view->setFocus();
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
@@ -445,7 +488,8 @@ void MainWindow::stateChanged()
   m_actions->redo->setEnabled(m_model.canRedo());
   if (!open)
     return setWindowTitle("Petrous");
-  m_nearby->stateChanged();
+  for (const auto& [entry, panel] : m_panels)
+    panel->stateChanged();
   const scene::Case& value = m_model.value();
   setWindowTitle(
       (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
@@ -491,6 +535,61 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   m_saver->save();
 }
 
+// Begins with the tool: in use, it is taken up again.
+void MainWindow::record(bool on)
+{
+  m_recordingBanner->hide();
+  const std::filesystem::path file = on ? chooseRecording() : std::filesystem::path();
+  if (on && file.empty())
+    return;
+  m_model.record(file);
+  if (m_model.touching())
+    m_drill->renewTool();
+}
+
+// Where the user wants it; empty: nowhere.
+std::filesystem::path MainWindow::chooseRecording()
+{
+  QFileDialog dialog(this, tr("Record the session"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setNameFilter(tr("Recordings (*.ticks)"));
+  dialog.setDefaultSuffix("ticks");
+  try
+  {
+    const auto usual = presenters::newRecording(m_model.library(), m_model.value());
+    dialog.setDirectory(QFile::decodeName(usual.parent_path().c_str()));
+    dialog.selectFile(QFile::decodeName(usual.filename().c_str()));
+  }
+  catch (const core::Error& error) // the library cannot be written
+  {
+    showRecording(words(error.what()));
+    dialog.setDirectory(QDir::homePath());
+  }
+  return dialog.exec() == QDialog::Accepted
+             ? std::filesystem::path(
+                   QFile::encodeName(dialog.selectedFiles().first()).toStdString())
+             : std::filesystem::path();
+}
+
+void MainWindow::showRecording(const QString& fault)
+{
+  m_bound.refresh();
+  const QString file = QFile::decodeName(m_model.recording().c_str());
+  m_recording->setText(
+      QString::fromUtf8("● ") +
+      tr("Recording %1")
+          .arg(fontMetrics().elidedText(QFileInfo(file).fileName(), Qt::ElideMiddle, kFileName)));
+  m_recording->setToolTip(
+      tr("All that tool and drill do is written to %1, until Drill > Record session… is chosen "
+         "again")
+          .arg(file));
+  m_recording->setVisible(!file.isEmpty());
+  if (fault.isEmpty())
+    return;
+  m_recordingBanner->setText(tr("%1 Drilling goes on.").arg(sentence(fault)));
+  m_recordingBanner->show();
+}
+
 bool MainWindow::flush()
 {
   // Ends an open stroke, here and in the surgeon's window.
@@ -502,8 +601,12 @@ void MainWindow::closeEvent(QCloseEvent* event)
 {
   m_drill->releaseTool(); // ends an open stroke
   event->setAccepted(m_keeper->mayLeave());
-  if (event->isAccepted())
-    m_picture->closeSurgeonWindow();
+  if (!event->isAccepted())
+    return;
+  if (m_model.hasCase())
+    for (const auto& [entry, panel] : m_panels)
+      m_settings->keepPanelShown(entry.name, !panel->parentWidget()->isHidden());
+  m_picture->closeSurgeonWindow();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <QMainWindow>
 #include <QStringList>
 
+#include "Bind.h"
+#include "Panels.h"
 #include "petrous/Presenters/ActiveDevice.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Rendering/StandardViews.h"
@@ -25,12 +30,10 @@ class DrillController;
 class DeviceToolBar;
 class DeviceWatcher;
 class ActiveDeviceController;
-class NearbyPanel;
 class PictureController;
 class ProbeLabel;
 class RegistrationController;
 class SliceColumn;
-class StructuresPanel;
 class ThicknessController;
 class ThreeDView;
 class WindowActions;
@@ -80,7 +83,13 @@ private:
   void notice(const QString& text);
   void showView(rendering::StandardView view);
   void stepped(bool back); // by an undo or a redo
-  QDockWidget* addDock(const QString& title, const char* name, QWidget* widget, int key);
+  void addPanels();
+  QDockWidget* addDock(const PanelEntry& entry, Panel* panel);
+  void showPanels();
+  void tellPanels();
+  void record(bool on);
+  std::filesystem::path chooseRecording();
+  void showRecording(const QString& fault);
   bool flush(); // saves what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
 
@@ -90,18 +99,18 @@ private:
   DeviceToolBar* m_deviceBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
-  StructuresPanel* m_panel;
-  NearbyPanel* m_nearby;
   QStackedWidget* m_pages;
   Banner* m_unsavedBanner;
   Banner* m_loadingBanner;
   Banner* m_faultBanner;
   Banner* m_notesBanner;
   Banner* m_damageBanner;
+  Banner* m_recordingBanner;
   QStringList m_notesTold;
   ProbeLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;
+  QLabel* m_recording;
   WindowActions* m_actions;
   CaseSaver* m_saver;
   CaseDocumentController* m_keeper;
@@ -110,8 +119,10 @@ private:
   DrillController* m_drill;
   PictureController* m_picture;
   BranchController* m_branches;
-  ThicknessController* m_thickness;
   RegistrationController* m_registration;
+  std::vector<std::pair<PanelEntry, Panel*>> m_panels;
+  ThicknessController* m_thickness;
+  Bindings m_bound;
 };
 
 } // namespace petrous::workstation

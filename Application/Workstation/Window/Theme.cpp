@@ -58,6 +58,7 @@ QFrame[banner="warning"] { background: #5a3217; border-bottom: 1px solid #d96b27
 QFrame[banner] QLabel { color: #f2f5f8; }
 QFrame[banner] QPushButton { padding: 4px 12px; }
 QLabel#dim { color: #9aa4af; }
+QLabel#recording { color: #ff6b6b; font-weight: 600; }
 QLabel#big { font-size: 20px; color: #e4e8ed; }
 )";
 } // namespace

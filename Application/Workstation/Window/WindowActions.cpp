@@ -121,6 +121,12 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                       tr("The crosshair goes along while the drill is on"));
   slicesFollow->setCheckable(true);
   slicesFollow->setChecked(true);
+  drill->addSeparator();
+  record =
+      make(drill, tr("&Record session…"), Qt::CTRL + Qt::SHIFT + Qt::Key_R,
+           tr("Writes all that tool and drill do to a file, until it is chosen again; 'petrous "
+              "drill --replay' repeats it"));
+  record->setCheckable(true);
 
   QMenu* help = window.menuBar()->addMenu(tr("&Help"));
   about = make(help, tr("&About Petrous"), {}, tr("What this program is"));
@@ -153,7 +159,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
 
   m_needCase.insert(m_needCase.end(),
                     {save, saveAs, centerView, boneThickness, boneWindow, softWindow, fitSlices,
-                     drillBar.drillAction(), drillBar.pointerAction()});
+                     drillBar.drillAction(), drillBar.pointerAction(), record});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)
@@ -187,9 +193,11 @@ QMenu* WindowActions::addStereo(bool quadBuffer)
   return menu;
 }
 
-void WindowActions::addPanelToggle(QAction* action)
+void WindowActions::addPanelToggle(QAction* action, bool needsCase)
 {
   m_view->addAction(action);
+  if (needsCase)
+    m_needCase.push_back(action);
 }
 
 void WindowActions::setCaseOpen(bool open)

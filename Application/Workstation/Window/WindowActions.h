@@ -27,8 +27,8 @@ public:
   /// `quadBuffer`: the driver supports quad-buffered stereo.
   WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar, bool quadBuffer);
 
-  void addPanelToggle(QAction* action); ///< to the View menu
-  void setCaseOpen(bool open);          ///< disables what needs a case
+  void addPanelToggle(QAction* action, bool needsCase); ///< to the View menu
+  void setCaseOpen(bool open);                          ///< disables what needs a case
 
   QAction* openDicom;
   QAction* openImage;
@@ -51,6 +51,7 @@ public:
   QAction* strokeCamera;  ///< checkable
   QAction* smallerBurr;
   QAction* largerBurr;
+  QAction* record; ///< checkable
   QAction* about;
 
 signals:

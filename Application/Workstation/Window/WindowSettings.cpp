@@ -101,4 +101,15 @@ void WindowSettings::keepForceLimit(const std::string& hand, double newtons)
   m_file.setValue(keyOf(hand, "force_limit_n"), newtons);
 }
 
+bool WindowSettings::panelShown(const QString& panel, bool usual) const
+{
+  const QString kept = m_file.value("panels/" + panel).toString();
+  return kept.isEmpty() ? usual : kept == "shown";
+}
+
+void WindowSettings::keepPanelShown(const QString& panel, bool shown)
+{
+  m_file.setValue("panels/" + panel, shown ? "shown" : "hidden");
+}
+
 } // namespace petrous::workstation

@@ -9,8 +9,8 @@
 namespace petrous::workstation
 {
 
-/// Settings kept between runs: devices and rendering, no patient data. A missing or invalid value
-/// is replaced by the default.
+/// Settings kept between runs: devices, rendering and panels, no patient data. A missing or invalid
+/// value is replaced by the default.
 class WindowSettings
 {
 public:
@@ -29,6 +29,10 @@ public:
   std::optional<double> forceLimit(const std::string& hand) const; ///< N
   void keepScale(const std::string& hand, double scale);
   void keepForceLimit(const std::string& hand, double newtons);
+
+  /// Whether a panel is shown while a case is open; `usual` before the user has chosen.
+  bool panelShown(const QString& panel, bool usual) const;
+  void keepPanelShown(const QString& panel, bool shown);
 
 private:
   std::optional<double> number(const QString& key) const;

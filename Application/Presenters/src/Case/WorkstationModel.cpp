@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Notify.h"
+#include "petrous/Presenters/Recordings.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -28,6 +29,7 @@ std::optional<std::string> WorkstationModel::latestCase() const
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
 {
   forgetTissue();
+  record({}); // it replays on one case
   m_journal.reset();
   m_saved.reset();
   m_nearby.reset();
@@ -451,7 +453,38 @@ void WorkstationModel::startTouch(haptics::Device& device,
   if (m_journal)
     whole.journal = [journal = m_journal, measure = m_scene->drill().measurer()](
                         const dissection::Dissection& work) { journal->follow(work, measure); };
-  m_touch = std::make_unique<session::TouchSession>(*m_case, *m_scene, device, whole);
+  const auto start = [&]
+  { m_touch = std::make_unique<session::TouchSession>(*m_case, *m_scene, device, whole); };
+  if (m_recording.empty() || !setup.cuts)
+    return start();
+  whole.recording = m_recordingBegun ? unusedName(m_recordingAs) : m_recordingAs;
+  try
+  {
+    start();
+    m_recordingBegun = true;
+    setRecording(whole.recording);
+  }
+  catch (const session::RecordingError& error) // drilling does not depend on it
+  {
+    whole.recording.clear();
+    start();
+    setRecording({}, std::string("Nothing is recorded: ") + error.what() + ".");
+  }
+}
+
+void WorkstationModel::record(const std::filesystem::path& file)
+{
+  m_recordingAs = file;
+  m_recordingBegun = false;
+  setRecording(file);
+}
+
+void WorkstationModel::setRecording(const std::filesystem::path& file, const std::string& fault)
+{
+  if (m_recording == file && fault.empty())
+    return;
+  m_recording = file;
+  notify(events.recordingChanged, fault);
 }
 
 // Forwards the news to the case's observers.
@@ -460,6 +493,8 @@ session::TouchSession::News WorkstationModel::hear(session::TouchSession::News n
   if (m_journal)
     news.journalFault = m_journal->takeFailure();
   notifyMask(news.bricks);
+  if (!news.recordingFault.empty())
+    setRecording({}, news.recordingFault);
   bool changed = !news.steps.empty();
   for (const auto& stroke : news.strokes)
     changed = changed || stroke;

@@ -133,6 +133,7 @@ void WorkstationModel::close()
   if (!m_case)
     return;
   forgetTissue();
+  record({});
   m_journal.reset();
   m_nearby.reset();
   m_assembly = {};

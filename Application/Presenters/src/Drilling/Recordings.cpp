@@ -19,11 +19,17 @@ std::filesystem::path newRecording(const library::Library& library, const scene:
   ::localtime_r(&now, &local);
   char when[32];
   std::strftime(when, sizeof when, " %Y-%m-%d %H-%M-%S", &local);
-  const std::string stem = value.name + when;
-  std::filesystem::path file = folder / (stem + ".ticks");
-  for (int n = 2; std::filesystem::exists(file, error); ++n)
-    file = folder / (stem + " (" + std::to_string(n) + ").ticks");
-  return file;
+  return unusedName(folder / (value.name + when + ".ticks"));
+}
+
+std::filesystem::path unusedName(const std::filesystem::path& file)
+{
+  std::error_code error;
+  std::filesystem::path unused = file;
+  for (int n = 2; std::filesystem::exists(unused, error); ++n)
+    unused.replace_filename(file.stem().string() + " (" + std::to_string(n) + ")" +
+                            file.extension().string());
+  return unused;
 }
 
 } // namespace petrous::presenters

@@ -15,4 +15,7 @@ namespace petrous::presenters
 /// does not. Creates the folder; throws core::Error (Refused) if it cannot.
 std::filesystem::path newRecording(const library::Library& library, const scene::Case& value);
 
+/// `file`, or if that exists "NAME (2).ticks", "NAME (3).ticks" and so on beside it.
+std::filesystem::path unusedName(const std::filesystem::path& file);
+
 } // namespace petrous::presenters

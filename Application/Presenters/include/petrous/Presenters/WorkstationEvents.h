@@ -26,6 +26,8 @@ struct WorkstationEvents
   /// (Library::onNotice); one sentence.
   std::function<void(const std::string&)> noticed;
   std::function<void()> stateChanged; ///< name, saved or not, what can be undone
+  /// WorkstationModel::recording changed; why, one sentence, if it ended unasked, else empty.
+  std::function<void(const std::string& fault)> recordingChanged;
 };
 
 } // namespace petrous::presenters

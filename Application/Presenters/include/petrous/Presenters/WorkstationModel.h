@@ -232,6 +232,15 @@ public:
   session::TouchSession::News advanceTouch();
   session::TouchSession::News stopTouch(); ///< see TouchSession; no effect without a session
 
+  /// Records the touch sessions to come in which something can be removed, for RecordingPlayer. A
+  /// recording is of one session, hence of one burr: the first goes to `file`, replacing it, each
+  /// further one to an unused name beside it. Until called with an empty path, another case is
+  /// opened, or a file cannot be written; drilling goes on then. No effect on the session in
+  /// progress, which stays recorded or not as it was begun.
+  void record(const std::filesystem::path& file);
+  /// The file that is being written, or that the next session is written to; empty: none.
+  const std::filesystem::path& recording() const noexcept { return m_recording; }
+
 private:
   session::DrillSession& session();
   bool measureNearby(); ///< true when done
@@ -245,6 +254,7 @@ private:
   void step(bool back);
   void followHistory();
   void setUnsaved(bool unsaved);
+  void setRecording(const std::filesystem::path& file, const std::string& fault = {});
   /// `another`: under another name or in another library.
   void keepJournal(const library::SavedState& saved, bool another = false);
   void storeNow(StoreTask task);
@@ -260,6 +270,9 @@ private:
   std::unique_ptr<PointProbe> m_reader;           ///< made on demand; likewise
   std::unique_ptr<NearbyStructures> m_nearby;     ///< likewise; unaffected by removal
   session::RemovedVolumeEstimator m_meter;
+  std::filesystem::path m_recording;
+  std::filesystem::path m_recordingAs; ///< as chosen: that of the first session
+  bool m_recordingBegun = false;       ///< there was a first session
   Eigen::Vector3d m_crosshair = Eigen::Vector3d::Zero();
   bool m_unsaved = false;
   bool m_leaving = false; ///< set by beginOpen: no tool can be taken up, its strokes would be lost

@@ -1,0 +1,163 @@
+#include "Bind.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QSlider>
+#include <QTimer>
+
+namespace petrous::workstation
+{
+
+// Returns what to do when the user has changed the widget.
+std::function<void()> Bindings::couple(std::function<void()> show,
+                                       const std::function<void()>& apply, int settle)
+{
+  QTimer* timer = settle > 0 ? new QTimer(this) : nullptr;
+  m_all.push_back({std::move(show), timer});
+  const auto enter = [this, apply]
+  {
+    apply();
+    refresh();
+  };
+  if (timer)
+  {
+    timer->setSingleShot(true);
+    timer->setInterval(settle);
+    connect(timer, &QTimer::timeout, this, enter);
+  }
+  return [this, timer, enter]
+  {
+    if (m_showing)
+      return;
+    if (!timer)
+      return enter();
+    timer->start();
+    refresh(); // those that follow this one
+  };
+}
+
+QDoubleSpinBox* Bindings::add(QDoubleSpinBox* box, Get<double> get, Set<double> set, int settle)
+{
+  connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          couple([box, get] { box->setValue(get()); }, [box, set] { set(box->value()); }, settle));
+  return box;
+}
+
+QSpinBox* Bindings::add(QSpinBox* box, Get<int> get, Set<int> set, int settle)
+{
+  connect(box, qOverload<int>(&QSpinBox::valueChanged), this,
+          couple([box, get] { box->setValue(get()); }, [box, set] { set(box->value()); }, settle));
+  return box;
+}
+
+QSlider* Bindings::add(QSlider* slider, Get<int> get, Set<int> set, int settle)
+{
+  connect(slider, &QSlider::valueChanged, this,
+          couple([slider, get] { slider->setValue(get()); },
+                 [slider, set] { set(slider->value()); }, settle));
+  return slider;
+}
+
+QComboBox* Bindings::add(QComboBox* box, Get<int> row, Set<int> setRow)
+{
+  connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          couple([box, row] { box->setCurrentIndex(row()); },
+                 [box, setRow] { setRow(box->currentIndex()); }));
+  return box;
+}
+
+QAbstractButton* Bindings::add(QAbstractButton* box, Get<bool> get, Set<bool> set)
+{
+  connect(box, &QAbstractButton::toggled, this,
+          couple([box, get] { box->setChecked(get()); }, [box, set] { set(box->isChecked()); }));
+  return box;
+}
+
+QAction* Bindings::add(QAction* action, Get<bool> get, Set<bool> set)
+{
+  connect(action, &QAction::toggled, this,
+          couple([action, get] { action->setChecked(get()); },
+                 [action, set] { set(action->isChecked()); }));
+  return action;
+}
+
+void Bindings::refresh()
+{
+  quietly(
+      [this]
+      {
+        for (const Bound& one : m_all)
+          if (!one.settle || !one.settle->isActive())
+            one.show();
+      });
+}
+
+void Bindings::quietly(const std::function<void()>& change)
+{
+  const QScopedValueRollback<bool> showing(m_showing, true);
+  change();
+}
+
+void Bindings::drop()
+{
+  for (const Bound& one : m_all)
+    if (one.settle)
+      one.settle->stop();
+}
+
+QDoubleSpinBox* numberBox(const char* name, const QString& tip, const NumberRange& range)
+{
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  box->setDecimals(range.decimals);
+  box->setRange(range.least, range.most);
+  box->setSuffix(range.unit);
+  box->setSpecialValueText(range.atLeast);
+  if (range.step > 0.0)
+    box->setSingleStep(range.step);
+  else
+    box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  box->setKeyboardTracking(false);
+  return box;
+}
+
+QSlider* percentSlider(const char* name, const QString& tip)
+{
+  auto* slider = new QSlider(Qt::Horizontal);
+  slider->setObjectName(name);
+  slider->setToolTip(tip);
+  slider->setRange(0, 100);
+  slider->setPageStep(10);
+  return slider;
+}
+
+QComboBox* choiceBox(const char* name, const QString& tip)
+{
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  return box;
+}
+
+QPushButton* button(const QString& text, const char* name, const QString& tip)
+{
+  auto* result = new QPushButton(text);
+  result->setObjectName(name);
+  result->setToolTip(tip);
+  return result;
+}
+
+int percent(double fraction)
+{
+  return static_cast<int>(std::lround(100.0 * fraction));
+}
+
+} // namespace petrous::workstation

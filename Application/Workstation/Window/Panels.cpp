@@ -1,0 +1,35 @@
+#include "Panels.h"
+
+#include <QCoreApplication>
+
+#include "NearbyPanel.h"
+#include "PictureController.h"
+#include "PicturePanel.h"
+#include "RegistrationController.h"
+#include "RegistrationPanel.h"
+#include "StructuresPanel.h"
+
+namespace petrous::workstation
+{
+
+std::vector<PanelEntry> panelEntries()
+{
+  const auto tr = [](const char* text)
+  { return QCoreApplication::translate("petrous::workstation::MainWindow", text); };
+  constexpr bool kTabbed = true, kAlone = false;
+  constexpr bool kShown = true, kHidden = false;
+  constexpr bool kNeedsCase = true, kAlways = false;
+  using C = const PanelContext&;
+  return {
+      {"structuresDock", tr("Structures"), Qt::Key_F9, Qt::LeftDockWidgetArea, kTabbed, kShown,
+       kNeedsCase, [](C c) -> Panel* { return new StructuresPanel(c.model); }},
+      {"pictureDock", tr("Picture"), Qt::Key_F8, Qt::LeftDockWidgetArea, kTabbed, kShown, kAlways,
+       [](C c) -> Panel* { return c.picture.panel(); }},
+      {"nearbyDock", tr("Near the burr"), Qt::Key_F7, Qt::LeftDockWidgetArea, kAlone, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return new NearbyPanel(c.model); }},
+      {"registrationDock", tr("Registration"), Qt::Key_F5, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.registration.panel(); }},
+  };
+}
+
+} // namespace petrous::workstation

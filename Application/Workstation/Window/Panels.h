@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <QWidget>
+
+namespace petrous::presenters
+{
+class WorkstationModel;
+}
+
+namespace petrous::workstation
+{
+
+class PictureController;
+class RegistrationController;
+
+/// The widget of a dock. A panel overrides what it wants to hear.
+class Panel : public QWidget
+{
+public:
+  using QWidget::QWidget;
+
+  virtual void caseChanged() {}       ///< another case or other parts of it, or none any more
+  virtual void appearanceChanged() {} ///< threshold, or a structure's appearance
+  virtual void stateChanged() {}      ///< strokes
+  /// The burr's centre, patient LPS mm, and radius, mm; each frame.
+  virtual void burrMoved(const Eigen::Vector3d& /*center*/, double /*radius*/) {}
+  virtual void burrGone() {} ///< it was put away
+};
+
+/// What panels are made from.
+struct PanelContext
+{
+  presenters::WorkstationModel& model;
+  PictureController& picture;
+  RegistrationController& registration;
+};
+
+struct PanelEntry
+{
+  const char* name; ///< object name of the dock: for settings and tests, so it stays
+  QString title;    ///< of the dock and in the View menu
+  int key;          ///< shows, raises and hides it
+  Qt::DockWidgetArea area;
+  bool tabbed;    ///< with the other tabbed panels of that area; otherwise below them
+  bool atFirst;   ///< shown with the first case, unless the user has chosen otherwise
+  bool needsCase; ///< cannot be shown or hidden without a case
+  Panel* (*make)(const PanelContext& context);
+};
+
+/// The window's panels, in the order of the View menu. A new panel is an entry here and its own
+/// code: the window makes its dock, menu entry, shortcut and settings from this, and tells it what
+/// happens.
+std::vector<PanelEntry> panelEntries();
+
+} // namespace petrous::workstation

@@ -61,10 +61,10 @@ protected:
     const auto out = m_folder / ".stdout";
     const auto err = m_folder / ".stderr";
     const char* preload = std::getenv("PETROUS_TEST_PRELOAD"); // for the program, not for the test
-    const std::string command = "PETROUS_LIBRARY=" + quoted(library()) +
-                                (preload ? " LD_PRELOAD=" + quoted(preload) : "") + " " +
-                                quoted(PETROUS_PROGRAM) + " " + arguments + " >" + quoted(out) +
-                                " 2>" + quoted(err) + " </dev/null";
+    const std::string command =
+        "PETROUS_LIBRARY=" + quoted(library()) + " XDG_STATE_HOME=" + quoted(m_folder / "state") +
+        (preload ? " LD_PRELOAD=" + quoted(preload) : "") + " " + quoted(PETROUS_PROGRAM) + " " +
+        arguments + " >" + quoted(out) + " 2>" + quoted(err) + " </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(out), textOf(err)};
   }
@@ -129,6 +129,9 @@ protected:
     for (const char* name : names)
       EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
+
+  /// Of the program that `run` started.
+  std::string logText() const { return textOf(m_folder / "state/petrous/petrous.log"); }
 
   std::filesystem::path library() const { return m_folder / "library"; }
 

@@ -1,13 +1,17 @@
 #include "Context.h"
 
 #include <atomic>
+#include <clocale>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <mutex>
+#include <thread>
 #include <type_traits>
 
 #include <unistd.h>
+
+#include "petrous/Core/Log.h"
 
 namespace petrous::cli
 {
@@ -52,6 +56,9 @@ void Context::addOptions(CLI::App& app)
   app.add_option("--library", m_library, "Folder of the library")->type_name("DIR");
   app.add_flag("--json", m_json, "One JSON object on stdout and nothing else there");
   app.add_flag("--quiet", m_quiet, "No remarks and no progress");
+  app.add_option("--log-level", m_logLevel,
+                 "What the log holds: trace, debug, info, warning, error or off (info)")
+      ->type_name("LEVEL");
 }
 
 CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const std::string& text,
@@ -61,13 +68,52 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
   addOptions(*command);
   command->footer(kExitCodes);
   command->callback(
-      [this, run = std::move(run)]
+      [this, program = parent.get_name(), name, run = std::move(run)]
       {
         m_parsing.reset();
+        startLog(program, name);
         run();
         refuseDamaged(); // if nothing was printed
       });
   return command;
+}
+
+void Context::startLog(const std::string& program, const std::string& command)
+{
+  core::log::Setup setup;
+  try
+  {
+    setup.level = core::log::levelFrom(m_logLevel);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw UsageError(error.what());
+  }
+  setup.warn = [program, quiet = m_quiet](const std::string& text)
+  {
+    if (!quiet)
+      std::cerr << program << ": " << text << '\n';
+  };
+  core::log::start(setup);
+  m_command = command;
+  m_started = std::chrono::steady_clock::now();
+  core::log::info(command + ": start, " + program + " " PETROUS_VERSION ", locale " +
+                  std::setlocale(LC_NUMERIC, nullptr) + ", " +
+                  std::to_string(std::thread::hardware_concurrency()) + " processors");
+}
+
+void Context::logEnd(int exitCode, const std::string& why) const
+{
+  if (m_command.empty())
+    return;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - m_started;
+  using core::log::Level;
+  core::log::write(exitCode == 0   ? Level::Info
+                   : exitCode == 1 ? Level::Error
+                                   : Level::Warning,
+                   m_command + ": exit " + std::to_string(exitCode) + " after " +
+                       core::fixedText(seconds.count(), 3) + " s" +
+                       (why.empty() ? "" : ", " + why));
 }
 
 void Context::refuseDamaged() const

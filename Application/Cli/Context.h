@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -36,11 +37,11 @@ extern const char* const kExitCodes;
 class Context
 {
 public:
-  /// Adds --library, --json and --quiet to the program, so that they are also accepted before the
-  /// subcommand.
+  /// Adds --library, --json, --quiet and --log-level to the program, so that they are also accepted
+  /// before the subcommand.
   void addOptions(CLI::App& app);
 
-  /// Adds a subcommand with --library, --json and --quiet; `run` is called if it is selected.
+  /// Adds a subcommand with the same options; `run` is called if it is selected, and logged.
   CLI::App* addCommand(CLI::App& parent, const std::string& name, const std::string& text,
                        std::function<void()> run);
 
@@ -48,6 +49,9 @@ public:
   library::Library openLibrary() const;
 
   bool json() const noexcept { return m_json; }
+
+  /// Logs the end of the command that ran, if one did. `why`: what of an error may be logged.
+  void logEnd(int exitCode, const std::string& why = {}) const;
 
   /// Waits for the checks of what was read from the library: throws LibraryError (Damaged) if that
   /// is not what was stored, CancelledError. Call before writing a file or saving; `print` and
@@ -72,10 +76,14 @@ public:
 
 private:
   std::filesystem::path libraryFolder() const;
+  void startLog(const std::string& program, const std::string& command);
 
   // CLI11 parses numbers in the C locale: a decimal point until the command runs.
   std::optional<core::PlainNumbers> m_parsing{std::in_place};
   std::string m_library;
+  std::string m_logLevel;
+  std::string m_command; ///< that runs
+  std::chrono::steady_clock::time_point m_started;
   mutable std::optional<library::Library> m_opened;
   mutable std::vector<std::string> m_notices; ///< of the library
   bool m_json = false;

@@ -6,6 +6,7 @@
 
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/Log.h"
 #include "petrous/Devices/DeviceCatalogue.h"
 #include "petrous/Rendering/GraphicsReport.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -142,6 +143,9 @@ void doctor(const Context& context)
   context.print("memory      " + fixed(total, 0) + " MiB, " + fixed(available, 0) + " MiB free");
   context.print("library     " + library.folder().string() + ", " + fixed(freeMiB, 0) +
                 " MiB free there");
+  const std::filesystem::path log = core::log::defaultFile();
+  context.print("log         " +
+                (log.empty() ? std::string("none: no home folder") : log.string()));
   for (const auto& device : devices)
     context.print("device      " + device.title() + (device.advice.empty() ? ", ready" : ""));
   if (devices.empty())
@@ -159,6 +163,7 @@ void doctor(const Context& context)
                  {"memory_free_mib", available},
                  {"library", library.folder().string()},
                  {"library_free_mib", freeMiB},
+                 {"log_file", log.empty() ? nlohmann::json(nullptr) : nlohmann::json(log.string())},
                  {"devices", std::move(found)},
                  {"advice", std::move(advice)}});
   context.printJson(report);

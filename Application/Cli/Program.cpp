@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/Log.h"
 
 namespace petrous::cli
 {
@@ -194,7 +195,7 @@ std::vector<std::string> wordsOf(int argc, char** argv)
 std::string subcommandIn(const std::vector<std::string>& words)
 {
   for (std::size_t n = 0; n < words.size(); ++n)
-    if (words[n] == "--library")
+    if (words[n] == "--library" || words[n] == "--log-level")
       ++n;
     else if (words[n].empty() || words[n][0] != '-')
       return words[n];
@@ -215,37 +216,42 @@ int run(const Program& program, const std::vector<std::string>& words)
 {
   Context context;
   // Invalid command lines are answered in JSON too.
-  const auto fail = [&](const std::string& text, const Failure& failure)
+  const auto fail = [&](const std::string& text, const Failure& as, const std::exception& error)
   {
+    // The text may name files and cases after patients.
+    context.logEnd(as.exitCode, as.kind + (", " + core::log::typeOf(error)));
     const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
-    return complain(program, text, failure, json && !context.gave());
+    return complain(program, text, as, json && !context.gave());
   };
   try
   {
-    return parsed(program, words, context);
+    const int code = parsed(program, words, context);
+    context.logEnd(code);
+    return code;
   }
   catch (const UsageError& error)
   {
-    return fail(error.what(), kUsageFailure);
+    return fail(error.what(), kUsageFailure, error);
   }
   catch (const core::Error& error)
   {
-    return fail(error.what(), failureOf(error.fault()));
+    return fail(error.what(), failureOf(error.fault()), error);
   }
   catch (const std::filesystem::filesystem_error& error)
   {
     return fail(error.path1().string() + ": cannot be read or written; check that it is there "
                                          "and its permissions",
-                kRefusal);
+                kRefusal, error);
   }
-  catch (const std::bad_alloc&)
+  catch (const std::bad_alloc& error)
   {
-    return fail("not enough memory; close other programs, or load less with --roi", kRefusal);
+    return fail("not enough memory; close other programs, or load less with --roi", kRefusal,
+                error);
   }
-  catch (const std::exception&)
+  catch (const std::exception& error)
   {
     // Messages of other libraries may contain patient data; they are left out.
-    return fail("an unexpected fault; the library is as it was before", kInternalFailure);
+    return fail("an unexpected fault; the library is as it was before", kInternalFailure, error);
   }
 }
 

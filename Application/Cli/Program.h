@@ -27,7 +27,8 @@ int run(const Program& program, const std::vector<std::string>& words);
 /// --help`.
 std::vector<std::string> wordsOf(int argc, char** argv);
 
-/// The first argument that is neither an option nor the value of --library; empty if there is none.
+/// The first argument that is neither an option nor the value of --library or --log-level; empty if
+/// there is none.
 std::string subcommandIn(const std::vector<std::string>& words);
 
 /// Another program of this project: in the folder of this one, or at `inBuildTree`, relative to

@@ -6,6 +6,8 @@
 
 #include "Commands.h"
 #include "Program.h"
+#include "petrous/Imaging/FileError.h"
+#include "petrous/Rendering/RenderingError.h"
 
 namespace
 {
@@ -83,6 +85,8 @@ int main(int argc, char** argv)
   const std::vector<std::string> words = cli::wordsOf(argc, argv);
   if (cli::subcommandIn(words) == "bench")
     runBenchmarks(words);
+  imaging::logToolkitMessages();
+  rendering::logToolkitMessages();
   return cli::run({"petrous",
                    "Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
                    "Without arguments the workstation opens.",

@@ -1,5 +1,7 @@
+#include <clocale>
 #include <filesystem>
 #include <iostream>
+#include <thread>
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -10,7 +12,10 @@
 #include "MainWindow.h"
 #include "SceneDisplay.h"
 #include "Theme.h"
+#include "petrous/Core/Log.h"
 #include "petrous/Devices/ServerCatalogue.h"
+#include "petrous/Imaging/FileError.h"
+#include "petrous/Rendering/RenderingError.h"
 
 namespace
 {
@@ -39,6 +44,35 @@ petrous::presenters::DeviceSources deviceSources()
   return sources;
 }
 
+// Qt's messages may quote a file: the log has their kind only.
+void logQtMessage(QtMsgType type, const QMessageLogContext& context, const QString&)
+{
+  using petrous::core::log::Level;
+  const Level level = type == QtDebugMsg     ? Level::Debug
+                      : type == QtInfoMsg    ? Level::Info
+                      : type == QtWarningMsg ? Level::Warning
+                                             : Level::Error;
+  petrous::core::log::write(level, std::string("Qt message, ") +
+                                       (context.category ? context.category : "default"));
+}
+
+// Throws InvalidParameter for an unknown level.
+void startLog(const QCommandLineParser& parser)
+{
+  using namespace petrous;
+  core::log::Setup setup;
+  setup.level = core::log::levelFrom(parser.value("log-level").toStdString());
+  setup.warn = [](const std::string& text)
+  { std::cerr << "petrous-workstation: " << text << '\n'; };
+  core::log::start(setup);
+  core::log::info(std::string("window: start, petrous-workstation " PETROUS_VERSION ", locale ") +
+                  std::setlocale(LC_NUMERIC, nullptr) + ", " +
+                  std::to_string(std::thread::hardware_concurrency()) + " processors");
+  qInstallMessageHandler(logQtMessage);
+  imaging::logToolkitMessages();
+  rendering::logToolkitMessages();
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -57,6 +91,9 @@ int main(int argc, char** argv)
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addOption({"library", "Folder of the library.", "DIR"});
+  parser.addOption({"log-level",
+                    "What the log holds: trace, debug, info, warning, error or off (info).",
+                    "LEVEL"});
   parser.addPositionalArgument("what", "A case of the library, a DICOM folder or an image file.",
                                "[CASE | PATH]");
   parser.process(application);
@@ -66,11 +103,23 @@ int main(int argc, char** argv)
     return 2;
   }
 
+  try
+  {
+    startLog(parser);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    std::cerr << "petrous-workstation: " << error.what() << '\n';
+    return 2;
+  }
+
   workstation::WindowOptions options;
   options.quadBuffer = workstation::quadBufferOffered();
   options.devices = deviceSources();
   workstation::MainWindow window(library::Library(libraryFolder(parser)), options);
   window.show();
   workstation::guarded([&] { window.begin(parser.positionalArguments().value(0)); });
-  return QApplication::exec();
+  const int code = QApplication::exec();
+  core::log::info("window: exit " + std::to_string(code));
+  return code;
 }

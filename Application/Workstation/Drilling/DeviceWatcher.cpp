@@ -6,6 +6,7 @@
 #include "Application.h"
 #include "Theme.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/Log.h"
 
 namespace petrous::workstation
 {
@@ -68,6 +69,10 @@ void DeviceWatcher::look()
   if (found == m_seen)
     return;
   m_seen = std::move(found);
+  std::string text = "devices:";
+  for (const InputDevice& device : m_seen.devices)
+    text += device.kind == InputDevice::Kind::Server ? " server," : " " + device.name + ",";
+  core::log::info(text + (m_seen.pedal ? " pedal" : " no pedal"));
   QMetaObject::invokeMethod(
       this, [this, seen = m_seen] { show(seen); }, Qt::QueuedConnection);
 }
@@ -98,7 +103,7 @@ void DeviceWatcher::open(const InputDevice& input)
         }
         catch (const core::Error& error)
         {
-          why = words(error.what());
+          why = toString(error);
         }
         catch (const std::exception&) // out of memory, no thread
         {

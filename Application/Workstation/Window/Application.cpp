@@ -4,6 +4,7 @@
 
 #include "Theme.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/Log.h"
 
 namespace petrous::workstation
 {
@@ -64,6 +65,7 @@ void guarded(const std::function<void()>& work) noexcept
 
 QString toString(const std::exception& error)
 {
+  core::log::error("window: " + core::log::typeOf(error));
   if (dynamic_cast<const core::Error*>(&error))
     return words(error.what());
   if (dynamic_cast<const std::bad_alloc*>(&error))

@@ -21,7 +21,8 @@ signals:
   void faulted(const QString& why); ///< queued; in order
 };
 
-/// An exception as text. Messages of other libraries may contain patient data; they are left out.
+/// An exception as text; its type is logged. Messages of other libraries may contain patient data;
+/// they are left out.
 QString toString(const std::exception& error);
 
 /// Runs what must not throw: a thread's function, a callback of another library. Exceptions are

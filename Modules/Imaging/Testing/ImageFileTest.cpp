@@ -6,8 +6,11 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <itkOutputWindow.h>
 #include <sys/stat.h>
 
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/Log.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -721,6 +724,23 @@ TEST(ImageFile, StopsWhenAsked)
   const auto token = std::make_shared<core::CancelToken>();
   token->cancel();
   EXPECT_THROW(readImageFile(path, {}, core::Progress({}, token)), core::CancelledError);
+}
+
+TEST(ToolkitMessages, OfItkGoToTheLogWithoutTheirText)
+{
+  const TestFolder folder;
+  core::log::Setup setup;
+  setup.file = folder.path() / "petrous.log";
+  core::log::start(setup);
+  logToolkitMessages();
+  itkGenericOutputMacro("cannot read /data/Meier^Anna.nii");
+  itk::OutputWindowDisplayErrorText("ERROR: In /usr/include/itkReader.hxx, line 7\nMeier^Anna");
+  itk::OutputWindow::SetInstance(nullptr);
+  setup.level = core::log::Level::Off;
+  core::log::start(setup);
+  const std::string log = core::readFile(setup.file, 10000);
+  EXPECT_NE(log.find(" error ITK message, itkReader.hxx:7\n"), std::string::npos) << log;
+  EXPECT_EQ(log.find("Meier"), std::string::npos);
 }
 
 } // namespace

@@ -1,9 +1,17 @@
 #include "petrous/Rendering/VtkVolume.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <vtkMatrix3x3.h>
+#include <vtkOutputWindow.h>
+#include <vtkSetGet.h>
 
 #include "SyntheticScenes.h"
+#include "petrous/Core/Log.h"
+#include "petrous/Rendering/RenderingError.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
@@ -50,4 +58,24 @@ TEST(VtkVolume, TakesEveryTypeOfAnImage)
 {
   const auto image = wrap(*synthetic::ball<float>(synthetic::cube(6, 1.0), 2.0));
   EXPECT_EQ(image->GetScalarType(), VTK_FLOAT);
+}
+
+TEST(ToolkitMessages, OfVtkGoToTheLogWithoutTheirText)
+{
+  core::log::Setup setup;
+  setup.file = std::filesystem::temp_directory_path() /
+               ("petrous-vtk-" + std::to_string(::getpid()) + ".log");
+  core::log::start(setup);
+  logToolkitMessages();
+  ::testing::internal::CaptureStderr();
+  vtkGenericWarningMacro("cannot read /data/Meier^Anna.vti");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  vtkOutputWindow::SetInstance(nullptr);
+  setup.level = core::log::Level::Off;
+  core::log::start(setup);
+  std::string line;
+  std::getline(std::ifstream(setup.file), line);
+  EXPECT_NE(line.find(" warning VTK message, VtkVolumeTest.cpp:"), std::string::npos) << line;
+  EXPECT_EQ(line.find("Meier"), std::string::npos);
+  std::filesystem::remove(setup.file);
 }

@@ -8,6 +8,7 @@
 
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
@@ -108,6 +109,12 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
   const auto image = part.volume.get();
   part.geometry = image->geometry();
   part.range = image->range();
+  const auto& n = part.geometry.dims();
+  const auto& h = part.geometry.spacing();
+  core::log::info("import: image of " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
+                  " x " + std::to_string(n[2]) + " voxels of " + core::generalText(h[0]) + " x " +
+                  core::generalText(h[1]) + " x " + core::generalText(h[2]) + " mm, " +
+                  std::to_string(part.notes.size()) + " notes");
   return part;
 }
 
@@ -331,6 +338,12 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
     value.labels.push_back(std::move(part));
   }
+  std::size_t structures = 0;
+  for (std::size_t n = before; n < value.labels.size(); ++n)
+    structures += value.labels[n].structures.size();
+  core::log::info("import: " + std::to_string(structures) + " structures in " +
+                  std::to_string(value.labels.size() - before) + " label maps, " +
+                  std::to_string(empty.size()) + " empty");
   if (value.labels.size() == before)
     throw core::InvalidParameter(source.path.string() +
                                  ": none of its structures has a voxel; export it again with what "
@@ -379,6 +392,7 @@ void addMesh(scene::Case& value, const PartSource& source)
   part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
   auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));
   part.triangles = mesh->triangles.size();
+  core::log::info("import: mesh of " + std::to_string(part.triangles) + " triangles");
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
   if (isUnknown(part.look))

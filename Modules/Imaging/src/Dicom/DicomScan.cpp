@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include "DicomHeader.h"
+#include "petrous/Core/Log.h"
 
 namespace petrous::imaging
 {
@@ -271,6 +272,24 @@ bool isImageSeries(const DicomSeries& series)
   return !series.geometry.slices.empty();
 }
 
+// Of a header only what this program computed from it.
+void logScan(const ScanResult& result, std::size_t files)
+{
+  core::log::info("scan: " + std::to_string(files) + " files, " +
+                  std::to_string(result.series.size()) + " series, " +
+                  std::to_string(result.foreignFiles) + " files not DICOM, " +
+                  std::to_string(result.unreadable.size()) + " unreadable");
+  for (const DicomSeries& series : result.series)
+  {
+    std::string text = "series: " + std::to_string(series.files) + " files, " +
+                       std::to_string(series.geometry.slices.size()) + " slices, " +
+                       verdictName(series.geometry.verdict);
+    for (const Finding& finding : series.geometry.findings)
+      text += std::string(", ") + kindName(finding.kind);
+    core::log::info(text);
+  }
+}
+
 std::string uidList(const std::vector<const DicomSeries*>& series)
 {
   std::string list;
@@ -356,6 +375,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   for (const auto& [file, i] : order)
     sorted.push_back(std::move(result.series[i]));
   result.series = std::move(sorted);
+  logScan(result, headers.size());
   progress.report(1.0, "reading DICOM headers");
   return result;
 }

@@ -5,7 +5,12 @@
 #include <cmath>
 #include <system_error>
 
+#include <gdcmTrace.h>
+#include <itkObjectFactory.h>
+#include <itkOutputWindow.h>
+
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/Log.h"
 
 namespace petrous::imaging
 {
@@ -20,12 +25,46 @@ std::optional<T> finite(const std::optional<T>& value)
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+class LogWindow : public itk::OutputWindow
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(LogWindow);
+  using Self = LogWindow;
+  using Superclass = itk::OutputWindow;
+  using Pointer = itk::SmartPointer<Self>;
+  itkFactorylessNewMacro(Self);
+  itkTypeMacro(LogWindow, OutputWindow);
+
+  void DisplayText(const char* text) override { log(core::log::Level::Info, text); }
+  void DisplayErrorText(const char* text) override { log(core::log::Level::Error, text); }
+  void DisplayWarningText(const char* text) override { log(core::log::Level::Warning, text); }
+  void DisplayGenericOutputText(const char* text) override { DisplayText(text); }
+  void DisplayDebugText(const char* text) override { log(core::log::Level::Debug, text); }
+
+protected:
+  LogWindow() = default;
+
+private:
+  static void log(core::log::Level level, const char* text)
+  {
+    core::log::foreign(level, "ITK", text ? text : "");
+  }
+};
+
 bool isSpace(char c)
 {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
 
 } // namespace
+
+void logToolkitMessages()
+{
+  itk::OutputWindow::SetInstance(LogWindow::New());
+  gdcm::Trace::DebugOff();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
+}
 
 void fail(FileError::Reason reason, const std::filesystem::path& path, const std::string& text,
           core::Fault fault)

@@ -16,6 +16,8 @@
 #include "ManifestFile.h"
 #include "ObjectChecks.h"
 #include "Recovery.h"
+#include "petrous/Core/Log.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
@@ -252,6 +254,8 @@ scene::Case Library::open(const std::string& name) const
   if (fs::exists(journalPath(m_folder, name)))
   {
     const std::string words = recover(*this, value, read);
+    if (!words.empty())
+      core::log::warning("library: a journal of a session that ended unexpectedly");
     if (m_notice && !words.empty())
       m_notice(words);
     attach(value); // without what recovery read
@@ -417,6 +421,7 @@ void Library::save(scene::Case& value, const core::Progress& progress)
               " by another program since it was opened; open it again and repeat what you did");
   }
 
+  const auto started = std::chrono::steady_clock::now();
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   ObjectStore store(objectFolder());
@@ -449,6 +454,13 @@ void Library::save(scene::Case& value, const core::Progress& progress)
     store.discardNew();
     throw;
   }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
+  core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
+                  std::to_string(value.strokes.size()) + " strokes, " +
+                  std::to_string(1 + value.mr.size()) + " images, " +
+                  std::to_string(value.labels.size()) + " label maps, " +
+                  std::to_string(value.meshes.size()) + " meshes" +
+                  (onDisk ? "" : "; the disk reported an error"));
   if (!onDisk && m_notice)
     m_notice("case '" + value.name + "' is saved, but the disk reported an error; check the disk");
   if (const auto state = stateOf(path))

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "petrous/Core/Log.h"
+
 namespace petrous::rendering
 {
 
@@ -66,6 +68,9 @@ void IntensityTexture::upload(const volume::IntensityVolume& volume, int largest
         if (reduction != core::Index3{1, 1, 1})
         {
           const core::Index3 texels = reducedDims(dims, reduction);
+          core::log::warning("ray caster: a volume is drawn reduced, every " +
+                             std::to_string(reduction[0]) + " x " + std::to_string(reduction[1]) +
+                             " x " + std::to_string(reduction[2]) + " voxels");
           const auto reduced = reduceBox<T>(dims, reduction, wholeBox(texels),
                                             [&voxels](int i, int j, int k)
                                             {

@@ -19,10 +19,12 @@
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 #include <vtkWeakPointer.h>
+#include <vtk_glew.h>
 
 #include "CameraPlacement.h"
 #include "OpaqueDepth.h"
 #include "RayCaster.h"
+#include "petrous/Core/Log.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/VtkVolume.h"
 
@@ -226,6 +228,11 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
     this->ReleaseGraphicsResources(my.window);
     window->MakeCurrent();
   }
+  if (my.window != window)
+  {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    petrous::core::log::info(std::string("OpenGL: ") + (name ? name : "unknown"));
+  }
   my.window = window;
   my.owner = window;
   this->UpdateContents(volume);
@@ -277,6 +284,7 @@ void vtkPetrousVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   catch (const std::exception& error)
   {
     this->Internal->error = std::current_exception();
+    petrous::core::log::error("ray caster: " + petrous::core::log::typeOf(error));
     vtkErrorMacro(<< error.what());
   }
 }

@@ -3,6 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "petrous/Core/Log.h"
+#include "petrous/Core/NumberText.h"
+
 namespace petrous::session
 {
 
@@ -170,6 +173,8 @@ TouchSession::News TouchSession::advance()
     list(event, news);
   if (update.fault)
     news.fault = toString(*update.fault);
+  if (update.fault && std::exchange(m_loggedFault, update.fault->fault) != update.fault->fault)
+    core::log::warning("servo: " + news.fault);
   news.recordingFault = std::move(update.recordingFault);
   TickRecord record;
   if (m_servoThread->latest(record))
@@ -177,9 +182,25 @@ TouchSession::News TouchSession::advance()
   return news;
 }
 
+// The servo thread itself logs nothing.
+void TouchSession::logEnd() const
+{
+  constexpr double kMicro = 1e6;
+  const ServoThread::State state = m_servoThread->state();
+  core::log::info(
+      "servo: " + std::to_string(state.ticks) + " ticks, " + std::to_string(state.late) +
+      " late, longest " + core::fixedText(kMicro * state.worstWall, 0) + " us (" +
+      core::fixedText(kMicro * state.worstProcessor, 0) + " us of the processor), " +
+      std::to_string(state.dropped) + " records lost, " + std::to_string(state.majorFaults) +
+      " page faults" + (state.realTime ? "" : ", no real-time priority"));
+}
+
 TouchSession::News TouchSession::stop()
 {
+  const bool ran = m_servoThread->state().running;
   m_servoThread->stop();
+  if (ran)
+    logEnd();
   m_dissectionThread.stop();
   if (m_recorder)
   {

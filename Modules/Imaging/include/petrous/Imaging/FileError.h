@@ -32,4 +32,8 @@ struct FileError : core::Error
   Reason reason;
 };
 
+/// Messages of ITK, which may quote a file, go to the log without their text, and not to stderr;
+/// GDCM gives none. For a program to call once.
+void logToolkitMessages();
+
 } // namespace petrous::imaging

@@ -23,4 +23,7 @@ struct RenderingError : core::Error
   Reason reason;
 };
 
+/// Messages of VTK go to the log without their text, and not to stderr. For a program to call once.
+void logToolkitMessages();
+
 } // namespace petrous::rendering

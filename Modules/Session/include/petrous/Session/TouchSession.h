@@ -107,6 +107,7 @@ private:
   DissectionLoop::Hooks hooks();
   void passUpdates(); ///< in the thread of removal
   void writeJournal();
+  void logEnd() const;
 
   scene::Case& m_case;
   TouchScene& m_scene;
@@ -116,6 +117,7 @@ private:
   std::unique_ptr<haptics::Proxy> m_proxy;
   Servo m_servo;
   std::unique_ptr<SessionRecorder> m_recorder;
+  std::uint8_t m_loggedFault = 0; // ServoFault
   SpscRing<TickRecord> m_ring;
 
   std::mutex m_mutex; // guards m_camera

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "petrous/Core/NumberText.h"
-#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::presenters
 {
@@ -13,30 +13,14 @@ namespace
 
 constexpr std::size_t kMaxLength = 90; // bytes; leaves room for a number appended
 
-void removeEnding(std::string& name)
-{
-  for (const std::string ending : {".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".dcm"})
-  {
-    if (name.size() <= ending.size())
-      continue;
-    std::string tail = name.substr(name.size() - ending.size());
-    std::transform(tail.begin(), tail.end(), tail.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (tail == ending)
-    {
-      name.resize(name.size() - ending.size());
-      return;
-    }
-  }
-}
-
 } // namespace
 
 std::string caseNameFrom(const std::filesystem::path& source)
 {
   const auto path = source.lexically_normal();
   std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
-  removeEnding(name);
+  if (const imaging::FileFormat* format = imaging::formatOf(name))
+    name.resize(name.size() - format->ending.size());
   if (!core::isUtf8(name))
     name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return (c & 0x80) != 0; }),
                name.end());

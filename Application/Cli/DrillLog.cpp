@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "petrous/Core/OutputFile.h"
-
 namespace petrous::cli
 {
 
@@ -29,21 +27,34 @@ void write(std::ostream& stream, const session::WrenchValues& wrench)
   write(stream, wrench.torque);
 }
 
+constexpr std::streamoff kFlush = std::streamoff{1} << 20; // bytes
+
+// A bad place for the log is a bad argument of `drill`.
+template <class Action>
+auto asParameter(const Action& action)
+{
+  try
+  {
+    return action();
+  }
+  catch (const core::OutputFileError& error)
+  {
+    throw core::InvalidParameter(error.what());
+  }
+}
+
 } // namespace
 
 DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
                    session::TouchScene& scene)
-  : m_name(file.string())
-  , m_file(core::outputTarget(file))
+  : m_file(asParameter([&] { return core::OutputFile(file); }))
   , m_case(value)
   , m_scene(scene)
   , m_before(value.dissection.mask())
 {
-  if (!m_file)
-    throw core::InvalidParameter(m_name + ": cannot be written");
-  m_file.imbue(std::locale::classic());
-  m_file.precision(std::numeric_limits<double>::max_digits10);
-  m_file << "t_s,dx_mm,dy_mm,dz_mm,dqw,dqx,dqy,dqz,px_mm,py_mm,pz_mm,pqw,pqx,pqy,pqz,"
+  m_rows.imbue(std::locale::classic());
+  m_rows.precision(std::numeric_limits<double>::max_digits10);
+  m_rows << "t_s,dx_mm,dy_mm,dz_mm,dqw,dqx,dqy,dqz,px_mm,py_mm,pz_mm,pqw,pqx,pqy,pqz,"
             "fx_n,fy_n,fz_n,tx_nmm,ty_nmm,tz_nmm,ox_n,oy_n,oz_n,otx_nmm,oty_nmm,otz_nmm,"
             "contacts,thrust_n,r_mm,theta_rad,penetration_mm,removed_mm3,predicted_mm3\n";
 }
@@ -65,26 +76,33 @@ void DrillLog::add(const session::TickRecord& record, const std::optional<TickRe
 {
   if (!removal)
     measure();
-  m_file << record.time();
-  write(m_file, record.mapped);
-  write(m_file, record.proxy);
-  write(m_file, record.wrench);
-  write(m_file, record.output);
+  m_rows << record.time();
+  write(m_rows, record.mapped);
+  write(m_rows, record.proxy);
+  write(m_rows, record.wrench);
+  write(m_rows, record.output);
   const double thrust = Eigen::Map<const Eigen::Vector3d>(record.burrForce).norm();
-  m_file << ',' << record.contacts << ',' << thrust << ','
+  m_rows << ',' << record.contacts << ',' << thrust << ','
          << (removal ? removal->arm : record.contactRadius) << ',' << record.elevation << ','
          << record.penetration << ',' << (removal ? removal->removed : m_removed) << ',';
   if (removal)
-    m_file << removal->predicted << '\n';
+    m_rows << removal->predicted << '\n';
   else
-    m_file << "nan\n";
+    m_rows << "nan\n";
+  if (m_rows.tellp() >= kFlush)
+    flush();
+}
+
+void DrillLog::flush()
+{
+  asParameter([this] { m_file.write(m_rows.str()); });
+  m_rows.str({});
 }
 
 void DrillLog::close()
 {
-  m_file.close();
-  if (!m_file)
-    throw core::InvalidParameter(m_name + ": could not be written to the end; is the disk full?");
+  flush();
+  asParameter([this] { m_file.commit(); });
 }
 
 } // namespace petrous::cli

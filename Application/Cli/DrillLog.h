@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <memory>
 #include <optional>
+#include <sstream>
 
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Dissection/RemovedVolume.h"
 #include "petrous/Session/TickRecord.h"
 #include "petrous/Session/TouchScene.h"
@@ -21,7 +21,7 @@ struct TickRemoval
 };
 
 /// `drill --log`: one row per tick. Without a removal law (a replay), the removed volume is
-/// measured tick by tick, which is slow.
+/// measured tick by tick, which is slow. The file appears with `close`, whole.
 class DrillLog
 {
 public:
@@ -35,9 +35,10 @@ public:
 
 private:
   void measure();
+  void flush();
 
-  std::string m_name;
-  std::ofstream m_file;
+  core::OutputFile m_file;
+  std::ostringstream m_rows; // not yet in the file
   const scene::Case& m_case;
   session::TouchScene& m_scene;
   volume::CutMask m_before;

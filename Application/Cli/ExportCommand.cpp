@@ -5,6 +5,7 @@
 
 #include "CaseJson.h"
 #include "Commands.h"
+#include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -115,8 +116,20 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
   return volume::makeLabelMap(std::move(voxels), std::move(segments));
 }
 
+imaging::FileContent contentOf(const std::string& what)
+{
+  if (what == "labels")
+    return imaging::kLabels;
+  if (what == "surface")
+    return imaging::kMesh;
+  if (what != "ct" && what != "mr" && what != "mask" && what != "dissected")
+    throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + what + "'");
+  return imaging::kImage;
+}
+
 void exportCase(const Context& context, const Options& options)
 {
+  imaging::writingFormat(options.out, contentOf(options.what)); // before anything is computed
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
@@ -144,7 +157,7 @@ void exportCase(const Context& context, const Options& options)
     checked(value.ct)->visit(
         [&](const auto& ct)
         { imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress); });
-  else if (options.what == "surface")
+  else
   {
     mask();
     checked(value.ct);
@@ -152,9 +165,6 @@ void exportCase(const Context& context, const Options& options)
     imaging::writeMesh(options.out,
                        rendering::extractSurface(field, field.geometry().fullBox(), progress));
   }
-  else
-    throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + options.what +
-                     "'");
   context.print(options.out + ": " + options.what + " of '" + value.name + "'");
   context.printJson({{"case", value.name}, {"what", options.what}, {"out", options.out}});
 }
@@ -170,9 +180,11 @@ void addExportCommand(CLI::App& app, Context& context)
   command->add_option("--what", options->what, "ct, mr, labels, mask, dissected or surface")
       ->required();
   command
-      ->add_option(
-          "--out", options->out,
-          "Voxels: .nrrd, .nii.gz (labels also .seg.nrrd); surface: .stl, .obj, .ply; mm LPS")
+      ->add_option("--out", options->out,
+                   "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) +
+                       "; labels: " + imaging::orText(imaging::writtenEndings(imaging::kLabels)) +
+                       "; surface: " + imaging::orText(imaging::writtenEndings(imaging::kMesh)) +
+                       "; mm LPS")
       ->type_name("F")
       ->required();
   command->add_option("--part", options->part, "One MR or structure of several")->type_name("NAME");

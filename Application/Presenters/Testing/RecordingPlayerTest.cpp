@@ -18,10 +18,7 @@
 using namespace petrous;
 using namespace petrous::presenters;
 using Eigen::Vector3d;
-using petrous::presenters::testing::block;
-using petrous::presenters::testing::HeldTool;
-using petrous::presenters::testing::kTop;
-using petrous::presenters::testing::until;
+using namespace petrous::presenters::testing;
 
 namespace
 {

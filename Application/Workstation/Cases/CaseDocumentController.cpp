@@ -20,6 +20,7 @@
 #include "OpenCaseDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/FileFormats.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
 
@@ -614,10 +615,13 @@ void CaseDocumentController::openFolder()
 
 void CaseDocumentController::openFiles()
 {
+  QStringList patterns;
+  for (const std::string_view ending :
+       imaging::readEndings(imaging::kImage | imaging::kLabels | imaging::kMesh | imaging::kDicom))
+    patterns += "*" + words(std::string(ending));
   open(QFileDialog::getOpenFileNames(
       &m_window, tr("Open images, labels or meshes"), {},
-      tr("Images, labels, meshes (*.nrrd *.nhdr *.nii *.nii.gz *.mha *.mhd *.dcm *.obj *.stl "
-         "*.ply);;All files (*)")));
+      tr("Images, labels, meshes (%1);;All files (*)").arg(patterns.join(' '))));
 }
 
 void CaseDocumentController::chooseCase()

@@ -90,5 +90,66 @@ TEST(NumberText, TakesTooSmallForZeroAndRefusesTooLarge)
   EXPECT_FALSE(parseFloat("1e60"));
 }
 
+// All sequences of up to four bytes of a few that border each rule, judged by decoding them as the
+// Unicode standard defines it: the shortest form of a code point up to U+10FFFF, no surrogate.
+TEST(Utf8, AcceptsTheEncodingsOfCodePointsAlone)
+{
+  const auto decodes = [](std::string_view text)
+  {
+    while (!text.empty())
+    {
+      const auto lead = static_cast<unsigned char>(text[0]);
+      std::size_t length = 0;
+      while (length < 8 && (lead >> (7 - length) & 1) != 0)
+        ++length;
+      if (length == 1 || length > 4)
+        return false;
+      std::uint32_t code = length == 0 ? lead : lead & (0x7FU >> length);
+      length = length == 0 ? 1 : length;
+      if (text.size() < length)
+        return false;
+      for (std::size_t n = 1; n < length; ++n)
+      {
+        const auto byte = static_cast<unsigned char>(text[n]);
+        if (byte >> 6 != 2)
+          return false;
+        code = code << 6 | (byte & 0x3FU);
+      }
+      const std::uint32_t least[] = {0, 0x80, 0x800, 0x10000};
+      if (code < least[length - 1] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF))
+        return false;
+      text.remove_prefix(length);
+    }
+    return true;
+  };
+  const std::string bytes("\x00\x41\x7f\x80\x8f\x90\x9f\xa0\xbf\xc0\xc1\xc2\xdf\xe0\xe1\xec\xed\xee"
+                          "\xef\xf0\xf1\xf3\xf4\xf5\xff",
+                          25);
+  std::size_t valid = 0;
+  for (std::size_t length = 0; length <= 4; ++length)
+  {
+    std::size_t count = 1;
+    for (std::size_t n = 0; n < length; ++n)
+      count *= bytes.size();
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      std::string text;
+      for (std::size_t rest = n; text.size() < length; rest /= bytes.size())
+        text += bytes[rest % bytes.size()];
+      ASSERT_EQ(isUtf8(text), decodes(text)) << ::testing::PrintToString(text);
+      valid += isUtf8(text) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(valid, 1000U);
+}
+
+TEST(Utf8, PrefixCutsNoCharacterInTwo)
+{
+  const std::string text = "a\xC3\xBC\xE2\x82\xAC\xF0\x9F\xA6\xB4z"; // 1, 2, 3, 4, 1 bytes
+  const std::size_t whole[] = {0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10, 11, 11};
+  for (std::size_t bytes = 0; bytes < 13; ++bytes)
+    EXPECT_EQ(utf8Prefix(text, bytes), text.substr(0, whole[bytes])) << bytes;
+}
+
 } // namespace
 } // namespace petrous::core

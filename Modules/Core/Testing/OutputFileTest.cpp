@@ -1,6 +1,8 @@
 #include "petrous/Core/OutputFile.h"
 
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -179,6 +181,103 @@ TEST_F(OutputFile, NamesTemporaryFilesSoThatNobodyCanGuessThem)
     names.insert(core::temporaryBeside(m_file));
   EXPECT_EQ(names.size(), 100U);
   EXPECT_EQ(names.begin()->parent_path(), m_folder);
+}
+
+class OutputFolder : public OutputFile
+{
+protected:
+  // "a", "b/c" and "d" below `target`; returns what commit does.
+  static bool write(const fs::path& target)
+  {
+    core::OutputFolder folder(target);
+    for (const char* name : {"a", "d"})
+      std::ofstream(folder.path() / name) << "new";
+    fs::create_directory(folder.path() / "b");
+    std::ofstream(folder.path() / "b" / "c") << "new";
+    return folder.commit();
+  }
+  static bool isWhole(const fs::path& target)
+  {
+    for (const char* name : {"a", "b/c", "d"})
+      if (!fs::is_regular_file(target / name) || core::readFile(target / name) != "new")
+        return false;
+    return std::distance(fs::directory_iterator(target), {}) == 3;
+  }
+};
+
+TEST_F(OutputFolder, AppearsWholeInANewOrAnEmptyFolder)
+{
+  EXPECT_TRUE(write(m_folder / "new"));
+  EXPECT_TRUE(isWhole(m_folder / "new"));
+  EXPECT_TRUE(write(m_folder / "x/y/z/"));
+  EXPECT_TRUE(isWhole(m_folder / "x/y/z"));
+  fs::create_directory(m_folder / "empty");
+  EXPECT_TRUE(write(m_folder / "empty"));
+  EXPECT_TRUE(isWhole(m_folder / "empty"));
+  EXPECT_EQ(names(), (std::set<std::string>{"empty", "file", "new", "x"}));
+}
+
+TEST_F(OutputFolder, RefusesAFileAndAFolderWithSomethingInIt)
+{
+  for (const fs::path& target : {m_file, m_folder, m_file / "below"})
+    EXPECT_THROW(write(target), core::OutputFileError) << target;
+  EXPECT_EQ(names(), std::set<std::string>{"file"});
+}
+
+TEST_F(OutputFolder, AStepThatFailsLeavesTheTargetAsItWas)
+{
+  for (const bool exists : {false, true})
+  {
+    const fs::path target = exists ? m_folder / "empty" : m_folder / "x/y";
+    if (exists)
+      fs::create_directory(target);
+    // Of five files and folders; each is synced before the first rename.
+    for (const char* call : {"fsync", "rename"})
+      for (int n = 1; n <= (call[0] == 'f' ? 5 : exists ? 3 : 1); ++n)
+      {
+        SystemCalls::fail(call, n, EIO);
+        EXPECT_THROW(write(target), core::OutputFileError) << call << n << exists;
+        SystemCalls::reset();
+        if (exists)
+          EXPECT_TRUE(fs::is_empty(target)) << call << n;
+        else
+          EXPECT_FALSE(fs::exists(m_folder / "x")) << call << n;
+      }
+  }
+}
+
+TEST_F(OutputFolder, DoesNotThrowAfterTheRename)
+{
+  fs::create_directory(m_folder / "empty");
+  for (const char* name : {"new", "x/y", "empty"})
+  {
+    SystemCalls::fail("fsync", 6, EIO);
+    EXPECT_FALSE(write(m_folder / name)) << name;
+    SystemCalls::reset();
+    EXPECT_TRUE(isWhole(m_folder / name)) << name;
+  }
+}
+
+TEST_F(OutputFolder, KilledAtEachStepTheNewFolderIsWholeOrNotThere)
+{
+  for (int step = 1, ended = 0; ended == 0; ++step)
+  {
+    ASSERT_LT(step, 100);
+    fs::remove_all(m_folder / "new");
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      SystemCalls::killAt(step);
+      write(m_folder / "new");
+      SystemCalls::reset();
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ended = WIFEXITED(status);
+    EXPECT_TRUE(!fs::exists(m_folder / "new") || isWhole(m_folder / "new")) << step;
+    EXPECT_TRUE(!ended || isWhole(m_folder / "new"));
+  }
 }
 
 } // namespace

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <random>
+#include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -174,6 +176,115 @@ bool OutputFile::commit()
   ::close(m_descriptor);
   m_descriptor = -1;
   return synced(m_folder);
+}
+
+namespace
+{
+
+// Of all files and folders below, before a rename publishes them.
+void syncTree(const fs::path& folder, const fs::path& target)
+{
+  std::vector<fs::path> all{folder};
+  std::error_code fault;
+  for (fs::recursive_directory_iterator entry(folder, fault), end; !fault && entry != end;
+       entry.increment(fault))
+    all.push_back(entry->path());
+  if (fault)
+    throwOutputError(fault.value(), target);
+  for (const fs::path& path : all)
+  {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0)
+      throwOutputError(errno, target);
+    const bool done = synced(descriptor);
+    const int error = errno;
+    ::close(descriptor);
+    if (!done)
+      throwOutputError(error, target);
+  }
+}
+
+} // namespace
+
+OutputFolder::OutputFolder(const fs::path& target)
+{
+  std::error_code fault;
+  m_target = fs::absolute(target, fault).lexically_normal();
+  if (!m_target.has_filename()) // "folder/"
+    m_target = m_target.parent_path();
+  const fs::file_status status = fs::status(m_target, fault);
+  if (status.type() == fs::file_type::none)
+    throwOutputError(fault.value(), m_target);
+  if (fs::exists(status))
+  {
+    if (!fs::is_directory(status))
+      throw OutputFileError(Reason::WrongPlace, m_target,
+                            "is a file; name a new or an empty folder");
+    const bool empty = fs::is_empty(m_target, fault);
+    if (fault)
+      throwOutputError(fault.value(), m_target);
+    if (!empty)
+      throw OutputFileError(Reason::WrongPlace, m_target,
+                            "not empty; name a new or an empty folder");
+    m_inside = true;
+    m_staging = temporaryBeside(m_target / "part");
+    m_made = m_staging;
+  }
+  else
+  {
+    m_staging = temporaryBeside(m_target);
+    m_made = m_staging;
+    for (fs::path up = m_staging.parent_path(); !up.empty() && !fs::exists(up, fault);
+         up = up.parent_path())
+      m_made = up;
+  }
+  fs::create_directories(m_staging, fault);
+  if (!fault)
+    return;
+  const int error = fault.value();
+  fs::remove_all(m_made, fault);
+  throwOutputError(error, m_target);
+}
+
+OutputFolder::~OutputFolder()
+{
+  std::error_code ignored;
+  if (!m_done)
+    fs::remove_all(m_made, ignored);
+}
+
+bool OutputFolder::commit()
+{
+  syncTree(m_staging, m_target);
+  if (!m_inside)
+  {
+    if (::rename(m_staging.c_str(), m_target.c_str()) != 0)
+      throwOutputError(errno, m_target);
+    m_done = true;
+    bool onDisk = syncFolder(m_target.parent_path());
+    for (fs::path up = m_target.parent_path(); m_made != m_staging && up != m_made.parent_path();
+         up = up.parent_path())
+      onDisk = syncFolder(up.parent_path()) && onDisk;
+    return onDisk;
+  }
+  std::vector<fs::path> parts; // listed before any is moved
+  std::error_code fault;
+  for (fs::directory_iterator entry(m_staging, fault), end; !fault && entry != end;
+       entry.increment(fault))
+    parts.push_back(entry->path().filename());
+  if (fault)
+    throwOutputError(fault.value(), m_target);
+  for (std::size_t n = 0; n < parts.size(); ++n)
+    if (::rename((m_staging / parts[n]).c_str(), (m_target / parts[n]).c_str()) != 0)
+    {
+      const int error = errno;
+      while (n-- > 0)
+        ::rename((m_target / parts[n]).c_str(), (m_staging / parts[n]).c_str());
+      throwOutputError(error, m_target);
+    }
+  m_done = true;
+  fs::remove(m_staging, fault); // empty; recognised as a leftover if it stays
+  return syncFolder(m_target);
 }
 
 bool writeFile(const fs::path& path, std::string_view bytes)

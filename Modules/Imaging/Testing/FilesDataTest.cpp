@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 
@@ -125,7 +126,7 @@ TEST(FilesData, EveryNiftiLiesWhereItkPutsIt)
   for (const auto& entry : fs::recursive_directory_iterator(folder))
   {
     const std::string name = entry.path().filename().string();
-    if (name.find(".nii") == name.npos || !isImageFileName(entry.path()))
+    if (name.find(".nii") == name.npos || !isReadAs(entry.path(), kImage | kLabels))
       continue;
     try
     {

@@ -1,5 +1,6 @@
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -189,6 +190,30 @@ TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
     }
   EXPECT_GT(refused, 4);
   EXPECT_GT(saved, 4);
+}
+
+// Of the three renames only the manifest's decides; a fault after it is told, not thrown.
+TEST(Crash, ACaseThatIsRenamedStaysSoThoughAJournalDoesNotFollow)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear", 16);
+  library.save(value);
+  for (const char* name : {"ear.journal.aside-1", "ear.journal.aside-2"})
+    std::ofstream(folder.path() / "cases" / name) << "old";
+  std::string told;
+  library.onNotice([&told](const std::string& words) { told = words; });
+  SystemCalls::fail("rename", 2, EIO);
+  EXPECT_NO_THROW(library.rename("ear", "left ear"));
+  SystemCalls::reset();
+  EXPECT_NE(told.find("is renamed"), std::string::npos) << told;
+  EXPECT_FALSE(library.contains("ear"));
+  EXPECT_EQ(library.open("left ear").id, value.id);
+  SystemCalls::fail("rename", 1, EIO);
+  EXPECT_THROW(library.rename("left ear", "ear"), LibraryError);
+  SystemCalls::reset();
+  EXPECT_TRUE(library.contains("left ear"));
+  EXPECT_FALSE(library.contains("ear"));
 }
 
 TEST(Crash, TellsThatTheDiskDidNotConfirmWhatIsSaved)

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -11,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
-#include "StagedFolder.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -280,12 +279,7 @@ private:
       one["mesh"] = m_meshes[s];
       truth["structures"].push_back(std::move(one));
     }
-    const fs::path file = m_folder / "truth.json";
-    std::ofstream stream(file, std::ios::binary);
-    stream << truth.dump(1) << '\n';
-    stream.close();
-    if (!stream)
-      throw core::Error(core::Fault::Refused, file.string() + ": cannot be written");
+    core::writeFile(m_folder / "truth.json", truth.dump(1) + "\n");
   }
 
   fs::path m_folder;
@@ -327,7 +321,7 @@ void writeSamplePatient(const fs::path& out, const SampleOptions& options,
                         const core::Progress& progress)
 {
   check(options);
-  StagedFolder staged(out);
+  core::OutputFolder staged(out);
   Writer(staged.path(), options).write(progress);
   progress.check("sample patient");
   staged.commit();

@@ -1,7 +1,5 @@
 #include "SurfaceGeometry.h"
 
-#include <random>
-
 #include <gtest/gtest.h>
 
 #include "ReferenceScenes.h"
@@ -35,49 +33,6 @@ SceneContents dull()
 const core::CameraPose kAlongX = along({1.0, 0.0, 0.0}, 40.0);
 
 } // namespace
-
-TEST(TriangleTree, FindsTheTriangleThatATestOfEachFinds)
-{
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> position(-10.0F, 10.0F);
-  auto mesh = std::make_shared<core::TriangleMesh>();
-  for (std::uint32_t i = 0; i < 500; ++i)
-  {
-    const Eigen::Vector3f at(position(random), position(random), position(random));
-    for (int corner = 0; corner < 3; ++corner)
-      mesh->vertices.push_back(
-          at + 0.2F * Eigen::Vector3f(position(random), position(random), position(random)));
-    mesh->triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  const TriangleTree tree(mesh);
-  int hits = 0;
-  for (int i = 0; i < 500; ++i)
-  {
-    const Eigen::Vector3d from(position(random), position(random), 30.0);
-    const Eigen::Vector3d to(position(random), position(random), -30.0);
-    const PixelRay ray{from, (to - from).normalized()};
-    double nearest = 1e9;
-    for (std::uint32_t t = 0; t < 500; ++t)
-    {
-      // Solves origin + s direction = a + u (b - a) + v (c - a).
-      const Eigen::Vector3d a = mesh->vertices[3 * t].cast<double>();
-      Eigen::Matrix3d system;
-      system << mesh->vertices[3 * t + 1].cast<double>() - a,
-          mesh->vertices[3 * t + 2].cast<double>() - a, -ray.direction;
-      const Eigen::Vector3d uvs = system.fullPivLu().solve(ray.origin - a);
-      if (uvs[0] >= 0.0 && uvs[1] >= 0.0 && uvs[0] + uvs[1] <= 1.0 && uvs[2] > 0.0)
-        nearest = std::min(nearest, uvs[2]);
-    }
-    const auto hit = tree.first(ray);
-    ASSERT_EQ(hit.has_value(), nearest < 1e9);
-    if (hit)
-    {
-      EXPECT_NEAR(hit->distance, nearest, 1e-7);
-      ++hits;
-    }
-  }
-  EXPECT_GT(hits, 200);
-}
 
 TEST(SurfaceGeometry, HideWhatLiesBehindThem)
 {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/Placement.h"
 
@@ -134,37 +135,11 @@ bool isControl(unsigned char c)
   return c < 0x20 || c == 0x7f;
 }
 
-// Well-formed UTF-8, by lead and continuation bytes; what is written must be valid JSON.
-bool isUtf8(const std::string& text)
-{
-  for (std::size_t i = 0; i < text.size();)
-  {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                    ? 1
-                               : lead >= 0xC2 && lead <= 0xDF ? 2
-                               : lead >= 0xE0 && lead <= 0xEF ? 3
-                               : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                              : 0;
-    if (length == 0 || i + length > text.size())
-      return false;
-    for (std::size_t n = 1; n < length; ++n)
-      if ((static_cast<unsigned char>(text[i + n]) & 0xC0) != 0x80)
-        return false;
-    // Rejects overlong forms, surrogates and code points beyond U+10FFFF.
-    const int second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
-      return false;
-    i += length;
-  }
-  return true;
-}
-
 } // namespace
 
 void checkBranchName(const std::string& name)
 {
-  if (name.empty() || name.size() > 100 || !isUtf8(name) || name.front() == '-' ||
+  if (name.empty() || name.size() > 100 || !core::isUtf8(name) || name.front() == '-' ||
       std::any_of(name.begin(), name.end(), isControl))
     throw core::InvalidParameter("the name of a branch must be 1 to 100 bytes of UTF-8 without "
                                  "control characters or a dash in front");
@@ -172,7 +147,7 @@ void checkBranchName(const std::string& name)
 
 void checkPartName(const std::string& name)
 {
-  if (name.empty() || name.size() > 200 || !isUtf8(name) ||
+  if (name.empty() || name.size() > 200 || !core::isUtf8(name) ||
       std::any_of(name.begin(), name.end(), isControl) || name == "ct")
     throw core::InvalidParameter("the name of a part must be 1 to 200 bytes of UTF-8 without "
                                  "control characters, and not 'ct'; give one with NAME=FILE");
@@ -180,7 +155,8 @@ void checkPartName(const std::string& name)
 
 void checkPersonName(const std::string& name)
 {
-  if (name.size() > 100 || !isUtf8(name) || std::any_of(name.begin(), name.end(), isControl) ||
+  if (name.size() > 100 || !core::isUtf8(name) ||
+      std::any_of(name.begin(), name.end(), isControl) ||
       name.find_first_not_of(' ') == std::string::npos)
     throw core::InvalidParameter("the name of who signs must be 1 to 100 bytes of UTF-8 without "
                                  "control characters");
@@ -194,7 +170,7 @@ void checkCaseName(const std::string& name)
            std::string("/\\:*?\"<>|").find(static_cast<char>(c)) != std::string::npos;
   };
   const auto ragged = [](char c) { return c == '.' || c == ' '; };
-  if (!isUtf8(name))
+  if (!core::isUtf8(name))
     throw core::InvalidParameter("case name: is not UTF-8; type it anew");
   if (name.empty() || name.size() > 100)
     throw core::InvalidParameter("case name: must have 1 to 100 bytes, not " +

@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "../../Core/Testing/SystemCalls.h"
 #include "petrous/Session/RecordingReader.h"
 #include "petrous/Session/RecordingWriter.h"
 
@@ -365,6 +366,16 @@ TEST_F(Recording, NeverGivesATickThatWasNotWrittenWhateverByteIsChanged)
     {
     }
   }
+}
+
+// After close() a power failure must not cost it.
+TEST_F(Recording, SaysThatTheDiskDoesNotConfirmItsEnd)
+{
+  RecordingWriter writer(file(), {});
+  writer.add(TickRecord{});
+  petrous::testing::SystemCalls::fail("fsync", 1, EIO);
+  EXPECT_THROW(writer.close(), RecordingError);
+  petrous::testing::SystemCalls::reset();
 }
 
 TEST_F(Recording, SaysThatTheDiskIsFull)

@@ -50,6 +50,38 @@ TEST(Sampling, IsExactOnATrilinearFunction)
   }
 }
 
+// Against the sum over the corners that defines the interpolation, and its differences: f is linear
+// along each axis, so these are exact.
+TEST(Sampling, CellIsTheWeightedSumOfItsCorners)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 200; ++n)
+  {
+    volume::CellCorners<double> c{};
+    for (double& value : c)
+      value = 20.0 * unit(random) - 10.0;
+    const auto sum = [&c](const Vector3d& w)
+    {
+      double value = 0.0;
+      for (std::size_t corner = 0; corner < 8; ++corner)
+        value += c[corner] * (corner & 1 ? w[0] : 1.0 - w[0]) * (corner & 2 ? w[1] : 1.0 - w[1]) *
+                 (corner & 4 ? w[2] : 1.0 - w[2]);
+      return value;
+    };
+    const Vector3d w(unit(random), unit(random), unit(random));
+    EXPECT_NEAR(volume::interpolateCell(c, w[0], w[1], w[2]), sum(w), 1e-13);
+    const Vector3d slope = volume::gradientInCell(c, w[0], w[1], w[2]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      Vector3d low = w, high = w;
+      low[axis] = 0.0;
+      high[axis] = 1.0;
+      EXPECT_NEAR(slope[axis], sum(high) - sum(low), 1e-12);
+    }
+  }
+}
+
 TEST(Sampling, ReachesTheLastVoxelAndClampsBeyond)
 {
   volume::Volume<short> v(core::GridGeometry({2, 1, 3}, Vector3d::Ones(), Vector3d::Zero()));

@@ -12,6 +12,8 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Library/ObjectStore.h"
@@ -83,7 +85,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
                            const core::Progress& progress)
 {
   scene::ImagePart part;
-  if (!fs::is_directory(path) && imaging::isImageFileName(path))
+  if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     auto image = imaging::readImageFile(path, roi, progress);
     part.volume = image.volume;
@@ -424,12 +426,7 @@ PartSource PartSource::parseDrawn(const std::string& text)
 
 FileName fileName(const fs::path& path)
 {
-  // The name up to its first format extension: "facial_nerve.nii.gz" -> "facial_nerve".
-  std::string stem = path.stem().string();
-  const std::string name = path.filename().string();
-  for (const std::string end : {".seg.nrrd", ".nii.gz"})
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
-      stem = name.substr(0, name.size() - end.size());
+  const std::string stem = imaging::baseName(path); // "facial_nerve.nii.gz" -> "facial_nerve"
   const std::string known = appearance::StructurePresets::builtIn().knownWords(stem);
   const auto letters = [](const std::string& text)
   {

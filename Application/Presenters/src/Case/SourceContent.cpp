@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -93,15 +94,6 @@ std::string whyOf(const std::string& modality)
   return modality.empty() ? "says no modality" : "says modality " + modality;
 }
 
-bool endsWith(const fs::path& path, const std::string& ending)
-{
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name.size() >= ending.size() &&
-         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
 {
   SourceContent result;
@@ -142,16 +134,17 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
 {
   SourceContent result;
   result.path = path;
-  if (!fs::is_directory(path) && imaging::isMeshFileName(path))
+  const imaging::FileFormat* format = fs::is_directory(path) ? nullptr : imaging::formatOf(path);
+  if (format && format->reads == imaging::kMesh)
   {
     result.content = Content::Mesh;
     result.isNameless = !fileName(path).isWhole;
     result.why = "is a surface of triangles";
     return result;
   }
-  if (fs::is_directory(path) || !imaging::isImageFileName(path))
+  if (!format || format->reads == imaging::kDicom)
     return lookAtDicom(path, progress);
-  if (endsWith(path, ".seg.nrrd"))
+  if (format->reads == imaging::kLabels)
   {
     result.content = Content::Labels;
     result.why = "is a segmentation of 3D Slicer";

@@ -7,6 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "petrous/Volume/Sampling.h"
+
 namespace petrous::presenters
 {
 
@@ -63,7 +65,8 @@ std::pair<int, int> insideColumns(const VoxelPlane& plane, const Eigen::Vector3d
              : std::pair(static_cast<int>(std::ceil(first)), static_cast<int>(std::floor(last)));
 }
 
-// As volume::sampleTrilinear, optimized for many positions in one volume; the same cell.
+// As volume::sampleTrilinear; the same cell, found with strides that are computed once for the
+// million positions of a picture.
 template <class T>
 class CellSampler
 {
@@ -94,12 +97,11 @@ public:
       weight[a] = x - cell;
       at += cell * m_stride[a];
     }
-    const auto mix = [](double p, double q, double w) { return p + (q - p) * w; };
-    const auto row = [&](const T* from)
-    { return mix(static_cast<double>(*from), static_cast<double>(from[m_up[0]]), weight[0]); };
-    const auto plane = [&](const T* from)
-    { return mix(row(from), row(from + m_up[1]), weight[1]); };
-    return mix(plane(at), plane(at + m_up[2]), weight[2]);
+    const auto value = [at](std::ptrdiff_t step) { return static_cast<double>(at[step]); };
+    return volume::interpolateCell<double>(
+        {value(0), value(m_up[0]), value(m_up[1]), value(m_up[1] + m_up[0]), value(m_up[2]),
+         value(m_up[2] + m_up[0]), value(m_up[2] + m_up[1]), value(m_up[2] + m_up[1] + m_up[0])},
+        weight[0], weight[1], weight[2]);
   }
 
 private:

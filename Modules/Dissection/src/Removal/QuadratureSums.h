@@ -88,7 +88,8 @@ public:
   }
 
 private:
-  // Calls `take` with the mask occupancies, >= 0, four at a time along the first axis.
+  // Calls `take` with the mask occupancies, >= 0, four at a time along the first axis: as
+  // volume::interpolateCell at 64 fixed points, what points share computed once.
   template <typename Take>
   void each(const std::array<std::uint16_t, 8>& corners, const Take& take) const noexcept
   {

@@ -90,7 +90,9 @@ HapticField::HapticField(const TissueField& tissue,
   m_steepness = std::move(bricks.steepness);
 }
 
-// Cell and weights of a voxel position in the hull of the CT's grid; shared by CT and mask.
+// Cell and weights of a voxel position in the hull of the CT's grid; shared by CT and mask. Not a
+// volume::TrilinearCell: the servo samples thousands of times in a tick, at positions known to be
+// in the hull, and reads the corners of CT and mask at offsets from one base.
 struct HapticField::Cell
 {
   int i, j, k;
@@ -100,10 +102,9 @@ struct HapticField::Cell
   template <class Corner>
   double interpolate(const Corner& at) const noexcept
   {
-    const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
-    const double low = mix(mix(at(0), at(dx), x), mix(at(dy), at(dy + dx), x), y);
-    const double high = mix(mix(at(dz), at(dz + dx), x), mix(at(dz + dy), at(dz + dy + dx), x), y);
-    return mix(low, high, z);
+    return volume::interpolateCell<double>(
+        {at(0), at(dx), at(dy), at(dy + dx), at(dz), at(dz + dx), at(dz + dy), at(dz + dy + dx)}, x,
+        y, z);
   }
 };
 

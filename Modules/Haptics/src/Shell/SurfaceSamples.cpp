@@ -460,7 +460,8 @@ struct Line
   std::size_t along;
   float u, v; // position on the next two axes
 
-  // f at both ends.
+  // f at both ends. Bilinear on the two faces, with the axes turned: between them f is linear, so
+  // the crossing follows without volume::interpolateCell.
   std::array<float, 2> ends(const Corners& f) const noexcept
   {
     const std::size_t a = std::size_t{1} << along;

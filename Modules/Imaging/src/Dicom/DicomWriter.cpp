@@ -10,6 +10,7 @@
 #include <sstream>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -73,6 +74,19 @@ void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::u
   data.Replace(de);
 }
 
+struct TextElement
+{
+  std::uint16_t group, element;
+  gdcm::VR::VRType vr;
+  std::string text;
+};
+
+void put(gdcm::DataSet& data, const std::vector<TextElement>& elements)
+{
+  for (const TextElement& e : elements)
+    put(data, e.group, e.element, e.vr, e.text);
+}
+
 /// The attributes common to all slices of a series.
 gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
                          bool isSigned)
@@ -81,75 +95,65 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   const Eigen::Matrix3d& axes = grid.direction();
   gdcm::DataSet d;
   using gdcm::VR;
-  // patient, study
-  put(d, 0x0010, 0x0010, VR::PN, series.patientName);
-  put(d, 0x0010, 0x0020, VR::LO, series.patientId);
-  put(d, 0x0010, 0x0030, VR::DA, "");
-  put(d, 0x0010, 0x0040, VR::CS, "O");
-  put(d, 0x0020, 0x000D, VR::UI, series.studyUid);
-  put(d, 0x0008, 0x0020, VR::DA, "20200101");
-  put(d, 0x0008, 0x0030, VR::TM, "120000");
-  put(d, 0x0008, 0x0090, VR::PN, "");
-  put(d, 0x0020, 0x0010, VR::SH, "1");
-  put(d, 0x0008, 0x0050, VR::SH, "");
-  put(d, 0x0008, 0x1030, VR::LO, "Phantom temporal bone");
-  // series, frame of reference, equipment
-  put(d, 0x0008, 0x0060, VR::CS, ct ? "CT" : "MR");
-  put(d, 0x0020, 0x000E, VR::UI, series.seriesUid);
-  put(d, 0x0020, 0x0011, VR::IS, std::to_string(series.seriesNumber));
-  put(d, 0x0008, 0x0021, VR::DA, "20200101");
-  put(d, 0x0008, 0x0031, VR::TM, "120000");
-  put(d, 0x0008, 0x103E, VR::LO, series.description);
-  put(d, 0x0018, 0x0015, VR::CS, "SKULL");
-  put(d, 0x0018, 0x5100, VR::CS, "HFS");
-  put(d, 0x0020, 0x0060, VR::CS, "R");
-  put(d, 0x0020, 0x0052, VR::UI, series.frameOfReferenceUid);
-  put(d, 0x0020, 0x1040, VR::LO, "");
-  put(d, 0x0008, 0x0070, VR::LO, "Petrous");
-  put(d, 0x0008, 0x1090, VR::LO, "Phantom");
-  put(d, 0x0018, 0x1020, VR::LO, "1");
-  // image
-  put(d, 0x0008, 0x0008, VR::CS, ct ? "ORIGINAL\\PRIMARY\\AXIAL" : "ORIGINAL\\PRIMARY\\OTHER");
-  put(d, 0x0020, 0x0012, VR::IS, "1");
-  put(d, 0x0008, 0x0022, VR::DA, "20200101");
-  put(d, 0x0008, 0x0032, VR::TM, "120000");
-  put(d, 0x0008, 0x0023, VR::DA, "20200101");
-  put(d, 0x0008, 0x0033, VR::TM, "120000");
-  put(d, 0x0008, 0x0012, VR::DA, "20200101");
-  put(d, 0x0008, 0x0013, VR::TM, "120000");
-  put(d, 0x0020, 0x0037, VR::DS,
-      decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)}));
-  put(d, 0x0028, 0x0030, VR::DS, decimals({grid.spacing()[1], grid.spacing()[0]}));
-  put(d, 0x0018, 0x0050, VR::DS, decimal(grid.spacing()[2]));
-  put(d, 0x0028, 0x0002, 1);
-  put(d, 0x0028, 0x0004, VR::CS, "MONOCHROME2");
-  put(d, 0x0028, 0x0010, static_cast<std::uint16_t>(grid.dims()[1]));
-  put(d, 0x0028, 0x0011, static_cast<std::uint16_t>(grid.dims()[0]));
-  put(d, 0x0028, 0x0100, 16);
-  put(d, 0x0028, 0x0101, 16);
-  put(d, 0x0028, 0x0102, 15);
-  put(d, 0x0028, 0x0103, isSigned ? 1 : 0);
-  put(d, 0x0028, 0x1050, VR::DS, decimal(series.windowCenter));
-  put(d, 0x0028, 0x1051, VR::DS, decimal(series.windowWidth));
+  // study, series, acquisition, content, instance creation
+  const std::pair<std::uint16_t, std::uint16_t> dated[] = {
+      {0x0020, 0x0030}, {0x0021, 0x0031}, {0x0022, 0x0032}, {0x0023, 0x0033}, {0x0012, 0x0013}};
+  for (const auto& [date, time] : dated)
+    put(d, {{0x0008, date, VR::DA, "20200101"}, {0x0008, time, VR::TM, "120000"}});
+  put(d, {// patient, study
+          {0x0010, 0x0010, VR::PN, series.patientName},
+          {0x0010, 0x0020, VR::LO, series.patientId},
+          {0x0010, 0x0030, VR::DA, ""},
+          {0x0010, 0x0040, VR::CS, "O"},
+          {0x0020, 0x000D, VR::UI, series.studyUid},
+          {0x0008, 0x0090, VR::PN, ""},
+          {0x0020, 0x0010, VR::SH, "1"},
+          {0x0008, 0x0050, VR::SH, ""},
+          {0x0008, 0x1030, VR::LO, "Phantom temporal bone"},
+          // series, frame of reference, equipment
+          {0x0008, 0x0060, VR::CS, ct ? "CT" : "MR"},
+          {0x0020, 0x000E, VR::UI, series.seriesUid},
+          {0x0020, 0x0011, VR::IS, std::to_string(series.seriesNumber)},
+          {0x0008, 0x103E, VR::LO, series.description},
+          {0x0018, 0x0015, VR::CS, "SKULL"},
+          {0x0018, 0x5100, VR::CS, "HFS"},
+          {0x0020, 0x0060, VR::CS, "R"},
+          {0x0020, 0x0052, VR::UI, series.frameOfReferenceUid},
+          {0x0020, 0x1040, VR::LO, ""},
+          {0x0008, 0x0070, VR::LO, "Petrous"},
+          {0x0008, 0x1090, VR::LO, "Phantom"},
+          {0x0018, 0x1020, VR::LO, "1"},
+          // image
+          {0x0008, 0x0008, VR::CS, ct ? "ORIGINAL\\PRIMARY\\AXIAL" : "ORIGINAL\\PRIMARY\\OTHER"},
+          {0x0020, 0x0012, VR::IS, "1"},
+          {0x0020, 0x0037, VR::DS,
+           decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)})},
+          {0x0028, 0x0030, VR::DS, decimals({grid.spacing()[1], grid.spacing()[0]})},
+          {0x0018, 0x0050, VR::DS, decimal(grid.spacing()[2])},
+          {0x0028, 0x0004, VR::CS, "MONOCHROME2"},
+          {0x0028, 0x1050, VR::DS, decimal(series.windowCenter)},
+          {0x0028, 0x1051, VR::DS, decimal(series.windowWidth)}});
+  // samples per pixel, rows, columns, bits allocated and stored, high bit, representation
+  const std::pair<std::uint16_t, int> numbers[] = {
+      {0x0002, 1},  {0x0010, grid.dims()[1]},  {0x0011, grid.dims()[0]}, {0x0100, 16}, {0x0101, 16},
+      {0x0102, 15}, {0x0103, isSigned ? 1 : 0}};
+  for (const auto& [element, value] : numbers)
+    put(d, 0x0028, element, static_cast<std::uint16_t>(value));
   if (ct)
-  {
-    put(d, 0x0028, 0x1052, VR::DS, decimal(series.rescaleIntercept));
-    put(d, 0x0028, 0x1053, VR::DS, decimal(series.rescaleSlope));
-    put(d, 0x0028, 0x1054, VR::LO, "HU");
-    put(d, 0x0018, 0x0060, VR::DS, "120");
-    put(d, 0x0018, 0x1210, VR::SH, "BONE");
-  }
+    put(d, {{0x0028, 0x1052, VR::DS, decimal(series.rescaleIntercept)},
+            {0x0028, 0x1053, VR::DS, decimal(series.rescaleSlope)},
+            {0x0028, 0x1054, VR::LO, "HU"},
+            {0x0018, 0x0060, VR::DS, "120"},
+            {0x0018, 0x1210, VR::SH, "BONE"}});
   else
-  {
-    put(d, 0x0018, 0x0020, VR::CS, "SE");
-    put(d, 0x0018, 0x0021, VR::CS, "SK");
-    put(d, 0x0018, 0x0022, VR::CS, "");
-    put(d, 0x0018, 0x0023, VR::CS, "3D");
-    put(d, 0x0018, 0x0080, VR::DS, "2000");
-    put(d, 0x0018, 0x0081, VR::DS, "250");
-    put(d, 0x0018, 0x0091, VR::IS, "100");
-    put(d, 0x0018, 0x0088, VR::DS, decimal(grid.spacing()[2]));
-  }
+    put(d, {{0x0018, 0x0020, VR::CS, "SE"},
+            {0x0018, 0x0021, VR::CS, "SK"},
+            {0x0018, 0x0022, VR::CS, ""},
+            {0x0018, 0x0023, VR::CS, "3D"},
+            {0x0018, 0x0080, VR::DS, "2000"},
+            {0x0018, 0x0081, VR::DS, "250"},
+            {0x0018, 0x0091, VR::IS, "100"},
+            {0x0018, 0x0088, VR::DS, decimal(grid.spacing()[2])}});
   return d;
 }
 
@@ -271,12 +275,12 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             const Eigen::Vector3d position = grid.origin() + k * step;
             const std::string uid =
                 deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
-            put(data, 0x0008, 0x0016, gdcm::VR::UI, storage.GetString());
-            put(data, 0x0008, 0x0018, gdcm::VR::UI, uid);
-            put(data, 0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1));
-            put(data, 0x0020, 0x0032, gdcm::VR::DS,
-                decimals({position.x(), position.y(), position.z()}));
-            put(data, 0x0020, 0x1041, gdcm::VR::DS, decimal(position.z()));
+            put(data, {{0x0008, 0x0016, gdcm::VR::UI, storage.GetString()},
+                       {0x0008, 0x0018, gdcm::VR::UI, uid},
+                       {0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1)},
+                       {0x0020, 0x0032, gdcm::VR::DS,
+                        decimals({position.x(), position.y(), position.z()})},
+                       {0x0020, 0x1041, gdcm::VR::DS, decimal(position.z())}});
             gdcm::DataElement pixels(gdcm::Tag(0x7FE0, 0x0010));
             pixels.SetVR(gdcm::VR::OW);
             const std::vector<char> bytes =

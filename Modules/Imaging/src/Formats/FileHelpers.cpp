@@ -89,16 +89,6 @@ bool endsWith(std::string_view text, std::string_view end)
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-std::string baseName(const std::filesystem::path& path)
-{
-  const std::string lower = lowerName(path);
-  const std::string name = path.filename().string();
-  for (const std::string_view end : {".seg.nrrd", ".seg.nhdr", ".nii.gz"})
-    if (lower.size() > end.size() && endsWith(lower, end))
-      return name.substr(0, name.size() - end.size());
-  return path.stem().string();
-}
-
 namespace
 {
 

@@ -23,8 +23,11 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written in h
 std::string lowerName(const std::filesystem::path& path);
 bool endsWith(std::string_view text, std::string_view end);
 
-/// File name without .seg.nrrd, .nii.gz or otherwise its last extension.
-std::string baseName(const std::filesystem::path& path);
+/// Throws FileError (UnknownFormat) for a file that is not of the format that its name says; names
+/// the one that it is in, if that is recognised.
+[[noreturn]] void failFormat(const std::filesystem::path& path, std::string_view expected);
+/// Throws so for a file that is recognised as one of another format.
+void checkFormat(const std::filesystem::path& path, std::string_view expected);
 
 /// Size of a file to be read. Throws NotFound for a missing file or a folder, Unreadable for an
 /// empty file or one that cannot be opened.

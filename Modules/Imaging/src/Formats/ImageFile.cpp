@@ -128,14 +128,6 @@ core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry
 
 } // namespace
 
-bool isImageFileName(const std::filesystem::path& path)
-{
-  const std::string name = lowerName(path);
-  const auto ends = {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd"};
-  return std::any_of(ends.begin(), ends.end(),
-                     [&name](const char* end) { return endsWith(name, end); });
-}
-
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi,
                           const core::Progress& progress)

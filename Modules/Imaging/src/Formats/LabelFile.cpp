@@ -170,23 +170,22 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
 {
   if (!labels.voxels)
     throw core::InvalidParameter("label map: no voxels given to write");
-  const std::string name = lowerName(path);
-  if (!endsWith(name, ".nrrd") && !endsWith(name, ".nii") && !endsWith(name, ".nii.gz"))
-    fail(FileError::Reason::UnknownFormat, path,
-         "cannot be written under this name; end it in .seg.nrrd, .nrrd, .nii.gz or .nii");
   const volume::Volume<std::uint16_t>& voxels = *labels.voxels;
-  const std::string keys = endsWith(name, ".nrrd") ? segmentKeys(labels) : std::string();
+  const bool named = writingFormat(path, kLabels).writeVoxels == writeNrrd;
+  const std::string keys = named ? segmentKeys(labels) : std::string();
   const bool small = std::all_of(voxels.data(), voxels.data() + voxels.size(),
                                  [](std::uint16_t v) { return v <= 255; });
   if (!small)
   {
-    writeVoxelFile(path, voxels.geometry(), voxelTypeOf<std::uint16_t>(), voxels.data(), keys, {});
+    writeVoxelFile(path, kLabels, voxels.geometry(), voxelTypeOf<std::uint16_t>(), voxels.data(),
+                   keys, {});
     return;
   }
   std::vector<std::uint8_t> bytes(voxels.size());
   std::transform(voxels.data(), voxels.data() + voxels.size(), bytes.begin(),
                  [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
-  writeVoxelFile(path, voxels.geometry(), voxelTypeOf<std::uint8_t>(), bytes.data(), keys, {});
+  writeVoxelFile(path, kLabels, voxels.geometry(), voxelTypeOf<std::uint8_t>(), bytes.data(), keys,
+                 {});
 }
 
 } // namespace petrous::imaging

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "FileHelpers.h"
+#include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
 {

@@ -208,8 +208,7 @@ MetaHeader readMetaHeader(const std::filesystem::path& path)
 {
   const Fields fields = fieldsOf(path);
   if (!valueOf(fields, {"ElementDataFile"}) || !valueOf(fields, {"NDims"}))
-    fail(FileError::Reason::UnknownFormat, path,
-         "is no MetaImage file although its name says so; give it the name of the format it is in");
+    failFormat(path, "MetaImage");
   MetaHeader header;
   readDims(path, fields, header);
   const auto component = metaComponent(valueOf(fields, {"ElementType"}));

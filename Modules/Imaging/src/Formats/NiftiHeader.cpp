@@ -102,9 +102,7 @@ Fields checkedFields(const std::filesystem::path& path)
          "is written as NIfTI-2; this program reads NIfTI-1, so convert it");
   if (size != static_cast<std::int32_t>(kHeaderBytes) ||
       std::memcmp(bytes.data() + kMagic, "n+1\0", 4) != 0)
-    fail(FileError::Reason::UnknownFormat, path,
-         "is no NIfTI-1 file in one part although its name says so; give it the name of the "
-         "format it is in");
+    failFormat(path, "one-part NIfTI-1");
   return fields;
 }
 

@@ -86,8 +86,7 @@ const std::string* NrrdHeader::key(const std::string& name) const
 NrrdHeader readNrrdHeader(const std::filesystem::path& path)
 {
   if (readBytes(path, 7) != "NRRD000")
-    fail(FileError::Reason::UnknownFormat, path,
-         "is no NRRD file although its name says so; give it the name of the format it is in");
+    failFormat(path, "NRRD");
   // Headers are short; even with many structures and colours below a few hundred KiB.
   const std::uintmax_t size = checkedFileSize(path);
   std::string bytes;

@@ -3,7 +3,6 @@
 #include "FileHelpers.h"
 #include "NiftiHeader.h"
 #include "NrrdHeader.h"
-#include "OutputFile.h"
 #include "VoxelWriter.h"
 
 namespace petrous::imaging
@@ -54,44 +53,51 @@ VoxelType voxelTypeOf<float>()
   return {"float", "MET_FLOAT", 16, 32};
 }
 
-void writeVoxelFile(const std::filesystem::path& path, const core::GridGeometry& geometry,
-                    const VoxelType& type, const void* voxels, const std::string& nrrdKeys,
-                    const core::Progress& progress)
+namespace
 {
-  const std::string name = lowerName(path);
-  const std::size_t bytes = geometry.voxelCount() * static_cast<std::size_t>(type.bits / 8);
-  const bool nifti = endsWith(name, ".nii") || endsWith(name, ".nii.gz");
-  if (!nifti && !endsWith(name, ".nrrd") && !endsWith(name, ".mha"))
-    fail(FileError::Reason::UnknownFormat, path,
-         "cannot be written under this name; end it in .nrrd, .nii.gz, .nii or .mha");
-  if (nifti)
-    for (const int n : geometry.dims())
-      if (n > kLargestNiftiDim)
-        fail(FileError::Reason::Unsupported, path,
-             "NIfTI holds at most 32767 voxels along an axis, not " + std::to_string(n) +
-                 "; write .nrrd");
+
+std::string niftiHeader(const VoxelsToWrite& voxels)
+{
+  for (const int n : voxels.geometry.dims())
+    if (n > kLargestNiftiDim)
+      fail(FileError::Reason::Unsupported, voxels.path,
+           "NIfTI holds at most 32767 voxels along an axis, not " + std::to_string(n) +
+               "; write .nrrd");
+  return niftiHeaderBytes(voxels.geometry, voxels.type.nifti, voxels.type.bits);
+}
+
+} // namespace
+
+void writeNifti(OutputFile& file, const VoxelsToWrite& voxels)
+{
+  file.write(niftiHeader(voxels));
+  file.writeVoxels(voxels.voxels, voxels.bytes(), voxels.progress);
+}
+
+void writeNiftiGz(OutputFile& file, const VoxelsToWrite& voxels)
+{
+  file.writeCompressed(niftiHeader(voxels), voxels.voxels, voxels.bytes(), voxels.progress);
+}
+
+void writeMeta(OutputFile& file, const VoxelsToWrite& voxels)
+{
+  file.write(metaHeaderText(voxels.geometry, voxels.type));
+  file.writeVoxels(voxels.voxels, voxels.bytes(), voxels.progress);
+}
+
+void writeNrrd(OutputFile& file, const VoxelsToWrite& voxels)
+{
+  file.write(nrrdHeaderText(voxels.geometry, voxels.type.nrrd, "gzip") + voxels.nrrdKeys + "\n");
+  file.writeCompressed("", voxels.voxels, voxels.bytes(), voxels.progress);
+}
+
+void writeVoxelFile(const std::filesystem::path& path, FileContent content,
+                    const core::GridGeometry& geometry, const VoxelType& type, const void* voxels,
+                    const std::string& nrrdKeys, const core::Progress& progress)
+{
+  const FileFormat& format = writingFormat(path, content);
   OutputFile file(path);
-  if (nifti)
-  {
-    const std::string header = niftiHeaderBytes(geometry, type.nifti, type.bits);
-    if (endsWith(name, ".gz"))
-      file.writeCompressed(header, voxels, bytes, progress);
-    else
-    {
-      file.write(header);
-      file.writeVoxels(voxels, bytes, progress);
-    }
-  }
-  else if (endsWith(name, ".mha"))
-  {
-    file.write(metaHeaderText(geometry, type));
-    file.writeVoxels(voxels, bytes, progress);
-  }
-  else
-  {
-    file.write(nrrdHeaderText(geometry, type.nrrd, "gzip") + nrrdKeys + "\n");
-    file.writeCompressed("", voxels, bytes, progress);
-  }
+  format.writeVoxels(file, {path, geometry, type, voxels, nrrdKeys, progress});
   progress.check("writing voxels");
   file.commit();
 }
@@ -100,7 +106,7 @@ template <class T>
 void writeVolume(const std::filesystem::path& path, const volume::Volume<T>& volume,
                  const core::Progress& progress)
 {
-  writeVoxelFile(path, volume.geometry(), voxelTypeOf<T>(), volume.data(), {}, progress);
+  writeVoxelFile(path, kImage, volume.geometry(), voxelTypeOf<T>(), volume.data(), {}, progress);
 }
 
 void writeVolume(const std::filesystem::path& path, const volume::IntensityVolume& volume,
@@ -112,7 +118,8 @@ void writeVolume(const std::filesystem::path& path, const volume::IntensityVolum
       [&](const auto& voxels)
       {
         using T = typename std::decay_t<decltype(voxels)>::Value;
-        writeVoxelFile(path, voxels.geometry(), voxelTypeOf<T>(), voxels.data(), keys, progress);
+        writeVoxelFile(path, kImage, voxels.geometry(), voxelTypeOf<T>(), voxels.data(), keys,
+                       progress);
       });
 }
 

@@ -11,6 +11,7 @@
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"
 #include "VoxelStream.h"
+#include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
 {
@@ -24,31 +25,15 @@ constexpr long double kTightestPacking = 1032.0L;
 /// DT_ codes of nifti1.h.
 std::optional<Component> niftiComponent(int dataType)
 {
-  switch (dataType)
-  {
-  case 2:
-    return Component::UInt8;
-  case 4:
-    return Component::Int16;
-  case 8:
-    return Component::Int32;
-  case 16:
-    return Component::Float;
-  case 64:
-    return Component::Double;
-  case 256:
-    return Component::Int8;
-  case 512:
-    return Component::UInt16;
-  case 768:
-    return Component::UInt32;
-  case 1024:
-    return Component::Int64;
-  case 1280:
-    return Component::UInt64;
-  default:
-    return std::nullopt;
-  }
+  constexpr std::pair<int, Component> kTypes[] = {
+      {2, Component::UInt8},    {4, Component::Int16},    {8, Component::Int32},
+      {16, Component::Float},   {64, Component::Double},  {256, Component::Int8},
+      {512, Component::UInt16}, {768, Component::UInt32}, {1024, Component::Int64},
+      {1280, Component::UInt64}};
+  for (const auto& [code, component] : kTypes)
+    if (code == dataType)
+      return component;
+  return std::nullopt;
 }
 
 std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
@@ -67,16 +52,12 @@ VoxelSource::VoxelSource(const std::filesystem::path& path)
   : m_path(path)
 {
   m_dataBytes = checkedFileSize(path);
-  const std::string name = lowerName(path);
-  if (endsWith(name, ".nii") || endsWith(name, ".nii.gz"))
-    openNifti();
-  else if (endsWith(name, ".nrrd") || endsWith(name, ".nhdr"))
-    openNrrd();
-  else if (endsWith(name, ".mha") || endsWith(name, ".mhd"))
-    openMeta();
-  else
+  const FileFormat* format = formatOf(path);
+  if (!format || !format->openVoxels)
     fail(FileError::Reason::UnknownFormat, path,
-         "is of no format that is read; give a .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd file");
+         "is of no format that is read; give a " + orText(readEndings(kImage | kLabels)) + " file");
+  checkFormat(path, format->name);
+  (this->*format->openVoxels)();
 }
 
 void VoxelSource::openNifti()

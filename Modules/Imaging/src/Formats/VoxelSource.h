@@ -39,6 +39,11 @@ public:
   /// the format allows it, and keeps no more.
   std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
 
+  // Of the table of formats, called by the constructor.
+  void openNifti();
+  void openNrrd();
+  void openMeta();
+
 private:
   struct Place
   {
@@ -49,9 +54,6 @@ private:
     bool swapped = false;
     bool isText = false;
   };
-  void openNifti();
-  void openNrrd();
-  void openMeta();
   void requireThreeDims() const;
   long double voxelBytes() const;
   void checkRoom() const;

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "OutputFile.h"
 #include "petrous/Core/GridGeometry.h"
 #include "petrous/Core/Progress.h"
+#include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
 {
@@ -22,10 +24,30 @@ struct VoxelType
 template <class T>
 VoxelType voxelTypeOf();
 
-/// Writes voxels in the format given by the file extension (.nrrd .nii .nii.gz .mha); `nrrdKeys`
-/// are complete key/value lines for .nrrd. Throws FileError, CancelledError.
-void writeVoxelFile(const std::filesystem::path& path, const core::GridGeometry& geometry,
-                    const VoxelType& type, const void* voxels, const std::string& nrrdKeys,
-                    const core::Progress& progress);
+struct VoxelsToWrite
+{
+  const std::filesystem::path& path; ///< for messages
+  const core::GridGeometry& geometry;
+  const VoxelType& type;
+  const void* voxels;
+  const std::string& nrrdKeys; ///< complete key/value lines for NRRD
+  const core::Progress& progress;
+
+  std::size_t bytes() const
+  {
+    return geometry.voxelCount() * static_cast<std::size_t>(type.bits / 8);
+  }
+};
+
+// Of the table of formats.
+void writeNrrd(OutputFile& file, const VoxelsToWrite& voxels);
+void writeNifti(OutputFile& file, const VoxelsToWrite& voxels);
+void writeNiftiGz(OutputFile& file, const VoxelsToWrite& voxels);
+void writeMeta(OutputFile& file, const VoxelsToWrite& voxels);
+
+/// Writes voxels in the format of the file's name. Throws FileError, CancelledError.
+void writeVoxelFile(const std::filesystem::path& path, FileContent content,
+                    const core::GridGeometry& geometry, const VoxelType& type, const void* voxels,
+                    const std::string& nrrdKeys, const core::Progress& progress);
 
 } // namespace petrous::imaging

@@ -10,6 +10,7 @@
 #include "FileHelpers.h"
 #include "MeshReaders.h"
 #include "OutputFile.h"
+#include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
 {
@@ -28,6 +29,31 @@ void append(std::string& bytes, T value)
   bytes.resize(at + sizeof value);
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
+
+/// A vertex without triangle is not part of the surface, and must not affect its bounds.
+void dropUnusedVertices(core::TriangleMesh& mesh)
+{
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle)
+      place[corner] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (place[v] != kUnused)
+    {
+      mesh.vertices[kept] = mesh.vertices[v];
+      place[v] = kept++;
+    }
+  if (kept == mesh.vertices.size())
+    return;
+  mesh.vertices.resize(kept);
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle)
+      corner = place[corner];
+}
+
+} // namespace
 
 std::string objText(const core::TriangleMesh& mesh)
 {
@@ -81,31 +107,6 @@ std::string plyBytes(const core::TriangleMesh& mesh)
   }
   return bytes;
 }
-
-/// A vertex without triangle is not part of the surface, and must not affect its bounds.
-void dropUnusedVertices(core::TriangleMesh& mesh)
-{
-  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle)
-      place[corner] = 0;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < place.size(); ++v)
-    if (place[v] != kUnused)
-    {
-      mesh.vertices[kept] = mesh.vertices[v];
-      place[v] = kept++;
-    }
-  if (kept == mesh.vertices.size())
-    return;
-  mesh.vertices.resize(kept);
-  for (auto& triangle : mesh.triangles)
-    for (std::uint32_t& corner : triangle)
-      corner = place[corner];
-}
-
-} // namespace
 
 MeshBuilder::MeshBuilder(const std::filesystem::path& path)
   : m_path(path)
@@ -164,24 +165,17 @@ core::TriangleMesh MeshBuilder::take()
   return std::move(m_mesh);
 }
 
-bool isMeshFileName(const std::filesystem::path& path)
-{
-  const std::string name = lowerName(path);
-  return endsWith(name, ".obj") || endsWith(name, ".stl") || endsWith(name, ".ply");
-}
-
 LoadedMesh loadMesh(const std::filesystem::path& path)
 {
   checkedFileSize(path);
-  const std::string name = lowerName(path);
-  if (!isMeshFileName(path))
+  const FileFormat* format = formatOf(path);
+  if (!format || !format->parseMesh)
     fail(FileError::Reason::UnknownFormat, path,
-         "is of no surface format that is read; give a .obj, .stl or .ply file");
+         "is of no surface format that is read; give a " + orText(readEndings(kMesh)) + " file");
+  checkFormat(path, format->name);
   const std::string bytes = readWholeFile(path);
   LoadedMesh loaded;
-  loaded.mesh = endsWith(name, ".obj")   ? parseObj(path, bytes)
-                : endsWith(name, ".stl") ? parseStl(path, bytes)
-                                         : parsePly(path, bytes);
+  loaded.mesh = format->parseMesh(path, bytes);
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
   if (start.find("SPACE=RAS") != start.npos)
   {
@@ -206,14 +200,9 @@ void writeMesh(const std::filesystem::path& path, const core::TriangleMesh& mesh
   mesh.validate();
   if (mesh.triangles.empty())
     throw core::InvalidParameter("mesh: it has no triangle to write");
-  const std::string name = lowerName(path);
-  if (!isMeshFileName(path))
-    fail(FileError::Reason::UnknownFormat, path,
-         "cannot be written under this name; end it in .obj, .stl or .ply");
+  const FileFormat& format = writingFormat(path, kMesh);
   OutputFile file(path);
-  file.write(endsWith(name, ".obj")   ? objText(mesh)
-             : endsWith(name, ".stl") ? stlBytes(mesh)
-                                      : plyBytes(mesh));
+  file.write(format.meshBytes(mesh));
   file.commit();
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,9 +35,12 @@ private:
   core::TriangleMesh m_mesh;
 };
 
-/// Parsers of a whole file.
+// Of the table of formats: parsers of a whole file, and whole files in bytes.
 core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes);
+std::string objText(const core::TriangleMesh& mesh);
+std::string stlBytes(const core::TriangleMesh& mesh);
+std::string plyBytes(const core::TriangleMesh& mesh);
 
 } // namespace petrous::imaging

@@ -503,12 +503,8 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
     }
     scene::Case own = value;
     own.revision = 0;
-    std::string stem = value.name.substr(0, 80);
-    // Truncate at a UTF-8 character boundary; names must not end in a space.
-    if (stem.size() < value.name.size())
-      while (!stem.empty() && (static_cast<unsigned char>(value.name[stem.size()]) & 0xC0) == 0x80)
-        stem.pop_back();
-    while (!stem.empty() && stem.back() == ' ')
+    std::string stem = core::utf8Prefix(value.name, 80);
+    while (!stem.empty() && stem.back() == ' ') // at which names must not end
       stem.pop_back();
     for (int n = 1; own.name == value.name || contains(own.name); ++n)
       own.name = stem + " drilled " + std::to_string(n);

@@ -131,21 +131,32 @@ void Library::rename(const std::string& from, const std::string& to)
   setOrphanAside(m_folder, to);
   // The manifest first: a kill then leaves journals that are set aside when the old name is used
   // again, and never a journal beside the manifest of another case.
-  if (::rename(path.c_str(), manifestPath(to).c_str()) != 0)
-    throwForErrno(errno, manifestPath(to));
+  bool onDisk = moveFile(path, manifestPath(to));
+  // The case is renamed: nothing throws from here on.
   const std::string old = journalPath(m_folder, from).string();
   for (const fs::path& journal : journalsOf(m_folder, from))
-  {
-    const fs::path renamed =
-        journalPath(m_folder, to).string() + journal.string().substr(old.size());
-    if (!fs::exists(fs::symlink_status(renamed)))
-      ::rename(journal.c_str(), renamed.c_str());
-  }
-  const bool onDisk = core::syncFolder(m_folder / "cases");
+    try
+    {
+      const fs::path renamed =
+          journalPath(m_folder, to).string() + journal.string().substr(old.size());
+      if (!fs::exists(fs::symlink_status(renamed)))
+        onDisk = moveFile(journal, renamed) && onDisk;
+    }
+    catch (const std::exception&)
+    {
+      onDisk = false; // it stays beside no manifest, and is set aside when that name is used
+    }
   Catalogue index(m_folder / kIndex);
   index.remove(from);
-  if (const auto state = stateOf(manifestPath(to)); state && !damaged)
-    index.put(summaryOf(readManifest(to), state->modified), state->stamp);
+  try
+  {
+    if (const auto state = stateOf(manifestPath(to)); state && !damaged)
+      index.put(summaryOf(readManifest(to), state->modified), state->stamp);
+  }
+  catch (const core::Error&)
+  {
+    // Without an entry the manifest is read, and says what is wrong.
+  }
   if (!onDisk && m_notice)
     m_notice("case '" + to + "' is renamed, but the disk reported an error; check the disk");
 }

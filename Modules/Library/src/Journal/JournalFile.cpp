@@ -202,9 +202,7 @@ fs::path setAside(const fs::path& journal)
     const fs::path aside = journal.string() + ".aside-" + std::to_string(n);
     if (fs::exists(fs::symlink_status(aside)))
       continue;
-    if (::rename(journal.c_str(), aside.c_str()) != 0)
-      throwForErrno(errno, aside);
-    core::syncFolder(aside.parent_path());
+    moveFile(journal, aside);
     return aside;
   }
 }
@@ -348,10 +346,8 @@ void JournalFile::write(std::string_view bytes)
 
 void JournalFile::moveTo(const fs::path& path)
 {
-  if (::rename(m_path.c_str(), path.c_str()) != 0)
-    throwForErrno(errno, path);
+  moveFile(m_path, path);
   m_path = path;
-  core::syncFolder(path.parent_path());
 }
 
 void JournalFile::remove() noexcept

@@ -1,6 +1,7 @@
 #include "LibraryFolder.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <vector>
 
 #include <fcntl.h>
@@ -53,6 +54,13 @@ void throwForErrno(int error, const fs::path& path)
   {
     throw libraryError(fault);
   }
+}
+
+bool moveFile(const fs::path& from, const fs::path& to)
+{
+  if (::rename(from.c_str(), to.c_str()) != 0)
+    throwForErrno(errno, to);
+  return core::syncFolder(to.parent_path());
 }
 
 void makeFolder(const fs::path& path)

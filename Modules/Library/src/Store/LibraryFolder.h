@@ -17,6 +17,10 @@ LibraryError libraryError(const core::OutputFileError& error, const std::string&
 /// Throws the LibraryError for an errno value.
 [[noreturn]] void throwForErrno(int error, const std::filesystem::path& path);
 
+/// Renames a file durably. Throws LibraryError; the file then has its old name. Returns false if it
+/// has the new one but the disk did not confirm it.
+bool moveFile(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Creates a folder and its parents, durably. Throws LibraryError.
 void makeFolder(const std::filesystem::path& path);
 

@@ -120,12 +120,8 @@ std::string ObjectStore::add(const std::string& ending,
   const TemporaryFile temporary{core::temporaryBeside(m_folder / ending).string() + "." + ending};
   write(temporary.path);
   const std::string name = sha256OfFile(temporary.path) + "." + ending;
-  const fs::path target = m_folder / name;
-  if (!makeRoom(name))
-    return name;
-  if (::rename(temporary.path.c_str(), target.c_str()) != 0)
-    throwForErrno(errno, target);
-  settle(core::syncFolder(m_folder));
+  if (makeRoom(name))
+    settle(moveFile(temporary.path, m_folder / name));
   return name;
 }
 
@@ -133,10 +129,9 @@ std::string ObjectStore::add(const std::string& ending, const std::vector<std::u
 {
   makeFolder(m_folder);
   const std::string name = sha256Of(bytes.data(), bytes.size()) + "." + ending;
-  const fs::path target = m_folder / name;
-  if (!makeRoom(name))
-    return name;
-  settle(core::writeFile(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+  if (makeRoom(name))
+    settle(core::writeFile(m_folder / name,
+                           {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
   return name;
 }
 

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "JointHistogram.h"
+#include "petrous/Volume/Sampling.h"
 
 namespace petrous::registration
 {
@@ -19,11 +20,6 @@ namespace
 
 constexpr std::size_t kChunk = 8192; // samples per partial histogram
 constexpr int kPad = 2;              // empty bins on each side, for the support of the B-spline
-
-float mix(float a, float b, float t)
-{
-  return a + (b - a) * t;
-}
 
 // The four weights of the cubic B-spline at t in [0, 1) after a bin; windowSlope: their
 // derivatives.
@@ -45,7 +41,8 @@ std::array<float, 4> windowSlope(float t)
   return {-0.5f * s * s, -2.0f * t + 1.5f * t * t, 0.5f + t - 1.5f * t * t, 0.5f * t * t};
 }
 
-// The moving image, addressed as required by the inner loop.
+// The moving image, addressed as required by the inner loop. Not volume::sampleTrilinear, which
+// finds the cell in double and clamps positions to the hull; here one outside does not count.
 struct Sampler
 {
   const float* values;
@@ -94,32 +91,21 @@ struct Sampler
     return true;
   }
 
-  float value(const float* c, const Eigen::Array3f& w) const
+  volume::CellCorners<float> corners(const float* c) const
   {
     const float* d = c + next[1];
     const float* e = c + next[2];
     const float* f = e + next[1];
-    const float front = mix(mix(c[0], c[next[0]], w[0]), mix(d[0], d[next[0]], w[0]), w[1]);
-    const float back = mix(mix(e[0], e[next[0]], w[0]), mix(f[0], f[next[0]], w[0]), w[1]);
-    return mix(front, back, w[2]);
+    return {c[0], c[next[0]], d[0], d[next[0]], e[0], e[next[0]], f[0], f[next[0]]};
   }
-
+  float value(const float* c, const Eigen::Array3f& w) const
+  {
+    return volume::interpolateCell(corners(c), w[0], w[1], w[2]);
+  }
   // Gradient of `value` per voxel.
   Eigen::Vector3f slope(const float* c, const Eigen::Array3f& w) const
   {
-    const float* d = c + next[1];
-    const float* e = c + next[2];
-    const float* f = e + next[1];
-    const float dc = c[next[0]] - c[0];
-    const float dd = d[next[0]] - d[0];
-    const float de = e[next[0]] - e[0];
-    const float df = f[next[0]] - f[0];
-    const float rc = c[0] + dc * w[0];
-    const float rd = d[0] + dd * w[0];
-    const float re = e[0] + de * w[0];
-    const float rf = f[0] + df * w[0];
-    return {mix(mix(dc, dd, w[1]), mix(de, df, w[1]), w[2]), mix(rd - rc, rf - re, w[2]),
-            mix(re, rf, w[1]) - mix(rc, rd, w[1])};
+    return volume::gradientInCell(corners(c), w[0], w[1], w[2]);
   }
 };
 

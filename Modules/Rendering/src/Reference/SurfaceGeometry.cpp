@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "OpticalModel.h"
+#include "SurfaceActor.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/ToolShape.h"
 
@@ -15,7 +16,12 @@ namespace petrous::rendering
 namespace
 {
 
-using Hit = std::optional<TriangleTree::Hit>;
+struct ShapeHit
+{
+  double distance = 0.0;  // mm along the ray
+  Eigen::Vector3d normal; // unit; orientation unspecified
+};
+using Hit = std::optional<ShapeHit>;
 
 void takeNearer(Hit& nearest, const Hit& other)
 {
@@ -35,7 +41,7 @@ Hit meetSphere(const PixelRay& ray, const Eigen::Vector3d& center, double radius
     t = along + std::sqrt(inside);
   if (t <= 0.0)
     return std::nullopt;
-  return TriangleTree::Hit{t, (t * ray.direction - to) / radius};
+  return ShapeHit{t, (t * ray.direction - to) / radius};
 }
 
 // A capped cylinder from `base` along the unit axis.
@@ -51,7 +57,7 @@ Hit meetCylinder(const PixelRay& ray, const Eigen::Vector3d& base, const Eigen::
   const auto offer = [&](double t, const Eigen::Vector3d& normal)
   {
     if (t > 0.0 && std::isfinite(t))
-      takeNearer(nearest, TriangleTree::Hit{t, normal});
+      takeNearer(nearest, ShapeHit{t, normal});
   };
   const double a = across.squaredNorm();
   const double b = across.dot(aside);
@@ -73,7 +79,24 @@ Hit meetCylinder(const PixelRay& ray, const Eigen::Vector3d& base, const Eigen::
   return nearest;
 }
 
-Eigen::Vector3d lit(const Eigen::Vector3d& color, const TriangleTree::Hit& hit, const PixelRay& ray,
+// Interpolated between the vertices.
+Eigen::Vector3d normalAt(const core::TriangleMesh& mesh,
+                         const std::vector<Eigen::Vector3f>& normals,
+                         const volume::MeshTree::Hit& hit)
+{
+  const auto& corner = mesh.triangles[hit.triangle];
+  const Eigen::Vector3d normal = (1.0 - hit.u - hit.v) * normals[corner[0]].cast<double>() +
+                                 hit.u * normals[corner[1]].cast<double>() +
+                                 hit.v * normals[corner[2]].cast<double>();
+  if (normal.norm() > 0.0)
+    return normal.normalized();
+  const Eigen::Vector3d a = mesh.vertices[corner[0]].cast<double>();
+  return (mesh.vertices[corner[1]].cast<double>() - a)
+      .cross(mesh.vertices[corner[2]].cast<double>() - a)
+      .normalized();
+}
+
+Eigen::Vector3d lit(const Eigen::Vector3d& color, const ShapeHit& hit, const PixelRay& ray,
                     const LightSettings& light)
 {
   return optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0}, light.shininess,
@@ -115,7 +138,8 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
       throw RenderingError(RenderingError::Reason::BadContents,
                            "picture: mesh " + mesh.name + " has no triangles");
     if (mesh.look.shown && mesh.look.opacity > 0.0F)
-      m_meshes.push_back({TriangleTree(mesh.mesh), mesh.look});
+      m_meshes.push_back(
+          {volume::MeshTree(*mesh.mesh), mesh.mesh, vertexNormals(*mesh.mesh), mesh.look});
   }
   if (contents.tool && tool::isShown(*contents.tool))
     m_tool = contents.tool;
@@ -125,10 +149,12 @@ std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray) co
 {
   std::vector<Hit> hits;
   for (const Mesh& mesh : m_meshes)
-    if (const auto hit = mesh.tree.first(ray))
+    if (const auto hit = mesh.tree.firstAlong(ray.origin, ray.direction, 0.0))
     {
       const auto& color = mesh.look.color;
-      hits.push_back({hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, m_light),
+      hits.push_back({hit->distance,
+                      lit({color[0], color[1], color[2]},
+                          {hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}, ray, m_light),
                       std::min(static_cast<double>(mesh.look.opacity), 1.0)});
     }
   if (m_tool)

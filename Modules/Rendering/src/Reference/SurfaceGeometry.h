@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "TriangleTree.h"
+#include "petrous/Rendering/PixelRays.h"
 #include "petrous/Rendering/SceneContents.h"
+#include "petrous/Volume/MeshTree.h"
 
 namespace petrous::rendering
 {
@@ -30,7 +33,9 @@ public:
 private:
   struct Mesh
   {
-    TriangleTree tree;
+    volume::MeshTree tree;
+    std::shared_ptr<const core::TriangleMesh> mesh;
+    std::vector<Eigen::Vector3f> normals; ///< per vertex
     appearance::StructureAppearance look;
   };
 

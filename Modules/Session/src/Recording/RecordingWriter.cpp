@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include <unistd.h>
+
 #include "EditCodec.h"
 #include "RecordCodec.h"
 #include "RecordingFormat.h"
@@ -36,7 +38,9 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Record
   const std::vector<std::uint8_t> head = headOf(setup);
   try
   {
-    m_file.reset(std::fopen(core::outputTarget(file).c_str(), "wb"));
+    const std::filesystem::path target = core::outputTarget(file);
+    m_folder = target.parent_path();
+    m_file.reset(std::fopen(target.c_str(), "wb"));
   }
   catch (const core::OutputFileError& error)
   {
@@ -126,8 +130,11 @@ void RecordingWriter::close()
   putU64(end, m_ticks);
   putU64(end, m_edits);
   write(end);
+  if (::fsync(::fileno(m_file.get())) != 0 && errno != EINVAL) // EINVAL: cannot be synced there
+    fail();
   if (std::fclose(m_file.release()) != 0)
     fail();
+  core::syncFolder(m_folder);
 }
 
 } // namespace petrous::session

@@ -42,20 +42,9 @@ OccupancySurface::Sample OccupancySurface::at(const Eigen::Vector3d& position) c
 {
   const TrilinearCell cell(position.cwiseQuotient(m_spacing), m_occupancy.geometry().dims());
   const std::array<double, 8> c = corners(cell.lower, cell.upper);
-  const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
-  const double x = cell.weight.x();
-  const double y = cell.weight.y();
-  const double z = cell.weight.z();
-  const double x00 = mix(c[0], c[1], x);
-  const double x10 = mix(c[2], c[3], x);
-  const double x01 = mix(c[4], c[5], x);
-  const double x11 = mix(c[6], c[7], x);
-  const double low = mix(x00, x10, y);
-  const double high = mix(x01, x11, y);
-  const Eigen::Vector3d slope(
-      mix(mix(c[1] - c[0], c[3] - c[2], y), mix(c[5] - c[4], c[7] - c[6], y), z),
-      mix(x10 - x00, x11 - x01, z), high - low);
-  return {mix(low, high, z) - 0.5, slope.cwiseQuotient(m_spacing)};
+  const Eigen::Vector3d& w = cell.weight;
+  return {interpolateCell(c, w.x(), w.y(), w.z()) - 0.5,
+          gradientInCell(c, w.x(), w.y(), w.z()).cwiseQuotient(m_spacing)};
 }
 
 std::vector<core::Index3> OccupancySurface::crossedCells(const core::Progress& progress) const

@@ -66,6 +66,7 @@ void OccupancySurface::forEachCrossing(const core::Index3& cell, int parts,
   const auto value = [&](int i, int j, int k) -> double&
   { return lattice[static_cast<std::size_t>(i + most * (j + most * k))]; };
   const double part = 1.0 / parts;
+  // interpolateCell at a lattice: the ends of each row once.
   const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
   for (int k = 0; k <= parts; ++k)
     for (int j = 0; j <= parts; ++j)

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "MeshTree.h"
 #include "petrous/Core/TriangleMesh.h"
+#include "petrous/Volume/MeshTree.h"
 
 namespace petrous::volume
 {

@@ -28,6 +28,8 @@ constexpr double kFacing = 0.94; // cosine of 20 degrees: thin, rather than the 
 constexpr std::size_t kMaxSamples = 20000; // triangles at which thickness is measured
 constexpr double kGuarded = 0.501;         // stays above 0.5 when rounded to 16 bits
 
+constexpr double kSlack = 1e-9; // an edge belongs to both triangles: no chord slips out
+
 const char* const kTask = "making a mesh touchable";
 
 struct Chord
@@ -56,7 +58,8 @@ std::vector<Chord> chordsOf(const MeshTree& surface, double start, double beyond
                       if (!(area > 0.0))
                         return;
                       const Eigen::Vector3d inwards = -normal.normalized();
-                      const auto hit = surface.firstAlong((a + b + c) / 3.0, inwards, start);
+                      const auto hit =
+                          surface.firstAlong((a + b + c) / 3.0, inwards, start, kSlack);
                       if (!hit && beyond > 0.0)
                         chords[n] = {beyond, area, true};
                       if (!hit)

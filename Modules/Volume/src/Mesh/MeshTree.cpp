@@ -1,7 +1,8 @@
-#include "MeshTree.h"
+#include "petrous/Volume/MeshTree.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -22,9 +23,9 @@ double squaredDistanceToEdge(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return (point - a - t * run).squaredNorm();
 }
 
-// Distance along the ray, or nullopt. Edges belong to both triangles, so no ray passes between two.
-std::optional<double> meeting(const Triangle& triangle, const Eigen::Vector3d& origin,
-                              const Eigen::Vector3d& direction)
+// Möller-Trumbore intersection, anywhere on the ray's line.
+std::optional<MeshTree::Hit> meeting(const Triangle& triangle, const Eigen::Vector3d& origin,
+                                     const Eigen::Vector3d& direction, double slack)
 {
   const Eigen::Vector3d ab = triangle[1] - triangle[0];
   const Eigen::Vector3d ac = triangle[2] - triangle[0];
@@ -32,14 +33,25 @@ std::optional<double> meeting(const Triangle& triangle, const Eigen::Vector3d& o
   const double determinant = ab.dot(p);
   if (determinant == 0.0)
     return std::nullopt;
-  constexpr double slack = 1e-9;
   const Eigen::Vector3d s = origin - triangle[0];
   const double u = s.dot(p) / determinant;
   const Eigen::Vector3d q = s.cross(ab);
   const double v = direction.dot(q) / determinant;
-  if (u < -slack || v < -slack || u + v > 1.0 + slack)
+  if (!(u >= -slack && v >= -slack && u + v <= 1.0 + slack))
     return std::nullopt;
-  return ac.dot(q) / determinant;
+  return MeshTree::Hit{ac.dot(q) / determinant, 0, u, v};
+}
+
+std::vector<Triangle> trianglesOf(const core::TriangleMesh& mesh)
+{
+  mesh.validate();
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& corners : mesh.triangles)
+    triangles.push_back({mesh.vertices[corners[0]].cast<double>(),
+                         mesh.vertices[corners[1]].cast<double>(),
+                         mesh.vertices[corners[2]].cast<double>()});
+  return triangles;
 }
 
 } // namespace
@@ -70,6 +82,11 @@ MeshTree::MeshTree(std::vector<Triangle> triangles)
   std::iota(m_order.begin(), m_order.end(), std::uint32_t{0});
   if (!m_order.empty())
     build(0, static_cast<std::uint32_t>(m_order.size()));
+}
+
+MeshTree::MeshTree(const core::TriangleMesh& mesh)
+  : MeshTree(trianglesOf(mesh))
+{
 }
 
 std::uint32_t MeshTree::build(std::uint32_t first, std::uint32_t last)
@@ -138,8 +155,8 @@ double MeshTree::distance(const Eigen::Vector3d& point, double limit) const
 }
 
 std::optional<MeshTree::Hit> MeshTree::firstAlong(const Eigen::Vector3d& origin,
-                                                  const Eigen::Vector3d& direction,
-                                                  double start) const
+                                                  const Eigen::Vector3d& direction, double start,
+                                                  double slack) const
 {
   std::optional<Hit> first;
   const auto meets = [&](const Eigen::AlignedBox3d& box)
@@ -163,13 +180,30 @@ std::optional<MeshTree::Hit> MeshTree::firstAlong(const Eigen::Vector3d& origin,
     }
     return from <= to + 1e-9 * (1.0 + std::abs(to)); // tolerance for flat boxes
   };
-  walk(meets,
-       [&](std::size_t triangle)
-       {
-         const auto distance = meeting(m_triangles[triangle], origin, direction);
-         if (distance && *distance > start && (!first || *distance < first->distance))
-           first = Hit{*distance, triangle};
-       });
+  std::array<std::uint32_t, 64> pending; // a tree of 2^32 triangles is 31 deep
+  std::size_t count = 0;
+  if (!m_nodes.empty())
+    pending[count++] = 0;
+  while (count > 0)
+  {
+    const std::uint32_t index = pending[--count];
+    const Node& node = m_nodes[index];
+    if (!meets(node.box))
+      continue;
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const auto hit = meeting(m_triangles[m_order[i]], origin, direction, slack);
+      if (!hit || !(hit->distance > start) || (first && hit->distance >= first->distance))
+        continue;
+      first = hit;
+      first->triangle = m_order[i];
+    }
+    if (node.count == 0)
+    {
+      pending[count++] = node.right;
+      pending[count++] = index + 1;
+    }
+  }
   return first;
 }
 

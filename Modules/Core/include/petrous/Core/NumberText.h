@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,13 @@ std::string exactText(float value);
 /// Underflow gives 0.
 std::optional<double> parseDouble(std::string_view text);
 std::optional<float> parseFloat(std::string_view text);
+
+/// Whether `text` is well-formed UTF-8 [Unicode, table 3-7]: no overlong forms, surrogates or code
+/// points beyond U+10FFFF.
+bool isUtf8(std::string_view text) noexcept;
+
+/// The start of a well-formed UTF-8 text, of at most `bytes` bytes; no character is cut in two.
+std::string utf8Prefix(std::string_view text, std::size_t bytes);
 
 /// RAII: while it lives, the C library formats and parses numbers with a decimal point in this
 /// thread. For calls into libraries that follow LC_NUMERIC.

@@ -30,8 +30,8 @@ struct OutputFileError : Error
 /// Throws the OutputFileError for an errno value.
 [[noreturn]] void throwOutputError(int error, const std::filesystem::path& path);
 
-/// The only atomic and durable file writer: the file appears complete or not at all, even if the
-/// program is killed or the power fails.
+/// The only atomic and durable file writer (OutputFolder: of folders): the file appears complete or
+/// not at all, even if the program is killed or the power fails.
 ///
 /// Bytes go to a new file in the same directory, with an unpredictable name, opened with O_EXCL.
 /// `commit` syncs it, renames it over the target and syncs the directory. Everything that can fail
@@ -69,6 +69,35 @@ private:
 
 /// Writes `bytes` to a file. Returns and throws as OutputFile::commit.
 bool writeFile(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same for a folder of files: complete or not at all. They are written in a folder of another
+/// name, which `commit` syncs and renames; into a target that exists, which must be empty, its
+/// entries are renamed one by one, and back if one fails. The folder's files need not be durable
+/// by themselves.
+///
+/// Without a commit everything is removed, created parent folders included.
+class OutputFolder
+{
+public:
+  /// Throws OutputFileError if the target is a file or a folder that is not empty, or if nothing
+  /// can be written there.
+  explicit OutputFolder(const std::filesystem::path& target);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  const std::filesystem::path& path() const noexcept { return m_staging; } ///< where to write
+
+  /// Throws and returns as OutputFile::commit.
+  bool commit();
+
+private:
+  std::filesystem::path m_target;
+  std::filesystem::path m_staging;
+  std::filesystem::path m_made; ///< the topmost folder created
+  bool m_inside = false;        ///< staged inside the empty target
+  bool m_done = false;
+};
 
 /// The file that writing to `path` replaces: the end of a chain of links, or `path` if nothing
 /// exists there. Throws OutputFileError if the target is not a regular file: opening a pipe would

@@ -43,7 +43,8 @@ struct SeriesDescription
 /// Writes one file per slice, `slice-0001.dcm` onwards, as CT or MR Image Storage, explicit VR
 /// little endian, 16 bits, in parallel. Dates are fixed: same input, same bytes.
 ///
-/// folder     created if missing; files of the same name are replaced
+/// folder     created if missing; files of the same name are replaced. For a series that is whole
+///            or absent, and durable, give a folder in a core::OutputFolder
 /// image      int16 or uint16 voxels (float is rejected); padding goes to PixelPaddingValue
 /// sliceStep  patient displacement (mm) from one slice to the next if it is not along the slice
 ///            normal, as with a tilted gantry

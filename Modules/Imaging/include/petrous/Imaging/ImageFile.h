@@ -20,9 +20,6 @@ struct LoadedImage
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
 };
 
-/// Whether the name ends in .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd (case-insensitive).
-bool isImageFileName(const std::filesystem::path& path);
-
 /// Reads a CT or MR from a NIfTI, NRRD or MetaImage file.
 ///
 /// int16, uint16 and float are kept; 8-bit integers become int16; wider types become int16 or

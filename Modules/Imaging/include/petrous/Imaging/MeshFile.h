@@ -16,9 +16,6 @@ struct LoadedMesh
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
 };
 
-/// Whether the name ends in .obj, .stl or .ply (case-insensitive).
-bool isMeshFileName(const std::filesystem::path& path);
-
 /// Reads a surface from OBJ, STL (text or binary) or PLY (text or binary).
 ///
 /// Coordinates are taken as patient LPS mm unless a comment or header says "SPACE=RAS" (as written

@@ -35,7 +35,7 @@ public:
   /// To be called before adding the first tick that felt the edit. Throws as above.
   void add(const MaskEdit& edit);
 
-  /// Writes the rest and the end mark. Throws RecordingError.
+  /// Writes the rest and the end mark, and waits for the disk. Throws RecordingError.
   void close();
 
   std::uint64_t ticks() const noexcept { return m_ticks; }
@@ -51,6 +51,7 @@ private:
   [[noreturn]] void fail();
 
   std::string m_name;
+  std::filesystem::path m_folder;
   std::unique_ptr<std::FILE, CloseFile> m_file; // null after close
   RecordingBlock m_block;
   std::uint64_t m_ticks = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -9,6 +10,33 @@
 
 namespace petrous::volume
 {
+
+/// The values at the corners of a cell, first axis fastest: corner n is the upper one along axis a
+/// where bit a of n is set.
+template <class T>
+using CellCorners = std::array<T, 8>;
+
+/// Trilinear interpolation in a cell at the weights x, y, z in [0, 1] of the upper corners: the one
+/// place of its arithmetic. Each sampler finds its cell by itself.
+template <class T>
+T interpolateCell(const CellCorners<T>& c, T x, T y, T z) noexcept
+{
+  const auto mix = [](T a, T b, T w) { return a + (b - a) * w; };
+  return mix(mix(mix(c[0], c[1], x), mix(c[2], c[3], x), y),
+             mix(mix(c[4], c[5], x), mix(c[6], c[7], x), y), z);
+}
+
+/// Gradient of `interpolateCell` there, per cell.
+template <class T>
+Eigen::Matrix<T, 3, 1> gradientInCell(const CellCorners<T>& c, T x, T y, T z) noexcept
+{
+  const auto mix = [](T a, T b, T w) { return a + (b - a) * w; };
+  const T low[2] = {mix(c[0], c[1], x), mix(c[2], c[3], x)};
+  const T high[2] = {mix(c[4], c[5], x), mix(c[6], c[7], x)};
+  return {mix(mix(c[1] - c[0], c[3] - c[2], y), mix(c[5] - c[4], c[7] - c[6], y), z),
+          mix(low[1] - low[0], high[1] - high[0], z),
+          mix(high[0], high[1], y) - mix(low[0], low[1], y)};
+}
 
 /// Cell and weights of a continuous voxel position inside the hull of the voxel centres.
 struct TrilinearCell
@@ -34,11 +62,12 @@ struct TrilinearCell
   template <class Corner>
   double interpolate(const Corner& value) const
   {
-    const auto mix = [](double a, double b, double w) { return a + (b - a) * w; };
-    const auto row = [&](int j, int k)
-    { return mix(value(lower[0], j, k), value(upper[0], j, k), weight[0]); };
-    return mix(mix(row(lower[1], lower[2]), row(upper[1], lower[2]), weight[1]),
-               mix(row(lower[1], upper[2]), row(upper[1], upper[2]), weight[1]), weight[2]);
+    return interpolateCell<double>(
+        {value(lower[0], lower[1], lower[2]), value(upper[0], lower[1], lower[2]),
+         value(lower[0], upper[1], lower[2]), value(upper[0], upper[1], lower[2]),
+         value(lower[0], lower[1], upper[2]), value(upper[0], lower[1], upper[2]),
+         value(lower[0], upper[1], upper[2]), value(upper[0], upper[1], upper[2])},
+        weight[0], weight[1], weight[2]);
   }
 };
 

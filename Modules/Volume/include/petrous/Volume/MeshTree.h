@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
+
+#include "petrous/Core/TriangleMesh.h"
 
 namespace petrous::volume
 {
@@ -16,11 +17,15 @@ using Triangle = std::array<Eigen::Vector3d, 3>; // corners, patient LPS mm
 /// Squared distance of a point from a triangle; a degenerate triangle is treated as its edges.
 double squaredDistance(const Triangle& triangle, const Eigen::Vector3d& point) noexcept;
 
-/// Binary bounding-box tree of triangles, split at the median. Immutable and thread-safe.
+/// Binary bounding-box tree of triangles, split at the median: the one for all that looks for
+/// triangles near points or along rays. Immutable and thread-safe.
 class MeshTree
 {
 public:
   explicit MeshTree(std::vector<Triangle> triangles);
+
+  /// Throws InvalidParameter for vertex indices out of range.
+  explicit MeshTree(const core::TriangleMesh& mesh);
 
   const std::vector<Triangle>& triangles() const noexcept { return m_triangles; }
 
@@ -29,13 +34,16 @@ public:
 
   struct Hit
   {
-    double distance;
+    double distance; ///< mm along the ray
     std::size_t triangle;
+    double u, v; ///< weights of the triangle's second and third corner
   };
 
-  /// The first triangle hit by the ray (unit direction) farther than `start` mm from its origin.
+  /// The first triangle, front or back face, hit by the ray (unit direction) farther than `start`
+  /// mm from its origin. Triangles count as larger by `slack` of their weights; with some 1e-9 no
+  /// ray passes between two that share an edge.
   std::optional<Hit> firstAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                double start) const;
+                                double start, double slack = 0.0) const;
 
 private:
   struct Node
@@ -47,29 +55,6 @@ private:
   };
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);
-
-  template <class Meets, class Visit>
-  void walk(const Meets& meets, const Visit& visit) const
-  {
-    std::array<std::uint32_t, 64> pending; // a tree of 2^32 triangles is 31 deep
-    std::size_t count = 0;
-    if (!m_nodes.empty())
-      pending[count++] = 0;
-    while (count > 0)
-    {
-      const std::uint32_t index = pending[--count];
-      const Node& node = m_nodes[index];
-      if (!meets(node.box))
-        continue;
-      for (std::uint32_t i = 0; i < node.count; ++i)
-        visit(std::size_t{m_order[node.first + i]});
-      if (node.count == 0)
-      {
-        pending[count++] = node.right;
-        pending[count++] = index + 1;
-      }
-    }
-  }
 
   std::vector<Triangle> m_triangles;
   std::vector<std::uint32_t> m_order;

@@ -61,10 +61,21 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
   addOptions(*command);
   command->footer(kExitCodes);
   command->callback(
-      [this, run = std::move(run)]
+      [this, command, run = std::move(run)]
       {
         m_parsing.reset();
-        run();
+        try
+        {
+          run();
+        }
+        catch (const library::StructureError& error)
+        {
+          if (!command->get_option_no_throw(kWithoutDamaged))
+            throw;
+          throw library::StructureError(error.reason,
+                                        std::string(error.what()) +
+                                            "; or go on without it: " + kWithoutDamaged);
+        }
         refuseDamaged(); // if nothing was printed
       });
   return command;

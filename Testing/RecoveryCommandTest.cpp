@@ -280,6 +280,65 @@ TEST_F(RecoveryCommand, ADamagedStrokeHindersOnlyWhatNeedsIt)
   json(render);
 }
 
+TEST_F(RecoveryCommand, ADamagedStructureIsLeftOutOnlyIfThatIsChosen)
+{
+  std::ofstream labels(m_folder / "nerve.nrrd", std::ios::binary);
+  labels << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 60 60 60\nspace directions: (0.5,0,0) (0,0.5,0) (0,0,0.5)\n"
+         << "space origin: (-15,-15,-15)\nencoding: raw\nendian: little\n\n";
+  for (int n = 0; n < 60 * 60 * 60; ++n)
+    labels.put(n % 60 > 40 && n % 60 < 46 && n / 60 % 60 > 20 && n / 60 % 60 < 40 ? '\1' : '\0');
+  labels.close();
+  std::ofstream(m_folder / "incus.obj") << "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
+                                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  json("add bone --labels nerve=" + quoted(m_folder / "nerve.nrrd") +
+       " --mesh incus=" + quoted(m_folder / "incus.obj"));
+  const auto manifest = nlohmann::json::parse(textOf(library() / "cases/bone.json"));
+  const std::string object = manifest["labels"][0]["object"];
+  const std::string mesh = manifest["meshes"][0]["object"];
+  for (const std::string& name : {object, mesh})
+  {
+    const auto file = library() / "objects" / name;
+    std::string bytes = textOf(file);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+    std::ofstream(file, std::ios::binary) << bytes;
+  }
+  const auto points = m_folder / "points.csv";
+  std::ofstream(points) << "x_mm,y_mm,z_mm\n0,0,0\n";
+  const std::string commands[] = {"probe bone --points " + quoted(points),
+                                  "render bone --engine reference --size 16x16 --out " +
+                                      quoted(m_folder / "a.png"),
+                                  "drill bone --tick-hz 200 --path " + quoted(writeSession())};
+  const auto before = libraryContent();
+  for (const std::string& command : commands)
+  {
+    expectRefused(command, 3, "'nerve' of case 'bone'");
+    expectRefused(command, 3, object);
+    expectRefused(command, 3, "--without-damaged");
+  }
+  EXPECT_EQ(libraryContent(), before);
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.png"));
+  for (const std::string& command : commands)
+  {
+    const Outcome outcome = run(command + " --without-damaged --json");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("left out, neither shown nor felt nor spared"), std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("mesh 'incus' of case 'bone'"), std::string::npos) << outcome.err;
+    const auto leftOut = nlohmann::json::parse(outcome.out)["left_out"];
+    ASSERT_EQ(leftOut.size(), 2u) << outcome.out;
+    EXPECT_EQ(leftOut[0]["structures"], nlohmann::json({"nerve"}));
+    EXPECT_EQ(leftOut[0]["object"], object);
+    EXPECT_EQ(leftOut[1]["structures"], nlohmann::json({"incus"}));
+    EXPECT_EQ(leftOut[1]["object"], mesh);
+  }
+  const auto drilled = nlohmann::json::parse(textOf(library() / "cases/bone.json"));
+  EXPECT_GE(drilled["dissection"]["strokes"].size(), 1u);
+  EXPECT_EQ(drilled["labels"], manifest["labels"]) << "it stays as it is on the disk";
+  EXPECT_EQ(drilled["meshes"], manifest["meshes"]);
+  expectRefused(commands[0], 3, "'nerve' of case 'bone'");
+}
+
 // The CT is checked against its hash in parallel with the command, which must not finish before the
 // check.
 TEST_F(RecoveryCommand, NothingIsSavedOrSaidOfADamagedCt)

@@ -27,4 +27,40 @@ void warnMissingPlaces(const Context& context, const scene::Case& value)
     remark(mesh.name, scene::placementOf(value, mesh));
 }
 
+void addWithoutDamaged(CLI::App& command, bool& chosen)
+{
+  command.add_flag(kWithoutDamaged, chosen,
+                   "Go on without structures that are missing or damaged: they are neither shown "
+                   "nor felt nor spared");
+}
+
+presenters::LeftOut leaveOutDamaged(const Context& context, scene::Case& value, bool chosen)
+{
+  if (!chosen)
+    return {};
+  const presenters::LeftOut leftOut = presenters::leaveOutDamaged(value, context.progress());
+  for (const std::string& why : leftOut.sentences())
+    context.warn("left out, neither shown nor felt nor spared: " + why);
+  return leftOut;
+}
+
+nlohmann::json leftOutJson(const scene::Case& value, const presenters::LeftOut& leftOut)
+{
+  nlohmann::json all = nlohmann::json::array();
+  for (const auto& part : leftOut.labels)
+  {
+    nlohmann::json names = nlohmann::json::array();
+    for (const scene::StructurePart& structure : value.labels[part.index].structures)
+      names.push_back(structure.name);
+    all.push_back({{"structures", std::move(names)},
+                   {"object", value.labels[part.index].object},
+                   {"text", part.why}});
+  }
+  for (const auto& part : leftOut.meshes)
+    all.push_back({{"structures", {value.meshes[part.index].name}},
+                   {"object", value.meshes[part.index].object},
+                   {"text", part.why}});
+  return all;
+}
+
 } // namespace petrous::cli

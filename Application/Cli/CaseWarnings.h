@@ -3,6 +3,7 @@
 #include <string>
 
 #include "Context.h"
+#include "petrous/Presenters/LeftOut.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
@@ -14,5 +15,15 @@ std::string placeText(const scene::Placement& placement);
 
 /// Warns of parts that cannot be placed on the CT and are therefore ignored.
 void warnMissingPlaces(const Context& context, const scene::Case& value);
+
+/// The option --without-damaged.
+void addWithoutDamaged(CLI::App& command, bool& chosen);
+
+/// Leaves out structures that are missing or damaged, with a warning each, if that was chosen;
+/// otherwise reading one refuses the command.
+presenters::LeftOut leaveOutDamaged(const Context& context, scene::Case& value, bool chosen);
+
+/// What was left out: an array, an entry for each object.
+nlohmann::json leftOutJson(const scene::Case& value, const presenters::LeftOut& leftOut);
 
 } // namespace petrous::cli

@@ -68,11 +68,22 @@ CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const s
   addOptions(*command);
   command->footer(kExitCodes);
   command->callback(
-      [this, program = parent.get_name(), name, run = std::move(run)]
+      [this, program = parent.get_name(), name, command, run = std::move(run)]
       {
         m_parsing.reset();
         startLog(program, name);
-        run();
+        try
+        {
+          run();
+        }
+        catch (const library::StructureError& error)
+        {
+          if (!command->get_option_no_throw(kWithoutDamaged))
+            throw;
+          throw library::StructureError(error.reason,
+                                        std::string(error.what()) +
+                                            "; or go on without it: " + kWithoutDamaged);
+        }
         refuseDamaged(); // if nothing was printed
       });
   return command;

@@ -30,6 +30,9 @@ public:
 /// Version of the JSON output: incremented when a key changes its meaning or is removed.
 constexpr int kSchemaVersion = 1;
 
+/// Option of commands that can do without a damaged structure; see leaveOutDamaged.
+constexpr const char* kWithoutDamaged = "--without-damaged";
+
 /// Footer of the help texts.
 extern const char* const kExitCodes;
 

@@ -27,6 +27,7 @@ struct Options
   double rate = 1000.0;
   std::string mode = "6dof", log, record, replay, materials, burrs;
   std::optional<double> thrust;
+  bool withoutDamaged = false;
   const CLI::App* command = nullptr;
 
   bool given(const char* name) const { return command->count(name) > 0; }
@@ -94,21 +95,25 @@ dissection::Catalogues cataloguesFrom(const Options& options, const std::filesys
   return dissection::Catalogues::read(options.materials, options.burrs);
 }
 
-void openCase(const Context& context, library::Library& library, const std::string& name,
-              scene::Case& value, const core::Progress& progress)
+presenters::LeftOut openCase(const Context& context, library::Library& library,
+                             const Options& options, scene::Case& value,
+                             const core::Progress& progress)
 {
-  library.refuseWhereDrilled(name); // before minutes of reading
-  value = library.open(name);
+  library.refuseWhereDrilled(options.caseName); // before minutes of reading
+  value = library.open(options.caseName);
   library.loadDissection(value);
   value.ct.volume.get();
   library.checkVoxels(value, progress);
+  auto leftOut = leaveOutDamaged(context, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
+  return leftOut;
 }
 
 void save(const Context& context, library::Library& library, scene::Case& value,
           const DrillReport& report, const library::SavedState& opened, library::Journal& journal,
-          const core::Progress& progress)
+          const presenters::LeftOut& leftOut, const core::Progress& progress)
 {
+  leftOut.putBack(value);
   if (!report.changed())
     return context.warn("nothing was cut; the case is as it was");
   try
@@ -179,7 +184,7 @@ void play(const Context& context, const Options& options)
   library::Library library = context.openLibrary();
   scene::Case value;
   const core::Progress progress = context.progress();
-  openCase(context, library, options.caseName, value, progress);
+  const auto leftOut = openCase(context, library, options, value, progress);
   const library::SavedState opened = value;
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
@@ -208,10 +213,11 @@ void play(const Context& context, const Options& options)
   session.end();
   journal->follow(value.dissection);
   report.close();
-  save(context, library, value, report, opened, *journal, progress);
+  save(context, library, value, report, opened, *journal, leftOut, progress);
 
   report.print(context);
   nlohmann::json answer = report.json();
+  answer["left_out"] = leftOutJson(value, leftOut);
   printBalance(context, session, answer);
   if (const session::RecordingWriter* recording = session.recording())
   {
@@ -232,7 +238,7 @@ void replay(const Context& context, const Options& options)
   library::Library library = context.openLibrary();
   scene::Case value;
   const core::Progress progress = context.progress();
-  openCase(context, library, options.caseName, value, progress);
+  const auto leftOut = openCase(context, library, options, value, progress);
   const library::SavedState opened = value;
   const auto camera = presenters::currentCamera(value);
   session::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
@@ -256,10 +262,11 @@ void replay(const Context& context, const Options& options)
   if (!outcome.warning.empty())
     context.warn(outcome.warning);
   if (outcome.equal())
-    save(context, library, value, report, opened, *journal, progress);
+    save(context, library, value, report, opened, *journal, leftOut, progress);
 
   report.print(context);
   nlohmann::json answer = report.json();
+  answer["left_out"] = leftOutJson(value, leftOut);
   nlohmann::json first = nullptr;
   if (outcome.firstDifferent)
     first = *outcome.firstDifferent;
@@ -339,6 +346,7 @@ void addDrillCommand(CLI::App& app, Context& context)
       ->add_option("--log", options->log,
                    "One row a tick: device, tool, force, contact, volume removed")
       ->type_name("F.csv");
+  addWithoutDamaged(*command, options->withoutDamaged);
 }
 
 } // namespace petrous::cli

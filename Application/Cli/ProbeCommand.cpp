@@ -51,12 +51,13 @@ std::string number(const std::optional<double>& value)
 }
 
 void probe(Context& context, const std::string& name, const std::string& pointsFile,
-           const std::string& out)
+           const std::string& out, bool withoutDamaged)
 {
   const auto points = readPoints(pointsFile);
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
+  const presenters::LeftOut leftOut = leaveOutDamaged(context, value, withoutDamaged);
   warnMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
@@ -105,7 +106,9 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
     core::writeFile(out, csv);
   else
     context.print(csv.substr(0, csv.size() - 1));
-  context.printJson({{"case", value.name}, {"points", std::move(rows)}});
+  context.printJson({{"case", value.name},
+                     {"points", std::move(rows)},
+                     {"left_out", leftOutJson(value, leftOut)}});
 }
 
 } // namespace
@@ -115,17 +118,20 @@ void addProbeCommand(CLI::App& app, Context& context)
   struct Options
   {
     std::string name, points, out;
+    bool withoutDamaged = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
       app, "probe", "The tissue field, HU, structure and nearest surface at points",
-      [options, &context] { probe(context, options->name, options->points, options->out); });
+      [options, &context]
+      { probe(context, options->name, options->points, options->out, options->withoutDamaged); });
   command->add_option("CASE", options->name)->required();
   command->add_option("--points", options->points, "CSV with x_mm,y_mm,z_mm, patient LPS")
       ->type_name("F.csv")
       ->required();
   command->add_option("--out", options->out, "CSV to write; without it the rows go to stdout")
       ->type_name("F.csv");
+  addWithoutDamaged(*command, options->withoutDamaged);
 }
 
 } // namespace petrous::cli

@@ -198,6 +198,7 @@ void render(const Context& context, const RenderOptions& options)
               {"convergence_mm", geometry.convergence}};
   }
   library.loadDissection(value);
+  const presenters::LeftOut leftOut = leaveOutDamaged(context, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));
@@ -219,6 +220,7 @@ void render(const Context& context, const RenderOptions& options)
                         {"stereo", std::move(stereo)},
                         {"thickness", thicknessJson(options)},
                         {"out", options.out},
+                        {"left_out", leftOutJson(value, leftOut)},
                         {"resources", result.resources}});
   if (!options.thickness.empty())
     context.print("bone is coloured by its thickness over '" + options.thickness +

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "CaseWarnings.h"
 #include "Numbers.h"
 #include "petrous/Presenters/SceneAssembly.h"
 
@@ -142,6 +143,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
                      "gpu, or reference: double precision on the CPU, slow (gpu)");
   command.add_option("--depth", options.depth, "Also write the distance to the first surface, mm")
       ->type_name("F.npy");
+  addWithoutDamaged(command, options.withoutDamaged);
 }
 
 } // namespace petrous::cli

@@ -22,6 +22,7 @@ struct RenderOptions
   std::optional<double> eyeSeparation, convergence;
   double falloff = 0.0;
   double wetness = 0.0;
+  bool withoutDamaged = false;
 };
 
 /// Size, camera and stereo mode of a picture.

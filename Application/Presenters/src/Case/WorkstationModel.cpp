@@ -34,8 +34,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_saved.reset();
   m_nearby.reset();
   m_assembly = {}; // its cache is of the previous case
-  m_unreadLabels.clear();
-  m_unreadMeshes.clear();
+  m_leftOut.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   m_case = std::move(next);
@@ -84,55 +83,6 @@ rendering::SceneContents WorkstationModel::sceneContents()
   return contents;
 }
 
-namespace
-{
-
-// Reads the parts of a copy of the case one by one. An unreadable one is replaced by an empty one,
-// so that the others are available.
-template <class T, class Part>
-std::vector<PreparedCase::LeftOut> readParts(std::vector<Part>& parts, core::Lazy<T> Part::*member,
-                                             const core::Lazy<T>& empty,
-                                             const core::Progress& progress)
-{
-  std::vector<PreparedCase::LeftOut> leftOut;
-  const auto count = static_cast<double>(parts.size());
-  for (std::size_t n = 0; n < parts.size(); ++n)
-  {
-    progress.report(static_cast<double>(n) / count, "loading structures");
-    try
-    {
-      (parts[n].*member).get();
-    }
-    catch (const core::Error& error)
-    {
-      if (error.fault() == core::Fault::Cancelled)
-        throw;
-      leftOut.push_back({n, error.what()});
-      parts[n].*member = empty;
-    }
-  }
-  return leftOut;
-}
-
-// A single instance, so that caches derived from it are reused.
-core::Lazy<volume::LabelMap> noLabels()
-{
-  static const auto kNone = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(
-      std::make_shared<volume::Volume<std::uint16_t>>(
-          core::GridGeometry({2, 2, 2}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
-          std::uint16_t{0}),
-      {}));
-  return kNone;
-}
-
-core::Lazy<core::TriangleMesh> noMesh()
-{
-  static const auto kNone = std::make_shared<const core::TriangleMesh>();
-  return kNone;
-}
-
-} // namespace
-
 std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation() const
 {
   scene::Case value = *m_case;
@@ -140,12 +90,7 @@ std::function<PreparedCase(const core::Progress&)> WorkstationModel::preparation
           tissue = m_tissue, felt = m_session || m_scene](const core::Progress& progress) mutable
   {
     PreparedCase done;
-    done.labels =
-        readParts(value.labels, &scene::LabelPart::labels, noLabels(), progress.part(0.0, 0.2));
-    done.meshes =
-        readParts(value.meshes, &scene::MeshPart::mesh, noMesh(), progress.part(0.2, 0.3));
-    if (!done.labels.empty() || !done.meshes.empty())
-      value.derived.reset(); // its keys identify the stored objects
+    done.leftOut = leaveOutDamaged(value, progress.part(0.0, 0.3));
     done.assembly = std::move(assembly);
     try
     {
@@ -173,7 +118,11 @@ bool WorkstationModel::prepared(PreparedCase done)
 {
   if (!m_case || done.parts != m_parts)
     return false;
-  leaveOut(done);
+  if (!done.leftOut.empty())
+  {
+    done.leftOut.takeOut(*m_case);
+    m_leftOut.push_back(std::move(done.leftOut));
+  }
   m_loaded = m_drawable = m_checked = true;
   done.assembly.takeThickness(m_assembly); // may have been requested meanwhile
   m_assembly = std::move(done.assembly);
@@ -187,22 +136,6 @@ bool WorkstationModel::prepared(PreparedCase done)
   return true;
 }
 
-void WorkstationModel::leaveOut(const PreparedCase& done)
-{
-  if (!done.labels.empty() || !done.meshes.empty())
-    m_case->derived.reset();
-  for (const PreparedCase::LeftOut& one : done.labels)
-  {
-    auto& labels = m_case->labels[one.part].labels;
-    m_unreadLabels.push_back({one.part, one.why, std::exchange(labels, noLabels())});
-  }
-  for (const PreparedCase::LeftOut& one : done.meshes)
-  {
-    auto& mesh = m_case->meshes[one.part].mesh;
-    m_unreadMeshes.push_back({one.part, one.why, std::exchange(mesh, noMesh())});
-  }
-}
-
 std::vector<std::string> WorkstationModel::damage() const
 {
   return m_case ? m_library.damageFound(*m_case) : std::vector<std::string>();
@@ -211,10 +144,9 @@ std::vector<std::string> WorkstationModel::damage() const
 std::vector<std::string> WorkstationModel::leftOut() const
 {
   std::vector<std::string> sentences;
-  for (const auto& one : m_unreadLabels)
-    sentences.push_back(one.why);
-  for (const auto& one : m_unreadMeshes)
-    sentences.push_back(one.why);
+  for (const LeftOut& parts : m_leftOut)
+    for (std::string& why : parts.sentences())
+      sentences.push_back(std::move(why));
   return sentences;
 }
 

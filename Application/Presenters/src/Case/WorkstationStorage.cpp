@@ -141,8 +141,7 @@ void WorkstationModel::close()
   m_saved.reset();
   m_unsaved = m_leaving = false;
   m_loaded = m_drawable = m_feelable = m_checked = true;
-  m_unreadLabels.clear();
-  m_unreadMeshes.clear();
+  m_leftOut.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   ++m_parts;
@@ -178,10 +177,8 @@ StoreTask WorkstationModel::beginStore()
 {
   StoreTask task{m_library, *m_case, m_case->name, m_changes, std::nullopt};
   task.value.dissection.unload(); // only the strokes are stored
-  for (const auto& one : m_unreadLabels)
-    task.value.labels[one.part].labels = one.whole;
-  for (const auto& one : m_unreadMeshes)
-    task.value.meshes[one.part].mesh = one.whole;
+  for (const LeftOut& parts : m_leftOut)
+    parts.putBack(task.value);
   m_beingStored = true;
   return task;
 }
@@ -238,8 +235,7 @@ void WorkstationModel::stored(const StoreTask& done)
     m_library = done.library;
     listen();
   }
-  m_case->derived =
-      m_unreadLabels.empty() && m_unreadMeshes.empty() ? m_library.derived() : nullptr;
+  m_case->derived = m_leftOut.empty() ? m_library.derived() : nullptr;
   m_unsaved = m_changes != done.changes;
   keepJournal(saved, other); // what was drilled since then is written at once
   notify(events.stateChanged);

@@ -164,6 +164,19 @@ std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
   return labels;
 }
 
+template <class Read>
+auto structure(const Read& read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const LibraryError& error)
+  {
+    throw StructureError(error.reason, error.what());
+  }
+}
+
 } // namespace
 
 Library::Library(fs::path folder)
@@ -289,14 +302,19 @@ void Library::attach(scene::Case& value) const
   for (auto& part : value.labels)
     part.labels = core::Lazy<volume::LabelMap>(
         [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'",
-         derived = value.derived] { return unpackedLabels(store, object, what, *derived); });
+         derived = value.derived]
+        { return structure([&] { return unpackedLabels(store, object, what, *derived); }); });
   for (auto& mesh : value.meshes)
     mesh.mesh = core::Lazy<core::TriangleMesh>(
         [store, object = mesh.object,
          what = "mesh '" + mesh.name + "' of case '" + value.name + "'"]
         {
-          return std::make_shared<const core::TriangleMesh>(
-              imaging::readMesh(store.checkedPath(object, what)));
+          return structure(
+              [&]
+              {
+                return std::make_shared<const core::TriangleMesh>(
+                    imaging::readMesh(store.checkedPath(object, what)));
+              });
         });
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)

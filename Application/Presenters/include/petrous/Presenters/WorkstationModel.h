@@ -10,6 +10,7 @@
 #include "petrous/Interaction/PickRay.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/JournalThread.h"
+#include "petrous/Presenters/LeftOut.h"
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PointProbe.h"
 #include "petrous/Presenters/SceneAssembly.h"
@@ -54,17 +55,12 @@ struct StoreTask
 /// thread from a copy of the case, see WorkstationModel::preparation.
 struct PreparedCase
 {
-  struct LeftOut
-  {
-    std::size_t part = 0; ///< index into the case's labels or meshes
-    std::string why;      ///< one sentence
-  };
   SceneAssembly assembly;
   std::optional<session::DrillSession>
-      drill;                           ///< of a copy that is gone: only a template for another one
-  std::vector<LeftOut> labels, meshes; ///< missing or damaged
-  std::uint64_t parts = 0;             // of the model when it was copied
-  std::uint64_t tissue = 0;            // likewise
+      drill;                ///< of a copy that is gone: only a template for another one
+  LeftOut leftOut;          ///< missing or damaged
+  std::uint64_t parts = 0;  // of the model when it was copied
+  std::uint64_t tissue = 0; // likewise
 };
 
 /// The open case and the window's operations on it. Without Qt; not thread-safe.
@@ -247,7 +243,6 @@ private:
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
   void waitForParts();
-  void leaveOut(const PreparedCase& done);
   void forgetTissue();
   void notifyMask(const std::vector<std::size_t>& bricks);
   session::TouchSession::News hear(session::TouchSession::News news);
@@ -281,17 +276,8 @@ private:
   bool m_loaded = true;
   bool m_drawable = true;
   bool m_feelable = true;
-  bool m_checked = true; ///< the CT was checked against its hash
-  /// A part that cannot be read is empty in m_case; this is the original.
-  template <class T>
-  struct Unread
-  {
-    std::size_t part;
-    std::string why;
-    core::Lazy<T> whole;
-  };
-  std::vector<Unread<volume::LabelMap>> m_unreadLabels;
-  std::vector<Unread<core::TriangleMesh>> m_unreadMeshes;
+  bool m_checked = true;          ///< the CT was checked against its hash
+  std::vector<LeftOut> m_leftOut; ///< of m_case, by each preparation that found some
   std::vector<std::string> m_damagedStrokes;
   std::size_t m_undoneForDamage = 0;
   std::uint64_t m_shown = 0;

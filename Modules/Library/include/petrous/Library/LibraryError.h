@@ -29,4 +29,10 @@ struct LibraryError : core::Error
   Reason reason;
 };
 
+/// A structure or a mesh of a case is missing or damaged.
+struct StructureError : LibraryError
+{
+  using LibraryError::LibraryError;
+};
+
 } // namespace petrous::library

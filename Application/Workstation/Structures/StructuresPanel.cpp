@@ -60,7 +60,7 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   m_list->header()->setSectionsMovable(false);
   m_list->header()->setMinimumSectionSize(20);
   m_list->header()->setSectionResizeMode(QHeaderView::Fixed);
-  for (int column = StructuresModel::VolumeColumn; column < StructuresModel::ColumnCount; ++column)
+  for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
     m_list->header()->resizeSection(column, column == StructuresModel::VolumeColumn ? 46 : 48);
   m_list->header()->setSectionResizeMode(StructuresModel::Name, QHeaderView::Stretch);
 

@@ -76,6 +76,20 @@ std::optional<float> parseFloat(std::string_view text)
   return parse<float>(text);
 }
 
+std::string NumberRange::text() const
+{
+  const std::string upperText =
+      generalText(upper) + (*unit == '\0' ? "" : " ") + unit; // no unit: a plain number
+  return isLowerExcluded ? "above " + generalText(lower) + ", up to " + upperText
+                         : generalText(lower) + " to " + upperText;
+}
+
+std::string NumberRange::refusal(double value, const char* word) const
+{
+  return std::string(isLowerExcluded ? "must lie " : "must lie within ") + text() +
+         (word ? ", or be '" + std::string(word) + "'" : "") + ", not " + generalText(value);
+}
+
 PlainNumbers::PlainNumbers()
   : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
   , m_before(uselocale(m_plain))

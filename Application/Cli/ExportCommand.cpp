@@ -5,6 +5,7 @@
 
 #include "CaseJson.h"
 #include "Commands.h"
+#include "Numbers.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -144,7 +145,7 @@ void exportCase(const Context& context, const Options& options)
     checked(value.ct)->visit(
         [&](const auto& ct)
         { imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress); });
-  else if (options.what == "surface")
+  else // surface
   {
     mask();
     checked(value.ct);
@@ -152,9 +153,6 @@ void exportCase(const Context& context, const Options& options)
     imaging::writeMesh(options.out,
                        rendering::extractSurface(field, field.geometry().fullBox(), progress));
   }
-  else
-    throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + options.what +
-                     "'");
   context.print(options.out + ": " + options.what + " of '" + value.name + "'");
   context.printJson({{"case", value.name}, {"what", options.what}, {"out", options.out}});
 }
@@ -168,6 +166,7 @@ void addExportCommand(CLI::App& app, Context& context)
                                          [options, &context] { exportCase(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("--what", options->what, "ct, mr, labels, mask, dissected or surface")
+      ->check(oneOf({"ct", "mr", "labels", "mask", "dissected", "surface"}))
       ->required();
   command
       ->add_option(

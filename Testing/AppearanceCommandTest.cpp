@@ -1,6 +1,8 @@
+#include <map>
 #include <set>
 
 #include "CommandRunner.h"
+#include "petrous/Appearance/StructureProperties.h"
 
 using petrous::testing::CommandLine;
 using petrous::testing::quoted;
@@ -144,6 +146,65 @@ TEST_F(AppearanceCommand, SetsColourOpacityAndSource)
   EXPECT_EQ(part("cochlea")["source"], "t2");
   json("remove ear --part t2");
   EXPECT_EQ(part("cochlea")["source"], "ct");
+}
+
+// Each option of the table, from the command line to the case to JSON.
+TEST_F(AppearanceCommand, SetsAndRefusesEachProperty)
+{
+  using petrous::appearance::StructureProperty;
+  const std::map<std::string, std::pair<std::string, nlohmann::json>> others{
+      {"--tissue", {"implant", "implant"}},
+      {"--source", {"t2", "t2"}},
+      {"--color", {"0.25,0.5,1", {0.25, 0.5, 1.0}}},
+      {"--tf", {file("f.json", kTransfer), 2}}};
+  const auto before = libraryContent();
+  for (const StructureProperty& property : petrous::appearance::kStructureProperties)
+    if (property.option.name && property.isNumber())
+    {
+      const std::string set = std::string("appearance ear ") + property.option.name + " cochlea=";
+      const std::string range = property.range.text();
+      for (const double wrong : {property.range.lower - 1.0, property.range.upper + 0.1})
+        expectRefused(set + petrous::core::exactText(wrong), 2, range);
+      for (const char* wrong : {"nan", "inf", "0x1", "1,5", "one"})
+        expectRefused(set + wrong, 2, property.option.name);
+    }
+    else if (property.option.name)
+    {
+      ASSERT_EQ(others.count(property.option.name), 1u) << property.option.name;
+    }
+  for (const char* wrong : {"nan,0,0", "0,1.5,0", "0,0,-0.5", "0,0"})
+    expectRefused(std::string("appearance ear --color cochlea=") + wrong, 2, "--color");
+  EXPECT_EQ(libraryContent(), before);
+
+  for (const StructureProperty& property : petrous::appearance::kStructureProperties)
+    if (property.option.name)
+    {
+      const std::string set = std::string("appearance ear ") + property.option.name + " cochlea=";
+      const std::string key = property.jsonKey ? property.jsonKey : property.key;
+      const auto value = [&] { return part("cochlea")[key]; };
+      if (property.isNumber())
+      {
+        json(set + petrous::core::exactText(property.range.upper));
+        EXPECT_EQ(value(), property.range.upper) << key;
+        const double halfway = 0.5 * property.range.upper;
+        json(set + petrous::core::exactText(halfway));
+        EXPECT_EQ(value(), halfway) << key;
+      }
+      else
+      {
+        const auto& [text, wanted] = others.at(property.option.name);
+        json(set + text);
+        const auto found = value();
+        EXPECT_EQ(found.is_object() ? nlohmann::json(found["points"].size()) : found, wanted)
+            << key;
+      }
+      if (property.off)
+      {
+        json(set + property.off);
+        const auto off = value();
+        EXPECT_TRUE(off.is_null() || off == 0.0 || off == property.off) << key << ": " << off;
+      }
+    }
 }
 
 TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)

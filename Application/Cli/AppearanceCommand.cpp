@@ -1,10 +1,12 @@
-#include <cmath>
+#include <algorithm>
+#include <map>
 
 #include "AppearanceList.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -17,21 +19,30 @@ namespace
 {
 
 using appearance::StructureAppearance;
+using appearance::StructureProperty;
 
 struct Options
 {
   std::string name, iso;
-  std::vector<std::string> set, tf, color, opacity, source, flags, stiffness, warn, tissue;
+  std::vector<std::string> set, flags;
+  std::map<std::string, std::vector<std::string>> values; ///< by the option of their property
   bool list = false;
   bool presets = false;
 
   bool changes() const
   {
-    return !iso.empty() || !set.empty() || !tf.empty() || !color.empty() || !opacity.empty() ||
-           !source.empty() || !flags.empty() || !stiffness.empty() || !warn.empty() ||
-           !tissue.empty();
+    return !iso.empty() || !set.empty() || !flags.empty() ||
+           std::any_of(values.begin(), values.end(),
+                       [](const auto& option) { return !option.second.empty(); });
   }
 };
+
+// "PART=MM|none"
+std::string typeName(const StructureProperty& property)
+{
+  return std::string("PART=") + property.option.value +
+         (property.off ? "|" + std::string(property.off) : "");
+}
 
 /// Everything of one name in the case: a structure, a mesh, both, or bone.
 struct Part
@@ -142,14 +153,30 @@ void setPreset(scene::Case& value, const std::string& assignment)
   }
 }
 
-void setTransfer(scene::Case& value, const std::string& assignment)
+// Sets a property of `part` from the text of its option.
+void setNumber(const Context&, scene::Case&, const StructureProperty& property, const Part& part,
+               const std::string& text)
 {
-  const auto [part, path] = split(value, assignment, "--tf PART=F.json");
+  double number = 0.0;
+  if (!property.off || text != property.off)
+  {
+    number = parseNumbers(text, 1, property.option.name).front();
+    if (!property.range.contains(number))
+      throw UsageError(property.option.name +
+                       (": " + property.range.refusal(number, property.off)));
+  }
+  for (StructureAppearance* look : part.looks)
+    appearance::setNumber(*look, property, number);
+}
+
+void setTransfer(const Context&, scene::Case&, const StructureProperty& property, const Part& part,
+                 const std::string& path)
+{
   if (part.meshOnly)
     throw core::InvalidParameter("'" + part.name +
                                  "' is a mesh and has no intensities; use --color and --opacity");
   std::optional<appearance::TransferFunction> transfer;
-  if (path != "none")
+  if (path != property.off)
     try
     {
       transfer = appearance::TransferFunction::fromJson(core::readFile(path, kLargestJson));
@@ -167,7 +194,7 @@ void setTransfer(scene::Case& value, const std::string& assignment)
   }
 }
 
-std::array<float, 3> parseColor(const std::string& text)
+std::array<float, 3> parseColor(const StructureProperty& property, const std::string& text)
 {
   std::array<float, 3> color{};
   if (!text.empty() && text.front() == '#')
@@ -181,39 +208,30 @@ std::array<float, 3> parseColor(const std::string& text)
   const auto numbers = parseNumbers(text, 3, "--color PART=r,g,b");
   for (std::size_t c = 0; c < 3; ++c)
   {
-    if (numbers[c] < 0.0 || numbers[c] > 1.0)
-      throw UsageError("--color: red, green and blue go from 0 to 1; or give #rrggbb");
+    if (!property.range.contains(numbers[c]))
+      throw UsageError("--color: red, green and blue " + property.range.refusal(numbers[c]) +
+                       "; or give #rrggbb");
     color[c] = static_cast<float>(numbers[c]);
   }
   return color;
 }
 
-void setColors(scene::Case& value, const std::string& assignment)
+void setColors(const Context&, scene::Case&, const StructureProperty& property, const Part& part,
+               const std::string& text)
 {
-  const auto [part, text] = split(value, assignment, "--color PART=r,g,b");
-  const auto color = parseColor(text);
+  const auto color = parseColor(property, text);
   for (StructureAppearance* look : part.looks)
     appearance::setColor(*look, color);
 }
 
-void setOpacity(scene::Case& value, const std::string& assignment)
+void setSource(const Context& context, scene::Case& value, const StructureProperty& property,
+               const Part& part, const std::string& name)
 {
-  const auto [part, text] = split(value, assignment, "--opacity PART=0..1");
-  const double opacity = parseNumbers(text, 1, "--opacity").front();
-  if (opacity < 0.0 || opacity > 1.0)
-    throw UsageError("--opacity: goes from 0 to 1, not " + text);
-  for (StructureAppearance* look : part.looks)
-    look->opacity = static_cast<float>(opacity);
-}
-
-void setSource(const Context& context, scene::Case& value, const std::string& assignment)
-{
-  const auto [part, name] = split(value, assignment, "--source PART=ct|MRNAME");
   if (part.meshOnly)
     throw core::InvalidParameter("'" + part.name + "' is a mesh and reads no image");
   StructureAppearance& look = *part.looks.front();
   const scene::ImagePart* mr = scene::findMr(value, name);
-  if (name == "ct")
+  if (name == property.off)
     look.sourceImage.clear();
   else if (!mr)
   {
@@ -249,48 +267,45 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
   context.warn("bone stays touchable and drillable; of its flags only 'shown' can be changed");
 }
 
-void setStiffness(const Context& context, scene::Case& value, const std::string& assignment)
+void setStiffness(const Context& context, scene::Case& value, const StructureProperty& property,
+                  const Part& part, const std::string& text)
 {
-  const auto [part, text] = split(value, assignment, "--stiffness PART=N_PER_MM|rigid");
-  if (part.bone)
-    throw core::InvalidParameter("bone is rigid; only structures and meshes can yield");
-  const double stiffness = text == "rigid" ? 0.0 : parseNumbers(text, 1, "--stiffness").front();
-  if (text != "rigid" && (stiffness < appearance::kSoftest || stiffness > appearance::kStiffest))
-    throw UsageError("--stiffness: goes from 0.001 to 100 N/mm, or is 'rigid', not " + text);
-  for (StructureAppearance* look : part.looks)
-    appearance::setStiffness(*look, stiffness);
-  if (const auto& look = *part.looks.front(); stiffness > 0.0 && !(look.solid && look.touchable))
+  setNumber(context, value, property, part, text);
+  if (const auto& look = *part.looks.front();
+      look.stiffness > 0.0 && !(look.solid && look.touchable))
     context.warn("'" + part.name + "' is not felt" +
                  (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
 }
 
-void setWarning(scene::Case& value, const std::string& assignment)
-{
-  const auto [part, text] = split(value, assignment, "--warn PART=MM|none");
-  if (part.bone)
-    throw core::InvalidParameter("bone is what is drilled; only structures and meshes are warned "
-                                 "of");
-  const double distance = text == "none" ? 0.0 : parseNumbers(text, 1, "--warn").front();
-  if (!(distance >= 0.0 && distance <= appearance::kFarthestWarning))
-    throw UsageError("--warn: goes from 0 to 50 mm, or is 'none', not " + text);
-  for (StructureAppearance* look : part.looks)
-    appearance::setWarning(*look, distance);
-}
-
 // Sets the tissue that the drill meets.
-void setTissue(const Context& context, scene::Case& value, const std::string& assignment)
+void setTissue(const Context& context, scene::Case&, const StructureProperty& property,
+               const Part& part, const std::string& text)
 {
-  const auto [part, text] = split(value, assignment, "--tissue PART=MATERIAL|bone");
-  if (part.bone)
-    throw core::InvalidParameter("bone is what its density says; only structures and meshes have a "
-                                 "tissue of their own");
-  const std::string tissue = text == "bone" ? std::string() : text;
+  const std::string tissue = text == property.off ? std::string() : text;
   if (!tissue.empty())
     dissection::MaterialCatalogue::builtIn().material(tissue); // throws for unknown materials
   for (StructureAppearance* look : part.looks)
     look->tissue = tissue;
   if (!tissue.empty() && !part.looks.front()->solid)
     context.warn("'" + part.name + "' is a lumen: the drill meets nothing in it");
+}
+
+// Sets a property of the part that an assignment names.
+void setProperty(const Context& context, scene::Case& value, const StructureProperty& property,
+                 const std::string& assignment)
+{
+  // Those that are more than a number within its range.
+  static const std::map<std::string, decltype(&setNumber)> kOwn{{"--tf", &setTransfer},
+                                                                {"--color", &setColors},
+                                                                {"--source", &setSource},
+                                                                {"--stiffness", &setStiffness},
+                                                                {"--tissue", &setTissue}};
+  const std::string option = property.option.name;
+  const auto [part, text] = split(value, assignment, option + " " + typeName(property));
+  if (part.bone && property.option.notOfBone)
+    throw core::InvalidParameter(property.option.notOfBone);
+  const auto own = kOwn.find(option);
+  (own != kOwn.end() ? own->second : &setNumber)(context, value, property, part, text);
 }
 
 void run(const Context& context, const Options& options)
@@ -304,8 +319,12 @@ void run(const Context& context, const Options& options)
   if (options.name.empty())
     throw UsageError("appearance: CASE is required");
   if (!options.changes() && !options.list)
-    throw UsageError("appearance: nothing to do; give --iso, --set, --tf, --color, --opacity, "
-                     "--source, --flags, --stiffness, --warn, --tissue, --list or --presets");
+  {
+    std::string names = "--iso, --set, --flags, ";
+    for (const auto& [option, assignments] : options.values)
+      names += option + ", ";
+    throw UsageError("appearance: nothing to do; give " + names + "--list or --presets");
+  }
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.name);
   if (!options.iso.empty())
@@ -313,22 +332,12 @@ void run(const Context& context, const Options& options)
   // A preset first, then deviations from it.
   for (const std::string& assignment : options.set)
     setPreset(value, assignment);
-  for (const std::string& assignment : options.tf)
-    setTransfer(value, assignment);
-  for (const std::string& assignment : options.color)
-    setColors(value, assignment);
-  for (const std::string& assignment : options.opacity)
-    setOpacity(value, assignment);
-  for (const std::string& assignment : options.source)
-    setSource(context, value, assignment);
   for (const std::string& assignment : options.flags)
     setPartFlags(context, value, assignment);
-  for (const std::string& assignment : options.stiffness)
-    setStiffness(context, value, assignment);
-  for (const std::string& assignment : options.warn)
-    setWarning(value, assignment);
-  for (const std::string& assignment : options.tissue)
-    setTissue(context, value, assignment);
+  for (const StructureProperty& property : appearance::kStructureProperties)
+    if (property.option.name)
+      for (const std::string& assignment : options.values.at(property.option.name))
+        setProperty(context, value, property, assignment);
   context.refuseDamaged();
   if (options.changes())
     library.save(value);
@@ -352,18 +361,12 @@ void addAppearanceCommand(CLI::App& app, Context& context)
                    "Surface of bone, in the CT's unit (300 HU); auto: from the histogram")
       ->type_name("NUMBER|auto");
   perPart("--set", options->set, "A look of the catalogue (--presets)", "PART=PRESET");
-  perPart("--tf", options->tf, "Transfer function; 'none' for one colour", "PART=F.json");
-  perPart("--color", options->color, "Colour, 0 to 1 each, or #rrggbb", "PART=r,g,b");
-  perPart("--opacity", options->opacity, "Opacity of the surface", "PART=0..1");
-  perPart("--source", options->source, "The image whose intensities are read", "PART=ct|MRNAME");
   perPart("--flags", options->flags, "The flags that hold; 'none' for none of them",
           "PART=shown,touchable,drillable");
-  perPart("--stiffness", options->stiffness, "How a structure yields: newtons a millimetre deep",
-          "PART=N_PER_MM|rigid");
-  perPart("--warn", options->warn, "How near a burr may come before it is warned of",
-          "PART=MM|none");
-  perPart("--tissue", options->tissue, "What the drill meets in it; 'bone': bone by its density",
-          "PART=MATERIAL|bone");
+  for (const StructureProperty& property : appearance::kStructureProperties)
+    if (property.option.name)
+      perPart(property.option.name, options->values[property.option.name], property.option.text,
+              typeName(property));
   command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
   command->add_flag("--presets", options->presets, "List the looks of the catalogue");
 }

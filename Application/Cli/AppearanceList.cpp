@@ -7,6 +7,7 @@
 #include "Numbers.h"
 #include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -41,27 +42,20 @@ std::string hex(const std::array<float, 3>& color)
   return text;
 }
 
-std::string yielding(const StructureAppearance& look)
-{
-  return look.stiffness > 0.0 ? ", " + nlohmann::json(look.stiffness).dump() + " N/mm" : "";
-}
-
-std::string warned(const StructureAppearance& look)
-{
-  return look.warning > 0.0 ? ", warned of at " + fixed(look.warning, 1) + " mm" : "";
-}
-
-std::string drilledAs(const StructureAppearance& look)
-{
-  return look.tissue.empty() ? "" : ", drilled as " + look.tissue;
-}
-
+// Each property that has a phrase, unless it is off, and the transfer function.
 std::string describe(const StructureAppearance& look, const volume::IntensityScale& scale)
 {
-  return look.preset + " " + hex(look.color) + ", " + appearance::flagsOf(look) +
-         (look.solid ? "" : ", a lumen") + drilledAs(look) + yielding(look) + warned(look) +
-         ", opacity " + fixed(static_cast<double>(look.opacity), 2) + ", " + valuesOf(look, scale) +
-         (look.sourceImage.empty() ? "" : ", from " + look.sourceImage);
+  std::string text = look.solid ? "" : ", a lumen";
+  for (const appearance::StructureProperty& property : appearance::kStructureProperties)
+    if (std::holds_alternative<appearance::StructureProperty::Transfer>(property.member))
+      text += ", " + valuesOf(look, scale);
+    else if (property.phrase && !appearance::isOff(look, property))
+    {
+      const std::string unit = property.range.unit;
+      text += std::string(", ") + property.phrase + toString(look, property) +
+              (unit.empty() ? "" : " " + unit);
+    }
+  return text;
 }
 
 } // namespace
@@ -75,7 +69,8 @@ void listAppearance(const Context& context, const scene::Case& value)
     nlohmann::json j = lookJson(look);
     j["name"] = name;
     j["kind"] = kind;
-    context.print("  " + name + " (" + kind + "): " + describe(look, scale));
+    context.print("  " + name + " (" + kind + "): " + look.preset + " " + hex(look.color) + ", " +
+                  appearance::flagsOf(look) + describe(look, scale));
     return j;
   };
   presenters::IntensityDisplay display = presenters::displayOf(value);
@@ -109,9 +104,7 @@ void listPresets(const Context& context)
     j.erase("source");
     j["name"] = look.preset;
     presets.push_back(std::move(j));
-    context.print("  " + look.preset + ": opacity " + fixed(static_cast<double>(look.opacity), 2) +
-                  (look.solid ? "" : " (a lumen)") + drilledAs(look) + yielding(look) +
-                  warned(look) + ", " + valuesOf(look, {}));
+    context.print("  " + look.preset + ": " + hex(look.color) + describe(look, {}));
   }
   context.printJson({{"presets", std::move(presets)}});
 }

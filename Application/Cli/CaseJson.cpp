@@ -1,5 +1,6 @@
 #include "CaseJson.h"
 
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -36,24 +37,19 @@ json gridJson(const core::GridGeometry& grid)
 
 json lookJson(const appearance::StructureAppearance& look)
 {
-  json transfer;
-  if (look.transfer)
+  json j{{"flags", appearance::flagsOf(look)}};
+  for (const appearance::StructureProperty& property : appearance::kStructureProperties)
   {
-    transfer = json::parse(look.transfer->toJson());
-    transfer["relative"] = look.relative;
+    if (property.storage == appearance::StructureProperty::Storage::InFlags)
+      continue;
+    json& value = j[property.jsonKey ? property.jsonKey : property.key];
+    value = appearance::valueJson(look, property);
+    if (value.is_string() && appearance::isOff(look, property))
+      value = property.off;
+    else if (value.is_number() && !property.range.contains(value.get<double>()))
+      value = nullptr; // off, where 0 is no value
   }
-  return {{"preset", look.preset},
-          {"color", look.color},
-          {"opacity", look.opacity},
-          {"flags", appearance::flagsOf(look)},
-          {"solid", look.solid},
-          {"shininess", look.shininess},
-          {"priority", look.priority},
-          {"stiffness_n_per_mm", look.stiffness > 0.0 ? json(look.stiffness) : json()},
-          {"tissue", look.tissue.empty() ? "bone" : look.tissue},
-          {"warn_mm", look.warning},
-          {"source", look.sourceImage.empty() ? "ct" : look.sourceImage},
-          {"transfer", std::move(transfer)}};
+  return j;
 }
 
 std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)

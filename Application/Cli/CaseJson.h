@@ -18,8 +18,8 @@ nlohmann::json directionJson(const Eigen::Matrix3d& direction);
 /// dims, spacing_mm, origin_mm, direction.
 nlohmann::json gridJson(const core::GridGeometry& grid);
 
-/// preset, color, opacity, flags, solid, shininess, priority, stiffness_n_per_mm (null: rigid),
-/// source ("ct" or an MR's name) and transfer: null, or {"relative", "points"} as a --tf file has
+/// The flags and each property (kStructureProperties): one that is off has its word, or null where
+/// neither a word nor 0 is a value; transfer: null, or {"relative", "points"} as a --tf file has
 /// them.
 nlohmann::json lookJson(const appearance::StructureAppearance& look);
 

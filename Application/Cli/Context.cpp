@@ -228,15 +228,4 @@ void notBuiltYet(const std::string& what)
   throw UsageError(what + " is not built yet");
 }
 
-void requireSuffix(const std::string& option, const std::filesystem::path& path,
-                   const std::string& suffix)
-{
-  std::string found = path.extension().string();
-  for (char& letter : found)
-    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  if (found != suffix)
-    throw UsageError(option + ": the file's name must end in " + suffix + ", not '" +
-                     path.filename().string() + "'");
-}
-
 } // namespace petrous::cli

@@ -104,9 +104,4 @@ std::string jsonText(nlohmann::json object);
 constexpr std::uintmax_t kLargestInput = std::uintmax_t{1} << 30;
 constexpr std::uintmax_t kLargestJson = std::uintmax_t{1} << 20;
 
-/// Throws UsageError unless `path`, the value of `option`, ends in `suffix` (".png",
-/// case-insensitive): other programs rely on the extension.
-void requireSuffix(const std::string& option, const std::filesystem::path& path,
-                   const std::string& suffix);
-
 } // namespace petrous::cli

@@ -36,16 +36,7 @@ struct Options
 dissection::Burr burrFrom(const Options& options)
 {
   dissection::Burr burr;
-  const auto kind = dissection::parseBurrKind(options.kind);
-  if (!kind)
-    throw UsageError("--burr: 'cutting' or 'diamond', not '" + options.kind + "'");
-  if (!(options.diameter >= 0.1 && options.diameter <= 20.0))
-    throw UsageError("--diameter: must lie within 0.1 to 20 mm");
-  if (!(options.rpm >= 0.0 && options.rpm <= 200000.0))
-    throw UsageError("--rpm: must lie within 0 to 200000");
-  if (!(options.rate >= 1.0 && options.rate <= 100000.0))
-    throw UsageError("--tick-hz: must lie within 1 to 100000");
-  burr.kind = *kind;
+  burr.kind = *dissection::parseBurrKind(options.kind);
   burr.diameter = options.diameter;
   burr.rpm = options.rpm;
   return burr;
@@ -55,12 +46,8 @@ session::PathDrill::Options toolFrom(const Options& options)
 {
   session::PathDrill::Options result;
   result.tool.burr = burrFrom(options);
-  if (options.mode != "6dof" && options.mode != "3dof")
-    throw UsageError("--mode: '6dof' or '3dof', not '" + options.mode + "'");
   result.tool.mode = options.mode == "3dof" ? session::TouchTool::Mode::ThreeDof
                                             : session::TouchTool::Mode::SixDof;
-  if (options.thrust && !(*options.thrust > 0.0 && *options.thrust <= 20.0))
-    throw UsageError("--thrust: must lie above 0 and within 20 N");
   result.thrust = options.thrust;
   result.tool.coupling = session::couplingFor(result.tool.mode, result.thrust);
   return result;
@@ -314,18 +301,25 @@ void addDrillCommand(CLI::App& app, Context& context)
                        "Instead of a path: play a recording on its case again, cuts included, and "
                        "hold each tick against it, bit for bit")
           ->type_name("F.ticks");
-  command->add_option("--burr", options->kind, "cutting or diamond (cutting)");
-  command->add_option("--diameter", options->diameter, "Of the burr, mm (4)");
-  command->add_option("--rpm", options->rpm, "Spindle speed, turns a minute (60000)");
+  command->add_option("--burr", options->kind, "cutting or diamond (cutting)")
+      ->check(oneOf({"cutting", "diamond"}));
+  command->add_option("--diameter", options->diameter, "Of the burr, mm (4)")
+      ->check(within({0.1, 20.0, "mm"}));
+  command->add_option("--rpm", options->rpm, "Spindle speed, turns a minute (60000)")
+      ->check(within({0.0, 200000.0}));
   command->add_option("--tick-hz", options->rate, "Ticks a second of simulated time (1000)")
+      ->check(within({1.0, 100000.0}))
       ->excludes(replayed);
-  command->add_option("--mode", options->mode,
-                      "6dof: burr, shaft and handpiece; 3dof: the burr alone (6dof)");
+  command
+      ->add_option("--mode", options->mode,
+                   "6dof: burr, shaft and handpiece; 3dof: the burr alone (6dof)")
+      ->check(oneOf({"6dof", "3dof"}));
   command
       ->add_option("--thrust", options->thrust,
                    "Press the tool on the surface with so many newtons; the path gives place and "
                    "heading")
       ->type_name("N")
+      ->check(within({0.0, 20.0, "N", true}))
       ->excludes(replayed);
   command
       ->add_option("--materials", options->materials,

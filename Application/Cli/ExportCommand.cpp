@@ -5,6 +5,7 @@
 
 #include "CaseJson.h"
 #include "Commands.h"
+#include "Numbers.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -157,7 +158,7 @@ void exportCase(const Context& context, const Options& options)
     checked(value.ct)->visit(
         [&](const auto& ct)
         { imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress); });
-  else
+  else // surface
   {
     mask();
     checked(value.ct);
@@ -178,6 +179,7 @@ void addExportCommand(CLI::App& app, Context& context)
                                          [options, &context] { exportCase(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("--what", options->what, "ct, mr, labels, mask, dissected or surface")
+      ->check(oneOf({"ct", "mr", "labels", "mask", "dissected", "surface"}))
       ->required();
   command
       ->add_option("--out", options->out,

@@ -22,8 +22,6 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
       app, name, text,
       [options, step, name, &context]
       {
-        if (options->count < 1)
-          throw UsageError(name + ": N must be at least 1");
         library::Library library = context.openLibrary();
         scene::Case value = library.open(options->caseName);
         const std::size_t steps =
@@ -45,7 +43,7 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
                            {"removed_mm3", value.removedVolume()}});
       });
   command->add_option("CASE", options->caseName)->required();
-  command->add_option("N", options->count, "How many strokes (1)");
+  command->add_option("N", options->count, "How many strokes (1)")->check(CLI::PositiveNumber);
 }
 
 void printStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)

@@ -1,15 +1,52 @@
 #include "Numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 
 #include "Context.h"
-#include "petrous/Core/NumberText.h"
 
 namespace petrous::cli
 {
+
+CLI::Validator within(const core::NumberRange& range)
+{
+  return {[range](std::string& text)
+          {
+            const auto value = core::parseDouble(text);
+            return !value                   ? "'" + text + "' is no number"
+                   : range.contains(*value) ? std::string()
+                                            : range.refusal(*value);
+          },
+          range.text()};
+}
+
+CLI::Validator oneOf(std::vector<std::string> names)
+{
+  return {[names = std::move(names)](std::string& name)
+          {
+            if (std::find(names.begin(), names.end(), name) != names.end())
+              return std::string();
+            return "one of " + CLI::detail::join(names, ", ") + ", not '" + name + "'";
+          },
+          ""};
+}
+
+CLI::Validator endsIn(const std::string& suffix)
+{
+  return {[suffix](std::string& path)
+          {
+            const std::filesystem::path file(path);
+            if (CLI::detail::to_lower(file.extension().string()) == suffix)
+              return std::string();
+            return "the file's name must end in " + suffix + ", not '" + file.filename().string() +
+                   "'";
+          },
+          ""};
+}
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count,
                                  const std::string& option)

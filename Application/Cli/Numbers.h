@@ -4,10 +4,26 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/PatientBox.h"
 
 namespace petrous::cli
 {
+
+// Checks of an option's value, for CLI::Option::check: a bad one is a usage error that names option
+// and value, and what would be right.
+
+/// A number within `range`. CLI::Range would accept NaN.
+CLI::Validator within(const core::NumberRange& range);
+
+/// One of these names. CLI::IsMember, with the text of the other checks.
+CLI::Validator oneOf(std::vector<std::string> names);
+
+/// A file's name that ends in `suffix` (".png", case-insensitive): other programs rely on it. Not
+/// CLI::ExistingFile for files to be read: a missing one is bad input, not wrong usage.
+CLI::Validator endsIn(const std::string& suffix);
 
 /// Exactly `count` finite numbers separated by commas; otherwise throws UsageError naming `option`.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count,

@@ -41,12 +41,7 @@ core::CameraPose chooseCamera(const RenderOptions& options, const scene::Case& v
     return readCamera(options.camera);
   if (options.view.empty())
     return presenters::currentCamera(value);
-  const auto view = rendering::parseView(options.view);
-  if (!view)
-    throw UsageError(
-        "--view: lateral, left, right, superior, inferior, anterior or posterior, not '" +
-        options.view + "'");
-  return presenters::standardCamera(value, *view);
+  return presenters::standardCamera(value, *rendering::parseView(options.view));
 }
 
 rendering::Picture together(std::vector<rendering::Picture> pictures, StereoMode mode)

@@ -13,8 +13,6 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kFarthestFalloff = 10000.0; // mm
-
 rendering::ClippingPlane parsePlane(const std::string& text)
 {
   const auto n = parseNumbers(text, 6, "--clip x,y,z,nx,ny,nz");
@@ -63,25 +61,12 @@ std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
 Shot parseShot(const RenderOptions& options)
 {
   Shot shot;
-  requireSuffix("--out", options.out, ".png");
-  if (!options.depth.empty())
-    requireSuffix("--depth", options.depth, ".npy");
   std::tie(shot.width, shot.height) = parseSize(options.size);
-  const auto mode = rendering::parseStereoMode(options.stereo);
-  if (!mode)
-    throw UsageError("--stereo: none, side-by-side, interleaved or anaglyph, not '" +
-                     options.stereo + "'");
-  shot.stereo = *mode;
+  shot.stereo = *rendering::parseStereoMode(options.stereo);
   if (shot.stereo == rendering::StereoMode::None && (options.eyeSeparation || options.convergence))
     throw UsageError("--eye-separation and --convergence need --stereo");
   if (shot.stereo == rendering::StereoMode::SideBySide && shot.width % 2 != 0)
     throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
-  if (options.engine != "gpu" && options.engine != "reference")
-    throw UsageError("--engine: gpu or reference, not '" + options.engine + "'");
-  if (!(options.falloff >= 0.0 && options.falloff <= kFarthestFalloff))
-    throw UsageError("--light-falloff: 0 (none) to 10000 mm");
-  if (!(options.wetness >= 0.0 && options.wetness <= 1.0))
-    throw UsageError("--wetness: 0 (dry) to 1");
   if (options.clip.size() > 6)
     throw UsageError("--clip: at most 6 planes, not " + std::to_string(options.clip.size()));
   if (!options.crop.empty() && !options.roi.empty())
@@ -105,13 +90,19 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
 void addRenderOptions(CLI::App& command, RenderOptions& options)
 {
   command.add_option("CASE", options.caseName)->required();
-  command.add_option("--out", options.out, "Picture to write")->type_name("F.png")->required();
+  command.add_option("--out", options.out, "Picture to write")
+      ->type_name("F.png")
+      ->check(endsIn(".png"))
+      ->required();
   command.add_option("--size", options.size, "Pixels (800x600)")->type_name("WxH");
-  command.add_option("--view", options.view,
-                     "lateral, left, right, superior, inferior, anterior or posterior");
+  command
+      .add_option("--view", options.view,
+                  "lateral, left, right, superior, inferior, anterior or posterior")
+      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"}));
   command.add_option("--camera", options.camera, "Camera in patient LPS mm")->type_name("F.json");
-  command.add_option("--stereo", options.stereo,
-                     "none, side-by-side, interleaved or anaglyph (none)");
+  command
+      .add_option("--stereo", options.stereo, "none, side-by-side, interleaved or anaglyph (none)")
+      ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
   command
       .add_option("--eye-separation", options.eyeSeparation,
                   "Between the eyes (5.5 degrees where they converge)")
@@ -123,8 +114,10 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   command
       .add_option("--light-falloff", options.falloff,
                   "Distance at which the lamp's light is halved; 0: the same everywhere (0)")
-      ->type_name("MM");
-  command.add_option("--wetness", options.wetness, "Gloss of a wet surface, 0 to 1 (0)");
+      ->type_name("MM")
+      ->check(within({0.0, 10000.0, "mm"}));
+  command.add_option("--wetness", options.wetness, "Gloss of a wet surface (0)")
+      ->check(within({0.0, 1.0}));
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")
@@ -139,10 +132,13 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->type_name("i0,i1,j0,j1,k0,k1");
   command.add_option("--roi", options.roi, "Part of the CT that is drawn, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
-  command.add_option("--engine", options.engine,
-                     "gpu, or reference: double precision on the CPU, slow (gpu)");
+  command
+      .add_option("--engine", options.engine,
+                  "gpu, or reference: double precision on the CPU, slow (gpu)")
+      ->check(oneOf({"gpu", "reference"}));
   command.add_option("--depth", options.depth, "Also write the distance to the first surface, mm")
-      ->type_name("F.npy");
+      ->type_name("F.npy")
+      ->check(endsIn(".npy"));
   addWithoutDamaged(command, options.withoutDamaged);
 }
 

@@ -27,38 +27,18 @@ struct SliceOptions
   bool noStructures = false;
 };
 
-template <class Value>
-Value choose(const std::string& option, const std::string& word,
-             std::initializer_list<Value> values, const std::function<std::string(Value)>& nameOf)
-{
-  std::string names;
-  for (const Value value : values)
-  {
-    if (nameOf(value) == word)
-      return value;
-    names += (names.empty() ? "" : ", ") + nameOf(value);
-  }
-  throw UsageError(option + ": one of " + names + ", not '" + word + "'");
-}
-
 SliceOrientation parsePlane(const std::string& word)
 {
-  return choose<SliceOrientation>(
-      "--plane", word,
-      {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal},
-      [](SliceOrientation plane)
-      {
-        std::string name = presenters::nameOf(plane);
-        name[0] = static_cast<char>(std::tolower(name[0]));
-        return name;
-      });
+  return word == "axial"     ? SliceOrientation::Axial
+         : word == "coronal" ? SliceOrientation::Coronal
+                             : SliceOrientation::Sagittal;
 }
 
 OverlayMode parseMode(const std::string& word)
 {
-  return choose<OverlayMode>("--mode", word,
-                             {OverlayMode::Blend, OverlayMode::Edges, OverlayMode::Checker},
-                             [](OverlayMode mode) { return std::string(nameOf(mode)); });
+  return word == "blend"   ? OverlayMode::Blend
+         : word == "edges" ? OverlayMode::Edges
+                           : OverlayMode::Checker;
 }
 
 std::optional<presenters::GreyWindow> parseWindow(const std::string& text)
@@ -79,8 +59,6 @@ SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int
       options.at.empty() ? grid.center() : parsePlace(options.at, value, "--at").point;
   if (!options.fieldOfView)
     return SliceGeometry::fitting(plane, grid, at, width, height);
-  if (!(*options.fieldOfView > 0.0 && *options.fieldOfView <= 10000.0))
-    throw UsageError("--field-of-view: above 0, at most 10000 mm across the picture");
   return {plane, at, *options.fieldOfView / width, width, height};
 }
 
@@ -149,11 +127,6 @@ void slice(const Context& context, const SliceOptions& options)
 {
   const auto [width, height] = parseSize(options.size);
   const auto wanted = parseWindow(options.window);
-  requireSuffix("--out", options.out, ".png");
-  parsePlane(options.plane);
-  parseMode(options.mode);
-  if (!(options.opacity >= 0.0 && options.opacity <= 1.0))
-    throw UsageError("--opacity: 0 (CT alone) to 1 (MR alone)");
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const scene::ImagePart* mr = findOverlay(options, value);
@@ -207,8 +180,13 @@ void addSliceCommand(CLI::App& app, Context& context)
       context.addCommand(app, "slice", "Draw a slice of a case into a PNG, an MR over the CT",
                          [options, &context] { slice(context, *options); });
   command->add_option("CASE", options->caseName)->required();
-  command->add_option("--out", options->out, "Picture to write")->type_name("F.png")->required();
-  command->add_option("--plane", options->plane, "axial, coronal or sagittal")->required();
+  command->add_option("--out", options->out, "Picture to write")
+      ->type_name("F.png")
+      ->check(endsIn(".png"))
+      ->required();
+  command->add_option("--plane", options->plane, "axial, coronal or sagittal")
+      ->check(oneOf({"axial", "coronal", "sagittal"}))
+      ->required();
   command
       ->add_option("--at", options->at,
                    "Point of the slice, patient LPS mm, or a structure (the CT's middle)")
@@ -217,15 +195,21 @@ void addSliceCommand(CLI::App& app, Context& context)
   command
       ->add_option("--field-of-view", options->fieldOfView,
                    "Width of the picture, which then lies about --at (the whole slice)")
-      ->type_name("MM");
+      ->type_name("MM")
+      ->check(within({0.0, 10000.0, "mm", true}));
   command
       ->add_option("--window", options->window, "Grey of the CT, in its unit (bone: 4000,700 HU)")
       ->type_name("WIDTH,LEVEL");
   command->add_option("--overlay", options->overlay, "An MR of the case to see with the CT")
       ->type_name("MR");
-  command->add_option("--mode", options->mode,
-                      "blend, edges (the CT's contours over the MR) or checker (blend)");
-  command->add_option("--opacity", options->opacity, "Of the MR in a blend, 0 to 1 (0.5)");
+  command
+      ->add_option("--mode", options->mode,
+                   "blend, edges (the CT's contours over the MR) or checker (blend)")
+      ->check(oneOf({"blend", "edges", "checker"}));
+  command
+      ->add_option("--opacity", options->opacity,
+                   "Of the MR in a blend: 0 CT alone, 1 MR alone (0.5)")
+      ->check(within({0.0, 1.0}));
   command->add_flag("--no-structures", options->noStructures, "CT and MR only");
 }
 

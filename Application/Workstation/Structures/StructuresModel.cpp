@@ -5,6 +5,7 @@
 #include <QPixmap>
 
 #include "Theme.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 
@@ -30,13 +31,35 @@ QPixmap swatch(const appearance::StructureAppearance& look)
   return pixmap;
 }
 
-bool flagOf(const appearance::StructureAppearance& look, int column)
+using appearance::StructureProperty;
+
+// The properties with a column.
+const std::vector<const StructureProperty*>& columns()
 {
-  return column == StructuresModel::Shown       ? look.shown
-         : column == StructuresModel::Touchable ? look.touchable
-                                                : look.drillable;
+  static const auto all = []
+  {
+    std::vector<const StructureProperty*> found;
+    for (const StructureProperty& property : appearance::kStructureProperties)
+      if (property.column.title)
+        found.push_back(&property);
+    return found;
+  }();
+  return all;
+}
+
+const StructureProperty& propertyAt(int column)
+{
+  return *columns()[static_cast<std::size_t>(column - StructuresModel::FirstProperty)];
 }
 } // namespace
+
+int StructuresModel::columnOf(const std::string& key)
+{
+  for (std::size_t n = 0; n < columns().size(); ++n)
+    if (columns()[n]->key == key)
+      return FirstProperty + static_cast<int>(n);
+  return -1;
+}
 
 StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* parent)
   : QAbstractTableModel(parent)
@@ -98,7 +121,7 @@ void StructuresModel::appearanceChanged()
     return caseChanged();
   m_rows = std::move(next);
   if (!m_rows.empty())
-    emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+    emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
 }
 
 int StructuresModel::rowCount(const QModelIndex& parent) const
@@ -108,7 +131,7 @@ int StructuresModel::rowCount(const QModelIndex& parent) const
 
 int StructuresModel::columnCount(const QModelIndex& parent) const
 {
-  return parent.isValid() ? 0 : static_cast<int>(ColumnCount);
+  return parent.isValid() ? 0 : FirstProperty + static_cast<int>(columns().size());
 }
 
 // Why a mesh marked touchable is not; empty if it is. Evaluated for tooltips only, as it is slow.
@@ -159,45 +182,51 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::ToolTipRole)
       return tr("Volume in mm³");
     return {};
-  case Warning:
+  default:
+    return propertyData(row, propertyAt(index.column()), role);
+  }
+}
+
+QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& property,
+                                       int role) const
+{
+  if (property.isNumber())
+  {
     if (role == Qt::EditRole)
-      return row.look.warning;
+      return numberOf(row.look, property);
     if (role == Qt::DisplayRole)
-      return row.look.warning > 0.0 ? QString::number(row.look.warning, 'f', 1)
-                                    : QString::fromUtf8("–");
+      return isOff(row.look, property) ? QString::fromUtf8("–")
+                                       : words(toString(row.look, property));
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);
     return {};
-  default:
-    if (role == Qt::ToolTipRole && index.column() == Touchable && row.isMesh)
-      return untouchableText(row.name);
-    if (role == Qt::CheckStateRole && (flags(index) & Qt::ItemIsUserCheckable))
-      return flagOf(row.look, index.column()) ? Qt::Checked : Qt::Unchecked;
-    return {};
   }
+  const auto flag = std::get<StructureProperty::Flag>(property.member);
+  if (role == Qt::ToolTipRole && flag == &appearance::StructureAppearance::touchable && row.isMesh)
+    return untouchableText(row.name);
+  if (role == Qt::CheckStateRole)
+    return row.look.*flag ? Qt::Checked : Qt::Unchecked;
+  return {};
 }
 
 QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
   if (orientation != Qt::Horizontal)
     return {};
-  static const char* const titles[] = {"Structure", "mm³", "Show", "Touch", "Drill", "Warn"};
-  static const char* const tips[] = {
-      "Name and colour",
-      "Volume, mm³",
-      "Drawn in 3D and outlined in the slices",
-      "Felt by the burr: part of the tissue it rests on",
-      "Taken by the drill; without the mark the drill leaves it whole",
-      "How near a burr may come before it is warned of, mm; 0: no warning. Double click to change"};
-  if (section < 0 || section >= ColumnCount)
+  if (section < 0 || section >= columnCount())
     return {};
+  const bool isProperty = section >= FirstProperty;
   if (role == Qt::DisplayRole)
-    return tr(titles[section]);
+    return tr(isProperty        ? propertyAt(section).column.title
+              : section == Name ? "Structure"
+                                : "mm³");
   if (role == Qt::ToolTipRole)
-    return tr(tips[section]);
+    return tr(isProperty        ? propertyAt(section).column.tip
+              : section == Name ? "Name and colour"
+                                : "Volume, mm³");
+  const bool isNumber = isProperty ? propertyAt(section).isNumber() : section == VolumeColumn;
   if (role == Qt::TextAlignmentRole)
-    return int((section == VolumeColumn || section == Warning ? Qt::AlignRight : Qt::AlignLeft) |
-               Qt::AlignVCenter);
+    return int((isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
   return {};
 }
 
@@ -206,35 +235,23 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
   if (!index.isValid())
     return Qt::NoItemFlags;
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
-  if (index.column() == Warning)
-    flags |= Qt::ItemIsEditable;
-  else if (index.column() >= Shown)
-    flags |= Qt::ItemIsUserCheckable;
+  if (index.column() >= FirstProperty)
+    flags |= propertyAt(index.column()).isNumber() ? Qt::ItemIsEditable : Qt::ItemIsUserCheckable;
   return flags;
-}
-
-bool StructuresModel::setWarning(const QModelIndex& index, double millimetres)
-{
-  if (!(millimetres >= 0.0 && millimetres <= appearance::kFarthestWarning) || m_model.drilling())
-    return false;
-  Row& row = m_rows[static_cast<std::size_t>(index.row())];
-  row.look.warning = millimetres;
-  m_model.setLook(row.name, row.look);
-  emit dataChanged(index, index);
-  return true;
 }
 
 bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, int role)
 {
-  if (index.isValid() && index.column() == Warning && role == Qt::EditRole)
-    return setWarning(index, value.toDouble());
-  if (role != Qt::CheckStateRole || !(flags(index) & Qt::ItemIsUserCheckable) || m_model.drilling())
+  if (!index.isValid() || index.column() < FirstProperty || m_model.drilling())
     return false;
+  const StructureProperty& property = propertyAt(index.column());
   Row& row = m_rows[static_cast<std::size_t>(index.row())];
-  const bool on = value.toInt() == Qt::Checked;
-  (index.column() == Shown       ? row.look.shown
-   : index.column() == Touchable ? row.look.touchable
-                                 : row.look.drillable) = on;
+  if (role == Qt::EditRole && property.isNumber() && property.accepts(value.toDouble()))
+    setNumber(row.look, property, value.toDouble());
+  else if (role == Qt::CheckStateRole && !property.isNumber())
+    row.look.*std::get<StructureProperty::Flag>(property.member) = value.toInt() == Qt::Checked;
+  else
+    return false;
   m_model.setLook(row.name, row.look);
   emit dataChanged(index, index);
   return true;

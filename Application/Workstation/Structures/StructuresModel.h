@@ -7,10 +7,15 @@
 
 #include "petrous/Presenters/WorkstationModel.h"
 
+namespace petrous::appearance
+{
+struct StructureProperty;
+}
+
 namespace petrous::workstation
 {
 
-/// The structures and meshes of the open case as rows; the check boxes modify the case.
+/// The structures and meshes of the open case as rows; check boxes and numbers modify the case.
 class StructuresModel : public QAbstractTableModel
 {
   Q_OBJECT
@@ -19,12 +24,11 @@ public:
   {
     Name,
     VolumeColumn, ///< mm^3; empty for a mesh
-    Shown,
-    Touchable,
-    Drillable,
-    Warning, ///< mm; editable
-    ColumnCount
+    FirstProperty ///< and those after it: kStructureProperties with a column
   };
+
+  /// The column of the property with this key; -1 if it has none.
+  static int columnOf(const std::string& key);
 
   explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
@@ -52,7 +56,8 @@ private:
     std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
   };
   std::vector<Row> rows() const;
-  bool setWarning(const QModelIndex& index, double millimetres);
+  QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
+                        int role) const;
   QString untouchableText(const std::string& mesh) const;
 
   presenters::WorkstationModel& m_model;

@@ -77,7 +77,7 @@ void StructuresPanel::addList(QVBoxLayout& layout)
   header->setSectionsMovable(false);
   header->setMinimumSectionSize(20);
   header->setSectionResizeMode(QHeaderView::Fixed);
-  for (int column = StructuresModel::VolumeColumn; column < StructuresModel::ColumnCount; ++column)
+  for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
     header->resizeSection(column, column == StructuresModel::VolumeColumn ? 46 : 48);
   header->setSectionResizeMode(StructuresModel::Name, QHeaderView::Interactive);
   connect(header, &QHeaderView::sectionResized, this,

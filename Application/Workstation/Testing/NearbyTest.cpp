@@ -33,8 +33,8 @@ protected:
   void warnAt(double millimetres)
   {
     auto& structures = *window().findChild<QTreeView*>("structures")->model();
-    EXPECT_TRUE(structures.setData(structures.index(0, StructuresModel::Warning), millimetres,
-                                   Qt::EditRole));
+    EXPECT_TRUE(structures.setData(structures.index(0, StructuresModel::columnOf("warn_mm")),
+                                   millimetres, Qt::EditRole));
   }
 };
 

@@ -1,5 +1,6 @@
 #include "GuiTest.h"
 
+#include <cmath>
 #include <new>
 #include <thread>
 
@@ -320,11 +321,18 @@ TEST_F(Window, TheListOfStructuresChangesTheCase)
                                   QAbstractItemModelTester::FailureReportingMode::Warning);
   ASSERT_EQ(list->model()->rowCount(), 1);
   EXPECT_EQ(list->model()->index(0, StructuresModel::Name).data().toString(), "nerve");
-  EXPECT_TRUE(list->model()->setData(list->model()->index(0, StructuresModel::Drillable),
-                                     Qt::Unchecked, Qt::CheckStateRole));
+  const auto cell = [list](const char* key)
+  { return list->model()->index(0, StructuresModel::columnOf(key)); };
+  EXPECT_TRUE(list->model()->setData(cell("drillable"), Qt::Unchecked, Qt::CheckStateRole));
   const auto* nerve = scene::findStructure(window().model().value(), "nerve");
   EXPECT_FALSE(nerve->look.drillable);
   EXPECT_TRUE(nerve->look.shown);
+  const auto warning = [this]
+  { return scene::findStructure(window().model().value(), "nerve")->look.warning; };
+  EXPECT_TRUE(list->model()->setData(cell("warn_mm"), 1.25, Qt::EditRole));
+  for (const double wrong : {-0.1, 50.1, std::nan("")})
+    EXPECT_FALSE(list->model()->setData(cell("warn_mm"), wrong, Qt::EditRole)) << wrong;
+  EXPECT_EQ(warning(), 1.25);
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(settled());
   const auto saved = library().open("ball");

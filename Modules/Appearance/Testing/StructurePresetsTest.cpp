@@ -1,8 +1,10 @@
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
 
 using namespace petrous::appearance;
@@ -179,9 +181,53 @@ TEST(StructurePresets, WarnOfWhatMustNotBeTouched)
   StructureAppearance look;
   applyPreset(look, presets.preset("nerve"));
   EXPECT_EQ(look.warning, 2.0);
-  for (const double wrong : {-0.1, 50.1, std::nan("")})
-    EXPECT_THROW(setWarning(look, wrong), petrous::core::InvalidParameter) << wrong;
-  EXPECT_EQ(look.warning, 2.0);
+}
+
+TEST(StructureProperties, RefuseANumberOutOfRangeAndKeepTheValue)
+{
+  const double nan = std::nan("");
+  const double infinity = std::numeric_limits<double>::infinity();
+  int numbers = 0;
+  for (const StructureProperty& property : kStructureProperties)
+    if (property.isNumber())
+    {
+      ++numbers;
+      const auto& [lower, upper, unit, isLowerExcluded] = property.range;
+      ASSERT_LT(lower, upper) << property.key;
+      StructureAppearance look;
+      setNumber(look, property, lower);
+      EXPECT_EQ(numberOf(look, property), lower) << property.key;
+      setNumber(look, property, upper);
+      for (const double wrong : {lower - 1.0, upper + 0.1, nan, infinity, -infinity})
+        try
+        {
+          setNumber(look, property, wrong);
+          ADD_FAILURE() << property.key << ": accepted " << wrong;
+        }
+        catch (const petrous::core::InvalidParameter& error)
+        {
+          const std::string text = error.what();
+          EXPECT_EQ(text.find(property.key), 0u) << text;
+          EXPECT_NE(text.find(property.range.text()), std::string::npos) << text;
+        }
+      EXPECT_EQ(numberOf(look, property), upper) << property.key;
+      if (property.off)
+      {
+        setNumber(look, property, 0.0);
+        EXPECT_TRUE(isOff(look, property)) << property.key;
+      }
+    }
+  EXPECT_EQ(numbers, 5);
+}
+
+TEST(StructureProperties, ADefaultLiesWithinItsRangeOrIsOff)
+{
+  for (const StructureProperty& property : kStructureProperties)
+    if (property.isNumber())
+    {
+      EXPECT_TRUE(isOff({}, property) || property.range.contains(numberOf({}, property)))
+          << property.key;
+    }
 }
 
 TEST(StructureAppearance, FlagsGoThereAndBack)

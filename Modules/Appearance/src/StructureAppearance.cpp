@@ -5,27 +5,44 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::appearance
 {
 
+namespace
+{
+
+// Calls `action` with each flag and its name.
+template <class Action>
+void forEachFlag(const Action& action)
+{
+  for (const StructureProperty& property : kStructureProperties)
+    if (property.storage == StructureProperty::Storage::InFlags)
+      action(std::get<StructureProperty::Flag>(property.member), std::string(property.key));
+}
+
+} // namespace
+
 void setFlags(StructureAppearance& look, const std::string& flags)
 {
   StructureAppearance result = look;
-  result.shown = result.touchable = result.drillable = false;
+  forEachFlag([&result](auto flag, const std::string&) { result.*flag = false; });
   std::istringstream list(flags);
-  for (std::string flag; std::getline(list, flag, ',');)
+  for (std::string word; std::getline(list, word, ',');)
   {
-    if (flag == "shown")
-      result.shown = true;
-    else if (flag == "touchable")
-      result.touchable = true;
-    else if (flag == "drillable")
-      result.drillable = true;
-    else if (flag != "none")
-      throw core::InvalidParameter("flag '" + flag +
-                                   "' is unknown; use shown, touchable, drillable or none");
+    bool isKnown = word == "none";
+    std::string names;
+    forEachFlag(
+        [&](auto flag, const std::string& name)
+        {
+          names += (names.empty() ? "" : ", ") + name;
+          if (word == name)
+            isKnown = result.*flag = true;
+        });
+    if (!isKnown)
+      throw core::InvalidParameter("flag '" + word + "' is unknown; use " + names + " or none");
   }
   look = result;
 }
@@ -33,32 +50,13 @@ void setFlags(StructureAppearance& look, const std::string& flags)
 std::string flagsOf(const StructureAppearance& look)
 {
   std::string flags;
-  const auto add = [&flags](bool holds, const char* name)
-  {
-    if (holds)
-      flags += (flags.empty() ? "" : ",") + std::string(name);
-  };
-  add(look.shown, "shown");
-  add(look.touchable, "touchable");
-  add(look.drillable, "drillable");
+  forEachFlag(
+      [&](auto flag, const std::string& name)
+      {
+        if (look.*flag)
+          flags += (flags.empty() ? "" : ",") + name;
+      });
   return flags.empty() ? "none" : flags;
-}
-
-void setStiffness(StructureAppearance& look, double newtonPerMillimetre)
-{
-  if (newtonPerMillimetre != 0.0 &&
-      !(newtonPerMillimetre >= kSoftest && newtonPerMillimetre <= kStiffest))
-    throw core::InvalidParameter("the stiffness of a soft structure must lie within 0.001 to 100 "
-                                 "N/mm; 0 is rigid");
-  look.stiffness = newtonPerMillimetre;
-}
-
-void setWarning(StructureAppearance& look, double millimetres)
-{
-  if (!(millimetres >= 0.0 && millimetres <= kFarthestWarning))
-    throw core::InvalidParameter("the warning distance of a structure must lie within 0 to 50 mm; "
-                                 "0 is none");
-  look.warning = millimetres;
 }
 
 void setColor(StructureAppearance& look, const std::array<float, 3>& color)

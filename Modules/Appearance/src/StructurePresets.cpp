@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Structures.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::appearance
@@ -16,46 +17,21 @@ namespace
 
 using nlohmann::json;
 
-StructureAppearance lookFrom(const json& entry)
+// An entry of the catalogue is what a manifest has, but for the flags, with the preset's name as
+// "name".
+StructureAppearance lookFrom(json entry)
 {
-  StructureAppearance look;
-  look.preset = entry.at("name").get<std::string>();
-  look.color = entry.at("color").get<std::array<float, 3>>();
-  look.opacity = entry.at("opacity").get<float>();
-  look.solid = entry.at("solid").get<bool>();
-  look.tissue = entry.value("tissue", std::string());
-  look.priority = entry.value("priority", look.priority);
-  look.shininess = entry.value("shininess", look.shininess);
-  const auto refuse = [&look](const std::string& what)
-  { throw core::InvalidParameter("structure preset '" + look.preset + "': " + what); };
-  const auto outside = [](float x) { return !(x >= 0.0F && x <= 1.0F); };
-  if (outside(look.opacity) || std::any_of(look.color.begin(), look.color.end(), outside))
-    refuse("colour and opacity must lie in 0 to 1");
-  if (!(look.shininess >= kSmallestShininess && look.shininess <= kLargestShininess))
-    refuse("shininess must lie in 1 to 200");
+  entry["preset"] = entry.at("name");
+  entry["flags"] = flagsOf({});
   try
   {
-    setStiffness(look, entry.value("stiffness_n_per_mm", 0.0));
-    setWarning(look, entry.value("warn_mm", 0.0));
+    return appearanceFrom(entry, {});
   }
   catch (const core::InvalidParameter& error)
   {
-    refuse(error.what());
+    throw core::InvalidParameter("structure preset '" + entry["preset"].get<std::string>() +
+                                 "': " + error.what());
   }
-  if (!entry.contains("transfer"))
-    return look;
-  json transfer = entry.at("transfer");
-  look.relative = transfer.value("relative", false);
-  transfer.erase("relative");
-  try
-  {
-    look.transfer = TransferFunction::fromJson(transfer.dump());
-  }
-  catch (const core::InvalidParameter& error)
-  {
-    refuse(error.what());
-  }
-  return look;
 }
 
 std::string plainWords(std::string name)

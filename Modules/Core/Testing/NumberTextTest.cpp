@@ -151,5 +151,21 @@ TEST(Utf8, PrefixCutsNoCharacterInTwo)
     EXPECT_EQ(utf8Prefix(text, bytes), text.substr(0, whole[bytes])) << bytes;
 }
 
+TEST(NumberText, ARangeNamesItselfAndTheValueThatItRefuses)
+{
+  const CommaStreams comma;
+  const NumberRange stiffness{0.001, 100.0, "N/mm"};
+  EXPECT_TRUE(stiffness.contains(0.001) && stiffness.contains(100.0));
+  EXPECT_FALSE(stiffness.contains(0.0) || stiffness.contains(100.5));
+  EXPECT_FALSE(stiffness.contains(std::nan("")));
+  EXPECT_EQ(stiffness.refusal(100.5), "must lie within 0.001 to 100 N/mm, not 100.5");
+  EXPECT_EQ(stiffness.refusal(0.0, "rigid"),
+            "must lie within 0.001 to 100 N/mm, or be 'rigid', not 0");
+  const NumberRange thrust{0.0, 20.0, "N", true};
+  EXPECT_FALSE(thrust.contains(0.0));
+  EXPECT_EQ(thrust.refusal(0.0), "must lie above 0, up to 20 N, not 0");
+  EXPECT_EQ((NumberRange{0.0, 1.0}.refusal(-1.0)), "must lie within 0 to 1, not -1");
+}
+
 } // namespace
 } // namespace petrous::core

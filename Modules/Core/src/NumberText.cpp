@@ -76,59 +76,72 @@ std::optional<float> parseFloat(std::string_view text)
   return parse<float>(text);
 }
 
-namespace
+std::string NumberRange::text() const
 {
-
-bool isContinuation(char c) noexcept
-{
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+  const std::string upperText =
+      generalText(upper) + (*unit == '\0' ? "" : " ") + unit; // no unit: a plain number
+  return isLowerExcluded ? "above " + generalText(lower) + ", up to " + upperText
+                         : generalText(lower) + " to " + upperText;
 }
 
-} // namespace
-
-bool isUtf8(std::string_view text) noexcept
+std::string NumberRange::refusal(double value, const char* word) const
 {
-  for (std::size_t i = 0; i < text.size();)
+  return std::string(isLowerExcluded ? "must lie " : "must lie within ") + text() +
+         (word ? ", or be '" + std::string(word) + "'" : "") + ", not " + generalText(value);
+
+  namespace
   {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                    ? 1
-                               : lead >= 0xC2 && lead <= 0xDF ? 2
-                               : lead >= 0xE0 && lead <= 0xEF ? 3
-                               : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                              : 0;
-    if (length == 0 || length > text.size() - i)
-      return false;
-    for (std::size_t n = 1; n < length; ++n)
-      if (!isContinuation(text[i + n]))
-        return false;
-    const int second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
-      return false;
-    i += length;
+
+  bool isContinuation(char c) noexcept
+  {
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
   }
-  return true;
-}
 
-std::string utf8Prefix(std::string_view text, std::size_t bytes)
-{
-  if (text.size() > bytes)
-    while (bytes > 0 && isContinuation(text[bytes]))
-      --bytes;
-  return std::string(text.substr(0, bytes));
-}
+  } // namespace
 
-PlainNumbers::PlainNumbers()
-  : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
-  , m_before(uselocale(m_plain))
-{
-}
+  bool isUtf8(std::string_view text) noexcept
+  {
+    for (std::size_t i = 0; i < text.size();)
+    {
+      const auto lead = static_cast<unsigned char>(text[i]);
+      const std::size_t length = lead < 0x80                    ? 1
+                                 : lead >= 0xC2 && lead <= 0xDF ? 2
+                                 : lead >= 0xE0 && lead <= 0xEF ? 3
+                                 : lead >= 0xF0 && lead <= 0xF4 ? 4
+                                                                : 0;
+      if (length == 0 || length > text.size() - i)
+        return false;
+      for (std::size_t n = 1; n < length; ++n)
+        if (!isContinuation(text[i + n]))
+          return false;
+      const int second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
+      if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+          (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+        return false;
+      i += length;
+    }
+    return true;
+  }
 
-PlainNumbers::~PlainNumbers()
-{
-  uselocale(m_before);
-  if (m_plain)
-    freelocale(m_plain);
-}
+  std::string utf8Prefix(std::string_view text, std::size_t bytes)
+  {
+    if (text.size() > bytes)
+      while (bytes > 0 && isContinuation(text[bytes]))
+        --bytes;
+    return std::string(text.substr(0, bytes));
+  }
+
+  PlainNumbers::PlainNumbers()
+    : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
+    , m_before(uselocale(m_plain))
+  {
+  }
+
+  PlainNumbers::~PlainNumbers()
+  {
+    uselocale(m_before);
+    if (m_plain)
+      freelocale(m_plain);
+  }
 
 } // namespace petrous::core

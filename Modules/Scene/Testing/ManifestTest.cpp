@@ -1,9 +1,11 @@
 #include <limits>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Manifest.h"
 
@@ -174,6 +176,108 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_EQ(back.boneLook.opacity, 0.3F);
   EXPECT_FALSE(back.boneLook.shown);
   EXPECT_FALSE(back.meshes[0].look.transfer.has_value());
+}
+
+namespace
+{
+
+using appearance::StructureAppearance;
+using appearance::StructureProperty;
+
+/// Gives `property` a value that is neither its default nor that of the preset.
+void setAnother(StructureAppearance& look, const StructureProperty& property)
+{
+  std::visit(
+      [&](auto member)
+      {
+        auto& value = look.*member;
+        using T = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<T, bool>)
+          value = !value;
+        else if constexpr (std::is_arithmetic_v<T>)
+          value = static_cast<T>(0.3 * property.range.lower + 0.7 * property.range.upper);
+        else if constexpr (std::is_same_v<T, std::string>)
+          value = "änother";
+        else if constexpr (std::is_same_v<T, std::array<float, 3>>)
+          value = {0.1F, 1.0F / 3.0F, 0.7F};
+        else
+          value = appearance::TransferFunction::constant({0.1F, 0.2F, 0.3F}, 0.4F, 0.5F);
+      },
+      property.member);
+}
+
+std::string refusalOf(const nlohmann::json& manifest)
+{
+  try
+  {
+    scene::fromManifest(manifest.dump(), "m.json");
+    return {};
+  }
+  catch (const scene::ManifestError& error)
+  {
+    EXPECT_EQ(error.reason, scene::ManifestError::Reason::Damaged);
+    return error.what();
+  }
+}
+
+} // namespace
+
+TEST(Manifest, KeepsEachPropertyOfAStructure)
+{
+  for (const StructureProperty& property : appearance::kStructureProperties)
+  {
+    scene::Case value = fullCase();
+    auto& look = value.labels[0].structures[0].look;
+    look = {};
+    const auto before = appearance::valueJson(look, property);
+    setAnother(look, property);
+    ASSERT_NE(appearance::valueJson(look, property), before) << property.key;
+    const std::string text = scene::toManifest(value);
+    const scene::Case back = scene::fromManifest(text, "m.json");
+    const auto& read = back.labels[0].structures[0].look;
+    std::visit([&](auto member) { EXPECT_TRUE(read.*member == look.*member) << property.key; },
+               property.member);
+    EXPECT_EQ(scene::toManifest(back), text) << property.key;
+  }
+}
+
+TEST(Manifest, RefusesANumberOfAStructureThatIsOutOfItsRange)
+{
+  const auto good = nlohmann::json::parse(scene::toManifest(fullCase()));
+  for (const StructureProperty& property : appearance::kStructureProperties)
+  {
+    const bool isColor = std::holds_alternative<StructureProperty::Color>(property.member);
+    if (!property.isNumber() && !isColor)
+      continue;
+    const nlohmann::json::json_pointer place("/labels/0/structures/0/look/" +
+                                             std::string(property.key) + (isColor ? "/1" : ""));
+    for (const double wrong : {property.range.lower - 1.0, property.range.upper + 0.1})
+    {
+      auto j = good;
+      j[place] = wrong;
+      const std::string text = refusalOf(j);
+      EXPECT_NE(text.find(std::string(property.key) + ": must lie within " + property.range.text()),
+                std::string::npos)
+          << property.key << ": " << text;
+    }
+    auto j = good;
+    j[place] = nullptr; // how JSON writes NaN
+    EXPECT_FALSE(refusalOf(j).empty()) << property.key;
+    scene::Case value = fullCase();
+    auto& look = value.labels[0].structures[0].look;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (isColor)
+      look.color[1] = static_cast<float>(nan);
+    else
+      EXPECT_THROW(appearance::setNumber(look, property, nan), core::InvalidParameter);
+    if (const auto* real = std::get_if<double StructureAppearance::*>(&property.member))
+      look.*(*real) = nan;
+    else if (const auto* single = std::get_if<float StructureAppearance::*>(&property.member))
+      look.*(*single) = static_cast<float>(nan);
+    else if (!isColor)
+      continue; // an integer is never NaN
+    EXPECT_THROW(scene::toManifest(value), core::InvalidParameter) << property.key;
+  }
 }
 
 // Appearances as in the first manifests: no bone, no transfer functions.

@@ -7,6 +7,7 @@
 
 #include "DissectionJson.h"
 #include "RegistrationJson.h"
+#include "petrous/Appearance/StructureProperties.h"
 
 namespace petrous::scene
 {
@@ -63,51 +64,9 @@ ImagePart imageIn(const json& j)
   return image;
 }
 
-json lookOut(const appearance::StructureAppearance& look)
-{
-  json j{{"preset", look.preset},     {"color", look.color},
-         {"opacity", look.opacity},   {"flags", appearance::flagsOf(look)},
-         {"solid", look.solid},       {"shininess", look.shininess},
-         {"priority", look.priority}, {"tissue", look.tissue}};
-  if (look.transfer)
-  {
-    j["transfer"] = json::parse(look.transfer->toJson());
-    j["transfer"]["relative"] = look.relative;
-  }
-  if (!look.sourceImage.empty())
-    j["source_image"] = look.sourceImage;
-  if (look.stiffness > 0.0)
-    j["stiffness_n_per_mm"] = look.stiffness;
-  j["warn_mm"] = look.warning;
-  return j;
-}
-
-// Fields added after the first manifests may be missing; such an appearance stays as it was.
 appearance::StructureAppearance lookIn(const json& j, const appearance::StructurePresets& presets)
 {
-  appearance::StructureAppearance look;
-  look.preset = j.at("preset").get<std::string>();
-  look.color = j.at("color").get<std::array<float, 3>>();
-  look.opacity = j.at("opacity").get<float>();
-  look.solid = j.at("solid").get<bool>();
-  appearance::setFlags(look, j.at("flags").get<std::string>());
-  look.shininess = j.value("shininess", look.shininess);
-  look.priority =
-      j.contains("priority") ? j.at("priority").get<int>() : presets.lookFor(look.preset).priority;
-  look.tissue = j.contains("tissue") ? j.at("tissue").get<std::string>()
-                                     : presets.lookFor(look.preset).tissue;
-  look.sourceImage = j.value("source_image", std::string());
-  appearance::setStiffness(look, j.value("stiffness_n_per_mm", 0.0));
-  appearance::setWarning(look, j.contains("warn_mm") ? j.at("warn_mm").get<double>()
-                                                     : presets.lookFor(look.preset).warning);
-  if (j.contains("transfer"))
-  {
-    json transfer = j.at("transfer");
-    look.relative = transfer.value("relative", false);
-    transfer.erase("relative");
-    look.transfer = appearance::TransferFunction::fromJson(transfer.dump());
-  }
-  return look;
+  return appearance::appearanceFrom(j, presets.lookFor(j.at("preset").get<std::string>()));
 }
 
 json labelsOut(const LabelPart& part)
@@ -118,7 +77,7 @@ json labelsOut(const LabelPart& part)
                           {"index", s.index},
                           {"voxels", s.voxels},
                           {"volume_mm3", s.volume},
-                          {"look", lookOut(s.look)}});
+                          {"look", appearance::appearanceJson(s.look)}});
   json j{{"object", part.object}, {"structures", structures}};
   if (part.drawnOn)
     j["drawn_on"] = *part.drawnOn;
@@ -147,7 +106,7 @@ json meshOut(const MeshPart& mesh)
          {"object", mesh.object},
          {"triangles", mesh.triangles},
          {"notes", mesh.notes},
-         {"look", lookOut(mesh.look)}};
+         {"look", appearance::appearanceJson(mesh.look)}};
   if (!mesh.drawnOn.empty())
     j["drawn_on"] = mesh.drawnOn;
   return j;
@@ -231,11 +190,16 @@ ManifestError::ManifestError(Reason r, const std::string& message)
 
 std::string toManifest(const Case& value)
 {
-  json j{{"petrous_case", kManifestFormat},  {"name", value.name},
-         {"revision", value.revision},       {"iso_hu", value.iso},
-         {"dense_bone_hu", value.denseBone}, {"ct", imageOut(value.ct)},
-         {"bone", lookOut(value.boneLook)},  {"mr", json::array()},
-         {"labels", json::array()},          {"meshes", json::array()}};
+  json j{{"petrous_case", kManifestFormat},
+         {"name", value.name},
+         {"revision", value.revision},
+         {"iso_hu", value.iso},
+         {"dense_bone_hu", value.denseBone},
+         {"ct", imageOut(value.ct)},
+         {"bone", appearance::appearanceJson(value.boneLook)},
+         {"mr", json::array()},
+         {"labels", json::array()},
+         {"meshes", json::array()}};
   for (const ImagePart& image : value.mr)
   {
     json mr = imageOut(image);

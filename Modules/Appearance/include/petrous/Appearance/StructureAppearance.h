@@ -9,7 +9,8 @@
 namespace petrous::appearance
 {
 
-/// How a structure is rendered, and its behaviour in haptics and drilling.
+/// How a structure is rendered, and its behaviour in haptics and drilling. Ranges, names and texts
+/// of the members: StructureProperties.h.
 struct StructureAppearance
 {
   std::string preset = "other";
@@ -26,21 +27,9 @@ struct StructureAppearance
   std::optional<TransferFunction> transfer; ///< absent: `color` at every intensity
   bool relative = false;   ///< values of `transfer` are mapped to the case's scale (onScale)
   std::string sourceImage; ///< the MR whose intensities `transfer` reads; empty: the CT
-  float shininess = 18.0F; ///< specular exponent, 1 to 200
+  float shininess = 18.0F; ///< specular exponent
   int priority = 90;       ///< where structures overlap, the lowest number owns the voxel
 };
-
-constexpr float kSmallestShininess = 1.0F;
-constexpr float kLargestShininess = 200.0F;
-constexpr double kSoftest = 0.001; ///< N/mm
-constexpr double kStiffest = 100.0;
-constexpr double kFarthestWarning = 50.0; ///< mm
-
-/// Throws InvalidParameter unless the stiffness is 0 (rigid) or within kSoftest to kStiffest.
-void setStiffness(StructureAppearance& look, double newtonPerMillimetre);
-
-/// Throws InvalidParameter unless the distance is within 0 (no warning) to kFarthestWarning.
-void setWarning(StructureAppearance& look, double millimetres);
 
 /// Sets shown, touchable and drillable from a comma-separated list of the flags that are set, e.g.
 /// "shown,drillable"; "none" clears all. Throws InvalidParameter naming an unknown flag.

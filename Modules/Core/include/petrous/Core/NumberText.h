@@ -34,6 +34,25 @@ bool isUtf8(std::string_view text) noexcept;
 /// The start of a well-formed UTF-8 text, of at most `bytes` bytes; no character is cut in two.
 std::string utf8Prefix(std::string_view text, std::size_t bytes);
 
+/// The values that a number may have, and the text that refuses any other.
+struct NumberRange
+{
+  double lower = 0.0;
+  double upper = 0.0;
+  const char* unit = "";
+  bool isLowerExcluded = false;
+
+  constexpr bool contains(double value) const noexcept // false for NaN
+  {
+    return (isLowerExcluded ? value > lower : value >= lower) && value <= upper;
+  }
+  /// "0.001 to 100 N/mm"; without its lower end "above 0, up to 20 N".
+  std::string text() const;
+  /// "must lie within 0.001 to 100 N/mm, or be 'rigid', not 7"; `word`: what may stand instead of a
+  /// number, nullptr: nothing may.
+  std::string refusal(double value, const char* word = nullptr) const;
+};
+
 /// RAII: while it lives, the C library formats and parses numbers with a decimal point in this
 /// thread. For calls into libraries that follow LC_NUMERIC.
 class PlainNumbers

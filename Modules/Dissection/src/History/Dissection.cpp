@@ -35,7 +35,7 @@ Dissection::Mask& Dissection::Mask::operator=(const Mask& other)
   return *this;
 }
 
-Dissection::Mask& Dissection::Mask::operator=(Mask&& other)
+Dissection::Mask& Dissection::Mask::operator=(Mask&& other) noexcept
 {
   if (shared && other.shared)
     *shared = std::move(*other.shared);
@@ -138,13 +138,12 @@ std::size_t Dissection::redo(std::size_t count)
   return step(count, false);
 }
 
-void Dissection::catchUp(const Dissection& ahead)
+void Dissection::catchUp(Dissection ahead)
 {
   if (ahead.m_strokes.size() < m_strokes.size())
     throw core::InvalidParameter("dissection: the history is that of other strokes");
-  Dissection next = ahead;
-  std::copy(m_strokes.begin(), m_strokes.end(), next.m_strokes.begin());
-  *this = std::move(next);
+  std::copy(m_strokes.begin(), m_strokes.end(), ahead.m_strokes.begin());
+  *this = std::move(ahead);
 }
 
 void Dissection::setStored(std::size_t stroke, const std::string& object,

@@ -73,7 +73,7 @@ public:
 
   /// Follows a fork that was drilled on since: takes over its state and its new strokes. Strokes
   /// that both have stay as they are here: they may have been stored since.
-  void catchUp(const Dissection& ahead);
+  void catchUp(Dissection ahead);
 
   /// States where the voxels of a stroke are stored, and how to read them; they stay the same.
   void setStored(std::size_t stroke, const std::string& object, core::Lazy<Stroke::Voxels> packed);
@@ -123,7 +123,7 @@ private:
     Mask(const Mask& other);
     Mask(Mask&& other) noexcept = default;
     Mask& operator=(const Mask& other);
-    Mask& operator=(Mask&& other);
+    Mask& operator=(Mask&& other) noexcept;
     ~Mask() = default;
 
     std::shared_ptr<volume::CutMask> shared;

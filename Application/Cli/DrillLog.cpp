@@ -2,32 +2,39 @@
 
 #include <limits>
 
+#include "petrous/Core/NumberText.h"
+
 namespace petrous::cli
 {
 
 namespace
 {
 
+constexpr std::size_t kFlush = std::size_t{1} << 20; // bytes
+
+std::string number(double value)
+{
+  return core::generalText(value, std::numeric_limits<double>::max_digits10);
+}
+
 template <std::size_t count>
-void write(std::ostream& stream, const double (&values)[count])
+void write(std::string& row, const double (&values)[count])
 {
   for (const double value : values)
-    stream << ',' << value;
+    row += "," + number(value);
 }
 
-void write(std::ostream& stream, const session::PoseValues& pose)
+void write(std::string& row, const session::PoseValues& pose)
 {
-  write(stream, pose.position);
-  write(stream, pose.rotation);
+  write(row, pose.position);
+  write(row, pose.rotation);
 }
 
-void write(std::ostream& stream, const session::WrenchValues& wrench)
+void write(std::string& row, const session::WrenchValues& wrench)
 {
-  write(stream, wrench.force);
-  write(stream, wrench.torque);
+  write(row, wrench.force);
+  write(row, wrench.torque);
 }
-
-constexpr std::streamoff kFlush = std::streamoff{1} << 20; // bytes
 
 // A bad place for the log is a bad argument of `drill`.
 template <class Action>
@@ -52,11 +59,9 @@ DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
   , m_scene(scene)
   , m_before(value.dissection.mask())
 {
-  m_rows.imbue(std::locale::classic());
-  m_rows.precision(std::numeric_limits<double>::max_digits10);
-  m_rows << "t_s,dx_mm,dy_mm,dz_mm,dqw,dqx,dqy,dqz,px_mm,py_mm,pz_mm,pqw,pqx,pqy,pqz,"
-            "fx_n,fy_n,fz_n,tx_nmm,ty_nmm,tz_nmm,ox_n,oy_n,oz_n,otx_nmm,oty_nmm,otz_nmm,"
-            "contacts,thrust_n,r_mm,theta_rad,penetration_mm,removed_mm3,predicted_mm3\n";
+  m_rows = "t_s,dx_mm,dy_mm,dz_mm,dqw,dqx,dqy,dqz,px_mm,py_mm,pz_mm,pqw,pqx,pqy,pqz,"
+           "fx_n,fy_n,fz_n,tx_nmm,ty_nmm,tz_nmm,ox_n,oy_n,oz_n,otx_nmm,oty_nmm,otz_nmm,"
+           "contacts,thrust_n,r_mm,theta_rad,penetration_mm,removed_mm3,predicted_mm3\n";
 }
 
 void DrillLog::measure()
@@ -76,27 +81,24 @@ void DrillLog::add(const session::TickRecord& record, const std::optional<TickRe
 {
   if (!removal)
     measure();
-  m_rows << record.time();
+  m_rows += number(record.time());
   write(m_rows, record.mapped);
   write(m_rows, record.proxy);
   write(m_rows, record.wrench);
   write(m_rows, record.output);
-  const double thrust = Eigen::Map<const Eigen::Vector3d>(record.burrForce).norm();
-  m_rows << ',' << record.contacts << ',' << thrust << ','
-         << (removal ? removal->arm : record.contactRadius) << ',' << record.elevation << ','
-         << record.penetration << ',' << (removal ? removal->removed : m_removed) << ',';
-  if (removal)
-    m_rows << removal->predicted << '\n';
-  else
-    m_rows << "nan\n";
-  if (m_rows.tellp() >= kFlush)
+  m_rows += "," + std::to_string(record.contacts);
+  write(m_rows, {Eigen::Map<const Eigen::Vector3d>(record.burrForce).norm(),
+                 removal ? removal->arm : record.contactRadius, record.elevation,
+                 record.penetration, removal ? removal->removed : m_removed});
+  m_rows += "," + (removal ? number(removal->predicted) : "nan") + "\n";
+  if (m_rows.size() >= kFlush)
     flush();
 }
 
 void DrillLog::flush()
 {
-  asParameter([this] { m_file.write(m_rows.str()); });
-  m_rows.str({});
+  asParameter([this] { m_file.write(m_rows); });
+  m_rows.clear();
 }
 
 void DrillLog::close()

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <optional>
-#include <sstream>
+#include <string>
 
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Dissection/RemovedVolume.h"
@@ -38,7 +38,7 @@ private:
   void flush();
 
   core::OutputFile m_file;
-  std::ostringstream m_rows; // not yet in the file
+  std::string m_rows; // not yet in the file
   const scene::Case& m_case;
   session::TouchScene& m_scene;
   volume::CutMask m_before;

@@ -99,8 +99,8 @@ public:
     }
     const auto value = [at](std::ptrdiff_t step) { return static_cast<double>(at[step]); };
     return volume::interpolateCell<double>(
-        {value(0), value(m_up[0]), value(m_up[1]), value(m_up[1] + m_up[0]), value(m_up[2]),
-         value(m_up[2] + m_up[0]), value(m_up[2] + m_up[1]), value(m_up[2] + m_up[1] + m_up[0])},
+        value(0), value(m_up[0]), value(m_up[1]), value(m_up[1] + m_up[0]), value(m_up[2]),
+        value(m_up[2] + m_up[0]), value(m_up[2] + m_up[1]), value(m_up[2] + m_up[1] + m_up[0]),
         weight[0], weight[1], weight[2]);
   }
 

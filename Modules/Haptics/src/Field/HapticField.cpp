@@ -102,9 +102,8 @@ struct HapticField::Cell
   template <class Corner>
   double interpolate(const Corner& at) const noexcept
   {
-    return volume::interpolateCell<double>(
-        {at(0), at(dx), at(dy), at(dy + dx), at(dz), at(dz + dx), at(dz + dy), at(dz + dy + dx)}, x,
-        y, z);
+    return volume::interpolateCell<double>(at(0), at(dx), at(dy), at(dy + dx), at(dz), at(dz + dx),
+                                           at(dz + dy), at(dz + dy + dx), x, y, z);
   }
 };
 

@@ -88,60 +88,61 @@ std::string NumberRange::refusal(double value, const char* word) const
 {
   return std::string(isLowerExcluded ? "must lie " : "must lie within ") + text() +
          (word ? ", or be '" + std::string(word) + "'" : "") + ", not " + generalText(value);
+}
 
-  namespace
+namespace
+{
+
+bool isContinuation(char c) noexcept
+{
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+} // namespace
+
+bool isUtf8(std::string_view text) noexcept
+{
+  for (std::size_t i = 0; i < text.size();)
   {
-
-  bool isContinuation(char c) noexcept
-  {
-    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-  }
-
-  } // namespace
-
-  bool isUtf8(std::string_view text) noexcept
-  {
-    for (std::size_t i = 0; i < text.size();)
-    {
-      const auto lead = static_cast<unsigned char>(text[i]);
-      const std::size_t length = lead < 0x80                    ? 1
-                                 : lead >= 0xC2 && lead <= 0xDF ? 2
-                                 : lead >= 0xE0 && lead <= 0xEF ? 3
-                                 : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                                : 0;
-      if (length == 0 || length > text.size() - i)
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80                    ? 1
+                               : lead >= 0xC2 && lead <= 0xDF ? 2
+                               : lead >= 0xE0 && lead <= 0xEF ? 3
+                               : lead >= 0xF0 && lead <= 0xF4 ? 4
+                                                              : 0;
+    if (length == 0 || length > text.size() - i)
+      return false;
+    for (std::size_t n = 1; n < length; ++n)
+      if (!isContinuation(text[i + n]))
         return false;
-      for (std::size_t n = 1; n < length; ++n)
-        if (!isContinuation(text[i + n]))
-          return false;
-      const int second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
-      if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-          (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
-        return false;
-      i += length;
-    }
-    return true;
+    const int second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
+    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+      return false;
+    i += length;
   }
+  return true;
+}
 
-  std::string utf8Prefix(std::string_view text, std::size_t bytes)
-  {
-    if (text.size() > bytes)
-      while (bytes > 0 && isContinuation(text[bytes]))
-        --bytes;
-    return std::string(text.substr(0, bytes));
-  }
+std::string utf8Prefix(std::string_view text, std::size_t bytes)
+{
+  if (text.size() > bytes)
+    while (bytes > 0 && isContinuation(text[bytes]))
+      --bytes;
+  return std::string(text.substr(0, bytes));
+}
 
-  PlainNumbers::PlainNumbers()
-    : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
-    , m_before(uselocale(m_plain))
-  {
-  }
+PlainNumbers::PlainNumbers()
+  : m_plain(newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr)))
+  , m_before(uselocale(m_plain))
+{
+}
 
-  PlainNumbers::~PlainNumbers()
-  {
-    uselocale(m_before);
-    if (m_plain)
-      freelocale(m_plain);
-  }
+PlainNumbers::~PlainNumbers()
+{
+  uselocale(m_before);
+  if (m_plain)
+    freelocale(m_plain);
+}
 
 } // namespace petrous::core

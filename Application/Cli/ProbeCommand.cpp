@@ -5,6 +5,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Scene/CaseField.h"
+#include "petrous/Scene/Placement.h"
 #include "petrous/Volume/NearestSurface.h"
 
 namespace petrous::cli
@@ -61,6 +62,11 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   warnMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
+  std::vector<const scene::LabelPart*> parts;
+  for (const scene::LabelPart& part : value.labels)
+    if (scene::placementOf(value, part).missing.empty())
+      parts.push_back(&part);
+  scene::readLabels(parts);
   const auto meshes = scene::meshSolidsAt(value, points, progress.part(0.2, 0.4));
   const core::Progress probing = progress.part(0.4, 1.0);
   std::vector<core::PatientBox> places;

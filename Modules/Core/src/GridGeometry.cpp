@@ -15,47 +15,7 @@ namespace
 {
 // DICOM decimal strings keep six digits or more; beyond this the axes are skewed, not rounded.
 constexpr double kOrthonormalTolerance = 1e-4;
-// Rounding tolerance when a position is compared with a voxel centre, in voxels.
-constexpr double kVoxelSlack = 1e-9;
 } // namespace
-
-bool IndexBox::empty() const noexcept
-{
-  return upper[0] <= lower[0] || upper[1] <= lower[1] || upper[2] <= lower[2];
-}
-
-Index3 IndexBox::size() const noexcept
-{
-  if (empty())
-    return {0, 0, 0};
-  return {upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]};
-}
-
-std::size_t IndexBox::count() const noexcept
-{
-  const Index3 s = size();
-  return static_cast<std::size_t>(s[0]) * static_cast<std::size_t>(s[1]) *
-         static_cast<std::size_t>(s[2]);
-}
-
-bool IndexBox::contains(const Index3& index) const noexcept
-{
-  for (std::size_t a = 0; a < 3; ++a)
-    if (index[a] < lower[a] || index[a] >= upper[a])
-      return false;
-  return true;
-}
-
-IndexBox IndexBox::intersected(const IndexBox& other) const noexcept
-{
-  IndexBox result;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    result.lower[a] = std::max(lower[a], other.lower[a]);
-    result.upper[a] = std::min(upper[a], other.upper[a]);
-  }
-  return result.empty() ? IndexBox{} : result;
-}
 
 IndexBox IndexBox::united(const IndexBox& other) const noexcept
 {
@@ -105,38 +65,6 @@ GridGeometry::GridGeometry(const Index3& dims, const Eigen::Vector3d& spacing,
   m_voxelFromPatient = m_patientFromVoxel.inverse();
 }
 
-std::size_t GridGeometry::voxelCount() const noexcept
-{
-  return fullBox().count();
-}
-
-std::size_t GridGeometry::linearIndex(int i, int j, int k) const noexcept
-{
-  const auto nx = static_cast<std::size_t>(m_dims[0]);
-  const auto ny = static_cast<std::size_t>(m_dims[1]);
-  return static_cast<std::size_t>(i) +
-         nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
-}
-
-Eigen::Vector3d GridGeometry::patientFromVoxel(const Eigen::Vector3d& voxel) const noexcept
-{
-  return m_origin + m_patientFromVoxel * voxel;
-}
-
-Eigen::Vector3d GridGeometry::voxelFromPatient(const Eigen::Vector3d& patient) const noexcept
-{
-  return m_voxelFromPatient * (patient - m_origin);
-}
-
-bool GridGeometry::hullContains(const Eigen::Vector3d& voxel) const noexcept
-{
-  for (int a = 0; a < 3; ++a)
-    if (!(voxel[a] >= -kVoxelSlack &&
-          voxel[a] <= m_dims[static_cast<std::size_t>(a)] - 1 + kVoxelSlack))
-      return false;
-  return true;
-}
-
 Eigen::Vector3d GridGeometry::center() const noexcept
 {
   return patientFromVoxel(0.5 * Eigen::Vector3d(m_dims[0] - 1.0, m_dims[1] - 1.0, m_dims[2] - 1.0));
@@ -150,11 +78,6 @@ PatientBox GridGeometry::patientBounds() const noexcept
                                     (corner & 2) ? m_dims[1] - 1.0 : 0.0,
                                     (corner & 4) ? m_dims[2] - 1.0 : 0.0}));
   return bounds;
-}
-
-IndexBox GridGeometry::fullBox() const noexcept
-{
-  return {{0, 0, 0}, m_dims};
 }
 
 IndexBox GridGeometry::boxCovering(const Eigen::Vector3d& lower,

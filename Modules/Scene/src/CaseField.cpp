@@ -79,20 +79,52 @@ std::shared_ptr<const volume::Volume<float>> cachedOccupancy(const Case& value,
   return bytes ? volume::occupancyFrom(*bytes) : nullptr;
 }
 
-// An occupancy, and the object that computes it if done region by region.
+// An occupancy, and what computes it in these boxes if done region by region.
 struct UnionOccupancy
 {
   volume::TissueField::SolidUnion occupancy;
-  std::shared_ptr<volume::RegionalUnion> regional;
+  std::function<void(const std::vector<core::PatientBox>&)> prepare;
 };
 
-std::function<void(const std::vector<core::PatientBox>&)> preparerOf(const UnionOccupancy& united,
-                                                                     const core::Progress& progress)
+void keep(core::DerivedStore* derived, const std::optional<std::string>& key,
+          const volume::Volume<float>& occupancy)
 {
-  if (!united.regional)
+  if (const auto bytes = key ? volume::bytesOf(occupancy) : std::nullopt)
+    derived->put(*key, *bytes);
+}
+
+UnionOccupancy regionalOccupancy(const std::vector<volume::LabelSource>& sources,
+                                 const std::shared_ptr<core::DerivedStore>& derived,
+                                 const std::optional<std::string>& key,
+                                 const core::Progress& progress)
+{
+  auto united = volume::RegionalUnion::make(sources, progress);
+  if (!united)
     return {};
-  return [regional = united.regional, progress](const std::vector<core::PatientBox>& boxes)
-  { regional->prepare(boxes, progress); };
+  auto occupancy = united->occupancy();
+  if (united->isWhole())
+  {
+    keep(derived.get(), key, *occupancy);
+    return {std::move(occupancy), {}};
+  }
+  const auto prepare = [united, derived, key, progress](const std::vector<core::PatientBox>& boxes)
+  {
+    if (united->isWhole())
+      return;
+    united->prepare(boxes, progress);
+    if (united->isWhole())
+      keep(derived.get(), key, *united->occupancy());
+  };
+  return {std::move(occupancy), prepare};
+}
+
+std::vector<const LabelPart*> partsOf(const std::vector<Wish>& wished)
+{
+  std::vector<const LabelPart*> parts;
+  for (const Wish& wish : wished)
+    if (std::find(parts.begin(), parts.end(), wish.part) == parts.end())
+      parts.push_back(wish.part);
+  return parts;
 }
 
 // Union of all wanted structures; lumens count as solid.
@@ -104,23 +136,17 @@ UnionOccupancy unionOccupancy(const Case& value, const Wanted& wanted,
     return {};
   const auto key = unionKey(value, wished);
   if (auto kept = cachedOccupancy(value, key))
-    return {std::move(kept), nullptr};
+    return {std::move(kept), {}};
+  readLabels(partsOf(wished));
   std::vector<volume::LabelSource> sources;
   for (const Wish& wish : wished)
     sources.push_back({wish.labels(value), wish.structure->index, 1, true});
   if (regional)
-  {
-    auto united = volume::RegionalUnion::make(sources, progress);
-    if (!united)
-      return {};
-    auto occupancy = united->occupancy();
-    return {std::move(occupancy), std::move(united)};
-  }
+    return regionalOccupancy(sources, value.derived, key, progress);
   const auto occupancy = volume::makeSolidOccupancy(sources, progress);
-  if (occupancy && key)
-    if (const auto bytes = volume::bytesOf(*occupancy))
-      value.derived->put(*key, *bytes);
-  return {occupancy, nullptr};
+  if (occupancy)
+    keep(value.derived.get(), key, *occupancy);
+  return {occupancy, {}};
 }
 
 // The solids of f: the union of the structures, and each mesh separately.
@@ -157,6 +183,7 @@ LabelSources labelSources(const Case& value, const Wanted& wanted)
     throw core::InvalidParameter("case '" + value.name + "': " + std::to_string(all.size()) +
                                  " structures are to be drawn; at most " +
                                  std::to_string(kMaxMaterials) + " can be, hide the others");
+  readLabels(partsOf(all));
   for (const Wish& wish : all)
   {
     result.structures.push_back(wish.structure);
@@ -282,7 +309,7 @@ volume::TissueField regionalTissueField(const Case& value, const core::Progress&
   for (MeshSolid& mesh : meshSolids(value, felt, progress.part(0.5, 1.0)))
     solids.push_back(std::move(mesh.occupancy));
   volume::TissueField field = fieldOf(value, std::move(solids));
-  field.onPrepare(preparerOf(united, progress));
+  field.onPrepare(united.prepare);
   return field;
 }
 
@@ -359,13 +386,14 @@ dissection::ProtectedTissue protectedTissue(const Case& value, const core::Progr
   for (const MeshSolid& mesh : meshSolids(value, kept, progress.part(0.5, 1.0)))
     if (auto guard = volume::protectionMaskOf(*mesh.occupancy, value.ct.geometry))
       occupancies.push_back(std::move(guard));
-  return dissection::ProtectedTissue(std::move(occupancies), preparerOf(united, progress));
+  return dissection::ProtectedTissue(std::move(occupancies), united.prepare);
 }
 
 std::vector<dissection::NamedStructure> drillableStructures(const Case& value)
 {
   std::vector<dissection::NamedStructure> structures;
   const auto drilled = [](const auto& look) { return look.drillable; };
+  readLabels(partsOf(wishes(value, drilled)));
   for (const LabelPart& part : value.labels)
     for (const StructurePart& structure : part.structures)
       if (drilled(structure.look) && placementOf(value, part).missing.empty())

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 namespace petrous::scene
 {
 
@@ -94,6 +97,27 @@ std::string missingPlace(const Case& value, const std::string& name)
     if (mesh.name == name)
       return placementOf(value, mesh).missing;
   return {};
+}
+
+void readLabels(const std::vector<const LabelPart*>& parts)
+{
+  const auto read = [&parts](std::size_t n)
+  {
+    // Isolated: while a reader waits for its own tasks, it must not begin another part.
+    tbb::this_task_arena::isolate(
+        [&]
+        {
+          try
+          {
+            parts[n]->labels.get();
+          }
+          catch (...) // thrown again where it is used, so that the first part in order reports
+          {
+            return;
+          }
+        });
+  };
+  tbb::parallel_for(std::size_t{0}, parts.size(), read);
 }
 
 std::shared_ptr<const volume::LabelMap> labelsOnCt(const Case& value, const LabelPart& part)

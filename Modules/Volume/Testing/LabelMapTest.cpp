@@ -46,6 +46,23 @@ TEST(LabelMap, CountsVoxelsAndNamesTheNameless)
   EXPECT_EQ(map.segments[2].voxels, 0u);
 }
 
+TEST(LabelMap, KnowsTheBoxOfItsVoxels)
+{
+  auto voxels = emptyLabels(21);
+  const core::IndexBox none;
+  EXPECT_EQ(volume::makeLabelMap(voxels, {}).extent, none);
+  voxels->at(3, 20, 7) = 1;
+  voxels->at(20, 4, 0) = 2;
+  const auto map = volume::makeLabelMap(voxels, {});
+  const core::IndexBox box{{3, 4, 0}, {21, 21, 8}};
+  EXPECT_EQ(map.extent, box);
+  EXPECT_EQ(volume::extentOf(map), box);
+  EXPECT_EQ(volume::extentOf({voxels, {}}), voxels->geometry().fullBox()) << "not known";
+  const core::IndexBox first{{3, 20, 7}, {4, 21, 8}};
+  const core::IndexBox second{{20, 4, 0}, {21, 5, 1}};
+  EXPECT_EQ(volume::boxesOf(map), (std::vector<core::IndexBox>{first, second}));
+}
+
 TEST(LabelMap, RefusesIndicesThatMeanNothingOrTwoThings)
 {
   EXPECT_THROW(volume::makeLabelMap(emptyLabels(2), {named("none", 0)}), core::InvalidParameter);

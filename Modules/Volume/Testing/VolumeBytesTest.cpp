@@ -75,6 +75,8 @@ TEST(VolumeBytes, BringBackALabelMapWithItsNames)
   const auto back = volume::labelMapFrom(volume::bytesOf(labels));
   ASSERT_TRUE(back);
   expectEqual(*back->voxels, *labels.voxels);
+  ASSERT_TRUE(labels.extent);
+  EXPECT_EQ(back->extent, labels.extent);
   ASSERT_EQ(back->segments.size(), labels.segments.size());
   for (std::size_t n = 0; n < labels.segments.size(); ++n)
   {

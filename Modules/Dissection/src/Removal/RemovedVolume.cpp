@@ -17,13 +17,56 @@ namespace
 using volume::CutMask;
 using Corners = std::array<std::uint16_t, 8>;
 
-Corners cornersOf(const CutMask& mask, int i, int j, int k)
+// The mask at the corners of the cells that begin in a brick: its voxels and the first ones of the
+// bricks above it. Voxels beyond the grid count as untouched.
+class BrickCorners
 {
-  Corners corners{};
-  for (int c = 0; c < 8; ++c)
-    corners[static_cast<std::size_t>(c)] = mask.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
-  return corners;
-}
+public:
+  BrickCorners(const CutMask& mask, const core::IndexBox& brick)
+  {
+    m_values.fill(CutMask::kUntouched);
+    const core::IndexBox voxels{
+        brick.lower, {brick.lower[0] + kEdge, brick.lower[1] + kEdge, brick.lower[2] + kEdge}};
+    const core::IndexBox bricks = mask.bricksCovering(voxels);
+    for (int bk = bricks.lower[2]; bk < bricks.upper[2]; ++bk)
+      for (int bj = bricks.lower[1]; bj < bricks.upper[1]; ++bj)
+        for (int bi = bricks.lower[0]; bi < bricks.upper[0]; ++bi)
+        {
+          const std::size_t index = mask.brickIndex({bi, bj, bk});
+          if (!mask.brick(index))
+            continue;
+          const core::IndexBox part = mask.brickBox(index).intersected(voxels);
+          for (int k = part.lower[2]; k < part.upper[2]; ++k)
+            for (int j = part.lower[1]; j < part.upper[1]; ++j)
+              for (int i = part.lower[0]; i < part.upper[0]; ++i)
+                m_values[at(i - brick.lower[0], j - brick.lower[1], k - brick.lower[2])] =
+                    mask.at(i, j, k);
+        }
+  }
+
+  /// Of the cell at (i, j, k) from the brick's first voxel.
+  Corners of(int i, int j, int k) const noexcept
+  {
+    const std::uint16_t* first = m_values.data() + at(i, j, k);
+    return {first[0],
+            first[1],
+            first[kEdge],
+            first[kEdge + 1],
+            first[kEdge * kEdge],
+            first[kEdge * kEdge + 1],
+            first[kEdge * kEdge + kEdge],
+            first[kEdge * kEdge + kEdge + 1]};
+  }
+
+private:
+  static constexpr int kEdge = CutMask::kBrickEdge + 1;
+  static std::size_t at(int i, int j, int k) noexcept
+  {
+    return static_cast<std::size_t>(i + kEdge * (j + kEdge * k));
+  }
+
+  std::array<std::uint16_t, kEdge * kEdge * kEdge> m_values;
+};
 
 // Removed points, in total and in each structure, weighted by the occupancy of their sub-cells.
 struct Count
@@ -45,11 +88,47 @@ public:
   {
   }
 
-  /// The cell whose lowest corner is the voxel (i, j, k).
-  void addCell(int i, int j, int k, Count& count) const
+  /// The cells whose lowest corner is in this brick.
+  void addBrick(std::size_t brick, Count& count) const
   {
-    const Corners after = cornersOf(m_after, i, j, k);
-    const Corners before = cornersOf(m_before, i, j, k);
+    const core::IndexBox box = m_after.brickBox(brick);
+    if (!differ(box))
+      return;
+    const core::Index3& dims = m_after.geometry().dims();
+    const BrickCorners before(m_before, box);
+    const BrickCorners after(m_after, box);
+    const core::Index3& first = box.lower;
+    for (int k = first[2]; k < std::min(box.upper[2], dims[2] - 1); ++k)
+      for (int j = first[1]; j < std::min(box.upper[1], dims[1] - 1); ++j)
+        for (int i = first[0]; i < std::min(box.upper[0], dims[0] - 1); ++i)
+          addCell({i, j, k}, before.of(i - first[0], j - first[1], k - first[2]),
+                  after.of(i - first[0], j - first[1], k - first[2]), count);
+  }
+
+  double pointVolume() const noexcept { return m_sums.partVolume(); } ///< mm^3
+
+private:
+  // Whether the brick of these voxels, or one above it whose voxels its cells reach, has changed.
+  bool differ(const core::IndexBox& box) const
+  {
+    const core::IndexBox bricks =
+        m_after.bricksCovering({box.lower, {box.upper[0] + 1, box.upper[1] + 1, box.upper[2] + 1}});
+    for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
+      for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+        for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+        {
+          const std::size_t brick = m_after.brickIndex({i, j, k});
+          if (m_before.brick(brick) != m_after.brick(brick))
+            return true;
+        }
+    return false;
+  }
+
+  // The cell whose lowest corner is `voxel`.
+  void addCell(const core::Index3& voxel, const Corners& before, const Corners& after,
+               Count& count) const
+  {
+    const auto [i, j, k] = voxel;
     CellValues tissue, left, had;
     if (before == after || *std::min_element(after.begin(), after.end()) >= m_sums.high() ||
         *std::max_element(before.begin(), before.end()) <= m_sums.low() ||
@@ -69,9 +148,6 @@ public:
           }
   }
 
-  double pointVolume() const noexcept { return m_sums.partVolume(); } ///< mm^3
-
-private:
   void addToStructures(const Eigen::Vector3d& p, double gone, Count& count) const
   {
     for (std::size_t s = 0; s < m_structures.size(); ++s)
@@ -117,17 +193,12 @@ RemovedVolume measureRemoved(const volume::TissueField& tissue, const CutMask& b
 {
   const auto all = withNeighbours(after, bricks);
   const Quadrature quadrature(tissue, before, after, structures);
-  const core::Index3& dims = after.geometry().dims();
   std::vector<Count> counts(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(),
                     [&](std::size_t n)
                     {
                       counts[n].structures.resize(structures.size());
-                      const core::IndexBox box = after.brickBox(all[n]);
-                      for (int k = box.lower[2]; k < std::min(box.upper[2], dims[2] - 1); ++k)
-                        for (int j = box.lower[1]; j < std::min(box.upper[1], dims[1] - 1); ++j)
-                          for (int i = box.lower[0]; i < std::min(box.upper[0], dims[0] - 1); ++i)
-                            quadrature.addCell(i, j, k, counts[n]);
+                      quadrature.addBrick(all[n], counts[n]);
                     });
 
   // Summed in brick order, for a result independent of thread scheduling.

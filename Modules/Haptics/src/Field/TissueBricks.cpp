@@ -108,6 +108,13 @@ public:
     {
       const T* row = voxels + width * static_cast<std::size_t>(j);
       const auto out = static_cast<std::size_t>(m_bricks[0]) * static_cast<std::size_t>(j);
+      if (isFlat(row, j + 1 < m_dims[1] ? row + width : row, k + 1 < m_dims[2] ? row + slice : row))
+      {
+        for (std::size_t f = 0; f < kFields; ++f)
+          std::fill_n(m_rows[f].begin() + static_cast<std::ptrdiff_t>(out), m_bricks[0],
+                      f == 0 ? static_cast<float>(row[0]) : 0.0F);
+        continue;
+      }
       for (std::size_t i = 0; i < width; ++i)
         line[i] = static_cast<float>(row[i]);
       reduceLine(kValues, m_rows[0].data() + out);
@@ -156,6 +163,15 @@ private:
   };
   static constexpr Range kValues{0, 2}, kAlong{-1, 2}, kAcross{-1, 3};
   static constexpr std::size_t kPad = 4; // padding at both ends of the line, ignored by the maximum
+
+  // Whether a row and its neighbours have one value, as most of a union has; false for NaN.
+  template <class T>
+  bool isFlat(const T* row, const T* next, const T* above) const
+  {
+    const auto bytes = static_cast<std::size_t>(m_dims[0]) * sizeof(T);
+    return row[0] == row[0] && std::memcmp(row, row + 1, bytes - sizeof(T)) == 0 &&
+           std::memcmp(row, next, bytes) == 0 && std::memcmp(row, above, bytes) == 0;
+  }
 
   // Maximum over each brick's range in the line.
   void reduceLine(Range range, float* out)

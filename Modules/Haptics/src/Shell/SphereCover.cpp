@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Geometry>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "PointGrid.h"
 
@@ -43,9 +47,12 @@ public:
                 if (other != index)
                   m_neighbours.emplace_back((points[other] - m_centre).squaredNorm(), other);
               });
-    std::sort(m_neighbours.begin(), m_neighbours.end());
-    for (const auto& [squared, other] : m_neighbours)
+    // Nearest first; a heap, because only the nearest few are needed.
+    std::make_heap(m_neighbours.begin(), m_neighbours.end(), std::greater<>());
+    for (; !m_neighbours.empty(); m_neighbours.pop_back())
     {
+      std::pop_heap(m_neighbours.begin(), m_neighbours.end(), std::greater<>());
+      const auto [squared, other] = m_neighbours.back();
       double far = 0.0;
       for (const auto& corner : m_corners)
         far = std::max(far, corner.norm());
@@ -165,17 +172,23 @@ SphereCover coverSphere(double rim, std::size_t count)
   cover.points = firstGuess(rim, count, side, onRim);
   std::vector<Eigen::Vector3d> next = cover.points;
   const std::size_t rounds = std::clamp<std::size_t>(kEffort / count, 10, 60);
-  Cell cell;
   for (std::size_t round = 0; round < rounds; ++round)
   {
     const PointGrid grid(cover.points, side);
     const bool even = round < rounds / 2;
-    for (std::size_t i = onRim; i < count; ++i)
-    {
-      cell.make(cover.points, grid, i, reach);
-      // Over-relaxation: Lloyd's method is slow, and stable up to twice the step.
-      next[i] = cell.onSphere(even ? Eigen::Vector2d(1.6 * cell.centroid()) : cell.middle());
-    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(onRim, count, 64),
+                      [&](const tbb::blocked_range<std::size_t>& range)
+                      {
+                        Cell cell;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        {
+                          cell.make(cover.points, grid, i, reach);
+                          // Over-relaxation: Lloyd's method is slow, and stable up to twice the
+                          // step.
+                          next[i] = cell.onSphere(even ? Eigen::Vector2d(1.6 * cell.centroid())
+                                                       : cell.middle());
+                        }
+                      });
     cover.points.swap(next);
     std::copy_n(cover.points.begin(), onRim, next.begin());
   }
@@ -184,6 +197,7 @@ SphereCover coverSphere(double rim, std::size_t count)
   const double top = cover.points.front().z();
   cover.spacing = 2.0 * rim * std::sin(kPi / (2.0 * static_cast<double>(onRim)));
   const PointGrid grid(cover.points, side);
+  Cell cell;
   for (std::size_t i = 0; i < count; ++i)
   {
     cell.make(cover.points, grid, i, reach);

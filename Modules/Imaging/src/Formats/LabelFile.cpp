@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -46,11 +47,19 @@ Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
     if (stride == 1)
       return std::make_shared<volume::Volume<std::uint16_t>>(
           geometry, std::shared_ptr<std::uint16_t>(raw, static_cast<std::uint16_t*>(raw.get())));
-  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(geometry);
+  const Labels labels = volume::makeZeroVolume<std::uint16_t>(geometry);
   const T* in = static_cast<const T*>(raw.get()) + layer;
   std::uint16_t* out = labels->data();
-  for (std::size_t v = 0; v < labels->size(); ++v)
+  const std::size_t size = labels->size();
+  constexpr std::size_t kRun = 64; // numbers compared with zero at once: most of a file is empty
+  static constexpr std::array<T, kRun> kZeros{};
+  for (std::size_t v = 0; v < size; ++v)
   {
+    while (stride == 1 && v + kRun <= size &&
+           std::memcmp(in + v, kZeros.data(), sizeof kZeros) == 0)
+      v += kRun;
+    if (v == size)
+      break;
     const T value = in[v * stride];
     if constexpr (std::is_floating_point_v<T>)
     {
@@ -67,17 +76,21 @@ Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
       if (!good)
         failValue(path, static_cast<double>(value));
     }
-    out[v] = static_cast<std::uint16_t>(value);
+    if (value != T{0}) // memory is committed only where something is written
+      out[v] = static_cast<std::uint16_t>(value);
   }
   return labels;
 }
 
+/// Which labels other than 0 occur.
 std::vector<bool> valuesIn(const volume::Volume<std::uint16_t>& labels)
 {
   std::vector<char> seen(65536, 0);
-  const std::uint16_t* voxel = labels.data();
-  for (std::size_t v = 0; v < labels.size(); ++v)
-    seen[voxel[v]] = 1;
+  const core::Index3& dims = labels.geometry().dims();
+  for (int k = 0; k < dims[2]; ++k)
+    for (int j = 0; j < dims[1]; ++j)
+      volume::forEachLabel(&labels.at(0, j, k), dims[0],
+                           [&seen](int, std::uint16_t label) { seen[label] = 1; });
   return {seen.begin(), seen.end()};
 }
 
@@ -103,8 +116,12 @@ std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
     if (!list.empty() || count > 1)
       return std::move(list);
   }
-  std::transform(labels.data(), labels.data() + labels.size(), labels.data(),
-                 [](std::uint16_t v) { return static_cast<std::uint16_t>(v != 0); });
+  std::for_each(labels.data(), labels.data() + labels.size(),
+                [](std::uint16_t& v)
+                {
+                  if (v > 1)
+                    v = 1;
+                });
   isNamedAfterFile = true;
   volume::Segment segment;
   segment.name = baseName(path);

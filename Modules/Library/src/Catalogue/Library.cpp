@@ -145,7 +145,8 @@ void saltFrames(scene::Case& value, const fs::path& folder)
   std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
 
-constexpr int kUnpackedLabelsVersion = 1; // incremented with every change of readLabelFile's result
+// Incremented with every change of readLabelFile's result, or of the bytes of a label map.
+constexpr int kUnpackedLabelsVersion = 2;
 
 // Decompressing a label file takes longer than most uses of it.
 std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,

@@ -1,8 +1,10 @@
 #include "LabelBricks.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -93,6 +95,16 @@ private:
   std::vector<std::atomic<std::uint8_t>> m_marks;
 };
 
+// The first voxel from `i` on that may differ from 0: most of an occupancy is 0.
+int beyondZeros(const float* row, int i, int end)
+{
+  constexpr int kRun = 16;
+  static constexpr std::array<float, kRun> kZeros{};
+  while (i + kRun <= end && std::memcmp(row + i, kZeros.data(), sizeof kZeros) == 0)
+    i += kRun;
+  return i;
+}
+
 } // namespace
 
 std::vector<std::uint8_t> solidBricks(const volume::Volume<float>& occupancy,
@@ -110,6 +122,7 @@ std::vector<std::uint8_t> solidBricks(const volume::Volume<float>& occupancy,
                           const float* row = &occupancy.at(0, j, k);
                           for (int i = 0; i < dims[0]; ++i)
                           {
+                            i = beyondZeros(row, i, dims[0]);
                             const int first = i;
                             while (i < dims[0] && row[i] > kSolidOccupancy)
                               ++i;

@@ -52,7 +52,9 @@ void checkMaterials(const SceneContents& contents)
     return;
   const std::size_t rows = std::max<std::size_t>(contents.materials.size(), 1);
   const volume::Volume<std::uint8_t>& index = *contents.labels->index;
-  const std::uint8_t largest = *std::max_element(index.data(), index.data() + index.size());
+  std::uint8_t largest = 0;
+  for (const std::uint8_t *at = index.data(), *end = at + index.size(); at != end; ++at)
+    largest = std::max(largest, *at); // vectorized, unlike max_element
   require(largest < rows, "structure " + std::to_string(int{largest}) +
                               " has no material; there are " + std::to_string(rows - 1) +
                               " beside bone's");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -46,9 +47,11 @@ std::vector<float> cleaned(const float* values, std::size_t count)
 {
   if (std::all_of(values, values + count, [](float v) { return std::isfinite(v); }))
     return {};
-  std::vector<float> copy(values, values + count);
-  for (float& value : copy)
-    value = std::isnan(value) ? kNoValue : std::clamp(value, kNoValue, -kNoValue);
+  std::vector<float> copy;
+  copy.reserve(count);
+  std::transform(values, values + count, std::back_inserter(copy),
+                 [](float value)
+                 { return std::isnan(value) ? kNoValue : std::clamp(value, kNoValue, -kNoValue); });
   return copy;
 }
 
@@ -273,7 +276,11 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   const core::Index3& dims = occupancies.geometry().dims();
   // 16 bits store an occupancy exactly: its resolution is 1/65535.
   const auto inSixteenBits = [](float value)
-  { return static_cast<std::uint16_t>(std::lround(65535.0F * std::clamp(value, 0.0F, 1.0F))); };
+  {
+    // As std::lround, but vectorized: adding 1/2 is exact in double.
+    const double steps = 65535.0F * std::clamp(value, 0.0F, 1.0F);
+    return static_cast<std::uint16_t>(static_cast<int>(steps + 0.5));
+  };
   reduction = reductionFor(texel::kUnsignedShort, dims, largest);
   map = textureMap(dims, reduction);
   const core::Index3 texels = reducedDims(dims, reduction);
@@ -281,32 +288,42 @@ void LabelTextures::upload(const volume::LabelField& labels, int largest)
   borders = whole && labels.borders;
   if (whole)
   {
-    std::vector<std::uint16_t> values(occupancies.size());
-    const auto fill = [&values](const auto& valueAt)
+    // Some slices at a time: no second copy of the whole volume.
+    constexpr int kSlices = 16;
+    const std::size_t slice = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+    std::vector<std::uint16_t> values(slice * static_cast<std::size_t>(std::min(kSlices, dims[2])));
+    const auto fill =
+        [&](GlTexture& texture, const TexelFormat& format, GLint filter, const auto& valueAt)
     {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1U << 16U),
-                        [&](const tbb::blocked_range<std::size_t>& range)
-                        {
-                          for (std::size_t i = range.begin(); i < range.end(); ++i)
-                            values[i] = valueAt(i);
-                        });
+      texture.create(format, dims, nullptr, filter);
+      for (int k = 0; k < dims[2]; k += kSlices)
+      {
+        const core::IndexBox part{{0, 0, k}, {dims[0], dims[1], std::min(k + kSlices, dims[2])}};
+        const std::size_t first = slice * static_cast<std::size_t>(k);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, part.count(), 1U << 16U),
+                          [&](const tbb::blocked_range<std::size_t>& range)
+                          {
+                            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                              values[i] = valueAt(first + i);
+                          });
+        texture.update(part, values.data());
+      }
     };
-    fill([&](std::size_t i) { return inSixteenBits(occupancies.data()[i]); });
-    occupancy.create(texel::kUnsignedShort, dims, values.data(), GL_LINEAR);
+    fill(occupancy, texel::kUnsignedShort, GL_LINEAR,
+         [&](std::size_t i) { return inSixteenBits(occupancies.data()[i]); });
     if (!borders)
     {
       index.create(texel::kIndex, dims, labels.index->data(), GL_NEAREST);
       return;
     }
-    fill(
-        [&](std::size_t i)
-        {
-          const std::uint8_t pair[2] = {labels.index->data()[i], labels.borders->data()[i]};
-          std::uint16_t both = 0;
-          std::memcpy(&both, pair, sizeof both);
-          return both;
-        });
-    index.create(texel::kIndexPair, dims, values.data(), GL_NEAREST);
+    fill(index, texel::kIndexPair, GL_NEAREST,
+         [&](std::size_t i)
+         {
+           const std::uint8_t pair[2] = {labels.index->data()[i], labels.borders->data()[i]};
+           std::uint16_t both = 0;
+           std::memcpy(&both, pair, sizeof both);
+           return both;
+         });
     return;
   }
   const auto means = reduceBox<std::uint16_t>(dims, reduction, wholeBox(texels),

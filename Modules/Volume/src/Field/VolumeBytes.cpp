@@ -163,7 +163,7 @@ void appendTile(Bytes& bytes, const Volume<T>& volume, const core::IndexBox& til
     {
       const T* row = &volume.at(tile.lower[0], j, k);
       for (int i = 0; i < size[0]; ++i)
-        uniform = uniform && row[i] == first;
+        uniform &= row[i] == first; // not &&: the loop is vectorized
     }
   if (uniform)
   {
@@ -217,9 +217,9 @@ void readTile(Reader& reader, Volume<T>& volume, const core::IndexBox& tile)
     }
 }
 
-// Returns false if a voxel cannot be encoded losslessly.
+// Voxels outside `extent` are 0. Returns false if a voxel cannot be encoded losslessly.
 template <class T>
-bool append(Bytes& bytes, const Volume<T>& volume)
+bool append(Bytes& bytes, const Volume<T>& volume, const core::IndexBox& extent)
 {
   append(bytes, volume.geometry());
   const LabelTiles tiles(volume.geometry().dims());
@@ -229,16 +229,28 @@ bool append(Bytes& bytes, const Volume<T>& volume)
   tbb::parallel_for(0, n[2],
                     [&](int k)
                     {
+                      Bytes& layer = layers[static_cast<std::size_t>(k)];
                       for (int j = 0; j < n[1]; ++j)
                         for (int i = 0; i < n[0]; ++i)
-                          appendTile(layers[static_cast<std::size_t>(k)], volume,
-                                     tiles.voxelsOf(i, j, k), lost);
+                        {
+                          const core::IndexBox tile = tiles.voxelsOf(i, j, k);
+                          if (tile.intersected(extent).empty())
+                            append(layer, static_cast<std::uint8_t>(kZero));
+                          else
+                            appendTile(layer, volume, tile, lost);
+                        }
                     });
   for (const Bytes& layer : layers)
     append(bytes, static_cast<std::uint64_t>(layer.size()));
   for (const Bytes& layer : layers)
     append(bytes, layer.data(), layer.size());
   return !lost;
+}
+
+template <class T>
+bool append(Bytes& bytes, const Volume<T>& volume)
+{
+  return append(bytes, volume, volume.geometry().fullBox());
 }
 
 template <class T>
@@ -359,7 +371,12 @@ Bytes bytesOf(const LabelMap& labels)
       append(bytes, component);
     append(bytes, segment.voxels);
   }
-  append(bytes, *labels.voxels);
+  const core::IndexBox extent = extentOf(labels);
+  append(bytes, static_cast<std::uint8_t>(labels.extent ? 1 : 0));
+  for (const core::Index3& end : {extent.lower, extent.upper})
+    for (const int n : end)
+      append(bytes, std::int32_t{n});
+  append(bytes, *labels.voxels, extent);
   return bytes;
 }
 
@@ -380,7 +397,16 @@ std::shared_ptr<LabelMap> labelMapFrom(const Bytes& bytes)
                             segment.voxels = reader.number<std::uint64_t>();
                             labels->segments.push_back(std::move(segment));
                           }
+                          const bool known = reader.number<std::uint8_t>() != 0;
+                          core::IndexBox extent;
+                          for (core::Index3* end : {&extent.lower, &extent.upper})
+                            for (int& n : *end)
+                              n = reader.number<std::int32_t>();
                           labels->voxels = volumeFrom<std::uint16_t>(reader);
+                          if (!(extent.intersected(labels->voxels->geometry().fullBox()) == extent))
+                            throw Malformed{};
+                          if (known)
+                            labels->extent = extent;
                           return labels;
                         });
 }

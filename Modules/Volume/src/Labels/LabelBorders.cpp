@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,7 +20,16 @@ constexpr auto kThreshold = static_cast<float>(kInsideOccupancy);
 constexpr int kBlock = 4; // voxels: the blocks around a border's blocks take part in its relaxation
 constexpr int kRound = 2 * kBlock;
 
+constexpr int kWord = 8; // voxels compared at once
+
 using Boxes = std::array<core::IndexBox, 256>;
+
+bool sameWord(const std::uint8_t* voxels, std::uint8_t value)
+{
+  std::uint64_t word;
+  std::memcpy(&word, voxels, sizeof word);
+  return word == 0x0101010101010101U * value;
+}
 
 // Marks the voxels around which two solids meet in tissue, and returns the bounding box of such
 // cells for each solid.
@@ -64,6 +74,13 @@ Boxes markMeetings(const Volume<float>& occupancy, const Volume<std::uint8_t>& i
         for (int i = cells.lower[0]; i < cells.upper[0]; ++i)
         {
           const std::uint8_t own = rows[0][i];
+          if (i + kWord <= dims[0] &&
+              std::all_of(rows, rows + 4,
+                          [&](const std::uint8_t* row) { return sameWord(row + i, own); }))
+          {
+            i += kWord - 2; // the next cell begins at the last voxel of the word
+            continue;
+          }
           const bool alike = std::all_of(rows, rows + 4,
                                          [&](const std::uint8_t* row)
                                          { return row[i] == own && row[i + 1] == own; });

@@ -1,7 +1,7 @@
 #include "petrous/Volume/LabelMap.h"
 
 #include <algorithm>
-#include <cstring>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -29,21 +29,39 @@ LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
                                    std::to_string(names[n].index));
   }
 
-  std::vector<std::uint64_t> count(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1);
-  const std::uint16_t* data = voxels->data();
-  constexpr std::size_t kWord = 4; // voxels compared with zero at once
-  for (std::size_t i = 0; i < voxels->size();)
+  struct Found
   {
-    std::uint64_t word = 1;
-    if (i + kWord <= voxels->size())
-      std::memcpy(&word, data + i, sizeof word);
-    if (word == 0)
-    {
-      i += kWord;
-      continue;
-    }
-    for (const std::size_t end = std::min(i + kWord, voxels->size()); i < end; ++i)
-      ++count[data[i]];
+    std::vector<std::uint64_t> count =
+        std::vector<std::uint64_t>(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1);
+    core::IndexBox box;
+  };
+  tbb::enumerable_thread_specific<Found> parts;
+  const core::Index3& dims = voxels->geometry().dims();
+  tbb::parallel_for(0, dims[2],
+                    [&](int k)
+                    {
+                      Found& found = parts.local();
+                      for (int j = 0; j < dims[1]; ++j)
+                      {
+                        int first = dims[0];
+                        int last = -1;
+                        forEachLabel(&voxels->at(0, j, k), dims[0],
+                                     [&](int i, std::uint16_t label)
+                                     {
+                                       ++found.count[label];
+                                       first = std::min(first, i);
+                                       last = i;
+                                     });
+                        if (last >= 0)
+                          found.box = found.box.united({{first, j, k}, {last + 1, j + 1, k + 1}});
+                      }
+                    });
+  std::vector<std::uint64_t> count = Found().count;
+  core::IndexBox extent;
+  for (const Found& found : parts)
+  {
+    std::transform(count.begin(), count.end(), found.count.begin(), count.begin(), std::plus<>());
+    extent = extent.united(found.box);
   }
 
   for (Segment& segment : names)
@@ -61,7 +79,12 @@ LabelMap makeLabelMap(std::shared_ptr<const Volume<std::uint16_t>> voxels,
       names.push_back(std::move(segment));
     }
   std::sort(names.begin(), names.end(), byIndex);
-  return {std::move(voxels), std::move(names)};
+  return {std::move(voxels), std::move(names), extent};
+}
+
+core::IndexBox extentOf(const LabelMap& labels)
+{
+  return labels.extent.value_or(labels.voxels->geometry().fullBox());
 }
 
 std::vector<core::IndexBox> boxesOf(const LabelMap& labels)
@@ -72,19 +95,19 @@ std::vector<core::IndexBox> boxesOf(const LabelMap& labels)
     segmentOf[labels.segments[n].index] = static_cast<std::uint16_t>(n);
   using Boxes = std::vector<core::IndexBox>;
   tbb::enumerable_thread_specific<Boxes> parts(Boxes(labels.segments.size()));
-  const core::Index3& dims = labels.voxels->geometry().dims();
-  tbb::parallel_for(0, dims[2],
+  const core::IndexBox extent = extentOf(labels);
+  tbb::parallel_for(extent.lower[2], extent.upper[2],
                     [&](int k)
                     {
                       Boxes& boxes = parts.local();
-                      for (int j = 0; j < dims[1]; ++j)
+                      for (int j = extent.lower[1]; j < extent.upper[1]; ++j)
                       {
                         const std::uint16_t* row = &labels.voxels->at(0, j, k);
-                        for (int i = 0; i < dims[0];)
+                        for (int i = extent.lower[0]; i < extent.upper[0];)
                         {
                           const std::uint16_t value = row[i];
                           const int first = i;
-                          while (i < dims[0] && row[i] == value)
+                          while (i < extent.upper[0] && row[i] == value)
                             ++i;
                           if (value == 0 || segmentOf[value] == none)
                             continue;

@@ -68,10 +68,11 @@ float quantizedOccupancy(double occupancy) noexcept
 namespace
 {
 
-// A map's voxels and the values that are wanted.
+// A map's voxels, the box outside which they are 0, and the values that are wanted.
 struct WantedVoxels
 {
   const Volume<std::uint16_t>* voxels;
+  core::IndexBox extent;
   std::vector<std::uint8_t> table;
 };
 
@@ -84,25 +85,29 @@ std::vector<WantedVoxels> wantedIn(const std::vector<LabelSource>& sources)
     auto map = std::find_if(maps.begin(), maps.end(),
                             [voxels](const WantedVoxels& m) { return m.voxels == voxels; });
     if (map == maps.end())
-      map = maps.insert(
-          maps.end(), {voxels, std::vector<std::uint8_t>(
-                                   std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, 0)});
+      map = maps.insert(maps.end(),
+                        {voxels, extentOf(*source.labels),
+                         std::vector<std::uint8_t>(
+                             std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, 0)});
     map->table[source.segment] = 1;
   }
   return maps;
 }
 
-// Calls visit(i) for the wanted voxels of a row.
+// Calls visit(i, j) for the wanted voxels of a slice, row by row.
 template <class Visit>
-void forEachWanted(const std::uint16_t* row, int count, const std::vector<std::uint8_t>& table,
-                   const Visit& visit)
+void forEachWanted(const WantedVoxels& map, int k, const Visit& visit)
 {
-  forEachLabel(row, count,
-               [&](int i, std::uint16_t label)
-               {
-                 if (table[label] != 0)
-                   visit(i);
-               });
+  if (k < map.extent.lower[2] || k >= map.extent.upper[2])
+    return;
+  const int from = map.extent.lower[0];
+  for (int j = map.extent.lower[1]; j < map.extent.upper[1]; ++j)
+    forEachLabel(&map.voxels->at(from, j, k), map.extent.size()[0],
+                 [&](int i, std::uint16_t label)
+                 {
+                   if (map.table[label] != 0)
+                     visit(from + i, j);
+                 });
 }
 
 } // namespace
@@ -129,21 +134,17 @@ std::shared_ptr<const Volume<std::uint8_t>> insideOf(const std::vector<LabelSour
   const auto look = [&](int k)
   {
     progress.check("reading structures");
-    core::IndexBox& box = slices[static_cast<std::size_t>(k)];
+    core::Index3 low = dims;
+    core::Index3 high{-1, -1, k};
     for (const WantedVoxels& map : maps)
-      for (int j = 0; j < dims[1]; ++j)
-      {
-        int first = dims[0];
-        int last = -1;
-        forEachWanted(&map.voxels->at(0, j, k), dims[0], map.table,
-                      [&](int i)
-                      {
-                        first = std::min(first, i);
-                        last = i;
-                      });
-        if (last >= 0)
-          box = box.united({{first, j, k}, {last + 1, j + 1, k + 1}});
-      }
+      forEachWanted(map, k,
+                    [&](int i, int j)
+                    {
+                      low = {std::min(low[0], i), std::min(low[1], j), k};
+                      high = {std::max(high[0], i), std::max(high[1], j), k};
+                    });
+    if (high[0] >= 0)
+      slices[static_cast<std::size_t>(k)] = {low, {high[0] + 1, high[1] + 1, k + 1}};
   };
   tbb::parallel_for(0, dims[2], look);
   core::IndexBox box;
@@ -152,19 +153,16 @@ std::shared_ptr<const Volume<std::uint8_t>> insideOf(const std::vector<LabelSour
   if (box.empty())
     return nullptr;
   auto inside = makeZeroVolume<std::uint8_t>(gridOf(grid, grown(box, kLabelMargin)));
-  const core::Index3 size = box.size();
+  const core::IndexBox own = grown(box, kLabelMargin);
   const auto fill = [&](int k)
   {
     progress.check("reading structures");
     for (const WantedVoxels& map : maps)
-      for (int j = 0; j < size[1]; ++j)
-      {
-        std::uint8_t* row = &inside->at(kLabelMargin, j + kLabelMargin, k + kLabelMargin);
-        forEachWanted(&map.voxels->at(box.lower[0], box.lower[1] + j, box.lower[2] + k), size[0],
-                      map.table, [row](int i) { row[i] = 1; });
-      }
+      forEachWanted(map, k,
+                    [&](int i, int j)
+                    { inside->at(i - own.lower[0], j - own.lower[1], k - own.lower[2]) = 1; });
   };
-  tbb::parallel_for(0, size[2], fill);
+  tbb::parallel_for(box.lower[2], box.upper[2], fill);
   return inside;
 }
 

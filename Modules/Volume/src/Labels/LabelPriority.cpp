@@ -17,10 +17,17 @@ namespace
 
 using RankTable = std::vector<LabelRank>; // by voxel value
 
-// The sources on one grid: each array of voxels once, with the ranks of its values.
+// The sources on one grid: each array of voxels once, with the box outside which they are 0, and
+// the ranks of its values.
+struct Map
+{
+  const Volume<std::uint16_t>* voxels;
+  core::IndexBox extent;
+  RankTable ranks;
+};
 struct Group
 {
-  std::vector<std::pair<const Volume<std::uint16_t>*, RankTable>> maps;
+  std::vector<Map> maps;
 };
 
 std::vector<Group> groupByGrid(const std::vector<LabelSource>& sources, const LabelOrder& order)
@@ -32,24 +39,25 @@ std::vector<Group> groupByGrid(const std::vector<LabelSource>& sources, const La
     auto group =
         std::find_if(groups.begin(), groups.end(),
                      [voxels](const Group& g) {
-                       return core::sameGrid(g.maps.front().first->geometry(), voxels->geometry());
+                       return core::sameGrid(g.maps.front().voxels->geometry(), voxels->geometry());
                      });
     if (group == groups.end())
       group = groups.emplace(groups.end());
     auto map = std::find_if(group->maps.begin(), group->maps.end(),
-                            [voxels](const auto& m) { return m.first == voxels; });
+                            [voxels](const Map& m) { return m.voxels == voxels; });
     if (map == group->maps.end())
-      map = group->maps.emplace(
-          group->maps.end(), voxels,
-          RankTable(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, LabelRank{0}));
-    LabelRank& rank = map->second[sources[s].segment];
+      map = group->maps.insert(
+          group->maps.end(),
+          {voxels, extentOf(*sources[s].labels),
+           RankTable(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, LabelRank{0})});
+    LabelRank& rank = map->ranks[sources[s].segment];
     rank = rank == 0 ? order.rankOf[s] : std::min(rank, order.rankOf[s]);
   }
   return groups;
 }
 
-// Ranks along one row; marks `tiles` that contain one. Returns the range [first, last) of voxels
-// that have a rank, and whether there are solids and lumens.
+// Ranks along the voxels [from, to) of one row; marks `tiles` that contain one. Returns the range
+// [first, last) of voxels that have a rank, and whether there are solids and lumens.
 struct RowRanks
 {
   int first = std::numeric_limits<int>::max();
@@ -58,16 +66,17 @@ struct RowRanks
   bool lumen = false;
 };
 
-RowRanks rankRow(const std::uint16_t* labels, int count, const RankTable& table,
+RowRanks rankRow(const std::uint16_t* labels, int from, int to, const RankTable& table,
                  LabelRank lastSolid, LabelRank* ranks, std::uint8_t* tiles)
 {
   RowRanks row;
-  forEachLabel(labels, count,
-               [&](int i, std::uint16_t label)
+  forEachLabel(labels + from, to - from,
+               [&](int n, std::uint16_t label)
                {
                  const LabelRank rank = table[label];
                  if (rank == 0)
                    return;
+                 const int i = from + n;
                  ranks[i] = ranks[i] == 0 ? rank : std::min(ranks[i], rank);
                  tiles[i / LabelTiles::kEdge] = 1;
                  row.first = std::min(row.first, i);
@@ -79,7 +88,7 @@ RowRanks rankRow(const std::uint16_t* labels, int count, const RankTable& table,
 
 LabelPriority rankGroup(const Group& group, const LabelOrder& order, const core::Progress& progress)
 {
-  const core::GridGeometry& grid = group.maps.front().first->geometry();
+  const core::GridGeometry& grid = group.maps.front().voxels->geometry();
   const core::Index3 dims = grid.dims();
   LabelPriority result;
   result.voxels = makeZeroVolume<LabelRank>(grid);
@@ -89,18 +98,19 @@ LabelPriority rankGroup(const Group& group, const LabelOrder& order, const core:
   {
     progress.report(static_cast<double>(m) / static_cast<double>(group.maps.size()),
                     "reading structures");
-    const auto& [labels, table] = group.maps[m];
-    const auto rankTiles = [&, voxels = labels, &ranks = table](int tile)
+    const Map& map = group.maps[m];
+    const core::IndexBox& extent = map.extent;
+    const auto rankTiles = [&](int tile)
     {
       progress.check("reading structures");
       LabelPriority part;
-      for (int k = tile * LabelTiles::kEdge; k < std::min((tile + 1) * LabelTiles::kEdge, dims[2]);
-           ++k)
-        for (int j = 0; j < dims[1]; ++j)
+      for (int k = std::max(tile * LabelTiles::kEdge, extent.lower[2]);
+           k < std::min((tile + 1) * LabelTiles::kEdge, extent.upper[2]); ++k)
+        for (int j = extent.lower[1]; j < extent.upper[1]; ++j)
         {
-          const RowRanks row =
-              rankRow(&voxels->at(0, j, k), dims[0], ranks, order.lastSolid,
-                      &result.voxels->at(0, j, k), result.tiles.row(j / LabelTiles::kEdge, tile));
+          const RowRanks row = rankRow(&map.voxels->at(0, j, k), extent.lower[0], extent.upper[0],
+                                       map.ranks, order.lastSolid, &result.voxels->at(0, j, k),
+                                       result.tiles.row(j / LabelTiles::kEdge, tile));
           if (row.last > 0)
             part.box = part.box.united({{row.first, j, k}, {row.last, j + 1, k + 1}});
           part.hasSolid = part.hasSolid || row.solid;

@@ -1,38 +1,13 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <memory>
-#include <new>
 #include <vector>
 
 #include "petrous/Volume/LabelField.h"
 
 namespace petrous::volume
 {
-
-/// Calls visit(i, label) for the nonzero labels of a row.
-template <class Visit>
-void forEachLabel(const std::uint16_t* row, int count, const Visit& visit)
-{
-  constexpr int kWord = 4; // labels compared with zero at once
-  for (int i = 0; i < count;)
-  {
-    std::uint64_t word = 1;
-    if (i + kWord <= count)
-      std::memcpy(&word, row + i, sizeof(word));
-    if (word == 0)
-    {
-      i += kWord;
-      continue;
-    }
-    for (const int end = std::min(i + kWord, count); i < end; ++i)
-      if (row[i] != 0)
-        visit(i, row[i]);
-  }
-}
 
 /// Rank of a source in the order in which structures own a voxel: 1 the first, 0 none. Solid
 /// sources precede all lumens, each kind in the order of the sources.
@@ -89,16 +64,5 @@ struct LabelPriority
 /// omitted.
 std::vector<LabelPriority> rankLabels(const std::vector<LabelSource>& sources,
                                       const LabelOrder& order, const core::Progress& progress);
-
-/// Zero-initialised voxels that take memory only where other values are written.
-template <class T>
-std::shared_ptr<Volume<T>> makeZeroVolume(const core::GridGeometry& geometry)
-{
-  std::shared_ptr<T> memory(static_cast<T*>(std::calloc(geometry.voxelCount(), sizeof(T))),
-                            [](T* data) { std::free(data); });
-  if (!memory)
-    throw std::bad_alloc();
-  return std::make_shared<Volume<T>>(geometry, std::move(memory));
-}
 
 } // namespace petrous::volume

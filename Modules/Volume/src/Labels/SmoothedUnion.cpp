@@ -57,8 +57,7 @@ makeSmoothedUnion(const LabelMap& labels, const std::function<bool(std::uint16_t
                   const core::IndexBox& within)
 {
   const auto table = wantedTable(labels, wanted);
-  const core::IndexBox box =
-      boxOf(*labels.voxels, table, within.intersected(labels.voxels->geometry().fullBox()));
+  const core::IndexBox box = boxOf(*labels.voxels, table, within.intersected(extentOf(labels)));
   if (box.empty())
     return nullptr;
 

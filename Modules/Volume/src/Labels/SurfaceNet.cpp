@@ -284,6 +284,7 @@ void SurfaceNet::placePoints()
 void SurfaceNet::join()
 {
   m_joined.resize(m_points.size());
+  m_neighbours.resize(m_points.size());
   m_diagonal.resize(m_points.size());
   const auto pointIn = [this](const core::Index3& cell)
   { return pointAt(cell[0], cell[1], cell[2]); };
@@ -292,9 +293,15 @@ void SurfaceNet::join()
       [&](std::size_t n)
       {
         const Point& point = m_points[n];
+        Neighbours& near = m_neighbours[n];
+        near.count = 0;
         for (int face = 0; face < 6; ++face)
-          m_joined[n][static_cast<std::size_t>(face)] =
-              passes(point.corners, face) ? pointIn(across(point.cell, face)) : -1;
+        {
+          std::int32_t& other = m_joined[n][static_cast<std::size_t>(face)];
+          other = passes(point.corners, face) ? pointIn(across(point.cell, face)) : -1;
+          if (other >= 0)
+            near.points[static_cast<std::size_t>(near.count++)] = other;
+        }
         for (int axis = 0; axis < 3; ++axis)
           for (int side = 0; side < 2; ++side)
           {
@@ -371,14 +378,9 @@ void SurfaceNet::findNormals(int reach)
                [&](std::size_t n)
                {
                  Eigen::Vector3f sum = 0.0F * raw[n];
-                 float count = 0.0F;
-                 for (const std::int32_t other : m_joined[n])
-                 {
-                   if (other < 0)
-                     continue;
+                 for (const std::int32_t other : m_neighbours[n])
                    sum += raw[static_cast<std::size_t>(other)];
-                   count += 1.0F;
-                 }
+                 const auto count = static_cast<float>(m_neighbours[n].count);
                  Eigen::Vector3f normal = raw[n];
                  if (count > 0.0F)
                    normal = 0.5F * raw[n] + 0.5F / count * sum;
@@ -400,17 +402,12 @@ void SurfaceNet::relax(const core::Progress& progress)
   const auto towardsMean = [this](std::size_t n) -> Eigen::Vector3f
   {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    int count = 0;
-    for (const std::int32_t other : m_joined[n])
-    {
-      if (other < 0)
-        continue;
+    const Neighbours& near = m_neighbours[n];
+    for (const std::int32_t other : near)
       sum += m_positions[static_cast<std::size_t>(other)];
-      ++count;
-    }
-    if (count == 0)
+    if (near.count == 0)
       return sum;
-    return sum / static_cast<float>(count) - m_positions[n];
+    return sum / static_cast<float>(near.count) - m_positions[n];
   };
   const auto along = [this](std::size_t n, const Eigen::Vector3f& v)
   { return v.dot(m_normals[n]); };
@@ -426,14 +423,9 @@ void SurfaceNet::relax(const core::Progress& progress)
                  [&](std::size_t n)
                  {
                    float sum = 0.0F;
-                   for (std::size_t at = 0; at < m_joined[n].size(); ++at)
-                   {
-                     if (m_joined[n][at] < 0)
-                       continue;
-                     const float weight = alike(n, static_cast<std::size_t>(m_joined[n][at]));
-                     weights[n][at] = weight;
-                     sum += weight;
-                   }
+                   float* weight = weights[n].data();
+                   for (const std::int32_t other : m_neighbours[n])
+                     sum += * weight++ = alike(n, static_cast<std::size_t>(other));
                    weights[n][6] = sum >= 1e-3F ? 0.5F / sum : 0.0F;
                  });
     for (int round = 0; round < kCurvatureRounds; ++round, --reach)
@@ -443,10 +435,9 @@ void SurfaceNet::relax(const core::Progress& progress)
                    [&](std::size_t n)
                    {
                      float sum = 0.0F * curvature[n];
-                     for (std::size_t at = 0; at < m_joined[n].size(); ++at)
-                       if (m_joined[n][at] >= 0)
-                         sum +=
-                             weights[n][at] * curvature[static_cast<std::size_t>(m_joined[n][at])];
+                     const float* weight = weights[n].data();
+                     for (const std::int32_t other : m_neighbours[n])
+                       sum += *weight++ * curvature[static_cast<std::size_t>(other)];
                      scratch[n] = weights[n][6] > 0.0F ? 0.5F * curvature[n] + weights[n][6] * sum
                                                        : curvature[n];
                    });

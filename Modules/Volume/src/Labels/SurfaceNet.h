@@ -83,6 +83,14 @@ private:
   };
   using Joined = std::array<std::int32_t, 6>; ///< points by face: 2 * axis, + 1 the upper; -1 none
 
+  struct Neighbours
+  {
+    std::array<std::int32_t, 6> points;
+    int count;
+    const std::int32_t* begin() const noexcept { return points.data(); }
+    const std::int32_t* end() const noexcept { return points.data() + count; }
+  };
+
   /// View of the occupancies of a box.
   struct OccupancyView
   {
@@ -164,6 +172,7 @@ private:
   std::vector<Eigen::Vector3f> m_positions;
   std::vector<Eigen::Vector3f> m_normals; ///< pointing outside
   std::vector<Joined> m_joined;
+  std::vector<Neighbours> m_neighbours; ///< the same without gaps, in the order of the faces
   /// Across an edge of the cell along an axis (2 * axis that of its lowest voxel, + 1 the opposite
   /// one): the fourth of the points around it. -1: the border does not cross it, or no point.
   std::vector<Joined> m_diagonal;

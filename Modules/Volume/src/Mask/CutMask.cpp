@@ -9,12 +9,6 @@ namespace petrous::volume
 namespace
 {
 constexpr double kFull = CutMask::kUntouched;
-
-std::size_t offsetInBrick(int i, int j, int k) noexcept
-{
-  constexpr int edge = CutMask::kBrickEdge;
-  return static_cast<std::size_t>((i % edge) + edge * ((j % edge) + edge * (k % edge)));
-}
 } // namespace
 
 CutMask::CutMask(const core::GridGeometry& geometry)
@@ -27,14 +21,6 @@ CutMask::CutMask(const core::GridGeometry& geometry)
                             static_cast<std::size_t>(m_brickDims[2]);
   m_bricks.resize(count);
   m_isDirty.resize(count, false);
-}
-
-std::size_t CutMask::brickIndex(const core::Index3& brick) const noexcept
-{
-  return static_cast<std::size_t>(brick[0]) +
-         static_cast<std::size_t>(m_brickDims[0]) *
-             (static_cast<std::size_t>(brick[1]) +
-              static_cast<std::size_t>(m_brickDims[1]) * static_cast<std::size_t>(brick[2]));
 }
 
 core::IndexBox CutMask::brickBox(std::size_t brick) const noexcept
@@ -74,13 +60,6 @@ void CutMask::setBrick(std::size_t index, BrickVersion version)
     m_isDirty[index] = true;
   }
   m_bricks[index] = std::move(version);
-}
-
-std::uint16_t CutMask::at(int i, int j, int k) const noexcept
-{
-  const BrickVersion& version =
-      m_bricks[brickIndex({i / kBrickEdge, j / kBrickEdge, k / kBrickEdge})];
-  return version ? (*version)[offsetInBrick(i, j, k)] : kUntouched;
 }
 
 double CutMask::sample(const Eigen::Vector3d& voxel) const noexcept

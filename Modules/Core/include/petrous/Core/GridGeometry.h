@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -18,11 +19,39 @@ struct IndexBox
   Index3 lower{0, 0, 0};
   Index3 upper{0, 0, 0};
 
-  bool empty() const noexcept;
-  Index3 size() const noexcept;
-  std::size_t count() const noexcept;
-  bool contains(const Index3& index) const noexcept;
-  IndexBox intersected(const IndexBox& other) const noexcept;
+  bool empty() const noexcept
+  {
+    return upper[0] <= lower[0] || upper[1] <= lower[1] || upper[2] <= lower[2];
+  }
+  Index3 size() const noexcept
+  {
+    if (empty())
+      return {0, 0, 0};
+    return {upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]};
+  }
+  std::size_t count() const noexcept
+  {
+    const Index3 s = size();
+    return static_cast<std::size_t>(s[0]) * static_cast<std::size_t>(s[1]) *
+           static_cast<std::size_t>(s[2]);
+  }
+  bool contains(const Index3& index) const noexcept
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+      if (index[a] < lower[a] || index[a] >= upper[a])
+        return false;
+    return true;
+  }
+  IndexBox intersected(const IndexBox& other) const noexcept
+  {
+    IndexBox result;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      result.lower[a] = std::max(lower[a], other.lower[a]);
+      result.upper[a] = std::min(upper[a], other.upper[a]);
+    }
+    return result.empty() ? IndexBox{} : result;
+  }
   IndexBox united(const IndexBox& other) const noexcept; ///< an empty box is neutral
 };
 bool operator==(const IndexBox& a, const IndexBox& b) noexcept;
@@ -32,7 +61,8 @@ bool operator==(const IndexBox& a, const IndexBox& b) noexcept;
 ///   p_P = origin + direction * diag(spacing) * index       (X_PV with scale; DICOM C.7.6.2.1.1)
 ///
 /// Voxel coordinates are continuous, with integers at voxel centres; the first axis is contiguous
-/// in memory. Rendering and haptics are defined on the hull of the voxel centres. Immutable.
+/// in memory. Rendering and haptics are defined on the hull of the voxel centres. Immutable. What
+/// is called for every voxel or sample is inline.
 class GridGeometry
 {
 public:
@@ -53,30 +83,49 @@ public:
   const Eigen::Vector3d& origin() const noexcept { return m_origin; }
   const Eigen::Matrix3d& direction() const noexcept { return m_direction; }
 
-  std::size_t voxelCount() const noexcept;
-  std::size_t linearIndex(int i, int j, int k) const noexcept;
+  std::size_t voxelCount() const noexcept { return fullBox().count(); }
+  std::size_t linearIndex(int i, int j, int k) const noexcept
+  {
+    const auto nx = static_cast<std::size_t>(m_dims[0]);
+    const auto ny = static_cast<std::size_t>(m_dims[1]);
+    return static_cast<std::size_t>(i) +
+           nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+  }
   double minSpacing() const noexcept { return m_spacing.minCoeff(); }
   double voxelVolume() const noexcept ///< mm^3
   {
     return m_spacing.prod();
   }
 
-  Eigen::Vector3d patientFromVoxel(const Eigen::Vector3d& voxel) const noexcept;
-  Eigen::Vector3d voxelFromPatient(const Eigen::Vector3d& patient) const noexcept;
+  Eigen::Vector3d patientFromVoxel(const Eigen::Vector3d& voxel) const noexcept
+  {
+    return m_origin + m_patientFromVoxel * voxel;
+  }
+  Eigen::Vector3d voxelFromPatient(const Eigen::Vector3d& patient) const noexcept
+  {
+    return m_voxelFromPatient * (patient - m_origin);
+  }
 
   /// d patient / d voxel (mm per voxel), and its inverse.
   const Eigen::Matrix3d& patientFromVoxelLinear() const noexcept { return m_patientFromVoxel; }
   const Eigen::Matrix3d& voxelFromPatientLinear() const noexcept { return m_voxelFromPatient; }
 
   /// Whether a continuous voxel position lies in the hull of the voxel centres.
-  bool hullContains(const Eigen::Vector3d& voxel) const noexcept;
+  bool hullContains(const Eigen::Vector3d& voxel) const noexcept
+  {
+    for (int a = 0; a < 3; ++a)
+      if (!(voxel[a] >= -kVoxelSlack &&
+            voxel[a] <= m_dims[static_cast<std::size_t>(a)] - 1 + kVoxelSlack))
+        return false;
+    return true;
+  }
 
   Eigen::Vector3d center() const noexcept; ///< centre of the hull, patient LPS mm
 
   /// The smallest patient box around the hull.
   PatientBox patientBounds() const noexcept;
 
-  IndexBox fullBox() const noexcept;
+  IndexBox fullBox() const noexcept { return {{0, 0, 0}, m_dims}; }
 
   /// The smallest index box whose hull covers the part of the patient box [lower, upper] inside the
   /// grid; empty if they do not intersect.
@@ -86,6 +135,9 @@ public:
   GridGeometry cropped(const IndexBox& box) const;
 
 private:
+  /// Rounding tolerance when a position is compared with a voxel centre, in voxels.
+  static constexpr double kVoxelSlack = 1e-9;
+
   Index3 m_dims;
   Eigen::Vector3d m_spacing;
   Eigen::Vector3d m_origin;

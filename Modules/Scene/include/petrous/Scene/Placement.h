@@ -28,6 +28,10 @@ Placement placementOf(const Case& value, const MeshPart& part);
 /// there is none of that name.
 std::string missingPlace(const Case& value, const std::string& name);
 
+/// Reads the label maps of these parts at once, on all processors, before they are used one by one.
+/// One that cannot be read is reported where it is used.
+void readLabels(const std::vector<const LabelPart*>& parts);
+
 /// The labels in CT space: the same voxels, on a grid in the CT's patient space. nullptr if they
 /// have no place there. Loads the labels.
 std::shared_ptr<const volume::LabelMap> labelsOnCt(const Case& value, const LabelPart& part);

@@ -33,7 +33,13 @@ public:
   const core::GridGeometry& geometry() const noexcept { return m_geometry; }
   const core::Index3& brickDims() const noexcept { return m_brickDims; }
   std::size_t brickCount() const noexcept { return m_bricks.size(); }
-  std::size_t brickIndex(const core::Index3& brick) const noexcept;
+  std::size_t brickIndex(const core::Index3& brick) const noexcept
+  {
+    return static_cast<std::size_t>(brick[0]) +
+           static_cast<std::size_t>(m_brickDims[0]) *
+               (static_cast<std::size_t>(brick[1]) +
+                static_cast<std::size_t>(m_brickDims[1]) * static_cast<std::size_t>(brick[2]));
+  }
 
   /// The voxels of a brick, clipped to the grid.
   core::IndexBox brickBox(std::size_t brick) const noexcept;
@@ -46,7 +52,12 @@ public:
   /// Replaces a brick's version and marks it dirty. Voxels beyond the grid must be untouched.
   void setBrick(std::size_t index, BrickVersion version);
 
-  std::uint16_t at(int i, int j, int k) const noexcept;
+  std::uint16_t at(int i, int j, int k) const noexcept
+  {
+    const BrickVersion& version =
+        m_bricks[brickIndex({i / kBrickEdge, j / kBrickEdge, k / kBrickEdge})];
+    return version ? (*version)[offsetInBrick(i, j, k)] : kUntouched;
+  }
 
   /// Remaining fraction at a continuous voxel position, trilinear, 0 to 1. No lookups where
   /// untouched.
@@ -66,6 +77,12 @@ public:
   Volume<std::uint16_t> dense() const;
 
 private:
+  static std::size_t offsetInBrick(int i, int j, int k) noexcept
+  {
+    return static_cast<std::size_t>(
+        (i % kBrickEdge) + kBrickEdge * ((j % kBrickEdge) + kBrickEdge * (k % kBrickEdge)));
+  }
+
   core::GridGeometry m_geometry;
   core::Index3 m_brickDims;
   std::vector<BrickVersion> m_bricks;

@@ -41,6 +41,8 @@ public:
 
   void prepareAll(const core::Progress& progress = {});
 
+  bool isWhole() const noexcept { return !m_inside; } ///< nothing is left to prepare
+
   /// Tiles of 16 voxels whose occupancies have been computed, and their total number.
   std::size_t preparedTiles() const noexcept { return m_preparedTiles; }
   std::size_t tiles() const noexcept { return m_prepared.size(); }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "petrous/Core/Error.h"
@@ -58,5 +60,16 @@ private:
   core::GridGeometry m_geometry;
   std::shared_ptr<T> m_data;
 };
+
+/// Zero-initialised voxels that take memory only where other values are written.
+template <class T>
+std::shared_ptr<Volume<T>> makeZeroVolume(const core::GridGeometry& geometry)
+{
+  std::shared_ptr<T> memory(static_cast<T*>(std::calloc(geometry.voxelCount(), sizeof(T))),
+                            [](T* data) { std::free(data); });
+  if (!memory)
+    throw std::bad_alloc();
+  return std::make_shared<Volume<T>>(geometry, std::move(memory));
+}
 
 } // namespace petrous::volume

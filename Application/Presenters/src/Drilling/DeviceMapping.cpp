@@ -63,8 +63,7 @@ void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& 
 }
 
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                       const DeviceMapping& lead, const core::CameraPose& camera,
-                                       const DeviceSwitches& switches)
+                                       const DeviceMapping& lead, const core::CameraPose& camera)
 {
   session::ServoParameters parameters;
   session::setCamera(parameters, camera);
@@ -72,8 +71,6 @@ session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
   parameters.forceGain = 1.0 / lead.scale;
   parameters.drillButtons = ActiveDevice::kDrill;
   parameters.clutchButtons = ActiveDevice::kClutch;
-  parameters.clutch = switches.clutch ? 1 : 0;
-  parameters.drill = switches.drill ? 1 : 0;
   if (!device.givesForce)
     parameters.maxLead = static_cast<float>(lead.thrust / stiffnessFor(device, lead.scale));
   session::check(parameters);

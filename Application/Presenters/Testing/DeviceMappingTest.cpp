@@ -43,7 +43,7 @@ TEST(DeviceMapping, TheUserNeverFeelsAStifferSpringThanTheDeviceRenders)
       DeviceMapping lead;
       lead.scale = scale;
       fit(setup, device, lead, false);
-      const auto parameters = parametersFor(device, lead, camera(), {});
+      const auto parameters = parametersFor(device, lead, camera());
       // At the device: k scale^2 gain (ServoSetup).
       const double felt = setup.tool.coupling.stiffness * scale * scale * parameters.forceGain;
       EXPECT_LE(felt, stiffness + 1e-12);
@@ -78,12 +78,12 @@ TEST(DeviceMapping, ADeviceWithoutMotorsHasADriftLimitOfItsThrust)
   session::TouchSession::Setup setup;
   fit(setup, cap, lead, true);
   EXPECT_NEAR(setup.tool.coupling.stiffness *
-                  static_cast<double>(parametersFor(cap, lead, camera(), {}).maxLead),
+                  static_cast<double>(parametersFor(cap, lead, camera()).maxLead),
               2.5, 1e-6);
   EXPECT_FALSE(setup.passivity);
   EXPECT_EQ(setup.limits.maxForce, 0.0);
   EXPECT_GT(setup.guard.reach, 1e6);
-  EXPECT_EQ(parametersFor(motors(1.0), lead, camera(), {}).maxLead, 0.0F);
+  EXPECT_EQ(parametersFor(motors(1.0), lead, camera()).maxLead, 0.0F);
 }
 
 TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)
@@ -92,7 +92,7 @@ TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)
   const Vector3d hand(10.0, -20.0, 30.0);
   DeviceMapping lead;
   lead.scale = 0.3;
-  const auto parameters = parametersFor(motors(1.0), lead, camera(), {});
+  const auto parameters = parametersFor(motors(1.0), lead, camera());
   const double* q = parameters.camera;
   const session::PoseMapping::View view{{q[0], q[1], q[2], q[3]}, lead.scale};
   session::PoseMapping mapping(centerFor(tool, hand, lead.scale, camera()));
@@ -105,13 +105,13 @@ TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)
   EXPECT_EQ(centerFor(tool, Vector3d::Zero(), 0.3, camera()), tool);
 }
 
-TEST(DeviceMapping, SwitchesGoToTheServo)
+TEST(DeviceMapping, RefusesAScaleBeyondTheServosLimits)
 {
-  const auto parameters = parametersFor(motors(1.0), {}, camera(), {true, true});
-  EXPECT_EQ(parameters.clutch, 1);
-  EXPECT_EQ(parameters.drill, 1);
+  const auto parameters = parametersFor(motors(1.0), {}, camera());
+  EXPECT_EQ(parameters.clutch, 0);
+  EXPECT_EQ(parameters.drill, 0);
   EXPECT_EQ(parameters.constantThrust, 0);
   DeviceMapping bad;
   bad.scale = 1e9;
-  EXPECT_THROW(parametersFor(motors(1.0), bad, camera(), {}), core::InvalidParameter);
+  EXPECT_THROW(parametersFor(motors(1.0), bad, camera()), core::InvalidParameter);
 }

@@ -104,16 +104,6 @@ void DrillController::connectView()
               m_model.setCrosshair(*hit);
           });
   connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);
-  connect(&m_view, &ThreeDView::drillHeld, this,
-          [this](const interaction::PickRay& line)
-          {
-            if (m_model.touching())
-              m_lead.point(line);
-          });
-  connect(&m_view, &ThreeDView::drillReleased, this, &DrillController::release);
-  connect(&m_view, &ThreeDView::clutchHeld, this, [this](bool held) { m_lead.clutch(held); });
-  connect(&m_view, &ThreeDView::wheelLed, this,
-          [this](double notches, bool fine) { m_lead.wheel(notches, fine); });
 }
 
 void DrillController::connectDevices()
@@ -149,8 +139,7 @@ void DrillController::applyBar()
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
   if (m_tool == Tool::Pointer)
     settings.lift = 0.0;
-  m_view.setWheelLeads(wheel);
-  m_lead.set(settings, m_tool == Tool::Burr);
+  m_lead.set(settings);
   if (m_model.touching() && m_lead.outgrown())
     putAway(); // the pointer's next move takes it up
 }
@@ -164,13 +153,14 @@ void DrillController::setTool(Tool tool)
 {
   if (tool == m_tool)
     return;
-  m_view.setDrillMode(false); // stops the drill first
+  m_view.tool().DrillModeOff(); // stops the drill first
+  m_view.tool().ProbeModeOff();
   putAway();
   if (m_tool == Tool::None)
     m_lead.beginThere();
   m_tool = tool;
-  m_view.setDrillMode(tool == Tool::Burr);
-  m_view.setPointing(tool == Tool::Pointer);
+  m_view.tool().SetDrillMode(tool == Tool::Burr);
+  m_view.tool().SetProbeMode(tool == Tool::Pointer);
   m_bar.drillAction()->setChecked(tool == Tool::Burr);
   m_bar.pointerAction()->setChecked(tool == Tool::Pointer);
   applyBar();
@@ -182,14 +172,14 @@ void DrillController::setTool(Tool tool)
 // At the mouse pointer's position, without waiting for its next move.
 void DrillController::takeAtPointer()
 {
-  if (takeTool() && m_lead.byMouse() && m_view.pointer())
-    m_lead.point(m_view.sightLine(m_view.pointer()));
+  if (takeTool())
+    m_view.tool().PointAgain();
 }
 
 void DrillController::deviceCame()
 {
   m_lead.beginThere();
-  m_view.setButtonDrills(!m_devices.device());
+  m_view.tool().SetPointerHand(!m_devices.device());
   m_bar.setPresses(!m_devices.device(),
                    !m_devices.device() || !m_devices.device()->description().givesForce);
   applyBar();
@@ -309,22 +299,14 @@ void DrillController::hover(const interaction::PickRay& line)
     emit pointed(*hit);
   else if (!reads)
     emit pointedNowhere();
-  if (m_tool != Tool::None && takeTool())
-    m_lead.point(line);
+  if (m_tool != Tool::None)
+    takeTool(); // it follows the pointer
 }
 
-void DrillController::press(const interaction::PickRay& line)
+void DrillController::press()
 {
-  if (!takeTool())
-    return;
-  m_model.touch()->setCamera(m_view.picture().camera());
-  m_lead.point(line); // first: from here on, depth discontinuities are not followed
-  m_lead.drill(true);
-}
-
-void DrillController::release()
-{
-  m_lead.drill(false); // the stroke ends with the servo's next tick
+  if (takeTool())
+    m_model.touch()->setCamera(m_view.picture().camera());
 }
 
 void DrillController::frame()

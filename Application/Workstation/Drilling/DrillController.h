@@ -58,8 +58,7 @@ private:
   void connectDevices();
   void setTool(Tool tool);
   void hover(const interaction::PickRay& line);
-  void press(const interaction::PickRay& line);
-  void release();
+  void press();
   bool takeTool(); // into use, unless it is
   void putAway();
   void restartTool();

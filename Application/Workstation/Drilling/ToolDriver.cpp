@@ -13,7 +13,6 @@ namespace petrous::workstation
 namespace
 {
 constexpr double kSilence = 3.0; // s; a software-rendered frame can take one
-constexpr double kPedalDown = 0.5;
 } // namespace
 
 bool isPlaced(const session::TickRecord& record)
@@ -31,11 +30,18 @@ ToolDriver::ToolDriver(presenters::WorkstationModel& model, ThreeDView& view,
   , m_devices(devices)
   , m_aim([&model](const interaction::PickRay& line) { return model.tissueAlong(line); })
 {
+  view.tool().SetPointer(&m_aim, nullptr);
+  m_observer = view.tool().AddObserver(vtkCommand::InteractionEvent, this, &ToolDriver::forward);
 }
 
-void ToolDriver::set(const interaction::AimSettings& settings, bool cuts)
+ToolDriver::~ToolDriver()
 {
-  m_cuts = cuts;
+  m_view.tool().RemoveObserver(m_observer);
+  m_view.tool().SetPointer(nullptr, nullptr);
+}
+
+void ToolDriver::set(const interaction::AimSettings& settings)
+{
   m_aim.setSettings(settings);
   send();
 }
@@ -84,13 +90,15 @@ bool ToolDriver::outgrown() const
 
 haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
 {
+  letGo(); // of the last session's device
   m_pointer = nullptr;
   if (presenters::ActiveDevice* device = m_devices.device())
   {
     device->setPedal(m_devices.pedal());
     const core::CameraPose camera = m_view.picture().camera();
     presenters::fit(setup, device->description(), lead(), device->endless());
-    setup.parameters = presenters::parametersFor(device->description(), lead(), camera, {});
+    m_view.tool().SetParameters(ownParameters());
+    setup.parameters = m_view.tool().GetParameters();
     if (!m_place)
       m_place = placeLookedAt();
     setup.center = presenters::centerFor(*m_place, m_handPlace, lead().scale, camera);
@@ -101,7 +109,6 @@ haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
   setup.tool.coupling = session::couplingFor(m_mode, setThrust());
   m_stiffness = setup.tool.coupling.stiffness;
   m_aim.begin();
-  m_aim.apply(setup.parameters);
   interaction::PointerDevice::Limits limits;
   limits.silence = kSilence;
   auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);
@@ -110,94 +117,47 @@ haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
     m_mouse = std::make_unique<devices::PedalledDevice>(std::move(pointer), m_devices.pedal());
   else
     m_mouse = std::move(pointer);
+  m_view.tool().SetPointer(&m_aim, m_pointer);
+  m_view.tool().SetParameters(ownParameters());
+  setup.parameters = m_view.tool().GetParameters();
   return *m_mouse;
+}
+
+// The tool adds pointer, keys and camera.
+session::ServoParameters ToolDriver::ownParameters() const
+{
+  const presenters::ActiveDevice* device = m_devices.device();
+  if (m_pointer || !device)
+    return {};
+  return presenters::parametersFor(device->description(), lead(), m_view.picture().camera());
 }
 
 void ToolDriver::send()
 {
-  if (!m_model.touching())
-    return;
-  session::ServoParameters parameters;
-  if (m_pointer)
-  {
-    if (m_aim.wanted())
-      m_pointer->want(*m_aim.wanted());
-    m_pointer->setButtons(m_aim.buttons());
-    m_aim.apply(parameters);
-    parameters.clutch = m_held.clutch ? 1 : 0;
-  }
-  else if (const presenters::ActiveDevice* device = m_devices.device())
-    parameters =
-        presenters::parametersFor(device->description(), lead(), m_view.picture().camera(), m_held);
-  if (!m_cuts)
-  {
-    parameters.drill = 0;
-    parameters.drillButtons = 0;
-  }
-  m_model.touch()->setParameters(parameters);
+  if (m_model.touching())
+    m_view.tool().SetParameters(ownParameters());
 }
 
-void ToolDriver::point(const interaction::PickRay& line)
+void ToolDriver::forward()
 {
-  if (!m_pointer)
-    return;
-  m_aim.setCamera(m_view.picture().camera());
-  m_aim.point(line);
-  send();
-}
-
-void ToolDriver::wheel(double notches, bool fine)
-{
-  m_aim.wheel(notches, fine);
-  send();
-}
-
-// By button, key or pedal: each presses the mouse's burr on the bone.
-void ToolDriver::press()
-{
-  using Press = interaction::PointerToolController::Press;
-  m_aim.press(m_pointer && (m_held.drill || m_foot) ? Press::Drill : Press::None);
-  send();
-}
-
-void ToolDriver::drill(bool held)
-{
-  m_held.drill = held;
-  press();
-}
-
-void ToolDriver::clutch(bool held)
-{
-  m_held.clutch = held;
-  send();
+  if (m_model.touching())
+    m_model.touch()->setParameters(m_view.tool().GetParameters());
 }
 
 void ToolDriver::letGo()
 {
-  m_foot = false;
-  drill(false);
+  m_view.tool().SetPointer(&m_aim, nullptr);
 }
 
 void ToolDriver::see(const session::TickRecord& record)
 {
-  if (m_pointer)
-    seeByMouse(record);
-  else if (isPlaced(record))
+  if (!m_pointer && isPlaced(record))
   {
     // So that another burr continues from there.
     m_place = record.proxy.pose().position;
     m_handPlace = record.input.device.pose().position;
   }
-  send();
-}
-
-void ToolDriver::seeByMouse(const session::TickRecord& record)
-{
-  m_aim.see(record, m_pointer->see(record));
-  const bool foot = record.input.pedal >= kPedalDown && m_cuts;
-  if (std::exchange(m_foot, foot) != foot)
-    press();
-  m_aim.update();
+  m_view.tool().See(record);
 }
 
 } // namespace petrous::workstation

@@ -14,17 +14,18 @@ namespace petrous::workstation
 class ActiveDeviceController;
 class ThreeDView;
 
-/// Maps view and device input to the servo: the mouse, through a PointerDevice, or a chosen device,
-/// whose axes are the view's.
+/// Connects the view's tool to the servo: led by the mouse, through a PointerDevice, or by a chosen
+/// device, whose axes are the view's.
 class ToolDriver
 {
 public:
   ToolDriver(presenters::WorkstationModel& model, ThreeDView& view,
              ActiveDeviceController& devices);
 
-  /// How the mouse controls a tool of that radius; the thrust applies to every device without force
-  /// feedback. `cuts`: false for a pointer, for which no input starts the drill.
-  void set(const interaction::AimSettings& settings, bool cuts);
+  ~ToolDriver();
+
+  /// How the mouse controls the tool; the thrust applies to every device without force feedback.
+  void set(const interaction::AimSettings& settings);
 
   /// The device for a new touch session; adapts the setup, in which the tool is set already.
   haptics::Device& prepare(session::TouchSession::Setup& setup);
@@ -39,24 +40,19 @@ public:
   void beginThere() noexcept;
   void beginHere();
 
-  // Input from the view; forwarded to the servo at once.
-  void point(const interaction::PickRay& line);
-  void wheel(double notches, bool fine);
-  void drill(bool held);
-  void clutch(bool held);
-  void letGo(); ///< of drill and pedal
+  void letGo(); ///< at the end of a touch session
   /// The mouse button is pressed, and the burr has lifted (interaction::PointerToolController).
   bool lifted() const noexcept { return m_pointer && m_aim.lifted(); }
 
   void see(const session::TickRecord& record); ///< of the running touch session
-  void send();                                 ///< current camera, switches and settings
+  void send();                                 ///< to it, also what the settings changed
 
 private:
   Eigen::Vector3d placeLookedAt();
   presenters::DeviceMapping lead() const;
   std::optional<double> setThrust() const; // N
-  void press();
-  void seeByMouse(const session::TickRecord& record);
+  session::ServoParameters ownParameters() const;
+  void forward();
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
@@ -68,9 +64,7 @@ private:
   double m_stiffness = 0.0;                                           // N/mm, likewise
   std::optional<Eigen::Vector3d> m_place;     // of a device's tool, patient mm
   Eigen::Vector3d m_handPlace{0.0, 0.0, 0.0}; // frame D, at the same time
-  presenters::DeviceSwitches m_held;          // by button and keys
-  bool m_foot = false;                        // the pedal is pressed
-  bool m_cuts = true;
+  unsigned long m_observer = 0;               // of the view's tool
 };
 
 /// Whether a record's poses are valid.

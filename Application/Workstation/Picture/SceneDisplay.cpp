@@ -210,11 +210,6 @@ rendering::StereoMode SceneDisplay::stereo() const noexcept
   return m_stereo ? m_stereo->mode() : rendering::StereoMode::None;
 }
 
-rendering::StereoRig SceneDisplay::rig() const
-{
-  return m_stereo ? m_stereo->rig() : rendering::StereoRig();
-}
-
 void SceneDisplay::setFirstRow(int row)
 {
   if (m_stereo)

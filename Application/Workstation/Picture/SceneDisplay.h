@@ -70,7 +70,7 @@ public:
 
   void setStereo(rendering::StereoMode mode, const rendering::StereoRig& rig);
   rendering::StereoMode stereo() const noexcept;
-  rendering::StereoRig rig() const;
+  const rendering::StereoPicture* stereoPicture() const noexcept { return m_stereo.get(); }
   void setFirstRow(int row); ///< see StereoPicture
 
   /// Synchronizes another display from now on; nullptr ends that.

@@ -37,28 +37,13 @@ SurgeonWindow::~SurgeonWindow()
   m_stereoView->embeddedOpenGLWindow()->doneCurrent();
 }
 
-// Input here is forwarded to the main view.
+// Input here acts on the main view's tool and camera.
 void SurgeonWindow::addView()
 {
   m_view = new ThreeDView(this);
   m_view->setObjectName("surgeonView");
-  connect(m_view, &ThreeDView::pointed, &m_main, &ThreeDView::pointed);
-  connect(m_view, &ThreeDView::pointerLeft, &m_main, &ThreeDView::pointerLeft);
-  connect(m_view, &ThreeDView::picked, &m_main, &ThreeDView::picked);
-  connect(m_view, &ThreeDView::drillPressed, &m_main, &ThreeDView::drillPressed);
-  connect(m_view, &ThreeDView::drillHeld, &m_main, &ThreeDView::drillHeld);
-  connect(m_view, &ThreeDView::drillReleased, &m_main, &ThreeDView::drillReleased);
-  connect(m_view, &ThreeDView::clutchHeld, &m_main, &ThreeDView::clutchHeld);
-  connect(m_view, &ThreeDView::wheelLed, &m_main, &ThreeDView::wheelLed);
-  connect(&m_main, &ThreeDView::wheelLeadsSet, m_view, &ThreeDView::setWheelLeads);
-  m_view->setWheelLeads(m_main.wheelLeads());
+  m_view->tool().SetLeader(&m_main.tool());
   connect(m_view, &ThreeDView::cameraMoved, &m_main, &ThreeDView::setCamera);
-  connect(&m_main, &ThreeDView::drillModeSet, m_view, &ThreeDView::setDrillMode);
-  m_view->setDrillMode(m_main.drillMode());
-  connect(&m_main, &ThreeDView::buttonDrillsSet, m_view, &ThreeDView::setButtonDrills);
-  m_view->setButtonDrills(m_main.buttonDrills());
-  connect(&m_main, &ThreeDView::pointingSet, m_view, &ThreeDView::setPointing);
-  m_view->setPointing(m_main.pointing());
 }
 
 void SurgeonWindow::addStereoView()
@@ -103,7 +88,7 @@ void SurgeonWindow::keyPressEvent(QKeyEvent* event)
 void SurgeonWindow::closeEvent(QCloseEvent* event)
 {
   if (m_view)
-    m_view->setDrillMode(false); // ends an open stroke
+    m_view->tool().Release(); // ends an open stroke
   m_main.display().setFollower(nullptr);
   event->accept();
   emit closed();

@@ -1,6 +1,5 @@
 #include "ThreeDView.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <QKeyEvent>
@@ -9,20 +8,14 @@
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
 
-#include "petrous/Presenters/OrbitCamera.h"
-#include "petrous/Rendering/PixelRays.h"
+#include "petrous/Interaction/CameraStyle.h"
+#include "petrous/Interaction/OrbitCamera.h"
+#include "petrous/Interaction/RendererPickRay.h"
 
 namespace petrous::workstation
 {
-
-namespace
-{
-constexpr int kTick = 16; // ms
-constexpr double kDegreesPerPixel = 0.4;
-constexpr double kDegreesPerKey = 7.5;
-constexpr double kZoomPerNotch = 1.15;
-} // namespace
 
 ThreeDView::ThreeDView(QWidget* parent)
   : QVTKOpenGLNativeWidget(parent)
@@ -33,8 +26,6 @@ ThreeDView::ThreeDView(QWidget* parent)
   setMouseTracking(true);
   setMinimumSize(240, 240);
   setRenderWindow(m_window);
-  // The view controls the camera itself; the interactor only exists because the widget creates one.
-  m_window->GetInteractor()->SetInteractorStyle(nullptr);
   connect(m_display.get(), &SceneDisplay::aboutToDraw, this, &ThreeDView::placeLetters);
 
   for (QLabel*& letter : m_letters)
@@ -43,58 +34,60 @@ ThreeDView::ThreeDView(QWidget* parent)
     letter->setObjectName("direction");
     letter->setAttribute(Qt::WA_TransparentForMouseEvents);
   }
-  m_tick.setInterval(kTick);
-  connect(&m_tick, &QTimer::timeout, this, [this] { emit drillHeld(sightLine(m_pointer)); });
+  observe();
+}
+
+void ThreeDView::observe()
+{
+  vtkRenderer* renderer = picture().renderer();
+  m_style->SetDefaultRenderer(renderer); // in stereo the window has another one
+  m_style->AddObserver(vtkCommand::InteractionEvent, this, &ThreeDView::handleCamera);
+  m_window->GetInteractor()->SetInteractorStyle(m_style);
+
+  m_tool->SetDefaultRenderer(renderer);
+  m_tool->SetInteractor(m_window->GetInteractor());
+  m_tool->SetStereo(m_display->stereoPicture());
+  m_tool->ShortcutsOff(); // the window's own actions and boxes
+  m_tool->SetFreezeKey("x");
+  m_tool->EnabledOn();
+  for (const unsigned long event :
+       {vtkCommand::HoverEvent, vtkCommand::LeaveEvent, vtkCommand::PickEvent,
+        vtkCommand::StartInteractionEvent, vtkCommand::ModifiedEvent})
+    m_tool->AddObserver(event, this, &ThreeDView::handleTool);
 }
 
 ThreeDView::~ThreeDView()
 {
+  m_tool->RemoveAllObservers(); // the window around is going down
+  m_tool->SetInteractor(nullptr);
+  m_window->GetInteractor()->SetInteractorStyle(nullptr);
   makeCurrent();
   m_display->release();
   doneCurrent();
 }
 
-void ThreeDView::setDrillMode(bool on)
+// The display renders, soon. VTK renders if nobody aborts the event.
+bool ThreeDView::handleCamera(vtkObject*, unsigned long, void*)
 {
-  if (!on)
-    stopDrilling();
-  m_drillMode = on;
-  showCursor();
-  emit drillModeSet(on);
+  setCamera(picture().camera());
+  return true;
 }
 
-void ThreeDView::setButtonDrills(bool on)
+void ThreeDView::handleTool(vtkObject*, unsigned long event, void*)
 {
-  m_buttonDrills = on;
-  showCursor();
-  emit buttonDrillsSet(on);
-}
-
-void ThreeDView::setPointing(bool on)
-{
-  m_pointing = on;
-  showCursor();
-  emit pointingSet(on);
-}
-
-void ThreeDView::showCursor()
-{
-  const bool leads = m_buttonDrills && (m_drillMode || m_pointing);
-  setCursor(leads ? Qt::CrossCursor : Qt::ArrowCursor);
-}
-
-void ThreeDView::holdClutch(bool on)
-{
-  if (on == m_clutch)
-    return;
-  m_clutch = on;
-  emit clutchHeld(on);
-}
-
-void ThreeDView::setWheelLeads(bool on)
-{
-  m_wheelLeads = on;
-  emit wheelLeadsSet(on);
+  switch (event)
+  {
+  case vtkCommand::HoverEvent:
+    return emit pointed(m_tool->GetPickRay());
+  case vtkCommand::LeaveEvent:
+    return emit pointerLeft();
+  case vtkCommand::PickEvent:
+    return emit picked(m_tool->GetPickRay());
+  case vtkCommand::StartInteractionEvent:
+    return emit drillPressed();
+  default:
+    return emit toolModeSet();
+  }
 }
 
 void ThreeDView::placeLetters()
@@ -107,7 +100,7 @@ void ThreeDView::placeLetters()
   m_display->setFirstRow(mapToGlobal(QPoint(0, 0)).y());
   if (!mono)
     return;
-  const auto edges = presenters::edgeDirections(picture().camera());
+  const auto edges = interaction::edgeDirections(picture().camera());
   const std::string* const texts[] = {&edges.left, &edges.right, &edges.top, &edges.bottom};
   for (std::size_t n = 0; n < m_letters.size(); ++n)
   {
@@ -136,168 +129,104 @@ void ThreeDView::setCamera(const core::CameraPose& pose)
   emit cameraMoved(pose);
 }
 
+// As VTK counts, from the lower left; of the device's pixels.
+std::array<int, 2> ThreeDView::pixelAt(const QPointF& position) const
+{
+  const QPointF at = position * effectiveDevicePixelRatio();
+  return {static_cast<int>(std::floor(at.x())),
+          m_window->GetSize()[1] - 1 - static_cast<int>(std::floor(at.y()))};
+}
+
 interaction::PickRay ThreeDView::sightLine(const std::optional<QPointF>& position) const
 {
-  core::CameraPose camera = m_display->picture().camera();
-  int across = std::max(width(), 1);
-  QPointF at = position.value_or(QPointF(0.5 * width(), 0.5 * height()));
-  if (m_display->stereo() == rendering::StereoMode::SideBySide && position)
+  vtkRenderer& renderer = *m_display->picture().renderer();
+  if (!position)
+    return interaction::centralRay(renderer);
+  const auto [x, y] = pixelAt(*position);
+  return interaction::pickRayThrough(renderer, x, y, m_display->stereoPicture());
+}
+
+// QVTKInteractorAdapter rounds towards zero, so that the row beyond the edge is in the view; makes
+// one notch of a wheel event of many, and none of a fraction; and takes a key's repeats for
+// releases.
+bool ThreeDView::event(QEvent* event)
+{
+  switch (event->type())
   {
-    const auto eyes =
-        rendering::eyesOf(camera, rendering::fittedStereoGeometry(camera, m_display->rig()));
-    const int half = across / 2;
-    const bool right = at.x() >= half;
-    camera = right ? eyes.right : eyes.left;
-    at.rx() -= right ? half : 0;
-    across = std::max(across - half, 1);
+  case QEvent::MouseButtonPress:
+  case QEvent::MouseButtonDblClick:
+  case QEvent::MouseButtonRelease:
+  case QEvent::MouseMove:
+    sendMouse(*static_cast<QMouseEvent*>(event));
+    event->accept();
+    return true;
+  case QEvent::Wheel:
+    sendWheel(*static_cast<QWheelEvent*>(event));
+    event->accept();
+    return true;
+  case QEvent::TouchBegin: // follow as the mouse's
+  case QEvent::TouchUpdate:
+  case QEvent::TouchEnd:
+    return QOpenGLWidget::event(event);
+  case QEvent::KeyPress:
+  case QEvent::KeyRelease:
+    if (const auto* key = static_cast<QKeyEvent*>(event); key->isAutoRepeat())
+    {
+      if (event->type() == QEvent::KeyRelease)
+        return true;
+      QKeyEvent repeated(key->type(), key->key(), key->modifiers(), key->text(), true, 2);
+      return QVTKOpenGLNativeWidget::event(&repeated);
+    }
+    break;
+  case QEvent::FocusOut: // a release event sent to another window would leave the drill on
+    m_tool->Release();
+    break;
+  default:
+    break;
   }
-  // A Qt position is relative to the first pixel's corner; a ray's to its centre.
-  const auto ray = rendering::PixelRays(camera, across, std::max(height(), 1))
-                       .through(at.x() - 0.5, at.y() - 0.5);
-  return {ray.origin, ray.direction};
+  return QVTKOpenGLNativeWidget::event(event);
 }
 
-void ThreeDView::startDrilling(const std::optional<QPointF>& position)
+void ThreeDView::sendMouse(const QMouseEvent& event)
 {
-  if (m_drilling)
-    return;
-  m_pointer = position;
-  m_drilling = true;
-  emit drillPressed(sightLine(position));
-  m_tick.start();
-}
-
-void ThreeDView::stopDrilling()
-{
-  if (!m_drilling)
-    return;
-  m_tick.stop();
-  emit drillHeld(sightLine(m_pointer)); // the path since the last tick was still drilled
-  m_drilling = false;
-  emit drillReleased();
-}
-
-void ThreeDView::mousePressEvent(QMouseEvent* event)
-{
-  setFocus(Qt::MouseFocusReason);
-  if (event->button() == Qt::LeftButton && m_drillMode && m_buttonDrills)
-    startDrilling(event->localPos());
-  else if (!m_drilling || !m_buttonDrills)
-    m_turning = true;
-  m_dragged = event->localPos();
-}
-
-void ThreeDView::mouseMoveEvent(QMouseEvent* event)
-{
-  const QPointF at = event->localPos();
-  if (!m_turning && !rect().contains(event->pos()))
+  const auto [x, y] = pixelAt(event.localPos());
+  const bool twice = event.type() == QEvent::MouseButtonDblClick;
+  vtkRenderWindowInteractor* interactor = m_window->GetInteractor();
+  interactor->SetEventInformation(x, y, event.modifiers() & Qt::ControlModifier ? 1 : 0,
+                                  event.modifiers() & Qt::ShiftModifier ? 1 : 0, 0, twice ? 1 : 0);
+  interactor->SetAltKey(event.modifiers() & Qt::AltModifier ? 1 : 0);
+  if (event.type() == QEvent::MouseMove)
   {
-    if (m_buttonDrills)
-      stopDrilling(); // beyond the edge the burr's target is invisible
-    return;
-  }
-  m_pointer = at;
-  if (m_drilling && m_buttonDrills)
-    return; // handled by the tick
-  if (!m_turning)
-  {
-    emit pointed(sightLine(m_pointer));
+    interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
     return;
   }
-  const QPointF step = at - m_dragged;
-  m_dragged = at;
-  const core::CameraPose camera = m_display->picture().camera();
-  if (event->modifiers() & Qt::ShiftModifier)
-    setCamera(presenters::shifted(camera, step.x() / height(), step.y() / height()));
-  else
-    setCamera(presenters::turned(camera, kDegreesPerPixel * step.x(), kDegreesPerPixel * step.y()));
+  const bool up = event.type() == QEvent::MouseButtonRelease;
+  if (event.button() == Qt::LeftButton)
+    interactor->InvokeEvent(up      ? vtkCommand::LeftButtonReleaseEvent
+                            : twice ? vtkCommand::LeftButtonDoubleClickEvent
+                                    : vtkCommand::LeftButtonPressEvent);
+  else if (event.button() == Qt::MiddleButton)
+    interactor->InvokeEvent(up ? vtkCommand::MiddleButtonReleaseEvent
+                               : vtkCommand::MiddleButtonPressEvent);
+  else if (event.button() == Qt::RightButton)
+    interactor->InvokeEvent(up ? vtkCommand::RightButtonReleaseEvent
+                               : vtkCommand::RightButtonPressEvent);
 }
 
-void ThreeDView::mouseReleaseEvent(QMouseEvent* event)
-{
-  if (m_drilling && m_buttonDrills && event->button() == Qt::LeftButton)
-  {
-    if (rect().contains(event->pos()))
-      m_pointer = event->localPos();
-    stopDrilling();
-  }
-  m_turning = m_turning && event->buttons() != Qt::NoButton;
-}
-
-void ThreeDView::mouseDoubleClickEvent(QMouseEvent* event)
-{
-  if (event->button() == Qt::LeftButton && !(m_drillMode && m_buttonDrills))
-    emit picked(sightLine(event->localPos()));
-  else
-    mousePressEvent(event);
-}
-
-void ThreeDView::wheelEvent(QWheelEvent* event)
+void ThreeDView::sendWheel(const QWheelEvent& event)
 {
   // With Shift, some systems report horizontal scrolling.
-  const QPoint delta = event->angleDelta();
+  const QPoint delta = event.angleDelta();
   const double notches = (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
-  event->accept();
-  if (m_drillMode && m_wheelLeads && !(event->modifiers() & Qt::ControlModifier))
-    return emit wheelLed(notches, event->modifiers() & Qt::ShiftModifier);
-  setCamera(presenters::zoomed(m_display->picture().camera(), std::pow(kZoomPerNotch, notches)));
-}
-
-void ThreeDView::keyPressEvent(QKeyEvent* event)
-{
-  const core::CameraPose camera = m_display->picture().camera();
-  switch (event->key())
-  {
-  case Qt::Key_Left:
-    return setCamera(presenters::turned(camera, -kDegreesPerKey, 0.0));
-  case Qt::Key_Right:
-    return setCamera(presenters::turned(camera, kDegreesPerKey, 0.0));
-  case Qt::Key_Up:
-    return setCamera(presenters::turned(camera, 0.0, -kDegreesPerKey));
-  case Qt::Key_Down:
-    return setCamera(presenters::turned(camera, 0.0, kDegreesPerKey));
-  case Qt::Key_Plus:
-  case Qt::Key_Equal:
-    return setCamera(presenters::zoomed(camera, kZoomPerNotch));
-  case Qt::Key_Minus:
-    return setCamera(presenters::zoomed(camera, 1.0 / kZoomPerNotch));
-  case Qt::Key_Space:
-    if (m_drillMode && !event->isAutoRepeat())
-      startDrilling(m_pointer);
+  if (notches == 0.0)
     return;
-  case Qt::Key_X:
-    if (!event->isAutoRepeat())
-      holdClutch(true);
-    return;
-  default:
-    QVTKOpenGLNativeWidget::keyPressEvent(event);
-  }
-}
-
-void ThreeDView::keyReleaseEvent(QKeyEvent* event)
-{
-  if (event->key() == Qt::Key_Space && !event->isAutoRepeat())
-    stopDrilling();
-  else if (event->key() == Qt::Key_X && !event->isAutoRepeat())
-    holdClutch(false);
-  else
-    QVTKOpenGLNativeWidget::keyReleaseEvent(event);
-}
-
-void ThreeDView::focusOutEvent(QFocusEvent* event)
-{
-  stopDrilling(); // a release event sent to another window would leave the drill on
-  holdClutch(false);
-  QVTKOpenGLNativeWidget::focusOutEvent(event);
-}
-
-void ThreeDView::leaveEvent(QEvent* event)
-{
-  if (m_buttonDrills)
-    stopDrilling(); // if started by the key
-  m_pointer.reset();
-  emit pointerLeft();
-  QVTKOpenGLNativeWidget::leaveEvent(event);
+  const auto [x, y] = pixelAt(event.position());
+  vtkRenderWindowInteractor* interactor = m_window->GetInteractor();
+  interactor->SetEventInformation(x, y, event.modifiers() & Qt::ControlModifier ? 1 : 0,
+                                  event.modifiers() & Qt::ShiftModifier ? 1 : 0);
+  m_style->SetMouseWheelMotionFactor(std::abs(notches));
+  interactor->InvokeEvent(notches > 0.0 ? vtkCommand::MouseWheelForwardEvent
+                                        : vtkCommand::MouseWheelBackwardEvent);
 }
 
 } // namespace petrous::workstation

@@ -11,6 +11,8 @@
 #include <QStatusBar>
 #include <QWheelEvent>
 
+#include <vtkCallbackCommand.h>
+
 #include "Banner.h"
 #include "DrillController.h"
 
@@ -261,8 +263,13 @@ TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
   QObject::connect(&view(), &ThreeDView::drillPressed, &window(), [&] { ++pressed; });
   const auto look = [&](const interaction::PickRay& line)
   { atMiddle += (line.direction - middleLine.direction).norm() < 0.01; };
-  QObject::connect(&view(), &ThreeDView::drillHeld, &window(), look);
   QObject::connect(&view(), &ThreeDView::pointed, &window(), look);
+  vtkNew<vtkCallbackCommand> aimed;
+  std::function<void()> lookAgain = [&] { look(view().tool().GetPickRay()); };
+  aimed->SetClientData(&lookAgain);
+  aimed->SetCallback([](vtkObject*, unsigned long, void* then, void*)
+                     { (*static_cast<std::function<void()>*>(then))(); });
+  view().tool().AddObserver(vtkCommand::InteractionEvent, aimed);
   struct Way
   {
     QPoint inside, outside;
@@ -277,18 +284,19 @@ TEST_F(Drill, ABurrThatIsDraggedOutOfTheViewLiftsAtTheEdge)
     SCOPED_TRACE(outside.y());
     QTest::mouseMove(&view(), inside);
     QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, inside);
-    EXPECT_TRUE(view().drilling());
+    EXPECT_TRUE(view().tool().GetDrilling());
     pressed = atMiddle = 0;
     move(outside);
-    EXPECT_FALSE(view().drilling());
+    EXPECT_FALSE(view().tool().GetDrilling());
     EXPECT_TRUE(strokeEnds());
     move(inside); // with the button still held
-    EXPECT_FALSE(view().drilling());
+    EXPECT_FALSE(view().tool().GetDrilling());
     EXPECT_EQ(pressed, 0);
     EXPECT_EQ(atMiddle, 0) << "the burr leapt to the middle";
     QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, inside);
   }
   EXPECT_TRUE(window().model().value().dissection.mask().untouched());
+  view().tool().RemoveObserver(aimed);
 }
 
 TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)

@@ -346,7 +346,7 @@ TEST_F(RegistrationWindow, AResultWaitsForTheDrill)
                      moved |= window().model().drilling() && mr().registered;
                      waited |= find<QLabel>("registrationLine").text().contains("drill");
                      if (waited)
-                       view().setDrillMode(false); // ends the stroke
+                       view().tool().DrillModeOff(); // ends the stroke
                    });
   watch.start(5);
   QTest::keyClick(&view(), Qt::Key_D);

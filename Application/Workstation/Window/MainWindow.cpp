@@ -178,10 +178,9 @@ void MainWindow::layOut()
   for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
                          m_loadingBanner, m_notesBanner})
     banners->add(banner);
-  const auto hold = [this, banners]
-  { banners->setHeld(m_view->drillMode() || m_view->pointing()); };
-  connect(m_view, &ThreeDView::drillModeSet, banners, hold);
-  connect(m_view, &ThreeDView::pointingSet, banners, hold);
+  connect(m_view, &ThreeDView::toolModeSet, banners,
+          [this, banners]
+          { banners->setHeld(m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode()); });
   connect(banners, &BannerStack::covers, m_view,
           [this](int pixels)
           { m_view->display().setCovered(double(pixels) / std::max(m_view->height(), 1)); });

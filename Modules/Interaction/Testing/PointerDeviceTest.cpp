@@ -207,24 +207,13 @@ TEST(PointerDevice, ReleasesButtonsOfAWindowThatHangs)
   PointerDevice device(kCenter);
   device.want({kCenter, kHeading});
   device.setButtons(PointerDevice::kDrill | PointerDevice::kFreeze);
-  device.setPedal(0.7);
   double now = 3.0;
   EXPECT_EQ(device.read(now).buttons, PointerDevice::kDrill | PointerDevice::kFreeze);
-  EXPECT_EQ(device.read(now += 0.45).pedal, 0.7);
+  EXPECT_EQ(device.read(now += 0.45).buttons, PointerDevice::kDrill | PointerDevice::kFreeze);
   EXPECT_EQ(device.read(now += 0.1).buttons, 0U);
-  EXPECT_EQ(device.read(now).pedal, 0.0);
   EXPECT_EQ(device.read(now).health, DeviceHealth::Good);
   device.see({}); // a frame
   EXPECT_EQ(device.read(now += 0.001).buttons, PointerDevice::kDrill | PointerDevice::kFreeze);
-}
-
-TEST(PointerDevice, BoundsThePedal)
-{
-  PointerDevice device(kCenter);
-  device.setPedal(3.0);
-  EXPECT_EQ(device.read(1.0).pedal, 1.0);
-  device.setPedal(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(device.read(1.0).pedal, 0.0);
 }
 
 TEST(PointerDevice, StaysInPlaceOverASleepAndABackwardClock)

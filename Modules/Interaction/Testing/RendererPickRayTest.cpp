@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "Window.h"
+#include "petrous/Rendering/StereoPicture.h"
 
 using namespace petrous::interaction;
 using Eigen::Vector3d;
@@ -79,4 +80,32 @@ TEST(RendererPickRay, CountsFromTheRenderersCorner)
   window.renderer->SetViewport(0.5, 0.25, 1.0, 1.0);
   window.window->Render();
   expectVtksLines(window);
+}
+
+// The rays of the two eyes' pictures of the same point in the convergence plane, which has no
+// parallax, meet in it.
+TEST(RendererPickRay, LooksThroughTheEyeOfItsHalfSideBySide)
+{
+  Window window;
+  petrous::rendering::ScenePicture picture;
+  picture.setContents({});
+  picture.attach(window.renderer);
+  picture.setCamera({{0.0, 0.0, 200.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0, {}, 0.0});
+  petrous::rendering::StereoPicture stereo(picture);
+  stereo.show(petrous::rendering::StereoMode::SideBySide, {20.0, 200.0});
+  window.window->Render();
+  const auto half = [&](int x, int y)
+  {
+    const PickRay line = pickRayThrough(*window.renderer, x, y, &stereo);
+    const Vector3d target((x % 120 - 59.5) * Window::pixel(), (y - 79.5) * Window::pixel(), 0.0);
+    EXPECT_LT((target - line.origin).cross(line.direction).norm(), 1e-9) << x;
+    EXPECT_NEAR(line.origin.x(), x < 120 ? -10.0 : 10.0, 1e-12);
+  };
+  for (const int x : {0, 60, 119, 120, 180, 239})
+    half(x, 50);
+  const PickRay middle = centralRay(*window.renderer);
+  EXPECT_LT((middle.direction - Vector3d(0.0, 0.0, -1.0)).norm(), 1e-12);
+  EXPECT_LT((middle.origin - Vector3d(0.0, 0.0, 200.0)).norm(), 1e-12);
+  stereo.show(petrous::rendering::StereoMode::None, {});
+  picture.attach(nullptr);
 }

@@ -1,6 +1,8 @@
 #include "petrous/Interaction/ToolInteraction.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include "Tissue.h"
 #include "Window.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Interaction/CameraStyle.h"
 #include "petrous/Interaction/PointerDevice.h"
 #include "petrous/Interaction/PointerToolController.h"
 
@@ -74,6 +77,17 @@ struct Program
     key(vtkCommand::KeyPressEvent, sym, shift);
     key(vtkCommand::CharEvent, sym, shift);
     key(vtkCommand::KeyReleaseEvent, sym, shift);
+  }
+  // Calls `then` with the tool's events.
+  void on(unsigned long event, std::function<void()> then)
+  {
+    vtkNew<vtkCallbackCommand> command;
+    command->SetClientData(new std::function<void()>(std::move(then)));
+    command->SetClientDataDeleteCallback([](void* data)
+                                         { delete static_cast<std::function<void()>*>(data); });
+    command->SetCallback([](vtkObject*, unsigned long, void* data, void*)
+                         { (*static_cast<std::function<void()>*>(data))(); });
+    tool->AddObserver(event, command);
   }
   void setMode(Mode mode)
   {
@@ -387,4 +401,279 @@ TEST(ToolInteraction, FollowsTheServosRecords)
   EXPECT_NEAR(wanted.z(), held.position.z(), 1e-9);
   // The servo's new offset is compensated.
   expectNear(program.hand().pose.position, wanted - Vector3d(4.0, 0.0, 6.0));
+}
+
+// At all four edges alike; x and y from the centre of 240 x 160 pixels.
+TEST(ToolInteraction, StopsTheDrillAtTheEdgesOfTheWindow)
+{
+  const struct
+  {
+    int x, y, beyondX, beyondY;
+  } edges[] = {{-120, 3, -121, 3}, {119, 3, 120, 3}, {4, -80, 4, -81}, {4, 79, 4, 80}};
+  for (const auto& edge : edges)
+  {
+    SCOPED_TRACE(edge.beyondX);
+    SCOPED_TRACE(edge.beyondY);
+    Program program;
+    int started = 0;
+    program.on(vtkCommand::StartInteractionEvent, [&] { ++started; });
+    program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0);
+    program.mouse(vtkCommand::MouseMoveEvent, edge.x, edge.y);
+    EXPECT_TRUE(program.tool->GetDrilling());
+    program.mouse(vtkCommand::MouseMoveEvent, edge.beyondX, edge.beyondY);
+    EXPECT_FALSE(program.tool->GetDrilling());
+    EXPECT_EQ(program.hand().buttons, 0U);
+    expectNear(program.hand().pose.position, program.hoverOver(edge.x, edge.y)); // not beyond
+    program.mouse(vtkCommand::MouseMoveEvent, 0, 0); // with the button still held
+    EXPECT_FALSE(program.tool->GetDrilling());
+    expectNear(program.hand().pose.position, program.hoverOver(0, 0));
+    program.mouse(vtkCommand::LeftButtonReleaseEvent, 0, 0);
+    EXPECT_EQ(started, 1);
+  }
+}
+
+TEST(ToolInteraction, StopsTheDrillOfTheKeyWhereThePointerLeaves)
+{
+  Program program;
+  int left = 0;
+  program.on(vtkCommand::LeaveEvent, [&] { ++left; });
+  program.mouse(vtkCommand::MouseMoveEvent, 70, 0);
+  program.key(vtkCommand::KeyPressEvent, "space");
+  EXPECT_TRUE(program.tool->GetDrilling());
+  program.mouse(vtkCommand::LeaveEvent, 200, 0);
+  EXPECT_FALSE(program.tool->GetDrilling());
+  EXPECT_EQ(left, 1);
+  program.interactor->SetKeyEventInformation(0, 0, ' ', 2, "space"); // the key repeats
+  program.interactor->InvokeEvent(vtkCommand::KeyPressEvent);
+  EXPECT_FALSE(program.tool->GetDrilling());
+  program.key(vtkCommand::KeyReleaseEvent, "space");
+}
+
+TEST(ToolInteraction, DrillsAtTheCentreWithoutAPointer)
+{
+  Program program;
+  program.key(vtkCommand::KeyPressEvent, "space");
+  EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill);
+  expectNear(program.hand().pose.position, Vector3d(0.0, 0.0, 2.0));
+}
+
+TEST(ToolInteraction, KeepsOtherButtonsFromTheCameraWhileItDrills)
+{
+  Program program;
+  const Vector3d eye = program.eye();
+  program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0);
+  program.mouse(vtkCommand::MiddleButtonPressEvent, 0, 0);
+  program.mouse(vtkCommand::MouseMoveEvent, 40, 20);
+  EXPECT_EQ(program.eye(), eye);
+  expectNear(program.hand().pose.position, program.hoverOver(40, 20, 2.0));
+}
+
+// A program that starts its servo when the pointer comes, or when it presses.
+TEST(ToolInteraction, ADeviceMaySetItselfUpWhenItIsWanted)
+{
+  for (const bool press : {false, true})
+  {
+    Program program;
+    program.tool->SetPointer(&program.aim, nullptr);
+    program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
+    EXPECT_FALSE(program.aim.wanted());
+    program.on(press ? vtkCommand::StartInteractionEvent : vtkCommand::HoverEvent,
+               [&] { program.tool->SetPointer(&program.aim, &program.device); });
+    program.mouse(press ? vtkCommand::LeftButtonPressEvent : vtkCommand::MouseMoveEvent, 30, 10);
+    expectNear(program.hand().pose.position, program.hoverOver(30, 10, press ? 2.0 : 3.0));
+    EXPECT_EQ(program.hand().buttons, press ? PointerDevice::kDrill : 0U);
+    EXPECT_EQ(program.tool->GetDrilling(), press);
+    program.tool->SetPointer(nullptr, nullptr);
+  }
+}
+
+TEST(ToolInteraction, ReportsRaysThatHoverAndPick)
+{
+  Program program;
+  program.tool->DrillModeOff();
+  std::vector<PickRay> hovered, picked;
+  program.on(vtkCommand::HoverEvent, [&] { hovered.push_back(program.tool->GetPickRay()); });
+  program.on(vtkCommand::PickEvent, [&] { picked.push_back(program.tool->GetPickRay()); });
+  program.mouse(vtkCommand::MouseMoveEvent, 30, 10);
+  program.mouse(vtkCommand::MouseMoveEvent, 130, 10); // beyond the edge
+  ASSERT_EQ(hovered.size(), 1U);
+  program.mouse(vtkCommand::LeftButtonDoubleClickEvent, -20, 40);
+  ASSERT_EQ(picked.size(), 1U);
+  const auto meets = [](const PickRay& ray, int x, int y)
+  {
+    const Vector3d at = ray.at(-ray.origin.z() / ray.direction.z());
+    expectNear(at, Vector3d((x + 0.5) * Window::pixel(), (y + 0.5) * Window::pixel(), 0.0), 1e-9);
+  };
+  meets(hovered.front(), 30, 10);
+  meets(picked.front(), -20, 40);
+  program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0);
+  program.mouse(vtkCommand::MouseMoveEvent, 20, 10);
+  EXPECT_EQ(hovered.size(), 1U) << "the camera is moved";
+  program.mouse(vtkCommand::LeftButtonReleaseEvent, 20, 10);
+  program.tool->DrillModeOn();
+  program.mouse(vtkCommand::LeftButtonDoubleClickEvent, 0, 0);
+  EXPECT_EQ(picked.size(), 1U);
+  EXPECT_TRUE(program.tool->GetDrilling());
+}
+
+TEST(ToolInteraction, AProbeFollowsAndIsNotPressed)
+{
+  Program program;
+  program.tool->DrillModeOff();
+  program.tool->ProbeModeOn();
+  program.mouse(vtkCommand::MouseMoveEvent, 20, 0);
+  expectNear(program.hand().pose.position, program.hoverOver(20, 0));
+  program.key(vtkCommand::KeyPressEvent, "space");
+  EXPECT_EQ(program.hand().buttons, 0U);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
+  EXPECT_EQ(program.tool->GetParameters().drillButtons, 0U);
+  program.key(vtkCommand::KeyReleaseEvent, "space");
+  program.key(vtkCommand::KeyPressEvent, "c");
+  EXPECT_EQ(program.hand().buttons, PointerDevice::kFreeze);
+  const Vector3d eye = program.eye();
+  program.mouse(vtkCommand::LeftButtonPressEvent, 20, 0);
+  program.mouse(vtkCommand::MouseMoveEvent, 60, 30);
+  program.mouse(vtkCommand::LeftButtonReleaseEvent, 60, 30);
+  EXPECT_GT((program.eye() - eye).norm(), 1.0);
+}
+
+TEST(ToolInteraction, APedalPresses)
+{
+  Program program;
+  program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
+  session::TickRecord record;
+  record.proxy = session::PoseValues::of(*program.aim.wanted());
+  record.input.pedal = 0.6;
+  program.tool->See(record);
+  EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kPresses);
+  record.input.pedal = 0.4;
+  program.tool->See(record);
+  EXPECT_EQ(program.hand().buttons, 0U);
+  program.tool->DrillModeOff();
+  program.tool->ProbeModeOn();
+  record.input.pedal = 1.0;
+  program.tool->See(record);
+  EXPECT_EQ(program.hand().buttons, 0U);
+}
+
+TEST(ToolInteraction, AWheelsFractionsAndHeapsCount)
+{
+  Program program;
+  program.setMode(Mode::Depth);
+  program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
+  const double height = program.aim.wanted()->position.z();
+  auto* style = vtkInteractorStyle::SafeDownCast(program.interactor->GetInteractorStyle());
+  style->SetMouseWheelMotionFactor(4.0);
+  program.mouse(vtkCommand::MouseWheelForwardEvent, 0, 0);
+  EXPECT_NEAR(program.aim.wanted()->position.z(), height - 1.0, 1e-3);
+  style->SetMouseWheelMotionFactor(0.5);
+  program.mouse(vtkCommand::MouseWheelBackwardEvent, 0, 0);
+  EXPECT_NEAR(program.aim.wanted()->position.z(), height - 0.875, 1e-3);
+}
+
+TEST(ToolInteraction, LeavesItsShortcutsToAProgramThatHasItsOwn)
+{
+  Program program;
+  program.tool->ShortcutsOff();
+  program.tool->SetFreezeKey("x");
+  program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
+  const Vector3d before = program.aim.wanted()->position;
+  for (const char* key : {"Left", "w", "Next", "m", "f", "c"})
+    program.type(key);
+  EXPECT_EQ(program.aim.wanted()->position, before);
+  EXPECT_EQ(program.aim.settings().mode, Mode::Surface);
+  EXPECT_EQ(program.hand().buttons, 0U);
+  program.key(vtkCommand::KeyPressEvent, "X");
+  EXPECT_EQ(program.hand().buttons, PointerDevice::kFreeze);
+  program.tool->SetPointer(&program.aim, &program.device); // another session
+  program.mouse(vtkCommand::MouseMoveEvent, 5, 0);
+  EXPECT_EQ(program.hand().buttons, PointerDevice::kFreeze) << "still held";
+  program.key(vtkCommand::KeyReleaseEvent, "x");
+  EXPECT_EQ(program.hand().buttons, 0U);
+  program.tool->PointerHandOff();
+  program.mouse(vtkCommand::MouseWheelBackwardEvent, 0, 0, 1);
+  EXPECT_EQ(program.tool->GetParameters().scale, session::ServoParameters().scale);
+}
+
+TEST(ToolInteraction, AimsUnderACameraThatMovesWhileItDrills)
+{
+  Program program;
+  program.mouse(vtkCommand::MouseMoveEvent, 0, 0);
+  program.key(vtkCommand::KeyPressEvent, "space");
+  vtkCamera* camera = program.window.renderer->GetActiveCamera();
+  camera->SetPosition(10.0, 0.0, 200.0);
+  camera->SetFocalPoint(10.0, 0.0, 0.0);
+  program.tool->See({});
+  expectNear(program.hand().pose.position, program.hoverOver(0, 0, 2.0) + Vector3d(10.0, 0.0, 0.0));
+}
+
+TEST(ToolInteraction, ShowsACrossWhereThePointerLeadsTheTool)
+{
+  Program program;
+  const auto cursor = [&] { return program.window.window->GetCurrentCursor(); };
+  EXPECT_EQ(cursor(), VTK_CURSOR_CROSSHAIR);
+  program.tool->PointerHandOff();
+  EXPECT_EQ(cursor(), VTK_CURSOR_DEFAULT);
+  program.tool->PointerHandOn();
+  program.tool->DrillModeOff();
+  EXPECT_EQ(cursor(), VTK_CURSOR_DEFAULT);
+  program.tool->ProbeModeOn();
+  EXPECT_EQ(cursor(), VTK_CURSOR_CROSSHAIR);
+}
+
+// Another window on the same scene, from the other side.
+TEST(ToolInteraction, ASecondWindowLeadsTheSameTool)
+{
+  Program program;
+  Program other;
+  other.tool->SetPointer(nullptr, nullptr);
+  other.tool->SetLeader(program.tool);
+  other.window.renderer->GetActiveCamera()->SetFocalPoint(10.0, 0.0, 0.0);
+  other.window.renderer->GetActiveCamera()->SetPosition(10.0, 0.0, 200.0);
+  const Vector3d shift(10.0, 0.0, 0.0);
+  other.mouse(vtkCommand::MouseMoveEvent, 20, 5);
+  expectNear(program.hand().pose.position, program.hoverOver(20, 5) + shift);
+  other.mouse(vtkCommand::LeftButtonPressEvent, 20, 5);
+  EXPECT_TRUE(program.tool->GetDrilling());
+  program.tool->See({});
+  expectNear(program.hand().pose.position, program.hoverOver(20, 5, 2.0) + shift);
+  program.mouse(vtkCommand::LeaveEvent, 0, 0); // the pointer is in the other window
+  EXPECT_TRUE(program.tool->GetDrilling());
+  other.mouse(vtkCommand::LeftButtonReleaseEvent, 20, 5);
+  EXPECT_FALSE(program.tool->GetDrilling());
+  program.tool->DrillModeOff();
+  EXPECT_EQ(other.window.window->GetCurrentCursor(), VTK_CURSOR_DEFAULT);
+  program.tool->DrillModeOn();
+  EXPECT_EQ(other.window.window->GetCurrentCursor(), VTK_CURSOR_CROSSHAIR);
+  other.key(vtkCommand::KeyPressEvent, "space");
+  EXPECT_TRUE(program.tool->GetDrilling());
+  other.tool->EnabledOff(); // it closes
+  EXPECT_FALSE(program.tool->GetDrilling());
+}
+
+TEST(ToolInteraction, OneSessionOfEventsWithTheWindowsOwnCameraStyle)
+{
+  Program program;
+  vtkNew<vtkPetrousCameraStyle> style;
+  program.interactor->SetInteractorStyle(style);
+  program.mouse(vtkCommand::RightButtonPressEvent, 0, 0);
+  program.mouse(vtkCommand::MouseMoveEvent, 20, 0);
+  const Vector3d eye = program.eye();
+  EXPECT_LT(eye.x(), -1.0);
+  EXPECT_FALSE(program.aim.wanted());
+  program.key(vtkCommand::KeyPressEvent, "space"); // from here on the pointer drills
+  program.mouse(vtkCommand::MouseMoveEvent, 40, 0);
+  EXPECT_EQ(program.eye(), eye);
+  EXPECT_TRUE(program.aim.wanted());
+  program.key(vtkCommand::KeyReleaseEvent, "space");
+  program.mouse(vtkCommand::RightButtonReleaseEvent, 40, 0);
+  program.mouse(vtkCommand::LeftButtonPressEvent, 40, 0);
+  program.tool->DrillModeOff();
+  program.mouse(vtkCommand::LeftButtonReleaseEvent, 40, 0);
+  program.mouse(vtkCommand::LeftButtonPressEvent, 40, 0);
+  program.tool->DrillModeOn(); // by a key, in the middle of a drag
+  program.mouse(vtkCommand::LeftButtonReleaseEvent, 40, 0);
+  EXPECT_EQ(style->GetState(), VTKIS_NONE);
+  program.interactor->SetInteractorStyle(nullptr);
 }

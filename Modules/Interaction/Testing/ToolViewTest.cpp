@@ -99,6 +99,5 @@ TEST(ToolView, DrawsALineToAHandThatIsFarAhead)
 TEST(ToolView, RefusesABurrWithoutSize)
 {
   EXPECT_THROW(ToolView(0.0), core::InvalidParameter);
-  ToolView view(1.0);
-  EXPECT_THROW(view.setBurrRadius(-1.0), core::InvalidParameter);
+  EXPECT_THROW(ToolView(-1.0), core::InvalidParameter);
 }

@@ -75,12 +75,6 @@ void PointerDevice::setButtons(std::uint32_t held) noexcept
   say();
 }
 
-void PointerDevice::setPedal(double pressure) noexcept
-{
-  m_next.pedal = pressure >= 0.0 ? std::min(pressure, 1.0) : 0.0;
-  say();
-}
-
 void PointerDevice::say() noexcept
 {
   m_next.pose = PoseValues::of(
@@ -133,7 +127,6 @@ haptics::DeviceReading PointerDevice::read(double now) noexcept
   if (now - m_heardAt <= m_limits.silence)
   {
     reading.buttons = m_heard.buttons;
-    reading.pedal = m_heard.pedal;
   }
   reading.health = m_placed ? haptics::DeviceHealth::Good : haptics::DeviceHealth::NotReady;
   return reading;

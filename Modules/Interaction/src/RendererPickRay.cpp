@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include <vtkCamera.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
 #include "petrous/Rendering/PixelRays.h"
+#include "petrous/Rendering/StereoPicture.h"
 
 namespace petrous::interaction
 {
@@ -33,14 +35,39 @@ core::CameraPose cameraOf(vtkRenderer& renderer)
   return pose;
 }
 
-PickRay pickRayThrough(vtkRenderer& renderer, double x, double y)
+PickRay pickRayThrough(vtkRenderer& renderer, double x, double y,
+                       const rendering::StereoPicture* stereo)
 {
+  core::CameraPose camera = cameraOf(renderer);
   const int* size = renderer.GetSize();
   const int* corner = renderer.GetOrigin();
-  const int height = std::max(size[1], 1);
+  int width = size[0];
+  int height = size[1];
+  double column = x - corner[0];
+  double row = y - corner[1];
+  if (stereo && stereo->mode() == rendering::StereoMode::SideBySide && renderer.GetRenderWindow())
+  {
+    // The renderer draws one eye at a time, at the lower left; the window shows both.
+    const int* whole = renderer.GetRenderWindow()->GetSize();
+    const int half = whole[0] / 2;
+    const bool right = x >= half;
+    const auto eyes =
+        rendering::eyesOf(camera, rendering::fittedStereoGeometry(camera, stereo->rig()));
+    camera = right ? eyes.right : eyes.left;
+    width = whole[0] - half;
+    height = whole[1];
+    column = x - (right ? half : 0);
+    row = y;
+  }
+  height = std::max(height, 1);
   const rendering::PixelRay ray =
-      rendering::PixelRays(cameraOf(renderer), std::max(size[0], 1), height)
-          .through(x - corner[0], height - 1.0 - (y - corner[1]));
+      rendering::PixelRays(camera, std::max(width, 1), height).through(column, height - 1.0 - row);
+  return {ray.origin, ray.direction};
+}
+
+PickRay centralRay(vtkRenderer& renderer)
+{
+  const rendering::PixelRay ray = rendering::PixelRays(cameraOf(renderer), 1, 1).through(0.0, 0.0);
   return {ray.origin, ray.direction};
 }
 

@@ -12,8 +12,10 @@ namespace petrous::interaction
 {
 
 ToolView::ToolView(double burrRadius)
+  : m_burrRadius(burrRadius)
 {
-  setBurrRadius(burrRadius);
+  if (!(burrRadius > 0.0 && burrRadius <= 100.0))
+    throw core::InvalidParameter("tool view: the burr's radius must lie within 0 to 100 mm");
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(m_line->GetOutputPort());
   m_actor->SetMapper(mapper);
@@ -25,13 +27,6 @@ ToolView::ToolView(double burrRadius)
 }
 
 ToolView::~ToolView() = default;
-
-void ToolView::setBurrRadius(double burrRadius)
-{
-  if (!(burrRadius > 0.0 && burrRadius <= 100.0))
-    throw core::InvalidParameter("tool view: the burr's radius must lie within 0 to 100 mm");
-  m_burrRadius = burrRadius;
-}
 
 void ToolView::addTo(vtkRenderer* renderer) const
 {

@@ -64,8 +64,7 @@ void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& 
 }
 
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                       const DeviceMapping& mapping, const core::CameraPose& camera,
-                                       const DeviceSwitches& switches)
+                                       const DeviceMapping& mapping, const core::CameraPose& camera)
 {
   session::ServoParameters parameters;
   session::setCamera(parameters, camera);
@@ -73,8 +72,6 @@ session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
   parameters.forceGain = 1.0 / mapping.scale;
   parameters.drillButtons = ActiveDevice::kDrill;
   parameters.clutchButtons = ActiveDevice::kClutch;
-  parameters.clutch = switches.clutch ? 1 : 0;
-  parameters.drill = switches.drill ? 1 : 0;
   if (!device.givesForce)
     parameters.maxLead = static_cast<float>(mapping.thrust / stiffnessFor(device, mapping.scale));
   session::check(parameters);

@@ -38,17 +38,10 @@ double usualScale(const haptics::DeviceDescription& device);
 void fit(session::TouchSession::Setup& setup, const haptics::DeviceDescription& device,
          const DeviceMapping& mapping, bool endless);
 
-/// Inputs that are held down now.
-struct DeviceSwitches
-{
-  bool clutch = false;
-  bool drill = false;
-};
-
 /// Throws InvalidParameter for a degenerate camera.
 session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
-                                       const DeviceMapping& mapping, const core::CameraPose& camera,
-                                       const DeviceSwitches& switches);
+                                       const DeviceMapping& mapping,
+                                       const core::CameraPose& camera);
 
 /// The centre (TouchSession::Setup) that brings the tool to `tool` (patient mm) while the device is
 /// at `hand` (frame D, mm). With the device at its origin: `tool` itself.

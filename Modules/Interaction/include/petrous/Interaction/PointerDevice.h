@@ -51,7 +51,6 @@ public:
   void want(const haptics::Pose& tool);
 
   void setButtons(std::uint32_t held) noexcept;
-  void setPedal(double pressure) noexcept; ///< 0 to 1
 
   /// Takes the servo's latest record; call it once per frame, also as a sign of life. Returns true
   /// if the servo re-anchored the tool since the last call: see PointerToolController::see.
@@ -65,7 +64,6 @@ private:
   struct Word
   {
     session::PoseValues pose; // X_DT
-    double pedal = 0.0;
     std::uint32_t buttons = 0;
     std::uint32_t ready = 0;
   };

@@ -27,7 +27,6 @@ public:
 
   void addTo(vtkRenderer* renderer) const; ///< the line
   void removeFrom(vtkRenderer* renderer) const;
-  void setBurrRadius(double burrRadius); ///< throws InvalidParameter
 
   /// For ScenePicture::setTool; nullopt until the servo has had a valid reading and placed the
   /// tool.

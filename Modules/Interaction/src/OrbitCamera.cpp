@@ -1,4 +1,4 @@
-#include "petrous/Presenters/OrbitCamera.h"
+#include "petrous/Interaction/OrbitCamera.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace petrous::presenters
+namespace petrous::interaction
 {
 
 namespace
@@ -93,4 +93,4 @@ core::CameraPose zoomed(const core::CameraPose& camera, double factor)
   return next;
 }
 
-} // namespace petrous::presenters
+} // namespace petrous::interaction

@@ -4,7 +4,7 @@
 
 #include "petrous/Core/CameraPose.h"
 
-namespace petrous::presenters
+namespace petrous::interaction
 {
 
 /// Rotates the patient in front of the camera, about the focal point, so that what is under the
@@ -28,4 +28,4 @@ struct EdgeDirections
 };
 EdgeDirections edgeDirections(const core::CameraPose& camera);
 
-} // namespace petrous::presenters
+} // namespace petrous::interaction

@@ -125,10 +125,12 @@ TEST_F(WorkstationModelTest, RecordsEachSessionToAFileOfItsOwnUntilAnotherCaseIs
     EXPECT_TRUE(player.outcome().equal()) << player.outcome().difference;
     EXPECT_TRUE(reader.complete());
   }
-  ASSERT_EQ(copy.strokes.size(), 2u);
-  ASSERT_EQ(model.value().strokes.size(), 2u);
-  EXPECT_EQ(copy.strokes[0].info.removed, model.value().strokes[0].info.removed);
-  EXPECT_EQ(copy.strokes[1].info.removed, model.value().strokes[1].info.removed);
+  ASSERT_EQ(copy.dissection.strokes().size(), 2u);
+  ASSERT_EQ(model.value().dissection.strokes().size(), 2u);
+  EXPECT_EQ(copy.dissection.strokes()[0]->info.removed,
+            model.value().dissection.strokes()[0]->info.removed);
+  EXPECT_EQ(copy.dissection.strokes()[1]->info.removed,
+            model.value().dissection.strokes()[1]->info.removed);
   model.adopt(block("other"));
   EXPECT_TRUE(model.recording().empty());
   EXPECT_EQ(files.size(), 3u);
@@ -150,7 +152,7 @@ TEST_F(WorkstationModelTest, DrillsOnWhereItCannotBeRecorded)
   stroke(model);
   EXPECT_NE(fault.find("ear.ticks: could not be written"), std::string::npos) << fault;
   EXPECT_TRUE(model.recording().empty());
-  EXPECT_EQ(model.value().strokes.size(), 1u);
+  EXPECT_EQ(model.value().dissection.strokes().size(), 1u);
 
   // The disk is full once the recording has begun.
   fault.clear();
@@ -177,7 +179,7 @@ TEST_F(WorkstationModelTest, DrillsOnWhereItCannotBeRecorded)
   hand.drill(true);
   EXPECT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
   model.stopTouch();
-  EXPECT_EQ(model.value().strokes.size(), 2u);
+  EXPECT_EQ(model.value().dissection.strokes().size(), 2u);
 }
 
 TEST_F(WorkstationModelTest, UndoAndRedoTellWhereTheMaskChanged)

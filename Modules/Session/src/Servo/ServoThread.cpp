@@ -8,6 +8,7 @@
 #include <sched.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/LockedMemory.h"
 
 namespace petrous::session
 {
@@ -19,10 +20,10 @@ namespace
 constexpr int kPriority = 40;
 constexpr int kMaxTicksToStop = 200;
 
-double secondsNow() noexcept
+double secondsOf(clockid_t clock) noexcept
 {
   timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
+  clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
@@ -100,41 +101,46 @@ ServoThread::State ServoThread::state() const noexcept
 {
   State state;
   state.running = m_running.load();
+  state.realTime = m_realTime.load();
   state.ticks = m_ticks.load();
   state.late = m_late.load();
   state.worstWall = m_worstWall.load();
+  state.worstProcessor = m_worstProcessor.load();
   state.dropped = m_records.dropped();
+  state.majorFaults = m_majorFaults.load();
   return state;
 }
 
 void ServoThread::tickOnce(const ServoParameters& parameters) noexcept
 {
-  const double start = secondsNow();
+  const double start = secondsOf(CLOCK_MONOTONIC);
+  const double processor = secondsOf(CLOCK_THREAD_CPUTIME_ID);
   const haptics::DeviceReading reading = m_device.read(start);
   const TickRecord& record = m_servo.tick(TickInput::of(start, reading, parameters));
   m_device.send(record.output.wrench());
   m_latest.write(record);
   m_records.push(record);
   m_ticks.store(m_ticks.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  raise(m_worstWall, secondsNow() - start);
+  raise(m_worstProcessor, secondsOf(CLOCK_THREAD_CPUTIME_ID) - processor);
+  raise(m_worstWall, secondsOf(CLOCK_MONOTONIC) - start);
 }
 
 void ServoThread::run() noexcept
 {
   sched_param priority{};
   priority.sched_priority = kPriority;
-  pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority); // where it is permitted
+  m_realTime.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
 
   ServoParameters parameters;
   std::uint64_t seen = 0;
-  double due = secondsNow();
+  double due = secondsOf(CLOCK_MONOTONIC);
   int toStop = kMaxTicksToStop;
   bool resting = false;
   while (toStop > 0 && !(m_stop.load(std::memory_order_relaxed) && resting))
   {
     due += m_period;
     sleepUntil(due);
-    const double behind = secondsNow() - due;
+    const double behind = secondsOf(CLOCK_MONOTONIC) - due;
     if (behind > m_period)
     {
       m_late.store(m_late.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
@@ -149,6 +155,7 @@ void ServoThread::run() noexcept
       --toStop;
     }
     tickOnce(parameters);
+    m_majorFaults.store(core::majorPageFaults(), std::memory_order_relaxed);
     TickRecord last;
     resting = m_latest.read(last) && atRest(last);
   }

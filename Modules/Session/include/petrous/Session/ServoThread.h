@@ -25,10 +25,13 @@ public:
   struct State
   {
     bool running = false;
+    bool realTime = false; ///< real-time priority was granted
     std::uint64_t ticks = 0;
-    std::uint64_t late = 0;    ///< ticks that started after the next one was due
-    double worstWall = 0.0;    ///< s, longest tick, including the device
-    std::uint64_t dropped = 0; ///< records lost because the ring was full
+    std::uint64_t late = 0;      ///< ticks that started after the next one was due
+    double worstWall = 0.0;      ///< s, longest tick, including the device
+    double worstProcessor = 0.0; ///< s of the thread's CPU time, longest tick
+    std::uint64_t dropped = 0;   ///< records lost because the ring was full
+    long majorFaults = 0;        ///< page faults that required I/O
   };
 
   /// servo, device, records  must outlive this; used by the thread only, until stop()
@@ -63,9 +66,12 @@ private:
   core::SnapshotBuffer<TickRecord> m_latest;
   std::atomic<bool> m_stop{false};
   std::atomic<bool> m_running{true};
+  std::atomic<bool> m_realTime{false};
   std::atomic<std::uint64_t> m_ticks{0};
   std::atomic<std::uint64_t> m_late{0};
+  std::atomic<long> m_majorFaults{0};
   std::atomic<double> m_worstWall{0.0};
+  std::atomic<double> m_worstProcessor{0.0};
   std::thread m_thread; // last: uses all other members
 };
 

@@ -86,7 +86,7 @@ TEST_F(LogCommand, HoldsNothingOfThePatient)
   const std::string ct = quoted(writePatient("ct"));
   EXPECT_EQ(logged("scan " + ct), 0);
   EXPECT_EQ(logged("new Wrexelby --ct " + ct), 0);
-  EXPECT_EQ(logged("new Wrexelby --ct " + ct), 3) << "the name is taken";
+  EXPECT_EQ(logged("new Wrexelby --ct " + ct), 4) << "the name is taken";
   std::string body(24 * 24 * 24, '\0');
   std::fill(body.begin() + 6000, body.begin() + 6900, '\1');
   EXPECT_EQ(logged("add Wrexelby --labels " + writeNrrd(body)), 0);
@@ -134,7 +134,7 @@ TEST_F(LogCommand, HoldsNothingOfThePatient)
         "scan: exit 0 after 0.", "import: image of 24 x 24 x 24 voxels of 0.4 x 0.5 x 0.5 mm",
         "import: 1 structures", "import: mesh of 4 triangles", "library: case saved in 0.",
         "OpenGL: ", "drill: exit 0", ", unreadable", "new: exit 3 after 0.",
-        "bad-input, petrous::imaging::FileError", "refused, petrous::core::OutputFileError"})
+        "bad-input, petrous::imaging::FileError", "refused, petrous::imaging::FileError"})
     EXPECT_NE(log.find(line), std::string::npos) << line << " is not in\n" << log;
 }
 

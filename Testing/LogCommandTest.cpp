@@ -86,7 +86,7 @@ TEST_F(LogCommand, HoldsNothingOfThePatient)
   const std::string ct = quoted(writePatient("ct"));
   EXPECT_EQ(logged("scan " + ct), 0);
   EXPECT_EQ(logged("new Wrexelby --ct " + ct), 0);
-  EXPECT_EQ(logged("new Wrexelby --ct " + ct), 3) << "the name is taken";
+  EXPECT_EQ(logged("new Wrexelby --ct " + ct), 4) << "the name is taken";
   std::string body(24 * 24 * 24, '\0');
   std::fill(body.begin() + 6000, body.begin() + 6900, '\1');
   EXPECT_EQ(logged("add Wrexelby --labels " + writeNrrd(body)), 0);

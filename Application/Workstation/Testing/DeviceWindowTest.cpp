@@ -168,7 +168,7 @@ TEST_F(InputDevices, ARecordingEndsWithItsDeviceAndTheCommandRepeatsItToTheBit)
   ASSERT_TRUE(hasTool());
   QTest::keyPress(&view(), Qt::Key_Space);
   ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
-                           { return !window().model().value().dissection->mask().untouched(); }));
+                           { return !window().model().value().dissection.mask().untouched(); }));
   bench.play("unplug cap\n");
   ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
   QTest::keyRelease(&view(), Qt::Key_Space);
@@ -182,10 +182,10 @@ TEST_F(InputDevices, ARecordingEndsWithItsDeviceAndTheCommandRepeatsItToTheBit)
   EXPECT_TRUE(replay["complete"].toBool());
   const auto ball = library().open("ball");
   const auto copy = library().open("copy");
-  ASSERT_EQ(ball.strokes.size(), 1u);
-  ASSERT_EQ(copy.strokes.size(), 1u);
-  EXPECT_GT(ball.strokes[0].info.removed, 0.0);
-  EXPECT_EQ(copy.strokes[0].info.removed, ball.strokes[0].info.removed);
+  ASSERT_EQ(ball.dissection.strokes().size(), 1u);
+  ASSERT_EQ(copy.dissection.strokes().size(), 1u);
+  EXPECT_GT(ball.dissection.strokes()[0]->info.removed, 0.0);
+  EXPECT_EQ(copy.dissection.strokes()[0]->info.removed, ball.dissection.strokes()[0]->info.removed);
 }
 
 TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)

@@ -387,14 +387,17 @@ TEST_F(Drill, ASessionIsRecordedAndTheCommandRepeatsItToTheBit)
   }
   const auto ball = library().open("ball");
   const auto copy = library().open("copy");
-  ASSERT_EQ(ball.strokes.size(), 3u);
-  ASSERT_EQ(copy.strokes.size(), 3u);
+  ASSERT_EQ(ball.dissection.strokes().size(), 3u);
+  ASSERT_EQ(copy.dissection.strokes().size(), 3u);
   for (std::size_t n = 0; n < 3; ++n)
   {
-    EXPECT_GT(ball.strokes[n].info.removed, 0.0);
-    EXPECT_EQ(copy.strokes[n].info.removed, ball.strokes[n].info.removed);
-    EXPECT_EQ(copy.strokes[n].info.duration, ball.strokes[n].info.duration);
-    EXPECT_EQ(copy.strokes[n].info.burr.diameter, ball.strokes[n].info.burr.diameter);
+    EXPECT_GT(ball.dissection.strokes()[n]->info.removed, 0.0);
+    EXPECT_EQ(copy.dissection.strokes()[n]->info.removed,
+              ball.dissection.strokes()[n]->info.removed);
+    EXPECT_EQ(copy.dissection.strokes()[n]->info.duration,
+              ball.dissection.strokes()[n]->info.duration);
+    EXPECT_EQ(copy.dissection.strokes()[n]->info.burr.diameter,
+              ball.dissection.strokes()[n]->info.burr.diameter);
   }
 }
 
@@ -412,7 +415,7 @@ TEST_F(Drill, ARecordingThatCannotBeWrittenIsToldAndTheDrillGoesOn)
       << banner->text().toStdString();
   EXPECT_FALSE(window().findChild<QLabel*>("recording")->isVisible());
   EXPECT_FALSE(action(QString::fromUtf8("Record session…"))->isChecked());
-  EXPECT_EQ(library().open("ball").strokes.size(), 1u);
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
   banner->findChild<QPushButton*>("dismissRecording")->click();
   EXPECT_FALSE(banner->isVisible());
 }

@@ -15,20 +15,13 @@
 #include <unistd.h>
 
 using petrous::core::LockedMemory;
+using petrous::core::majorPageFaults;
 
 namespace
 {
 
 constexpr std::size_t kBytes = 4 << 20;
 constexpr std::size_t kPage = 4096;
-
-// Of this thread since it started.
-long majorPageFaults()
-{
-  rusage usage{};
-  EXPECT_EQ(getrusage(RUSAGE_THREAD, &usage), 0);
-  return usage.ru_majflt;
-}
 
 // A file on the disk of the test directory, mapped as the library maps a CT.
 class MappedFile

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace petrous::core
@@ -129,6 +130,12 @@ LockedMemory::~LockedMemory()
     const auto [from, to] = pagesOf(range);
     PageLocks::ofProcess().unlock(from, to);
   }
+}
+
+long majorPageFaults() noexcept
+{
+  rusage usage{};
+  return getrusage(RUSAGE_THREAD, &usage) == 0 ? usage.ru_majflt : 0;
 }
 
 } // namespace petrous::core

@@ -475,7 +475,7 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
   core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
-                  std::to_string(value.strokes.size()) + " strokes, " +
+                  std::to_string(value.dissection.strokes().size()) + " strokes, " +
                   std::to_string(1 + value.mr.size()) + " images, " +
                   std::to_string(value.labels.size()) + " label maps, " +
                   std::to_string(value.meshes.size()) + " meshes" +

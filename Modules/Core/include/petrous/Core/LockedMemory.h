@@ -35,4 +35,7 @@ private:
   std::size_t m_bytes = 0;
 };
 
+/// Major page faults of the calling thread since it started.
+long majorPageFaults() noexcept;
+
 } // namespace petrous::core

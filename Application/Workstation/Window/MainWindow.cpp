@@ -356,8 +356,10 @@ void MainWindow::connectActions()
   on(m_actions->save, [this] { m_keeper->save(); });
   on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
   on(m_actions->quit, [this] { close(); });
-  on(m_actions->undo, [this] { m_model.undo(); });
-  on(m_actions->redo, [this] { m_model.redo(); });
+  // A damaged stroke is refused.
+  const auto refused = [this](const QString& why) { statusBar()->showMessage(why); };
+  on(m_actions->undo, [this, refused] { guarded([this] { m_model.undo(); }, refused); });
+  on(m_actions->redo, [this, refused] { guarded([this] { m_model.redo(); }, refused); });
   on(m_actions->centerView,
      [this]
      {

@@ -373,6 +373,13 @@ bool SurfaceSamples::reaches(const Search& search, const Eigen::Vector3d& middle
   return distance <= radius + search.margin && (search.inside || distance >= -radius);
 }
 
+bool SurfaceSamples::reachesCell(const Search& search, const core::GridGeometry& grid,
+                                 const core::Index3& cell) const noexcept
+{
+  const Eigen::Vector3d middle(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
+  return reaches(search, grid.patientFromVoxel(middle), 0.5 * grid.spacing().norm());
+}
+
 void SurfaceSamples::add(Search& search, const Eigen::Vector3d& place) noexcept
 {
   spend(search, 1);
@@ -615,8 +622,12 @@ void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcep
   spend(search, kBrickCost);
   HapticField::BrickValues values;
   m_field.brickValues(brick, *m_state, values);
-  known = {key, m_number, m_nextPlace, 0, values.mask};
-  m_making = &known;
+  // A query is bounded more tightly, and rarely asks twice: it examines only the cells it needs.
+  if (!search.inside)
+  {
+    known = {key, m_number, m_nextPlace, 0, values.mask};
+    m_making = &known;
+  }
   const core::GridGeometry& grid = m_field.geometry();
   const core::Index3& dims = grid.dims();
   bool empty = !values.others;
@@ -652,7 +663,7 @@ void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcep
     if (corners.tissues == 0 && (corners.whole || !corners.others))
       continue;
     empty = false;
-    if (!(corners.whole && all))
+    if (!(corners.whole && all) && (m_making || reachesCell(search, grid, cell)))
       addCell(search, cell, corners);
   }
   if (empty)
@@ -667,7 +678,7 @@ void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcep
       if (!m_field.onGrid(n))
         addUnion(search, brick, n, whole);
     // Where a union on another grid is cut, the end of a line may be in another brick.
-    if (!whole)
+    if (!whole && m_making)
       known.key = UINT64_MAX;
   }
   m_making = nullptr;
@@ -803,7 +814,8 @@ void SurfaceSamples::addUnion(Search& search, const core::Index3& brick, std::si
           border = border || cell[a] == 0 || cell[a] == own.dims()[a] - 2;
         if (least(share) > 0.0F && whole && !border)
           continue;
-        addUnionCell(search, brick, n, whole, cell, share);
+        if (m_making || reachesCell(search, own, cell))
+          addUnionCell(search, brick, n, whole, cell, share);
       }
 }
 

@@ -156,6 +156,8 @@ private:
                     const core::Index3& cell, const std::array<float, 8>& share) noexcept;
   bool inOthers(const Eigen::Vector3d& voxel, std::size_t but) const noexcept;
   bool reaches(const Search& search, const Eigen::Vector3d& middle, double radius) const noexcept;
+  bool reachesCell(const Search& search, const core::GridGeometry& grid,
+                   const core::Index3& cell) const noexcept;
   void add(Search& search, const Eigen::Vector3d& place) noexcept;
   int linesFor(std::size_t part, const core::GridGeometry& grid, bool flat) const noexcept;
 

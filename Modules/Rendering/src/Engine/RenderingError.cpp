@@ -1,5 +1,6 @@
 #include "petrous/Rendering/RenderingError.h"
 
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -56,6 +57,7 @@ RenderingError::RenderingError(Reason why, const std::string& message)
 
 void logToolkitMessages()
 {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it has the text
   const vtkNew<LogWindow> window;
   vtkOutputWindow::SetInstance(window);
 }

@@ -205,6 +205,7 @@ void StereoPicture::Implementation::endLeft()
     take(left, m_pictures[0]);
   m_moved = false;
   picture.setCamera(m_head);
+  shiftLens(left, m_head); // who picks between two frames looks along the head's axis
 }
 
 void StereoPicture::Implementation::startRight()

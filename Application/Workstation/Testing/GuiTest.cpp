@@ -151,7 +151,10 @@ void GuiTest::dropPath(const std::filesystem::path& path)
 void GuiTest::drill(int milliseconds, int pixels)
 {
   if (!action("Drill")->isChecked())
+  {
+    QApplication::setActiveWindow(m_window.get()); // without a window manager a dialog keeps it
     QTest::keyClick(&view(), Qt::Key_D);
+  }
   ASSERT_TRUE(action("Drill")->isChecked());
   const QPoint middle = view().rect().center();
   QTest::mouseMove(&view(), middle);

@@ -83,7 +83,7 @@ void BranchController::fill()
   }
 }
 
-void BranchController::goTo(const std::string& name)
+void BranchController::goTo(std::string name)
 {
   if (!m_model.hasCase() || name == m_model.value().dissection.history().branch().name)
     return;

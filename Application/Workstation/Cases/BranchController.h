@@ -32,7 +32,7 @@ signals:
 
 private:
   void fill();
-  void goTo(const std::string& name);
+  void goTo(std::string name); // a copy: the history moves when the tool is put away
   void goOn(int steps);
   void start();
   bool change(const std::function<void()>& what);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ActiveDeviceController.h"
+#include "Application.h"
 #include "ThreeDView.h"
 #include "petrous/Devices/PedalledDevice.h"
 
@@ -140,8 +141,12 @@ void ToolDriver::send()
 
 void ToolDriver::forward()
 {
-  if (m_model.touching())
-    m_model.touch()->setParameters(m_view.tool().GetParameters());
+  guarded( // within a VTK event
+      [this]
+      {
+        if (m_model.touching())
+          m_model.touch()->setParameters(m_view.tool().GetParameters());
+      });
 }
 
 void ToolDriver::letGo()

@@ -10,6 +10,7 @@
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
+#include "Application.h"
 #include "petrous/Interaction/CameraStyle.h"
 #include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Interaction/RendererPickRay.h"
@@ -75,19 +76,24 @@ bool ThreeDView::handleCamera(vtkObject*, unsigned long, void*)
 
 void ThreeDView::handleTool(vtkObject*, unsigned long event, void*)
 {
-  switch (event)
-  {
-  case vtkCommand::HoverEvent:
-    return emit pointed(m_tool->GetPickRay());
-  case vtkCommand::LeaveEvent:
-    return emit pointerLeft();
-  case vtkCommand::PickEvent:
-    return emit picked(m_tool->GetPickRay());
-  case vtkCommand::StartInteractionEvent:
-    return emit drillPressed();
-  default:
-    return emit toolModeSet();
-  }
+  // VTK's frames are no place for exceptions.
+  guarded(
+      [this, event]
+      {
+        switch (event)
+        {
+        case vtkCommand::HoverEvent:
+          return emit pointed(m_tool->GetPickRay());
+        case vtkCommand::LeaveEvent:
+          return emit pointerLeft();
+        case vtkCommand::PickEvent:
+          return emit picked(m_tool->GetPickRay());
+        case vtkCommand::StartInteractionEvent:
+          return emit drillPressed();
+        default:
+          return emit toolModeSet();
+        }
+      });
 }
 
 void ThreeDView::placeLetters()
@@ -180,6 +186,9 @@ bool ThreeDView::event(QEvent* event)
     break;
   case QEvent::FocusOut: // a release event sent to another window would leave the drill on
     m_tool->Release();
+    m_style->OnLeftButtonUp();
+    m_style->OnMiddleButtonUp();
+    m_style->OnRightButtonUp();
     break;
   default:
     break;

@@ -86,6 +86,24 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   EXPECT_EQ(saved.dissection.history().branches().size(), 2u);
 }
 
+// Putting the tool away ends the stroke, and so moves the history from which the name comes.
+TEST_F(Branches, GoOnWhileTheDrillIsStillOn)
+{
+  saveBall("ball");
+  openWindow();
+  startBranch("other");
+  QTest::mouseMove(&view(), view().rect().center());
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(hasTool());
+  QTest::keyPress(&view(), Qt::Key_Space);
+  ASSERT_TRUE(waitFor([this] { return !value().dissection.mask().untouched(); }));
+  QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
+  EXPECT_EQ(value().dissection.history().branch().name, "main");
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
+}
+
 TEST_F(Branches, RefuseANameThatIsTakenInWords)
 {
   saveBall("ball");

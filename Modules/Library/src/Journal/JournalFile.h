@@ -19,7 +19,7 @@ struct JournalFrame
   enum class Kind : std::uint8_t
   {
     Head = 'J',    ///< text: case and revision
-    Stroke = 'S',  ///< text: scene::toText(StrokePart), bytes: voxels
+    Stroke = 'S',  ///< text: scene::toText(Stroke), bytes: voxels
     History = 'H', ///< text: scene::toText(History)
     Part = 'P'     ///< of the open stroke: like Stroke, since the previous part
   };

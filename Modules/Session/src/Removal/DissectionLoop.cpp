@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "petrous/Core/Error.h"
+
 namespace petrous::session
 {
 
@@ -173,8 +175,15 @@ bool DissectionLoop::turn(bool back)
 {
   m_removalModel.release();
   endStroke();
-  if ((back ? m_dissection.undo() : m_dissection.redo()) == 0)
+  try
+  {
+    if ((back ? m_dissection.undo() : m_dissection.redo()) == 0)
+      return false;
+  }
+  catch (const core::Error&) // a damaged stroke; nothing has changed
+  {
     return false;
+  }
   publish(true);
   notify({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});
   return true;

@@ -19,7 +19,7 @@ class SceneAssembly
 {
 public:
   /// Loads the CT; label maps, meshes and an MR only if needed. The mask is shared with the case's
-  /// dissection if that is loaded and something was removed.
+  /// dissection if that is loaded.
   ///
   /// What cannot be placed on the CT (scene::Placement) is left out.
   ///

@@ -39,7 +39,7 @@ struct ReadCase
 struct StoreTask
 {
   library::Library library;
-  scene::Case value; ///< without its dissection, which another thread may be writing
+  scene::Case value; ///< its dissection is not loaded: strokes and history are stored
   std::string from;  ///< the open case's name
   std::uint64_t changes = 0;
   std::optional<library::Library> source; ///< library that the case moves from; the window then

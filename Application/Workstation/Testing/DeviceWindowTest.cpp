@@ -63,6 +63,16 @@ protected:
     ASSERT_TRUE(hasTool());
   }
 
+  /// Drills by the cap until bone is gone, with Space still held when it is unplugged.
+  void unplugWhileDrilling()
+  {
+    QTest::keyPress(&view(), Qt::Key_Space);
+    ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
+                             { return !window().model().value().dissection.mask().untouched(); }));
+    bench.play("unplug cap\n");
+    ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  }
+
   std::optional<FakeServer> served;
 };
 
@@ -135,11 +145,7 @@ TEST_F(InputDevices, ADeviceThatIsUnpluggedLeavesTheStrokeSavedAndTheMouseInChar
   choose("SpaceMouse Compact");
   QTest::keyClick(&view(), Qt::Key_D);
   ASSERT_TRUE(hasTool());
-  QTest::keyPress(&view(), Qt::Key_Space);
-  ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
-                           { return !window().model().value().dissection.mask().untouched(); }));
-  bench.play("unplug cap\n");
-  ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  ASSERT_NO_FATAL_FAILURE(unplugWhileDrilling());
   EXPECT_TRUE(message().contains("unplugged")) << message().toStdString();
   EXPECT_TRUE(message().contains("The mouse leads the tool")) << message().toStdString();
   ASSERT_TRUE(settled());
@@ -166,11 +172,7 @@ TEST_F(InputDevices, ARecordingEndsWithItsDeviceAndTheCommandRepeatsItToTheBit)
   const auto file = record();
   ASSERT_TRUE(waitFor([&] { return std::filesystem::exists(file); }));
   ASSERT_TRUE(hasTool());
-  QTest::keyPress(&view(), Qt::Key_Space);
-  ASSERT_TRUE(holdCapUntil(capHeld(0, -350, 0), [this]
-                           { return !window().model().value().dissection.mask().untouched(); }));
-  bench.play("unplug cap\n");
-  ASSERT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  ASSERT_NO_FATAL_FAILURE(unplugWhileDrilling());
   QTest::keyRelease(&view(), Qt::Key_Space);
   EXPECT_TRUE(window().model().recording().empty());
   EXPECT_FALSE(action(QString::fromUtf8("Record session…"))->isChecked());

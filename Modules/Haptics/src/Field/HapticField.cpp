@@ -409,22 +409,21 @@ void HapticField::brickValues(const core::Index3& brick, const volume::MaskState
       std::transform(last.begin(), last.end(), occupancy.begin(), last.begin(),
                      [](float a, float b) { return std::max(a, b); });
     }
-  maskValues(brick, mask, values.mask);
-  // A voxel or more away only its sign matters.
-  if (untouched(brick, mask))
+  // A voxel or more away only the hull's sign matters.
+  if (!maskValues(brick, mask, values.mask))
     values.hull.fill(static_cast<float>(kHullSlope));
   else
     forEach([&](std::size_t n, int i, int j, int k)
             { values.hull[n] = static_cast<float>(hull(Eigen::Vector3d(i, j, k))); });
 }
 
-void HapticField::maskValues(const core::Index3& brick, const volume::MaskState& mask,
+bool HapticField::maskValues(const core::Index3& brick, const volume::MaskState& mask,
                              std::array<float, 27>& values) const noexcept
 {
   if (untouched(brick, mask))
   {
     values.fill(0.5F);
-    return;
+    return false;
   }
   values.fill(static_cast<float>(TissueField::kAir));
   constexpr int edge = CutMask::kBrickEdge;
@@ -449,6 +448,7 @@ void HapticField::maskValues(const core::Index3& brick, const volume::MaskState&
                                        0.5F
                                  : 0.5F;
                });
+  return true;
 }
 
 bool HapticField::untouched(const core::Index3& brick, const volume::MaskState& mask) const noexcept

@@ -527,6 +527,20 @@ Span both(const Span& a, const Span& b) noexcept
   return {std::max(a.from, b.from), std::min(a.to, b.to)};
 }
 
+// The bits of a box of bricks within one block; 0 if it is in several.
+std::uint64_t bitsOf(const core::Index3& lower, const core::Index3& upper) noexcept
+{
+  std::uint64_t bits = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (lower[a] / kBlock != (upper[a] - 1) / kBlock)
+      return 0;
+  for (int k = lower[2] % kBlock; k <= (upper[2] - 1) % kBlock; ++k)
+    for (int j = lower[1] % kBlock; j <= (upper[1] - 1) % kBlock; ++j)
+      for (int i = lower[0] % kBlock; i <= (upper[0] - 1) % kBlock; ++i)
+        bits |= std::uint64_t{1} << (i + kBlock * (j + kBlock * k));
+  return bits;
+}
+
 Corners cornersOf(const std::array<float, 27>& values, std::size_t base) noexcept
 {
   Corners corners;
@@ -556,23 +570,6 @@ std::size_t SurfaceSamples::indexOf(const core::Index3& brick) const noexcept
                                         (at(1) + static_cast<std::size_t>(m_blocks[1]) * at(2));
   return kBlock * kBlock * kBlock * block + in(0) + kBlock * (in(1) + kBlock * in(2));
 }
-
-// The bits of a box within one block; 0 if it is in several.
-namespace
-{
-std::uint64_t bitsOf(const core::Index3& lower, const core::Index3& upper) noexcept
-{
-  std::uint64_t bits = 0;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (lower[a] / kBlock != (upper[a] - 1) / kBlock)
-      return 0;
-  for (int k = lower[2] % kBlock; k <= (upper[2] - 1) % kBlock; ++k)
-    for (int j = lower[1] % kBlock; j <= (upper[1] - 1) % kBlock; ++j)
-      for (int i = lower[0] % kBlock; i <= (upper[0] - 1) % kBlock; ++i)
-        bits |= std::uint64_t{1} << (i + kBlock * (j + kBlock * k));
-  return bits;
-}
-} // namespace
 
 void SurfaceSamples::markEmpty(const Box& box) noexcept
 {
@@ -679,7 +676,7 @@ void SurfaceSamples::addBrick(Search& search, const core::Index3& brick) noexcep
         addUnion(search, brick, n, whole);
     // Where a union on another grid is cut, the end of a line may be in another brick.
     if (!whole && m_making)
-      known.key = UINT64_MAX;
+      m_making->key = UINT64_MAX;
   }
   m_making = nullptr;
 }

@@ -113,8 +113,10 @@ public:
   const core::Index3& brickDims() const noexcept { return m_bricks; }
   void brickValues(const core::Index3& brick, const volume::MaskState& mask,
                    BrickValues& values) const noexcept;
-  void maskValues(const core::Index3& brick, const volume::MaskState& mask,
-                  std::array<float, 27>& values) const noexcept; ///< BrickValues::mask
+
+  /// BrickValues::mask alone; returns false where the brick is `untouched`.
+  bool maskValues(const core::Index3& brick, const volume::MaskState& mask,
+                  std::array<float, 27>& values) const noexcept;
 
   /// Whether nothing was removed near a brick and the hull is far: f equals `uncut` there.
   bool untouched(const core::Index3& brick, const volume::MaskState& mask) const noexcept;

@@ -142,6 +142,14 @@ TEST_F(Damage, APreparationThatWasStoppedIsDoneForATool)
   }
   stop.stop();
   QApplication::setActiveWindow(&window()); // after the progress dialogs
+  QTest::keyClick(&view(), Qt::Key_D);
+  int moves = 0;
+  ASSERT_TRUE(waitFor(
+      [&] // the tool follows the pointer as soon as it is prepared
+      {
+        QTest::mouseMove(&view(), view().rect().center() + QPoint(++moves % 2, 0));
+        return window().model().touching();
+      }));
   drill(600);
   EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u);
 }

@@ -66,7 +66,7 @@ void startLog(const QCommandLineParser& parser)
   { std::cerr << "petrous-workstation: " << text << '\n'; };
   core::log::start(setup);
   core::log::info(std::string("window: start, petrous-workstation " PETROUS_VERSION ", locale ") +
-                  std::setlocale(LC_NUMERIC, nullptr) + ", " +
+                  QLocale::system().name().toStdString() + ", " +
                   std::to_string(std::thread::hardware_concurrency()) + " processors");
   qInstallMessageHandler(logQtMessage);
   imaging::logToolkitMessages();

@@ -355,6 +355,8 @@ TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
   model.open("block");
   stroke(model);
   model.saveElsewhere(folder / "two", "block");
+  EXPECT_TRUE(until([this] { return !exists(folder / "one" / "cases" / "block.journal"); }))
+      << "the journal's thread removes it";
   std::filesystem::remove_all(folder / "one");
   library::Library two(folder / "two");
   auto opened = two.open("block");

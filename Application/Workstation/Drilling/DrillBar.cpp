@@ -98,10 +98,6 @@ DrillBar::DrillBar(QWidget* parent)
   connect(m_thrust, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &DrillBar::pressChanged);
   connect(m_wheel, &QAction::toggled, this, &DrillBar::pressChanged);
-  for (QAbstractSpinBox* box :
-       {static_cast<QAbstractSpinBox*>(m_diameter), static_cast<QAbstractSpinBox*>(m_speed),
-        static_cast<QAbstractSpinBox*>(m_thrust)})
-    connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, &DrillBar::entered);
 }
 
 void DrillBar::setBurrs(const dissection::BurrCatalogue& burrs)

@@ -45,7 +45,6 @@ public:
   void setPresses(bool byWheel, bool byThrust);
 
 signals:
-  void entered(); ///< a number was entered: the view gets the keyboard focus
   void burrChanged();
   void pressChanged(); ///< thrust, or how depth is controlled
 

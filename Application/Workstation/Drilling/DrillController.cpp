@@ -206,8 +206,8 @@ void DrillController::renewTool()
 
 void DrillController::tissueCame()
 {
-  if (m_tool != Tool::None && m_devices.device())
-    takeTool(); // with the mouse, the pointer's next move takes it up
+  if (m_tool != Tool::None)
+    m_devices.device() ? void(takeTool()) : takeAtPointer();
 }
 
 void DrillController::bringHere()

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <QApplication>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
@@ -184,6 +185,15 @@ bool ThreeDView::event(QEvent* event)
       return QVTKOpenGLNativeWidget::event(&repeated);
     }
     break;
+  case QEvent::Enter: // a dialog closed over the pointer: the tool is there before it moves
+  {
+    const bool taken = QVTKOpenGLNativeWidget::event(event);
+    const QPointF at = static_cast<QEnterEvent*>(event)->localPos();
+    if (m_tool->GetDrillMode() || m_tool->GetProbeMode())
+      sendMouse(QMouseEvent(QEvent::MouseMove, at, Qt::NoButton, QApplication::mouseButtons(),
+                            QApplication::keyboardModifiers()));
+    return taken;
+  }
   case QEvent::FocusOut: // a release event sent to another window would leave the drill on
     m_tool->Release();
     m_style->OnLeftButtonUp();

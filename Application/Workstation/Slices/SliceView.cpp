@@ -21,7 +21,8 @@ using presenters::SliceOrientation;
 constexpr double kHuPerPixel = 8.0;
 constexpr double kMinHu = 10.0; // of a grey window
 constexpr int kMargin = 8;
-constexpr double kGap = 9.0; // of the crosshair, pixels
+constexpr double kReadout = 0.68; // of the width; the rest is the scale bar's
+constexpr double kGap = 9.0;      // of the crosshair, pixels
 
 // The planes represented by a view's vertical and horizontal line.
 std::pair<SliceOrientation, SliceOrientation> linesOf(SliceOrientation view)
@@ -219,8 +220,14 @@ void SliceView::paintLetters(QPainter& painter) const
            planeColor(m_orientation));
   font.setBold(false);
   painter.setFont(font);
-  drawText(painter, {double(kMargin), kMargin + 27.0}, m_notice, QColor("#f0a04d"));
-  drawText(painter, {double(kMargin), double(height() - kMargin)}, m_readout, color);
+  const QFontMetricsF small(font);
+  const double whole = width() - 2.0 * kMargin;
+  drawText(painter, {double(kMargin), kMargin + 27.0},
+           small.elidedText(m_notice, Qt::ElideMiddle, whole), QColor("#f0a04d"));
+  // Above the letter where it is too long to stand beside it, and always left of the scale bar.
+  const bool beside = small.horizontalAdvance(m_readout) <= across - 2.0 * kMargin;
+  drawText(painter, {double(kMargin), height() - kMargin - (beside ? 0.0 : 1.4 * small.height())},
+           small.elidedText(m_readout, Qt::ElideMiddle, kReadout * whole), color);
   if (underMouse())
   {
     const QString grey =

@@ -14,6 +14,7 @@
 #include <vtkCallbackCommand.h>
 
 #include "Banner.h"
+#include "Bind.h"
 #include "DrillController.h"
 
 using namespace petrous;
@@ -186,21 +187,108 @@ TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
   EXPECT_FALSE(window().model().touching());
 }
 
-TEST_F(Drill, ReturnInANumberGivesTheKeysBackToTheView)
+TEST_F(Drill, ReturnAndEscapeInANumberGiveTheKeysBackToTheView)
 {
   saveBall("ball");
   openWindow();
-  for (const char* name : {"thrust", "burrDiameter", "spindleSpeed"})
+  int visible = 0;
+  for (auto* box : window().findChildren<QAbstractSpinBox*>())
   {
-    SCOPED_TRACE(name);
-    auto* edit = window().findChild<QAbstractSpinBox*>(name)->findChild<QLineEdit*>();
-    edit->setFocus();
-    QTest::keyClick(edit, Qt::Key_Return);
-    ASSERT_EQ(QApplication::focusWidget(), &view());
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
-    EXPECT_TRUE(action("Drill")->isChecked());
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+    if (!box->isVisible() || !box->isEnabled())
+      continue;
+    SCOPED_TRACE(box->objectName().toStdString());
+    ++visible;
+    for (const Qt::Key key : {Qt::Key_Return, Qt::Key_Enter, Qt::Key_Escape})
+    {
+      box->setFocus();
+      ASSERT_EQ(QApplication::focusWidget(), box);
+      QTest::keyClick(box, key);
+      ASSERT_EQ(QApplication::focusWidget(), &view());
+      QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+      EXPECT_TRUE(action("Drill")->isChecked());
+      QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
+    }
   }
+  EXPECT_GE(visible, 4); // burr, speed, thrust, threshold
+}
+
+// 3 is a standard view's key.
+TEST_F(Drill, AKeyForAViewAfterTheThresholdChangesNoThreshold)
+{
+  saveBall("ball");
+  openWindow();
+  auto* box = window().findChild<QDoubleSpinBox*>("isoBox");
+  box->setFocus();
+  box->selectAll();
+  QTest::keyClicks(box, "300");
+  QTest::keyClick(box, Qt::Key_Return);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 300.0; }));
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_3);
+  QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  QTest::qWait(3 * Bindings::kSettle);
+  EXPECT_EQ(box->text().toStdString().substr(0, 3), "300");
+  EXPECT_EQ(window().model().value().iso, 300.0);
+
+  box->setFocus();
+  box->selectAll();
+  QTest::keyClicks(box, "7");
+  QTest::keyClick(box, Qt::Key_Escape);
+  QWheelEvent wheel(QPointF(5, 5), box->mapToGlobal(QPoint(5, 5)), {}, {0, 120}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(box, &wheel);
+  QTest::qWait(3 * Bindings::kSettle);
+  EXPECT_EQ(window().model().value().iso, 300.0);
+  EXPECT_EQ(QApplication::focusWidget(), &view());
+}
+
+TEST_F(Drill, AnUndoUnderTheHeldButtonLiftsTheDrillUntilItIsPressedAnew)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  const auto press = [&]
+  {
+    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+    return waitFor([this] { return window().model().drilling(); });
+  };
+  ASSERT_TRUE(press());
+  QTest::qWait(500); // something is cut
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(
+      waitFor([this] { return window().model().value().dissection.history().ahead() > 0; }));
+  for (int n = 0; n < 20; ++n) // under the held button
+  {
+    const QMouseEvent move(QEvent::MouseMove, middle + QPoint(n % 2, 0), Qt::LeftButton,
+                           Qt::LeftButton, Qt::NoModifier);
+    QMouseEvent sent = move;
+    QApplication::sendEvent(&view(), &sent);
+    QTest::qWait(20);
+    EXPECT_FALSE(window().model().drilling());
+  }
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(window().model().value().applied(), 0u);
+  EXPECT_TRUE(press());
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(strokeEnds());
+}
+
+// As when a dialog closes over it.
+TEST_F(Drill, ThePointerThatEntersTheViewTakesTheToolUpWithoutAMove)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  window().findChild<QDoubleSpinBox*>("isoBox")->setValue(320.0);
+  ASSERT_TRUE(waitFor([this] { return window().model().value().iso == 320.0; }));
+  ASSERT_TRUE(waitFor([this] { return !window().model().touching(); }));
+  const QPointF middle = view().rect().center();
+  QEnterEvent enter(middle, middle, view().mapToGlobal(middle.toPoint()));
+  QApplication::sendEvent(&view(), &enter);
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
 }
 
 TEST_F(Drill, TheButtonShowsWhetherTheWheelLeads)

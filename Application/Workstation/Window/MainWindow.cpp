@@ -6,16 +6,20 @@
 
 #include <QAction>
 #include <QCloseEvent>
+#include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QSpinBox>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -135,6 +139,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   layOut();
   connectModel();
   connectActions();
+  guardBoxes();
   stateChanged();
 }
 
@@ -207,6 +212,43 @@ void MainWindow::layOut()
   statusBar()->addPermanentWidget(m_picture->speed());
   statusBar()->addPermanentWidget(m_place);
   statusBar()->addPermanentWidget(m_sum);
+}
+
+// Keys belong to the picture unless a number is being typed, and the wheel changes no value that
+// was not clicked.
+void MainWindow::guardBoxes()
+{
+  for (auto* box : findChildren<QAbstractSpinBox*>())
+  {
+    connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, m_view,
+            qOverload<>(&QWidget::setFocus));
+    box->setFocusPolicy(Qt::StrongFocus);
+    box->installEventFilter(this);
+  }
+  for (auto* box : findChildren<QComboBox*>())
+  {
+    box->setFocusPolicy(Qt::StrongFocus);
+    box->installEventFilter(this);
+  }
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event)
+{
+  auto* widget = static_cast<QWidget*>(watched);
+  if (event->type() == QEvent::Wheel && !widget->hasFocus())
+  {
+    event->ignore(); // a panel may scroll
+    return true;
+  }
+  if (event->type() != QEvent::KeyPress || static_cast<QKeyEvent*>(event)->key() != Qt::Key_Escape)
+    return QMainWindow::eventFilter(watched, event);
+  // What was typed is dropped.
+  if (auto* number = qobject_cast<QDoubleSpinBox*>(widget))
+    number->setValue(number->value());
+  else if (auto* whole = qobject_cast<QSpinBox*>(widget))
+    whole->setValue(whole->value());
+  m_view->setFocus();
+  return true;
 }
 
 void MainWindow::addPanels()
@@ -327,7 +369,6 @@ void MainWindow::connectModel()
   connect(m_devices, &ActiveDeviceController::statusMessage, this, say);
   connect(m_devices, &ActiveDeviceController::lost, this, [this] { m_model.record({}); });
   connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
-  connect(m_bar, &DrillBar::entered, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this] { m_settings->keepThrust(m_bar->thrust()); });
@@ -358,8 +399,14 @@ void MainWindow::connectActions()
   on(m_actions->quit, [this] { close(); });
   // A damaged stroke is refused.
   const auto refused = [this](const QString& why) { statusBar()->showMessage(why); };
-  on(m_actions->undo, [this, refused] { guarded([this] { m_model.undo(); }, refused); });
-  on(m_actions->redo, [this, refused] { guarded([this] { m_model.redo(); }, refused); });
+  // The drill stays off until button, key or pedal is pressed anew.
+  const auto step = [this, refused](void (presenters::WorkstationModel::*way)())
+  {
+    m_view->tool().Release();
+    guarded([this, way] { (m_model.*way)(); }, refused);
+  };
+  on(m_actions->undo, [step] { step(&presenters::WorkstationModel::undo); });
+  on(m_actions->redo, [step] { step(&presenters::WorkstationModel::redo); });
   on(m_actions->centerView,
      [this]
      {

@@ -67,8 +67,10 @@ protected:
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override; ///< of number and choice boxes
 
 private:
+  void guardBoxes();
   void layOut();
   void connectModel();
   void connectActions();

@@ -117,7 +117,42 @@ TEST(DissectionLoop, DoesNotCutWhatCameBackByTicksFromBefore)
   EXPECT_FALSE(loop.step(pressed(0.012, {0.0, 0.0, 0.0}, 1.0, true)));
   EXPECT_TRUE(scene.work.mask().untouched());
   EXPECT_TRUE(loop.redo()); // not discarded by a new stroke
-  EXPECT_TRUE(loop.step(pressed(0.013, {0.0, 0.0, 0.0}, 1.0, true)));
+}
+
+TEST(DissectionLoop, ADrillThatIsOnAtAnUndoWaitsUntilItIsSwitchedOnAnew)
+{
+  LoopScene scene;
+  int begun = 0;
+  DissectionLoop::Hooks hooks;
+  hooks.begin = [&begun]
+  {
+    ++begun;
+    return dissection::StrokeInfo();
+  };
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, hooks);
+  for (int n = 0; n < 10; ++n)
+    loop.step(pressed(0.001 * n, {0.0, 0.0, 1.0}, 1.0, true));
+  ASSERT_EQ(begun, 1);
+  for (const bool back : {true, false})
+  {
+    const double now = back ? 0.1 : 0.2;
+    ASSERT_TRUE(back ? loop.undo() : loop.redo());
+    const double turned = scene.work.mask().sample(scene.grid.voxelFromPatient({0.0, 0.0, -2.0}));
+    const std::uint64_t state = loop.state();
+    for (int n = 0; n < 50; ++n)
+      EXPECT_FALSE(loop.step(pressed(now + 0.001 * n, {0.0, 0.0, 0.0}, 1.0, true)));
+    EXPECT_FALSE(scene.work.strokeOpen());
+    EXPECT_EQ(loop.state(), state);
+    EXPECT_EQ(scene.work.mask().sample(scene.grid.voxelFromPatient({0.0, 0.0, -2.0})), turned);
+  }
+  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(scene.work.history().ahead(), 0u);
+  loop.step(pressed(0.300, {0.0, 0.0, 0.0}, 1.0, false));
+  bool any = false;
+  for (int n = 1; n < 10; ++n)
+    any = loop.step(pressed(0.300 + 0.001 * n, {0.0, 0.0, 0.0}, 1.0, true)) || any;
+  EXPECT_TRUE(any);
+  EXPECT_EQ(begun, 2);
 }
 
 TEST(DissectionLoop, TakesStepsAtOnePlaceTogether)

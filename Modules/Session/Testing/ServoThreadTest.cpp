@@ -95,10 +95,13 @@ void touchCutAndUndo(LoopScene& scene, Servo& tool)
       EXPECT_TRUE(servo.latest(latest));
       EXPECT_TRUE(latest.proxy.pose().finite());
     }
-    parameters.drill = 1;
-    servo.setParameters(parameters);
-    const std::uint64_t from = servo.state().ticks;
-    EXPECT_TRUE(eventually([&] { return servo.state().ticks > from + 100; }));
+    for (const bool drill : {false, true}) // after an undo it must have been off
+    {
+      parameters.drill = drill;
+      servo.setParameters(parameters);
+      const std::uint64_t from = servo.state().ticks;
+      EXPECT_TRUE(eventually([&] { return servo.state().ticks > from + 100; }));
+    }
     servo.stop();
     dissection.stop();
     EXPECT_EQ(dissection.takeFailure(), "");

@@ -36,6 +36,15 @@ std::unique_ptr<SessionRecorder> recorderOf(const TouchScene& scene,
       setup.recording, scene.recordingOf(setup.tool, servo.setup(), "live session"));
 }
 
+// As every device does, and a pointer whenever it rests.
+bool startsUp(const TickRecord& record)
+{
+  const auto verdict = static_cast<haptics::DeviceVerdict>(record.verdict);
+  return static_cast<ServoFault>(record.fault) == ServoFault::Device &&
+         (verdict == haptics::DeviceVerdict::NotReady ||
+          verdict == haptics::DeviceVerdict::Settling);
+}
+
 void list(const Event& event, TouchSession::News& news)
 {
   switch (event.kind)
@@ -174,7 +183,8 @@ TouchSession::News TouchSession::advance()
   if (update.fault)
     news.fault = toString(*update.fault);
   if (update.fault && std::exchange(m_loggedFault, update.fault->fault) != update.fault->fault)
-    core::log::warning("servo: " + news.fault);
+    core::log::write(startsUp(*update.fault) ? core::log::Level::Debug : core::log::Level::Warning,
+                     "servo: " + news.fault);
   news.recordingFault = std::move(update.recordingFault);
   TickRecord record;
   if (m_servoThread->latest(record))

@@ -45,7 +45,9 @@ double DissectionLoop::secondsOf(const TickRecord& record)
 // Opens and closes strokes as the drill is switched; returns whether it is on.
 bool DissectionLoop::follow(const TickRecord& record)
 {
-  const bool drill = record.drill && record.time() > m_ignoreUntil;
+  m_on = record.drill != 0;
+  m_untilOff = m_untilOff && m_on;
+  const bool drill = m_on && !m_untilOff && record.time() > m_ignoreUntil;
   if (drill)
     open();
   else
@@ -175,6 +177,7 @@ bool DissectionLoop::turn(bool back)
 {
   m_removalModel.release();
   endStroke();
+  m_untilOff = m_on;
   try
   {
     if ((back ? m_dissection.undo() : m_dissection.redo()) == 0)

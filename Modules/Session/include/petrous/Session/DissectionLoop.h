@@ -53,7 +53,8 @@ public:
   /// Closes the open stroke.
   void endStroke();
 
-  /// Undoes or redoes one stroke, after closing an open one; false if there is none.
+  /// Undoes or redoes one stroke, after closing an open one; false if there is none. A drill that
+  /// is on stays without effect until it was off.
   bool undo();
   bool redo();
 
@@ -87,6 +88,8 @@ private:
   Hooks m_hooks;
   double m_time = 0.0;
   bool m_hasTime = false;
+  bool m_on = false;       // the drill, in the last tick
+  bool m_untilOff = false; // it has been on since before undo or redo
   double m_ignoreUntil = -std::numeric_limits<double>::infinity();
   std::uint64_t m_cuts = 0;
 };

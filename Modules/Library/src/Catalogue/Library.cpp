@@ -473,17 +473,25 @@ void Library::save(scene::Case& value, const core::Progress& progress)
     store.discardNew();
     throw;
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
-  core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
-                  std::to_string(value.dissection.strokes().size()) + " strokes, " +
-                  std::to_string(1 + value.mr.size()) + " images, " +
-                  std::to_string(value.labels.size()) + " label maps, " +
-                  std::to_string(value.meshes.size()) + " meshes" +
-                  (onDisk ? "" : "; the disk reported an error"));
-  if (!onDisk && m_notice)
-    m_notice("case '" + value.name + "' is saved, but the disk reported an error; check the disk");
-  if (const auto state = stateOf(path))
-    Catalogue(m_folder / "library.sqlite").put(summaryOf(value, state->modified), state->stamp);
+  try
+  {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
+    core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
+                    std::to_string(value.dissection.strokes().size()) + " strokes, " +
+                    std::to_string(1 + value.mr.size()) + " images, " +
+                    std::to_string(value.labels.size()) + " label maps, " +
+                    std::to_string(value.meshes.size()) + " meshes" +
+                    (onDisk ? "" : "; the disk reported an error"));
+    if (!onDisk && m_notice)
+      m_notice("case '" + value.name +
+               "' is saved, but the disk reported an error; check the disk");
+    if (const auto state = stateOf(path))
+      Catalogue(m_folder / "library.sqlite").put(summaryOf(value, state->modified), state->stamp);
+  }
+  catch (const std::exception& error) // the case is saved, whatever is said of it
+  {
+    core::log::error("library: after saving: " + core::log::typeOf(error));
+  }
 }
 
 std::string Library::saveDrilled(scene::Case& value, const SavedState& base,

@@ -29,7 +29,6 @@
 #include "ActiveDeviceController.h"
 #include "Application.h"
 #include "Banner.h"
-#include "BannerStack.h"
 #include "BranchController.h"
 #include "BurrWarnings.h"
 #include "CaseDocumentController.h"

@@ -1,18 +1,256 @@
 #include "petrous/Interaction/ForceDisplay.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkArrowSource.h>
+#include <vtkCellArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 
-#include "ForceArrow.h"
-#include "ForceBar.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
+
+class vtkActor2D;
+class vtkPoints;
+class vtkRenderer;
+class vtkTextActor;
+
+class vtkActor;
+class vtkArrowSource;
 
 namespace petrous::interaction
 {
+
+/// An arrow whose thickness is independent of its length. Drawn on top of all opaque geometry and
+/// tissue.
+class ForceArrow
+{
+public:
+  ForceArrow();
+  ~ForceArrow();
+
+  vtkActor* actor() const { return m_actor; }
+
+  void hide();
+
+  /// from, along  patient mm; |along| > 0 is the arrow's length
+  /// thickness    mm, of its shaft; less for a short arrow
+  void show(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double thickness,
+            const Eigen::Vector3d& color);
+
+private:
+  vtkNew<vtkArrowSource> m_source;
+  vtkNew<vtkActor> m_actor;
+};
+
+namespace
+{
+// Relative to the shaft's thickness.
+constexpr double kTipLength = 4.0;
+constexpr double kTipRadius = 1.4;
+// Tip of a short arrow, relative to its length.
+constexpr double kMaxTip = 0.45;
+} // namespace
+
+ForceArrow::ForceArrow()
+{
+  m_source->SetShaftResolution(16);
+  m_source->SetTipResolution(24);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(m_source->GetOutputPort());
+  m_actor->SetMapper(mapper);
+  m_actor->PickableOff();
+  // Mostly ambient: the colour encodes the magnitude, whatever the direction.
+  m_actor->GetProperty()->SetAmbient(0.5);
+  m_actor->GetProperty()->SetDiffuse(0.5);
+  m_actor->GetProperty()->SetSpecular(0.0);
+  // In front of everything, keeping the depth order of its own parts: the force on the hand mostly
+  // points into the handpiece, which would hide it.
+  m_actor->GetShaderProperty()->AddFragmentShaderReplacement(
+      "//VTK::Depth::Impl", true, "//VTK::Depth::Impl\n  gl_FragDepth = 0.01 * gl_FragCoord.z;\n",
+      false);
+  hide();
+}
+
+ForceArrow::~ForceArrow() = default;
+
+void ForceArrow::hide()
+{
+  m_actor->SetVisibility(0);
+}
+
+void ForceArrow::show(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double thickness,
+                      const Eigen::Vector3d& color)
+{
+  // The source arrow has length 1 along x.
+  const double length = along.norm();
+  const double thin = std::min(thickness, kMaxTip * length / kTipLength);
+  m_source->SetTipLength(kTipLength * thin / length);
+  m_source->SetTipRadius(kTipRadius * thin / length);
+  m_source->SetShaftRadius(0.5 * thin / length);
+  const Eigen::Matrix3d turn =
+      length *
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), along).toRotationMatrix();
+  vtkNew<vtkMatrix4x4> pose;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+      pose->SetElement(row, column, turn(row, column));
+    pose->SetElement(row, 3, from[row]);
+  }
+  m_actor->SetUserMatrix(pose);
+  m_actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+  m_actor->SetVisibility(1);
+}
+
+/// A vertical bar in the lower left corner, starting at 0, with a mark at 1 N and the force as text
+/// above it.
+class ForceBar
+{
+public:
+  ForceBar();
+  ~ForceBar();
+
+  void addTo(vtkRenderer* renderer) const;
+  void removeFrom(vtkRenderer* renderer) const;
+  void setShown(bool shown);
+
+  /// force      N
+  /// fullScale  N at the top of the bar; larger forces fill it
+  /// pixels     screen pixels per bar pixel
+  void show(double force, double fullScale, double pixels, const Eigen::Vector3d& color);
+
+private:
+  enum Part
+  {
+    Filled,
+    Empty,
+    Mark,
+    kParts
+  };
+  void place(Part part, double left, double bottom, double right, double top);
+
+  std::array<vtkNew<vtkPoints>, kParts> m_corners;
+  std::array<vtkNew<vtkActor2D>, kParts> m_actors;
+  vtkNew<vtkTextActor> m_text;
+  std::string m_words;
+};
+
+namespace
+{
+
+// Pixels from the lower left corner.
+constexpr double kLeft = 16.0;
+constexpr double kBottom = 16.0;
+constexpr double kWidth = 10.0;
+constexpr double kHeight = 120.0;
+constexpr double kMarkGap = 2.0;
+constexpr double kMarkLength = 6.0;
+constexpr double kTextGap = 6.0;
+constexpr double kTextSize = 14.0;
+
+constexpr double kEmptyColor[3] = {0.22, 0.24, 0.27};
+constexpr double kMarkColor[3] = {0.85, 0.87, 0.90};
+
+} // namespace
+
+ForceBar::ForceBar()
+{
+  for (std::size_t part = 0; part < kParts; ++part)
+  {
+    m_corners[part]->SetNumberOfPoints(4);
+    vtkNew<vtkCellArray> quad;
+    quad->InsertNextCell({0, 1, 2, 3});
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(m_corners[part]);
+    data->SetPolys(quad);
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputData(data);
+    m_actors[part]->SetMapper(mapper);
+    m_actors[part]->PickableOff();
+  }
+  m_actors[Empty]->GetProperty()->SetColor(kEmptyColor);
+  m_actors[Mark]->GetProperty()->SetColor(kMarkColor);
+  m_text->GetTextProperty()->SetColor(kMarkColor);
+  m_text->GetTextProperty()->SetFontFamilyToArial();
+  m_text->PickableOff();
+  show(0.0, 1.0, 1.0, {0.0, 0.0, 0.0});
+}
+
+ForceBar::~ForceBar() = default;
+
+void ForceBar::addTo(vtkRenderer* renderer) const
+{
+  for (const auto& actor : m_actors)
+    renderer->AddViewProp(actor);
+  renderer->AddViewProp(m_text);
+}
+
+void ForceBar::removeFrom(vtkRenderer* renderer) const
+{
+  for (const auto& actor : m_actors)
+    renderer->RemoveViewProp(actor);
+  renderer->RemoveViewProp(m_text);
+}
+
+void ForceBar::setShown(bool shown)
+{
+  for (const auto& actor : m_actors)
+    actor->SetVisibility(shown ? 1 : 0);
+  m_text->SetVisibility(shown ? 1 : 0);
+}
+
+void ForceBar::place(Part part, double left, double bottom, double right, double top)
+{
+  const auto& corners = m_corners[part];
+  corners->SetPoint(0, left, bottom, 0.0);
+  corners->SetPoint(1, right, bottom, 0.0);
+  corners->SetPoint(2, right, top, 0.0);
+  corners->SetPoint(3, left, top, 0.0);
+  corners->Modified();
+}
+
+void ForceBar::show(double force, double fullScale, double pixels, const Eigen::Vector3d& color)
+{
+  const auto heightOf = [&](double newtons)
+  { return pixels * (kBottom + kHeight * std::clamp(newtons / fullScale, 0.0, 1.0)); };
+  const double left = pixels * kLeft;
+  const double right = left + pixels * kWidth;
+  const double top = heightOf(fullScale);
+  place(Filled, left, pixels * kBottom, right, heightOf(force));
+  place(Empty, left, heightOf(force), right, top);
+  const double mark = heightOf(1.0);
+  place(Mark, right + pixels * kMarkGap, mark - 0.5 * pixels,
+        right + pixels * (kMarkGap + kMarkLength), mark + 0.5 * pixels);
+  m_actors[Filled]->GetProperty()->SetColor(color.x(), color.y(), color.z());
+
+  const std::string words = core::fixedText(force, 1) + " N";
+  if (m_words != words) // text rendering is expensive
+  {
+    m_words = words;
+    m_text->SetInput(words.c_str());
+  }
+  m_text->GetTextProperty()->SetFontSize(static_cast<int>(std::lround(pixels * kTextSize)));
+  m_text->SetPosition(left, top + pixels * kTextGap);
+}
 
 namespace
 {

@@ -1,4 +1,4 @@
-#include "petrous/Rendering/InteractionQuality.h"
+#include "petrous/Rendering/RenderQuality.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,11 @@
 #include "petrous/Rendering/ScenePicture.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,21 +19,142 @@
 #include <vtkRenderer.h>
 #include <vtkVolume.h>
 #include <vtkWeakPointer.h>
+#include <vtk_glew.h>
 
 #include "CameraPlacement.h"
-#include "FrameTimer.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
 #include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "ToolProps.h"
-#include "petrous/Rendering/InteractionQuality.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
+#include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/VolumeMapper.h"
 
 namespace petrous::rendering
 {
+
+/// GPU time of frames, measured without stalling: timestamp queries before and after a frame's
+/// commands, read when a later frame begins. A frame that begins while its predecessor is still
+/// pending is not timed. With a software renderer the timer waits for completion: it runs on the
+/// CPU anyway, and its timestamps only mark the start of the last tile.
+class FrameTimer
+{
+public:
+  struct Frame
+  {
+    double milliseconds = 0.0;
+    RenderQuality quality; ///< used for the frame
+  };
+
+  /// All calls need the same context current.
+  void begin();
+  void end(const RenderQuality& quality);
+  bool holdsQueries() const noexcept { return m_queries[Begin] != 0; }
+  void release(); ///< call before the context is destroyed or replaced
+
+  /// A newly measured frame, once.
+  std::optional<Frame> take();
+
+private:
+  enum Mark : std::size_t
+  {
+    Begin,
+    End,
+    MarkCount
+  };
+  void read();
+
+  std::optional<bool> m_software;
+  std::array<unsigned, MarkCount> m_queries{}; // 0: none
+  bool m_pending = false;                      // both stamped, not yet read
+  bool m_open = false;                         // the first is stamped
+  std::chrono::steady_clock::time_point m_begun;
+  RenderQuality m_quality; // of the pending frame
+  std::optional<Frame> m_known;
+};
+
+namespace
+{
+
+bool waitsForFrames()
+{
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer = name ? name : "";
+  for (const char* software : {"llvmpipe", "softpipe", "SWR", "Software"})
+    if (renderer.find(software) != std::string::npos)
+      return true;
+  return !GLEW_ARB_timer_query;
+}
+
+} // namespace
+
+void FrameTimer::begin()
+{
+  if (!m_software)
+    m_software = waitsForFrames();
+  m_begun = std::chrono::steady_clock::now();
+  if (*m_software)
+    return;
+  read();
+  m_open = !m_pending;
+  if (!m_open)
+    return;
+  if (m_queries[Begin] == 0)
+    glGenQueries(MarkCount, m_queries.data());
+  glQueryCounter(m_queries[Begin], GL_TIMESTAMP);
+}
+
+void FrameTimer::end(const RenderQuality& quality)
+{
+  if (m_software.value_or(true))
+  {
+    glFinish();
+    m_known =
+        Frame{std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_begun)
+                  .count(),
+              quality};
+    return;
+  }
+  if (!m_open)
+    return;
+  glQueryCounter(m_queries[End], GL_TIMESTAMP);
+  m_quality = quality;
+  m_open = false;
+  m_pending = true;
+}
+
+void FrameTimer::read()
+{
+  if (!m_pending)
+    return;
+  GLint done = 0;
+  glGetQueryObjectiv(m_queries[End], GL_QUERY_RESULT_AVAILABLE, &done);
+  if (done == 0)
+    return;
+  GLuint64 begun = 0;
+  GLuint64 ended = 0;
+  glGetQueryObjectui64v(m_queries[Begin], GL_QUERY_RESULT, &begun);
+  glGetQueryObjectui64v(m_queries[End], GL_QUERY_RESULT, &ended);
+  m_pending = false;
+  if (ended > begun) // the clock may have wrapped around
+    m_known = Frame{1e-6 * static_cast<double>(ended - begun), m_quality};
+}
+
+void FrameTimer::release()
+{
+  if (m_queries[Begin] != 0)
+    glDeleteQueries(MarkCount, m_queries.data());
+  *this = FrameTimer();
+}
+
+std::optional<FrameTimer::Frame> FrameTimer::take()
+{
+  std::optional<Frame> frame;
+  frame.swap(m_known);
+  return frame;
+}
 
 namespace
 {

@@ -19,7 +19,6 @@
 #include "GlProgram.h"
 #include "GlTexture.h"
 #include "RayCastVertexShader.h"
-#include "ScreenTriangle.h"
 #include "StereoShader.h"
 
 namespace petrous::rendering

@@ -295,6 +295,47 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   EXPECT_NE(help.out.find("render"), std::string::npos);
 }
 
+// The parser would read 010 as 8, 0x10 as 16, and the largest number for a larger one.
+TEST_F(CommandLine, NumbersArePlainDecimal)
+{
+  makePatient("--dims 24,24,24 --spacing 2.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  expectRefused("branch ear other --from 010", 3, "has 0 strokes, not 10");
+  const std::string out = quoted(m_folder / "none");
+  const std::string picture = "render ear --out " + quoted(m_folder / "a.png");
+  for (const std::string bad :
+       {"0x10", "1e1", "-1", "1.5", "nan", "inf", "' 1'", "1,5", "99999999999999999999"})
+  {
+    const std::string words = "must be a whole number within ";
+    expectRefused("undo ear " + (bad == "-1" ? "-- -1" : bad), 2, words + "1 to 2147483647");
+    expectRefused("branch ear other --from=" + bad, 2, words + "0 to 2147483647");
+    expectRefused("sample " + out + " --seed=" + bad, 2, words + "0 to 18446744073709551615");
+    expectRefused("register ear --mr T2 --seed=" + bad, 2, words + "0 to 4294967295");
+    expectRefused(picture + " --size=" + bad + "x64", 2, "8 to 8192 pixels");
+  }
+  expectRefused("redo ear 0", 2, "1 to 2147483647");
+  EXPECT_EQ(json(picture + " --engine reference --size 010x0016")["size"],
+            nlohmann::json({10, 16}));
+  for (const char* bad : {"0x1", "1,5", "' 1'"})
+  {
+    for (const char* option : {" --spacing=", " --noise=", " --tilt="})
+      expectRefused("sample " + out + option + bad, 2, "is not a number");
+    for (const char* option : {" --convergence=", " --eye-separation="})
+      expectRefused(picture + " --stereo anaglyph" + option + bad, 2, "is not a number");
+  }
+  for (const char* bad : {"nan", "inf", "-inf", "1e39", "-1e39"})
+  {
+    for (const char* option : {" --spacing=", " --noise=", " --tilt="})
+      expectRefused("sample " + out + option + bad, 2, "must lie within");
+    for (const char* option : {" --convergence=", " --eye-separation="})
+      expectRefused(picture + " --stereo anaglyph" + option + bad, 2, "must lie within");
+  }
+  expectRefused("sample " + out + " --dims 24,24,1025", 2, "16 to 1024, not 1025");
+  expectRefused(picture + " --stereo anaglyph --eye-separation 100 --convergence 10", 2,
+                "eyes converge at 10 mm");
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "none"));
+}
+
 TEST_F(CommandLine, AppearanceSetsThresholdAndFlags)
 {
   makePatient();

@@ -1,5 +1,6 @@
 #include <array>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -218,7 +219,8 @@ void addBranchCommand(CLI::App& app, Context& context)
   command
       ->add_option("--from", options->after,
                    "A new branch begins after the first N strokes of the present one")
-      ->type_name("N");
+      ->type_name("N")
+      ->transform(wholeNumber(0, std::numeric_limits<int>::max()));
   command
       ->add_option("--compare", options->compared,
                    "What two branches took and laid open, side by side")

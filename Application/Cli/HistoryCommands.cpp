@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
@@ -43,7 +45,8 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
                            {"removed_mm3", value.removedVolume()}});
       });
   command->add_option("CASE", options->caseName)->required();
-  command->add_option("N", options->count, "How many strokes (1)")->check(CLI::PositiveNumber);
+  command->add_option("N", options->count, "How many strokes (1)")
+      ->transform(wholeNumber(1, std::numeric_limits<int>::max()));
 }
 
 void printStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "CaseJson.h"
 #include "Commands.h"
@@ -233,7 +234,10 @@ void addRegisterCommand(CLI::App& app, Context& context)
       ->add_option("--to", options->onto,
                    "To this MR, which is registered already, and through it to the CT")
       ->type_name("MR");
-  CLI::Option* seed = command->add_option("--seed", options->seed, "Same seed, same result");
+  CLI::Option* seed =
+      command->add_option("--seed", options->seed, "The same seed gives the same result (1)")
+          ->type_name("N")
+          ->transform(wholeNumber(0, std::numeric_limits<std::uint32_t>::max()));
   seed->each([options](const std::string&) { options->seedGiven = true; });
   command
       ->add_option("--sign-off", options->signOff,

@@ -174,6 +174,21 @@ nlohmann::json thicknessJson(const RenderOptions& options)
           {"colors", rendering::kThicknessColors}};
 }
 
+// The options can also be at odds with each other or with the camera.
+rendering::StereoGeometry stereoOf(const RenderOptions& options, const core::CameraPose& camera)
+{
+  try
+  {
+    return rendering::stereoGeometry(camera, {options.eyeSeparation, options.convergence});
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    if (options.eyeSeparation || options.convergence)
+      throw UsageError(error.what());
+    throw;
+  }
+}
+
 void render(const Context& context, const RenderOptions& options)
 {
   Shot shot = parseShot(options);
@@ -184,8 +199,7 @@ void render(const Context& context, const RenderOptions& options)
   shot.eyes = {shot.camera};
   if (shot.stereo != StereoMode::None)
   {
-    const auto geometry =
-        rendering::stereoGeometry(shot.camera, {options.eyeSeparation, options.convergence});
+    const auto geometry = stereoOf(options, shot.camera);
     const rendering::EyePair eyes = rendering::eyesOf(shot.camera, geometry);
     shot.eyes = {eyes.left, eyes.right};
     stereo = {{"mode", options.stereo},

@@ -106,11 +106,14 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   command
       .add_option("--eye-separation", options.eyeSeparation,
                   "Between the eyes (5.5 degrees where they converge)")
-      ->type_name("MM");
+      ->type_name("MM")
+      ->check(within({0.0, rendering::StereoRig::kLargestSeparation, "mm"}));
   command
       .add_option("--convergence", options.convergence,
                   "From the camera to where the eyes converge (the focal point)")
-      ->type_name("MM");
+      ->type_name("MM")
+      ->check(within({rendering::StereoRig::kNearestConvergence,
+                      rendering::StereoRig::kFarthestConvergence, "mm"}));
   command
       .add_option("--light-falloff", options.falloff,
                   "Distance at which the lamp's light is halved; 0: the same everywhere (0)")

@@ -53,6 +53,20 @@ std::optional<presenters::GreyWindow> parseWindow(const std::string& text)
 
 SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
 {
+// Generous: as far as the intensities of any CT, and of this one.
+void checkWindow(const presenters::GreyWindow& window, const volume::ValueRange& range,
+                 const presenters::IntensityDisplay& display)
+{
+  const double lower = std::min(-32768.0, range.min);
+  const double upper = std::max(65535.0, range.max);
+  if (window.width > upper - lower)
+    throw UsageError("--window WIDTH,LEVEL: the width must be above 0, up to " +
+                     display.text(upper - lower));
+  if (window.level < lower || window.level > upper)
+    throw UsageError("--window WIDTH,LEVEL: the level must lie within " + display.number(lower) +
+                     " to " + display.text(upper));
+}
+
   const SliceOrientation plane = parsePlane(options.plane);
   const core::GridGeometry& grid = value.ct.geometry;
   const Eigen::Vector3d at =
@@ -137,6 +151,7 @@ void slice(const Context& context, const SliceOptions& options)
     throw UsageError("--at: the slice does not meet the CT, which " +
                      coverageOf(value.ct.geometry) + " (patient LPS)");
   if (value.applied() > 0)
+  checkWindow(window, value.ct.range, display);
     library.loadDissection(value);
   if (options.noStructures)
     value.labels.clear();

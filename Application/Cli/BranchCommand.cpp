@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Scene/Branches.h"
@@ -23,7 +24,7 @@ struct Options
   std::string caseName, name, newName;
   std::vector<std::string> compared;
   std::size_t after = 0;
-  bool list = false, remove = false;
+  bool list = false, remove = false, withoutDamaged = false;
   const CLI::App* command = nullptr;
 
   bool given(const char* option) const { return command->count(option) > 0; }
@@ -121,7 +122,8 @@ std::map<std::string, double> volumesOf(const scene::StateSummary& summary)
   return volumes;
 }
 
-void compare(const Context& context, const scene::Case& value, const Options& options)
+void compare(const Context& context, const scene::Case& value, const Options& options,
+             const presenters::LeftOut& leftOut)
 {
   const Branch& a = branchOf(value, options.compared[0]);
   const Branch& b = branchOf(value, options.compared[1]);
@@ -139,8 +141,10 @@ void compare(const Context& context, const scene::Case& value, const Options& op
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   sides[0]["exposed_mm2"] = nlohmann::json(openA);
   sides[1]["exposed_mm2"] = nlohmann::json(openB);
-  context.printJson(
-      {{"case", value.name}, {"common_strokes", common}, {"compare", std::move(sides)}});
+  context.printJson({{"case", value.name},
+                     {"common_strokes", common},
+                     {"compare", std::move(sides)},
+                     {"left_out", leftOutJson(value, leftOut)}});
 }
 
 void list(const Context& context, const scene::Case& value)
@@ -188,6 +192,8 @@ void branch(const Context& context, const Options& options)
   if (named == (options.list || options.given("--compare")))
     throw UsageError(named ? "branch: --list and --compare take no NAME"
                            : "branch: give the NAME of a branch, or --list");
+  if (options.withoutDamaged && !options.given("--compare"))
+    throw UsageError(std::string("branch: ") + kWithoutDamaged + " is for --compare");
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   if (options.list)
@@ -195,7 +201,8 @@ void branch(const Context& context, const Options& options)
   if (options.given("--compare"))
   {
     library.loadDissection(value);
-    return compare(context, value, options);
+    const auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
+    return compare(context, value, options, leftOut);
   }
   const std::string done = change(value, options);
   library.save(value);
@@ -229,6 +236,7 @@ void addBranchCommand(CLI::App& app, Context& context)
   command->add_option("--rename", options->newName, "Another name for branch NAME");
   command->add_flag("--delete", options->remove,
                     "Removes branch NAME and the strokes that only it leads to");
+  addWithoutDamaged(*command, options->withoutDamaged);
 }
 
 } // namespace petrous::cli

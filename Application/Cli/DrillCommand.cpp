@@ -91,7 +91,7 @@ presenters::LeftOut openCase(const Context& context, library::Library& library,
   library.loadDissection(value);
   value.ct.volume.get();
   library.checkVoxels(value, progress);
-  auto leftOut = leaveOutDamaged(context, value, options.withoutDamaged);
+  auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
   return leftOut;
 }

@@ -16,7 +16,7 @@ DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene, double 
 {
   if (!log.empty())
     m_log.emplace(log, value, scene);
-  if (distances && !value.labels.empty())
+  if (distances && !(value.labels.empty() && value.meshes.empty()))
     m_distances.emplace(value, radius);
 }
 

@@ -41,6 +41,7 @@ void printCases(const Context& context, const library::Library& library,
 void verify(const Context& context, const library::Library& library)
 {
   const library::Inspection found = library.verify(context.progress());
+  const std::size_t count = found.damaged.size();
   nlohmann::json damaged = nlohmann::json::array();
   for (const auto& one : found.damaged)
   {
@@ -52,9 +53,10 @@ void verify(const Context& context, const library::Library& library)
   context.printJson({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
   if (!found.damaged.empty())
     throw library::LibraryError(library::LibraryError::Reason::Damaged,
-                                library.folder().string() + ": " +
-                                    std::to_string(found.damaged.size()) +
-                                    " files are damaged or missing; restore them from a copy");
+                                library.folder().string() + ": " + std::to_string(count) +
+                                    (count == 1 ? " file is damaged or missing; restore it"
+                                                : " files are damaged or missing; restore them") +
+                                    " from a copy of the library, or import the data again");
 }
 
 void collect(const Context& context, library::Library& library)

@@ -58,7 +58,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
-  const presenters::LeftOut leftOut = leaveOutDamaged(context, value, withoutDamaged);
+  const presenters::LeftOut leftOut = leaveOutDamaged(context, library, value, withoutDamaged);
   warnMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));

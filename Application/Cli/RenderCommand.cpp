@@ -207,7 +207,8 @@ void render(const Context& context, const RenderOptions& options)
               {"convergence_mm", geometry.convergence}};
   }
   library.loadDissection(value);
-  const presenters::LeftOut leftOut = leaveOutDamaged(context, value, options.withoutDamaged);
+  const presenters::LeftOut leftOut =
+      leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));

@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "Place.h"
@@ -25,6 +26,7 @@ struct SliceOptions
   std::optional<double> fieldOfView;
   double opacity = 0.5;
   bool noStructures = false;
+  bool withoutDamaged = false;
 };
 
 SliceOrientation parsePlane(const std::string& word)
@@ -51,8 +53,6 @@ std::optional<presenters::GreyWindow> parseWindow(const std::string& text)
   return presenters::GreyWindow{n[0], n[1]};
 }
 
-SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
-{
 // Generous: as far as the intensities of any CT, and of this one.
 void checkWindow(const presenters::GreyWindow& window, const volume::ValueRange& range,
                  const presenters::IntensityDisplay& display)
@@ -67,6 +67,8 @@ void checkWindow(const presenters::GreyWindow& window, const volume::ValueRange&
                      " to " + display.text(upper));
 }
 
+SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
+{
   const SliceOrientation plane = parsePlane(options.plane);
   const core::GridGeometry& grid = value.ct.geometry;
   const Eigen::Vector3d at =
@@ -143,16 +145,20 @@ void slice(const Context& context, const SliceOptions& options)
   const auto wanted = parseWindow(options.window);
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
+  presenters::LeftOut leftOut;
+  if (!options.noStructures)
+    leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   const scene::ImagePart* mr = findOverlay(options, value);
   const presenters::IntensityDisplay display = presenters::displayOf(value);
   const presenters::GreyWindow window = wanted.value_or(display.bone);
+  checkWindow(window, value.ct.range, display);
   const SliceGeometry geometry = sliceOf(options, value, width, height);
   if (!meets(geometry, value.ct.geometry))
     throw UsageError("--at: the slice does not meet the CT, which " +
                      coverageOf(value.ct.geometry) + " (patient LPS)");
   if (value.applied() > 0)
-  checkWindow(window, value.ct.range, display);
     library.loadDissection(value);
+  nlohmann::json missing = leftOutJson(value, leftOut);
   if (options.noStructures)
     value.labels.clear();
   const auto overlay = overlayOf(options, mr);
@@ -183,6 +189,7 @@ void slice(const Context& context, const SliceOptions& options)
                      {"window", {{"width", window.width}, {"level", window.level}}},
                      {"hounsfield", display.hounsfield},
                      {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
+                     {"left_out", std::move(missing)},
                      {"resources", residentResources(value)}});
 }
 
@@ -226,6 +233,7 @@ void addSliceCommand(CLI::App& app, Context& context)
                    "Of the MR in a blend: 0 CT alone, 1 MR alone (0.5)")
       ->check(within({0.0, 1.0}));
   command->add_flag("--no-structures", options->noStructures, "CT and MR only");
+  addWithoutDamaged(*command, options->withoutDamaged);
 }
 
 } // namespace petrous::cli

@@ -55,7 +55,6 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addProbeCommand(app, context);
   cli::addDrillCommand(app, context);
   cli::addHistoryCommands(app, context);
-  cli::addBranchCommand(app, context);
   cli::addExportCommand(app, context);
   cli::addRegisterCommand(app, context);
   context

@@ -466,6 +466,39 @@ TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
+TEST_F(CommandLine, OutputsReplaceNeitherInputsNorTheLibrary)
+{
+  makePatient("--dims 24,24,24 --spacing 2.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  std::ofstream(m_folder / "points.csv") << "x_mm,y_mm,z_mm\n0,0,0\n";
+  const auto path = writePath({-50, 0, 0}, {-48, 0, 0});
+  std::filesystem::create_symlink(path, m_folder / "link.csv");
+  const std::string written = textOf(path);
+  const auto manifest = library() / "cases/ear.json";
+  std::filesystem::path object;
+  for (const auto& entry : std::filesystem::directory_iterator(library() / "objects"))
+    object = entry.path();
+  const auto before = libraryContent();
+  const std::string drill = "drill ear --path " + quoted(path);
+  for (const std::string option : {" --log ", " --record "})
+  {
+    expectRefused(drill + option + quoted(manifest), 4, "keeps its own data there");
+    expectRefused(drill + option + quoted(path), 4, "is also read by this command");
+    expectRefused(drill + option + quoted(m_folder / "link.csv"), 4, "is also read");
+    expectRefused(drill + option + quoted(m_folder / "patient/../path.csv"), 4, "is also read");
+  }
+  const std::string twice = quoted(m_folder / "a.csv");
+  expectRefused(drill + " --log " + twice + " --record " + twice, 4, "named for two outputs");
+  expectRefused("probe ear --points " + quoted(m_folder / "points.csv") + " --out " +
+                    quoted(m_folder / "points.csv"),
+                4, "is also read");
+  expectRefused("export ear --what ct --out " + quoted(object), 4, "keeps its own data there");
+  EXPECT_EQ(textOf(path), written);
+  EXPECT_EQ(libraryContent(), before);
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.csv"));
+  json("export ear --what ct --out " + quoted(library() / "mine.nrrd"));
+}
+
 TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
 {
   makePatient();

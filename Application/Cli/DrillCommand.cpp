@@ -285,6 +285,9 @@ void addDrillCommand(CLI::App& app, Context& context)
       "is pressed on",
       [options, &context]
       {
+        context.refuseOverwriting(
+            {options->log, options->record},
+            {options->path, options->replay, options->materials, options->burrs});
         if (options->path.empty() == options->replay.empty())
           throw UsageError("drill: give either --path or --replay");
         options->replay.empty() ? play(context, *options) : replay(context, *options);

@@ -145,6 +145,7 @@ imaging::FileContent contentOf(const std::string& what)
 void exportCase(const Context& context, const Options& options)
 {
   imaging::writingFormat(options.out, contentOf(options.what)); // before anything is computed
+  context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();

@@ -73,6 +73,7 @@ std::string number(const std::optional<double>& value)
 void probe(Context& context, const std::string& name, const std::string& pointsFile,
            const std::string& out, bool withoutDamaged)
 {
+  context.refuseOverwriting({out}, {pointsFile});
   const auto points = readPoints(pointsFile);
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);

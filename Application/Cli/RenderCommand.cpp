@@ -438,6 +438,7 @@ void render(const Context& context, const RenderOptions& options)
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   shot.camera = chooseCamera(options, value);
+  context.refuseOverwriting({options.out, options.depth}, {options.camera});
   nlohmann::json stereo = nullptr;
   shot.eyes = {shot.camera};
   if (shot.stereo != StereoMode::None)

@@ -241,6 +241,7 @@ void slice(const Context& context, const SliceOptions& options)
 {
   const auto [width, height] = parseSize(options.size);
   const auto wanted = parseWindow(options.window);
+  context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   presenters::LeftOut leftOut;

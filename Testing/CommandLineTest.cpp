@@ -285,8 +285,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("zebra", 2, "zebra");
   expectRefused("new", 2, "CASE");
   expectRefused("render x --out a.png --size big", 2, "--size");
-  expectRefused("archive x x.petrous", 2, "not built yet");
-  expectRefused("new x --ct y --repair", 2, "not built yet");
+  expectRefused("archive x x.petrous", 2, "not implemented yet");
+  expectRefused("new x --ct y --repair", 2, "not implemented yet");
   expectRefused("library zebra", 2, "rename A B");
   expectRefused("library rename a", 2, "library rename A B");
   const auto help = run("--help");

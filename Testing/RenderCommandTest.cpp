@@ -190,7 +190,7 @@ TEST_F(RenderCommand, CutsByPlanesAndBoxes)
   expectRefused(render(plane + plane + plane + plane + plane + plane + plane), 2, "at most 6");
   expectRefused(render("--clip 0,0,0,0,0,0"), 2, "normal");
   expectRefused(render("--crop 9,3,0,31,0,31"), 2, "--crop");
-  expectRefused(render("--roi 500,600,0,1,0,1"), 2, "nothing of the CT");
+  expectRefused(render("--roi 500,600,0,1,0,1"), 2, "does not overlap the CT");
   expectRefused(render("--roi 0,1,0,1,0,1 --crop 0,31,0,31,0,31"), 2, "not both");
 }
 

@@ -447,7 +447,7 @@ void addAppearanceCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-      app, "appearance", "Surface threshold, and what a structure is to eye, hand and drill",
+      app, "appearance", "Bone threshold; appearance, touch and material of structures",
       [options, &context] { run(context, *options); });
   const auto perPart = [command](const std::string& option, std::vector<std::string>& values,
                                  const std::string& text, const std::string& type)
@@ -457,15 +457,15 @@ void addAppearanceCommand(CLI::App& app, Context& context)
       ->add_option("--iso", options->iso,
                    "Surface of bone, in the CT's unit (300 HU); auto: from the histogram")
       ->type_name("NUMBER|auto");
-  perPart("--set", options->set, "A look of the catalogue (--presets)", "PART=PRESET");
-  perPart("--flags", options->flags, "The flags that hold; 'none' for none of them",
+  perPart("--set", options->set, "Apply a preset of the catalogue (--presets)", "PART=PRESET");
+  perPart("--flags", options->flags, "Set exactly these flags; 'none' clears all",
           "PART=shown,touchable,drillable");
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.option.name)
       perPart(property.option.name, options->values[property.option.name], property.option.text,
               typeName(property));
-  command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
-  command->add_flag("--presets", options->presets, "List the looks of the catalogue");
+  command->add_flag("--list", options->list, "List all parts; PART 'ct' is bone");
+  command->add_flag("--presets", options->presets, "List the presets of the catalogue");
 }
 
 } // namespace petrous::cli

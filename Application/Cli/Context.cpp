@@ -48,16 +48,16 @@ void watchInterrupt()
 } // namespace
 
 const char* const kExitCodes =
-    "Exit codes: 0 done; 1 a fault of this program or this machine; 2 wrong usage; 3 bad input; "
+    "Exit codes: 0 done; 1 internal error or fault of this machine; 2 wrong usage; 3 bad input; "
     "4 refused so that nothing is lost; 130 interrupted (Ctrl+C)";
 
 void Context::addOptions(CLI::App& app)
 {
   app.add_option("--library", m_library, "Folder of the library")->type_name("DIR");
-  app.add_flag("--json", m_json, "One JSON object on stdout and nothing else there");
+  app.add_flag("--json", m_json, "Print one JSON object on stdout and nothing else there");
   app.add_flag("--quiet", m_quiet, "No remarks and no progress");
   app.add_option("--log-level", m_logLevel,
-                 "What the log holds: trace, debug, info, warning, error or off (info)")
+                 "Level of the log: trace, debug, info, warning, error or off (info)")
       ->type_name("LEVEL");
 }
 
@@ -272,7 +272,7 @@ core::Progress Context::progress() const
 
 void notBuiltYet(const std::string& what)
 {
-  throw UsageError(what + " is not built yet");
+  throw UsageError(what + " is not implemented yet");
 }
 
 } // namespace petrous::cli

@@ -54,7 +54,7 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
                            {"removed_mm3", value.removedVolume()}});
       });
   command->add_option("CASE", options->caseName)->required();
-  command->add_option("N", options->count, "How many strokes (1)")
+  command->add_option("N", options->count, "Number of strokes (1)")
       ->transform(wholeNumber(1, std::numeric_limits<int>::max()));
 }
 
@@ -73,7 +73,7 @@ void printHistory(const Context& context, const scene::Case& value)
 {
   const dissection::History& history = value.dissection.history();
   if (value.dissection.strokes().empty())
-    return context.print("no stroke yet");
+    return context.print("no strokes yet");
   context.print("branch " + history.branch().name + ":");
   const auto line = history.lineTo(history.branch().tip);
   for (std::size_t n = 0; n < line.size(); ++n)
@@ -84,7 +84,7 @@ void printHistory(const Context& context, const scene::Case& value)
       continue;
     const auto own = history.path(history.branch().tip, branch.tip).redone;
     context.print("branch " + branch.name + ": " +
-                  (own.empty() ? "nothing of its own"
+                  (own.empty() ? "no strokes of its own"
                                : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
     for (const std::size_t n : own)
       printStroke(context, value, n, "          ");
@@ -286,26 +286,25 @@ void addBranchCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<BranchOptions>();
   CLI::App* command = context.addCommand(
-      app, "branch", "Approaches: go to one, begin one from any earlier state, compare two",
+      app, "branch", "Branches of the history: switch, create from any earlier state, compare",
       [options, &context] { branch(context, *options); });
   options->command = command;
   command->add_option("CASE", options->caseName)->required();
   command->add_option("NAME", options->name,
-                      "Goes to that branch, or makes it where the case stands");
-  command->add_flag("--list", options->list, "The branches of the case");
+                      "Switch to this branch, or create it at the current state");
+  command->add_flag("--list", options->list, "List the branches of the case");
   command
       ->add_option("--from", options->after,
-                   "A new branch begins after the first N strokes of the present one")
+                   "Create the branch after the first N strokes of the current one")
       ->type_name("N")
       ->transform(wholeNumber(0, std::numeric_limits<int>::max()));
   command
-      ->add_option("--compare", options->compared,
-                   "What two branches took and laid open, side by side")
+      ->add_option("--compare", options->compared, "Compare what two branches removed and exposed")
       ->expected(2)
       ->type_name("A B");
-  command->add_option("--rename", options->newName, "Another name for branch NAME");
+  command->add_option("--rename", options->newName, "Rename branch NAME");
   command->add_flag("--delete", options->remove,
-                    "Removes branch NAME and the strokes that only it leads to");
+                    "Delete branch NAME and the strokes that only it leads to");
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 
@@ -313,11 +312,11 @@ void addBranchCommand(CLI::App& app, Context& context)
 
 void addHistoryCommands(CLI::App& app, Context& context)
 {
-  addStep(app, context, "undo", "Take back the last strokes", &dissection::Dissection::undo);
-  addStep(app, context, "redo", "Do again what was taken back", &dissection::Dissection::redo);
+  addStep(app, context, "undo", "Undo the last strokes", &dissection::Dissection::undo);
+  addStep(app, context, "redo", "Redo undone strokes", &dissection::Dissection::redo);
   auto name = std::make_shared<std::string>();
   context
-      .addCommand(app, "history", "The strokes of a case",
+      .addCommand(app, "history", "List the strokes of a case",
                   [name, &context]
                   {
                     const scene::Case value = context.openLibrary().open(*name);

@@ -62,7 +62,7 @@ void verify(const Context& context, const library::Library& library)
 void collect(const Context& context, library::Library& library)
 {
   const library::Collected removed = library.collectGarbage();
-  context.print(std::to_string(removed.objects) + " objects that no case needs were removed, " +
+  context.print(std::to_string(removed.objects) + " unreferenced objects removed, " +
                 std::to_string(removed.bytes) + " bytes");
   library::DerivedCache derived(library::derivedFolder(library.folder()));
   const std::uintmax_t freed = derived.prune(0);
@@ -146,13 +146,14 @@ void run(const Context& context, const Options& options)
 void addLibraryCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
-  CLI::App* command = context.addCommand(app, "library", "The cases on this machine",
-                                         [options, &context] { run(context, *options); });
+  CLI::App* command =
+      context.addCommand(app, "library", "List, check and manage the cases of the library",
+                         [options, &context] { run(context, *options); });
   command
       ->add_option("ACTION", options->action,
                    "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME")
       ->required();
-  command->add_option("NAMES", options->names, "What the action is for");
+  command->add_option("NAMES", options->names, "Arguments of the action");
 }
 
 } // namespace petrous::cli

@@ -148,15 +148,14 @@ void addProbeCommand(CLI::App& app, Context& context)
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-      app, "probe", "The tissue field, HU, structure and nearest surface at points",
+      app, "probe", "Tissue field, HU, structure and nearest surface at points",
       [options, &context]
       { probe(context, options->name, options->points, options->out, options->withoutDamaged); });
   command->add_option("CASE", options->name)->required();
   command->add_option("--points", options->points, "CSV with x_mm,y_mm,z_mm, patient LPS")
       ->type_name("F.csv")
       ->required();
-  command->add_option("--out", options->out, "CSV to write; without it the rows go to stdout")
-      ->type_name("F.csv");
+  command->add_option("--out", options->out, "CSV to write (standard output)")->type_name("F.csv");
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

@@ -291,27 +291,26 @@ void addRegisterCommand(CLI::App& app, Context& context)
   command->add_option("--mr", options->mr, "Which MR")->type_name("NAME")->required();
   command
       ->add_option("--init", options->init,
-                   "Where to begin: header (default), centres, or landmarks F.csv "
+                   "Initial transform: header (default), centres, or landmarks F.csv "
                    "(ct_x,ct_y,ct_z,mr_x,mr_y,mr_z, patient LPS mm)")
       ->expected(1, 2)
       ->type_name("HOW");
   command
       ->add_option("--transform", options->transform,
-                   "Begin where this puts it: 16 numbers, CT to MR patient points, LPS mm")
+                   "Initial transform from a file: 16 numbers, CT to MR patient points, LPS mm")
       ->type_name("F");
   command->add_flag("--as-is", options->asIs,
-                    "No fit: leave it where landmarks, transform or a common frame of reference "
-                    "put it");
+                    "No optimization: keep the transform of landmarks, file or common frame of "
+                    "reference");
   command
       ->add_option("--at", options->at,
-                   "Where the error is stated: a point (LPS mm) or a structure; default: the "
-                   "middle ear")
+                   "Where the error is estimated: a point (LPS mm) or a structure (the middle ear)")
       ->type_name("x,y,z|LABEL");
-  command->add_option("--region", options->region, "Only this box of the CT counts, LPS mm")
+  command->add_option("--region", options->region, "Use only this box of the CT, LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
   command
       ->add_option("--to", options->onto,
-                   "To this MR, which is registered already, and through it to the CT")
+                   "Register to this MR, which is registered already, and through it to the CT")
       ->type_name("MR");
   CLI::Option* seed =
       command->add_option("--seed", options->seed, "The same seed gives the same result (1)")
@@ -320,7 +319,7 @@ void addRegisterCommand(CLI::App& app, Context& context)
   seed->each([options](const std::string&) { options->seedGiven = true; });
   command
       ->add_option("--sign-off", options->signOff,
-                   "Nothing else: write down that NAME looked at the registration and accepts it")
+                   "Only record that NAME has inspected and accepts the registration")
       ->type_name("NAME");
 }
 

@@ -56,7 +56,7 @@ void check(const std::string& path, const core::CameraPose& camera)
   { throw core::InvalidParameter(path + ": " + what); };
   for (const Eigen::Vector3d* vector : {&camera.position, &camera.focalPoint, &camera.viewUp})
     if (!vector->allFinite() || vector->cwiseAbs().maxCoeff() > kFarthest)
-      refuse("a coordinate is no number or beyond 10 km; position_mm and focal_point_mm are in "
+      refuse("a coordinate is not a number or beyond 10 km; position_mm and focal_point_mm are in "
              "patient LPS mm");
   const Eigen::Vector3d view = camera.focalPoint - camera.position;
   if (view.norm() < 1e-9)
@@ -91,7 +91,7 @@ core::CameraPose readCamera(const std::string& path)
   catch (const nlohmann::json::exception&) // also for NaN and Infinity, which JSON lacks
   {
     throw core::InvalidParameter(
-        path + ": no camera; it must be {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
+        path + ": not a camera; expected {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
                "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\") with finite "
                "numbers");
   }
@@ -141,7 +141,8 @@ rendering::ClippingPlane parsePlane(const std::string& text)
   const Eigen::Vector3d normal(n[3], n[4], n[5]);
   const double length = normal.stableNorm();
   if (!(length > 1e-12) || !std::isfinite(length))
-    throw UsageError("--clip x,y,z,nx,ny,nz: the normal must not be zero; it points to what stays");
+    throw UsageError(
+        "--clip x,y,z,nx,ny,nz: the normal must not be zero; it points to the side that is kept");
   return {{n[0], n[1], n[2]}, normal / length};
 }
 
@@ -174,7 +175,7 @@ std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
   const core::IndexBox inside = box.intersected(grid.fullBox());
   if (inside.empty())
     throw UsageError(std::string(options.crop.empty() ? "--roi" : "--crop") +
-                     ": nothing of the CT lies in it");
+                     ": the box does not overlap the CT");
   return inside;
 }
 
@@ -221,41 +222,43 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       .add_option("--view", options.view,
                   "lateral, left, right, superior, inferior, anterior or posterior")
       ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"}));
-  command.add_option("--camera", options.camera, "Camera in patient LPS mm")->type_name("F.json");
+  command.add_option("--camera", options.camera, "Camera file, patient LPS mm")
+      ->type_name("F.json");
   command
       .add_option("--stereo", options.stereo, "none, side-by-side, interleaved or anaglyph (none)")
       ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
   command
       .add_option("--eye-separation", options.eyeSeparation,
-                  "Between the eyes (5.5 degrees where they converge)")
+                  "Distance between the eyes (5.5 degrees at the convergence point)")
       ->type_name("MM")
       ->check(within({0.0, rendering::StereoRig::kLargestSeparation, "mm"}));
   command
       .add_option("--convergence", options.convergence,
-                  "From the camera to where the eyes converge (the focal point)")
+                  "Distance from the camera to the convergence point (the focal point)")
       ->type_name("MM")
       ->check(within({rendering::StereoRig::kNearestConvergence,
                       rendering::StereoRig::kFarthestConvergence, "mm"}));
   command
       .add_option("--light-falloff", options.falloff,
-                  "Distance at which the lamp's light is halved; 0: the same everywhere (0)")
+                  "Distance at which the light has half its intensity; 0: no falloff (0)")
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm"}));
-  command.add_option("--wetness", options.wetness, "Gloss of a wet surface (0)")
+  command.add_option("--wetness", options.wetness, "Specular gloss of a wet surface, 0 to 1 (0)")
       ->check(within({0.0, 1.0}));
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")
       ->type_name("STRUCTURE");
   command
-      .add_option("--clip", options.clip,
-                  "Plane through a point, patient LPS mm; the normal points to what stays (up to "
-                  "6 times)")
+      .add_option(
+          "--clip", options.clip,
+          "Clipping plane through a point, patient LPS mm; the normal points to the side that "
+          "is kept (up to 6 times)")
       ->allow_extra_args(false)
       ->type_name("x,y,z,nx,ny,nz");
-  command.add_option("--crop", options.crop, "First and last voxel of the CT that are drawn")
+  command.add_option("--crop", options.crop, "Crop to these voxels of the CT, first and last")
       ->type_name("i0,i1,j0,j1,k0,k1");
-  command.add_option("--roi", options.roi, "Part of the CT that is drawn, patient LPS mm")
+  command.add_option("--roi", options.roi, "Crop to this box, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
   command
       .add_option("--engine", options.engine,
@@ -401,9 +404,9 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
   {
     if (error.reason != rendering::RenderingError::Reason::NoOpenGL)
       throw;
-    throw rendering::RenderingError(
-        error.reason,
-        std::string(error.what()) + "; '--engine reference' draws on the processor alone, slowly");
+    throw rendering::RenderingError(error.reason,
+                                    std::string(error.what()) +
+                                        "; '--engine reference' renders on the CPU, slowly");
   }
 }
 
@@ -435,10 +438,10 @@ rendering::StereoGeometry stereoOf(const RenderOptions& options, const core::Cam
 void render(const Context& context, const RenderOptions& options)
 {
   Shot shot = parseShot(options);
+  context.refuseOverwriting({options.out, options.depth}, {options.camera});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   shot.camera = chooseCamera(options, value);
-  context.refuseOverwriting({options.out, options.depth}, {options.camera});
   nlohmann::json stereo = nullptr;
   shot.eyes = {shot.camera};
   if (shot.stereo != StereoMode::None)
@@ -489,8 +492,9 @@ void render(const Context& context, const RenderOptions& options)
 void addRenderCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = context.addCommand(app, "render", "Draw a case into a PNG, without a display",
-                                         [options, &context] { render(context, *options); });
+  CLI::App* command =
+      context.addCommand(app, "render", "Render a case to a PNG file; needs no display",
+                         [options, &context] { render(context, *options); });
   addRenderOptions(*command, *options);
 }
 

@@ -48,7 +48,7 @@ void addSampleCommand(CLI::App& app, Context& context)
                            {"labels", (out / "labels.seg.nrrd").string()},
                            {"truth", (out / "truth.json").string()}});
       });
-  command->add_option("OUT", options->out, "A new or empty folder")->required();
+  command->add_option("OUT", options->out, "Folder to write; new or empty")->required();
   command->add_option("--spacing", options->spacing, "Voxel size of the CT (0.3)")
       ->type_name("MM")
       ->check(within(phantom::SampleOptions::kSpacings));

@@ -297,9 +297,9 @@ void slice(const Context& context, const SliceOptions& options)
 void addSliceCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<SliceOptions>();
-  CLI::App* command =
-      context.addCommand(app, "slice", "Draw a slice of a case into a PNG, an MR over the CT",
-                         [options, &context] { slice(context, *options); });
+  CLI::App* command = context.addCommand(
+      app, "slice", "Render a slice of a case to a PNG file, optionally with an MR over the CT",
+      [options, &context] { slice(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("--out", options->out, "Picture to write")
       ->type_name("F.png")
@@ -309,19 +309,21 @@ void addSliceCommand(CLI::App& app, Context& context)
       ->check(oneOf({"axial", "coronal", "sagittal"}))
       ->required();
   command
-      ->add_option("--at", options->at,
-                   "Point of the slice, patient LPS mm, or a structure (the CT's middle)")
+      ->add_option(
+          "--at", options->at,
+          "Point in the slice, patient LPS mm, or a structure's centroid (the CT's centre)")
       ->type_name("x,y,z|LABEL");
   command->add_option("--size", options->size, "Pixels (800x800)")->type_name("WxH");
   command
       ->add_option("--field-of-view", options->fieldOfView,
-                   "Width of the picture, which then lies about --at (the whole slice)")
+                   "Width of the picture, centred on --at (the whole slice)")
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm", true}));
   command
-      ->add_option("--window", options->window, "Grey of the CT, in its unit (bone: 4000,700 HU)")
+      ->add_option("--window", options->window,
+                   "Window width and level of the CT, in its unit (bone: 4000,700 HU)")
       ->type_name("WIDTH,LEVEL");
-  command->add_option("--overlay", options->overlay, "An MR of the case to see with the CT")
+  command->add_option("--overlay", options->overlay, "MR of the case to overlay on the CT")
       ->type_name("MR");
   command
       ->add_option("--mode", options->mode,
@@ -329,9 +331,9 @@ void addSliceCommand(CLI::App& app, Context& context)
       ->check(oneOf({"blend", "edges", "checker"}));
   command
       ->add_option("--opacity", options->opacity,
-                   "Of the MR in a blend: 0 CT alone, 1 MR alone (0.5)")
+                   "Opacity of the MR in a blend: 0 CT only, 1 MR only (0.5)")
       ->check(within({0.0, 1.0}));
-  command->add_flag("--no-structures", options->noStructures, "CT and MR only");
+  command->add_flag("--no-structures", options->noStructures, "Show CT and MR only");
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

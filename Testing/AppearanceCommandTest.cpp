@@ -294,10 +294,10 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --opacity cochlea=1.5", 2, "0 to 1");
   expectRefused("appearance ear --stiffness cochlea=0", 2, "rigid");
   expectRefused("appearance ear --stiffness cochlea=1000", 2, "0.001 to 100");
-  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "no number");
+  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "not a number");
   expectRefused("appearance ear --stiffness ct=1", 3, "bone is rigid");
   expectRefused("appearance ear --warn cochlea=51", 2, "0 to 50 mm");
-  expectRefused("appearance ear --warn cochlea=near", 2, "no number");
+  expectRefused("appearance ear --warn cochlea=near", 2, "not a number");
   expectRefused("appearance ear --warn ct=1", 3, "bone");
   expectRefused("appearance ear --iso much", 2, "--iso");
   expectRefused("appearance ear --tissue cochlea=jelly", 3, "cortical-bone");

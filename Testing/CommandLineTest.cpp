@@ -285,14 +285,55 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("zebra", 2, "zebra");
   expectRefused("new", 2, "CASE");
   expectRefused("render x --out a.png --size big", 2, "--size");
-  expectRefused("archive x x.petrous", 2, "not built yet");
-  expectRefused("new x --ct y --repair", 2, "not built yet");
+  expectRefused("archive x x.petrous", 2, "not implemented yet");
+  expectRefused("new x --ct y --repair", 2, "not implemented yet");
   expectRefused("library zebra", 2, "rename A B");
   expectRefused("library rename a", 2, "library rename A B");
   const auto help = run("--help");
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.out.find("archive"), std::string::npos);
   EXPECT_NE(help.out.find("render"), std::string::npos);
+}
+
+// The parser would read 010 as 8, 0x10 as 16, and the largest number for a larger one.
+TEST_F(CommandLine, NumbersArePlainDecimal)
+{
+  makePatient("--dims 24,24,24 --spacing 2.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  expectRefused("branch ear other --from 010", 3, "has 0 strokes, not 10");
+  const std::string out = quoted(m_folder / "none");
+  const std::string picture = "render ear --out " + quoted(m_folder / "a.png");
+  for (const std::string bad :
+       {"0x10", "1e1", "-1", "1.5", "nan", "inf", "' 1'", "1,5", "99999999999999999999"})
+  {
+    const std::string words = "must be a whole number within ";
+    expectRefused("undo ear " + (bad == "-1" ? "-- -1" : bad), 2, words + "1 to 2147483647");
+    expectRefused("branch ear other --from=" + bad, 2, words + "0 to 2147483647");
+    expectRefused("sample " + out + " --seed=" + bad, 2, words + "0 to 18446744073709551615");
+    expectRefused("register ear --mr T2 --seed=" + bad, 2, words + "0 to 4294967295");
+    expectRefused(picture + " --size=" + bad + "x64", 2, "8 to 8192 pixels");
+  }
+  expectRefused("redo ear 0", 2, "1 to 2147483647");
+  EXPECT_EQ(json(picture + " --engine reference --size 010x0016")["size"],
+            nlohmann::json({10, 16}));
+  for (const char* bad : {"0x1", "1,5", "' 1'"})
+  {
+    for (const char* option : {" --spacing=", " --noise=", " --tilt="})
+      expectRefused("sample " + out + option + bad, 2, "is not a number");
+    for (const char* option : {" --convergence=", " --eye-separation="})
+      expectRefused(picture + " --stereo anaglyph" + option + bad, 2, "is not a number");
+  }
+  for (const char* bad : {"nan", "inf", "-inf", "1e39", "-1e39"})
+  {
+    for (const char* option : {" --spacing=", " --noise=", " --tilt="})
+      expectRefused("sample " + out + option + bad, 2, "must lie within");
+    for (const char* option : {" --convergence=", " --eye-separation="})
+      expectRefused(picture + " --stereo anaglyph" + option + bad, 2, "must lie within");
+  }
+  expectRefused("sample " + out + " --dims 24,24,1025", 2, "16 to 1024, not 1025");
+  expectRefused(picture + " --stereo anaglyph --eye-separation 100 --convergence 10", 2,
+                "eyes converge at 10 mm");
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "none"));
 }
 
 TEST_F(CommandLine, AppearanceSetsThresholdAndFlags)
@@ -423,6 +464,39 @@ TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
               std::string::npos)
         << option;
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST_F(CommandLine, OutputsReplaceNeitherInputsNorTheLibrary)
+{
+  makePatient("--dims 24,24,24 --spacing 2.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  std::ofstream(m_folder / "points.csv") << "x_mm,y_mm,z_mm\n0,0,0\n";
+  const auto path = writePath({-50, 0, 0}, {-48, 0, 0});
+  std::filesystem::create_symlink(path, m_folder / "link.csv");
+  const std::string written = textOf(path);
+  const auto manifest = library() / "cases/ear.json";
+  std::filesystem::path object;
+  for (const auto& entry : std::filesystem::directory_iterator(library() / "objects"))
+    object = entry.path();
+  const auto before = libraryContent();
+  const std::string drill = "drill ear --path " + quoted(path);
+  for (const std::string option : {" --log ", " --record "})
+  {
+    expectRefused(drill + option + quoted(manifest), 4, "keeps its own data there");
+    expectRefused(drill + option + quoted(path), 4, "is also read by this command");
+    expectRefused(drill + option + quoted(m_folder / "link.csv"), 4, "is also read");
+    expectRefused(drill + option + quoted(m_folder / "patient/../path.csv"), 4, "is also read");
+  }
+  const std::string twice = quoted(m_folder / "a.csv");
+  expectRefused(drill + " --log " + twice + " --record " + twice, 4, "named for two outputs");
+  expectRefused("probe ear --points " + quoted(m_folder / "points.csv") + " --out " +
+                    quoted(m_folder / "points.csv"),
+                4, "is also read");
+  expectRefused("export ear --what ct --out " + quoted(object), 4, "keeps its own data there");
+  EXPECT_EQ(textOf(path), written);
+  EXPECT_EQ(libraryContent(), before);
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.csv"));
+  json("export ear --what ct --out " + quoted(library() / "mine.nrrd"));
 }
 
 TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)

@@ -51,6 +51,31 @@ protected:
     return m_folder / "session.csv";
   }
 
+  // A nerve below the face, as a label, and an incus, as a mesh. The new manifest.
+  nlohmann::json addStructures() const
+  {
+    std::ofstream labels(m_folder / "nerve.nrrd", std::ios::binary);
+    labels << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
+           << "sizes: 60 60 60\nspace directions: (0.5,0,0) (0,0.5,0) (0,0,0.5)\n"
+           << "space origin: (-15,-15,-15)\nencoding: raw\nendian: little\n\n";
+    for (int n = 0; n < 60 * 60 * 60; ++n)
+      labels.put(n % 60 > 40 && n % 60 < 46 && n / 60 % 60 > 20 && n / 60 % 60 < 40 ? '\1' : '\0');
+    labels.close();
+    std::ofstream(m_folder / "incus.obj") << "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
+                                             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    json("add bone --labels nerve=" + quoted(m_folder / "nerve.nrrd") +
+         " --mesh incus=" + quoted(m_folder / "incus.obj"));
+    return nlohmann::json::parse(textOf(library() / "cases/bone.json"));
+  }
+
+  void damage(const std::string& object) const
+  {
+    const auto file = library() / "objects" / object;
+    std::string bytes = textOf(file);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+    std::ofstream(file, std::ios::binary) << bytes;
+  }
+
   std::filesystem::path journal() const { return library() / "cases/bone.journal"; }
 
   // Runs a command, and `beside` once the case is being drilled.
@@ -282,33 +307,20 @@ TEST_F(RecoveryCommand, ADamagedStrokeHindersOnlyWhatNeedsIt)
 
 TEST_F(RecoveryCommand, ADamagedStructureIsLeftOutOnlyIfThatIsChosen)
 {
-  std::ofstream labels(m_folder / "nerve.nrrd", std::ios::binary);
-  labels << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
-         << "sizes: 60 60 60\nspace directions: (0.5,0,0) (0,0.5,0) (0,0,0.5)\n"
-         << "space origin: (-15,-15,-15)\nencoding: raw\nendian: little\n\n";
-  for (int n = 0; n < 60 * 60 * 60; ++n)
-    labels.put(n % 60 > 40 && n % 60 < 46 && n / 60 % 60 > 20 && n / 60 % 60 < 40 ? '\1' : '\0');
-  labels.close();
-  std::ofstream(m_folder / "incus.obj") << "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
-                                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-  json("add bone --labels nerve=" + quoted(m_folder / "nerve.nrrd") +
-       " --mesh incus=" + quoted(m_folder / "incus.obj"));
-  const auto manifest = nlohmann::json::parse(textOf(library() / "cases/bone.json"));
+  const auto manifest = addStructures();
   const std::string object = manifest["labels"][0]["object"];
   const std::string mesh = manifest["meshes"][0]["object"];
-  for (const std::string& name : {object, mesh})
-  {
-    const auto file = library() / "objects" / name;
-    std::string bytes = textOf(file);
-    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
-    std::ofstream(file, std::ios::binary) << bytes;
-  }
+  damage(object);
+  damage(mesh);
   const auto points = m_folder / "points.csv";
   std::ofstream(points) << "x_mm,y_mm,z_mm\n0,0,0\n";
-  const std::string commands[] = {"probe bone --points " + quoted(points),
-                                  "render bone --engine reference --size 16x16 --out " +
-                                      quoted(m_folder / "a.png"),
-                                  "drill bone --tick-hz 200 --path " + quoted(writeSession())};
+  const std::string commands[] = {
+      "probe bone --points " + quoted(points),
+      "render bone --engine reference --size 16x16 --out " + quoted(m_folder / "a.png"),
+      "drill bone --tick-hz 200 --path " + quoted(writeSession()),
+      "slice bone --plane axial --size 16x16 --out " + quoted(m_folder / "a.png"),
+      "export bone --what surface --out " + quoted(m_folder / "a.stl"),
+      "branch bone --compare main main"};
   const auto before = libraryContent();
   for (const std::string& command : commands)
   {
@@ -318,6 +330,9 @@ TEST_F(RecoveryCommand, ADamagedStructureIsLeftOutOnlyIfThatIsChosen)
   }
   EXPECT_EQ(libraryContent(), before);
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.png"));
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.stl"));
+  json("slice bone --plane axial --no-structures --out " + quoted(m_folder / "a.png"));
+  json("export bone --what mask --out " + quoted(m_folder / "a.nrrd"));
   for (const std::string& command : commands)
   {
     const Outcome outcome = run(command + " --without-damaged --json");
@@ -337,6 +352,73 @@ TEST_F(RecoveryCommand, ADamagedStructureIsLeftOutOnlyIfThatIsChosen)
   EXPECT_EQ(drilled["labels"], manifest["labels"]) << "it stays as it is on the disk";
   EXPECT_EQ(drilled["meshes"], manifest["meshes"]);
   expectRefused(commands[0], 3, "'nerve' of case 'bone'");
+}
+
+TEST_F(RecoveryCommand, LabelsAreExportedWithoutADamagedOneIfThatIsChosen)
+{
+  addStructures();
+  const auto other = m_folder / "duct.nrrd";
+  std::filesystem::copy_file(m_folder / "nerve.nrrd", other);
+  std::fstream(other, std::ios::binary | std::ios::in | std::ios::out).seekp(-1, std::ios::end)
+      << '\1';
+  json("add bone --labels duct=" + quoted(other));
+  damage(nlohmann::json::parse(textOf(library() / "cases/bone.json"))["labels"][0]["object"]);
+  const std::string exported = "export bone --what labels --out " + quoted(m_folder / "a.seg.nrrd");
+  expectRefused(exported, 3, "structure 'nerve' of case 'bone'");
+  expectRefused(exported, 3, "--without-damaged");
+  expectRefused(exported + " --part nerve --without-damaged --quiet", 3, "'nerve'");
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "a.seg.nrrd"));
+  json(exported + " --part duct");
+  const auto leftOut = json(exported + " --without-damaged")["left_out"];
+  ASSERT_EQ(leftOut.size(), 1u);
+  EXPECT_EQ(leftOut[0]["structures"], nlohmann::json({"nerve"}));
+  const std::string written = textOf(m_folder / "a.seg.nrrd");
+  EXPECT_NE(written.find("duct"), std::string::npos);
+  EXPECT_EQ(written.find("nerve"), std::string::npos);
+}
+
+// A structure need not be read: derived data suffice, it is hidden, or another has its name.
+TEST_F(RecoveryCommand, ADamagedStructureIsNamedAlsoWhereItNeedNotBeRead)
+{
+  const auto manifest = addStructures();
+  const std::string drill = "drill bone --tick-hz 200 --path " + quoted(writeSession());
+  const std::string render =
+      "render bone --engine reference --size 16x16 --out " + quoted(m_folder / "a.png");
+  json("appearance bone --flags nerve=touchable --flags incus=none");
+  json("add bone --mesh nerve=" + quoted(m_folder / "incus.obj"));
+  for (const std::string& command : {drill, drill, render})
+    json(command); // the second finds derived data
+  const auto named = [&](const std::string& object, const std::string& words)
+  {
+    const auto file = library() / "objects" / object;
+    const std::string whole = textOf(file);
+    for (const std::string& command : {drill, render})
+    {
+      damage(object);
+      expectRefused(command, 3, words + " of case 'bone' is damaged");
+      expectRefused(command, 3, "petrous library verify");
+      std::filesystem::remove(file);
+      expectRefused(command, 3, words + " of case 'bone' is missing");
+      std::ofstream(file, std::ios::binary) << whole;
+    }
+    json(render);
+  };
+  named(manifest["labels"][0]["object"], "structure 'nerve'");
+  named(manifest["meshes"][0]["object"], "mesh 'incus'"); // both meshes
+}
+
+TEST_F(RecoveryCommand, DistancesAreGivenForMeshesToo)
+{
+  std::ofstream(m_folder / "incus.obj") << "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
+                                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  json("add bone --mesh incus=" + quoted(m_folder / "incus.obj"));
+  // The burr of 4 mm stands at x = 14 mm, out of the bone; the mesh ends at x = 4 mm.
+  const auto path = m_folder / "still.csv";
+  std::ofstream(path) << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n0,14,0,0,1,0,0,0,0\n"
+                         "0.1,14,0,0,1,0,0,0,0\n";
+  const auto distances = json("drill bone --path " + quoted(path))["min_distance_mm"];
+  ASSERT_TRUE(distances.contains("incus")) << distances;
+  EXPECT_NEAR(distances["incus"].get<double>(), 8.0, 0.3);
 }
 
 // The CT is checked against its hash in parallel with the command, which must not finish before the

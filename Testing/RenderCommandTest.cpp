@@ -150,8 +150,8 @@ TEST_F(RenderCommand, RefusesStereoThatCannotBe)
 {
   expectRefused(render("--stereo cross-eyed"), 2, "side-by-side");
   expectRefused(render("--eye-separation 20"), 2, "--stereo");
-  expectRefused(render("--stereo anaglyph --eye-separation -3"), 3, "-3 mm; 0 to 200 mm");
-  expectRefused(render("--stereo anaglyph --convergence 20000"), 3, "1 to 10000 mm");
+  expectRefused(render("--stereo anaglyph --eye-separation -3"), 2, "0 to 200 mm, not -3");
+  expectRefused(render("--stereo anaglyph --convergence 20000"), 2, "1 to 10000 mm, not 20000");
   expectRefused("render ball --out x.png --size 65x48 --stereo side-by-side", 2, "even width");
 }
 
@@ -190,7 +190,7 @@ TEST_F(RenderCommand, CutsByPlanesAndBoxes)
   expectRefused(render(plane + plane + plane + plane + plane + plane + plane), 2, "at most 6");
   expectRefused(render("--clip 0,0,0,0,0,0"), 2, "normal");
   expectRefused(render("--crop 9,3,0,31,0,31"), 2, "--crop");
-  expectRefused(render("--roi 500,600,0,1,0,1"), 2, "nothing of the CT");
+  expectRefused(render("--roi 500,600,0,1,0,1"), 2, "does not overlap the CT");
   expectRefused(render("--roi 0,1,0,1,0,1 --crop 0,31,0,31,0,31"), 2, "not both");
 }
 

@@ -90,6 +90,8 @@ TEST_F(SliceCommand, RefusesWhatCannotBeInOneLine)
   expectRefused(slice("--plane axial --mode glow"), 2, "blend, edges, checker");
   expectRefused(slice("--plane axial --field-of-view 0"), 2, "--field-of-view");
   expectRefused(slice("--plane axial --window 0,40"), 2, "--window");
+  expectRefused(slice("--plane axial --window 4000,1e39"), 2, "the level must lie within");
+  expectRefused(slice("--plane axial --window 1e39,40"), 2, "the width must be above 0, up to");
   expectRefused(slice("--plane axial --size 3x3"), 2, "--size");
   expectRefused("slice ear --plane axial --out /nowhere/slice.png", 4, "cannot be written");
 }

@@ -1,15 +1,20 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <map>
 
-#include "AppearanceList.h"
+#include "CaseJson.h"
 #include "Commands.h"
+#include "Context.h"
 #include "Numbers.h"
+#include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/Case.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::cli
@@ -20,6 +25,98 @@ namespace
 
 using appearance::StructureAppearance;
 using appearance::StructureProperty;
+
+using appearance::StructureAppearance;
+
+/// The control points in the intensities of an image.
+std::string valuesOf(const StructureAppearance& look, const volume::IntensityScale& scale)
+{
+  if (!look.transfer)
+    return "one colour";
+  const auto transfer = look.relative ? onScale(*look.transfer, scale) : *look.transfer;
+  const auto& points = transfer.points();
+  const std::string from = fixed(points.front().value, 0);
+  return (look.relative ? "" : "own values, ") +
+         (points.size() == 1 ? "1 point at " + from
+                             : std::to_string(points.size()) + " points from " + from + " to " +
+                                   fixed(points.back().value, 0));
+}
+
+std::string hex(const std::array<float, 3>& color)
+{
+  char text[8];
+  const auto byte = [&color](std::size_t c)
+  { return static_cast<unsigned>(std::lround(color[c] * 255.0F)) & 0xFFU; };
+  std::snprintf(text, sizeof(text), "#%02x%02x%02x", byte(0), byte(1), byte(2));
+  return text;
+}
+
+// Each property that has a phrase, unless it is off, and the transfer function.
+std::string describe(const StructureAppearance& look, const volume::IntensityScale& scale)
+{
+  std::string text = look.solid ? "" : ", a lumen";
+  for (const appearance::StructureProperty& property : appearance::kStructureProperties)
+    if (std::holds_alternative<appearance::StructureProperty::Transfer>(property.member))
+      text += ", " + valuesOf(look, scale);
+    else if (property.phrase && !appearance::isOff(look, property))
+    {
+      const std::string unit = property.range.unit;
+      text += std::string(", ") + property.phrase + toString(look, property) +
+              (unit.empty() ? "" : " " + unit);
+    }
+  return text;
+}
+
+// Prints each part of a case with its appearance and flags, or as JSON.
+void listAppearance(const Context& context, const scene::Case& value)
+{
+  const auto entry = [&context, scale = value.intensityScale()](const std::string& name,
+                                                                const std::string& kind,
+                                                                const StructureAppearance& look)
+  {
+    nlohmann::json j = lookJson(look);
+    j["name"] = name;
+    j["kind"] = kind;
+    context.print("  " + name + " (" + kind + "): " + look.preset + " " + hex(look.color) + ", " +
+                  appearance::flagsOf(look) + describe(look, scale));
+    return j;
+  };
+  presenters::IntensityDisplay display = presenters::displayOf(value);
+  display.decimals = std::max(display.decimals, 1);
+  context.print("surface at " + display.text(value.iso) + ", dense bone at " +
+                display.text(value.denseBone) +
+                (display.hounsfield ? "" : " (not in Hounsfield units)"));
+  nlohmann::json bone = entry("ct", "bone", value.boneLook);
+  nlohmann::json parts = nlohmann::json::array();
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      parts.push_back(entry(structure.name, "structure", structure.look));
+  for (const auto& mesh : value.meshes)
+    parts.push_back(entry(mesh.name, "mesh", mesh.look));
+  context.printJson({{"case", value.name},
+                     {"iso_hu", value.iso},
+                     {"dense_bone_hu", value.denseBone},
+                     {"hounsfield", display.hounsfield},
+                     {"bone", std::move(bone)},
+                     {"parts", std::move(parts)}});
+}
+
+// As above, for the catalogue of presets.
+void listPresets(const Context& context)
+{
+  nlohmann::json presets = nlohmann::json::array();
+  for (const StructureAppearance& look : appearance::StructurePresets::builtIn().all())
+  {
+    nlohmann::json j = lookJson(look);
+    j.erase("preset");
+    j.erase("flags");
+    j.erase("source");
+    j["name"] = look.preset;
+    presets.push_back(std::move(j));
+    context.print("  " + look.preset + ": " + hex(look.color) + describe(look, {}));
+  }
+  context.printJson({{"presets", std::move(presets)}});
+}
 
 struct Options
 {
@@ -350,7 +447,7 @@ void addAppearanceCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-      app, "appearance", "Surface threshold, and what a structure is to eye, hand and drill",
+      app, "appearance", "Bone threshold; appearance, touch and material of structures",
       [options, &context] { run(context, *options); });
   const auto perPart = [command](const std::string& option, std::vector<std::string>& values,
                                  const std::string& text, const std::string& type)
@@ -360,15 +457,15 @@ void addAppearanceCommand(CLI::App& app, Context& context)
       ->add_option("--iso", options->iso,
                    "Surface of bone, in the CT's unit (300 HU); auto: from the histogram")
       ->type_name("NUMBER|auto");
-  perPart("--set", options->set, "A look of the catalogue (--presets)", "PART=PRESET");
-  perPart("--flags", options->flags, "The flags that hold; 'none' for none of them",
+  perPart("--set", options->set, "Apply a preset of the catalogue (--presets)", "PART=PRESET");
+  perPart("--flags", options->flags, "Set exactly these flags; 'none' clears all",
           "PART=shown,touchable,drillable");
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.option.name)
       perPart(property.option.name, options->values[property.option.name], property.option.text,
               typeName(property));
-  command->add_flag("--list", options->list, "List what there is; PART 'ct' is bone");
-  command->add_flag("--presets", options->presets, "List the looks of the catalogue");
+  command->add_flag("--list", options->list, "List all parts; PART 'ct' is bone");
+  command->add_flag("--presets", options->presets, "List the presets of the catalogue");
 }
 
 } // namespace petrous::cli

@@ -34,10 +34,14 @@ void addWithoutDamaged(CLI::App& command, bool& chosen)
                    "nor felt nor spared");
 }
 
-presenters::LeftOut leaveOutDamaged(const Context& context, scene::Case& value, bool chosen)
+presenters::LeftOut leaveOutDamaged(const Context& context, const library::Library& library,
+                                    scene::Case& value, bool chosen)
 {
   if (!chosen)
+  {
+    library.checkStructures(value, context.progress());
     return {};
+  }
   const presenters::LeftOut leftOut = presenters::leaveOutDamaged(value, context.progress());
   for (const std::string& why : leftOut.sentences())
     context.warn("left out, neither shown nor felt nor spared: " + why);

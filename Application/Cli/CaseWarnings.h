@@ -19,9 +19,11 @@ void warnMissingPlaces(const Context& context, const scene::Case& value);
 /// The option --without-damaged.
 void addWithoutDamaged(CLI::App& command, bool& chosen);
 
-/// Leaves out structures that are missing or damaged, with a warning each, if that was chosen;
-/// otherwise reading one refuses the command.
-presenters::LeftOut leaveOutDamaged(const Context& context, scene::Case& value, bool chosen);
+/// Checks all structures of the case, also those that the command would not read. Leaves out those
+/// that are missing or damaged, with a warning each, if that was chosen; otherwise throws
+/// StructureError.
+presenters::LeftOut leaveOutDamaged(const Context& context, const library::Library& library,
+                                    scene::Case& value, bool chosen);
 
 /// What was left out: an array, an entry for each object.
 nlohmann::json leftOutJson(const scene::Case& value, const presenters::LeftOut& leftOut);

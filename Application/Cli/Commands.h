@@ -15,8 +15,7 @@ void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);
 void addProbeCommand(CLI::App& app, Context& context);
 void addDrillCommand(CLI::App& app, Context& context);
-void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history
-void addBranchCommand(CLI::App& app, Context& context);
+void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history, branch
 void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);

@@ -48,16 +48,16 @@ void watchInterrupt()
 } // namespace
 
 const char* const kExitCodes =
-    "Exit codes: 0 done; 1 a fault of this program or this machine; 2 wrong usage; 3 bad input; "
+    "Exit codes: 0 done; 1 internal error or fault of this machine; 2 wrong usage; 3 bad input; "
     "4 refused so that nothing is lost; 130 interrupted (Ctrl+C)";
 
 void Context::addOptions(CLI::App& app)
 {
   app.add_option("--library", m_library, "Folder of the library")->type_name("DIR");
-  app.add_flag("--json", m_json, "One JSON object on stdout and nothing else there");
+  app.add_flag("--json", m_json, "Print one JSON object on stdout and nothing else there");
   app.add_flag("--quiet", m_quiet, "No remarks and no progress");
   app.add_option("--log-level", m_logLevel,
-                 "What the log holds: trace, debug, info, warning, error or off (info)")
+                 "Level of the log: trace, debug, info, warning, error or off (info)")
       ->type_name("LEVEL");
 }
 
@@ -131,6 +131,53 @@ void Context::refuseDamaged() const
 {
   if (m_opened)
     m_opened->checkAllRead(core::Progress(nullptr, interruptToken()));
+}
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+bool isSameFile(const fs::path& a, const fs::path& b)
+{
+  std::error_code error;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) ||
+         fs::equivalent(a, b, error);
+}
+
+// Whether a library keeps its own data there.
+bool isOfLibrary(const fs::path& file, const fs::path& library)
+{
+  std::error_code error;
+  const fs::path below =
+      fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(library, error));
+  const std::string first = below.empty() ? "" : below.begin()->string();
+  for (const char* own : {"cases", "objects", "derived", "salt", ".lock"})
+    if (first == own)
+      return true;
+  return first.rfind("library.sqlite", 0) == 0;
+}
+
+} // namespace
+
+void Context::refuseOverwriting(const std::vector<std::string>& outputs,
+                                const std::vector<std::string>& inputs) const
+{
+  const auto refuse = [](const std::string& file, const std::string& why)
+  { throw core::Error(core::Fault::Refused, file + ": " + why + "; name another file"); };
+  for (auto out = outputs.begin(); out != outputs.end(); ++out)
+  {
+    if (out->empty())
+      continue;
+    if (isOfLibrary(*out, libraryFolder()))
+      refuse(*out, "the library keeps its own data there");
+    for (const std::string& in : inputs)
+      if (!in.empty() && isSameFile(*out, in))
+        refuse(*out, "is also read by this command, and would be replaced");
+    for (auto other = outputs.begin(); other != out; ++other)
+      if (!other->empty() && isSameFile(*out, *other))
+        refuse(*out, "is named for two outputs");
+  }
 }
 
 library::Library Context::openLibrary() const
@@ -225,7 +272,7 @@ core::Progress Context::progress() const
 
 void notBuiltYet(const std::string& what)
 {
-  throw UsageError(what + " is not built yet");
+  throw UsageError(what + " is not implemented yet");
 }
 
 } // namespace petrous::cli

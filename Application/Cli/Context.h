@@ -61,6 +61,11 @@ public:
   /// `printJson` do it themselves.
   void refuseDamaged() const;
 
+  /// Refuses output files that would replace an input of the command, each other, or a file of the
+  /// library; empty names are ignored. Call before anything is computed.
+  void refuseOverwriting(const std::vector<std::string>& outputs,
+                         const std::vector<std::string>& inputs = {}) const;
+
   /// Text for the user on stdout; nothing with --json or --quiet.
   void print(const std::string& line) const;
 

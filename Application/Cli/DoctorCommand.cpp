@@ -55,7 +55,7 @@ std::vector<std::string> graphicsAdvice(const rendering::GraphicsReport& graphic
   std::vector<std::string> advice;
   if (graphics.renderer.find("llvmpipe") != std::string::npos ||
       graphics.renderer.find("softpipe") != std::string::npos)
-    advice.emplace_back("OpenGL runs on the processor: pictures are right but slow; install the "
+    advice.emplace_back("OpenGL runs on the CPU: pictures are correct but slow; install the "
                         "driver of your graphics card");
   if (!rayCasterWorks(graphics))
     advice.emplace_back("the driver refuses a shader of the ray caster; a newer driver may take "
@@ -174,7 +174,7 @@ void doctor(const Context& context)
 void addDoctorCommand(CLI::App& app, Context& context)
 {
   context.addCommand(app, "doctor",
-                     "What this machine offers, and what to do about what is missing",
+                     "Report what this machine provides, and what to do about what is missing",
                      [&context] { doctor(context); });
 }
 

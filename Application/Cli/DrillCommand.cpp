@@ -91,7 +91,7 @@ presenters::LeftOut openCase(const Context& context, library::Library& library,
   library.loadDissection(value);
   value.ct.volume.get();
   library.checkVoxels(value, progress);
-  auto leftOut = leaveOutDamaged(context, value, options.withoutDamaged);
+  auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
   return leftOut;
 }
@@ -102,7 +102,7 @@ void save(const Context& context, library::Library& library, scene::Case& value,
 {
   leftOut.putBack(value);
   if (!report.changed())
-    return context.warn("nothing was cut; the case is as it was");
+    return context.warn("nothing was removed; the case is unchanged");
   try
   {
     const std::string words = library.saveDrilled(value, opened, progress.part(0.9, 1.0));
@@ -280,13 +280,14 @@ void addDrillCommand(CLI::App& app, Context& context)
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
       app, "drill",
-      "Play a tool path, or a recording: the tool is held by the tissue, and the drill takes what "
-      "it "
-      "is pressed on",
+      "Play a tool path or a recording with haptics and removal, and save what was drilled",
       [options, &context]
       {
         if (options->path.empty() == options->replay.empty())
           throw UsageError("drill: give either --path or --replay");
+        context.refuseOverwriting(
+            {options->log, options->record},
+            {options->path, options->replay, options->materials, options->burrs});
         options->replay.empty() ? play(context, *options) : replay(context, *options);
       });
   options->command = command;
@@ -297,17 +298,18 @@ void addDrillCommand(CLI::App& app, Context& context)
       ->type_name("F.csv");
   CLI::Option* replayed =
       command
-          ->add_option("--replay", options->replay,
-                       "Instead of a path: play a recording on its case again, cuts included, and "
-                       "hold each tick against it, bit for bit")
+          ->add_option(
+              "--replay", options->replay,
+              "Instead of a path: play a recording again on its case, including removal, and "
+              "compare every tick bit for bit")
           ->type_name("F.ticks");
   command->add_option("--burr", options->kind, "cutting or diamond (cutting)")
       ->check(oneOf({"cutting", "diamond"}));
-  command->add_option("--diameter", options->diameter, "Of the burr, mm (4)")
+  command->add_option("--diameter", options->diameter, "Diameter of the burr, mm (4)")
       ->check(within({0.1, 20.0, "mm"}));
-  command->add_option("--rpm", options->rpm, "Spindle speed, turns a minute (60000)")
+  command->add_option("--rpm", options->rpm, "Spindle speed, revolutions per minute (60000)")
       ->check(within({0.0, 200000.0}));
-  command->add_option("--tick-hz", options->rate, "Ticks a second of simulated time (1000)")
+  command->add_option("--tick-hz", options->rate, "Servo rate in simulated time, Hz (1000)")
       ->check(within({1.0, 100000.0}))
       ->excludes(replayed);
   command
@@ -315,30 +317,30 @@ void addDrillCommand(CLI::App& app, Context& context)
                    "6dof: burr, shaft and handpiece; 3dof: the burr alone (6dof)")
       ->check(oneOf({"6dof", "3dof"}));
   command
-      ->add_option("--thrust", options->thrust,
-                   "Press the tool on the surface with so many newtons; the path gives place and "
-                   "heading")
+      ->add_option(
+          "--thrust", options->thrust,
+          "Constant-thrust mode: press the tool onto the surface with this force; the path "
+          "gives position and orientation")
       ->type_name("N")
       ->check(within({0.0, 20.0, "N", true}))
       ->excludes(replayed);
   command
       ->add_option("--materials", options->materials,
-                   "What tissues are to the drill (materials.json in the library, else built in)")
+                   "Material catalogue (materials.json in the library, else built in)")
       ->type_name("F.json")
       ->excludes(replayed);
   command
       ->add_option("--burrs", options->burrs,
-                   "What burrs there are (burrs.json in the library, else built in)")
+                   "Burr catalogue (burrs.json in the library, else built in)")
       ->type_name("F.json")
       ->excludes(replayed);
   command
-      ->add_option("--record", options->record,
-                   "Write every tick and every cut, to be played again with --replay")
+      ->add_option("--record", options->record, "Record every tick and every removal, for --replay")
       ->type_name("F.ticks")
       ->excludes(replayed);
   command
       ->add_option("--log", options->log,
-                   "One row a tick: device, tool, force, contact, volume removed")
+                   "CSV with one row per tick: device, tool, force, contact, removed volume")
       ->type_name("F.csv");
   addWithoutDamaged(*command, options->withoutDamaged);
 }

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -25,6 +26,7 @@ constexpr double kAirHu = -1000.0;
 struct Options
 {
   std::string caseName, what, out, part;
+  bool withoutDamaged = false;
 };
 
 template <class T>
@@ -81,8 +83,13 @@ const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& na
 // All structures of label maps that share a grid, merged into one map and numbered in order; where
 // two overlap the earlier one is kept.
 volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
-                              const std::string& only)
+                              const std::string& only, const presenters::LeftOut& leftOut)
 {
+  const auto isLeftOut = [&](const scene::LabelPart& labels)
+  {
+    return std::any_of(leftOut.labels.begin(), leftOut.labels.end(),
+                       [&](const auto& part) { return &value.labels[part.index] == &labels; });
+  };
   std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
   std::vector<volume::Segment> segments;
   for (const auto& part : value.labels)
@@ -90,6 +97,13 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
     {
       if (!only.empty() && structure.name != only)
         continue;
+      if (isLeftOut(part))
+      {
+        if (!only.empty())
+          throw core::InvalidParameter("export labels: '" + only +
+                                       "' is missing or damaged, and nothing else is asked for");
+        continue;
+      }
       const auto placed = scene::labelsOnCt(value, part);
       if (!placed)
         context.warn("'" + structure.name + "' is written where its MR has it, not on the CT: " +
@@ -131,6 +145,7 @@ imaging::FileContent contentOf(const std::string& what)
 void exportCase(const Context& context, const Options& options)
 {
   imaging::writingFormat(options.out, contentOf(options.what)); // before anything is computed
+  context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
@@ -146,12 +161,16 @@ void exportCase(const Context& context, const Options& options)
     library.loadDissection(value);
     return value.dissection.mask();
   };
+  presenters::LeftOut leftOut;
+  // Labels that are written are read, and thus checked; the surface is that of all structures.
+  if (options.what == "surface" || (options.what == "labels" && options.withoutDamaged))
+    leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   if (options.what == "ct")
     imaging::writeVolume(options.out, *checked(value.ct), progress);
   else if (options.what == "mr")
     imaging::writeVolume(options.out, *checked(chooseMr(value, options.part)), progress);
   else if (options.what == "labels")
-    imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part));
+    imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part, leftOut));
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);
   else if (options.what == "dissected")
@@ -167,7 +186,10 @@ void exportCase(const Context& context, const Options& options)
                        rendering::extractSurface(field, field.geometry().fullBox(), progress));
   }
   context.print(options.out + ": " + options.what + " of '" + value.name + "'");
-  context.printJson({{"case", value.name}, {"what", options.what}, {"out", options.out}});
+  context.printJson({{"case", value.name},
+                     {"what", options.what},
+                     {"out", options.out},
+                     {"left_out", leftOutJson(value, leftOut)}});
 }
 
 } // namespace
@@ -190,6 +212,7 @@ void addExportCommand(CLI::App& app, Context& context)
       ->type_name("F")
       ->required();
   command->add_option("--part", options->part, "One MR or structure of several")->type_name("NAME");
+  addWithoutDamaged(*command, options->withoutDamaged);
 }
 
 } // namespace petrous::cli

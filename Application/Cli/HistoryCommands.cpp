@@ -1,13 +1,24 @@
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <optional>
+
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Scene/Branches.h"
+#include "petrous/Scene/ExposedSurfaces.h"
 
 namespace petrous::cli
 {
 
 namespace
 {
+
+using Branch = dissection::History::Branch;
 
 void addStep(CLI::App& app, Context& context, const std::string& name, const std::string& text,
              std::size_t (dissection::Dissection::*step)(std::size_t))
@@ -43,7 +54,8 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
                            {"removed_mm3", value.removedVolume()}});
       });
   command->add_option("CASE", options->caseName)->required();
-  command->add_option("N", options->count, "How many strokes (1)")->check(CLI::PositiveNumber);
+  command->add_option("N", options->count, "Number of strokes (1)")
+      ->transform(wholeNumber(1, std::numeric_limits<int>::max()));
 }
 
 void printStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)
@@ -61,7 +73,7 @@ void printHistory(const Context& context, const scene::Case& value)
 {
   const dissection::History& history = value.dissection.history();
   if (value.dissection.strokes().empty())
-    return context.print("no stroke yet");
+    return context.print("no strokes yet");
   context.print("branch " + history.branch().name + ":");
   const auto line = history.lineTo(history.branch().tip);
   for (std::size_t n = 0; n < line.size(); ++n)
@@ -72,22 +84,239 @@ void printHistory(const Context& context, const scene::Case& value)
       continue;
     const auto own = history.path(history.branch().tip, branch.tip).redone;
     context.print("branch " + branch.name + ": " +
-                  (own.empty() ? "nothing of its own"
+                  (own.empty() ? "no strokes of its own"
                                : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
     for (const std::size_t n : own)
       printStroke(context, value, n, "          ");
   }
 }
 
+struct BranchOptions
+{
+  std::string caseName, name, newName;
+  std::vector<std::string> compared;
+  std::size_t after = 0;
+  bool list = false, remove = false, withoutDamaged = false;
+  const CLI::App* command = nullptr;
+
+  bool given(const char* option) const { return command->count(option) > 0; }
+};
+
+std::string strokesInWords(std::size_t count)
+{
+  return std::to_string(count) + (count == 1 ? " stroke" : " strokes");
+}
+
+std::string toString(const scene::Case& value, const Branch& branch)
+{
+  const auto summary = scene::summaryOf(value, branch.position);
+  const std::size_t ahead = value.dissection.history().lineTo(branch.tip).size() - summary.strokes;
+  return branch.name + ": " + strokesInWords(summary.strokes) + ", " + fixed(summary.removed, 1) +
+         " mm3 removed" + (ahead > 0 ? ", " + std::to_string(ahead) + " to redo" : "") +
+         (branch.setAside ? " (set aside by drilling after an undo)" : "");
+}
+
+nlohmann::json allJson(const scene::Case& value)
+{
+  nlohmann::json branches = nlohmann::json::array();
+  for (const Branch& branch : value.dissection.history().branches())
+    branches.push_back(branchJson(value, branch));
+  return {{"case", value.name},
+          {"branch", value.dissection.history().branch().name},
+          {"strokes", value.dissection.strokes().size()},
+          {"undo", value.applied()},
+          {"redo", value.dissection.history().ahead()},
+          {"removed_mm3", value.removedVolume()},
+          {"branches", std::move(branches)}};
+}
+
+const Branch& branchOf(const scene::Case& value, const std::string& name)
+{
+  if (const Branch* branch = value.dissection.history().find(name))
+    return *branch;
+  dissection::History history = value.dissection.history();
+  history.goTo(name); // throws, listing the branches
+  return value.dissection.history().branch();
+}
+
+void printRow(const Context& context, const std::string& what, const std::string& a,
+              const std::string& b)
+{
+  char row[256];
+  std::snprintf(row, sizeof row, "%-28s %20s %20s", what.c_str(), a.c_str(), b.c_str());
+  context.print(row);
+}
+
+dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
+{
+  dissection::History there = value.dissection.history();
+  there.goTo(branch.name);
+  dissection::Dissection work = value.dissection;
+  work.follow(there);
+  return work;
+}
+
+// mm^2 of each structure exposed by each branch, by name.
+std::array<std::map<std::string, double>, 2>
+exposedBy(const Context& context, const scene::Case& value, const Branch& a, const Branch& b)
+{
+  const auto workA = workOf(value, a);
+  const auto workB = workOf(value, b);
+  const auto surfaces =
+      scene::exposedSurfaces(value, {&workA.mask(), &workB.mask()}, context.progress());
+  std::array<std::map<std::string, double>, 2> areas;
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const auto& surface : surfaces[side])
+      areas[side][surface.name] = surface.area;
+  return areas;
+}
+
+// A row for each name of either side, 0 if one lacks it.
+void printRows(const Context& context, const std::string& before, const std::string& after,
+               const std::map<std::string, double>& a, const std::map<std::string, double>& b,
+               int digits)
+{
+  std::map<std::string, std::pair<double, double>> rows;
+  for (const auto& [name, number] : a)
+    rows[name].first = number;
+  for (const auto& [name, number] : b)
+    rows[name].second = number;
+  for (const auto& [name, numbers] : rows)
+    printRow(context, before + name + after, fixed(numbers.first, digits),
+             fixed(numbers.second, digits));
+}
+
+std::map<std::string, double> volumesOf(const scene::StateSummary& summary)
+{
+  std::map<std::string, double> volumes;
+  for (const auto& touched : summary.structures)
+    volumes[touched.name] = touched.volume;
+  return volumes;
+}
+
+void compare(const Context& context, const scene::Case& value, const BranchOptions& options,
+             const presenters::LeftOut& leftOut)
+{
+  const Branch& a = branchOf(value, options.compared[0]);
+  const Branch& b = branchOf(value, options.compared[1]);
+  const auto ofA = scene::summaryOf(value, a.position);
+  const auto ofB = scene::summaryOf(value, b.position);
+  const std::size_t common =
+      ofA.strokes - value.dissection.history().path(a.position, b.position).undone.size();
+  printRow(context, "", a.name, b.name);
+  printRow(context, "strokes (" + std::to_string(common) + " in common)",
+           std::to_string(ofA.strokes), std::to_string(ofB.strokes));
+  printRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
+  printRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
+  const auto [openA, openB] = exposedBy(context, value, a, b);
+  printRows(context, "exposed ", ", mm2", openA, openB, 1);
+  nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
+  sides[0]["exposed_mm2"] = nlohmann::json(openA);
+  sides[1]["exposed_mm2"] = nlohmann::json(openB);
+  context.printJson({{"case", value.name},
+                     {"common_strokes", common},
+                     {"compare", std::move(sides)},
+                     {"left_out", leftOutJson(value, leftOut)}});
+}
+
+void list(const Context& context, const scene::Case& value)
+{
+  for (const Branch& branch : value.dissection.history().branches())
+    context.print((&branch == &value.dissection.history().branch() ? "* " : "  ") +
+                  toString(value, branch));
+  context.printJson(allJson(value));
+}
+
+// Makes the change; returns its description.
+std::string change(scene::Case& value, const BranchOptions& options)
+{
+  const std::string& name = options.name;
+  if (options.given("--rename"))
+  {
+    scene::renameBranch(value, name, options.newName);
+    return "'" + name + "' is now '" + options.newName + "'";
+  }
+  if (options.remove)
+    return "branch '" + name + "' deleted, and " +
+           strokesInWords(scene::removeBranch(value, name)) + " that only it led to";
+  const bool there = value.dissection.history().find(name) != nullptr;
+  if (there && options.given("--from"))
+    throw core::InvalidParameter("branch '" + name + "' is there already; --from is for a new one");
+  if (there)
+    scene::goToBranch(value, name);
+  else if (options.given("--from"))
+    scene::startBranch(value, name, options.after);
+  else
+    scene::startBranch(value, name);
+  return std::string(there ? "on branch " : "new branch ") +
+         toString(value, value.dissection.history().branch());
+}
+
+void branch(const Context& context, const BranchOptions& options)
+{
+  const int ways = static_cast<int>(options.list) + static_cast<int>(options.remove) +
+                   static_cast<int>(options.given("--rename")) +
+                   static_cast<int>(options.given("--from")) +
+                   static_cast<int>(options.given("--compare"));
+  const bool named = options.given("NAME");
+  if (ways > 1)
+    throw UsageError("branch: give one of --list, --compare, --from, --rename, --delete");
+  if (named == (options.list || options.given("--compare")))
+    throw UsageError(named ? "branch: --list and --compare take no NAME"
+                           : "branch: give the NAME of a branch, or --list");
+  if (options.withoutDamaged && !options.given("--compare"))
+    throw UsageError(std::string("branch: ") + kWithoutDamaged + " is for --compare");
+  library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  if (options.list)
+    return list(context, value);
+  if (options.given("--compare"))
+  {
+    library.loadDissection(value);
+    const auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
+    return compare(context, value, options, leftOut);
+  }
+  const std::string done = change(value, options);
+  library.save(value);
+  context.print(done);
+  context.printJson(allJson(value));
+}
+
+void addBranchCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<BranchOptions>();
+  CLI::App* command = context.addCommand(
+      app, "branch", "Branches of the history: switch, create from any earlier state, compare",
+      [options, &context] { branch(context, *options); });
+  options->command = command;
+  command->add_option("CASE", options->caseName)->required();
+  command->add_option("NAME", options->name,
+                      "Switch to this branch, or create it at the current state");
+  command->add_flag("--list", options->list, "List the branches of the case");
+  command
+      ->add_option("--from", options->after,
+                   "Create the branch after the first N strokes of the current one")
+      ->type_name("N")
+      ->transform(wholeNumber(0, std::numeric_limits<int>::max()));
+  command
+      ->add_option("--compare", options->compared, "Compare what two branches removed and exposed")
+      ->expected(2)
+      ->type_name("A B");
+  command->add_option("--rename", options->newName, "Rename branch NAME");
+  command->add_flag("--delete", options->remove,
+                    "Delete branch NAME and the strokes that only it leads to");
+  addWithoutDamaged(*command, options->withoutDamaged);
+}
+
 } // namespace
 
 void addHistoryCommands(CLI::App& app, Context& context)
 {
-  addStep(app, context, "undo", "Take back the last strokes", &dissection::Dissection::undo);
-  addStep(app, context, "redo", "Do again what was taken back", &dissection::Dissection::redo);
+  addStep(app, context, "undo", "Undo the last strokes", &dissection::Dissection::undo);
+  addStep(app, context, "redo", "Redo undone strokes", &dissection::Dissection::redo);
   auto name = std::make_shared<std::string>();
   context
-      .addCommand(app, "history", "The strokes of a case",
+      .addCommand(app, "history", "List the strokes of a case",
                   [name, &context]
                   {
                     const scene::Case value = context.openLibrary().open(*name);
@@ -104,6 +333,7 @@ void addHistoryCommands(CLI::App& app, Context& context)
                   })
       ->add_option("CASE", *name)
       ->required();
+  addBranchCommand(app, context);
 }
 
 } // namespace petrous::cli

@@ -41,6 +41,7 @@ void printCases(const Context& context, const library::Library& library,
 void verify(const Context& context, const library::Library& library)
 {
   const library::Inspection found = library.verify(context.progress());
+  const std::size_t count = found.damaged.size();
   nlohmann::json damaged = nlohmann::json::array();
   for (const auto& one : found.damaged)
   {
@@ -52,15 +53,16 @@ void verify(const Context& context, const library::Library& library)
   context.printJson({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
   if (!found.damaged.empty())
     throw library::LibraryError(library::LibraryError::Reason::Damaged,
-                                library.folder().string() + ": " +
-                                    std::to_string(found.damaged.size()) +
-                                    " files are damaged or missing; restore them from a copy");
+                                library.folder().string() + ": " + std::to_string(count) +
+                                    (count == 1 ? " file is damaged or missing; restore it"
+                                                : " files are damaged or missing; restore them") +
+                                    " from a copy of the library, or import the data again");
 }
 
 void collect(const Context& context, library::Library& library)
 {
   const library::Collected removed = library.collectGarbage();
-  context.print(std::to_string(removed.objects) + " objects that no case needs were removed, " +
+  context.print(std::to_string(removed.objects) + " unreferenced objects removed, " +
                 std::to_string(removed.bytes) + " bytes");
   library::DerivedCache derived(library::derivedFolder(library.folder()));
   const std::uintmax_t freed = derived.prune(0);
@@ -144,13 +146,14 @@ void run(const Context& context, const Options& options)
 void addLibraryCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<Options>();
-  CLI::App* command = context.addCommand(app, "library", "The cases on this machine",
-                                         [options, &context] { run(context, *options); });
+  CLI::App* command =
+      context.addCommand(app, "library", "List, check and manage the cases of the library",
+                         [options, &context] { run(context, *options); });
   command
       ->add_option("ACTION", options->action,
                    "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME")
       ->required();
-  command->add_option("NAMES", options->names, "What the action is for");
+  command->add_option("NAMES", options->names, "Arguments of the action");
 }
 
 } // namespace petrous::cli

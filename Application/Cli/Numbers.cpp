@@ -1,11 +1,13 @@
 #include "Numbers.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "Context.h"
 
@@ -17,11 +19,40 @@ CLI::Validator within(const core::NumberRange& range)
   return {[range](std::string& text)
           {
             const auto value = core::parseDouble(text);
-            return !value                   ? "'" + text + "' is no number"
+            return !value                   ? "'" + text + "' is not a number"
                    : range.contains(*value) ? std::string()
                                             : range.refusal(*value);
           },
           range.text()};
+}
+
+namespace
+{
+
+// Digits alone, without sign; nullopt for anything else, and beyond 64 bits.
+std::optional<std::uint64_t> parseWhole(std::string_view text)
+{
+  std::uint64_t value = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size())
+    return std::nullopt;
+  return value;
+}
+
+} // namespace
+
+CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper)
+{
+  const std::string range = std::to_string(lower) + " to " + std::to_string(upper);
+  return {[lower, upper, range](std::string& text)
+          {
+            const auto value = parseWhole(text);
+            if (!value || *value < lower || *value > upper)
+              return "must be a whole number within " + range + ", not '" + text + "'";
+            text = std::to_string(*value); // without leading zeros
+            return std::string();
+          },
+          range};
 }
 
 CLI::Validator oneOf(std::vector<std::string> names)
@@ -57,7 +88,7 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
   {
     const auto value = core::parseDouble(field);
     if (!value || !std::isfinite(*value))
-      throw UsageError(option + ": '" + field + "' is no number");
+      throw UsageError(option + ": '" + field + "' is not a number");
     numbers.push_back(*value);
   }
   if (numbers.size() != count)
@@ -85,13 +116,15 @@ int toInt(double value, const std::string& option)
 
 std::pair<int, int> parseSize(const std::string& text)
 {
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
-      height < 8 || width > 8192 || height > 8192)
+  constexpr std::uint64_t kMin = 8;
+  constexpr std::uint64_t kMax = 8192;
+  const std::size_t x = std::min(text.find('x'), text.size());
+  const auto width = parseWhole(std::string_view(text).substr(0, x));
+  const auto height = parseWhole(std::string_view(text).substr(std::min(x + 1, text.size())));
+  const auto fits = [](const auto& n) { return n && *n >= kMin && *n <= kMax; };
+  if (!fits(width) || !fits(height))
     throw UsageError("--size: WIDTHxHEIGHT with 8 to 8192 pixels each, not '" + text + "'");
-  return {width, height};
+  return {static_cast<int>(*width), static_cast<int>(*height)};
 }
 
 std::string fixed(double value, int digits)

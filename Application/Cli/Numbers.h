@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,10 +14,15 @@ namespace petrous::cli
 {
 
 // Checks of an option's value, for CLI::Option::check: a bad one is a usage error that names option
-// and value, and what would be right.
+// and value, and what would be right. Every option that is a number has one: the parser by itself
+// accepts hexadecimal and octal numbers, NaN and infinity.
 
 /// A number within `range`. CLI::Range would accept NaN.
 CLI::Validator within(const core::NumberRange& range);
+
+/// A whole number within [lower, upper], in plain decimal digits: for CLI::Option::transform. The
+/// parser by itself would read 010 as 8 and 0x10 as 16, and the largest number for a larger one.
+CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
 
 /// One of these names. CLI::IsMember, with the text of the other checks.
 CLI::Validator oneOf(std::vector<std::string> names);
@@ -35,7 +41,7 @@ core::PatientBox parseBox(const std::string& text, const std::string& option);
 /// An integer within the range of int; otherwise throws UsageError naming `option`.
 int toInt(double value, const std::string& option);
 
-/// "800x600": 8 to 8192 pixels each; otherwise throws UsageError.
+/// "800x600", plain decimal digits: 8 to 8192 pixels each; otherwise throws UsageError.
 std::pair<int, int> parseSize(const std::string& text);
 
 /// A number as text with `digits` decimals.

@@ -1,7 +1,14 @@
+#include <filesystem>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
-#include "PointsFile.h"
+#include "Context.h"
+#include "petrous/Core/CsvTable.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Scene/CaseField.h"
@@ -13,6 +20,18 @@ namespace petrous::cli
 
 namespace
 {
+
+// Patient points, LPS mm, from a CSV file with columns x_mm, y_mm and z_mm. Throws
+// InvalidParameter naming file and line.
+std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path)
+{
+  std::ifstream file = core::openInput(path, kLargestInput);
+  std::vector<Eigen::Vector3d> points;
+  core::readCsv(file, path.string(), {"x_mm", "y_mm", "z_mm"},
+                [&points](std::size_t, const std::vector<double>& row)
+                { points.emplace_back(row[0], row[1], row[2]); });
+  return points;
+}
 
 // Search distance for a surface, mm.
 constexpr double kReach = 20.0;
@@ -54,11 +73,12 @@ std::string number(const std::optional<double>& value)
 void probe(Context& context, const std::string& name, const std::string& pointsFile,
            const std::string& out, bool withoutDamaged)
 {
+  context.refuseOverwriting({out}, {pointsFile});
   const auto points = readPoints(pointsFile);
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(name);
   library.loadDissection(value);
-  const presenters::LeftOut leftOut = leaveOutDamaged(context, value, withoutDamaged);
+  const presenters::LeftOut leftOut = leaveOutDamaged(context, library, value, withoutDamaged);
   warnMissingPlaces(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
@@ -128,15 +148,14 @@ void addProbeCommand(CLI::App& app, Context& context)
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-      app, "probe", "The tissue field, HU, structure and nearest surface at points",
+      app, "probe", "Tissue field, HU, structure and nearest surface at points",
       [options, &context]
       { probe(context, options->name, options->points, options->out, options->withoutDamaged); });
   command->add_option("CASE", options->name)->required();
   command->add_option("--points", options->points, "CSV with x_mm,y_mm,z_mm, patient LPS")
       ->type_name("F.csv")
       ->required();
-  command->add_option("--out", options->out, "CSV to write; without it the rows go to stdout")
-      ->type_name("F.csv");
+  command->add_option("--out", options->out, "CSV to write (standard output)")->type_name("F.csv");
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

@@ -147,7 +147,7 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
   CLI::App app(program.text, program.name);
   app.set_version_flag("--version", program.name + " " PETROUS_VERSION);
   app.require_subcommand(1);
-  app.footer("'" + program.name + " help COMMAND' tells more of one.\n" + kExitCodes);
+  app.footer("'" + program.name + " help COMMAND' shows the help of a command.\n" + kExitCodes);
   context.addOptions(app);
   program.addCommands(app, context);
   const std::string name = subcommandIn(words);
@@ -251,7 +251,7 @@ int run(const Program& program, const std::vector<std::string>& words)
   catch (const std::exception& error)
   {
     // Messages of other libraries may contain patient data; they are left out.
-    return fail("an unexpected fault; the library is as it was before", kInternalFailure, error);
+    return fail("an unexpected error; the library is unchanged", kInternalFailure, error);
   }
 }
 

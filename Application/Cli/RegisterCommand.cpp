@@ -1,11 +1,23 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "CaseJson.h"
 #include "Commands.h"
+#include "Context.h"
 #include "Numbers.h"
-#include "RegistrationFiles.h"
+#include "petrous/Core/CsvTable.h"
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Core/RigidTransform.h"
 #include "petrous/Presenters/CaseRegistration.h"
+#include "petrous/Registration/Landmarks.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Session/DrillSession.h"
@@ -17,6 +29,74 @@ namespace
 {
 
 using From = presenters::RegistrationRequest::From;
+
+std::vector<double> numbersIn(std::string text)
+{
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_object() && json.contains("transform") && json["transform"].is_array())
+  {
+    std::vector<double> numbers;
+    for (const auto& number : json["transform"])
+      if (number.is_number())
+        numbers.push_back(number.get<double>());
+    return numbers;
+  }
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == ';' || c == '[' || c == ']'; },
+      ' ');
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;)
+  {
+    const auto number = core::parseDouble(word);
+    if (!number)
+      return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+// Landmark pairs, CSV ct_x,ct_y,ct_z,mr_x,mr_y,mr_z in patient LPS mm, that determine a rigid
+// transform. Throws InvalidParameter naming file and line.
+std::vector<registration::LandmarkPair> readLandmarks(const std::string& path)
+{
+  std::ifstream file = core::openInput(path, kLargestInput);
+  std::vector<registration::LandmarkPair> pairs;
+  core::readCsv(file, path, {"ct_x", "ct_y", "ct_z", "mr_x", "mr_y", "mr_z"},
+                [&pairs](std::size_t, const std::vector<double>& v) {
+                  pairs.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}});
+                });
+  try
+  {
+    registration::fitLandmarks(pairs);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw core::InvalidParameter(path + ": " + error.what());
+  }
+  return pairs;
+}
+
+// X_MC from a file: 16 numbers, row-major, or JSON with them under "transform" (as in the output
+// of `petrous register --json`). Throws InvalidParameter naming the file.
+core::RigidTransform readTransform(const std::string& path)
+{
+  const std::vector<double> numbers = numbersIn(core::readFile(path, kLargestJson));
+  if (numbers.size() != 16)
+    throw core::InvalidParameter(path + ": holds no transform; give 16 numbers, row by row, or "
+                                        "JSON with them under \"transform\"");
+  Eigen::Matrix4d matrix;
+  for (int n = 0; n < 16; ++n)
+    matrix(n / 4, n % 4) = numbers[static_cast<std::size_t>(n)];
+  try
+  {
+    return core::RigidTransform::fromMatrix(matrix);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw core::InvalidParameter(path + ": " + error.what());
+  }
+}
 
 struct Options
 {
@@ -211,33 +291,35 @@ void addRegisterCommand(CLI::App& app, Context& context)
   command->add_option("--mr", options->mr, "Which MR")->type_name("NAME")->required();
   command
       ->add_option("--init", options->init,
-                   "Where to begin: header (default), centres, or landmarks F.csv "
+                   "Initial transform: header (default), centres, or landmarks F.csv "
                    "(ct_x,ct_y,ct_z,mr_x,mr_y,mr_z, patient LPS mm)")
       ->expected(1, 2)
       ->type_name("HOW");
   command
       ->add_option("--transform", options->transform,
-                   "Begin where this puts it: 16 numbers, CT to MR patient points, LPS mm")
+                   "Initial transform from a file: 16 numbers, CT to MR patient points, LPS mm")
       ->type_name("F");
   command->add_flag("--as-is", options->asIs,
-                    "No fit: leave it where landmarks, transform or a common frame of reference "
-                    "put it");
+                    "No optimization: keep the transform of landmarks, file or common frame of "
+                    "reference");
   command
       ->add_option("--at", options->at,
-                   "Where the error is stated: a point (LPS mm) or a structure; default: the "
-                   "middle ear")
+                   "Where the error is estimated: a point (LPS mm) or a structure (the middle ear)")
       ->type_name("x,y,z|LABEL");
-  command->add_option("--region", options->region, "Only this box of the CT counts, LPS mm")
+  command->add_option("--region", options->region, "Use only this box of the CT, LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
   command
       ->add_option("--to", options->onto,
-                   "To this MR, which is registered already, and through it to the CT")
+                   "Register to this MR, which is registered already, and through it to the CT")
       ->type_name("MR");
-  CLI::Option* seed = command->add_option("--seed", options->seed, "Same seed, same result");
+  CLI::Option* seed =
+      command->add_option("--seed", options->seed, "The same seed gives the same result (1)")
+          ->type_name("N")
+          ->transform(wholeNumber(0, std::numeric_limits<std::uint32_t>::max()));
   seed->each([options](const std::string&) { options->seedGiven = true; });
   command
       ->add_option("--sign-off", options->signOff,
-                   "Nothing else: write down that NAME looked at the registration and accepts it")
+                   "Only record that NAME has inspected and accepts the registration")
       ->type_name("NAME");
 }
 

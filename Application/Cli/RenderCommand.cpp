@@ -1,20 +1,33 @@
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
-#include "CameraFile.h"
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
+#include "Context.h"
 #include "Numbers.h"
-#include "RenderOptions.h"
+#include "petrous/Core/CameraPose.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/SceneContents.h"
+#include "petrous/Rendering/Stereo.h"
 #include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Rendering/ThicknessLegend.h"
+#include "petrous/Scene/Case.h"
 
 namespace petrous::cli
 {
@@ -23,6 +36,239 @@ namespace
 {
 
 using rendering::StereoMode;
+
+constexpr double kFarthest = 1e7; // mm: beyond any patient, and squares stay finite
+
+Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
+{
+  const auto v = json.at(key).get<std::array<double, 3>>();
+  return {v[0], v[1], v[2]};
+}
+
+bool isWithin(double value, double lower, double upper)
+{
+  return value >= lower && value <= upper; // false for NaN
+}
+
+void check(const std::string& path, const core::CameraPose& camera)
+{
+  const auto refuse = [&path](const std::string& what)
+  { throw core::InvalidParameter(path + ": " + what); };
+  for (const Eigen::Vector3d* vector : {&camera.position, &camera.focalPoint, &camera.viewUp})
+    if (!vector->allFinite() || vector->cwiseAbs().maxCoeff() > kFarthest)
+      refuse("a coordinate is not a number or beyond 10 km; position_mm and focal_point_mm are in "
+             "patient LPS mm");
+  const Eigen::Vector3d view = camera.focalPoint - camera.position;
+  if (view.norm() < 1e-9)
+    refuse("position_mm and focal_point_mm must differ: the camera looks from one to the other");
+  if (view.cross(camera.viewUp).norm() <= 1e-9 * view.norm() * camera.viewUp.norm())
+    refuse("view_up must not be zero nor lie along the direction of view");
+  if (camera.parallelScale && !isWithin(*camera.parallelScale, 1e-3, 1e6))
+    refuse("parallel_scale_mm must lie within 0.001 to 1000000 mm (half the picture's height)");
+  if (!camera.parallelScale && !isWithin(camera.viewAngle, 0.1, 170.0))
+    refuse("view_angle_deg must lie within 0.1 to 170 degrees");
+}
+
+// A camera in patient LPS mm: {"position_mm":[3],"focal_point_mm":[3],"view_up":[3]} with
+// "view_angle_deg" (vertical; 0.1 to 170) or "parallel_scale_mm" (half the height; 0.001 to 1e6).
+// Throws InvalidParameter naming the file and the expected content: missing file, other content,
+// non-finite numbers, degenerate camera.
+core::CameraPose readCamera(const std::string& path)
+{
+  const std::string text = core::readFile(path, kLargestJson);
+  core::CameraPose camera;
+  try
+  {
+    const auto json = nlohmann::json::parse(text);
+    camera.position = vectorFrom(json, "position_mm");
+    camera.focalPoint = vectorFrom(json, "focal_point_mm");
+    camera.viewUp = vectorFrom(json, "view_up");
+    if (json.contains("parallel_scale_mm"))
+      camera.parallelScale = json.at("parallel_scale_mm").get<double>();
+    else
+      camera.viewAngle = json.at("view_angle_deg").get<double>();
+  }
+  catch (const nlohmann::json::exception&) // also for NaN and Infinity, which JSON lacks
+  {
+    throw core::InvalidParameter(
+        path + ": not a camera; expected {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
+               "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\") with finite "
+               "numbers");
+  }
+  check(path, camera);
+  return camera;
+}
+
+// The format that `readCamera` reads.
+nlohmann::json cameraJson(const core::CameraPose& camera)
+{
+  nlohmann::json json{{"position_mm", vectorJson(camera.position)},
+                      {"focal_point_mm", vectorJson(camera.focalPoint)},
+                      {"view_up", vectorJson(camera.viewUp)}};
+  if (camera.parallelScale)
+    json["parallel_scale_mm"] = *camera.parallelScale;
+  else
+    json["view_angle_deg"] = camera.viewAngle;
+  return json;
+}
+
+/// The options of `petrous render`.
+struct RenderOptions
+{
+  std::string caseName, out, size = "800x600", view, camera, stereo = "none", engine = "gpu", depth;
+  std::string thickness;
+  std::string crop, roi;
+  std::vector<std::string> clip;
+  std::optional<double> eyeSeparation, convergence;
+  double falloff = 0.0;
+  double wetness = 0.0;
+  bool withoutDamaged = false;
+};
+
+/// Size, camera and stereo mode of a picture.
+struct Shot
+{
+  int width = 0;
+  int height = 0;
+  core::CameraPose camera;
+  rendering::StereoMode stereo = rendering::StereoMode::None;
+  std::vector<core::CameraPose> eyes; ///< one, or left and right
+};
+
+rendering::ClippingPlane parsePlane(const std::string& text)
+{
+  const auto n = parseNumbers(text, 6, "--clip x,y,z,nx,ny,nz");
+  const Eigen::Vector3d normal(n[3], n[4], n[5]);
+  const double length = normal.stableNorm();
+  if (!(length > 1e-12) || !std::isfinite(length))
+    throw UsageError(
+        "--clip x,y,z,nx,ny,nz: the normal must not be zero; it points to the side that is kept");
+  return {{n[0], n[1], n[2]}, normal / length};
+}
+
+std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
+                                        const core::GridGeometry& grid)
+{
+  core::IndexBox box;
+  if (!options.crop.empty())
+  {
+    const char* name = "--crop i0,i1,j0,j1,k0,k1";
+    const auto n = parseNumbers(options.crop, 6, name);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      box.lower[a] = toInt(n[2 * a], name);
+      box.upper[a] = toInt(n[2 * a + 1], name);
+      if (box.lower[a] < box.upper[a])
+        ++box.upper[a];
+      else
+        throw UsageError(std::string(name) + ": first and last voxel; each first number must be "
+                                             "the smaller one");
+    }
+  }
+  else if (!options.roi.empty())
+  {
+    const core::PatientBox roi = parseBox(options.roi, "--roi");
+    box = grid.boxCovering(roi.min(), roi.max());
+  }
+  else
+    return std::nullopt;
+  const core::IndexBox inside = box.intersected(grid.fullBox());
+  if (inside.empty())
+    throw UsageError(std::string(options.crop.empty() ? "--roi" : "--crop") +
+                     ": the box does not overlap the CT");
+  return inside;
+}
+
+// Everything that needs no case: size and stereo mode. Throws UsageError for invalid values.
+Shot parseShot(const RenderOptions& options)
+{
+  Shot shot;
+  std::tie(shot.width, shot.height) = parseSize(options.size);
+  shot.stereo = *rendering::parseStereoMode(options.stereo);
+  if (shot.stereo == rendering::StereoMode::None && (options.eyeSeparation || options.convergence))
+    throw UsageError("--eye-separation and --convergence need --stereo");
+  if (shot.stereo == rendering::StereoMode::SideBySide && shot.width % 2 != 0)
+    throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
+  if (options.clip.size() > 6)
+    throw UsageError("--clip: at most 6 planes, not " + std::to_string(options.clip.size()));
+  if (!options.crop.empty() && !options.roi.empty())
+    throw UsageError("render: give --crop or --roi, not both");
+  return shot;
+}
+
+// The case's scene, with the options' lamp, planes and box.
+rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value)
+{
+  presenters::SceneAssembly assembly;
+  assembly.showThickness(options.thickness);
+  rendering::SceneContents contents = assembly.contents(value);
+  contents.light.falloff = options.falloff;
+  contents.light.wetness = options.wetness;
+  for (const std::string& plane : options.clip)
+    contents.clipping.push_back(parsePlane(plane));
+  contents.crop = parseCrop(options, value.ct.geometry);
+  return contents;
+}
+
+void addRenderOptions(CLI::App& command, RenderOptions& options)
+{
+  command.add_option("CASE", options.caseName)->required();
+  command.add_option("--out", options.out, "Picture to write")
+      ->type_name("F.png")
+      ->check(endsIn(".png"))
+      ->required();
+  command.add_option("--size", options.size, "Pixels (800x600)")->type_name("WxH");
+  command
+      .add_option("--view", options.view,
+                  "lateral, left, right, superior, inferior, anterior or posterior")
+      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"}));
+  command.add_option("--camera", options.camera, "Camera file, patient LPS mm")
+      ->type_name("F.json");
+  command
+      .add_option("--stereo", options.stereo, "none, side-by-side, interleaved or anaglyph (none)")
+      ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
+  command
+      .add_option("--eye-separation", options.eyeSeparation,
+                  "Distance between the eyes (5.5 degrees at the convergence point)")
+      ->type_name("MM")
+      ->check(within({0.0, rendering::StereoRig::kLargestSeparation, "mm"}));
+  command
+      .add_option("--convergence", options.convergence,
+                  "Distance from the camera to the convergence point (the focal point)")
+      ->type_name("MM")
+      ->check(within({rendering::StereoRig::kNearestConvergence,
+                      rendering::StereoRig::kFarthestConvergence, "mm"}));
+  command
+      .add_option("--light-falloff", options.falloff,
+                  "Distance at which the light has half its intensity; 0: no falloff (0)")
+      ->type_name("MM")
+      ->check(within({0.0, 10000.0, "mm"}));
+  command.add_option("--wetness", options.wetness, "Specular gloss of a wet surface, 0 to 1 (0)")
+      ->check(within({0.0, 1.0}));
+  command
+      .add_option("--thickness", options.thickness,
+                  "Colour bone by its thickness over a structure, 0 to 5 mm")
+      ->type_name("STRUCTURE");
+  command
+      .add_option(
+          "--clip", options.clip,
+          "Clipping plane through a point, patient LPS mm; the normal points to the side that "
+          "is kept (up to 6 times)")
+      ->allow_extra_args(false)
+      ->type_name("x,y,z,nx,ny,nz");
+  command.add_option("--crop", options.crop, "Crop to these voxels of the CT, first and last")
+      ->type_name("i0,i1,j0,j1,k0,k1");
+  command.add_option("--roi", options.roi, "Crop to this box, patient LPS mm")
+      ->type_name("x0,x1,y0,y1,z0,z1");
+  command
+      .add_option("--engine", options.engine,
+                  "gpu, or reference: double precision on the CPU, slow (gpu)")
+      ->check(oneOf({"gpu", "reference"}));
+  command.add_option("--depth", options.depth, "Also write the distance to the first surface, mm")
+      ->type_name("F.npy")
+      ->check(endsIn(".npy"));
+  addWithoutDamaged(command, options.withoutDamaged);
+}
 
 // Output of a rendering.
 struct Result
@@ -158,9 +404,9 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
   {
     if (error.reason != rendering::RenderingError::Reason::NoOpenGL)
       throw;
-    throw rendering::RenderingError(
-        error.reason,
-        std::string(error.what()) + "; '--engine reference' draws on the processor alone, slowly");
+    throw rendering::RenderingError(error.reason,
+                                    std::string(error.what()) +
+                                        "; '--engine reference' renders on the CPU, slowly");
   }
 }
 
@@ -174,9 +420,25 @@ nlohmann::json thicknessJson(const RenderOptions& options)
           {"colors", rendering::kThicknessColors}};
 }
 
+// The options can also be at odds with each other or with the camera.
+rendering::StereoGeometry stereoOf(const RenderOptions& options, const core::CameraPose& camera)
+{
+  try
+  {
+    return rendering::stereoGeometry(camera, {options.eyeSeparation, options.convergence});
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    if (options.eyeSeparation || options.convergence)
+      throw UsageError(error.what());
+    throw;
+  }
+}
+
 void render(const Context& context, const RenderOptions& options)
 {
   Shot shot = parseShot(options);
+  context.refuseOverwriting({options.out, options.depth}, {options.camera});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   shot.camera = chooseCamera(options, value);
@@ -184,8 +446,7 @@ void render(const Context& context, const RenderOptions& options)
   shot.eyes = {shot.camera};
   if (shot.stereo != StereoMode::None)
   {
-    const auto geometry =
-        rendering::stereoGeometry(shot.camera, {options.eyeSeparation, options.convergence});
+    const auto geometry = stereoOf(options, shot.camera);
     const rendering::EyePair eyes = rendering::eyesOf(shot.camera, geometry);
     shot.eyes = {eyes.left, eyes.right};
     stereo = {{"mode", options.stereo},
@@ -193,7 +454,8 @@ void render(const Context& context, const RenderOptions& options)
               {"convergence_mm", geometry.convergence}};
   }
   library.loadDissection(value);
-  const presenters::LeftOut leftOut = leaveOutDamaged(context, value, options.withoutDamaged);
+  const presenters::LeftOut leftOut =
+      leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
 
   Result result = draw(context, options, shot, renderContents(options, value));
@@ -230,8 +492,9 @@ void render(const Context& context, const RenderOptions& options)
 void addRenderCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = context.addCommand(app, "render", "Draw a case into a PNG, without a display",
-                                         [options, &context] { render(context, *options); });
+  CLI::App* command =
+      context.addCommand(app, "render", "Render a case to a PNG file; needs no display",
+                         [options, &context] { render(context, *options); });
   addRenderOptions(*command, *options);
 }
 

@@ -1,5 +1,6 @@
-#include "Commands.h"
+#include <limits>
 
+#include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Phantom/SamplePatient.h"
 
@@ -27,6 +28,10 @@ void addSampleCommand(CLI::App& app, Context& context)
         if (!options->dims.empty())
         {
           const auto n = parseNumbers(options->dims, 3, "--dims I,J,K");
+          for (const double count : n)
+            if (!phantom::SampleOptions::kDims.contains(count))
+              throw UsageError("--dims I,J,K: each " +
+                               phantom::SampleOptions::kDims.refusal(count));
           sample.dims =
               core::Index3{toInt(n[0], "--dims"), toInt(n[1], "--dims"), toInt(n[2], "--dims")};
         }
@@ -43,12 +48,20 @@ void addSampleCommand(CLI::App& app, Context& context)
                            {"labels", (out / "labels.seg.nrrd").string()},
                            {"truth", (out / "truth.json").string()}});
       });
-  command->add_option("OUT", options->out, "A new or empty folder")->required();
-  command->add_option("--spacing", options->spacing, "Voxel size of the CT, mm (0.3)");
+  command->add_option("OUT", options->out, "Folder to write; new or empty")->required();
+  command->add_option("--spacing", options->spacing, "Voxel size of the CT (0.3)")
+      ->type_name("MM")
+      ->check(within(phantom::SampleOptions::kSpacings));
   command->add_option("--dims", options->dims, "Voxels of the CT along x,y,z")->type_name("I,J,K");
-  command->add_option("--noise", options->noise, "Standard deviation of the noise, HU (20)");
-  command->add_option("--tilt", options->tilt, "Gantry tilt of the CT, degrees (0)");
-  command->add_option("--seed", options->seed, "The same seed gives the same files (1)");
+  command->add_option("--noise", options->noise, "Standard deviation of the noise (20)")
+      ->type_name("HU")
+      ->check(within(phantom::SampleOptions::kNoises));
+  command->add_option("--tilt", options->tilt, "Gantry tilt of the CT (0)")
+      ->type_name("DEGREES")
+      ->check(within(phantom::SampleOptions::kTilts));
+  command->add_option("--seed", options->seed, "The same seed gives the same files (1)")
+      ->type_name("N")
+      ->transform(wholeNumber(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 } // namespace petrous::cli

@@ -1,13 +1,23 @@
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
+#include "Context.h"
 #include "Numbers.h"
-#include "Place.h"
-#include "SlicePicture.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SlicePresenter.h"
+#include "petrous/Rendering/Picture.h"
+#include "petrous/Rendering/PictureText.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Case.h"
 
 namespace petrous::cli
 {
@@ -19,12 +29,102 @@ using presenters::OverlayMode;
 using presenters::SliceGeometry;
 using presenters::SliceOrientation;
 
+/// A patient point given on the command line.
+struct Place
+{
+  Eigen::Vector3d point; ///< patient LPS mm
+  std::string words;     ///< the structure's name; empty for coordinates
+};
+
+bool isPart(const scene::Case& value, const std::string& name)
+{
+  return scene::findStructure(value, name) ||
+         std::any_of(value.meshes.begin(), value.meshes.end(),
+                     [&name](const scene::MeshPart& mesh) { return mesh.name == name; });
+}
+
+// "x,y,z" in patient LPS mm, or the name of a structure or a mesh: its centroid on the CT. Throws
+// UsageError naming `option` if it is neither, InvalidParameter if it cannot be placed on the CT.
+Place parsePlace(const std::string& text, const scene::Case& value, const std::string& option)
+{
+  if (isPart(value, text))
+    return {presenters::placeOf(value, text).point, text};
+  if (std::count(text.begin(), text.end(), ',') != 2)
+    throw UsageError(option + ": x,y,z in mm or the name of a structure of the case, not '" + text +
+                     "'");
+  const auto n = parseNumbers(text, 3, option + " x,y,z");
+  return {{n[0], n[1], n[2]}, {}};
+}
+
+using Color = std::array<std::uint8_t, 3>;
+constexpr Color kInk{242, 245, 248};
+constexpr Color kDark{0, 0, 0};
+constexpr int kMargin = 8;
+constexpr int kLetter = 17;
+constexpr int kLine = 14;
+
+void fill(rendering::Picture& picture, int left, int top, int right, int bottom, const Color& color)
+{
+  for (int row = std::max(top, 0); row < std::min(bottom, picture.height); ++row)
+    for (int column = std::max(left, 0); column < std::min(right, picture.width); ++column)
+      std::copy(color.begin(), color.end(),
+                picture.rgb.begin() +
+                    3 * (static_cast<std::ptrdiff_t>(row) * picture.width + column));
+}
+
+// Text above a bar with end marks, at the lower right.
+void addScaleBar(rendering::Picture& picture, double mmPerPixel)
+{
+  const double length = presenters::scaleBarLength(0.28 * picture.width * mmPerPixel);
+  if (length <= 0.0)
+    return;
+  const int right = picture.width - kMargin;
+  const int bottom = picture.height - kMargin;
+  const int left = right - static_cast<int>(std::lround(length / mmPerPixel));
+  const auto bar = [&](int wider, const Color& color)
+  {
+    fill(picture, left - wider, bottom - 2 - wider, right + wider, bottom + wider, color);
+    fill(picture, left - wider, bottom - 7 - wider, left + 2 + wider, bottom, color);
+    fill(picture, right - 2 - wider, bottom - 7 - wider, right + wider, bottom, color);
+  };
+  bar(1, kDark);
+  bar(0, kInk);
+  rendering::writeText(picture, core::generalText(length) + " mm",
+                       {0.5 * (left + right), bottom - 10.0, 0.5, 1.0}, kLine, kInk);
+}
+
+// The slice with orientation letters, a scale bar, its plane's name and the lines of text beneath
+// that.
+rendering::Picture labelled(presenters::SlicePixels pixels, const presenters::SliceGeometry& slice,
+                            const std::vector<std::string>& lines)
+{
+  rendering::Picture picture{pixels.width, pixels.height, std::move(pixels.rgb)};
+  const double width = picture.width;
+  const double height = picture.height;
+  const auto letter = [&](char c, const rendering::TextPlace& place)
+  { rendering::writeText(picture, std::string(1, c), place, kLetter, kInk); };
+  const auto letters = slice.edgeLetters();
+  letter(letters.left, {double(kMargin), 0.5 * height, 0.0, 0.5});
+  letter(letters.right, {width - kMargin, 0.5 * height, 1.0, 0.5});
+  letter(letters.top, {0.5 * width, double(kMargin), 0.5, 0.0});
+  letter(letters.bottom, {0.5 * width, height - kMargin, 0.5, 1.0});
+  double row = kMargin;
+  for (const std::string& line : lines)
+  {
+    rendering::writeText(picture, line, {double(kMargin), row, 0.0, 0.0}, kLine, kInk);
+    row += 1.5 * kLine;
+  }
+  addScaleBar(picture, slice.mmPerPixel());
+  return picture;
+}
+
 struct SliceOptions
 {
   std::string caseName, out, plane, at, size = "800x800", overlay, mode = "blend", window;
   std::optional<double> fieldOfView;
   double opacity = 0.5;
   bool noStructures = false;
+  bool withoutDamaged = false;
 };
 
 SliceOrientation parsePlane(const std::string& word)
@@ -49,6 +149,20 @@ std::optional<presenters::GreyWindow> parseWindow(const std::string& text)
   if (!(n[0] > 0.0))
     throw UsageError("--window WIDTH,LEVEL: the width must be above 0");
   return presenters::GreyWindow{n[0], n[1]};
+}
+
+// Generous: as far as the intensities of any CT, and of this one.
+void checkWindow(const presenters::GreyWindow& window, const volume::ValueRange& range,
+                 const presenters::IntensityDisplay& display)
+{
+  const double lower = std::min(-32768.0, range.min);
+  const double upper = std::max(65535.0, range.max);
+  if (window.width > upper - lower)
+    throw UsageError("--window WIDTH,LEVEL: the width must be above 0, up to " +
+                     display.text(upper - lower));
+  if (window.level < lower || window.level > upper)
+    throw UsageError("--window WIDTH,LEVEL: the level must lie within " + display.number(lower) +
+                     " to " + display.text(upper));
 }
 
 SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
@@ -127,17 +241,23 @@ void slice(const Context& context, const SliceOptions& options)
 {
   const auto [width, height] = parseSize(options.size);
   const auto wanted = parseWindow(options.window);
+  context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
+  presenters::LeftOut leftOut;
+  if (!options.noStructures)
+    leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   const scene::ImagePart* mr = findOverlay(options, value);
   const presenters::IntensityDisplay display = presenters::displayOf(value);
   const presenters::GreyWindow window = wanted.value_or(display.bone);
+  checkWindow(window, value.ct.range, display);
   const SliceGeometry geometry = sliceOf(options, value, width, height);
   if (!meets(geometry, value.ct.geometry))
     throw UsageError("--at: the slice does not meet the CT, which " +
                      coverageOf(value.ct.geometry) + " (patient LPS)");
   if (value.applied() > 0)
     library.loadDissection(value);
+  nlohmann::json missing = leftOutJson(value, leftOut);
   if (options.noStructures)
     value.labels.clear();
   const auto overlay = overlayOf(options, mr);
@@ -168,6 +288,7 @@ void slice(const Context& context, const SliceOptions& options)
                      {"window", {{"width", window.width}, {"level", window.level}}},
                      {"hounsfield", display.hounsfield},
                      {"overlay", mr ? overlayJson(*mr, *overlay) : nlohmann::json(nullptr)},
+                     {"left_out", std::move(missing)},
                      {"resources", residentResources(value)}});
 }
 
@@ -176,9 +297,9 @@ void slice(const Context& context, const SliceOptions& options)
 void addSliceCommand(CLI::App& app, Context& context)
 {
   auto options = std::make_shared<SliceOptions>();
-  CLI::App* command =
-      context.addCommand(app, "slice", "Draw a slice of a case into a PNG, an MR over the CT",
-                         [options, &context] { slice(context, *options); });
+  CLI::App* command = context.addCommand(
+      app, "slice", "Render a slice of a case to a PNG file, optionally with an MR over the CT",
+      [options, &context] { slice(context, *options); });
   command->add_option("CASE", options->caseName)->required();
   command->add_option("--out", options->out, "Picture to write")
       ->type_name("F.png")
@@ -188,19 +309,21 @@ void addSliceCommand(CLI::App& app, Context& context)
       ->check(oneOf({"axial", "coronal", "sagittal"}))
       ->required();
   command
-      ->add_option("--at", options->at,
-                   "Point of the slice, patient LPS mm, or a structure (the CT's middle)")
+      ->add_option(
+          "--at", options->at,
+          "Point in the slice, patient LPS mm, or a structure's centroid (the CT's centre)")
       ->type_name("x,y,z|LABEL");
   command->add_option("--size", options->size, "Pixels (800x800)")->type_name("WxH");
   command
       ->add_option("--field-of-view", options->fieldOfView,
-                   "Width of the picture, which then lies about --at (the whole slice)")
+                   "Width of the picture, centred on --at (the whole slice)")
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm", true}));
   command
-      ->add_option("--window", options->window, "Grey of the CT, in its unit (bone: 4000,700 HU)")
+      ->add_option("--window", options->window,
+                   "Window width and level of the CT, in its unit (bone: 4000,700 HU)")
       ->type_name("WIDTH,LEVEL");
-  command->add_option("--overlay", options->overlay, "An MR of the case to see with the CT")
+  command->add_option("--overlay", options->overlay, "MR of the case to overlay on the CT")
       ->type_name("MR");
   command
       ->add_option("--mode", options->mode,
@@ -208,9 +331,10 @@ void addSliceCommand(CLI::App& app, Context& context)
       ->check(oneOf({"blend", "edges", "checker"}));
   command
       ->add_option("--opacity", options->opacity,
-                   "Of the MR in a blend: 0 CT alone, 1 MR alone (0.5)")
+                   "Opacity of the MR in a blend: 0 CT only, 1 MR only (0.5)")
       ->check(within({0.0, 1.0}));
-  command->add_flag("--no-structures", options->noStructures, "CT and MR only");
+  command->add_flag("--no-structures", options->noStructures, "Show CT and MR only");
+  addWithoutDamaged(*command, options->withoutDamaged);
 }
 
 } // namespace petrous::cli

@@ -55,7 +55,6 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addProbeCommand(app, context);
   cli::addDrillCommand(app, context);
   cli::addHistoryCommands(app, context);
-  cli::addBranchCommand(app, context);
   cli::addExportCommand(app, context);
   cli::addRegisterCommand(app, context);
   context
@@ -69,9 +68,9 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addDoctorCommand(app, context);
   for (const char* name : kNotBuilt)
     context
-        .addCommand(app, name, "Not built yet",
-                    [name]
-                    { throw cli::UsageError(std::string("'") + name + "' is not built yet"); })
+        .addCommand(
+            app, name, "Not implemented yet",
+            [name] { throw cli::UsageError(std::string("'") + name + "' is not implemented yet"); })
         ->allow_extras()
         ->group(""); // hidden from the help
 }
@@ -88,8 +87,8 @@ int main(int argc, char** argv)
   imaging::logToolkitMessages();
   rendering::logToolkitMessages();
   return cli::run({"petrous",
-                   "Rehearse an operation on the temporal bone on the patient's own CT and MR.\n"
-                   "Without arguments the workstation opens.",
+                   "Rehearse temporal-bone surgery on the patient's own CT and MR.\n"
+                   "Without arguments, opens the workstation.",
                    addCommands},
                   words);
 }

@@ -247,7 +247,7 @@ void addBenchCommand(CLI::App& app, Context& context)
   command
       ->add_option("--edge", options->edges, "Voxels of the phantom's edge, for renderer (256,512)")
       ->delimiter(',')
-      ->check(CLI::Range(16, 1024));
+      ->transform(wholeNumber(16, 1024));
   command
       ->add_option("--pairs", options->pairs,
                    "Folder of NAME/{fixed,moving}.nii.gz with NAME/truth.json, for registration")

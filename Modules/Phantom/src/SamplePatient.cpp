@@ -1,7 +1,6 @@
 #include "petrous/Phantom/SamplePatient.h"
 
 #include <atomic>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -32,31 +31,20 @@ constexpr double kDefaultSpacing = 0.3;
 const Eigen::Vector3d kMrSpacing(0.6, 0.6, 0.8);
 constexpr double kMrMargin = 10.0; // mm larger than the ear, so that the moved ear is inside
 
-std::string shown(double value)
-{
-  std::string text = core::fixedText(value, 6);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.')
-    text.pop_back();
-  return text;
-}
-
 void check(const SampleOptions& options)
 {
-  if (options.spacing && !(*options.spacing >= 0.05 && *options.spacing <= 5.0))
-    throw InvalidParameter("sample patient: the spacing must be 0.05 to 5 mm, not " +
-                           shown(*options.spacing));
+  const auto within = [](const char* what, double value, const core::NumberRange& range)
+  {
+    if (!range.contains(value))
+      throw InvalidParameter(std::string("sample patient: ") + what + " " + range.refusal(value));
+  };
+  if (options.spacing)
+    within("the spacing", *options.spacing, SampleOptions::kSpacings);
   if (options.dims)
     for (const int n : *options.dims)
-      if (n < 16 || n > 1024)
-        throw InvalidParameter("sample patient: each dimension must be 16 to 1024, not " +
-                               std::to_string(n));
-  if (!(options.noise >= 0.0 && options.noise <= 500.0))
-    throw InvalidParameter("sample patient: the noise must be 0 to 500 HU, not " +
-                           shown(options.noise));
-  if (!(std::abs(options.tilt) <= 35.0))
-    throw InvalidParameter("sample patient: the tilt must be -35 to 35 degrees, not " +
-                           shown(options.tilt));
+      within("each dimension", n, SampleOptions::kDims);
+  within("the noise", options.noise, SampleOptions::kNoises);
+  within("the tilt", options.tilt, SampleOptions::kTilts);
 }
 
 core::GridGeometry centred(const core::Index3& dims, const Eigen::Vector3d& spacing,

@@ -79,12 +79,22 @@ std::string randomId()
   return text;
 }
 
-std::string structureNames(const scene::LabelPart& part)
+std::string labelsText(const scene::Case& value, const scene::LabelPart& part)
 {
+  constexpr std::size_t kMaxNamed = 3;
+  const std::size_t count = part.structures.size();
   std::string names;
-  for (std::size_t n = 0; n < part.structures.size() && n < 3; ++n)
+  for (std::size_t n = 0; n < count && n < kMaxNamed; ++n)
     names += (n > 0 ? ", '" : "'") + part.structures[n].name + "'";
-  return names + (part.structures.size() > 3 ? " and others" : "");
+  if (count > kMaxNamed)
+    names += " and " + std::to_string(count - kMaxNamed) + " more structures";
+  return (count == 1 ? "structure " : "the label map of ") + names + " of case '" + value.name +
+         "'";
+}
+
+std::string meshText(const scene::Case& value, const scene::MeshPart& mesh)
+{
+  return "mesh '" + mesh.name + "' of case '" + value.name + "'";
 }
 
 std::string imageText(const scene::Case& value, const scene::ImagePart& image)
@@ -302,13 +312,11 @@ void Library::attach(scene::Case& value) const
   value.derived = derived();
   for (auto& part : value.labels)
     part.labels = core::Lazy<volume::LabelMap>(
-        [store, object = part.object, what = structureNames(part) + " of case '" + value.name + "'",
-         derived = value.derived]
+        [store, object = part.object, what = labelsText(value, part), derived = value.derived]
         { return structure([&] { return unpackedLabels(store, object, what, *derived); }); });
   for (auto& mesh : value.meshes)
     mesh.mesh = core::Lazy<core::TriangleMesh>(
-        [store, object = mesh.object,
-         what = "mesh '" + mesh.name + "' of case '" + value.name + "'"]
+        [store, object = mesh.object, what = meshText(value, mesh)]
         {
           return structure(
               [&]
@@ -400,6 +408,40 @@ void Library::checkVoxels(const scene::Case& value, const core::Progress& progre
     if (const std::string words = m_checks->wait(path, what, progress); !words.empty())
       damage.push_back(words);
   refuse(damage);
+}
+
+void Library::checkStructures(const scene::Case& value, const core::Progress& progress) const
+{
+  const ObjectStore store(objectFolder());
+  std::optional<LibraryError> first;
+  std::size_t more = 0;
+  const auto check = [&](const std::string& object, const std::string& what)
+  {
+    if (object.empty()) // created in memory
+      return;
+    try
+    {
+      progress.check("checking structures");
+      checkObject(store.path(object, what), what, progress);
+    }
+    catch (const LibraryError& error)
+    {
+      if (first)
+        ++more;
+      else
+        first = error;
+    }
+  };
+  for (const auto& part : value.labels)
+    check(part.object, labelsText(value, part));
+  for (const auto& mesh : value.meshes)
+    check(mesh.object, meshText(value, mesh));
+  if (first)
+    throw StructureError(first->reason,
+                         first->what() + (more == 0 ? std::string()
+                                                    : "; " + std::to_string(more) +
+                                                          (more == 1 ? " more is" : " more are") +
+                                                          " missing or damaged"));
 }
 
 void Library::checkAllRead(const core::Progress& progress) const

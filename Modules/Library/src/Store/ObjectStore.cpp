@@ -53,12 +53,21 @@ bool isObjectName(const std::string& name)
          name.find('/') == std::string::npos;
 }
 
+// What helps if an object is missing or damaged: a stroke cannot be imported.
+std::string remedyFor(const fs::path& object)
+{
+  return std::string("; restore this file from a copy of the library") +
+         (object.extension() == ".stroke"
+              ? ""
+              : ", or import the same data again (into a new case), which puts it back") +
+         "; 'petrous library verify' lists all that is damaged";
+}
+
 [[noreturn]] void throwDamaged(const fs::path& object, const std::string& what)
 {
   throw LibraryError(LibraryError::Reason::Damaged,
-                     core::printable(object) + ": " + what +
-                         " is not what was stored there; restore the file from a copy of the "
-                         "library, or import it again");
+                     core::printable(object) + ": " + (what.empty() ? "this file" : what) +
+                         " is damaged: not what was stored there" + remedyFor(object));
 }
 
 } // namespace
@@ -166,12 +175,13 @@ fs::path ObjectStore::path(const std::string& object, const std::string& what) c
   if (!isObjectName(object))
     throw LibraryError(LibraryError::Reason::Damaged,
                        core::printable(m_folder) +
-                           ": the case names an object that is no object name");
+                           ": the case refers to an object by an invalid name; restore its "
+                           "manifest from a copy of the library");
   fs::path result = m_folder / object;
   if (!contains(object))
-    throw LibraryError(LibraryError::Reason::NotFound,
-                       core::printable(result) + ": " + (what.empty() ? "" : what + " is ") +
-                           "missing; restore the library from a copy");
+    throw LibraryError(LibraryError::Reason::NotFound, core::printable(result) + ": " +
+                                                           (what.empty() ? "" : what + " is ") +
+                                                           "missing" + remedyFor(result));
   return result;
 }
 

@@ -94,6 +94,12 @@ public:
   /// Cache of data derived from the library's objects (DerivedCache.h).
   std::shared_ptr<core::DerivedStore> derived() const;
 
+  /// Verifies the objects of all structures and meshes against their hash: also of those that need
+  /// not be read, because they are hidden, stand behind another of their name, or because derived
+  /// data suffice. Throws StructureError naming the first that is missing or damaged, and how many
+  /// more are; CancelledError.
+  void checkStructures(const scene::Case& value, const core::Progress& progress = {}) const;
+
   /// Waits until the images of the case that were read from here are verified against their hash.
   /// Throws LibraryError (Damaged) listing the damaged ones, CancelledError.
   void checkVoxels(const scene::Case& value, const core::Progress& progress = {}) const;

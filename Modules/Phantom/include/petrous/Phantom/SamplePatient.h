@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/Progress.h"
 
 namespace petrous::phantom
@@ -12,10 +13,15 @@ namespace petrous::phantom
 
 struct SampleOptions
 {
-  std::optional<double> spacing;    ///< mm, 0.05 to 5; default 0.3, or to fit dims
-  std::optional<core::Index3> dims; ///< 16 to 1024 each; default: to cover the ear
-  double noise = 20.0;              ///< HU, 0 to 500
-  double tilt = 0.0;                ///< degrees about x, -35 to 35
+  static constexpr core::NumberRange kSpacings{0.05, 5.0, "mm"};
+  static constexpr core::NumberRange kDims{16.0, 1024.0};
+  static constexpr core::NumberRange kNoises{0.0, 500.0, "HU"};
+  static constexpr core::NumberRange kTilts{-35.0, 35.0, "degrees"};
+
+  std::optional<double> spacing;    ///< mm; default 0.3, or to fit dims
+  std::optional<core::Index3> dims; ///< default: to cover the ear
+  double noise = 20.0;              ///< HU
+  double tilt = 0.0;                ///< degrees about x
   std::uint64_t seed = 1;
 };
 

@@ -185,13 +185,12 @@ bool ThreeDView::event(QEvent* event)
       return QVTKOpenGLNativeWidget::event(&repeated);
     }
     break;
-  case QEvent::Enter: // a dialog closed over the pointer: the tool is there before it moves
+  case QEvent::Enter: // a dialog closed over the pointer, say: its place counts before it moves
   {
     const bool taken = QVTKOpenGLNativeWidget::event(event);
     const QPointF at = static_cast<QEnterEvent*>(event)->localPos();
-    if (m_tool->GetDrillMode() || m_tool->GetProbeMode())
-      sendMouse(QMouseEvent(QEvent::MouseMove, at, Qt::NoButton, QApplication::mouseButtons(),
-                            QApplication::keyboardModifiers()));
+    sendMouse(QMouseEvent(QEvent::MouseMove, at, Qt::NoButton, QApplication::mouseButtons(),
+                          QApplication::keyboardModifiers()));
     return taken;
   }
   case QEvent::FocusOut: // a release event sent to another window would leave the drill on

@@ -85,6 +85,7 @@ TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
 {
   saveBall("ball");
   openWindow();
+  leave();
   QTest::keyClick(&view(), Qt::Key_D);
   QTest::keyPress(&view(), Qt::Key_Space);
   QTest::qWait(500);
@@ -106,6 +107,7 @@ TEST_F(Drill, TheStatusBarKnowsOfAStrokeThatIsOpen)
     return QString();
   };
   EXPECT_EQ(sum(), "nothing drilled");
+  leave();
   QTest::keyClick(&view(), Qt::Key_D);
   for (const QString open : {"drilling the first stroke", "removed, drilling"})
   {

@@ -172,6 +172,13 @@ void GuiTest::drill(int milliseconds, int pixels)
   EXPECT_TRUE(strokeEnds());
 }
 
+void GuiTest::leave()
+{
+  QApplication::processEvents(); // an event of entering that is under way
+  QEvent event(QEvent::Leave);
+  QApplication::sendEvent(&view(), &event);
+}
+
 bool GuiTest::strokeEnds()
 {
   return waitFor([this] { return !m_window->model().drilling(); }) && settled();

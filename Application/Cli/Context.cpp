@@ -1,7 +1,6 @@
 #include "Context.h"
 
 #include <atomic>
-#include <clocale>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -18,6 +17,15 @@ namespace petrous::cli
 
 namespace
 {
+
+// Of numbers, as the user set it: the program's own stays "C".
+std::string usersLocale()
+{
+  for (const char* name : {"LC_ALL", "LC_NUMERIC", "LANG"})
+    if (const char* value = std::getenv(name); value && *value)
+      return value;
+  return "C";
+}
 
 // A signal handler can reach nothing else. Constant-initialized and never destroyed, so it is valid
 // whenever the signal arrives.
@@ -109,8 +117,8 @@ void Context::startLog(const std::string& program, const std::string& command)
   m_command = command;
   m_started = std::chrono::steady_clock::now();
   core::log::info(command + ": start, " + program + " " PETROUS_VERSION ", locale " +
-                  std::setlocale(LC_NUMERIC, nullptr) + ", " +
-                  std::to_string(std::thread::hardware_concurrency()) + " processors");
+                  usersLocale() + ", " + std::to_string(std::thread::hardware_concurrency()) +
+                  " processors");
 }
 
 void Context::logEnd(int exitCode, const std::string& why) const

@@ -254,9 +254,9 @@ TEST_F(CaseRegistration, AFailureLeavesTheCase)
   request.from = From::Given; // manual registration still works
   request.given = motion();
   request.asIs = true;
-  const RegistrationOutcome byHand = registerMr(value, request);
-  EXPECT_FALSE(byHand.how.metric);
-  accept(value, "T2", byHand);
+  const RegistrationOutcome manual = registerMr(value, request);
+  EXPECT_FALSE(manual.how.metric);
+  accept(value, "T2", manual);
   EXPECT_TRUE(value.mr[0].registered);
 }
 

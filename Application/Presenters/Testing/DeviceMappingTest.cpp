@@ -40,10 +40,10 @@ TEST(DeviceMapping, TheUserNeverFeelsAStifferSpringThanTheDeviceRenders)
     {
       const auto device = motors(stiffness);
       session::TouchSession::Setup setup;
-      DeviceMapping lead;
-      lead.scale = scale;
-      fit(setup, device, lead, false);
-      const auto parameters = parametersFor(device, lead, camera());
+      DeviceMapping held;
+      held.scale = scale;
+      fit(setup, device, held, false);
+      const auto parameters = parametersFor(device, held, camera());
       // At the device: k scale^2 gain (ServoSetup).
       const double felt = setup.tool.coupling.stiffness * scale * scale * parameters.forceGain;
       EXPECT_LE(felt, stiffness + 1e-12);
@@ -59,9 +59,9 @@ TEST(DeviceMapping, TheUsersLimitOnlyLowersTheDevices)
   const auto most = [](std::optional<double> limit)
   {
     session::TouchSession::Setup setup;
-    DeviceMapping lead;
-    lead.forceLimit = limit;
-    fit(setup, motors(1.0), lead, false);
+    DeviceMapping held;
+    held.forceLimit = limit;
+    fit(setup, motors(1.0), held, false);
     return setup.limits.maxForce;
   };
   EXPECT_EQ(most(std::nullopt), 3.3);
@@ -73,29 +73,29 @@ TEST(DeviceMapping, TheUsersLimitOnlyLowersTheDevices)
 TEST(DeviceMapping, ADeviceWithoutMotorsHasADriftLimitOfItsThrust)
 {
   const haptics::DeviceDescription cap;
-  DeviceMapping lead;
-  lead.thrust = 2.5;
+  DeviceMapping held;
+  held.thrust = 2.5;
   session::TouchSession::Setup setup;
-  fit(setup, cap, lead, true);
+  fit(setup, cap, held, true);
   EXPECT_NEAR(setup.tool.coupling.stiffness *
-                  static_cast<double>(parametersFor(cap, lead, camera()).maxLead),
+                  static_cast<double>(parametersFor(cap, held, camera()).driftLimit),
               2.5, 1e-6);
   EXPECT_FALSE(setup.passivity);
   EXPECT_EQ(setup.limits.maxForce, 0.0);
   EXPECT_GT(setup.guard.reach, 1e6);
-  EXPECT_EQ(parametersFor(motors(1.0), lead, camera()).maxLead, 0.0F);
+  EXPECT_EQ(parametersFor(motors(1.0), held, camera()).driftLimit, 0.0F);
 }
 
 TEST(DeviceMapping, TheCentreBringsTheToolThereByTheServosOwnMapping)
 {
   const Vector3d tool(1.0, 2.0, 3.0);
   const Vector3d hand(10.0, -20.0, 30.0);
-  DeviceMapping lead;
-  lead.scale = 0.3;
-  const auto parameters = parametersFor(motors(1.0), lead, camera());
+  DeviceMapping held;
+  held.scale = 0.3;
+  const auto parameters = parametersFor(motors(1.0), held, camera());
   const double* q = parameters.camera;
-  const session::PoseMapping::View view{{q[0], q[1], q[2], q[3]}, lead.scale};
-  session::PoseMapping mapping(centerFor(tool, hand, lead.scale, camera()));
+  const session::PoseMapping::View view{{q[0], q[1], q[2], q[3]}, held.scale};
+  session::PoseMapping mapping(centerFor(tool, hand, held.scale, camera()));
   EXPECT_LT((mapping.map({hand, Eigen::Quaterniond::Identity()}, view).position - tool).norm(),
             1e-12);
   // Moving the device to the right moves the tool to the picture's right, which is -x here.

@@ -96,7 +96,7 @@ protected:
 TEST_F(RegistrationSessionTest, BeginsWithTheFirstMrAndSaysThatItIsNotRegistered)
 {
   EXPECT_EQ(session.mr(), "T2");
-  EXPECT_EQ(session.stateInWords(), "not registered");
+  EXPECT_EQ(session.stateText(), "not registered");
   EXPECT_FALSE(session.canUndo());
 }
 
@@ -138,10 +138,10 @@ TEST_F(RegistrationSessionTest, ASignOffIsVoidOnceTheMrMovesAndDoesNotComeBackBy
   EXPECT_ANY_THROW(session.signOff("", "2026-01-31T10:00:00Z"));
   session.signOff("A. Surgeon", "2026-01-31T10:00:00Z");
   ASSERT_NE(scene::validSignOff(t2()), nullptr);
-  EXPECT_NE(session.stateInWords().find("A. Surgeon"), std::string::npos);
+  EXPECT_NE(session.stateText().find("A. Surgeon"), std::string::npos);
   session.shift({0, 0.1, 0});
   EXPECT_EQ(scene::validSignOff(t2()), nullptr);
-  EXPECT_EQ(session.stateInWords().find("A. Surgeon"), std::string::npos);
+  EXPECT_EQ(session.stateText().find("A. Surgeon"), std::string::npos);
   session.undo();
   EXPECT_EQ(scene::validSignOff(t2()), nullptr);
 }
@@ -210,7 +210,7 @@ TEST_F(RegistrationSessionTest, AnotherMrKeepsItsOwnPlace)
 {
   session.shift({1, 0, 0});
   session.choose("DWI");
-  EXPECT_EQ(session.stateInWords(), "not registered");
+  EXPECT_EQ(session.stateText(), "not registered");
   session.shift({0, 2, 0});
   session.undo();
   EXPECT_FALSE(model.value().mr[1].registered);

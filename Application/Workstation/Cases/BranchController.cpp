@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QMessageBox>
 
+#include "Application.h"
 #include "Theme.h"
 #include "petrous/Scene/Branches.h"
 
@@ -127,7 +128,7 @@ bool BranchController::change(const std::function<void()>& what)
   }
   catch (const std::exception& fault)
   {
-    QMessageBox::warning(&m_window, tr("Approach"), words(fault.what()));
+    QMessageBox::warning(&m_window, tr("Approach"), toString(fault));
     return false;
   }
   emit changed();

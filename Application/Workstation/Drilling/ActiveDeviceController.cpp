@@ -24,13 +24,13 @@ ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceTool
   connect(&finder, &DeviceWatcher::opened, this, &ActiveDeviceController::take);
   connect(&finder, &DeviceWatcher::failed, this, &ActiveDeviceController::giveUp);
   connect(&bar, &DeviceToolBar::chosen, this, &ActiveDeviceController::choose);
-  connect(&bar, &DeviceToolBar::leadChanged, this,
+  connect(&bar, &DeviceToolBar::mappingChanged, this,
           [this]
           {
             m_settings.keepScale(m_input.id, m_bar.scale());
             if (m_device && m_device->description().givesForce)
               m_settings.keepForceLimit(m_input.id, m_bar.forceLimit());
-            emit leadChanged();
+            emit mappingChanged();
           });
 }
 
@@ -74,7 +74,7 @@ void ActiveDeviceController::choose(const InputDevice& input)
   m_device.reset();
   m_input = input;
   m_bar.showDevices(m_watcher.found(), m_input.id);
-  m_bar.showLead(nullptr, 1.0, 0.0);
+  m_bar.showMapping(nullptr, 1.0, 0.0);
   if (input.kind == InputDevice::Kind::Mouse)
     return emit came();
   emit statusMessage(tr("Taking up %1…").arg(words(input.name)));
@@ -87,7 +87,7 @@ void ActiveDeviceController::take()
   const haptics::DeviceDescription& device = m_device->description();
   const double scale = m_settings.scale(m_input.id).value_or(presenters::usualScale(device));
   const double limit = m_settings.forceLimit(m_input.id).value_or(device.maxForce);
-  m_bar.showLead(&device, scale, std::clamp(limit, 0.0, device.maxForce));
+  m_bar.showMapping(&device, scale, std::clamp(limit, 0.0, device.maxForce));
   emit statusMessage(tr("%1 is there").arg(words(device.name)));
   emit came();
 }
@@ -101,12 +101,12 @@ void ActiveDeviceController::giveUp(const QString& why)
   emit statusMessage(tr("%1. The mouse leads the tool.").arg(why.left(1).toUpper() + why.mid(1)));
 }
 
-DeviceMapping ActiveDeviceController::lead() const
+DeviceMapping ActiveDeviceController::mapping() const
 {
-  DeviceMapping lead;
-  lead.scale = m_bar.scale();
-  lead.forceLimit = m_bar.forceLimit();
-  return lead;
+  DeviceMapping mapping;
+  mapping.scale = m_bar.scale();
+  mapping.forceLimit = m_bar.forceLimit();
+  return mapping;
 }
 
 } // namespace petrous::workstation

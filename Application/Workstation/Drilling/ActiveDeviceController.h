@@ -31,7 +31,7 @@ public:
     return !m_device && m_input.kind != presenters::InputDevice::Kind::Mouse;
   }
   const std::shared_ptr<devices::Pedal>& pedal() const noexcept { return m_watcher.pedal(); }
-  presenters::DeviceMapping lead() const; ///< except the thrust
+  presenters::DeviceMapping mapping() const; ///< except the thrust
 
   void choose(const presenters::InputDevice& input);
   void giveUp(const QString& why); ///< falls back to the mouse
@@ -41,7 +41,7 @@ signals:
   void leaving();
   void came(); ///< another device is ready
   void lost(); ///< the device went by itself; the mouse has taken over
-  void leadChanged();
+  void mappingChanged();
   void pedalCame();
   void statusMessage(const QString& line);
 

@@ -66,11 +66,11 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
             emit chosen(input);
           });
   connect(m_scale, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-          &DeviceToolBar::leadChanged);
+          &DeviceToolBar::mappingChanged);
   connect(m_limit, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-          &DeviceToolBar::leadChanged);
+          &DeviceToolBar::mappingChanged);
   showDevices({}, InputDevice().id);
-  showLead(nullptr, 1.0, 0.0);
+  showMapping(nullptr, 1.0, 0.0);
 }
 
 void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::string& held)
@@ -97,7 +97,7 @@ void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::
   }
 }
 
-void DeviceToolBar::showLead(const haptics::DeviceDescription* device, double scale,
+void DeviceToolBar::showMapping(const haptics::DeviceDescription* device, double scale,
                              double forceLimit)
 {
   const QSignalBlocker quietScale(m_scale);

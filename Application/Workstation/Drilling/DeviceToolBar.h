@@ -23,7 +23,7 @@ public:
   void showDevices(const presenters::DeviceList& found, const std::string& held);
 
   /// nullptr: the mouse. Sets the values without signals.
-  void showLead(const haptics::DeviceDescription* device, double scale, double forceLimit);
+  void showMapping(const haptics::DeviceDescription* device, double scale, double forceLimit);
 
   double scale() const;      ///< mm of the tool per mm of the device
   double forceLimit() const; ///< N
@@ -32,7 +32,7 @@ public:
 
 signals:
   void chosen(const petrous::presenters::InputDevice& input); ///< by the user
-  void leadChanged();
+  void mappingChanged();
 
 private:
   std::vector<presenters::InputDevice> m_devices; // as listed

@@ -8,6 +8,7 @@
 #include <QApplication>
 
 #include "ActiveDeviceController.h"
+#include "Application.h"
 #include "DrillBar.h"
 #include "Theme.h"
 #include "ThreeDView.h"
@@ -58,7 +59,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   , m_view(view)
   , m_bar(bar)
   , m_devices(devices)
-  , m_lead(model, view, devices)
+  , m_driver(model, view, devices)
 {
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
@@ -110,7 +111,7 @@ void DrillController::connectDevices()
 {
   connect(&m_devices, &ActiveDeviceController::leaving, this, &DrillController::putAway);
   connect(&m_devices, &ActiveDeviceController::came, this, &DrillController::deviceCame);
-  connect(&m_devices, &ActiveDeviceController::leadChanged, this, &DrillController::restartTool);
+  connect(&m_devices, &ActiveDeviceController::mappingChanged, this, &DrillController::restartTool);
   connect(&m_devices, &ActiveDeviceController::pedalCame, this,
           [this]
           {
@@ -139,8 +140,8 @@ void DrillController::applyBar()
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
   if (m_tool == Tool::Pointer)
     settings.lift = 0.0;
-  m_lead.set(settings);
-  if (m_model.touching() && m_lead.outgrown())
+  m_driver.set(settings);
+  if (m_model.touching() && m_driver.outgrown())
     putAway(); // the pointer's next move takes it up
 }
 
@@ -157,7 +158,7 @@ void DrillController::setTool(Tool tool)
   m_view.tool().ProbeModeOff();
   putAway();
   if (m_tool == Tool::None)
-    m_lead.beginThere();
+    m_driver.beginThere();
   m_tool = tool;
   m_view.tool().SetDrillMode(tool == Tool::Burr);
   m_view.tool().SetProbeMode(tool == Tool::Pointer);
@@ -178,7 +179,7 @@ void DrillController::takeAtPointer()
 
 void DrillController::deviceCame()
 {
-  m_lead.beginThere();
+  m_driver.beginThere();
   m_view.tool().SetPointerHand(!m_devices.device());
   m_bar.setPresses(!m_devices.device(),
                    !m_devices.device() || !m_devices.device()->description().givesForce);
@@ -215,7 +216,7 @@ void DrillController::bringHere()
   if (!m_devices.device() || m_tool == Tool::None)
     return;
   putAway();
-  m_lead.beginHere();
+  m_driver.beginHere();
   takeTool();
 }
 
@@ -245,12 +246,12 @@ bool DrillController::takeTool()
       setup.tool.burr.diameter = 2.0 * kPointerRadius;
       setup.tool.mode = session::TouchTool::Mode::ThreeDof; // its shaft must not collide
     }
-    haptics::Device& device = m_lead.prepare(setup);
+    haptics::Device& device = m_driver.prepare(setup);
     m_model.startTouch(device, setup);
   }
   catch (const core::Error& error)
   {
-    why = words(error.what());
+    why = toString(error);
   }
   catch (const std::exception&) // out of memory, no thread
   {
@@ -264,10 +265,10 @@ bool DrillController::takeTool()
     return false;
   }
   emit statusMessage(
-      m_lead.byMouse()
+      m_driver.byMouse()
           ? QString()
           : tr("%1 leads the tool").arg(words(m_devices.device()->description().name)));
-  m_lead.send();
+  m_driver.send();
   m_sinceTaken.start();
   m_frames.start();
   return true;
@@ -287,7 +288,7 @@ void DrillController::putAway()
   m_sinceFault.invalidate();
   m_stall.forget();
   m_tip.reset();
-  m_lead.letGo();
+  m_driver.letGo();
   for (const auto& stroke : news.strokes)
     emit strokeEnded(stroke);
 }
@@ -339,7 +340,7 @@ void DrillController::show(const session::TouchSession::News& news)
   const TickRecord& record = *news.record;
   if (!m_model.drilling()) // for a stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
-  m_lead.see(record);
+  m_driver.see(record);
   m_view.display().setTouch(record, toolRadius(), m_tool != Tool::Pointer);
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
@@ -377,7 +378,7 @@ void DrillController::read(const TickRecord& record)
 bool DrillController::isLost(const TickRecord& record)
 {
   const auto verdict = static_cast<DeviceVerdict>(record.verdict);
-  const bool gone = !m_lead.byMouse() &&
+  const bool gone = !m_driver.byMouse() &&
                     static_cast<ServoFault>(record.fault) == ServoFault::Device &&
                     (verdict == DeviceVerdict::Disconnected || verdict == DeviceVerdict::Faulty ||
                      verdict == DeviceVerdict::NotReady);
@@ -405,7 +406,7 @@ void DrillController::showFault(const session::TouchSession::News& news)
   QString fault = whyStalled(record);
   // A device just taken up has no reading for some ticks, and the mouse none before it moves; not a
   // fault.
-  const bool waits = m_lead.byMouse() &&
+  const bool waits = m_driver.byMouse() &&
                      static_cast<ServoFault>(record.fault) == ServoFault::Device &&
                      static_cast<DeviceVerdict>(record.verdict) == DeviceVerdict::NotReady;
   if (!news.fault.empty() && !waits && m_sinceTaken.elapsed() > kStart)
@@ -424,7 +425,7 @@ QString DrillController::whyStalled(const TickRecord& record) const
 {
   if (m_tool != Tool::Burr)
     return {};
-  if (m_lead.lifted())
+  if (m_driver.lifted())
     return tr("The burr has lifted: what lies under the pointer is another surface, far deeper or "
               "higher. Let go and press again to drill there.");
   if (const std::uint8_t held = m_stall.heldBy())

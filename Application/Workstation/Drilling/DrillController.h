@@ -79,7 +79,7 @@ private:
   ThreeDView& m_view;
   DrillBar& m_bar;
   ActiveDeviceController& m_devices;
-  ToolDriver m_lead;
+  ToolDriver m_driver;
   std::optional<Eigen::Vector3d> m_tip; // last one probed
   QTimer m_frames;
   QTimer m_anew;

@@ -69,11 +69,11 @@ Eigen::Vector3d ToolDriver::placeLookedAt()
   return line.at(std::max(*hit - before, 0.0));
 }
 
-presenters::DeviceMapping ToolDriver::lead() const
+presenters::DeviceMapping ToolDriver::mapping() const
 {
-  presenters::DeviceMapping lead = m_devices.lead();
-  lead.thrust = m_aim.settings().thrust;
-  return lead;
+  presenters::DeviceMapping mapping = m_devices.mapping();
+  mapping.thrust = m_aim.settings().thrust;
+  return mapping;
 }
 
 // None with the wheel, which presses by displacement.
@@ -97,12 +97,12 @@ haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
   {
     device->setPedal(m_devices.pedal());
     const core::CameraPose camera = m_view.picture().camera();
-    presenters::fit(setup, device->description(), lead(), device->endless());
+    presenters::fit(setup, device->description(), mapping(), device->endless());
     m_view.tool().SetParameters(ownParameters());
     setup.parameters = m_view.tool().GetParameters();
     if (!m_place)
       m_place = placeLookedAt();
-    setup.center = presenters::centerFor(*m_place, m_handPlace, lead().scale, camera);
+    setup.center = presenters::centerFor(*m_place, m_handPlace, mapping().scale, camera);
     return *device;
   }
   setup.center = m_model.value().ct.geometry.center();
@@ -130,7 +130,7 @@ session::ServoParameters ToolDriver::ownParameters() const
   const presenters::ActiveDevice* device = m_devices.device();
   if (m_pointer || !device)
     return {};
-  return presenters::parametersFor(device->description(), lead(), m_view.picture().camera());
+  return presenters::parametersFor(device->description(), mapping(), m_view.picture().camera());
 }
 
 void ToolDriver::send()

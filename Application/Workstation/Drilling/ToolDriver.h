@@ -49,7 +49,7 @@ public:
 
 private:
   Eigen::Vector3d placeLookedAt();
-  presenters::DeviceMapping lead() const;
+  presenters::DeviceMapping mapping() const;
   std::optional<double> setThrust() const; // N
   session::ServoParameters ownParameters() const;
   void forward();

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMessageBox>
 
+#include "Application.h"
 #include "PicturePanel.h"
 #include "SurgeonWindow.h"
 #include "Theme.h"
@@ -85,7 +86,7 @@ void PictureController::showScene()
   catch (const core::Error& error) // too much to draw; the slices still show it
   {
     m_view.display().setContents({});
-    emit statusMessage(words(error.what()));
+    emit statusMessage(toString(error));
   }
 }
 

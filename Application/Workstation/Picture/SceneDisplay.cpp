@@ -12,6 +12,7 @@
 #include <vtkVolume.h>
 #include <vtkVolumeCollection.h>
 
+#include "Application.h"
 #include "Theme.h"
 #include "TouchOverlay.h"
 #include "petrous/Core/Error.h"
@@ -274,7 +275,7 @@ void SceneDisplay::frameEnded()
   }
   catch (const core::Error& error)
   {
-    why = words(error.what());
+    why = toString(error);
   }
   catch (const std::exception&) // messages of other libraries may contain patient data
   {

@@ -65,9 +65,9 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
   m_menu->addSeparator();
   on(addAction(tr("&Undo the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Z,
                tr("Back to how the MR lay before")),
-     [this] { byHand([this] { m_session.undo(); }); });
+     [this] { moveManually([this] { m_session.undo(); }); });
   on(addAction(tr("Red&o the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Y, tr("Forth again")),
-     [this] { byHand([this] { m_session.redo(); }); });
+     [this] { moveManually([this] { m_session.redo(); }); });
   connectPanel();
   m_sceneLater.setSingleShot(true);
   m_sceneLater.setInterval(kSceneAfter);
@@ -119,16 +119,16 @@ void RegistrationController::connectPanel()
   connect(m_panel, &RegistrationPanel::shown, this, &RegistrationController::showRegion);
   connect(m_panel, &RegistrationPanel::aimChosen, this, &RegistrationController::showRegion);
   connect(&m_slices, &SliceColumn::moveAsked, this,
-          [=](const Eigen::Vector3d& mm) { byHand([&] { m_session.shift(mm); }); });
+          [=](const Eigen::Vector3d& mm) { moveManually([&] { m_session.shift(mm); }); });
   connect(&m_slices, &SliceColumn::turnAsked, this,
           [=](const Eigen::Vector3d& axis, double degrees)
-          { byHand([&] { m_session.turn(axis, degrees); }); });
+          { moveManually([&] { m_session.turn(axis, degrees); }); });
   connect(m_run.get(), &BackgroundWork::progressed, m_panel, &RegistrationPanel::setProgress);
   connect(m_run.get(), &BackgroundWork::failed, this, &RegistrationController::endRun);
   connect(m_run.get(), &BackgroundWork::cancelled, this, &RegistrationController::stopped);
 }
 
-void RegistrationController::byHand(const std::function<void()>& move)
+void RegistrationController::moveManually(const std::function<void()>& move)
 {
   if (running())
     return;
@@ -229,7 +229,7 @@ void RegistrationController::finished(const presenters::RegistrationOutcome& out
     return;
   if (!m_overlay->mode())
     m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // for inspection
-  emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateInWords())));
+  emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateText())));
 }
 
 void RegistrationController::waitForTheDrill(const presenters::RegistrationOutcome& outcome)

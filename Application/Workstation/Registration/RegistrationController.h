@@ -49,7 +49,7 @@ private:
 
   QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
   void connectPanel();
-  void byHand(const std::function<void()>& move);
+  void moveManually(const std::function<void()>& move);
   void begin(presenters::RegistrationSession::Way way);
   void heard(const registration::MetricSample& sample, const core::RigidTransform& best);
   void finished(const presenters::RegistrationOutcome& outcome);

@@ -297,7 +297,7 @@ void RegistrationPanel::refresh()
         });
   m_bound.refresh();
   m_state->setText(m_session.part()
-                       ? words(m_session.stateInWords())
+                       ? words(m_session.stateText())
                        : tr("The case has no MR; add one with File > Open DICOM… or Open files…"));
   m_state->setStyleSheet(stateStyle(m_session.part()));
   m_error->setText(m_session.part() ? errorText(*m_session.part()) : QString());

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QApplication>
 
+#include "Application.h"
 #include "StructuresPanel.h"
 #include "Theme.h"
 #include "ThicknessLegend.h"
@@ -41,7 +42,7 @@ void ThicknessController::showOver(const QString& structure)
   }
   catch (const core::Error& error)
   {
-    why = words(error.what());
+    why = toString(error);
   }
   catch (const std::exception&)
   {

@@ -514,7 +514,7 @@ void MainWindow::offerBurrs()
   }
   catch (const core::Error& fault)
   {
-    statusBar()->showMessage(words(fault.what())); // and again, in full, when the burr is taken up
+    statusBar()->showMessage(toString(fault)); // and again, in full, when the burr is taken up
   }
 }
 
@@ -609,7 +609,7 @@ std::filesystem::path MainWindow::chooseRecording()
   }
   catch (const core::Error& error) // the library cannot be written
   {
-    showRecording(words(error.what()));
+    showRecording(toString(error));
     dialog.setDirectory(QDir::homePath());
   }
   return dialog.exec() == QDialog::Accepted

@@ -75,7 +75,7 @@ void readCsv(std::istream& csv, const std::string& name, const std::vector<std::
       const auto value = positions[c] < fields.size() ? number(fields[positions[c]]) : std::nullopt;
       if (!value)
         throw InvalidParameter(name + ", line " + std::to_string(at) + ": '" + columns[c] +
-                               "' is no finite number");
+                               "' is not a finite number");
       values[c] = *value;
     }
     row(at, values);

@@ -228,7 +228,7 @@ Level levelFrom(const std::string& option)
     if (name == kLevels[n])
       return static_cast<Level>(n);
   throw InvalidParameter(std::string(given ? "--log-level" : "PETROUS_LOG_LEVEL") + ": '" + name +
-                         "' is no level; trace, debug, info, warning, error or off");
+                         "' is not a level; trace, debug, info, warning, error or off");
 }
 
 fs::path defaultFile()

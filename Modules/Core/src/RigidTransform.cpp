@@ -24,7 +24,7 @@ RigidTransform RigidTransform::fromMatrix(const Eigen::Matrix4d& matrix)
   const bool orthonormal =
       matrix.allFinite() && (r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-6;
   if (!orthonormal || r.determinant() < 0.0)
-    throw InvalidParameter("rigid transform: the matrix is no rotation (sheared, scaled or "
+    throw InvalidParameter("rigid transform: the matrix is not a rotation (sheared, scaled or "
                            "mirrored); only rigid motions are accepted");
   if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9)
     throw InvalidParameter("rigid transform: the last row must be 0 0 0 1");

@@ -268,7 +268,7 @@ TEST(DeviceGuard, SaysInWordsWhatIsWrongWithItsNumber)
   reading = at(100);
   reading.pose.rotation.coeffs() *= 2.0;
   EXPECT_EQ(toString(meet(reading)),
-            "The device sent a rotation that is none: its quaternion's length is 2.");
+            "The device sent an invalid rotation: its quaternion's length is 2.");
   for (int verdict = 0; verdict <= static_cast<int>(DeviceVerdict::Faulty); ++verdict)
   {
     const std::string words = toString(static_cast<DeviceVerdict>(verdict));

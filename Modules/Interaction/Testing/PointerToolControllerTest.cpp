@@ -142,7 +142,7 @@ TEST(PointerToolController, GivesTheServoThePatientsAxes)
   EXPECT_EQ(parameters.camera[2], 0.0);
   EXPECT_EQ(parameters.forceGain, 3.0);
   EXPECT_EQ(parameters.constantThrust, 0);
-  EXPECT_EQ(parameters.maxLead, 5.0F); // lateral pointer motion presses no harder than the wheel
+  EXPECT_EQ(parameters.driftLimit, 5.0F); // lateral pointer motion presses no harder than the wheel
 }
 
 TEST(PointerToolController, KeepsItsDepthPastTheEdgeOfTheTissue)

@@ -262,7 +262,7 @@ void PointerToolController::apply(session::ServoParameters& parameters) const
   if (onSurface)
     parameters.constantThrust = Parameters::kPointer | (pressing ? Parameters::kPressed : 0);
   // In depth mode only the wheel's lead presses, not lateral motion of the pointer.
-  parameters.maxLead = onSurface ? 0.0F : static_cast<float>(m_settings.maxLead);
+  parameters.driftLimit = onSurface ? 0.0F : static_cast<float>(m_settings.maxLead);
   // A pressed burr is placed with its tip on the tissue.
   Vector3d approach = Vector3d::Zero();
   if (m_line)

@@ -23,7 +23,7 @@ std::size_t numberOf(std::size_t state)
 std::size_t stateOf(const json& number)
 {
   if (!number.is_number_unsigned())
-    throw core::InvalidParameter("history: a stroke's number is none");
+    throw core::InvalidParameter("history: a stroke's number is invalid");
   return number.get<std::size_t>() - 1;
 }
 

@@ -19,7 +19,7 @@ const Vector3d kAbove(0.0, 0.0, 5.0);
 TEST(DriftLimit, BoundsTheForceAndForgetsWhatTheDeviceRanAhead)
 {
   Session session;
-  session.parameters.maxLead = 0.5F;
+  session.parameters.driftLimit = 0.5F;
   session.go(kAbove, kAbove, 50);
   const Vector3d deep(0.0, 0.0, -30.0); // 32 mm beyond where the plane holds the ball
   const TickRecord& pressed = session.go(kAbove, deep, 200);
@@ -36,7 +36,7 @@ TEST(DriftLimit, LeavesAFreeDeviceAlone)
 {
   Session free;
   Session limited;
-  limited.parameters.maxLead = 0.5F;
+  limited.parameters.driftLimit = 0.5F;
   for (Session* session : {&free, &limited})
   {
     session->go(kAbove, kAbove, 50);
@@ -52,10 +52,10 @@ TEST(DriftLimit, RefusesABoundThatIsNone)
 {
   Session session;
   session.go(kAbove, kAbove, 50);
-  session.parameters.maxLead = -1.0F;
+  session.parameters.driftLimit = -1.0F;
   EXPECT_EQ(faultOf(session.tick({kAbove, Eigen::Quaterniond::Identity()})),
             ServoFault::Parameters);
-  session.parameters.maxLead = std::numeric_limits<float>::quiet_NaN();
+  session.parameters.driftLimit = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(faultOf(session.tick({kAbove, Eigen::Quaterniond::Identity()})),
             ServoFault::Parameters);
 }

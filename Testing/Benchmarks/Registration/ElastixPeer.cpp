@@ -143,7 +143,7 @@ core::RigidTransform elastixTransform(const std::string& parameters)
     const auto value = core::parseDouble(word);
     if (!value)
       throw core::Error(core::Fault::BadInput,
-                        "elastix: '" + word + "' in its result is no number");
+                        "elastix: '" + word + "' in its result is not a number");
     return *value;
   };
   std::array<double, 6> v{};

@@ -116,7 +116,7 @@ ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& inpu
     m_device = std::move(device);
   }
   else
-    throw core::InvalidParameter("the mouse is no device to be opened");
+    throw core::InvalidParameter("the mouse is not a device that can be opened");
   if (endless() || !m_device->description().sensesRotation)
     m_grip = mousesHeading();
 }

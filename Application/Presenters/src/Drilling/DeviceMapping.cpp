@@ -73,7 +73,8 @@ session::ServoParameters parametersFor(const haptics::DeviceDescription& device,
   parameters.drillButtons = ActiveDevice::kDrill;
   parameters.clutchButtons = ActiveDevice::kClutch;
   if (!device.givesForce)
-    parameters.maxLead = static_cast<float>(mapping.thrust / stiffnessFor(device, mapping.scale));
+    parameters.driftLimit =
+        static_cast<float>(mapping.thrust / stiffnessFor(device, mapping.scale));
   session::check(parameters);
   return parameters;
 }

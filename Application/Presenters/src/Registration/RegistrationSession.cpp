@@ -14,7 +14,7 @@ using scene::Registration;
 
 constexpr std::size_t kMaxSteps = 1000;
 
-Registration byHand()
+Registration manualRegistration()
 {
   Registration how;
   how.method = Registration::Method::ByHand;
@@ -59,7 +59,7 @@ std::vector<std::string> RegistrationSession::mrNames() const
   return names;
 }
 
-std::string RegistrationSession::stateInWords() const
+std::string RegistrationSession::stateText() const
 {
   return part() ? scene::registrationToString(*part()) : std::string();
 }
@@ -88,7 +88,7 @@ void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
 
 void RegistrationSession::moveByHand(const core::RigidTransform& mrFromCt)
 {
-  lay(mrFromCt, byHand());
+  lay(mrFromCt, manualRegistration());
 }
 
 void RegistrationSession::shift(const Eigen::Vector3d& millimetres)

@@ -24,7 +24,7 @@ History::History(std::vector<std::size_t> parents, std::vector<Branch> branches,
     append(parents[n]);
   }
   if (present >= branches.size())
-    throw core::InvalidParameter("history: the present branch is none of those there are");
+    throw core::InvalidParameter("history: the present branch does not exist");
   for (Branch& branch : branches)
   {
     for (const std::size_t state : {branch.tip, branch.position})

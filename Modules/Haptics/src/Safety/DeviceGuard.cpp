@@ -139,7 +139,7 @@ const char* toString(DeviceVerdict verdict) noexcept
   case DeviceVerdict::NotFinite:
     return "The device sent a position or time that is not a number.";
   case DeviceVerdict::NotUnit:
-    return "The device sent a rotation that is none.";
+    return "The device sent an invalid rotation.";
   case DeviceVerdict::OutOfReach:
     return "The device sent a position farther away than any hand reaches.";
   case DeviceVerdict::TimeBackward:
@@ -177,7 +177,7 @@ std::string toString(const DeviceGuard::Judgement& judgement)
     return "The device's clock is " + core::fixedText(-1000.0 * value, 0) +
            " ms ahead of the computer's.";
   case DeviceVerdict::NotUnit:
-    return "The device sent a rotation that is none: its quaternion's length is " +
+    return "The device sent an invalid rotation: its quaternion's length is " +
            core::generalText(value, 3) + ".";
   case DeviceVerdict::OutOfReach:
     return "The device sent a position " + core::generalText(value, 3) +

@@ -126,7 +126,7 @@ void failFormat(const std::filesystem::path& path, std::string_view expected)
 {
   const FileFormat* found = recognisedFormat(path);
   fail(FileError::Reason::UnknownFormat, path,
-       "is no " + std::string(expected) + " file although its name says so; " +
+       "is named as " + std::string(expected) + ", but is not; " +
            (found ? "it is " + std::string(found->name) + ", so end its name in " +
                         std::string(found->ending)
                   : "give it the name of the format it is in"));

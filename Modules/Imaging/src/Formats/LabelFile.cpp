@@ -26,7 +26,7 @@ constexpr double kLargestLabel = 65535.0;
 {
   std::string what;
   if (!std::isfinite(value) || value != std::floor(value))
-    what = "holds a value that is no whole number";
+    what = "holds a value that is not a whole number";
   else
     what = "holds the value " + exactText(value);
   fail(FileError::Reason::Unsupported, path,

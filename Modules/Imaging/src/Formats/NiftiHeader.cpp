@@ -150,7 +150,8 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
   {
     if (!qLinear)
       fail(FileError::Reason::NoGeometry, path,
-           "its header turns it by a quaternion (qform) that is no rotation; export it again with "
+           "its header turns it by a quaternion (qform) that is not a rotation; export it again "
+           "with "
            "its geometry");
     header.linear = *qLinear;
     header.origin = qOrigin;
@@ -244,7 +245,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& path)
   header.intercept = fields.get<float>(kIntercept);
   if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))
     fail(FileError::Reason::Unreadable, path,
-         "its rescale slope or intercept is no number; export it again from where it came");
+         "its rescale slope or intercept is not a number; export it again from where it came");
   readPlacement(path, fields, header);
   const double unit = unitInMillimetres(fields.get<std::uint8_t>(kUnits), header.notes);
   header.linear = unit * kLpsFromRas.asDiagonal() * header.linear;

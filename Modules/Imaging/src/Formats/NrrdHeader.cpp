@@ -130,7 +130,7 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
       if (const std::string* list = header.field("data file"); list && list->rfind("LIST", 0) == 0)
         break;
       fail(FileError::Reason::Unreadable, path,
-           "its NRRD header has a line that is no field; copy it again from where it came");
+           "its NRRD header has a line that is not a field; copy it again from where it came");
     }
     std::string name(trimmed(line.substr(0, colon)));
     for (char& c : name)

@@ -122,7 +122,7 @@ void MeshBuilder::reserve(std::size_t vertices, std::size_t triangles)
 void MeshBuilder::addVertex(float x, float y, float z)
 {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-    failUnreadable("a vertex has a coordinate that is no number");
+    failUnreadable("a vertex has a coordinate that is not a number");
   if (m_mesh.vertices.size() >= std::numeric_limits<std::uint32_t>::max())
     failUnreadable("it has more vertices than can be numbered");
   m_mesh.vertices.emplace_back(x, y, z);

@@ -29,7 +29,7 @@ std::int64_t cornerOf(const MeshBuilder& builder, std::string_view word)
 {
   const auto index = parseInteger(word.substr(0, word.find('/')));
   if (!index || *index == 0)
-    builder.failUnreadable("a face has a corner that is no number of a vertex");
+    builder.failUnreadable("a face has a corner that is not a vertex index");
   return *index > 0 ? *index - 1 : static_cast<std::int64_t>(builder.vertexCount()) + *index;
 }
 
@@ -83,7 +83,7 @@ core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view 
       builder.addPolygon(corners);
     }
     else if (!isKeyword(keyword))
-      builder.failUnreadable("a line is no OBJ record");
+      builder.failUnreadable("a line is not an OBJ record");
   }
   return builder.take();
 }

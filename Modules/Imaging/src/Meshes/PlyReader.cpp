@@ -283,7 +283,7 @@ private:
         }
         corners.resize(static_cast<std::size_t>(takeLength(*property.listCount)));
         for (std::int64_t& corner : corners)
-          corner = takeWhole(property.type, "a face has a corner that is no number of a vertex");
+          corner = takeWhole(property.type, "a face has a corner that is not a vertex index");
         m_builder.addPolygon(corners);
       }
   }

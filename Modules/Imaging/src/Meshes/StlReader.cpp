@@ -107,7 +107,7 @@ core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view
     else if (word == "solid" || word == "endsolid")
       closed = word == "endsolid";
     else if (!word.empty() && word != "facet" && word != "outer" && word != "endfacet")
-      builder.failUnreadable("a line is no part of a text STL");
+      builder.failUnreadable("a line does not belong to an ASCII STL");
   }
   if (!closed || !corners.empty())
     builder.failUnreadable("it breaks off before 'endsolid'");

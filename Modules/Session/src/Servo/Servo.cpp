@@ -102,7 +102,7 @@ void Servo::map(Step& step, bool anew) noexcept
   {
     step.mapped = m_mapping.map(step.device, step.view);
     // A wheel's tool also starts in front of the tissue, and continues from there.
-    const bool byWheel = m_record.input.parameters.maxLead > 0.0F &&
+    const bool byWheel = m_record.input.parameters.driftLimit > 0.0F &&
                          Eigen::Map<const Eigen::Vector3d>(m_record.input.parameters.approach) !=
                              Eigen::Vector3d::Zero();
     bool before = false;
@@ -124,7 +124,7 @@ void Servo::map(Step& step, bool anew) noexcept
   if (step.usable && !step.clutch && (!anew || m_record.input.parameters.constantThrust))
   {
     step.mapped = m_mapping.map(step.device, step.view);
-    if (const double limit = static_cast<double>(m_record.input.parameters.maxLead);
+    if (const double limit = static_cast<double>(m_record.input.parameters.driftLimit);
         limit > 0.0 && m_touches)
       limitDrift(step, limit);
     return;

@@ -31,7 +31,7 @@ const char* firstFault(const ServoParameters& p) noexcept
     return "the thrust must lie within 0 to 20 N";
   if (!within(p.approachSpeed, 1e-6, 1000.0))
     return "the approach must lie within 0 to 1000 mm/s";
-  if (!within(static_cast<double>(p.maxLead), 0.0, 50.0))
+  if (!within(static_cast<double>(p.driftLimit), 0.0, 50.0))
     return "the drift limit must lie within 0 to 50 mm";
   if (p.constantThrust > (ServoParameters::kPressed | ServoParameters::kPointer))
     return "the mode of constant thrust is unknown";

@@ -50,7 +50,7 @@ public:
   const std::string& mr() const noexcept { return m_name; }
   std::vector<std::string> mrNames() const; ///< of the case
   const scene::ImagePart* part() const;     ///< nullptr if the case has no MR
-  std::string stateInWords() const;         ///< "not registered", or how, how well, signed by
+  std::string stateText() const;            ///< "not registered", or how, how well, signed by
 
   /// Manual motion of the MR overlay on the CT, rotation about the crosshair; the user interface
   /// has steps of 0.1 and 1 mm or degree. Recorded as "by hand, not judged".

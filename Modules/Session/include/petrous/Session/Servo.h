@@ -37,7 +37,7 @@ struct ServoSetup
 /// tissue the device may be anywhere: the tool stays where it is and continues from there, with the
 /// force fading in (in constant-thrust mode it goes to the given position). While force is disabled
 /// the tool rests, and is still moved out of restored tissue. Without force feedback the coupling
-/// has a drift limit (ServoParameters::maxLead), since nothing stops the device at tissue.
+/// has a drift limit (ServoParameters::driftLimit), since nothing stops the device at tissue.
 ///
 /// A pointer tool (ServoParameters::kPointer) that is more than `kFarthest` from its target, stands
 /// in tissue or is stuck is relocated: along its pick ray, in front of the tissue, at the first

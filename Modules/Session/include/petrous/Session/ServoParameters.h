@@ -20,7 +20,7 @@ struct ServoParameters
   /// Vector from the given position to the nearest surface, patient mm: direction of a tool without
   /// contact, and its maximum distance beyond the position; zero: it waits there. For a pointer
   /// tool the direction of its pick ray: of any length if not pressed or when picked up with a
-  /// wheel (maxLead); if pressed, its length is the distance to the surface.
+  /// wheel (driftLimit); if pressed, its length is the distance to the surface.
   double approach[3] = {0.0, 0.0, 0.0};
   std::uint32_t clutchButtons = 0; ///< device buttons that hold the tool in place
   std::uint32_t drillButtons = 0;  ///< device buttons that drill, like the pedal
@@ -31,7 +31,7 @@ struct ServoParameters
   /// mm by which the goal of a device without force feedback may lead a tool held by tissue, in [0,
   /// 50]; 0: unlimited. The excess is discarded, so that the tool responds at once when the device
   /// moves back; rotation is limited to `kMaxTurn`.
-  float maxLead = 0.0F;
+  float driftLimit = 0.0F;
 
   static constexpr double kMaxTurn = 0.35; ///< rad
 

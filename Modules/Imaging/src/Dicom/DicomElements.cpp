@@ -40,8 +40,10 @@ bool isWanted(Tag tag)
   const Tag group = tag >> 16;
   if (group == 0x0010)
     return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100030;
-  return group == 0x0002 || group == 0x0008 || group == 0x0018 || group == 0x0020 ||
-         group == 0x0028;
+  constexpr Tag kSiemensB = 0x0019100c;
+  constexpr Tag kGeB = 0x00431039;
+  return tag == kSiemensB || tag == kGeB || group == 0x0002 || group == 0x0008 || group == 0x0018 ||
+         group == 0x0020 || group == 0x0028;
 }
 
 } // namespace
@@ -294,6 +296,28 @@ std::optional<double> DicomElements::number(Tag tag) const
 {
   const std::vector<double> one = numbers(tag, 1);
   return one.empty() ? std::nullopt : std::optional<double>(one.front());
+}
+
+std::optional<double> DicomElements::real(Tag tag) const
+{
+  const auto found = m_values.find(tag);
+  if (found == m_values.end())
+    return std::nullopt;
+  std::string bytes = found->second;
+  if (m_bigEndian)
+    std::reverse(bytes.begin(), bytes.end());
+  double value = 0.0;
+  float single = 0.0F;
+  if (bytes.size() == sizeof value)
+    std::memcpy(&value, bytes.data(), sizeof value);
+  else if (bytes.size() == sizeof single)
+  {
+    std::memcpy(&single, bytes.data(), sizeof single);
+    value = static_cast<double>(single);
+  }
+  else
+    return std::nullopt;
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 std::optional<int> DicomElements::integer(Tag tag, bool isSigned) const

@@ -64,7 +64,8 @@ public:
   std::string text(Tag tag) const;
   std::vector<std::string> words(Tag tag) const; ///< split at backslashes
   std::optional<double> number(Tag tag) const;   ///< decimal string; nullopt if malformed
-  std::vector<double> numbers(Tag tag, std::size_t count) const;    ///< all of them, or empty
+  std::vector<double> numbers(Tag tag, std::size_t count) const; ///< all of them, or empty
+  std::optional<double> real(Tag tag) const; ///< binary, four or eight bytes (FL, FD)
   std::optional<int> integer(Tag tag, bool isSigned = false) const; ///< binary, two bytes
 
   static constexpr std::uint32_t kUndefinedLength = 0xFFFFFFFFU;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "DicomElements.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
 {
@@ -74,10 +75,27 @@ std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::
   return Eigen::Vector3d(values[first], values[first + 1], values[first + 2]);
 }
 
+/// The unit of the last decimal, mm. 0 if the numbers have none: scanners whose table moves by
+/// whole millimetres write those, and nothing is rounded.
+double positionStepOf(const std::vector<std::string>& position)
+{
+  std::size_t digits = 0;
+  for (const std::string& word : position)
+  {
+    if (word.find_first_of("eE") != std::string::npos)
+      return 0.0;
+    const std::size_t point = word.find('.');
+    if (point != std::string::npos)
+      digits = std::max(digits, word.size() - point - 1);
+  }
+  return digits == 0 ? 0.0 : std::pow(10.0, -static_cast<double>(digits));
+}
+
 void readPlace(const DicomElements& elements, SliceHeader& slice)
 {
   slice.position = vectorAt(elements.numbers(0x00200032, 3), 0);
   const std::vector<double> cosines = elements.numbers(0x00200037, 6);
+  slice.positionStep = positionStepOf(elements.words(0x00200032));
   slice.rowDirection = vectorAt(cosines, 0);
   slice.columnDirection = vectorAt(cosines, 3);
   const std::vector<double> spacing = elements.numbers(0x00280030, 2);
@@ -132,6 +150,28 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
   slice.seriesNumber = whole(0x00200011);
   slice.acquisition = whole(0x00200012);
   slice.hasModalityLut = elements.hasModalityLut();
+}
+
+void readTraits(const DicomElements& elements, SliceHeader& slice)
+{
+  const auto whole = [&elements](Tag tag) -> std::optional<int>
+  {
+    const auto value = elements.number(tag);
+    return value && std::abs(*value) < 1e9 ? std::optional(static_cast<int>(*value)) : std::nullopt;
+  };
+  SliceTraits& traits = slice.traits;
+  traits.bValue = elements.real(0x00189087);
+  if (!traits.bValue)
+    traits.bValue = elements.number(0x0019100c); // Siemens
+  if (const auto ge = elements.words(0x00431039); !traits.bValue && !ge.empty())
+    if (const auto value = core::parseDouble(ge.front()))
+      traits.bValue = std::fmod(*value, 1e9); // GE adds flags above
+  traits.echoTime = elements.number(0x00180081);
+  traits.triggerTime = elements.number(0x00181060);
+  traits.phasePercent = elements.real(0x00209241);
+  traits.inversionTime = elements.number(0x00180082);
+  traits.echo = whole(0x00180086);
+  traits.temporal = whole(0x00200100);
 }
 
 void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
@@ -228,6 +268,7 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
   slice.imageType = elements.words(0x00080008);
   readPlace(elements, slice);
   readOrigin(elements, slice);
+  readTraits(elements, slice);
   readPixelFormat(elements, slice);
   const char* rescale = readRescale(elements, slice);
 

@@ -223,9 +223,4 @@ core::Progress Context::progress() const
       interruptToken());
 }
 
-void notBuiltYet(const std::string& what)
-{
-  throw UsageError(what + " is not built yet");
-}
-
 } // namespace petrous::cli

@@ -11,6 +11,7 @@
 
 #include "TestDicom.h"
 #include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/ImageFile.h"
 
 namespace petrous::imaging
 {
@@ -320,6 +321,48 @@ TEST_F(DicomData, SegmentationsAndStructureSetsAreNoImages)
       EXPECT_TRUE(findingOf(series, FindingKind::MultiFrame) ||
                   findingOf(series, FindingKind::NotAnImage));
     }
+}
+
+/// Every voxel of the reference at its place in `volume`.
+void expectSameImage(const IntensityVolume& volume, const fs::path& reference)
+{
+  const auto loaded = readImageFile(reference, std::nullopt, {});
+  const IntensityVolume& expected = *loaded.volume;
+  const core::GridGeometry& from = expected.geometry();
+  const core::GridGeometry& to = volume.geometry();
+  ASSERT_EQ(from.voxelCount(), to.voxelCount());
+  std::size_t different = 0;
+  double worst = 0.0;
+  for (int k = 0; k < from.dims()[2]; ++k)
+    for (int j = 0; j < from.dims()[1]; ++j)
+      for (int i = 0; i < from.dims()[0]; ++i)
+      {
+        const Eigen::Vector3d at =
+            to.voxelFromPatient(from.patientFromVoxel(Eigen::Vector3d(i, j, k)));
+        const Eigen::Vector3i voxel = at.array().round().cast<int>();
+        worst = std::max(worst, (at - voxel.cast<double>()).cwiseProduct(to.spacing()).norm());
+        for (int a = 0; a < 3; ++a)
+          ASSERT_TRUE(voxel[a] >= 0 && voxel[a] < to.dims()[static_cast<std::size_t>(a)]);
+        const double one = volume.at(voxel[0], voxel[1], voxel[2]);
+        const double two = expected.at(i, j, k);
+        different += std::abs(one - two) <= 1e-6 * std::max(1.0, std::abs(two)) ? 0 : 1;
+      }
+  EXPECT_EQ(different, 0U);
+  EXPECT_LT(worst, 1e-3) << "mm";
+}
+
+TEST_F(DicomData, EnhancedMrEqualsDcm2niix)
+{
+  const fs::path root = part("dicom_enhanced/dcm_qa_enh");
+  const fs::path file = root / "In/Philips/IM_0027_fMAP.dcm";
+  PETROUS_NEEDS(file);
+  const ScanResult result = scanDicom(file, {});
+  ASSERT_EQ(result.series.size(), 2U);
+  for (const DicomSeries& series : result.series)
+    EXPECT_EQ(series.geometry.verdict, Verdict::Ok) << series.volume;
+  expectSameImage(readSeries(result.series[0], {}, {}), root / "Ref/Philips_WIP_B0_NS_801_e1.nii");
+  expectSameImage(readSeries(result.series[1], {}, {}),
+                  root / "Ref/Philips_WIP_B0_NS_801_e2_fieldmaphz.nii");
 }
 
 } // namespace

@@ -281,11 +281,20 @@ std::size_t dropCopies(std::vector<SliceHeader>& slices)
       alike[{slice.instanceNumber, at[0], at[1], at[2]}].push_back(i);
     }
   std::set<std::size_t> copies;
+  std::map<std::pair<fs::path, fs::path>, bool> compared; // once, also if they have many frames
+  const auto isCopy = [&](const SliceHeader& one, const SliceHeader& other)
+  {
+    if (one.file == other.file)
+      return false;
+    const auto [known, isNew] = compared.try_emplace({one.file, other.file}, false);
+    if (isNew)
+      known->second = sameBytes(one.file, other.file);
+    return known->second;
+  };
   for (const auto& [key, members] : alike)
     for (std::size_t m = 1; m < members.size(); ++m)
       for (std::size_t n = 0; n < m; ++n)
-        if (slices[members[m]].file != slices[members[n]].file && copies.count(members[n]) == 0 &&
-            sameBytes(slices[members[n]].file, slices[members[m]].file))
+        if (copies.count(members[n]) == 0 && isCopy(slices[members[n]], slices[members[m]]))
         {
           copies.insert(members[m]);
           break;
@@ -335,7 +344,10 @@ std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& member
   series.files = members.size();
   std::vector<SliceHeader> slices;
   for (const FileHeader* member : members)
-    slices.push_back(member->slice);
+    if (member->frames.empty())
+      slices.push_back(member->slice);
+    else
+      slices.insert(slices.end(), member->frames.begin(), member->frames.end());
   const std::size_t copies = dropCopies(slices);
   std::vector<DicomSeries> result;
   for (auto& [name, geometry] : assessVolumes(std::move(slices)))

@@ -27,6 +27,8 @@ struct PixelFormat
   bool isBigEndian = false;
   bool isDeflated = false;  ///< the offset then refers to the inflated file
   std::uint64_t offset = 0; ///< of the value of the pixel data element, bytes
+  int frame = 0;            ///< of an encapsulated file with several
+  int frameCount = 1;       ///< in the file
   std::uint64_t length = 0; ///< bytes; up to the end of the file if encapsulated
 };
 
@@ -62,7 +64,7 @@ struct SliceHeader
   std::optional<Eigen::Vector2d> pixelSpacing;    ///< mm, DICOM order: between rows, columns
   int rows = 0;
   int columns = 0;
-  int frames = 1;
+  int frames = 1; ///< more than one: without the functional groups that would place them
   double slope = 1.0;
   double intercept = 0.0;
   bool hasRescale = false;

@@ -237,15 +237,18 @@ TEST_F(CommandLine, CropsToARegionOnLoad)
                 "--roi");
 }
 
-TEST_F(CommandLine, RefusesATiltedScanInWords)
+TEST_F(CommandLine, RefusesATiltedScanInWordsAndRepairsItOnRequest)
 {
   makePatient("--dims 32,32,40 --spacing 2 --tilt 18.5");
   const auto scan = json("scan " + quoted(m_folder / "patient/ct"));
-  EXPECT_EQ(scan["series"][0]["verdict"], "refused");
+  EXPECT_EQ(scan["series"][0]["verdict"], "repairable");
   EXPECT_EQ(scan["series"][0]["findings"][0]["kind"], "gantry-tilt");
   EXPECT_GT(scan["series"][0]["findings"][0]["error_mm"], 5.0);
   expectRefused("new ear --ct " + quoted(m_folder / "patient/ct"), 3, "tilt");
   EXPECT_TRUE(libraryContent().empty());
+  const auto info = json("new ear --repair --ct " + quoted(m_folder / "patient/ct"));
+  EXPECT_NE(info["ct"]["notes"].dump().find("18.5 degrees"), std::string::npos) << info["ct"];
+  EXPECT_EQ(json("info ear")["ct"]["notes"], info["ct"]["notes"]);
 }
 
 TEST_F(CommandLine, RefusesBadInputInOneLineAndLeavesTheLibrary)
@@ -286,7 +289,6 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("new", 2, "CASE");
   expectRefused("render x --out a.png --size big", 2, "--size");
   expectRefused("archive x x.petrous", 2, "not implemented yet");
-  expectRefused("new x --ct y --repair", 2, "not implemented yet");
   expectRefused("library zebra", 2, "rename A B");
   expectRefused("library rename a", 2, "library rename A B");
   const auto help = run("--help");

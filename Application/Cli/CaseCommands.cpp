@@ -20,12 +20,18 @@ struct PartOptions
   std::vector<std::string> mr;
   std::vector<std::string> labels;
   std::vector<std::string> meshes;
+  bool repair = false;
 
   void addTo(CLI::App& command)
   {
-    command.add_option("--mr", mr, "MR: DICOM folder or image file")
+    command
+        .add_option("--mr", mr,
+                    "MR: DICOM folder or image file; #UID: that series of the folder, "
+                    "#UID#VOLUME: that volume of it")
         ->allow_extra_args(false)
-        ->type_name("[NAME=]PATH");
+        ->type_name("[NAME=]PATH[#UID[#VOLUME]]");
+    command.add_flag("--repair", repair,
+                     "Resample tilted, uneven or gapped DICOM slices to a straight volume");
     command
         .add_option("--labels", labels,
                     "Structures: one a file, or one an index; @MR: drawn on that MR")
@@ -41,7 +47,10 @@ struct PartOptions
   {
     presenters::PartSources result;
     for (const std::string& text : mr)
-      result.mr.push_back(presenters::PartSource::parse(text));
+    {
+      result.mr.push_back(presenters::PartSource::parseSeries(text));
+      result.mr.back().repair = repair;
+    }
     for (const std::string& text : labels)
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
     for (const std::string& text : meshes)
@@ -107,8 +116,7 @@ void addNew(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, ct, series, roi;
-    bool repair = false;
+    std::string name, ct, series, volume, roi;
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
@@ -116,11 +124,12 @@ void addNew(CLI::App& app, Context& context)
       app, "new", "Build a case from a CT and what belongs to it",
       [options, &context]
       {
-        if (options->repair)
-          notBuiltYet("--repair");
         presenters::CaseSources sources;
         sources.ct = options->ct;
-        sources.seriesUid = options->series;
+        sources.series = options->series;
+        if (!options->volume.empty())
+          sources.series += "#" + options->volume;
+        sources.repair = options->parts.repair;
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
@@ -142,10 +151,12 @@ void addNew(CLI::App& app, Context& context)
       ->type_name("PATH")
       ->required();
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
+  command
+      ->add_option("--volume", options->volume,
+                   "Which volume of a series with several, as 'petrous scan' names it")
+      ->type_name("NAME");
   command->add_option("--roi", options->roi, "Part of the CT to load, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
-  // Specified, but not implemented yet: refused if used, and hidden.
-  command->add_flag("--repair", options->repair)->group("");
   options->parts.addTo(*command);
 }
 

@@ -125,6 +125,7 @@ json infoJson(const scene::Case& value)
   {
     json part = gridJson(image.geometry);
     part["name"] = image.name;
+    part["notes"] = image.notes;
     part["registered"] = image.registered;
     part["transform"] = transformJson(image.mrFromCt);
     part["registration"] = registrationJson(image);

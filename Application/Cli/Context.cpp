@@ -278,9 +278,4 @@ core::Progress Context::progress() const
       interruptToken());
 }
 
-void notBuiltYet(const std::string& what)
-{
-  throw UsageError(what + " is not implemented yet");
-}
-
 } // namespace petrous::cli

@@ -102,9 +102,6 @@ private:
 /// `object` as printed by --json, with its schema version.
 std::string jsonText(nlohmann::json object);
 
-/// Fails for an option that is specified but not implemented yet.
-[[noreturn]] void notBuiltYet(const std::string& what);
-
 /// Maximum size of an input file of options, points or poses, bytes.
 constexpr std::uintmax_t kLargestInput = std::uintmax_t{1} << 30;
 constexpr std::uintmax_t kLargestJson = std::uintmax_t{1} << 20;

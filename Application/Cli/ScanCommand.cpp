@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
@@ -21,7 +25,7 @@ json findingsJson(const std::vector<imaging::Finding>& findings)
   return list;
 }
 
-json seriesJson(const imaging::DicomSeries& series)
+json volumeJson(const imaging::DicomSeries& series)
 {
   const auto& geometry = series.geometry;
   json entry{{"uid", series.uid},
@@ -38,6 +42,28 @@ json seriesJson(const imaging::DicomSeries& series)
              {"notes", geometry.notes}};
   if (geometry.grid)
     entry.update(gridJson(*geometry.grid));
+  return entry;
+}
+
+// The volumes of one series, which adjoin. What a series of several says of itself is what its
+// largest sound volume says.
+json seriesJson(const std::vector<const imaging::DicomSeries*>& volumes)
+{
+  const auto rank = [](const imaging::DicomSeries* one)
+  {
+    return std::make_pair(one->geometry.verdict == imaging::Verdict::Ok,
+                          one->geometry.slices.size());
+  };
+  json entry = volumeJson(**std::max_element(
+      volumes.begin(), volumes.end(), [&rank](auto* a, auto* b) { return rank(a) < rank(b); }));
+  json list = json::array();
+  for (const imaging::DicomSeries* one : volumes)
+  {
+    json volume = volumeJson(*one);
+    volume["name"] = one->volume;
+    list.push_back(std::move(volume));
+  }
+  entry["volumes"] = std::move(list);
   return entry;
 }
 
@@ -73,9 +99,15 @@ void scan(const Context& context, const Options& options)
   if (result.series.empty() && result.unreadable.empty())
     imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
+  std::vector<const imaging::DicomSeries*> volumes; // of one series
   for (const auto& series : result.series)
   {
-    list.push_back(seriesJson(series));
+    if (!volumes.empty() && (series.volume.empty() || volumes.front()->uid != series.uid))
+    {
+      list.push_back(seriesJson(volumes));
+      volumes.clear();
+    }
+    volumes.push_back(&series);
     std::string line = std::string(imaging::verdictName(series.geometry.verdict)) + "  " +
                        series.modality + "  " + std::to_string(series.geometry.slices.size()) +
                        " slices";
@@ -83,11 +115,14 @@ void scan(const Context& context, const Options& options)
       line += " of " + std::to_string(grid->dims()[0]) + " x " + std::to_string(grid->dims()[1]) +
               ", " + fixed(grid->spacing()[0], 3) + " x " + fixed(grid->spacing()[1], 3) + " x " +
               fixed(grid->spacing()[2], 3) + " mm";
-    context.print(line + "  " + series.uid);
+    context.print(line + "  " + series.uid +
+                  (series.volume.empty() ? "" : "  volume '" + series.volume + "'"));
     printFindings(context, series.geometry.findings);
     for (const auto& note : series.geometry.notes)
       context.print("    noted: " + note);
   }
+  if (!volumes.empty())
+    list.push_back(seriesJson(volumes));
   printFindings(context, result.unreadable);
   for (const auto& note : result.notes)
     context.print("noted: " + note);

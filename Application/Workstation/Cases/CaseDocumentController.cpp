@@ -356,7 +356,7 @@ bool CaseDocumentController::chooseSeries(SourceContent& source, std::string& ui
   if (!chosen || index < 0)
     return false;
   const auto& series = source.series[static_cast<std::size_t>(index)];
-  uid = series.uid;
+  uid = series.selector;
   source.content = series.content;
   source.why = series.modality.empty() ? "says no modality" : "says modality " + series.modality;
   return true;
@@ -433,7 +433,7 @@ void CaseDocumentController::decide(const Sources& found)
                           .arg(nameOf(ct->path), nameOf(source.path)));
       ct = &source;
       sources.ct = source.path;
-      sources.seriesUid = uid;
+      sources.series = uid;
       continue;
     case Content::Mr:
       sources.parts.mr.push_back({{}, source.path, {}, uid});

@@ -1,6 +1,7 @@
 #include "petrous/Imaging/DicomReader.h"
 
 #include <atomic>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
@@ -324,6 +325,122 @@ TEST(DicomReader, StopsWhenCancelled)
       token);
   EXPECT_THROW(readSeries(result.series.front(), {}, progress), core::CancelledError);
   EXPECT_LT(calls.load(), 20);
+}
+
+/// An enhanced MR written by PS3.3 C.7.6.16: two echoes of `slices` slices, frames in no order,
+/// orientation and spacing shared, position, echo and rescale per frame.
+void writeEnhanced(const fs::path& file, int slices, bool implicitVr,
+                   const std::string& sopClass = "1.2.840.10008.5.1.4.1.1.4.1")
+{
+  TestSlice s;
+  s.implicitVr = implicitVr;
+  s.sopClass = sopClass;
+  s.modality = "MR";
+  s.pixels = false;
+  const auto item = [&s](const std::string& content)
+  {
+    std::string out;
+    s.append(out, 0xfffe, 2);
+    s.append(out, 0xe000, 2);
+    s.append(out, static_cast<std::uint32_t>(content.size()), 4);
+    return out + content;
+  };
+  const auto group = [&](std::uint32_t tag, const std::function<void(std::string&)>& fill)
+  {
+    std::string content;
+    fill(content);
+    std::string out;
+    s.element(out, tag, "SQ", item(content));
+    return out;
+  };
+  const int frames = 2 * slices;
+  std::string perFrame;
+  std::string data;
+  for (int f = 0; f < frames; ++f)
+  {
+    const int n = (f * 7 + 3) % frames; // 7 and the number of frames have no common factor
+    const int echo = n / slices;
+    const int k = n % slices;
+    perFrame += item(
+        group(0x00209113, [&](std::string& out)
+              { s.element(out, 0x00200032, "DS", "-10\\20.5\\" + core::fixedText(0.5 * k, 2)); }) +
+        group(0x00189114,
+              [&](std::string& out)
+              {
+                const double time = 10.0 * (echo + 1);
+                std::string bytes(sizeof time, '\0');
+                std::memcpy(bytes.data(), &time, sizeof time);
+                s.element(out, 0x00189082, "FD", bytes);
+              }) +
+        group(0x00289145,
+              [&](std::string& out)
+              {
+                s.element(out, 0x00281052, "DS", echo == 0 ? "0" : "-1000");
+                s.element(out, 0x00281053, "DS", echo == 0 ? "1" : "2");
+              }));
+    for (int j = 0; j < s.rows; ++j)
+      for (int i = 0; i < s.columns; ++i)
+        s.append(data, ramp(i, j, k), 2);
+  }
+  std::string all = s.bytes();
+  s.element(all, 0x00280008, "IS", std::to_string(frames));
+  s.element(all, 0x52009229, "SQ",
+            item(group(0x00289110,
+                       [&](std::string& out) { s.element(out, 0x00280030, "DS", "0.7\\0.6"); }) +
+                 group(0x00209116, [&](std::string& out)
+                       { s.element(out, 0x00200037, "DS", "0\\1\\0\\-1\\0\\0"); })));
+  s.element(all, 0x52009230, "SQ", perFrame);
+  s.element(all, 0x7fe00010, "OW", data);
+  test::writeText(file, all);
+}
+
+TEST(DicomReader, ReadsTheStacksOfAnEnhancedMr)
+{
+  for (const bool implicitVr : {false, true})
+  {
+    const TemporaryFolder folder;
+    writeEnhanced(folder.path() / "e.dcm", 5, implicitVr);
+    const ScanResult result = scanDicom(folder.path(), {});
+    ASSERT_EQ(result.series.size(), 2U);
+    for (int echo = 0; echo < 2; ++echo)
+    {
+      const DicomSeries& series =
+          chooseSeries(result, folder.path(), echo == 0 ? "#echo time 10" : "#echo time 20");
+      ASSERT_EQ(series.geometry.verdict, Verdict::Ok);
+      const IntensityVolume volume = readSeries(series, {}, {});
+      Eigen::Matrix3d axes;
+      axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+      const GridGeometry expected({8, 6, 5}, {0.6, 0.7, 0.5}, {-10, 20.5, 0}, axes);
+      EXPECT_TRUE(core::sameGrid(volume.geometry(), expected, 1e-9));
+      for (int k = 0; k < 5; ++k)
+        for (int j = 0; j < 6; ++j)
+          for (int i = 0; i < 8; ++i)
+            ASSERT_EQ(volume.at(i, j, k), echo == 0 ? ramp(i, j, k) : 2.0 * ramp(i, j, k) - 1000.0);
+    }
+  }
+}
+
+TEST(DicomReader, RefusesFramesThatNothingPlaces)
+{
+  const TemporaryFolder folder;
+  writeEnhanced(folder.path() / "e.dcm", 5, false, "1.2.840.10008.5.1.4.1.1.7.3");
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 1U);
+  EXPECT_EQ(result.series.front().geometry.findings.front().kind, FindingKind::MultiFrame);
+  EXPECT_THROW(readSeries(result.series.front(), {}, {}), DicomError);
+}
+
+TEST(DicomReader, NeverCrashesOnAnEnhancedFileCutAnywhere)
+{
+  const TemporaryFolder folder;
+  writeEnhanced(folder.path() / "e.dcm", 5, false);
+  const fs::path file = folder.path() / "e.dcm";
+  for (std::uintmax_t size = fs::file_size(file); size > 7; size -= 7)
+  {
+    fs::resize_file(file, size - 7);
+    for (const DicomSeries& series : scanDicom(folder.path(), {}).series)
+      EXPECT_EQ(series.geometry.verdict, Verdict::Refused);
+  }
 }
 
 } // namespace

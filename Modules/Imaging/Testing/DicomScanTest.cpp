@@ -227,6 +227,89 @@ TEST(DicomScan, ChoosesTheStackBesideASingleSliceScout)
   EXPECT_EQ(chooseSeries(scanDicom(folder.path(), {}), folder.path()).uid, "1.2.3.4");
 }
 
+/// Six slices at each place, `values` telling the stacks apart.
+ScanResult scanOf(const fs::path& folder, std::uint32_t tag, const char* vr,
+                  const std::vector<std::string>& values)
+{
+  int file = 0;
+  for (int k = 0; k < 6; ++k)
+    for (const std::string& value : values)
+    {
+      TestSlice slice;
+      slice.z = 0.5 * k;
+      slice.modality = "MR";
+      slice.element(slice.extra, tag, vr, value);
+      slice.write(folder / ("s" + std::to_string(file++) + ".dcm"));
+    }
+  return scanDicom(folder, {});
+}
+
+TEST(DicomScan, ListsTheVolumesOfASeriesAndLetsTheUserChoose)
+{
+  struct Case
+  {
+    std::uint32_t tag;
+    const char* vr;
+    std::vector<std::string> values, names;
+  };
+  const Case cases[] = {
+      {0x00180086, "IS", {"1", "2"}, {"echo 1", "echo 2"}},
+      {0x0019100c, "IS", {"0", "500", "1000"}, {"b 0", "b 500", "b 1000"}},
+      {0x00200100, "IS", {"1", "2", "3", "4"}, {"time 1", "time 2", "time 3", "time 4"}},
+      {0x00181210, "SH", {"H30", "H70"}, {"kernel H30", "kernel H70"}}};
+  for (const Case& one : cases)
+  {
+    const TemporaryFolder folder;
+    const ScanResult result = scanOf(folder.path(), one.tag, one.vr, one.values);
+    ASSERT_EQ(result.series.size(), one.names.size());
+    for (std::size_t i = 0; i < one.names.size(); ++i)
+    {
+      EXPECT_EQ(result.series[i].volume, one.names[i]);
+      EXPECT_EQ(result.series[i].geometry.verdict, Verdict::Ok);
+      EXPECT_EQ(result.series[i].geometry.slices.size(), 6U);
+      EXPECT_EQ(&chooseSeries(result, folder.path(), "#" + one.names[i]), &result.series[i]);
+      EXPECT_EQ(&chooseSeries(result, folder.path(), selectorOf(result.series[i])),
+                &result.series[i]);
+    }
+    const std::string error = chooseError(folder.path(), DicomError::Reason::Ambiguous);
+    for (const std::string& name : one.names)
+      EXPECT_NE(error.find("'" + name + "'"), std::string::npos) << error;
+    EXPECT_THROW(chooseSeries(result, folder.path(), "1.2.3.4"), DicomError);
+    EXPECT_THROW(chooseSeries(result, folder.path(), "#echo 9"), DicomError);
+  }
+}
+
+TEST(DicomScan, DoesNotGuessWhichOfTwoSlicesBelongs)
+{
+  const TemporaryFolder folder;
+  const ScanResult result = scanOf(folder.path(), 0x00180086, "IS", {"1", "1"});
+  ASSERT_EQ(result.series.size(), 1U) << "copies: these files are equal";
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Ok);
+  ASSERT_EQ(result.series.front().geometry.notes.size(), 1U);
+  EXPECT_NE(result.series.front().geometry.notes.front().find("6 files are copies"),
+            std::string::npos);
+  const TemporaryFolder other;
+  writeSeries(other.path(), 12,
+              [](int k, TestSlice& s)
+              {
+                s.z = 0.5 * (k / 2);
+                s.cell = [k](int, int) { return static_cast<std::uint32_t>(k); };
+              });
+  const ScanResult unknown = scanDicom(other.path(), {});
+  ASSERT_EQ(unknown.series.size(), 1U);
+  EXPECT_EQ(unknown.series.front().geometry.verdict, Verdict::Refused);
+  EXPECT_TRUE(has(unknown.series.front().geometry, FindingKind::DuplicateSlice));
+}
+
+TEST(DicomScan, DoesNotDivideASeriesOfTwoPatientsIntoVolumes)
+{
+  const TemporaryFolder folder;
+  const ScanResult result = scanOf(folder.path(), 0x00100020, "LO", {"DOE17", "DOE18"});
+  ASSERT_EQ(result.series.size(), 1U);
+  EXPECT_TRUE(has(result.series.front().geometry, FindingKind::MixedPatients));
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Refused);
+}
+
 TEST(DicomScan, SaysWhatIsWrongWithEmptyForeignAndAbsentFolders)
 {
   const TemporaryFolder folder;

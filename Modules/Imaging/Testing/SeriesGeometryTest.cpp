@@ -4,11 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 #include <set>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "SeriesRepair.h"
 
 namespace petrous::imaging
 {
@@ -49,7 +52,7 @@ bool has(const SeriesGeometry& series, FindingKind kind)
 Finding only(const SeriesGeometry& series)
 {
   EXPECT_EQ(series.findings.size(), 1U);
-  EXPECT_EQ(series.verdict, Verdict::Refused);
+  EXPECT_NE(series.verdict, Verdict::Ok);
   return series.findings.empty() ? Finding{FindingKind::Unreadable, "", -1.0}
                                  : series.findings.front();
 }
@@ -134,30 +137,67 @@ TEST(SeriesGeometry, AcceptsCosinesRoundedToFourDigits)
   EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
 }
 
-TEST(SeriesGeometry, AcceptsAndNotesJitterBelowATenthOfAMillimetreAndOnePercent)
+TEST(SeriesGeometry, AcceptsAndNotesJitterBelowATenthOfTheSpacing)
 {
   Headers slices = stack(20, 1.0);
-  (*slices[7].position)[2] += 0.008;
-  (*slices[9].position)[0] += 0.008;
+  (*slices[7].position)[2] += 0.09;
+  (*slices[9].position)[0] += 0.045;
   const SeriesGeometry series = assess(slices);
   EXPECT_EQ(series.verdict, Verdict::Ok);
   EXPECT_EQ(series.notes.size(), 2U);
 }
 
-TEST(SeriesGeometry, RefusesJitterAboveOnePercentOfTheSpacing)
+TEST(SeriesGeometry, RefusesJitterAboveATenthOfTheSpacing)
 {
   Headers slices = stack(20, 1.0);
-  (*slices[7].position)[2] += 0.02;
+  (*slices[7].position)[2] += 0.12;
   const Finding finding = only(assess(slices));
   EXPECT_EQ(finding.kind, FindingKind::UnevenSpacing);
-  EXPECT_NEAR(finding.errorMm, 0.02, 1e-9);
+  EXPECT_NEAR(finding.errorMm, 0.12, 1e-9);
 }
 
-TEST(SeriesGeometry, RefusesJitterAboveATenthOfAMillimetreInThickSlices)
+TEST(SeriesGeometry, RefusesASlicePushedSidewaysByMoreThanATenthOfAPixel)
 {
   Headers slices = stack(20, 20.0);
-  (*slices[7].position)[2] += 0.15;
+  (*slices[7].position)[0] += 0.06;
   EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
+TEST(SeriesGeometry, AcceptsPositionsRoundedToTheDecimalsOfTheFile)
+{
+  for (const double step : {0.01, 0.1})
+  {
+    Headers slices = stack(60, 1.0 / 3.0);
+    for (SliceHeader& slice : slices)
+    {
+      slice.position = (*slice.position / step).array().round().matrix() * step;
+      slice.positionStep = step;
+    }
+    const SeriesGeometry series = assess(slices);
+    EXPECT_EQ(series.verdict, Verdict::Ok) << step;
+    ASSERT_EQ(series.notes.size(), 1U);
+    EXPECT_NE(series.notes.front().find(" mm off an even spacing"), std::string::npos);
+    EXPECT_NEAR(series.grid->spacing()[2], 1.0 / 3.0, step / 59.0);
+  }
+}
+
+TEST(SeriesGeometry, CallsRepairableWhatThePositionsSettle)
+{
+  const auto verdictOf = [](const std::function<void(Headers&)>& change)
+  {
+    Headers slices = stack(40, 1.0);
+    change(slices);
+    return assess(slices).verdict;
+  };
+  EXPECT_EQ(verdictOf([](Headers& s) { s.erase(s.begin() + 5); }), Verdict::Repairable);
+  EXPECT_EQ(verdictOf([](Headers& s) { s.erase(s.begin() + 5, s.begin() + 7); }), Verdict::Refused);
+  EXPECT_EQ(verdictOf([](Headers& s) { (*s[5].position)[2] += 0.3; }), Verdict::Repairable);
+  EXPECT_EQ(verdictOf([](Headers& s) { s.push_back(s[4]); }), Verdict::Repairable);
+  EXPECT_EQ(verdictOf([](Headers& s) { s.insert(s.end(), s.begin(), s.begin() + 20); }),
+            Verdict::Refused);
+  EXPECT_EQ(verdictOf([](Headers& s) { s[4].slope = 2.0; }), Verdict::Repairable);
+  EXPECT_EQ(verdictOf([](Headers& s) { s[4].rows = 12; }), Verdict::Refused);
+  EXPECT_EQ(verdictOf([](Headers& s) { s[4].damage = "is cut short"; }), Verdict::Refused);
 }
 
 TEST(SeriesGeometry, StatesTheMillimetresOfAGantryTilt)
@@ -291,7 +331,9 @@ TEST(SeriesGeometry, SetsALocalizerAside)
   Headers slices = stack(20, 1.0);
   slices[0].imageType = {"ORIGINAL", "PRIMARY", "LOCALIZER"};
   const SeriesGeometry series = assess(slices);
-  EXPECT_EQ(only(series).kind, FindingKind::LocalizerMixedIn);
+  ASSERT_EQ(series.findings.size(), 1U);
+  EXPECT_EQ(series.findings.front().kind, FindingKind::LocalizerMixedIn);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
   EXPECT_EQ(series.slices.size(), 19U);
 }
 
@@ -301,7 +343,11 @@ TEST(SeriesGeometry, KnowsAnUndeclaredLocalizerByItsPlane)
   SliceHeader scout = slices[0];
   scout.columnDirection = Eigen::Vector3d(0, 0, -1);
   slices.push_back(scout);
-  EXPECT_EQ(only(assess(slices)).kind, FindingKind::LocalizerMixedIn);
+  const SeriesGeometry series = assess(slices);
+  ASSERT_EQ(series.findings.size(), 1U);
+  EXPECT_EQ(series.findings.front().kind, FindingKind::LocalizerMixedIn);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_EQ(series.slices.size(), 20U);
 }
 
 TEST(SeriesGeometry, HasNoGridWithoutUsableNumbers)
@@ -383,6 +429,121 @@ TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
       "localizer-mixed-in", "multi-frame",    "not-an-image",   "unreadable",
       "modality-lut",       "mixed-patients", "mixed-studies",  "mixed-acquisitions"};
   EXPECT_EQ(names, expected);
+}
+
+/// The slices' values of f at the pixels' true positions.
+volume::IntensityVolume imageOf(const Headers& slices,
+                                const std::function<double(const Eigen::Vector3d&)>& f)
+{
+  const SliceHeader& first = slices.front();
+  const core::GridGeometry grid({first.columns, first.rows, static_cast<int>(slices.size())},
+                                {1, 1, 1}, {0, 0, 0});
+  auto voxels = std::make_shared<volume::Volume<float>>(grid);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    for (int j = 0; j < first.rows; ++j)
+      for (int i = 0; i < first.columns; ++i)
+        voxels->at(i, j, static_cast<int>(k)) = static_cast<float>(
+            f(*slices[k].position + *slices[k].rowDirection * ((*first.pixelSpacing)[1] * i) +
+              *slices[k].columnDirection * ((*first.pixelSpacing)[0] * j)));
+  return volume::IntensityVolume(std::shared_ptr<const volume::Volume<float>>(voxels));
+}
+
+volume::IntensityVolume repaired(const SeriesGeometry& geometry,
+                                 const std::function<double(const Eigen::Vector3d&)>& f)
+{
+  const SeriesRepair repair(geometry);
+  return repair.resample(imageOf(geometry.slices, f), repair.grid().fullBox(), {});
+}
+
+/// Slices tilted about the patient's `axis`, the table advancing in z.
+Headers tilted(double degrees, const Eigen::Vector3d& axis)
+{
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(degrees * M_PI / 180.0, axis).toRotationMatrix();
+  Headers slices = stack(60, 1.0, axes);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    slices[k].position = Eigen::Vector3d(-20, -16, 100.0 + 0.5 * static_cast<double>(k));
+  return slices;
+}
+
+TEST(SeriesRepair, PutsLandmarksOfATiltedScanWithinATenthOfAVoxel)
+{
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 1, 0).normalized()})
+    for (const double degrees : {-30.0, -18.5, -5.0, 5.0, 12.0, 30.0})
+    {
+      const SeriesGeometry geometry = assess(tilted(degrees, axis));
+      ASSERT_EQ(geometry.verdict, Verdict::Repairable) << degrees;
+      const SliceHeader& middle = geometry.slices[geometry.slices.size() / 2];
+      const Eigen::Vector3d centre =
+          *middle.position + 20.0 * *middle.rowDirection + 16.0 * *middle.columnDirection;
+      for (const double offset : {-4.0, 0.0, 3.7})
+      {
+        const Eigen::Vector3d mark = centre + offset * Eigen::Vector3d(1.0, -0.8, 0.6);
+        const auto image = repaired(geometry, [&mark](const Eigen::Vector3d& p)
+                                    { return 1000.0 * std::exp(-(p - mark).squaredNorm() / 2.0); });
+        const core::GridGeometry& grid = image.geometry();
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        double weight = 0.0;
+        for (int k = 0; k < grid.dims()[2]; ++k)
+          for (int j = 0; j < grid.dims()[1]; ++j)
+            for (int i = 0; i < grid.dims()[0]; ++i)
+            {
+              sum += image.at(i, j, k) * grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
+              weight += image.at(i, j, k);
+            }
+        EXPECT_LT((sum / weight - mark).norm(), 0.1 * grid.minSpacing()) << degrees;
+      }
+    }
+}
+
+TEST(SeriesRepair, FollowsALinearFunctionWhereverTheSlicesLie)
+{
+  const auto f = [](const Eigen::Vector3d& p)
+  { return 2000.0 + 3.0 * p[0] - 2.0 * p[1] + 5.0 * p[2]; };
+  Headers gap = stack(30, 1.0);
+  gap.erase(gap.begin() + 7);
+  Headers uneven = stack(30, 1.0);
+  for (std::size_t k = 0; k < uneven.size(); ++k)
+    (*uneven[k].position)[2] += 0.3 * std::sin(1.7 * static_cast<double>(k));
+  Headers pushed = stack(30, 1.0);
+  (*pushed[12].position)[0] += 3.0;
+  Headers doubled = stack(30, 1.0);
+  doubled.push_back(doubled[4]);
+  for (const Headers& slices : {gap, uneven, pushed, doubled, tilted(20, {1, 0, 0})})
+  {
+    const SeriesGeometry geometry = assess(slices);
+    ASSERT_EQ(geometry.verdict, Verdict::Repairable);
+    const auto image = repaired(geometry, f);
+    const core::GridGeometry& grid = image.geometry();
+    const double outside = image.range().min; // at a corner, or beyond the slices
+    std::size_t compared = 0;
+    for (int k = 0; k < grid.dims()[2]; ++k)
+      for (int j = 0; j < grid.dims()[1]; ++j)
+        for (int i = 0; i < grid.dims()[0]; ++i)
+          if (image.at(i, j, k) != outside)
+          {
+            ASSERT_NEAR(image.at(i, j, k), f(grid.patientFromVoxel(Eigen::Vector3d(i, j, k))),
+                        1e-2);
+            ++compared;
+          }
+    EXPECT_GT(compared, grid.voxelCount() / 2);
+  }
+}
+
+TEST(SeriesRepair, SaysWhatItGuessed)
+{
+  Headers slices = stack(30, 1.0);
+  slices.erase(slices.begin() + 7);
+  const SeriesGeometry geometry = assess(slices);
+  const SeriesRepair repair(geometry);
+  EXPECT_EQ(repair.grid().dims(), (core::Index3{100, 80, 30}));
+  ASSERT_EQ(repair.notes().size(), 1U);
+  EXPECT_NE(repair.notes().front().find("slice 8 of 30 is missing from the files"),
+            std::string::npos)
+      << repair.notes().front();
+  const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
+  ASSERT_EQ(tilt.notes().size(), 1U);
+  EXPECT_NE(tilt.notes().front().find("18.5 degrees"), std::string::npos);
 }
 
 } // namespace

@@ -65,7 +65,9 @@ volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeri
   {
     std::string what = error.what();
     if (error.reason() == imaging::DicomError::Reason::Misleading)
-      what += " Give a series that 'petrous scan' finds ok.";
+      what += series.geometry.verdict == imaging::Verdict::Repairable
+                  ? " With --repair it is resampled to a straight volume."
+                  : " Give a series that 'petrous scan' finds ok.";
     const bool named = what.rfind(path.string(), 0) == 0;
     throw imaging::DicomError(error.reason(), named ? what : path.string() + ": " + what);
   }
@@ -80,7 +82,7 @@ std::string withoutIdentity(const std::string& uid)
   return library::sha256Of(reinterpret_cast<const std::uint8_t*>(uid.data()), uid.size());
 }
 
-scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
+scene::ImagePart readImage(const fs::path& path, const std::string& selector, bool repair,
                            const std::optional<core::PatientBox>& roi,
                            const core::Progress& progress)
 {
@@ -94,10 +96,13 @@ scene::ImagePart readImage(const fs::path& path, const std::string& seriesUid,
   else
   {
     const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
-    const auto& series = imaging::chooseSeries(scan, path, seriesUid);
+    const auto& series = imaging::chooseSeries(scan, path, selector);
     imaging::ReadOptions options;
     options.roi = roi;
+    options.repair = repair;
     std::vector<std::string> notes = series.geometry.notes;
+    for (const imaging::Finding& finding : series.geometry.findings) // accepted
+      notes.push_back(finding.text);
     if (!scan.notes.empty()) // which name files and folders, possibly after patients
       notes.push_back("Of what lies beside its slices, something was left out in " +
                       std::to_string(scan.notes.size()) +
@@ -170,7 +175,8 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   else if (taken(name))
     nameTaken(source.path, "MR", name);
   checkName(source.path, name);
-  scene::ImagePart part = readImage(source.path, source.seriesUid, std::nullopt, progress);
+  scene::ImagePart part =
+      readImage(source.path, source.series, source.repair, std::nullopt, progress);
   part.name = name;
   value.mr.push_back(std::move(part));
 }
@@ -412,6 +418,21 @@ PartSource PartSource::parse(const std::string& text)
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+PartSource PartSource::parseSeries(const std::string& text)
+{
+  PartSource source = parse(text);
+  const std::string path = source.path.string();
+  // What lies there is the path, even with a '#' in its name.
+  for (auto hash = path.find('#'); hash != std::string::npos && !fs::exists(source.path);
+       hash = path.find('#', hash + 1))
+    if (hash > 0 && fs::exists(path.substr(0, hash)))
+    {
+      source.series = path.substr(hash + 1);
+      source.path = path.substr(0, hash);
+    }
+  return source;
+}
+
 PartSource PartSource::parseDrawn(const std::string& text)
 {
   PartSource source = parse(text);
@@ -442,7 +463,8 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
-  value.ct = readImage(sources.ct, sources.seriesUid, sources.roi, progress.part(0.0, 0.7));
+  value.ct =
+      readImage(sources.ct, sources.series, sources.repair, sources.roi, progress.part(0.0, 0.7));
   value.ct.name = "ct";
   placeSurface(value);
   addParts(value, sources.parts, progress.part(0.7, 1.0));

@@ -103,8 +103,11 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
     if (series.geometry.verdict == imaging::Verdict::Ok && series.geometry.grid)
     {
       const imaging::SliceHeader& first = series.geometry.slices.front();
-      result.series.push_back({series.uid, contentOf(series.modality), series.modality,
-                               series.description, series.geometry.slices.size(),
+      std::string description = series.description;
+      if (!series.volume.empty())
+        description += (description.empty() ? "" : ", ") + series.volume;
+      result.series.push_back({imaging::selectorOf(series), contentOf(series.modality),
+                               series.modality, description, series.geometry.slices.size(),
                                series.geometry.grid->spacing(), first.taken, first.patientPosition,
                                first.kernel, first.file.parent_path().filename().string()});
     }

@@ -19,6 +19,9 @@ constexpr Tag kItemEnd = 0xfffee00d;
 constexpr Tag kSequenceEnd = 0xfffee0dd;
 constexpr Tag kTransferSyntax = 0x00020010;
 constexpr Tag kModalityLut = 0x00283000;
+constexpr Tag kSharedGroups = 0x52009229;
+constexpr Tag kFrameGroups = 0x52009230;
+constexpr std::size_t kMostFrames = 100000;
 
 bool isUpper(unsigned char c)
 {
@@ -40,8 +43,20 @@ bool isWanted(Tag tag)
   const Tag group = tag >> 16;
   if (group == 0x0010)
     return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100030;
-  return group == 0x0002 || group == 0x0008 || group == 0x0018 || group == 0x0020 ||
-         group == 0x0028;
+  constexpr Tag kSiemensB = 0x0019100c;
+  constexpr Tag kGeB = 0x00431039;
+  return tag == kSiemensB || tag == kGeB || group == 0x0002 || group == 0x0008 || group == 0x0018 ||
+         group == 0x0020 || group == 0x0028;
+}
+
+/// The functional groups whose values are used here; a private group may hold a whole other header.
+bool isGroup(Tag tag)
+{
+  static constexpr Tag kGroups[] = {
+      0x00209113, 0x00209116, 0x00289110, 0x00289145, 0x00209111,  // place, values, frame content
+      0x00189117, 0x00189076, 0x00189114, 0x00189112, 0x00189118,  // diffusion, echo, timing, heart
+      0x00189226, 0x00189329, 0x00189314, 0x00189325, 0x00209310}; // type, kernel, tube, time
+  return std::find(std::begin(kGroups), std::end(kGroups), tag) != std::end(kGroups);
 }
 
 } // namespace
@@ -122,7 +137,7 @@ bool DicomElements::readElement(std::uint64_t offset, Element& element, bool exp
   return true;
 }
 
-bool DicomElements::keep(const Element& element)
+bool DicomElements::keep(const Element& element, Values& values)
 {
   if (element.length > m_source.size() || element.value > m_source.size() - element.length)
     return false;
@@ -131,7 +146,7 @@ bool DicomElements::keep(const Element& element)
   std::string value(element.length, '\0');
   if (!m_source.readNear(element.value, value.data(), value.size()))
     return false;
-  m_values[element.tag] = std::move(value);
+  values[element.tag] = std::move(value);
   return true;
 }
 
@@ -147,7 +162,8 @@ bool DicomElements::readMeta(std::uint64_t& offset)
     if (!m_source.readNear(offset, head.data(), head.size()) || number16(head.data()) != 2)
       break;
     // Some writers omit the VR here too.
-    if (!readElement(offset, element, isUpper(head[4]) && isUpper(head[5])) || !keep(element))
+    if (!readElement(offset, element, isUpper(head[4]) && isUpper(head[5])) ||
+        !keep(element, m_values))
       return false;
     offset = element.value + element.length;
   }
@@ -183,7 +199,8 @@ void DicomElements::readDataSet(std::uint64_t offset)
     if (element.tag > kPixelData)
       break;
     offset = element.value;
-    if (element.length == kUndefinedLength)
+    const bool isGroups = element.tag == kSharedGroups || element.tag == kFrameGroups;
+    if (element.length == kUndefinedLength && !isGroups)
     {
       if (!skipItems(offset, m_explicit && !element.isUnknown, 0))
         return;
@@ -193,7 +210,14 @@ void DicomElements::readDataSet(std::uint64_t offset)
     }
     if (element.tag == kModalityLut)
       m_hasModalityLut = element.length >= 8;
-    if (!keep(element))
+    if (isGroups)
+    {
+      if (!readGroups(element, offset, m_explicit && !element.isUnknown, 0,
+                      element.tag == kSharedGroups ? m_shared : m_frames))
+        return;
+      continue;
+    }
+    if (!keep(element, m_values))
       return;
     offset += element.length;
   }
@@ -241,13 +265,97 @@ bool DicomElements::skipItemContent(std::uint64_t& offset, bool explicitVr, int 
   return false;
 }
 
+/// The items of a functional group, each flattened: no value occurs in two of the groups read.
+bool DicomElements::readGroups(const Element& sequence, std::uint64_t& offset, bool explicitVr,
+                               int depth, std::vector<Values>& items)
+{
+  const bool isOpen = sequence.length == kUndefinedLength;
+  const std::uint64_t end = isOpen ? m_source.size() : offset + sequence.length;
+  if (end > m_source.size() || depth >= kDeepest)
+    return false;
+  Element item;
+  while (offset < end)
+  {
+    if (!readElement(offset, item, explicitVr))
+      return false;
+    offset = item.value;
+    if (item.tag == kSequenceEnd && isOpen)
+      return true;
+    const std::uint64_t itemEnd =
+        item.length == kUndefinedLength ? end : std::min(end, offset + item.length);
+    if (item.tag != kItem || items.size() >= kMostFrames)
+      return false;
+    items.emplace_back();
+    if (!readGroupItem(offset, itemEnd, explicitVr, depth, items.back()))
+      return false;
+  }
+  return !isOpen;
+}
+
+bool DicomElements::readGroupItem(std::uint64_t& offset, std::uint64_t end, bool explicitVr,
+                                  int depth, Values& values)
+{
+  Element element;
+  while (offset < end)
+  {
+    if (!readElement(offset, element, explicitVr))
+      return false;
+    offset = element.value;
+    if (element.tag == kItemEnd)
+      return true;
+    if (isGroup(element.tag))
+    {
+      std::vector<Values> items;
+      if (!readGroups(element, offset, explicitVr && !element.isUnknown, depth + 1, items))
+        return false;
+      for (Values& item : items)
+        values.merge(item);
+    }
+    else if (element.length == kUndefinedLength)
+    {
+      if (!skipItems(offset, explicitVr && !element.isUnknown, depth))
+        return false;
+    }
+    else
+    {
+      if (!keep(element, values))
+        return false;
+      offset += element.length;
+    }
+  }
+  return offset == end;
+}
+
+const std::string* DicomElements::find(Tag tag) const
+{
+  const auto in = [tag](const Values& values) -> const std::string*
+  {
+    const auto found = values.find(tag);
+    return found == values.end() ? nullptr : &found->second;
+  };
+  if (m_frame < m_frames.size())
+  {
+    if (const std::string* value = in(m_frames[m_frame]))
+      return value;
+    if (const std::string* value = m_shared.empty() ? nullptr : in(m_shared.front()))
+      return value;
+  }
+  return in(m_values);
+}
+
+std::string DicomElements::bytes(Tag tag) const
+{
+  const std::string* value = find(tag);
+  return value ? *value : std::string();
+}
+
 std::string DicomElements::text(Tag tag) const
 {
-  const auto found = m_values.find(tag);
+  const std::string* found = find(tag);
   std::string result;
-  if (found == m_values.end())
+  if (!found)
     return result;
-  for (const char c : found->second)
+  for (const char c : *found)
     if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f)
       result += c;
   result.erase(result.find_last_not_of(' ') + 1);
@@ -296,14 +404,35 @@ std::optional<double> DicomElements::number(Tag tag) const
   return one.empty() ? std::nullopt : std::optional<double>(one.front());
 }
 
+std::optional<double> DicomElements::real(Tag tag) const
+{
+  std::string raw = bytes(tag);
+  if (m_bigEndian)
+    std::reverse(raw.begin(), raw.end());
+  double value = 0.0;
+  float single = 0.0F;
+  if (raw.size() == sizeof value)
+    std::memcpy(&value, raw.data(), sizeof value);
+  else if (raw.size() == sizeof single)
+  {
+    std::memcpy(&single, raw.data(), sizeof single);
+    value = static_cast<double>(single);
+  }
+  else
+    return std::nullopt;
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
 std::optional<int> DicomElements::integer(Tag tag, bool isSigned) const
 {
-  const auto found = m_values.find(tag);
-  if (found == m_values.end() || found->second.size() != 2)
+  const std::string* found = find(tag);
+  std::array<unsigned char, 4> raw{};
+  if (!found || (found->size() != 2 && found->size() != 4))
     return std::nullopt;
-  std::array<unsigned char, 2> bytes{};
-  std::memcpy(bytes.data(), found->second.data(), bytes.size());
-  const std::uint16_t value = number16(bytes.data());
+  std::memcpy(raw.data(), found->data(), found->size());
+  if (found->size() == 4)
+    return static_cast<int>(number32(raw.data()));
+  const std::uint16_t value = number16(raw.data());
   return isSigned ? static_cast<std::int16_t>(value) : static_cast<int>(value);
 }
 

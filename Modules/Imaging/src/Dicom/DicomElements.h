@@ -60,12 +60,21 @@ public:
     return m_hasModalityLut;
   }
 
+  /// Items of the per-frame functional groups (PS3.3 C.7.6.16).
+  std::size_t frameCount() const noexcept { return m_frames.size(); }
+
+  /// From now on values are those of this frame: its functional groups take precedence over the
+  /// shared ones, and these over the top level.
+  void selectFrame(std::size_t frame) noexcept { m_frame = frame; }
+
   /// Without padding and control characters, safe for a terminal or a JSON parser.
   std::string text(Tag tag) const;
   std::vector<std::string> words(Tag tag) const; ///< split at backslashes
   std::optional<double> number(Tag tag) const;   ///< decimal string; nullopt if malformed
-  std::vector<double> numbers(Tag tag, std::size_t count) const;    ///< all of them, or empty
-  std::optional<int> integer(Tag tag, bool isSigned = false) const; ///< binary, two bytes
+  std::vector<double> numbers(Tag tag, std::size_t count) const; ///< all of them, or empty
+  std::optional<double> real(Tag tag) const; ///< binary, four or eight bytes (FL, FD)
+  std::optional<int> integer(Tag tag, bool isSigned = false) const; ///< binary, two or four bytes
+  std::string bytes(Tag tag) const;                                 ///< as written
 
   static constexpr std::uint32_t kUndefinedLength = 0xFFFFFFFFU;
 
@@ -84,7 +93,13 @@ private:
   bool readElement(std::uint64_t offset, Element& element, bool explicitVr);
   bool skipItems(std::uint64_t& offset, bool explicitVr, int depth);
   bool skipItemContent(std::uint64_t& offset, bool explicitVr, int depth);
-  bool keep(const Element& element);
+  using Values = std::map<Tag, std::string>;
+  bool keep(const Element& element, Values& values);
+  bool readGroups(const Element& sequence, std::uint64_t& offset, bool explicitVr, int depth,
+                  std::vector<Values>& items);
+  bool readGroupItem(std::uint64_t& offset, std::uint64_t end, bool explicitVr, int depth,
+                     Values& values);
+  const std::string* find(Tag tag) const;
   std::uint16_t number16(const unsigned char* bytes) const;
   std::uint32_t number32(const unsigned char* bytes) const;
 
@@ -96,7 +111,10 @@ private:
   bool m_hasModalityLut = false;
   std::size_t m_count = 0;
   Pixels m_pixels;
-  std::map<Tag, std::string> m_values;
+  Values m_values;              ///< top level
+  std::vector<Values> m_shared; ///< one item
+  std::vector<Values> m_frames;
+  std::size_t m_frame = static_cast<std::size_t>(-1);
 };
 
 } // namespace petrous::imaging

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "DicomElements.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
 {
@@ -36,7 +38,17 @@ bool isDecodable(const std::string& syntax)
 bool isSliceClass(const std::string& sopClass)
 {
   static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
-  static const char* const kKnown[] = {"1", "2", "2.1", "4", "4.1", "7", "128"};
+  static const char* const kKnown[] = {"1", "2", "2.1", "2.2", "4", "4.1", "4.4", "7", "128"};
+  return std::any_of(std::begin(kKnown), std::end(kKnown),
+                     [&](const char* known) { return sopClass == kStorage + known; });
+}
+
+/// SOP classes whose frames are slices placed by functional groups: enhanced and legacy converted
+/// CT and MR, X-ray 3D (cone beam).
+bool isEnhancedClass(const std::string& sopClass)
+{
+  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
+  static const char* const kKnown[] = {"2.1", "2.2", "4.1", "4.4", "13.1.1", "13.1.2"};
   return std::any_of(std::begin(kKnown), std::end(kKnown),
                      [&](const char* known) { return sopClass == kStorage + known; });
 }
@@ -74,10 +86,27 @@ std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::
   return Eigen::Vector3d(values[first], values[first + 1], values[first + 2]);
 }
 
+/// The unit of the last decimal, mm. 0 if the numbers have none: scanners whose table moves by
+/// whole millimetres write those, and nothing is rounded.
+double positionStepOf(const std::vector<std::string>& position)
+{
+  std::size_t digits = 0;
+  for (const std::string& word : position)
+  {
+    if (word.find_first_of("eE") != std::string::npos)
+      return 0.0;
+    const std::size_t point = word.find('.');
+    if (point != std::string::npos)
+      digits = std::max(digits, word.size() - point - 1);
+  }
+  return digits == 0 ? 0.0 : std::pow(10.0, -static_cast<double>(digits));
+}
+
 void readPlace(const DicomElements& elements, SliceHeader& slice)
 {
   slice.position = vectorAt(elements.numbers(0x00200032, 3), 0);
   const std::vector<double> cosines = elements.numbers(0x00200037, 6);
+  slice.positionStep = positionStepOf(elements.words(0x00200032));
   slice.rowDirection = vectorAt(cosines, 0);
   slice.columnDirection = vectorAt(cosines, 3);
   const std::vector<double> spacing = elements.numbers(0x00280030, 2);
@@ -134,6 +163,36 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
   slice.hasModalityLut = elements.hasModalityLut();
 }
 
+void readTraits(const DicomElements& elements, SliceHeader& slice)
+{
+  const auto whole = [&elements](Tag tag) -> std::optional<int>
+  {
+    const auto value = elements.number(tag);
+    return value && std::abs(*value) < 1e9 ? std::optional(static_cast<int>(*value)) : std::nullopt;
+  };
+  SliceTraits& traits = slice.traits;
+  traits.bValue = elements.real(0x00189087);
+  if (!traits.bValue)
+    traits.bValue = elements.number(0x0019100c); // Siemens
+  if (const auto ge = elements.words(0x00431039); !traits.bValue && !ge.empty())
+    if (const auto value = core::parseDouble(ge.front()))
+      traits.bValue = std::fmod(*value, 1e9);  // GE adds flags above
+  traits.echoTime = elements.real(0x00189082); // of a frame
+  if (!traits.echoTime)
+    traits.echoTime = elements.number(0x00180081);
+  traits.triggerTime = elements.real(0x00209153); // of a frame
+  if (!traits.triggerTime)
+    traits.triggerTime = elements.number(0x00181060);
+  traits.phasePercent = elements.real(0x00209241);
+  traits.inversionTime = elements.number(0x00180082);
+  traits.echo = whole(0x00180086);
+  traits.temporal = elements.integer(0x00209128); // of a frame
+  if (!traits.temporal)
+    traits.temporal = whole(0x00200100);
+  traits.gradient = elements.bytes(0x00189089);
+  traits.stack = elements.text(0x00209056);
+}
+
 void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
 {
   slice.rows = elements.integer(0x00280010).value_or(0);
@@ -188,7 +247,8 @@ const char* checkFormat(const SliceHeader& slice)
 }
 
 /// Locates the pixels; returns what is wrong with them, or an empty string.
-const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, SliceHeader& slice)
+const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, bool isEnhanced,
+                        SliceHeader& slice)
 {
   if (found.tag != kPixelData)
     return "holds floating-point pixels, which are not read";
@@ -200,7 +260,7 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
     return "is compressed, but does not say how";
   if (pixels.offset + pixels.length > source.size())
     return kCutShort;
-  if (slice.frames > 1 || pixels.samplesPerPixel != 1)
+  if ((slice.frames > 1 && !isEnhanced) || pixels.samplesPerPixel != 1)
     return ""; // excluded for that reason, which is the better one to report
   if (pixels.isEncapsulated)
   {
@@ -209,7 +269,7 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   }
   else
   {
-    const auto count = static_cast<std::uint64_t>(slice.rows) * slice.columns;
+    const auto count = static_cast<std::uint64_t>(slice.rows) * slice.columns * slice.frames;
     if (!isNative(pixels.transferSyntax))
       return "says it is compressed, but is not";
     if (pixels.length < (count * pixels.bitsAllocated + 7) / 8)
@@ -218,7 +278,45 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   return checkFormat(slice);
 }
 
-void readSlice(ByteSource& source, const DicomElements& elements, const std::string& sopClass,
+/// Each frame as a slice. None if the functional groups are not those of the frames; several frames
+/// are then refused.
+void readFrames(DicomElements& elements, FileHeader& header)
+{
+  const SliceHeader& file = header.slice;
+  const auto count = static_cast<std::size_t>(file.frames);
+  if (elements.frameCount() != count)
+    return;
+  const std::uint64_t bytes = static_cast<std::uint64_t>(file.rows) * file.columns *
+                              static_cast<std::uint64_t>(file.pixels.bitsAllocated) / 8;
+  for (std::size_t f = 0; f < count; ++f)
+  {
+    elements.selectFrame(f);
+    SliceHeader slice = file;
+    readPlace(elements, slice);
+    readTraits(elements, slice);
+    slice.damage = readRescale(elements, slice);
+    if (const auto type = elements.words(0x00089007); !type.empty())
+      slice.imageType = type;
+    if (const auto acquisition = elements.integer(0x00209156))
+      slice.acquisition = acquisition;
+    slice.kernel = elements.text(0x00181210);
+    slice.frames = 1;
+    // Files of one series in their order, the frames of each in theirs.
+    slice.instanceNumber = static_cast<int>(std::min<std::int64_t>(
+        static_cast<std::int64_t>(file.instanceNumber) * file.frames + static_cast<int>(f),
+        std::numeric_limits<int>::max()));
+    slice.pixels.frame = static_cast<int>(f);
+    slice.pixels.frameCount = file.frames;
+    if (!slice.pixels.isEncapsulated)
+    {
+      slice.pixels.offset += f * bytes;
+      slice.pixels.length = bytes;
+    }
+    header.frames.push_back(std::move(slice));
+  }
+}
+
+void readSlice(ByteSource& source, DicomElements& elements, const std::string& sopClass,
                FileHeader& header)
 {
   SliceHeader& slice = header.slice;
@@ -228,6 +326,7 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
   slice.imageType = elements.words(0x00080008);
   readPlace(elements, slice);
   readOrigin(elements, slice);
+  readTraits(elements, slice);
   readPixelFormat(elements, slice);
   const char* rescale = readRescale(elements, slice);
 
@@ -241,7 +340,7 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
   header.kind = FileKind::Dicom;
   slice.isImage = elements.pixels().tag != 0;
   if (slice.isImage)
-    slice.damage = checkPixels(source, elements.pixels(), slice);
+    slice.damage = checkPixels(source, elements.pixels(), isEnhancedClass(sopClass), slice);
   else if (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass))
   {
     // Truncated between two elements, or stripped: in either case data are lost.
@@ -251,6 +350,8 @@ void readSlice(ByteSource& source, const DicomElements& elements, const std::str
   }
   if (slice.damage.empty())
     slice.damage = rescale;
+  if (slice.damage.empty() && slice.isImage && isEnhancedClass(sopClass))
+    readFrames(elements, header);
 }
 
 /// Why a file that is not DICOM may have been, or an empty string: empty, or only zeros of the
@@ -280,7 +381,7 @@ FileHeader readHeader(const std::filesystem::path& file)
     header.slice.damage = "cannot be opened";
     return header;
   }
-  const DicomElements elements(source);
+  DicomElements elements(source);
   if (elements.state() == DicomElements::State::Foreign)
   {
     header.slice.damage = shortDamage(source);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "petrous/Imaging/SeriesGeometry.h"
 
@@ -24,6 +25,7 @@ struct FileHeader
   std::string modality;
   std::string description;
   SliceHeader slice;
+  std::vector<SliceHeader> frames; ///< of an enhanced CT or MR; else empty, and `slice` is the one
 };
 
 /// Reads everything before the pixel data, and checks that the pixels are complete. Never throws on

@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include "PixelCodec.h"
+#include "SeriesRepair.h"
 #include "SliceStack.h"
 
 namespace petrous::imaging
@@ -349,7 +350,8 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
                            const core::Progress& progress, std::vector<std::string>* notes)
 {
   const SeriesGeometry& geometry = series.geometry;
-  const bool accepted = geometry.verdict == Verdict::Ok || options.acceptDefects;
+  const bool accepted = geometry.verdict == Verdict::Ok || options.acceptDefects ||
+                        (options.repair && geometry.verdict == Verdict::Repairable);
   if (!accepted || !geometry.grid || geometry.slices.empty())
   {
     std::string message = "series " + series.uid + ": ";
@@ -361,7 +363,15 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
     throw DicomError(DicomError::Reason::Misleading, message);
   }
   progress.check("reading slices");
-  return SeriesReader(series, boxToRead(*geometry.grid, options), progress).read(notes);
+  if (geometry.verdict != Verdict::Repairable || options.acceptDefects)
+    return SeriesReader(series, boxToRead(*geometry.grid, options), progress).read(notes);
+  const SeriesRepair repair(geometry);
+  const IndexBox box = boxToRead(repair.grid(), options); // before anything is read
+  const IntensityVolume stacked =
+      SeriesReader(series, geometry.grid->fullBox(), progress.part(0.0, 0.7)).read(notes);
+  if (notes)
+    notes->insert(notes->end(), repair.notes().begin(), repair.notes().end());
+  return repair.resample(stacked, box, progress.part(0.7, 1.0));
 }
 
 } // namespace petrous::imaging

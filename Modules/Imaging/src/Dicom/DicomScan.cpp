@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
@@ -13,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "DicomHeader.h"
+#include "SeriesVolumes.h"
 #include "petrous/Core/Log.h"
 
 namespace petrous::imaging
@@ -247,8 +250,92 @@ std::string firstNotEmpty(const std::vector<const FileHeader*>& members,
   return found == members.end() ? std::string() : (*found)->*field;
 }
 
-DicomSeries makeSeries(const std::vector<const FileHeader*>& members,
-                       const std::vector<Finding>& doubts)
+bool sameBytes(const fs::path& one, const fs::path& other)
+{
+  std::error_code error;
+  if (fs::file_size(one, error) != fs::file_size(other, error) || error)
+    return false;
+  std::ifstream first(one, std::ios::binary);
+  std::ifstream second(other, std::ios::binary);
+  std::vector<char> a(1 << 16);
+  std::vector<char> b(a.size());
+  while (first && second)
+  {
+    first.read(a.data(), static_cast<std::streamsize>(a.size()));
+    second.read(b.data(), static_cast<std::streamsize>(b.size()));
+    if (first.gcount() != second.gcount() ||
+        std::memcmp(a.data(), b.data(), static_cast<std::size_t>(first.gcount())) != 0)
+      return false;
+  }
+  return first.eof() && second.eof();
+}
+
+/// Removes files that are copies of another, byte by byte; their number.
+std::size_t dropCopies(std::vector<SliceHeader>& slices)
+{
+  std::map<std::tuple<int, double, double, double>, std::vector<std::size_t>> alike;
+  for (std::size_t i = 0; i < slices.size(); ++i)
+    if (const SliceHeader& slice = slices[i]; slice.damage.empty() && isPlaced(slice))
+    {
+      const Eigen::Vector3d& at = *slice.position;
+      alike[{slice.instanceNumber, at[0], at[1], at[2]}].push_back(i);
+    }
+  std::set<std::size_t> copies;
+  std::map<std::pair<fs::path, fs::path>, bool> compared; // once, also if they have many frames
+  const auto isCopy = [&](const SliceHeader& one, const SliceHeader& other)
+  {
+    if (one.file == other.file)
+      return false;
+    const auto [known, isNew] = compared.try_emplace({one.file, other.file}, false);
+    if (isNew)
+      known->second = sameBytes(one.file, other.file);
+    return known->second;
+  };
+  for (const auto& [key, members] : alike)
+    for (std::size_t m = 1; m < members.size(); ++m)
+      for (std::size_t n = 0; n < m; ++n)
+        if (copies.count(members[n]) == 0 && isCopy(slices[members[n]], slices[members[m]]))
+        {
+          copies.insert(members[m]);
+          break;
+        }
+  for (auto copy = copies.rbegin(); copy != copies.rend(); ++copy)
+    slices.erase(slices.begin() + static_cast<std::ptrdiff_t>(*copy));
+  return copies.size();
+}
+
+bool hasFinding(const SeriesGeometry& geometry, std::initializer_list<FindingKind> kinds)
+{
+  return std::any_of(geometry.findings.begin(), geometry.findings.end(),
+                     [&kinds](const Finding& f)
+                     { return std::find(kinds.begin(), kinds.end(), f.kind) != kinds.end(); });
+}
+
+/// The stacks of a series, each assessed; a single unnamed one if it cannot be divided.
+std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<SliceHeader> slices)
+{
+  using Kind = FindingKind;
+  SeriesGeometry whole = assess(slices);
+  std::vector<std::pair<std::string, SeriesGeometry>> volumes;
+  if (hasFinding(whole,
+                 {Kind::DuplicateSlice, Kind::OddOrientation, Kind::OddSize, Kind::MixedRescale}) &&
+      !hasFinding(whole, {Kind::MixedPatients, Kind::MixedStudies}))
+    for (NamedSlices& part : splitVolumes(slices))
+      volumes.emplace_back(part.name, assess(std::move(part.slices)));
+  const bool helps =
+      volumes.size() > 1 &&
+      std::any_of(volumes.begin(), volumes.end(),
+                  [](const auto& volume) { return volume.second.verdict != Verdict::Refused; });
+  if (!helps)
+  {
+    volumes.clear();
+    volumes.emplace_back(std::string(), std::move(whole));
+  }
+  return volumes;
+}
+
+std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& members,
+                                    const std::vector<Finding>& doubts)
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
@@ -257,14 +344,29 @@ DicomSeries makeSeries(const std::vector<const FileHeader*>& members,
   series.files = members.size();
   std::vector<SliceHeader> slices;
   for (const FileHeader* member : members)
-    slices.push_back(member->slice);
-  series.geometry = assess(std::move(slices));
-  if (!doubts.empty())
-    series.geometry.verdict = Verdict::Refused;
-  series.geometry.findings.insert(series.geometry.findings.end(), doubts.begin(), doubts.end());
-  if (!series.geometry.slices.empty())
-    series.frameOfReferenceUid = series.geometry.slices.front().frameOfReferenceUid;
-  return series;
+    if (member->frames.empty())
+      slices.push_back(member->slice);
+    else
+      slices.insert(slices.end(), member->frames.begin(), member->frames.end());
+  const std::size_t copies = dropCopies(slices);
+  std::vector<DicomSeries> result;
+  for (auto& [name, geometry] : assessVolumes(std::move(slices)))
+  {
+    DicomSeries one = series;
+    one.volume = name;
+    one.geometry = std::move(geometry);
+    if (copies > 0)
+      one.geometry.notes.push_back(std::to_string(copies) +
+                                   (copies == 1 ? " file is a copy" : " files are copies") +
+                                   " of another, byte by byte, and left out.");
+    if (!doubts.empty())
+      one.geometry.verdict = Verdict::Refused;
+    one.geometry.findings.insert(one.geometry.findings.end(), doubts.begin(), doubts.end());
+    if (!one.geometry.slices.empty())
+      one.frameOfReferenceUid = one.geometry.slices.front().frameOfReferenceUid;
+    result.push_back(std::move(one));
+  }
+  return result;
 }
 
 bool isImageSeries(const DicomSeries& series)
@@ -294,7 +396,8 @@ std::string uidList(const std::vector<const DicomSeries*>& series)
 {
   std::string list;
   for (const DicomSeries* one : series)
-    list += (list.empty() ? "" : ", ") + one->uid + " (" + one->modality + ", " +
+    list += (list.empty() ? "" : ", ") + one->uid +
+            (one->volume.empty() ? "" : " '" + one->volume + "'") + " (" + one->modality + ", " +
             std::to_string(one->geometry.slices.size()) + " slices)";
   return list;
 }
@@ -358,12 +461,13 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   Doubts doubts;
   placeOrphans(orphans, folders, groups, doubts, result);
 
+  std::vector<std::vector<DicomSeries>> made;
   for (const auto& [key, members] : groups)
   {
     progress.check(kTask);
     std::vector<Finding>& open = doubts[key];
     open.insert(open.end(), folderDoubts.begin(), folderDoubts.end());
-    result.series.push_back(makeSeries(members, open));
+    made.push_back(makeSeries(members, open));
   }
   // By first file: the order in which file managers show them.
   std::vector<std::pair<fs::path, std::size_t>> order;
@@ -371,42 +475,81 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   for (const auto& [key, members] : groups)
     order.emplace_back(members.front()->slice.file, index++);
   std::sort(order.begin(), order.end());
-  std::vector<DicomSeries> sorted;
   for (const auto& [file, i] : order)
-    sorted.push_back(std::move(result.series[i]));
-  result.series = std::move(sorted);
+    std::move(made[i].begin(), made[i].end(), std::back_inserter(result.series));
   logScan(result, headers.size());
   progress.report(1.0, "reading DICOM headers");
   return result;
 }
 
+std::string selectorOf(const DicomSeries& series)
+{
+  return series.volume.empty() ? series.uid : series.uid + "#" + series.volume;
+}
+
 const DicomSeries& chooseSeries(const ScanResult& result, const fs::path& path,
-                                const std::string& uid)
+                                const std::string& selector)
 {
   using Reason = DicomError::Reason;
-  std::vector<const DicomSeries*> images;
-  std::vector<const DicomSeries*> good;
-  for (const DicomSeries& series : result.series)
+  const std::size_t hash = selector.find('#');
+  const std::string uid = selector.substr(0, hash);
+  const std::string volume = hash == std::string::npos ? std::string() : selector.substr(hash + 1);
+  const auto select = [](const std::vector<const DicomSeries*>& from, const auto& test)
   {
-    if (!uid.empty() && series.uid == uid)
-      return series;
-    if (isImageSeries(series))
-      images.push_back(&series);
-    if (series.geometry.verdict == Verdict::Ok)
-      good.push_back(&series);
-  }
-  if (!uid.empty())
+    std::vector<const DicomSeries*> kept;
+    std::copy_if(from.begin(), from.end(), std::back_inserter(kept), test);
+    return kept;
+  };
+  std::vector<const DicomSeries*> all;
+  for (const DicomSeries& series : result.series)
+    all.push_back(&series);
+  const auto isImage = [](const DicomSeries* one) { return isImageSeries(*one); };
+  const auto listOr = [&](const std::vector<const DicomSeries*>& from)
+  { return from.empty() ? std::string("no image") : uidList(from); };
+
+  const auto named =
+      select(all, [&](const DicomSeries* one) { return uid.empty() || one->uid == uid; });
+  if (!uid.empty() && named.empty())
     throw DicomError(Reason::NoSuchSeries, path.string() + ": no series " + uid + "; there is " +
-                                               (images.empty() ? "no image" : uidList(images)));
-  if (good.size() == 1)
-    return *good.front();
+                                               listOr(select(all, isImage)));
+  const auto meant = select(named, [&](const DicomSeries* one)
+                            { return volume.empty() || one->volume == volume; });
+  if (!volume.empty() && meant.empty())
+    throw DicomError(Reason::NoSuchSeries, path.string() + ": no volume '" + volume +
+                                               "'; there is " + listOr(select(named, isImage)));
+  if (meant.size() == 1 && !selector.empty())
+    return *meant.front();
+
+  const auto images = select(meant, isImage);
+  const auto good =
+      select(meant, [](const DicomSeries* one) { return one->geometry.verdict == Verdict::Ok; });
+  const auto isVolume = [](const DicomSeries* one) { return !one->volume.empty(); };
+  const auto ask = [&](const std::vector<const DicomSeries*>& among)
+  {
+    const bool volumes = std::any_of(among.begin(), among.end(), isVolume);
+    throw DicomError(Reason::Ambiguous, path.string() + ": " + std::to_string(among.size()) +
+                                            (volumes ? " volumes; name one by --series and "
+                                                       "--volume: "
+                                                     : " series; name one by --series: ") +
+                                            uidList(among));
+  };
   if (good.size() > 1)
-    throw DicomError(Reason::Ambiguous, path.string() + ": " + std::to_string(good.size()) +
-                                            " series; name one by --series: " + uidList(good));
+    ask(good);
+  if (good.size() == 1 && !isVolume(good.front()))
+    return *good.front();
+  // A volume of a series with several is the user's choice, even if it is the only sound one.
+  if (good.size() == 1)
+    ask(images);
   if (!images.empty())
-    return **std::max_element(images.begin(), images.end(),
-                              [](const auto* a, const auto* b)
-                              { return a->geometry.slices.size() < b->geometry.slices.size(); });
+  {
+    const auto largest =
+        *std::max_element(images.begin(), images.end(),
+                          [](const auto* a, const auto* b)
+                          { return a->geometry.slices.size() < b->geometry.slices.size(); });
+    if (isVolume(largest))
+      ask(images);
+    return *largest;
+  }
   if (!result.series.empty() && !result.series.front().geometry.findings.empty())
     throw DicomError(Reason::NoImages, path.string() + ": no DICOM image that can be used: " +
                                            result.series.front().geometry.findings.front().text +

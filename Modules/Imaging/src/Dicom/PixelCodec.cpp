@@ -109,30 +109,71 @@ BitField bitField(int bitsStored, int highBit, bool isSigned)
   return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
 }
 
-/// The items after the offset table. There is one frame, so they form one codestream.
-std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
+struct Fragment
 {
-  std::uint64_t offset = slice.pixels.offset;
-  bool isTable = true;
+  std::uint64_t offset = 0;
+  std::uint32_t length = 0;
+};
+
+std::uint32_t littleEndian(const unsigned char* bytes)
+{
+  return static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8)) |
+         (static_cast<std::uint32_t>(bytes[2] | (bytes[3] << 8)) << 16);
+}
+
+/// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, one each if
+/// there are as many as frames, else those that the basic offset table gives it.
+std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice)
+{
+  const PixelFormat& pixels = slice.pixels;
+  std::uint64_t offset = pixels.offset;
   std::array<unsigned char, 8> item{};
-  std::vector<char> bytes;
-  while (source.read(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
+  std::vector<Fragment> items; // the first is the table
+  while (source.readNear(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
          item[2] == 0x00)
   {
-    const std::uint32_t length = static_cast<std::uint32_t>(item[4] | (item[5] << 8)) |
-                                 (static_cast<std::uint32_t>(item[6] | (item[7] << 8)) << 16);
+    const std::uint32_t length = littleEndian(item.data() + 4);
     offset += item.size();
     if (offset + length > source.size())
       fail(slice, "is cut short");
-    if (!isTable)
-    {
-      const std::size_t filled = bytes.size();
-      bytes.resize(filled + length);
-      if (!source.read(offset, bytes.data() + filled, length))
-        fail(slice, "cannot be read");
-    }
-    isTable = false;
+    items.push_back({offset, length});
     offset += length;
+  }
+  if (items.empty())
+    return items;
+  const Fragment table = items.front();
+  items.erase(items.begin());
+  const auto frame = static_cast<std::size_t>(pixels.frame);
+  const auto count = static_cast<std::size_t>(pixels.frameCount);
+  if (count == 1)
+    return items;
+  if (items.size() == count)
+    return {items[frame]};
+  if (items.empty() || table.length != 4 * count)
+    fail(slice, "does not say where its compressed frames begin");
+  std::vector<unsigned char> starts(table.length);
+  if (!source.read(table.offset, starts.data(), starts.size()))
+    fail(slice, "cannot be read");
+  const std::uint64_t first = items.front().offset - item.size();
+  const std::uint64_t begin = first + littleEndian(starts.data() + 4 * frame);
+  const std::uint64_t end =
+      frame + 1 < count ? first + littleEndian(starts.data() + 4 * (frame + 1)) : source.size();
+  std::vector<Fragment> own;
+  for (const Fragment& one : items)
+    if (one.offset - item.size() >= begin && one.offset - item.size() < end)
+      own.push_back(one);
+  return own;
+}
+
+std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
+{
+  std::vector<char> bytes;
+  for (const Fragment& fragment : fragmentsOf(source, slice))
+  {
+    const std::size_t filled = bytes.size();
+    bytes.resize(filled + fragment.length);
+    if (!source.read(fragment.offset, bytes.data() + filled, fragment.length))
+      fail(slice, "cannot be read");
   }
   return bytes;
 }

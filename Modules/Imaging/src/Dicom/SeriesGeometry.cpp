@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "SeriesVolumes.h"
 #include "SliceStack.h"
 #include "petrous/Core/Error.h"
 
@@ -28,29 +29,9 @@ bool isFinite(const std::optional<Eigen::Vector3d>& v)
   return v && v->allFinite() && v->norm() < kFarthest;
 }
 
-/// Whether the file states plausible position, orientation and spacing.
-bool isPlaced(const SliceHeader& slice)
-{
-  if (!isFinite(slice.position) || !isFinite(slice.rowDirection) ||
-      !isFinite(slice.columnDirection) || !slice.pixelSpacing || slice.rows < 1 ||
-      slice.columns < 1)
-    return false;
-  const Eigen::Vector2d& spacing = *slice.pixelSpacing;
-  return spacing.allFinite() && spacing.minCoeff() > 0.0 && spacing.maxCoeff() < kCoarsest &&
-         std::abs(slice.rowDirection->norm() - 1.0) < kUnitLength &&
-         std::abs(slice.columnDirection->norm() - 1.0) < kUnitLength &&
-         std::abs(slice.rowDirection->dot(*slice.columnDirection)) < kPerpendicular;
-}
-
 bool isColour(const SliceHeader& slice)
 {
   return slice.pixels.samplesPerPixel != 1 || slice.pixels.photometric == "PALETTE COLOR";
-}
-
-bool isLocalizer(const SliceHeader& slice)
-{
-  return std::find(slice.imageType.begin(), slice.imageType.end(), "LOCALIZER") !=
-         slice.imageType.end();
 }
 
 /// Removes the slices that satisfy `test` from `from` and returns them, order preserved.
@@ -99,11 +80,6 @@ Eigen::Vector2d fieldOfView(const SliceHeader& s) ///< width and height, mm
 double sizeError(const SliceHeader& a, const SliceHeader& b)
 {
   return (fieldOfView(a) - fieldOfView(b)).cwiseAbs().maxCoeff();
-}
-
-bool sameSize(const SliceHeader& a, const SliceHeader& b)
-{
-  return a.rows == b.rows && a.columns == b.columns && sizeError(a, b) <= kJitterTolerance;
 }
 
 /// Maximum corner displacement, mm, if one slice is placed with the direction cosines of the other.
@@ -158,7 +134,7 @@ public:
     judgeRescale();
     judgeStack();
     judgeAcquisitions();
-    m_result.verdict = m_result.findings.empty() ? Verdict::Ok : Verdict::Refused;
+    m_result.verdict = verdict();
     m_result.slices = std::move(m_slices);
     return std::move(m_result);
   }
@@ -167,6 +143,38 @@ private:
   void find(FindingKind kind, const std::string& text, double errorMm = 0.0)
   {
     m_result.findings.push_back({kind, text, errorMm});
+  }
+
+  Verdict verdict() const
+  {
+    Verdict result = Verdict::Ok;
+    for (const Finding& finding : m_result.findings)
+      if (finding.kind == FindingKind::LocalizerMixedIn && m_slices.size() > 1)
+        continue; // set aside
+      else if (isRepairable(finding.kind) && m_result.grid)
+        result = Verdict::Repairable;
+      else
+        return Verdict::Refused;
+    return result;
+  }
+
+  /// Whether the positions and values that the files state suffice for a straight volume.
+  bool isRepairable(FindingKind kind) const
+  {
+    constexpr std::size_t kFew = 10; // one slice in so many may be there twice
+    switch (kind)
+    {
+    case FindingKind::GantryTilt:
+    case FindingKind::UnevenSpacing:
+    case FindingKind::MixedRescale:
+      return true;
+    case FindingKind::MissingSlice:
+      return m_result.singleGaps;
+    case FindingKind::DuplicateSlice:
+      return m_duplicates * kFew <= m_slices.size();
+    default:
+      return false;
+    }
   }
 
   void setAsideUnreadable()
@@ -247,8 +255,6 @@ private:
   void setAsideMinorities()
   {
     const std::size_t placed = m_slices.size();
-    const auto sameTurn = [](const SliceHeader& a, const SliceHeader& b)
-    { return turnError(a, b) <= kJitterTolerance; };
     const Headers turned = takeMinority(m_slices, sameTurn);
     std::size_t odd = 0;
     double worst = 0.0;
@@ -270,7 +276,8 @@ private:
       find(FindingKind::LocalizerMixedIn,
            std::to_string(m_scouts) +
                (m_scouts == 1 ? " localizer (scout) is" : " localizers (scouts) are") +
-               " mixed in with the " + std::to_string(m_slices.size()) + " slices of the stack.");
+               " mixed in with the " + std::to_string(m_slices.size()) +
+               " slices of the stack, and left out.");
     if (odd > 0)
       find(FindingKind::OddOrientation,
            countOf(odd, placed) + " are turned against the others, their normals by up to " +
@@ -384,6 +391,7 @@ private:
       return;
     }
     SliceStack stack(m_slices);
+    m_duplicates = stack.duplicates();
     stack.judge(m_result);
     try
     {
@@ -398,10 +406,40 @@ private:
   Headers m_slices;
   std::size_t m_all;
   std::size_t m_scouts = 0;
+  std::size_t m_duplicates = 0;
   SeriesGeometry m_result;
 };
 
 } // namespace
+
+bool isPlaced(const SliceHeader& slice)
+{
+  if (!isFinite(slice.position) || !isFinite(slice.rowDirection) ||
+      !isFinite(slice.columnDirection) || !slice.pixelSpacing || slice.rows < 1 ||
+      slice.columns < 1)
+    return false;
+  const Eigen::Vector2d& spacing = *slice.pixelSpacing;
+  return spacing.allFinite() && spacing.minCoeff() > 0.0 && spacing.maxCoeff() < kCoarsest &&
+         std::abs(slice.rowDirection->norm() - 1.0) < kUnitLength &&
+         std::abs(slice.columnDirection->norm() - 1.0) < kUnitLength &&
+         std::abs(slice.rowDirection->dot(*slice.columnDirection)) < kPerpendicular;
+}
+
+bool sameSize(const SliceHeader& a, const SliceHeader& b)
+{
+  return a.rows == b.rows && a.columns == b.columns && sizeError(a, b) <= kJitterTolerance;
+}
+
+bool isLocalizer(const SliceHeader& slice)
+{
+  return std::find(slice.imageType.begin(), slice.imageType.end(), "LOCALIZER") !=
+         slice.imageType.end();
+}
+
+bool sameTurn(const SliceHeader& a, const SliceHeader& b)
+{
+  return turnError(a, b) <= kJitterTolerance;
+}
 
 const char* kindName(FindingKind kind) noexcept
 {
@@ -445,7 +483,7 @@ const char* kindName(FindingKind kind) noexcept
 
 const char* verdictName(Verdict verdict) noexcept
 {
-  return verdict == Verdict::Ok ? "ok" : "refused";
+  return verdict == Verdict::Ok ? "ok" : verdict == Verdict::Repairable ? "repairable" : "refused";
 }
 
 SeriesGeometry assess(std::vector<SliceHeader> slices)

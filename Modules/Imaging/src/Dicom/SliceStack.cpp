@@ -115,7 +115,10 @@ SliceStack::SliceStack(std::vector<SliceHeader>& slices)
                    [&normal](const SliceHeader& a, const SliceHeader& b)
                    { return normal.dot(*a.position) < normal.dot(*b.position); });
   for (const SliceHeader& slice : slices)
+  {
     m_place.push_back(normal.dot(*slice.position));
+    m_step = std::max(m_step, slice.positionStep);
+  }
 }
 
 /// The usual gap between slices, ignoring missing and duplicate ones, mm; 0 if all coincide.
@@ -135,9 +138,18 @@ double SliceStack::usualGap() const
   return median(gaps);
 }
 
-double SliceStack::tolerance() const
+double SliceStack::tolerance(double spacing) const
 {
-  return std::min(kJitterTolerance, kJitterShare * m_spacing);
+  return std::max({kPlaceTolerance, kPlaceShare * spacing, m_step});
+}
+
+std::size_t SliceStack::duplicates() const
+{
+  const double apart = std::max(kSamePlace, kSameFraction * usualGap());
+  std::size_t count = 0;
+  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+    count += m_place[k + 1] - m_place[k] <= apart ? 1 : 0;
+  return count;
 }
 
 void SliceStack::judge(SeriesGeometry& result)
@@ -160,6 +172,7 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
   std::size_t wide = 0;
   std::size_t run = 0;
   std::size_t longestRun = 0;
+  double widest = 1.0;
   std::string where;
   std::vector<double> numbers{0.0};
   std::vector<double> plain{0.0}; // as if no slice were missing
@@ -183,6 +196,7 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
       else if (wide == kPlacesNamed)
         where += " and elsewhere";
       ++wide;
+      widest = std::max(widest, step);
       missing += static_cast<std::size_t>(std::min(step, 1e6)) - 1;
     }
     run = step > 1.0 ? run + 1 : 0;
@@ -203,6 +217,7 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
                                    decimals(excess, 1) + " mm too long.",
                                excess});
   }
+  result.singleGaps = widest <= 2.0;
   if (missing > 0 && longestRun < kPitchChange)
   {
     const double lost = static_cast<double>(missing) * usual;
@@ -233,7 +248,7 @@ void SliceStack::judgeEvenness(SeriesGeometry& result)
     }
   }
   m_spacing = even;
-  if (worst > tolerance())
+  if (worst > tolerance(even))
     result.findings.push_back({FindingKind::UnevenSpacing,
                                "The slices do not stand evenly: near " + decimals(m_place[at], 2) +
                                    " mm along the normal one lies " + decimals(worst, 2) +
@@ -255,13 +270,15 @@ void SliceStack::judgeSideways(SeriesGeometry& result) const
     t.push_back(m_place[k] - m_place.front());
     shift.push_back(*m_slices[k].position - *m_slices.front().position - normal * t[k]);
   }
+  const double allowed = tolerance(m_slices.front().pixelSpacing->minCoeff());
   ShiftLine line = leastSquares(t, shift);
-  if (line.worst > tolerance())
+  if (line.worst > allowed)
     line = robustLine(t, shift);
 
   const double tangent = line.slope.norm();
   const double slide = tangent * t.back();
-  if (slide > kJitterTolerance || tangent > kJitterShare)
+  const double straight = std::max(kJitterTolerance, m_step);
+  if (slide > straight || (tangent > kJitterShare && slide > m_step))
   {
     // Half, since a straight stack can at best have the middle slice in place.
     result.findings.push_back({FindingKind::GantryTilt,
@@ -272,12 +289,12 @@ void SliceStack::judgeSideways(SeriesGeometry& result) const
                                    decimals(0.5 * slide, 1) + " mm off.",
                                0.5 * slide});
   }
-  if (line.worst > tolerance())
+  if (line.worst > allowed)
     result.findings.push_back({FindingKind::UnevenSpacing,
                                "Slices lie up to " + decimals(line.worst, 2) +
                                    " mm sideways of one straight line through the stack.",
                                line.worst});
-  else if (line.worst > kSamePlace || (slide > kSamePlace && slide <= kJitterTolerance))
+  else if (line.worst > kSamePlace || (slide > kSamePlace && slide <= straight))
     result.notes.push_back("Slices lie up to " + decimals(std::max(line.worst, slide), 3) +
                            " mm sideways of a straight stack; accepted.");
 }

@@ -27,6 +27,9 @@ public:
   /// Adds the defects of the stack to `result`, and what was accepted.
   void judge(SeriesGeometry& result);
 
+  /// Slices that share their place with another.
+  std::size_t duplicates() const;
+
   /// The straight grid closest to the slices, or nullopt if all coincide. Throws
   /// core::InvalidParameter.
   std::optional<core::GridGeometry> grid() const;
@@ -37,13 +40,14 @@ private:
   void judgeSideways(SeriesGeometry& result) const;
   void noteDeclarations(SeriesGeometry& result) const;
   double usualGap() const;
-  double tolerance() const;
+  double tolerance(double spacing) const;
 
   const std::vector<SliceHeader>& m_slices;
   Eigen::Matrix3d m_direction;
   std::vector<double> m_place;  ///< t_k, mm
   std::vector<double> m_number; ///< k, with jumps where slices are missing
   double m_spacing = 0.0;       ///< mm
+  double m_step = 0.0;          ///< unit of the last decimal of the positions, mm
 };
 
 } // namespace petrous::imaging

@@ -20,10 +20,15 @@ struct PartSource
   /// Structures: the MR in whose patient space they are defined, "ct" for the CT's; empty:
   /// unspecified.
   std::string drawnOn = {};
-  std::string seriesUid = {}; ///< MR: series of a DICOM folder; empty: chosen automatically
+  /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
+  std::string series = {};
+  bool repair = false; ///< MR: as CaseSources
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
+
+  /// As parse, optionally followed by "#UID", "#UID#VOLUME" or "##VOLUME".
+  static PartSource parseSeries(const std::string& text);
 
   /// As parse, optionally followed by "@MR".
   static PartSource parseDrawn(const std::string& text);
@@ -46,8 +51,9 @@ struct PartSources
 
 struct CaseSources
 {
-  std::filesystem::path ct;            ///< DICOM folder or file, NIfTI, NRRD or MetaImage
-  std::string seriesUid;               ///< series of a folder; empty: chosen automatically
+  std::filesystem::path ct; ///< DICOM folder or file, NIfTI, NRRD or MetaImage
+  std::string series;  ///< which of a folder (imaging::chooseSeries); empty: chosen automatically
+  bool repair = false; ///< resamples what imaging::ReadOptions::repair can
   std::optional<core::PatientBox> roi; ///< crops the CT on load
   PartSources parts;
 };

@@ -23,7 +23,7 @@ enum class Content
 /// A readable DICOM series.
 struct SeriesContent
 {
-  std::string uid;
+  std::string selector;             ///< of imaging::chooseSeries
   Content content = Content::Image; ///< Ct, Mr or Image
   std::string modality;             ///< DICOM (0008,0060); may be empty
   std::string description;          ///< may identify the patient: for local display only

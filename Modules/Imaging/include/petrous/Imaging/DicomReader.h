@@ -18,6 +18,11 @@ struct ReadOptions
   /// smallest whose hull covers it.
   std::optional<core::PatientBox> roi;
 
+  /// Reads a series whose verdict is Repairable too, resampled to a straight, even grid by the
+  /// slices' positions: gantry tilt, uneven spacing, single missing slices, duplicates, a rescale
+  /// of each slice's own. What was changed and guessed is in `notes`.
+  bool repair = false;
+
   /// Reads the series even if the verdict is not Ok: slice k of the volume is geometry.slices[k],
   /// placed on geometry.grid. For repair code that knows the true slice positions; never for
   /// display.

@@ -37,10 +37,12 @@ private:
   Reason m_reason;
 };
 
-/// A SeriesInstanceUID found below the scanned path.
+/// A SeriesInstanceUID found below the scanned path; or one of its volumes, if its slices make
+/// several stacks (orientations, sizes, b-values, echoes, phases, kernels, repetitions).
 struct DicomSeries
 {
   std::string uid;
+  std::string volume; ///< e.g. "b 1000", "echo 2"; distinct within the series; empty: its only one
   std::string modality;
   std::string description; ///< may identify the patient: for the user's own screen only
   std::string frameOfReferenceUid;
@@ -50,7 +52,8 @@ struct DicomSeries
 
 struct ScanResult
 {
-  std::vector<DicomSeries> series; ///< sorted by path of the first file
+  std::vector<DicomSeries>
+      series; ///< sorted by path of the first file; volumes of one series adjoin
   std::vector<Finding> unreadable; ///< damaged DICOM files of no known series
   std::size_t foreignFiles = 0;    ///< files that are not DICOM
   /// What was skipped below the path, one sentence each. Contains file and folder names, which may
@@ -69,10 +72,14 @@ struct ScanResult
 /// Throws DicomError (NotFound) and CancelledError.
 ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& progress);
 
-/// Selects the series meant by a user who gave `path`: the one with `uid`; without a UID the only
-/// series that is Ok, else the largest image series (reading it reports its defects). Throws
-/// DicomError listing what was found; Ambiguous lists the UIDs.
+/// Selects the series meant by a user who gave `path`, by "UID", "UID#VOLUME" or "#VOLUME"; without
+/// a UID the only series that is Ok, else the largest image series (reading it reports its
+/// defects). One of several volumes is never chosen unasked. Throws DicomError listing what was
+/// found; Ambiguous lists the UIDs and volumes.
 const DicomSeries& chooseSeries(const ScanResult& result, const std::filesystem::path& path,
-                                const std::string& uid = {});
+                                const std::string& selector = {});
+
+/// What chooseSeries selects this one by.
+std::string selectorOf(const DicomSeries& series);
 
 } // namespace petrous::imaging

@@ -27,6 +27,8 @@ struct PixelFormat
   bool isBigEndian = false;
   bool isDeflated = false;  ///< the offset then refers to the inflated file
   std::uint64_t offset = 0; ///< of the value of the pixel data element, bytes
+  int frame = 0;            ///< of an encapsulated file with several
+  int frameCount = 1;       ///< in the file
   std::uint64_t length = 0; ///< bytes; up to the end of the file if encapsulated
 };
 
@@ -36,6 +38,20 @@ struct PatientKey
   std::size_t id = 0;
   std::size_t name = 0;
   std::size_t birthDate = 0;
+};
+
+/// What distinguishes slices of one series at the same place. Absent or malformed: nullopt.
+struct SliceTraits
+{
+  std::optional<double> bValue;       ///< s/mm^2
+  std::optional<double> echoTime;     ///< ms
+  std::optional<double> triggerTime;  ///< ms
+  std::optional<double> phasePercent; ///< (0020,9241) nominal percentage of the cardiac phase
+  std::optional<double> inversionTime;
+  std::optional<int> echo;     ///< EchoNumbers
+  std::optional<int> temporal; ///< TemporalPositionIdentifier or -Index
+  std::string gradient;        ///< diffusion gradient orientation as written
+  std::string stack;           ///< StackID of a multi-frame file
 };
 
 /// Header of one slice. Absent or malformed numbers are nullopt.
@@ -48,7 +64,7 @@ struct SliceHeader
   std::optional<Eigen::Vector2d> pixelSpacing;    ///< mm, DICOM order: between rows, columns
   int rows = 0;
   int columns = 0;
-  int frames = 1;
+  int frames = 1; ///< more than one: without the functional groups that would place them
   double slope = 1.0;
   double intercept = 0.0;
   bool hasRescale = false;
@@ -72,7 +88,9 @@ struct SliceHeader
   std::optional<double> tube;      ///< KVP, kV
   std::optional<int> seriesNumber; ///< unique within a series
   std::optional<int> acquisition;  ///< AcquisitionNumber
-  bool hasModalityLut = false;     ///< a table replaces slope and intercept
+  SliceTraits traits;
+  double positionStep = 0.0;   ///< unit of the last decimal of the position, mm; 0: not known
+  bool hasModalityLut = false; ///< a table replaces slope and intercept
   PixelFormat pixels;
   std::string damage; ///< empty, or why the file cannot be read ("is cut short")
 };
@@ -108,8 +126,9 @@ struct Finding
 
 enum class Verdict
 {
-  Ok,     ///< the grid describes the slices correctly
-  Refused ///< would be misleading
+  Ok,         ///< the grid describes the slices correctly
+  Repairable, ///< would be misleading as it is; ReadOptions::repair resamples it
+  Refused     ///< would be misleading
 };
 const char* verdictName(Verdict verdict) noexcept;
 
@@ -125,14 +144,21 @@ struct SeriesGeometry
   /// grid (ignoring shear and gaps); none if the files do not state positions.
   std::optional<core::GridGeometry> grid;
 
+  bool singleGaps = true; ///< no two missing slices adjoin
   Verdict verdict = Verdict::Refused;
-  std::vector<Finding> findings;  ///< the reasons for the verdict
-  std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter below 0.1 mm
+  std::vector<Finding> findings;  ///< the reasons for the verdict, and localizers set aside
+  std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter
 };
 
-/// Deviations below both are accepted: in mm, and as a fraction of the slice spacing.
+/// Corners of slices of one orientation and size agree within this, and the ends of a straight
+/// stack, mm; the lean of a straight stack.
 constexpr double kJitterTolerance = 0.1;
 constexpr double kJitterShare = 0.01;
+
+/// A slice may lie this far from its place, mm; or this fraction of the slice spacing (sideways: of
+/// the pixel spacing); or one unit of the last decimal of the positions, if that is more.
+constexpr double kPlaceTolerance = 0.05;
+constexpr double kPlaceShare = 0.1;
 
 /// Assesses the stack from the slice positions alone. The order of `slices` does not matter. Never
 /// throws on bad headers: they become findings.

@@ -1,0 +1,262 @@
+#include "SeriesRepair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <type_traits>
+
+#include <Eigen/Geometry>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "SliceStack.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr double kWhole = 1e-3;     // pixels; a smaller shift moves nothing
+constexpr double kOnPlace = 1e-3;   // mm
+constexpr std::size_t kNamed = 5;   // places named in a note
+constexpr double kFinest = 0.25;    // of the mean spacing
+constexpr double kDuplicate = 0.01; // of the spacing: closer slices share one place
+
+bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
+{
+  return std::any_of(geometry.findings.begin(), geometry.findings.end(),
+                     [kind](const Finding& f) { return f.kind == kind; });
+}
+
+/// The lower quartile of the gaps: where the pitch changes, the finer one is kept.
+double fineGap(const std::vector<double>& places)
+{
+  std::vector<double> gaps;
+  for (std::size_t k = 0; k + 1 < places.size(); ++k)
+    gaps.push_back(places[k + 1] - places[k]);
+  std::sort(gaps.begin(), gaps.end());
+  return gaps[gaps.size() / 4];
+}
+
+/// One row of a slice shifted by (u, v) pixels, by linear interpolation; NaN beyond its edges and
+/// where padding takes part.
+template <class T>
+class ShiftedSlice
+{
+public:
+  ShiftedSlice(const volume::Volume<T>& stacked, int k, double u, double v,
+               std::optional<double> padding)
+    : m_stacked(stacked)
+    , m_k(k)
+    , m_padding(padding)
+  {
+    m_i = static_cast<int>(std::floor(-u));
+    m_x = -u - m_i;
+    m_j = static_cast<int>(std::floor(-v));
+    m_y = -v - m_j;
+  }
+
+  double at(int i, int j) const
+  {
+    double sum = 0.0;
+    for (int dj = 0; dj < 2; ++dj)
+      for (int di = 0; di < 2; ++di)
+      {
+        const double weight = (dj ? m_y : 1.0 - m_y) * (di ? m_x : 1.0 - m_x);
+        if (weight == 0.0)
+          continue;
+        const int column = i + m_i + di;
+        const int row = j + m_j + dj;
+        const auto& n = m_stacked.geometry().dims();
+        if (column < 0 || row < 0 || column >= n[0] || row >= n[1])
+          return kOutside;
+        const auto value = static_cast<double>(m_stacked.at(column, row, m_k));
+        if (m_padding && value == *m_padding)
+          return kOutside;
+        sum += weight * value;
+      }
+    return sum;
+  }
+
+private:
+  static constexpr double kOutside = std::numeric_limits<double>::quiet_NaN();
+
+  const volume::Volume<T>& m_stacked;
+  int m_k;
+  std::optional<double> m_padding;
+  int m_i = 0;
+  int m_j = 0;
+  double m_x = 0.0;
+  double m_y = 0.0;
+};
+
+} // namespace
+
+SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
+{
+  const core::GridGeometry& nominal = *geometry.grid;
+  const Eigen::Matrix3d& axes = nominal.direction();
+  const Eigen::Vector3d origin = *geometry.slices.front().position;
+  const double same = std::max(kOnPlace, kDuplicate * nominal.spacing()[2]);
+  const bool isTilted = hasFinding(geometry, FindingKind::GantryTilt);
+  m_isUneven = hasFinding(geometry, FindingKind::UnevenSpacing);
+
+  std::vector<double> places;
+  for (std::size_t k = 0; k < geometry.slices.size(); ++k)
+  {
+    const Eigen::Vector3d way = axes.transpose() * (*geometry.slices[k].position - origin);
+    if (!places.empty() && way[2] - places.back() <= same)
+      continue;
+    Slice slice;
+    slice.index = static_cast<int>(k);
+    slice.place = way[2];
+    if (isTilted || m_isUneven) // else within the tolerance
+    {
+      slice.u = way[0] / nominal.spacing()[0];
+      slice.v = way[1] / nominal.spacing()[1];
+    }
+    places.push_back(slice.place);
+    m_slices.push_back(slice);
+  }
+
+  double lower[2] = {0.0, 0.0};
+  double upper[2] = {0.0, 0.0};
+  for (Slice& slice : m_slices)
+    for (const int axis : {0, 1})
+    {
+      double& shift = axis == 0 ? slice.u : slice.v;
+      if (std::abs(shift - std::round(shift)) < kWhole)
+        shift = std::round(shift);
+      lower[axis] = std::min(lower[axis], std::floor(shift));
+      upper[axis] = std::max(upper[axis], std::ceil(shift));
+    }
+  for (Slice& slice : m_slices)
+  {
+    slice.u -= lower[0];
+    slice.v -= lower[1];
+  }
+  const double usual =
+      m_isUneven ? std::max(fineGap(places), kFinest * nominal.spacing()[2]) : nominal.spacing()[2];
+  const int steps = std::max(1, static_cast<int>(std::lround(places.back() / usual)));
+  const Eigen::Vector3d& h = nominal.spacing();
+  m_grid = core::GridGeometry(
+      {nominal.dims()[0] + static_cast<int>(upper[0] - lower[0]),
+       nominal.dims()[1] + static_cast<int>(upper[1] - lower[1]), steps + 1},
+      {h[0], h[1], places.back() / steps},
+      origin + axes.col(0) * (lower[0] * h[0]) + axes.col(1) * (lower[1] * h[1]), axes);
+
+  if (const std::size_t dropped = geometry.slices.size() - m_slices.size(); dropped > 0)
+    m_notes.push_back("Repaired: of slices at one place the first was kept, and " +
+                      std::to_string(dropped) + " left out.");
+  if (isTilted)
+  {
+    const Slice& last = m_slices.back();
+    const double slide =
+        std::hypot((last.u - m_slices.front().u) * h[0], (last.v - m_slices.front().v) * h[1]);
+    m_notes.push_back("Repaired: the gantry's tilt of " +
+                      decimals(std::atan2(slide, last.place) * 180.0 / M_PI, 1) +
+                      " degrees was undone by shifting each slice to where its position puts it, "
+                      "the last by " +
+                      decimals(slide, 1) + " mm against the first.");
+  }
+  if (hasFinding(geometry, FindingKind::MixedRescale))
+    m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");
+  noteBlends(geometry);
+}
+
+SeriesRepair::Blend SeriesRepair::blendAt(int m) const
+{
+  const double place = m * m_grid.spacing()[2];
+  const auto above = std::lower_bound(m_slices.begin(), m_slices.end(), place,
+                                      [](const Slice& s, double t) { return s.place < t; });
+  if (above == m_slices.begin())
+    return {&m_slices.front(), &m_slices.front(), 0.0};
+  if (above == m_slices.end())
+    return {&m_slices.back(), &m_slices.back(), 0.0};
+  const Slice& a = *(above - 1);
+  const Slice& b = *above;
+  // A slice within the tolerance of an even spacing stays as it is.
+  const double near = m_isUneven ? kOnPlace : 0.3 * m_grid.spacing()[2];
+  if (b.place - place <= near && b.place - place <= place - a.place)
+    return {&b, &b, 0.0};
+  if (place - a.place <= near)
+    return {&a, &a, 0.0};
+  return {&a, &b, (place - a.place) / (b.place - a.place)};
+}
+
+void SeriesRepair::noteBlends(const SeriesGeometry& geometry)
+{
+  std::size_t guessed = 0;
+  double farthest = 0.0;
+  std::string where;
+  for (int m = 0; m < m_grid.dims()[2]; ++m)
+  {
+    const Blend blend = blendAt(m);
+    if (blend.a == blend.b)
+      continue;
+    const double place = m * m_grid.spacing()[2];
+    farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
+    if (guessed < kNamed)
+      where += (guessed == 0 ? "" : ", ") + std::to_string(m + 1);
+    else if (guessed == kNamed)
+      where += " and others";
+    ++guessed;
+  }
+  if (guessed == 0)
+    return;
+  const bool isMissing = hasFinding(geometry, FindingKind::MissingSlice) && !m_isUneven;
+  m_notes.push_back(
+      std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + where + " of " +
+      std::to_string(m_grid.dims()[2]) +
+      (isMissing ? (guessed == 1 ? " is missing from the files and was" : " are missing and were")
+                 : (guessed == 1 ? " was" : " were")) +
+      " interpolated between neighbours, up to " + decimals(farthest, 2) +
+      " mm from what was measured; small structures may be absent there.");
+}
+
+volume::IntensityVolume SeriesRepair::resample(const volume::IntensityVolume& stacked,
+                                               const core::IndexBox& box,
+                                               const core::Progress& progress) const
+{
+  return stacked.visit(
+      [&](const auto& from)
+      {
+        using T = std::decay_t<decltype(from.at(0, 0, 0))>;
+        const double outside = stacked.padding().value_or(stacked.range().min);
+        auto to = std::make_shared<volume::Volume<T>>(m_grid.cropped(box));
+        const auto& n = to->geometry().dims();
+        tbb::parallel_for(tbb::blocked_range<int>(0, n[2], 1),
+                          [&](const tbb::blocked_range<int>& range)
+                          {
+                            for (int k = range.begin(); k != range.end(); ++k)
+                            {
+                              progress.check("straightening the slices");
+                              const Blend blend = blendAt(box.lower[2] + k);
+                              const ShiftedSlice<T> a(from, blend.a->index, blend.a->u, blend.a->v,
+                                                      stacked.padding());
+                              const ShiftedSlice<T> b(from, blend.b->index, blend.b->u, blend.b->v,
+                                                      stacked.padding());
+                              for (int j = 0; j < n[1]; ++j)
+                                for (int i = 0; i < n[0]; ++i)
+                                {
+                                  const int column = box.lower[0] + i;
+                                  const int row = box.lower[1] + j;
+                                  double value = a.at(column, row);
+                                  if (blend.weight > 0.0)
+                                    value += blend.weight * (b.at(column, row) - value);
+                                  if (std::isnan(value))
+                                    value = outside;
+                                  if constexpr (std::is_integral_v<T>)
+                                    value = std::nearbyint(value);
+                                  to->at(i, j, k) = static_cast<T>(value);
+                                }
+                            }
+                          });
+        return volume::IntensityVolume(std::shared_ptr<const volume::Volume<T>>(to),
+                                       stacked.padding());
+      });
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,288 @@
+#include "SeriesVolumes.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+#include <Eigen/Geometry>
+
+#include "SliceStack.h"
+#include "petrous/Core/NumberText.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+using Headers = std::vector<SliceHeader>;
+
+constexpr std::size_t kFewest = 3; // fewer slices of another orientation or size are no stack
+
+/// A value that is the same for all slices of a stack.
+struct Trait
+{
+  const char* name;
+  std::function<std::string(const SliceHeader&)> valueOf; ///< empty: not stated
+};
+
+template <class T>
+std::string textOf(const std::optional<T>& value)
+{
+  return value ? core::generalText(static_cast<double>(*value)) : std::string();
+}
+
+std::string listOf(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : "/") + word;
+  return text;
+}
+
+/// What explains several slices at one place, the most telling first.
+const std::vector<Trait>& traits()
+{
+  static const std::vector<Trait> kTraits = {
+      {"stack", [](const SliceHeader& s) { return s.traits.stack; }},
+      {"b", [](const SliceHeader& s) { return textOf(s.traits.bValue); }},
+      {"gradient", [](const SliceHeader& s) { return s.traits.gradient; }},
+      {"time", [](const SliceHeader& s) { return textOf(s.traits.temporal); }},
+      {"echo", [](const SliceHeader& s) { return textOf(s.traits.echo); }},
+      {"echo time", [](const SliceHeader& s) { return textOf(s.traits.echoTime); }},
+      {"phase", [](const SliceHeader& s) { return textOf(s.traits.phasePercent); }},
+      {"trigger time", [](const SliceHeader& s) { return textOf(s.traits.triggerTime); }},
+      {"inversion time", [](const SliceHeader& s) { return textOf(s.traits.inversionTime); }},
+      {"kernel", [](const SliceHeader& s) { return s.kernel; }},
+      {"kV", [](const SliceHeader& s) { return textOf(s.tube); }},
+      {"series number", [](const SliceHeader& s) { return textOf(s.seriesNumber); }},
+      {"type", [](const SliceHeader& s) { return listOf(s.imageType); }},
+      {"acquisition", [](const SliceHeader& s) { return textOf(s.acquisition); }}};
+  return kTraits;
+}
+
+std::size_t duplicatesOf(const Headers& slices)
+{
+  if (slices.size() < 2)
+    return 0;
+  Headers copy = slices;
+  return SliceStack(copy).duplicates();
+}
+
+using Groups = std::vector<NamedSlices>;
+
+std::string joined(const std::string& name, const std::string& more)
+{
+  return name.empty() ? more : name + ", " + more;
+}
+
+/// The groups of `from` by one trait; one group if it does not tell stacks apart.
+Groups byTrait(const NamedSlices& from, const Trait& trait)
+{
+  std::map<std::string, Headers> parts;
+  std::vector<std::string> order; // of appearance, which is that of the instance numbers
+  for (const SliceHeader& slice : from.slices)
+  {
+    const std::string value = trait.valueOf(slice);
+    if (parts.count(value) == 0)
+      order.push_back(value);
+    parts[value].push_back(slice);
+  }
+  Groups groups;
+  for (const std::string& value : order)
+  {
+    if (parts[value].size() < 2)
+      return {from};
+    const bool isNamed = trait.name == std::string("gradient") ? false : !value.empty();
+    std::string name = std::string(trait.name) + " " + (isNamed ? value : std::string("-"));
+    if (trait.name == std::string("gradient"))
+      name = value.empty() ? "no gradient" : "gradient " + std::to_string(groups.size() + 1);
+    groups.push_back({joined(from.name, name), std::move(parts[value])});
+  }
+  return groups;
+}
+
+/// Repetitions one after another: the instance numbers of each precede those of the next.
+Groups byRepetition(const NamedSlices& from)
+{
+  Headers sorted = from.slices;
+  const SliceStack byPlace(sorted); // sorts stably, so by instance number at each place
+  std::vector<Headers> repeats;
+  std::size_t at = 0;
+  const Eigen::Vector3d normal =
+      sorted.front().rowDirection->cross(*sorted.front().columnDirection);
+  double place = 0.0;
+  for (std::size_t k = 0; k < sorted.size(); ++k)
+  {
+    const double here = normal.dot(*sorted[k].position);
+    at = k > 0 && here - place <= 1e-3 ? at + 1 : 0;
+    place = here;
+    if (at == repeats.size())
+      repeats.emplace_back();
+    repeats[at].push_back(sorted[k]);
+  }
+  int last = 0;
+  Groups groups;
+  for (Headers& repeat : repeats)
+  {
+    const auto [low, high] = std::minmax_element(repeat.begin(), repeat.end(),
+                                                 [](const SliceHeader& a, const SliceHeader& b)
+                                                 { return a.instanceNumber < b.instanceNumber; });
+    if (repeat.size() != repeats.front().size() || repeat.size() < 2 ||
+        (!groups.empty() && low->instanceNumber <= last))
+      return {from};
+    last = high->instanceNumber;
+    groups.push_back(
+        {joined(from.name, "repeat " + std::to_string(groups.size() + 1)), std::move(repeat)});
+  }
+  return groups;
+}
+
+std::size_t duplicatesOf(const Groups& groups)
+{
+  std::size_t count = 0;
+  for (const NamedSlices& group : groups)
+    count += duplicatesOf(group.slices);
+  return count;
+}
+
+/// Splits a group until no two of its slices share a place, as far as the headers allow.
+void splitPlaces(const NamedSlices& group, Groups& result)
+{
+  const std::size_t shared = duplicatesOf(group.slices);
+  if (shared == 0)
+  {
+    result.push_back(group);
+    return;
+  }
+  Groups best{group};
+  std::size_t left = shared;
+  for (const Trait& trait : traits())
+  {
+    Groups groups = byTrait(group, trait);
+    if (groups.size() < 2)
+      continue;
+    const std::size_t count = duplicatesOf(groups);
+    if (count < left)
+    {
+      left = count;
+      best = std::move(groups);
+    }
+    if (left == 0)
+      break;
+  }
+  if (best.size() < 2)
+    best = byRepetition(group);
+  if (best.size() < 2)
+  {
+    result.push_back(group);
+    return;
+  }
+  for (const NamedSlices& part : best)
+    splitPlaces(part, result);
+}
+
+std::string planeOf(const SliceHeader& slice)
+{
+  const Eigen::Vector3d normal = slice.rowDirection->cross(*slice.columnDirection).cwiseAbs();
+  Eigen::Index axis = 0;
+  normal.maxCoeff(&axis);
+  return axis == 0 ? "sagittal" : axis == 1 ? "coronal" : "axial";
+}
+
+std::string sizeText(const SliceHeader& slice)
+{
+  return std::to_string(slice.columns) + " x " + std::to_string(slice.rows);
+}
+
+/// Groups of slices that agree with the first of each; those too small go to the largest.
+Groups byLikeness(const NamedSlices& from,
+                  const std::function<bool(const SliceHeader&, const SliceHeader&)>& alike,
+                  const std::function<std::string(const SliceHeader&)>& nameOf)
+{
+  std::vector<Headers> parts;
+  for (const SliceHeader& slice : from.slices)
+  {
+    const auto part = std::find_if(parts.begin(), parts.end(),
+                                   [&](const Headers& p) { return alike(p.front(), slice); });
+    if (part == parts.end())
+      parts.push_back({slice});
+    else
+      part->push_back(slice);
+  }
+  std::vector<Headers> stacks;
+  Headers rest;
+  for (Headers& part : parts)
+    if (part.size() >= kFewest)
+      stacks.push_back(std::move(part));
+    else
+      rest.insert(rest.end(), part.begin(), part.end());
+  if (stacks.size() < 2)
+    return {from};
+  auto& largest = *std::max_element(stacks.begin(), stacks.end(),
+                                    [](auto& a, auto& b) { return a.size() < b.size(); });
+  largest.insert(largest.end(), rest.begin(), rest.end());
+  Groups groups;
+  for (Headers& stack : stacks)
+  {
+    const std::string name = joined(from.name, nameOf(stack.front()));
+    groups.push_back({name, std::move(stack)});
+  }
+  return groups;
+}
+
+bool areAlike(const Headers& slices)
+{
+  return std::all_of(slices.begin(), slices.end(),
+                     [&slices](const SliceHeader& slice) {
+                       return sameTurn(slices.front(), slice) && sameSize(slices.front(), slice);
+                     });
+}
+
+void makeDistinct(Groups& groups)
+{
+  std::set<std::string> names;
+  for (NamedSlices& group : groups)
+  {
+    std::string name = group.name;
+    for (int n = 2; !names.insert(name).second; ++n)
+      name = group.name + " (" + std::to_string(n) + ")";
+    group.name = name;
+  }
+}
+
+} // namespace
+
+std::vector<NamedSlices> splitVolumes(const std::vector<SliceHeader>& slices)
+{
+  NamedSlices all{"", {}};
+  Headers others; // findings whichever stack they are with
+  for (const SliceHeader& slice : slices)
+  {
+    const bool isUsable =
+        slice.damage.empty() && slice.isImage && isPlaced(slice) && !isLocalizer(slice);
+    (isUsable ? all.slices : others).push_back(slice);
+  }
+  std::stable_sort(all.slices.begin(), all.slices.end(),
+                   [](const SliceHeader& a, const SliceHeader& b)
+                   { return a.instanceNumber < b.instanceNumber; });
+  Groups turned = byLikeness(all, sameTurn, planeOf);
+  Groups groups;
+  for (const NamedSlices& part : turned)
+    for (const NamedSlices& sized : byLikeness(part, sameSize, sizeText))
+      if (areAlike(sized.slices))
+        splitPlaces(sized, groups);
+      else
+        groups.push_back(sized); // places of slices turned against each other say nothing
+  if (groups.size() < 2)
+    return {{"", slices}};
+  makeDistinct(groups);
+  auto& largest = *std::max_element(groups.begin(), groups.end(),
+                                    [](const auto& a, const auto& b)
+                                    { return a.slices.size() < b.slices.size(); });
+  largest.slices.insert(largest.slices.end(), others.begin(), others.end());
+  return groups;
+}
+
+} // namespace petrous::imaging

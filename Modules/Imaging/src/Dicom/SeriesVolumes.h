@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "petrous/Imaging/SeriesGeometry.h"
+
+namespace petrous::imaging
+{
+
+/// Whether the directions of two placed slices agree at their corners.
+bool sameTurn(const SliceHeader& a, const SliceHeader& b);
+/// Whether two placed slices have the same pixels and field of view.
+bool sameSize(const SliceHeader& a, const SliceHeader& b);
+bool isLocalizer(const SliceHeader& slice); ///< says so
+/// Whether the file states plausible position, orientation and spacing.
+bool isPlaced(const SliceHeader& slice);
+
+struct NamedSlices
+{
+  std::string name; ///< e.g. "echo 2", "b 1000"; distinct within the series
+  std::vector<SliceHeader> slices;
+};
+
+/// The consistent stacks of a series of which several share their places, or that differ in
+/// orientation or size. One unnamed entry holding all slices if it is one stack, or if nothing in
+/// the headers tells its stacks apart. Slices of no stack stay with the largest, where they become
+/// findings.
+std::vector<NamedSlices> splitVolumes(const std::vector<SliceHeader>& slices);
+
+} // namespace petrous::imaging

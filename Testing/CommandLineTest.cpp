@@ -590,7 +590,7 @@ TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
   EXPECT_EQ(strict.code, 3);
   EXPECT_NE(strict.err.find("1 of 1 series not ok"), std::string::npos) << strict.err;
   // stdout contains exactly one object, the answer.
-  EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "refused");
+  EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "repairable");
 }
 
 TEST_F(CommandLine, RefusesAPictureWhoseNamePromisesAnotherFormat)

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -193,6 +194,38 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
   EXPECT_NE(value.mr[0].frameOfReference, value.mr[2].frameOfReference);
   EXPECT_EQ(scene::toManifest(value).find(uid), std::string::npos);
   EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
+}
+
+TEST_F(CaseBuilder, ChoosesAnMrFromAFolderOfSeveralSeries)
+{
+  for (const int value : {40, 50})
+  {
+    const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+        core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()),
+        static_cast<std::int16_t>(value));
+    imaging::SeriesDescription series;
+    series.modality = imaging::SeriesDescription::Modality::Mr;
+    series.studyUid = "1.2.3";
+    series.seriesUid = "1.2.3." + std::to_string(value);
+    series.frameOfReferenceUid = "1.2.3.9";
+    imaging::writeDicomSeries(m_folder / "mr" / std::to_string(value),
+                              volume::IntensityVolume(scan), series);
+  }
+  const std::string path = (m_folder / "mr").string();
+  m_sources.parts.mr = {presenters::PartSource::parseSeries("T2=" + path + "#1.2.3.50")};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(value.mr.front().name, "T2");
+  EXPECT_EQ(value.mr.front().range.max, 50.0);
+  m_sources.parts.mr = {presenters::PartSource::parseSeries(path)};
+  EXPECT_EQ(m_sources.parts.mr.front().series, "");
+  EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), imaging::DicomError);
+
+  const auto volume = presenters::PartSource::parseSeries("T2=" + path + "#1.2.3.50#echo 2");
+  EXPECT_EQ(volume.path, m_folder / "mr");
+  EXPECT_EQ(volume.series, "1.2.3.50#echo 2");
+  std::filesystem::create_directory(m_folder / "mr#1");
+  EXPECT_EQ(presenters::PartSource::parseSeries(path + "#1").series, "")
+      << "such a folder is there";
 }
 
 TEST_F(CaseBuilder, CropsToTheRegionAsked)

@@ -61,6 +61,20 @@ TEST(DicomScan, FindsASeriesByContentBelowSubfolders)
   EXPECT_EQ(result.foreignFiles, 1U);
 }
 
+TEST(DicomScan, TakesADicomdirForTheFolderThatItIndexes)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "a", 4);
+  TestSlice index;
+  index.sopClass = "1.2.840.10008.1.3.10";
+  index.pixels = false;
+  index.write(folder.path() / "DICOMDIR");
+  const ScanResult result = scanDicom(folder.path() / "DICOMDIR", {});
+  ASSERT_EQ(result.series.size(), 1U);
+  EXPECT_EQ(result.series.front().files, 4U);
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Ok);
+}
+
 TEST(DicomScan, StripsControlCharactersFromTheDescription)
 {
   const TemporaryFolder folder;

@@ -422,8 +422,10 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
                      path.string() + ": the folder may not be read; its access rights must "
                                      "allow this user to read it");
 
+  // A DICOMDIR indexes the files beside and below it.
+  const bool isIndex = fs::is_regular_file(status) && readHeader(path).kind == FileKind::Directory;
   FileList list(progress);
-  list.read(path);
+  list.read(isIndex ? fs::absolute(path).parent_path() : path);
   std::vector<FileHeader> headers = readHeaders(list.files, progress);
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 

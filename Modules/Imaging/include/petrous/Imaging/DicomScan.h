@@ -61,7 +61,8 @@ struct ScanResult
   std::vector<std::string> notes;
 };
 
-/// Reads the header of every DICOM file at or below `path`, in parallel, and assesses each series.
+/// Reads the header of every DICOM file at or below `path` (of a DICOMDIR: its folder), in
+/// parallel, and assesses each series.
 ///
 /// Files are recognized by content, not by name; each file is read once. Symbolic links to files
 /// are followed, links to folders only if they stay below `path`. A file that is not DICOM but is

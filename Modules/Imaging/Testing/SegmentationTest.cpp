@@ -318,9 +318,9 @@ TEST(DicomSegmentation, ToleratesRoundedPositionsAndRefusesUnevenOnes)
   EXPECT_NEAR(loaded.maps[0].voxels->geometry().spacing()[2], 1.0 / 3.0, 1e-4);
   ASSERT_EQ(loaded.notes.size(), 1u);
 
-  file.frames = {{1, 0.0, left}, {1, 1.0, left}, {1, 2.4, left}};
+  file.frames = {{1, 0.0, left}, {1, 1.0, left}, {1, 2.4, left}}; // of 1.2 mm each
   expectRefused(refusalOf([&] { loadLabels(putFile(folder / "b.dcm", file.bytes())); }),
-                Reason::NoGeometry, "0.4 mm off");
+                Reason::NoGeometry, "0.2 mm off");
 }
 
 TEST(DicomSegmentation, RefusesWhatCannotBeTrue)

@@ -117,6 +117,46 @@ TEST(FilesData, TemplateMrHasItsPlaceAndItsRescale)
   expectTemplate(path, 0.003921568859368563);
 }
 
+// Voxels of each segment as counted by pydicom 2.3.1: sums of `pixel_array` over the frames of a
+// Referenced Segment Number; for label maps, pixels of its value.
+TEST(FilesData, SegmentationsOfDcmqiHavePydicomsVoxels)
+{
+  struct File
+  {
+    const char* name;
+    core::Index3 dims;
+    Eigen::Vector3d first; ///< patient position of the first voxel
+    std::vector<std::uint64_t> voxels;
+  };
+  const Eigen::Vector3d cropped(46.4649, 5.01881, -177.75);
+  const Eigen::Vector3d liver(-235.2, -226.8, -128.69);
+  const File files[] = {
+      {"segmentations/23x38x3/seg/label.seg", {23, 38, 3}, cropped, {322}},
+      {"segmentations/24x38x3/seg/label.seg", {24, 38, 3}, cropped, {315}},
+      {"segmentations/liver.dcm", {512, 512, 3}, liver, {107098}},
+      {"segmentations/partial_overlaps.dcm",
+       {512, 512, 3},
+       liver,
+       {9602, 11888, 10743, 6693, 4713}},
+      {"segmentations/sparse-labelmap-noppv.dcm", {24, 38, 3}, cropped, {630}},
+      {"segmentations/sparse-labelmap-ppv5.dcm", {24, 38, 3}, cropped, {630}},
+      {"sr-example/seg.dcm", {128, 128, 13}, {-226.4105, -430.7887, -119.271}, {795}}};
+  PETROUS_NEED(folder, "seg_rt/dcmqi/data");
+  for (const File& file : files)
+  {
+    const LoadedLabels loaded = loadLabels(folder / file.name);
+    std::vector<std::uint64_t> voxels(file.voxels.size());
+    for (const volume::LabelMap& map : loaded.maps)
+    {
+      EXPECT_EQ(map.voxels->geometry().dims(), file.dims) << file.name;
+      EXPECT_LT((map.voxels->geometry().origin() - file.first).norm(), 1e-4) << file.name;
+      for (const volume::Segment& segment : map.segments)
+        voxels.at(segment.index - 1U) += segment.voxels;
+    }
+    EXPECT_EQ(voxels, file.voxels) << file.name;
+  }
+}
+
 TEST(FilesData, EveryNiftiLiesWhereItkPutsIt)
 {
   const char* folder = std::getenv("PETROUS_DATA");

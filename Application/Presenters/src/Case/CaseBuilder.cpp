@@ -296,10 +296,33 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
                                 "check that they are this patient's"));
 }
 
-void addLabels(scene::Case& value, const PartSource& source, const core::Progress& progress)
+// A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
+// an MR. Of a stored case only salted hashes are known, with which nothing can be compared.
+void settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid)
+{
+  const std::string frame = withoutIdentity(frameUid);
+  const auto isKnown = [](const scene::ImagePart& image)
+  { return !image.isFrameSalted && !image.frameOfReference.empty(); };
+  if (!source.drawnOn.empty() || frame.empty() || !isKnown(value.ct) ||
+      value.ct.frameOfReference == frame)
+    return;
+  for (const scene::ImagePart& mr : value.mr)
+    if (isKnown(mr) && mr.frameOfReference == frame)
+    {
+      source.drawnOn = mr.name;
+      return;
+    }
+  throw core::InvalidParameter(source.path.string() +
+                               ": was drawn in another frame of reference than the CT's, so its "
+                               "place in the CT is not known; if it is this CT's all the same, "
+                               "say FILE@ct, or add the MR on which it was drawn");
+}
+
+void addLabels(scene::Case& value, PartSource source, const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   auto loaded = imaging::loadLabels(source.path, progress);
+  settleFrame(value, source, loaded.frameOfReferenceUid);
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
   const std::size_t before = value.labels.size();
@@ -325,6 +348,10 @@ void addLabels(scene::Case& value, const PartSource& source, const core::Progres
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);
       structure.look = presets.lookFor(structure.name);
+      if (isUnknown(structure.look))
+        if (const auto meaning = loaded.meanings.find(segment.name);
+            meaning != loaded.meanings.end())
+          structure.look = presets.lookFor(meaning->second);
       const bool colored = segment.color != std::array<float, 3>{};
       if (isUnknown(structure.look))
         structure.look.color =

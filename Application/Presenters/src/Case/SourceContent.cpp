@@ -145,6 +145,12 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
     result.why = "is a surface of triangles";
     return result;
   }
+  if ((!format || format->reads == imaging::kDicom) && imaging::isDicomSegmentation(path))
+  {
+    result.content = Content::Labels;
+    result.why = "is a DICOM segmentation";
+    return result;
+  }
   if (!format || format->reads == imaging::kDicom)
     return lookAtDicom(path, progress);
   if (format->reads == imaging::kLabels)

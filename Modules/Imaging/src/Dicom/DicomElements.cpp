@@ -179,6 +179,7 @@ void DicomElements::readDataSet(std::uint64_t offset)
   if (!m_source.readNear(offset, head.data(), head.size()))
     return;
   m_explicit = isUpper(head[4]) && isUpper(head[5]);
+  m_dataStart = offset;
   if (m_syntax.empty())
     m_syntax = m_bigEndian  ? "1.2.840.10008.1.2.2"
                : m_explicit ? "1.2.840.10008.1.2.1"

@@ -42,6 +42,8 @@ public:
     return m_syntax;
   }
   bool isBigEndian() const noexcept { return m_bigEndian; }
+  bool isExplicit() const noexcept { return m_explicit; }          ///< elements state their VR
+  std::uint64_t dataStart() const noexcept { return m_dataStart; } ///< after the file meta group
 
   struct Pixels
   {
@@ -108,6 +110,7 @@ private:
   std::string m_syntax;
   bool m_bigEndian = false;
   bool m_explicit = true;
+  std::uint64_t m_dataStart = 0;
   bool m_hasModalityLut = false;
   std::size_t m_count = 0;
   Pixels m_pixels;

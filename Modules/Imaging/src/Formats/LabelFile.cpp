@@ -11,6 +11,7 @@
 
 #include "FileHelpers.h"
 #include "LabelNames.h"
+#include "SegmentationReader.h"
 #include "VoxelSource.h"
 #include "VoxelWriter.h"
 
@@ -135,10 +136,24 @@ bool hasSegments(const VoxelSource& source)
          (source.nrrd()->key("Segment0_Name") || source.nrrd()->key("Segment0_ID"));
 }
 
+[[noreturn]] void failOverlap(const std::filesystem::path& path, std::size_t layers)
+{
+  fail(FileError::Reason::Unsupported, path,
+       "holds structures that overlap, in " + std::to_string(layers) +
+           " layers; one layer is needed here");
+}
+
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress)
 {
   progress.report(0.0, "reading labels");
+  if (isDicomSegmentation(path))
+  {
+    LoadedLabels loaded = readSegmentation(path, progress);
+    if (oneOnly && loaded.maps.size() > 1)
+      failOverlap(path, loaded.maps.size());
+    return loaded;
+  }
   const VoxelSource source(path);
   const bool named = hasSegments(source);
   if (source.components() > 1 && !named)
@@ -146,9 +161,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
          "holds " + std::to_string(source.components()) +
              " numbers a voxel; a label file holds one whole number a voxel");
   if (source.components() > 1 && oneOnly)
-    fail(FileError::Reason::Unsupported, path,
-         "holds structures that overlap, in " + std::to_string(source.components()) +
-             " layers; one layer is needed here");
+    failOverlap(path, source.components());
   const auto raw = source.read(source.geometry().fullBox(), progress.part(0.0, 0.7));
   LoadedLabels loaded;
   loaded.notes = source.notes();
@@ -172,6 +185,12 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
 }
 
 } // namespace
+
+bool isDicomSegmentation(const std::filesystem::path& path)
+{
+  const FileFormat* format = recognisedFormat(path);
+  return format && format->reads == kDicom && isSegmentationClass(sopClassOf(path));
+}
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress)
 {

@@ -45,7 +45,7 @@ FileName fileName(const std::filesystem::path& path);
 struct PartSources
 {
   std::vector<PartSource> mr;     ///< DICOM folders, NIfTI, NRRD, MetaImage
-  std::vector<PartSource> labels; ///< NIfTI, NRRD (.seg.nrrd too), MetaImage
+  std::vector<PartSource> labels; ///< NIfTI, NRRD (.seg.nrrd too), MetaImage, DICOM SEG
   std::vector<PartSource> meshes; ///< OBJ, STL, PLY
 };
 
@@ -60,7 +60,8 @@ struct CaseSources
 
 /// A case built in memory, not saved. What was accepted or assumed is in the parts' notes. Labels
 /// whose image is unspecified, and whose grid is that of one MR and not the CT's, are taken as
-/// drawn on that MR. Throws the imaging module's errors, InvalidParameter (also if several MR
+/// drawn on that MR; so is a DICOM SEG in the frame of reference of an MR and not the CT's, and one
+/// in neither is refused unless "FILE@ct" says otherwise. Throws the imaging module's errors, InvalidParameter (also if several MR
 /// images have that grid), CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress);

@@ -49,7 +49,7 @@ struct SourceContent
 };
 
 /// Determines the content of `path`: meshes and 3D Slicer segmentations by their file names, DICOM
-/// by modality, other images by their voxels (see contentOf), which are read. Throws as the readers
+/// by SOP class and modality, other images by their voxels (see contentOf), which are read. Throws as the readers
 /// do, and CancelledError.
 SourceContent lookAt(const std::filesystem::path& path, const core::Progress& progress);
 

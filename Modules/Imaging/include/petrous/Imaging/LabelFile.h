@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,24 @@ namespace petrous::imaging
 
 struct LoadedLabels
 {
-  /// One map; for a .seg.nrrd with overlapping structures one per layer.
+  /// One map; for a file with overlapping structures (.seg.nrrd, DICOM SEG) one per layer.
   std::vector<volume::LabelMap> maps;
   std::vector<std::string> notes; ///< what was assumed or left out, one sentence each
   bool isNamedAfterFile = false;  ///< the single structure is named only by the file name
+  /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
+  /// it where the name says nothing.
+  std::map<std::string, std::string> meanings = {};
+  std::string frameOfReferenceUid = {}; ///< DICOM; identifies the patient's study: not to be shown
 };
 
-/// Reads structures from a NIfTI, NRRD or MetaImage file of integers (0 is background), on the grid
-/// of the file.
+/// Whether a file is a DICOM segmentation (SEG, also of label maps), whatever its name.
+bool isDicomSegmentation(const std::filesystem::path& path);
+
+/// Reads structures from a NIfTI, NRRD or MetaImage file of integers (0 is background) or from a
+/// DICOM segmentation, on the grid of the file.
+///
+/// A DICOM segmentation is BINARY, FRACTIONAL (voxels of 50 % and more, noted) or LABELMAP; places
+/// without a frame are empty. It is known by its first bytes, under any name.
 ///
 /// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from a 3D Slicer
 /// colour table (.ctbl, .txt) or an ITK-SNAP label description (.label, .txt) in the same folder

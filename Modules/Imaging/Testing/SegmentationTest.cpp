@@ -1,0 +1,369 @@
+#include <algorithm>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "SegmentationReader.h"
+#include "TestDicom.h"
+#include "TestFiles.h"
+#include "petrous/Imaging/LabelFile.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Reason = FileError::Reason;
+using test::TestSlice;
+
+/// A segmentation written byte by byte according to PS3.5 and PS3.3 A.51, sharing no code with the
+/// reader.
+struct TestSegmentation
+{
+  struct Frame
+  {
+    int segment;
+    double z;
+    std::function<int(int i, int j)> value; ///< 0 or 1; or a fraction or label
+  };
+
+  std::string type = "BINARY";
+  int columns = 5; // 15 pixels: frames begin within a byte
+  int rows = 3;
+  int bits = 1;
+  double spacing = 2.0;
+  bool sharesPlane = true; ///< orientation and spacing in the shared groups, else in each frame's
+  bool undefinedLength = false;
+  std::string orientation = "1\\0\\0\\0\\1\\0";
+  std::string segments; ///< items
+  std::vector<Frame> frames;
+  std::string extra;
+  TestSlice code; ///< how elements are encoded
+
+  std::string element(std::uint32_t tag, const char* vr, const std::string& value) const
+  {
+    std::string out;
+    code.element(out, tag, vr, value);
+    return out;
+  }
+  std::string number(std::uint32_t tag, int value) const
+  {
+    std::string out;
+    code.number(out, tag, static_cast<std::uint32_t>(value));
+    return out;
+  }
+  std::string item(const std::string& content) const
+  {
+    std::string out;
+    code.append(out, 0xfffe, 2);
+    code.append(out, 0xe000, 2);
+    code.append(out, undefinedLength ? 0xffffffffU : static_cast<std::uint32_t>(content.size()), 4);
+    out += content;
+    if (undefinedLength)
+      out += std::string("\xfe\xff\x0d\xe0\0\0\0\0", 8);
+    return out;
+  }
+  std::string sequence(std::uint32_t tag, const std::string& items) const
+  {
+    std::string out = element(tag, "SQ", items + std::string(items.size() % 2, ' '));
+    if (undefinedLength)
+    {
+      const std::size_t at = code.implicitVr ? 4 : 8;
+      out.replace(at, 4, "\xff\xff\xff\xff");
+      out += std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+    }
+    return out;
+  }
+
+  void addSegment(int index, const std::string& name, const std::string& more = "")
+  {
+    segments += item(number(0x00620004, index) + element(0x00620005, "LO", name) + more);
+  }
+
+  std::string bytes() const
+  {
+    TestSlice meta;
+    std::string out;
+    meta.element(out, 0x00020010, "UI",
+                 code.implicitVr ? "1.2.840.10008.1.2" : "1.2.840.10008.1.2.1");
+    out = std::string(128, '\0') + "DICM" + out;
+    out += element(0x00080005, "CS", "ISO_IR 100");
+    out += element(0x00080016, "UI",
+                   type == "LABELMAP" ? "1.2.840.10008.5.1.4.1.1.66.7"
+                                      : "1.2.840.10008.5.1.4.1.1.66.4");
+    out += element(0x00200052, "UI", "1.2.3.9");
+    out += element(0x00280008, "IS", std::to_string(frames.size()));
+    out += number(0x00280010, rows) + number(0x00280011, columns) + number(0x00280100, bits);
+    out += extra;
+    out += element(0x00620001, "CS", type);
+    out += sequence(0x00620002, segments);
+    const std::string plane =
+        sequence(0x00209116, item(element(0x00200037, "DS", orientation))) +
+        sequence(0x00289110, item(element(0x00180088, "DS", core::fixedText(spacing, 3)) +
+                                  element(0x00280030, "DS", "0.5\\0.4")));
+    out += sequence(0x52009229, item(sharesPlane ? plane : ""));
+    std::string groups;
+    for (const Frame& frame : frames)
+      groups += item(
+          sequence(0x00209113,
+                   item(element(0x00200032, "DS", "-10\\20.5\\" + core::fixedText(frame.z, 4)))) +
+          (sharesPlane ? "" : plane) +
+          (type == "LABELMAP" ? ""
+                              : sequence(0x0062000a, item(number(0x0062000b, frame.segment)))));
+    out += sequence(0x52009230, groups);
+    std::string pixels;
+    std::size_t bit = 0;
+    for (const Frame& frame : frames)
+      for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i)
+        {
+          const int value = frame.value(i, j);
+          if (bits == 1)
+          {
+            pixels.resize(bit / 8 + 1, '\0');
+            pixels[bit / 8] = static_cast<char>(pixels[bit / 8] | (value << bit % 8));
+            ++bit;
+          }
+          else
+            for (int b = 0; b < bits; b += 8)
+              pixels += static_cast<char>(value >> b);
+        }
+    return out + element(0x7fe00010, "OB", pixels + std::string(pixels.size() % 2, '\0'));
+  }
+};
+
+int left(int i, int)
+{
+  return i < 2;
+}
+int right(int i, int)
+{
+  return i >= 3;
+}
+int most(int i, int)
+{
+  return i >= 1;
+}
+int none(int, int)
+{
+  return 0;
+}
+
+TestSegmentation twoSegments()
+{
+  TestSegmentation file;
+  file.addSegment(1, "chorda");
+  file.addSegment(7, "stapes");
+  // out of order, one slice left out, and a frame without a voxel
+  file.frames = {{7, 6.0, right}, {1, 0.0, left}, {7, 0.0, none}, {1, 4.0, left}};
+  return file;
+}
+
+TEST(DicomSegmentation, PlacesFramesByPositionAndLeavesGapsEmpty)
+{
+  const TestFolder folder;
+  for (const bool implicitVr : {false, true})
+    for (const bool undefinedLength : {false, true})
+      for (const bool sharesPlane : {false, true})
+      {
+        TestSegmentation file;
+        file.code.implicitVr = implicitVr;
+        file.undefinedLength = undefinedLength;
+        file.sharesPlane = sharesPlane;
+        file.addSegment(1, "chorda");
+        file.addSegment(7, "stapes");
+        file.frames = twoSegments().frames;
+        // whatever its name
+        const auto loaded = loadLabels(putFile(folder / "a.seg", file.bytes()));
+        ASSERT_EQ(loaded.maps.size(), 1u);
+        EXPECT_EQ(loaded.frameOfReferenceUid, "1.2.3.9");
+        const volume::LabelMap& map = loaded.maps[0];
+        const core::GridGeometry& grid = map.voxels->geometry();
+        EXPECT_EQ(grid.dims(), (core::Index3{5, 3, 4}));
+        EXPECT_TRUE(grid.spacing().isApprox(Eigen::Vector3d(0.4, 0.5, 2.0)));
+        EXPECT_TRUE(grid.origin().isApprox(Eigen::Vector3d(-10.0, 20.5, 0.0)));
+        ASSERT_EQ(map.segments.size(), 2u);
+        EXPECT_EQ(map.segments[0].name, "chorda");
+        EXPECT_EQ(map.segments[0].voxels, 12u);
+        EXPECT_EQ(map.segments[1].name, "stapes");
+        EXPECT_EQ(map.segments[1].index, 7);
+        EXPECT_EQ(map.segments[1].voxels, 6u);
+        for (int k = 0; k < 4; ++k)
+          for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 5; ++i)
+              EXPECT_EQ(map.voxels->at(i, j, k), (k == 0 || k == 2) && i < 2 ? 1
+                                                 : k == 3 && i >= 3          ? 7
+                                                                             : 0);
+      }
+}
+
+TEST(DicomSegmentation, KeepsOverlappingSegmentsInLayers)
+{
+  const TestFolder folder;
+  TestSegmentation file = twoSegments();
+  file.addSegment(9, "bone");
+  file.frames.push_back({9, 0.0, right}); // first without overlap, then with
+  file.frames.push_back({9, 4.0, most});
+  const auto path = putFile(folder / "a.dcm", file.bytes());
+  const auto maps = loadLabels(path).maps;
+  ASSERT_EQ(maps.size(), 2u);
+  ASSERT_EQ(maps[0].segments.size(), 2u);
+  EXPECT_EQ(maps[0].segments[0].voxels, 12u);
+  EXPECT_EQ(maps[0].segments[1].voxels, 6u);
+  ASSERT_EQ(maps[1].segments.size(), 1u);
+  EXPECT_EQ(maps[1].segments[0].name, "bone");
+  EXPECT_EQ(maps[1].segments[0].voxels, 18u);
+  expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
+}
+
+TEST(DicomSegmentation, TakesHalfOfTheLargestFraction)
+{
+  const TestFolder folder;
+  TestSegmentation file;
+  file.type = "FRACTIONAL";
+  file.bits = 8;
+  file.extra = file.number(0x0062000e, 100);
+  file.addSegment(1, "dura");
+  file.frames = {{1, 0.0, [](int i, int j) { return i == 0 ? 49 : i == 1 ? 50 : j * 30; }}};
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  EXPECT_EQ(loaded.maps.at(0).segments.at(0).voxels, 3u + 3u);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("50 %"), std::string::npos);
+}
+
+TEST(DicomSegmentation, ReadsLabelMapsWithTheirPadding)
+{
+  const TestFolder folder;
+  for (const int bits : {8, 16})
+  {
+    TestSegmentation file;
+    file.type = "LABELMAP";
+    file.bits = bits;
+    file.extra = file.number(0x00280120, 5);
+    file.addSegment(0, "Background");
+    const int label = bits == 8 ? 200 : 3000;
+    file.addSegment(label, "cochlea");
+    file.frames = {{0, 2.0, [label](int i, int) { return i == 4 ? label : 5; }},
+                   {0, 0.0, [label](int i, int) { return i < 2 ? label : 0; }}};
+    const auto map = readLabelFile(putFile(folder / "a.dcm", file.bytes()));
+    ASSERT_EQ(map.segments.size(), 1u);
+    EXPECT_EQ(map.segments[0].name, "cochlea");
+    EXPECT_EQ(map.segments[0].voxels, 9u);
+    EXPECT_EQ(map.voxels->at(0, 0, 0), label);
+    EXPECT_EQ(map.voxels->at(4, 2, 1), label);
+  }
+}
+
+TEST(DicomSegmentation, ReadsColorMeaningAndLatinName)
+{
+  const TestFolder folder;
+  TestSegmentation file;
+  std::string lab;
+  for (const unsigned value :
+       {35579U, 53665U, 50858U}) // sRGB red is (54.29, 80.81, 69.89) relative to D50
+    file.code.append(lab, value, 2);
+  file.addSegment(
+      1, "N\xe9ural",
+      file.element(0x0062000d, "US", lab) +
+          file.sequence(0x0062000f, file.item(file.element(0x00080104, "LO", "Facial nerve"))));
+  file.frames = {{1, 0.0, left}};
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  const volume::Segment& segment = loaded.maps.at(0).segments.at(0);
+  EXPECT_EQ(segment.name, "N\xc3\xa9ural");
+  EXPECT_EQ(loaded.meanings.at(segment.name), "Facial nerve");
+  EXPECT_NEAR(segment.color[0], 1.0, 0.01);
+  EXPECT_NEAR(segment.color[1], 0.0, 0.02);
+  EXPECT_NEAR(segment.color[2], 0.0, 0.02);
+}
+
+TEST(DicomSegmentation, NamesAreUtf8WhateverTheFileSays)
+{
+  const TestFolder folder;
+  TestSegmentation file;
+  file.addSegment(1, "N\xe9ural"); // Latin-1
+  file.frames = {{1, 0.0, left}};
+  std::string bytes = file.bytes();
+  const std::size_t at = bytes.find("ISO_IR 100");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 10, "ISO_IR 192");
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", bytes));
+  EXPECT_EQ(loaded.maps.at(0).segments.at(0).name, "N?ural");
+}
+
+// CIE L*a*b* relative to D50: white is (100, 0, 0), and greys keep equal channels; L* = 50 is
+// Y = 0.18419, in sRGB 0.46633.
+TEST(DicomSegmentation, TurnsCieLabIntoSrgb)
+{
+  const int zero = 32896; // of a* and b*
+  const auto expectGrey = [&](int l, double grey)
+  {
+    for (const float channel : colorFromCieLab({l, zero, zero}))
+      EXPECT_NEAR(channel, grey, 1e-3);
+  };
+  expectGrey(65535, 1.0);
+  expectGrey(32768, 0.46633);
+  expectGrey(0, 0.0);
+}
+
+TEST(DicomSegmentation, ToleratesRoundedPositionsAndRefusesUnevenOnes)
+{
+  const TestFolder folder;
+  TestSegmentation file;
+  file.spacing = 0.0;
+  file.addSegment(1, "dura");
+  for (int k = 0; k < 300; ++k) // a third of a millimetre, to two decimals
+    file.frames.push_back({1, std::round(k * 100.0 / 3.0) / 100.0, left});
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  EXPECT_EQ(loaded.maps.at(0).voxels->geometry().dims()[2], 300);
+  EXPECT_NEAR(loaded.maps[0].voxels->geometry().spacing()[2], 1.0 / 3.0, 1e-4);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+
+  file.frames = {{1, 0.0, left}, {1, 1.0, left}, {1, 2.4, left}}; // of 1.2 mm each
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "b.dcm", file.bytes())); }),
+                Reason::NoGeometry, "0.2 mm off");
+}
+
+TEST(DicomSegmentation, RefusesWhatCannotBeTrue)
+{
+  const TestFolder folder;
+  const auto refused = [&](const TestSegmentation& file, Reason reason, const std::string& word)
+  {
+    expectRefused(refusalOf([&] { loadLabels(putFile(folder / "a.dcm", file.bytes())); }), reason,
+                  word);
+  };
+  TestSegmentation far = twoSegments();
+  far.frames[0].z = 1e12; // voxels beyond all memory
+  refused(far, Reason::Unsupported, "more voxels");
+  const TestSegmentation fewer;
+  std::string bytes = twoSegments().bytes();
+  const std::string small = fewer.number(0x00280010, 3) + fewer.number(0x00280011, 5);
+  const std::size_t at = bytes.find(small);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, small.size(),
+                fewer.number(0x00280010, 65535) + fewer.number(0x00280011, 65535));
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "b.dcm", bytes)); }),
+                Reason::Unreadable, "fewer pixels");
+  TestSegmentation nameless = twoSegments();
+  nameless.frames[2].segment = 0;
+  refused(nameless, Reason::Unreadable, "names no segment");
+  TestSegmentation twice = twoSegments();
+  twice.addSegment(7, "again");
+  refused(twice, Reason::Unreadable, "two of one number");
+  TestSegmentation strange = twoSegments();
+  strange.type = "SURFACE";
+  refused(strange, Reason::Unsupported, "BINARY");
+}
+
+TEST(DicomSegmentation, SurvivesEveryTruncation)
+{
+  const TestFolder folder;
+  const std::string whole = twoSegments().bytes();
+  for (std::size_t size = 0; size < whole.size(); ++size)
+  {
+    const auto path = putFile(folder / "a.dcm", whole.substr(0, size));
+    EXPECT_THROW(loadLabels(path), FileError) << size;
+  }
+}
+
+} // namespace
+} // namespace petrous::imaging

@@ -1,0 +1,538 @@
+#include "SegmentationReader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "ByteSource.h"
+#include "DicomElements.h"
+#include "DicomItem.h"
+#include "FileHelpers.h"
+#include "GridFromAffine.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+using Reason = FileError::Reason;
+using LabelVolume = volume::Volume<std::uint16_t>;
+
+constexpr std::uint64_t kMaxHeader = std::uint64_t{512} << 20; // bytes before the pixels
+constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;   // of all layers
+constexpr double kMaxTurn = 1e-4;      // between the orientations of two frames, of unit vectors
+constexpr double kMinTolerance = 0.05; // mm, of a frame's place
+constexpr double kRelativeTolerance = 0.1; // of the spacing of slices
+constexpr double kNotedError = 1e-3;       // mm
+
+enum class Type
+{
+  Binary,
+  Fractional,
+  Labelmap
+};
+
+struct Frame
+{
+  std::size_t number = 0; ///< its place in the pixel data
+  int segment = 0;        ///< not used by LABELMAP
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  int slice = 0;
+};
+
+struct Segmentation
+{
+  std::filesystem::path path;
+  Type type = Type::Binary;
+  int rows = 0, columns = 0, bits = 0;
+  int padding = 0;       ///< LABELMAP: the value of voxels of no segment
+  int maxFraction = 255; ///< FRACTIONAL
+  DicomElements::Pixels pixels;
+  std::vector<Frame> frames;
+  Eigen::Vector3d row = Eigen::Vector3d::UnitX(), column = Eigen::Vector3d::UnitY();
+  Eigen::Vector2d pixelSpacing = Eigen::Vector2d::Zero(); ///< between rows, between columns; mm
+  double sliceSpacing = 0.0;                              ///< as declared; 0: not
+  double thickness = 0.0;
+};
+
+std::size_t pixelsPerFrame(const Segmentation& file)
+{
+  return static_cast<std::size_t>(file.rows) * static_cast<std::size_t>(file.columns);
+}
+
+/// A functional group of one frame: its own, or the one that all frames share.
+DicomItem groupOf(const DicomItem& own, const DicomItem& shared, Tag group)
+{
+  return own.has(group) ? own.item(group) : shared.item(group);
+}
+
+Type typeOf(const std::filesystem::path& path, const DicomItem& data)
+{
+  const std::string type = data.text(0x00620001);
+  if (type == "BINARY")
+    return Type::Binary;
+  if (type == "FRACTIONAL")
+    return Type::Fractional;
+  if (type == "LABELMAP")
+    return Type::Labelmap;
+  fail(Reason::Unsupported, path,
+       "is a DICOM segmentation of a type that is not read; export it as BINARY, FRACTIONAL or "
+       "LABELMAP");
+}
+
+[[noreturn]] void failFrame(const std::filesystem::path& path, std::size_t frame,
+                            const std::string& what)
+{
+  fail(Reason::NoGeometry, path,
+       "its frame " + std::to_string(frame + 1) + " " + what + "; export the segmentation again");
+}
+
+void readFrame(Segmentation& file, const DicomItem& own, const DicomItem& shared, Frame& frame)
+{
+  const auto position = groupOf(own, shared, 0x00209113).numbers(0x00200032);
+  const auto axes = groupOf(own, shared, 0x00209116).numbers(0x00200037);
+  const DicomItem measures = groupOf(own, shared, 0x00289110);
+  const auto spacing = measures.numbers(0x00280030);
+  if (position.size() != 3)
+    failFrame(file.path, frame.number, "states no position");
+  if (axes.size() != 6 || spacing.size() != 2)
+    failFrame(file.path, frame.number, "states no orientation or no pixel spacing");
+  frame.position = Eigen::Vector3d(position[0], position[1], position[2]);
+  const Eigen::Vector3d row(axes[0], axes[1], axes[2]);
+  const Eigen::Vector3d column(axes[3], axes[4], axes[5]);
+  const Eigen::Vector2d pixel(spacing[0], spacing[1]);
+  if (frame.number == 0)
+  {
+    file.row = row;
+    file.column = column;
+    file.pixelSpacing = pixel;
+    file.sliceSpacing = std::abs(measures.number(0x00180088).value_or(0.0));
+    file.thickness = measures.number(0x00180050).value_or(0.0);
+  }
+  else if ((row - file.row).norm() > kMaxTurn || (column - file.column).norm() > kMaxTurn ||
+           (pixel - file.pixelSpacing).norm() > kMaxTurn)
+    failFrame(file.path, frame.number,
+              "has another orientation or pixel spacing than the first, which is not read");
+  if (file.type != Type::Labelmap)
+    frame.segment = groupOf(own, shared, 0x0062000a).integer(0x0062000b).value_or(0);
+  if (file.type != Type::Labelmap && frame.segment == 0)
+    fail(Reason::Unreadable, file.path,
+         "its frame " + std::to_string(frame.number + 1) +
+             " names no segment; export the segmentation again");
+}
+
+/// Checks that the pixels of all frames are there.
+void checkPixels(const Segmentation& file, const ByteSource& source, const DicomElements& elements)
+{
+  const int bits = file.bits;
+  const bool fits = file.type == Type::Binary       ? bits == 1
+                    : file.type == Type::Fractional ? bits == 8
+                                                    : bits == 8 || bits == 16;
+  if (file.rows < 1 || file.columns < 1 || !fits)
+    fail(Reason::Unreadable, file.path,
+         "its rows, columns and bits of a pixel are not those of its type of segmentation; export "
+         "it again");
+  if (file.pixels.tag != kPixelData)
+    fail(Reason::Unreadable, file.path, "holds no pixel data; copy or export it again");
+  if (file.pixels.length == DicomElements::kUndefinedLength)
+    fail(Reason::Unsupported, file.path,
+         "is a compressed DICOM segmentation, which is not read; export it uncompressed (explicit "
+         "VR little endian)");
+  if (elements.isBigEndian())
+    fail(Reason::Unsupported, file.path,
+         "is a big-endian DICOM segmentation, which is not read; convert it to explicit VR little "
+         "endian");
+  // 65535 squared, 16 bits and frames of 8 bytes a header at least: below 2^64
+  const std::uint64_t needed =
+      (std::uint64_t{pixelsPerFrame(file)} * file.frames.size() * static_cast<unsigned>(bits) + 7) /
+      8;
+  if (file.pixels.length < needed || file.pixels.offset > source.size() ||
+      source.size() - file.pixels.offset < needed)
+    fail(Reason::Unreadable, file.path,
+         "holds fewer pixels than its " + std::to_string(file.frames.size()) +
+             " frames need; copy or export it again");
+}
+
+/// The spacing of slices whose sorted places (mm along the normal) are `at`.
+double spacingOf(const Segmentation& file, const std::vector<double>& at)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < at.size(); ++n)
+    smallest = std::min(smallest, at[n] - at[n - 1]);
+  if (at.size() < 2)
+    return file.sliceSpacing > 0.0 ? file.sliceSpacing : file.thickness;
+  // Declared, and true to the places: frames may be far apart.
+  const auto offGrid = [&](double spacing)
+  {
+    double worst = 0.0;
+    for (const double place : at)
+    {
+      const double slices = (place - at.front()) / spacing;
+      worst = std::max(worst, std::abs(slices - std::round(slices)) * spacing);
+    }
+    return worst;
+  };
+  if (file.sliceSpacing > 1e-3 &&
+      offGrid(file.sliceSpacing) <= std::max(kMinTolerance, kRelativeTolerance * file.sliceSpacing))
+    return file.sliceSpacing;
+  // The mean of the gaps of one slice, as rounded decimals make them differ.
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t n = 1; n < at.size(); ++n)
+    if (const double gap = at[n] - at[n - 1]; gap < 1.5 * smallest)
+    {
+      sum += gap;
+      ++count;
+    }
+  return sum / count;
+}
+
+/// Puts each frame into its slice.
+core::GridGeometry placeFrames(Segmentation& file, std::vector<std::string>& notes)
+{
+  const Eigen::Vector3d normal = file.row.cross(file.column).normalized();
+  if (!normal.allFinite() || normal.norm() < 0.5)
+    failFrame(file.path, 0, "has no orientation that can be true");
+  std::vector<double> at;
+  for (const Frame& frame : file.frames)
+    at.push_back(normal.dot(frame.position));
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-3; }),
+           at.end());
+  double spacing = spacingOf(file, at);
+  if (!(spacing > 1e-3))
+    fail(Reason::NoGeometry, file.path,
+         "its one slice states no thickness and no spacing; export the segmentation again");
+  const double range = at.back() - at.front();
+  const double steps = std::round(range / spacing);
+  const double limit = static_cast<double>(kMaxVoxels) / static_cast<double>(pixelsPerFrame(file));
+  if (!(steps + 1.0 <= limit))
+    fail(Reason::Unsupported, file.path,
+         "its frames lie " + roughText(range) +
+             " mm apart, in more voxels than are read; crop it, or look at the positions of its "
+             "frames");
+  if (steps > 0.0)
+    spacing = range / steps;
+  const Frame* lowest = &file.frames.front();
+  for (const Frame& frame : file.frames)
+    if (normal.dot(frame.position) < normal.dot(lowest->position))
+      lowest = &frame;
+  const double tolerance = std::max(kMinTolerance, kRelativeTolerance * spacing);
+  double worst = 0.0;
+  for (Frame& frame : file.frames)
+  {
+    frame.slice =
+        static_cast<int>(std::lround(normal.dot(frame.position - lowest->position) / spacing));
+    const double error =
+        (frame.position - lowest->position - frame.slice * spacing * normal).norm();
+    if (!(error <= tolerance))
+      failFrame(file.path, frame.number,
+                "lies " + roughText(error) +
+                    " mm off the even slices of the others (uneven spacing or a tilted gantry), "
+                    "which is not read");
+    worst = std::max(worst, error);
+  }
+  if (worst > kNotedError)
+    notes.push_back("frames up to " + roughText(worst) +
+                    " mm off even slices were taken to lie on them");
+  Eigen::Matrix3d linear;
+  linear << file.row * file.pixelSpacing[1], file.column * file.pixelSpacing[0], normal * spacing;
+  return gridFromAffine(file.path,
+                        {static_cast<std::uint64_t>(file.columns),
+                         static_cast<std::uint64_t>(file.rows),
+                         static_cast<std::uint64_t>(steps) + 1},
+                        linear, lowest->position, notes);
+}
+
+/// Calls visit(pixel) for the pixels of a frame that belong to its segment, until it returns false.
+template <class Visit>
+bool forEachPixel(const Segmentation& file, const std::vector<unsigned char>& bytes,
+                  std::size_t firstBit, const Visit& visit)
+{
+  const std::size_t count = pixelsPerFrame(file);
+  if (file.type == Type::Fractional)
+  {
+    for (std::size_t p = 0; p < count; ++p)
+      if (bytes[p] != 0 && 2 * int{bytes[p]} >= file.maxFraction && !visit(p))
+        return false;
+    return true;
+  }
+  const std::size_t end = firstBit + count; // the least significant bit of a byte comes first
+  for (std::size_t byte = 0; byte < bytes.size(); ++byte)
+  {
+    while (byte + 8 <= bytes.size())
+    {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + byte, sizeof word);
+      if (word != 0)
+        break;
+      byte += 8;
+    }
+    if (byte >= bytes.size())
+      break;
+    for (unsigned rest = bytes[byte]; rest != 0; rest &= rest - 1)
+    {
+      const std::size_t bit = 8 * byte + static_cast<std::size_t>(__builtin_ctz(rest));
+      if (bit >= firstBit && bit < end && !visit(bit - firstBit))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Reads the bytes of a frame; returns where its first pixel lies in them, in bits.
+std::size_t readPixels(const Segmentation& file, ByteSource& source, const Frame& frame,
+                       std::vector<unsigned char>& bytes)
+{
+  const std::uint64_t bits = std::uint64_t{pixelsPerFrame(file)} * static_cast<unsigned>(file.bits);
+  const std::uint64_t first = bits * frame.number;
+  bytes.resize(static_cast<std::size_t>((first + bits + 7) / 8 - first / 8));
+  if (!source.read(file.pixels.offset + first / 8, bytes.data(), bytes.size()))
+    fail(Reason::Unreadable, file.path, "cannot be read to its end; copy it again");
+  return static_cast<std::size_t>(first % 8);
+}
+
+struct Layers
+{
+  std::vector<std::shared_ptr<LabelVolume>> voxels;
+  std::map<int, std::size_t> layerOf; ///< by segment number
+};
+
+/// Paints one segment into the first layer in which it overlaps no other.
+void paintSegment(const Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
+                  const Frame* first, const Frame* last, Layers& layers)
+{
+  const auto label = static_cast<std::uint16_t>(first->segment);
+  std::vector<unsigned char> bytes;
+  for (std::size_t layer = 0;; ++layer)
+  {
+    if (layer == layers.voxels.size())
+    {
+      if ((layer + 1) * grid.voxelCount() > kMaxVoxels)
+        fail(Reason::Unsupported, file.path,
+             "its segments overlap in more layers than are read; export fewer of them at a time");
+      layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+    }
+    const Frame* frame = first;
+    for (; frame != last; ++frame)
+    {
+      const std::size_t bit = readPixels(file, source, *frame, bytes);
+      std::uint16_t* slice = &layers.voxels[layer]->at(0, 0, frame->slice);
+      if (!forEachPixel(file, bytes, bit,
+                        [&](std::size_t p)
+                        {
+                          if (slice[p] != 0 && slice[p] != label)
+                            return false;
+                          slice[p] = label;
+                          return true;
+                        }))
+        break;
+    }
+    if (frame == last)
+    {
+      layers.layerOf[label] = layer;
+      return;
+    }
+    for (const Frame* painted = first; painted <= frame; ++painted)
+    {
+      std::uint16_t* slice = &layers.voxels[layer]->at(0, 0, painted->slice);
+      for (std::size_t p = 0; p < pixelsPerFrame(file); ++p)
+        if (slice[p] == label)
+          slice[p] = 0;
+    }
+  }
+}
+
+Layers paintSegments(Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
+                     const core::Progress& progress)
+{
+  std::stable_sort(file.frames.begin(), file.frames.end(),
+                   [](const Frame& a, const Frame& b)
+                   { return std::pair(a.segment, a.slice) < std::pair(b.segment, b.slice); });
+  Layers layers;
+  layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+  const Frame* end = file.frames.data() + file.frames.size();
+  for (const Frame* first = file.frames.data(); first != end;)
+  {
+    progress.report(static_cast<double>(first - file.frames.data()) /
+                        static_cast<double>(file.frames.size()),
+                    "reading labels");
+    const Frame* last = std::find_if(
+        first, end, [first](const Frame& frame) { return frame.segment != first->segment; });
+    paintSegment(file, source, grid, first, last, layers);
+    first = last;
+  }
+  return layers;
+}
+
+Layers copyLabelmap(const Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
+                    const core::Progress& progress)
+{
+  Layers layers;
+  layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+  std::vector<unsigned char> bytes;
+  std::vector<char> isTaken(static_cast<std::size_t>(grid.dims()[2]), 0);
+  for (const Frame& frame : file.frames)
+  {
+    progress.report(static_cast<double>(frame.number) / static_cast<double>(file.frames.size()),
+                    "reading labels");
+    if (std::exchange(isTaken[static_cast<std::size_t>(frame.slice)], 1))
+      failFrame(file.path, frame.number, "lies where another one does");
+    readPixels(file, source, frame, bytes);
+    std::uint16_t* slice = &layers.voxels[0]->at(0, 0, frame.slice);
+    const std::size_t size = static_cast<std::size_t>(file.bits) / 8;
+    for (std::size_t p = 0; p < pixelsPerFrame(file); ++p)
+    {
+      const int value = size == 1 ? bytes[p] : bytes[2 * p] | (bytes[2 * p + 1] << 8);
+      if (value != 0 && value != file.padding)
+        slice[p] = static_cast<std::uint16_t>(value);
+    }
+  }
+  return layers;
+}
+
+/// What a segment is, by its codes: its anatomic region, if stated, and its type.
+std::string meaningOf(const DicomItem& segment, const std::string& characters)
+{
+  const DicomItem anatomy = segment.item(0x00082218);
+  const DicomItem type = segment.item(0x0062000f);
+  std::string text = type.text(0x00080104);
+  if (const std::string place = anatomy.text(0x00080104); !place.empty())
+    text = place + " " + text;
+  return toUtf8(text, characters);
+}
+
+} // namespace
+
+std::string sopClassOf(const std::filesystem::path& path)
+{
+  ByteSource source(path);
+  if (!source.isOpen())
+    return {};
+  const DicomElements elements(source);
+  const std::string stated = elements.text(0x00080016);
+  return stated.empty() ? elements.text(0x00020002) : stated;
+}
+
+bool isSegmentationClass(const std::string& sopClass)
+{
+  return sopClass == "1.2.840.10008.5.1.4.1.1.66.4" || sopClass == "1.2.840.10008.5.1.4.1.1.66.7";
+}
+
+std::array<float, 3> colorFromCieLab(const std::vector<int>& value)
+{
+  if (value.size() != 3)
+    return {};
+  const double l = value[0] * 100.0 / 65535.0;
+  const double a = value[1] * 255.0 / 65535.0 - 128.0;
+  const double b = value[2] * 255.0 / 65535.0 - 128.0;
+  const auto inverse = [](double t)
+  { return t > 6.0 / 29.0 ? t * t * t : 3.0 * (6.0 / 29.0) * (6.0 / 29.0) * (t - 4.0 / 29.0); };
+  const double fy = (l + 16.0) / 116.0;
+  const Eigen::Vector3d xyz(0.96422 * inverse(fy + a / 500.0), inverse(fy),
+                            0.82521 * inverse(fy - b / 200.0)); // D50
+  Eigen::Matrix3d toRgb; // adapted to D65 (Bradford), linear sRGB (IEC 61966-2-1)
+  toRgb << 3.1338561, -1.6168667, -0.4906146, -0.9787684, 1.9161415, 0.0334540, 0.0719453,
+      -0.2289914, 1.4052427;
+  const Eigen::Vector3d linear = toRgb * xyz;
+  std::array<float, 3> color{};
+  for (int c = 0; c < 3; ++c)
+  {
+    const double x = std::clamp(linear[c], 0.0, 1.0);
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    color[static_cast<std::size_t>(c)] = static_cast<float>(std::clamp(encoded, 0.0, 1.0));
+  }
+  return color;
+}
+
+LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress)
+{
+  progress.report(0.0, "reading labels");
+  ByteSource source(path);
+  const DicomElements elements(source);
+  Segmentation file;
+  file.path = path;
+  file.pixels = elements.pixels();
+  const std::uint64_t end =
+      file.pixels.tag != 0 ? file.pixels.offset - (elements.isExplicit() ? 12 : 8) : source.size();
+  if (elements.state() != DicomElements::State::Complete || end < elements.dataStart())
+    fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  if (elements.isBigEndian())
+    checkPixels(file, source, elements); // which refuses it
+  if (end - elements.dataStart() > kMaxHeader)
+    fail(Reason::Unsupported, path,
+         "describes its frames in more than 512 MB; export fewer of its segments at a time");
+  std::string head(static_cast<std::size_t>(end - elements.dataStart()), '\0');
+  if (!source.read(elements.dataStart(), head.data(), head.size()))
+    fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
+  const DicomItem data(head, elements.isExplicit());
+
+  file.type = typeOf(path, data);
+  file.rows = data.integer(0x00280010).value_or(0);
+  file.columns = data.integer(0x00280011).value_or(0);
+  file.bits = data.integer(0x00280100).value_or(0);
+  file.padding = data.integer(0x00280120).value_or(0);
+  file.maxFraction = std::max(data.integer(0x0062000e).value_or(255), 1);
+  const DicomItem shared = data.item(0x52009229);
+  const std::vector<DicomItem> own = data.items(0x52009230);
+  const double stated = data.number(0x00280008).value_or(static_cast<double>(own.size()));
+  if (own.empty() || stated != static_cast<double>(own.size()))
+    fail(Reason::Unreadable, path,
+         "describes another number of frames (" + std::to_string(own.size()) +
+             ") than it states; export the segmentation again");
+  file.frames.resize(own.size());
+  checkPixels(file, source, elements);
+  for (std::size_t n = 0; n < own.size(); ++n)
+  {
+    file.frames[n].number = n;
+    readFrame(file, own[n], shared, file.frames[n]);
+  }
+
+  LoadedLabels loaded;
+  loaded.frameOfReferenceUid = data.text(0x00200052);
+  const core::GridGeometry grid = placeFrames(file, loaded.notes);
+  if (file.type == Type::Fractional)
+    loaded.notes.push_back(std::string("holds fractions (") +
+                           (data.text(0x00620010) == "OCCUPANCY" ? "occupancy" : "probability") +
+                           "): voxels of 50 % and more were taken as the structure");
+  const core::Progress painting = progress.part(0.1, 0.9);
+  Layers layers = file.type == Type::Labelmap ? copyLabelmap(file, source, grid, painting)
+                                              : paintSegments(file, source, grid, painting);
+
+  const std::string characters = data.text(0x00080005);
+  std::vector<std::vector<volume::Segment>> names(layers.voxels.size());
+  std::vector<char> isKnown(65536, 0);
+  for (const DicomItem& item : data.items(0x00620002))
+  {
+    const auto number = item.integer(0x00620004);
+    if (!number || isKnown[static_cast<std::size_t>(*number)])
+      fail(Reason::Unreadable, path,
+           "describes a segment without a number, or two of one number; export it again");
+    isKnown[static_cast<std::size_t>(*number)] = 1;
+    if (*number == 0)
+      continue; // the background of a label map
+    volume::Segment segment;
+    segment.index = static_cast<std::uint16_t>(*number);
+    segment.name = toUtf8(item.text(0x00620005), characters);
+    if (segment.name.empty())
+      segment.name = "label " + std::to_string(*number);
+    segment.color = colorFromCieLab(item.shorts(0x0062000d));
+    loaded.meanings[segment.name] = meaningOf(item, characters);
+    const auto layer = layers.layerOf.find(*number);
+    names[layer == layers.layerOf.end() ? 0 : layer->second].push_back(std::move(segment));
+  }
+  for (std::size_t layer = 0; layer < layers.voxels.size(); ++layer)
+    loaded.maps.push_back(
+        volume::makeLabelMap(std::move(layers.voxels[layer]), std::move(names[layer])));
+  progress.report(1.0, "reading labels");
+  return loaded;
+}
+
+} // namespace petrous::imaging

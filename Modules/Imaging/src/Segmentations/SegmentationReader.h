@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "petrous/Imaging/LabelFile.h"
+
+namespace petrous::imaging
+{
+
+/// SOP Class UID of a DICOM file; "" if it is not one, or is damaged before it.
+std::string sopClassOf(const std::filesystem::path& path);
+bool isSegmentationClass(const std::string& sopClass);
+
+/// Reads a DICOM segmentation (PS3.3 A.51): BINARY, FRACTIONAL (voxels of at least half the
+/// maximum) and LABELMAP, uncompressed.
+///
+/// The grid is the frames' own: their orientation, and positions at even steps along the normal;
+/// places without a frame are empty. Frames are read one at a time, straight into the grid.
+/// Segments that overlap lie in several maps. Throws FileError, CancelledError.
+LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress);
+
+/// sRGB (0 to 1) of a Recommended Display CIELab Value (PS3.3 C.10.7.1.1, relative to D50).
+std::array<float, 3> colorFromCieLab(const std::vector<int>& value);
+
+} // namespace petrous::imaging

@@ -146,21 +146,26 @@ namespace
 
 namespace fs = std::filesystem;
 
+fs::path resolved(const fs::path& file)
+{
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(file, error);
+  return error ? fs::absolute(file).lexically_normal() : path;
+}
+
 bool isSameFile(const fs::path& a, const fs::path& b)
 {
   std::error_code error;
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) ||
-         fs::equivalent(a, b, error);
+  return resolved(a) == resolved(b) || fs::equivalent(a, b, error);
 }
 
 // Whether a library keeps its own data there.
 bool isOfLibrary(const fs::path& file, const fs::path& library)
 {
-  std::error_code error;
-  const fs::path below =
-      fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(library, error));
+  const fs::path below = resolved(file).lexically_relative(resolved(library));
   const std::string first = below.empty() ? "" : below.begin()->string();
-  for (const char* own : {"cases", "objects", "derived", "salt", ".lock"})
+  for (const char* own :
+       {"cases", "objects", "derived", "salt", ".lock", "materials.json", "burrs.json"})
     if (first == own)
       return true;
   return first.rfind("library.sqlite", 0) == 0;

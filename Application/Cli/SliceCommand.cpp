@@ -244,9 +244,6 @@ void slice(const Context& context, const SliceOptions& options)
   context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
-  presenters::LeftOut leftOut;
-  if (!options.noStructures)
-    leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   const scene::ImagePart* mr = findOverlay(options, value);
   const presenters::IntensityDisplay display = presenters::displayOf(value);
   const presenters::GreyWindow window = wanted.value_or(display.bone);
@@ -255,6 +252,9 @@ void slice(const Context& context, const SliceOptions& options)
   if (!meets(geometry, value.ct.geometry))
     throw UsageError("--at: the slice does not meet the CT, which " +
                      coverageOf(value.ct.geometry) + " (patient LPS)");
+  presenters::LeftOut leftOut;
+  if (!options.noStructures)
+    leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   if (value.applied() > 0)
     library.loadDissection(value);
   nlohmann::json missing = leftOutJson(value, leftOut);

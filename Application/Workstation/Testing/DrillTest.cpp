@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -210,8 +211,32 @@ TEST_F(Drill, ReturnAndEscapeInANumberGiveTheKeysBackToTheView)
       EXPECT_TRUE(action("Drill")->isChecked());
       QTest::keyClick(QApplication::focusWidget(), Qt::Key_D);
     }
+    const QString before = box->text();
+    box->setFocus();
+    box->selectAll();
+    QTest::keyClicks(box, "7");
+    QTest::keyClick(box, Qt::Key_Escape);
+    EXPECT_EQ(box->text().toStdString(), before.toStdString()) << "what was typed is dropped";
   }
   EXPECT_GE(visible, 4); // burr, speed, thrust, threshold
+}
+
+TEST_F(Drill, AChoiceGivesTheKeysBackToTheView)
+{
+  saveBall("ball");
+  openWindow();
+  int visible = 0;
+  for (auto* box : window().findChildren<QComboBox*>())
+  {
+    if (!box->isVisible() || !box->isEnabled())
+      continue;
+    SCOPED_TRACE(box->objectName().toStdString());
+    ++visible;
+    box->setFocus();
+    emit box->activated(box->currentIndex()); // as a click in its list does
+    EXPECT_EQ(QApplication::focusWidget(), &view());
+  }
+  EXPECT_GE(visible, 1); // the burr's kind
 }
 
 // 3 is a standard view's key.

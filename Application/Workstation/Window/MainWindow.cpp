@@ -221,11 +221,13 @@ void MainWindow::guardBoxes()
   {
     connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, m_view,
             qOverload<>(&QWidget::setFocus));
+    box->setKeyboardTracking(false); // no values from partial input, so that Escape can drop it
     box->setFocusPolicy(Qt::StrongFocus);
     box->installEventFilter(this);
   }
   for (auto* box : findChildren<QComboBox*>())
   {
+    connect(box, qOverload<int>(&QComboBox::activated), m_view, [this] { m_view->setFocus(); });
     box->setFocusPolicy(Qt::StrongFocus);
     box->installEventFilter(this);
   }
@@ -401,8 +403,13 @@ void MainWindow::connectActions()
   // The drill stays off until button, key or pedal is pressed anew.
   const auto step = [this, refused](void (presenters::WorkstationModel::*way)())
   {
-    m_view->tool().Release();
-    guarded([this, way] { (m_model.*way)(); }, refused);
+    guarded(
+        [this, way]
+        {
+          m_view->tool().ReleaseDrill();
+          (m_model.*way)();
+        },
+        refused);
   };
   on(m_actions->undo, [step] { step(&presenters::WorkstationModel::undo); });
   on(m_actions->redo, [step] { step(&presenters::WorkstationModel::redo); });

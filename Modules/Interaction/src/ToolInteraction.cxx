@@ -247,6 +247,13 @@ void vtkPetrousToolInteraction::Release()
   this->Unpress();
 }
 
+void vtkPetrousToolInteraction::ReleaseDrill()
+{
+  if (this->Leader)
+    return this->Leader->ReleaseDrill();
+  this->Unpress();
+}
+
 void vtkPetrousToolInteraction::Unpress()
 {
   if (!this->Pressed())

@@ -89,8 +89,10 @@ std::string labelsText(const scene::Case& value, const scene::LabelPart& part)
     names += (n > 0 ? ", '" : "'") + part.structures[n].name + "'";
   if (count > kMaxNamed)
     names += " and " + std::to_string(count - kMaxNamed) + " more structures";
-  return (count == 1 ? "structure " : "the label map of ") + names + " of case '" + value.name +
-         "'";
+  return (count == 1   ? "structure "
+          : count == 0 ? "a label map"
+                       : "the label map of ") +
+         names + " of case '" + value.name + "'";
 }
 
 std::string meshText(const scene::Case& value, const scene::MeshPart& mesh)
@@ -525,6 +527,9 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   }
   try
   {
+    if (!onDisk && m_notice)
+      m_notice("case '" + value.name +
+               "' is saved, but the disk reported an error; check the disk");
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
     core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
                     std::to_string(value.dissection.strokes().size()) + " strokes, " +
@@ -532,9 +537,6 @@ void Library::save(scene::Case& value, const core::Progress& progress)
                     std::to_string(value.labels.size()) + " label maps, " +
                     std::to_string(value.meshes.size()) + " meshes" +
                     (onDisk ? "" : "; the disk reported an error"));
-    if (!onDisk && m_notice)
-      m_notice("case '" + value.name +
-               "' is saved, but the disk reported an error; check the disk");
     if (const auto state = stateOf(path))
       Catalogue(m_folder / "library.sqlite").put(summaryOf(value, state->modified), state->stamp);
   }

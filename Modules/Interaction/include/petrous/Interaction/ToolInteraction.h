@@ -128,6 +128,8 @@ public:
 
   /// Releases button and keys, e.g. when the window loses the focus.
   void Release();
+  /// As Release, but a key that freezes the tool stays held.
+  void ReleaseDrill();
 
   void SetEnabled(int enabling) override;
 

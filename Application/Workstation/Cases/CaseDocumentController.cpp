@@ -359,6 +359,7 @@ bool CaseDocumentController::chooseSeries(SourceContent& source, std::string& ui
   const auto& series = source.series[static_cast<std::size_t>(index)];
   uid = series.selector;
   source.content = series.content;
+  source.repair = series.repair;
   source.why = series.modality.empty() ? "says no modality" : "says modality " + series.modality;
   return true;
 }
@@ -392,6 +393,26 @@ bool CaseDocumentController::askContent(SourceContent& source)
   return true;
 }
 
+bool CaseDocumentController::askRepair(const SourceContent& source)
+{
+  if (source.repair.empty())
+    return true;
+  QMessageBox box(
+      QMessageBox::Question, tr("Straighten the scan?"),
+      tr("“%1” cannot be used as it is. %2").arg(nameOf(source.path), words(source.repair)),
+      QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askRepair");
+  box.setInformativeText(
+      tr("Straightened, each slice is put where its position says, by linear interpolation. What "
+         "was changed and guessed is written in the case. Small structures may be absent where "
+         "slices were interpolated."));
+  const auto* repair = box.addButton(tr("Straighten and open"), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == repair;
+}
+
 bool CaseDocumentController::askName(const SourceContent& source, std::string& name)
 {
   if (!source.isNameless)
@@ -419,8 +440,11 @@ void CaseDocumentController::decide(const Sources& found)
     std::string uid;
     if (!source.series.empty() && !chooseSeries(source, uid))
       return;
+    if (!askRepair(source))
+      return;
     if (source.content == Content::Image && !askContent(source))
       return;
+    const bool repair = !source.repair.empty();
     std::string name;
     if (!askName(source, name))
       return;
@@ -435,9 +459,10 @@ void CaseDocumentController::decide(const Sources& found)
       ct = &source;
       sources.ct = source.path;
       sources.series = uid;
+      sources.repair = repair;
       continue;
     case Content::Mr:
-      sources.parts.mr.push_back({{}, source.path, {}, uid});
+      sources.parts.mr.push_back({{}, source.path, {}, uid, repair});
       break;
     case Content::Labels:
       sources.parts.labels.push_back({name, source.path});

@@ -66,6 +66,7 @@ private:
   void decide(const Sources& found);
   bool chooseSeries(presenters::SourceContent& source, std::string& uid);
   bool askContent(presenters::SourceContent& source);
+  bool askRepair(const presenters::SourceContent& source);
   bool askName(const presenters::SourceContent& source, std::string& name);
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources);

@@ -78,7 +78,7 @@ void StructuresPanel::addList(QVBoxLayout& layout)
   header->setMinimumSectionSize(20);
   header->setSectionResizeMode(QHeaderView::Fixed);
   for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
-    header->resizeSection(column, column == StructuresModel::VolumeColumn ? 46 : 48);
+    header->resizeSection(column, column == StructuresModel::VolumeColumn ? 64 : 48);
   header->setSectionResizeMode(StructuresModel::Name, QHeaderView::Interactive);
   connect(header, &QHeaderView::sectionResized, this,
           [this](int column, int, int width)

@@ -1,5 +1,6 @@
 #include "GuiTest.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <QInputDialog>
@@ -379,4 +380,30 @@ TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
   EXPECT_TRUE(banner->text().contains("not Hounsfield units")) << banner->text().toStdString();
   banner->findChild<QPushButton*>("dismissNotes")->click();
   EXPECT_FALSE(banner->isVisible());
+}
+
+TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  options.tilt = 12.0;
+  phantom::writeSamplePatient(folder() / "tilted", options);
+  openWindow();
+  const auto drop = [this](const QString& button)
+  {
+    const QString asked = answered([this](const auto& react) { onMessage(react); }, button,
+                                   [this] { dropPath(folder() / "tilted" / "ct"); });
+    EXPECT_TRUE(asked.contains("12.0 degrees")) << asked.toStdString();
+    EXPECT_FALSE(asked.contains("--repair")) << asked.toStdString();
+    ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
+  };
+  drop("Cancel");
+  EXPECT_FALSE(window().model().hasCase());
+  EXPECT_TRUE(library().list().empty());
+  drop("Straighten");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto& notes = window().model().value().ct.notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                          [](const std::string& note)
+                          { return note.find("tilt of 12.0 degrees") != std::string::npos; }));
 }

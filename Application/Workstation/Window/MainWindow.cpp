@@ -485,6 +485,7 @@ void MainWindow::caseChanged()
   m_pages->setCurrentIndex(1);
   if (first)
     showPanels();
+  m_place->clear(); // of the previous case
   m_drill->releaseTool();
   offerBurrs();
   m_picture->caseChanged();
@@ -585,7 +586,8 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   const QString text = strokeText(stroke.get());
   if (!stroke)
     return statusBar()->showMessage(text, kMessage);
-  statusBar()->showMessage(text);
+  if (m_model.hasCase() && m_model.value().dissection.history().ahead() == 0)
+    statusBar()->showMessage(text); // else an undo has ended it, and says so
   m_saver->save();
 }
 

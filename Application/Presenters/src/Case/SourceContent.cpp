@@ -99,9 +99,20 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
   SourceContent result;
   result.path = path;
   const auto scan = imaging::scanDicom(path, progress);
+  const auto isVerdict = [](imaging::Verdict verdict)
+  {
+    return [verdict](const imaging::DicomSeries& series)
+    { return series.geometry.verdict == verdict && series.geometry.grid; };
+  };
+  const bool sound =
+      std::any_of(scan.series.begin(), scan.series.end(), isVerdict(imaging::Verdict::Ok));
+  const auto isListed = isVerdict(sound ? imaging::Verdict::Ok : imaging::Verdict::Repairable);
   for (const imaging::DicomSeries& series : scan.series)
-    if (series.geometry.verdict == imaging::Verdict::Ok && series.geometry.grid)
+    if (isListed(series))
     {
+      std::string repair;
+      for (const imaging::Finding& finding : series.geometry.findings)
+        repair += sound ? "" : (repair.empty() ? "" : " ") + finding.text;
       const imaging::SliceHeader& first = series.geometry.slices.front();
       std::string description = series.description;
       if (!series.volume.empty())
@@ -109,7 +120,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
       result.series.push_back({imaging::selectorOf(series), contentOf(series.modality),
                                series.modality, description, series.geometry.slices.size(),
                                series.geometry.grid->spacing(), first.taken, first.patientPosition,
-                               first.kernel, first.file.parent_path().filename().string()});
+                               first.kernel, first.file.parent_path().filename().string(), repair});
     }
   if (result.series.size() > 1)
     return result;
@@ -118,6 +129,8 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
                                                      : result.series.front().modality;
   result.content = contentOf(modality);
   result.why = whyOf(modality);
+  if (!result.series.empty())
+    result.repair = result.series.front().repair;
   result.series.clear();
   return result;
 }

@@ -206,7 +206,9 @@ private:
     if (!multi.empty())
       find(FindingKind::MultiFrame, std::to_string(multi.size()) +
                                         (multi.size() == 1 ? " file holds" : " files hold") +
-                                        " many frames in one; only one slice a file can be read.");
+                                        " many frames in one that are not those of an enhanced CT "
+                                        "or MR; a DICOM segmentation is "
+                                        "read as structures (--labels).");
     const Headers colour = takeOut(m_slices, isColour);
     if (!colour.empty())
       find(FindingKind::NotAnImage, "Colours instead of one CT or MR value a pixel in " +

@@ -20,7 +20,7 @@ enum class Content
   Mesh
 };
 
-/// A readable DICOM series.
+/// A readable DICOM series. One that needs repair is listed only where none is readable without.
 struct SeriesContent
 {
   std::string selector;             ///< of imaging::chooseSeries
@@ -34,6 +34,7 @@ struct SeriesContent
   std::string patientPosition; ///< likewise
   std::string kernel;          ///< reconstruction kernel; may be empty
   std::string folder;          ///< name of its first slice's folder
+  std::string repair;          ///< why it can be read only with repair; empty: as it is
 };
 
 /// A file or folder that the user opens or drops, and its content.
@@ -43,14 +44,15 @@ struct SourceContent
   Content content = Content::Image;
   std::string why;         ///< the reason for `content`: a phrase that follows "it", for the user
   bool isNameless = false; ///< only the file names its structure, possibly after a patient
+  std::string repair;      ///< as SeriesContent, where it has one series
   /// Of a DICOM folder with several readable series: the user chooses. `content` is then
   /// meaningless.
   std::vector<SeriesContent> series;
 };
 
 /// Determines the content of `path`: meshes and 3D Slicer segmentations by their file names, DICOM
-/// by SOP class and modality, other images by their voxels (see contentOf), which are read. Throws as the readers
-/// do, and CancelledError.
+/// by SOP class and modality, other images by their voxels (see contentOf), which are read. Throws
+/// as the readers do, and CancelledError.
 SourceContent lookAt(const std::filesystem::path& path, const core::Progress& progress);
 
 /// By the voxels alone.

@@ -98,7 +98,7 @@ void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::
 }
 
 void DeviceToolBar::showMapping(const haptics::DeviceDescription* device, double scale,
-                             double forceLimit)
+                                double forceLimit)
 {
   const QSignalBlocker quietScale(m_scale);
   const QSignalBlocker quietLimit(m_limit);

@@ -47,7 +47,7 @@ protected:
   void dropPath(const std::filesystem::path& path);
   /// Drills from the view's middle for `milliseconds`, moving right by `pixels`.
   void drill(int milliseconds, int pixels = 0);
-  void leave(); ///< the pointer, wherever it is, counts as outside of the view
+  void leave();      ///< the pointer, wherever it is, counts as outside of the view
   bool strokeEnds(); ///< after the drill was released: removed in a separate thread, and saved
   bool settled();    ///< nothing is being read or written
 

@@ -17,8 +17,9 @@
 
 #define PETROUS_DEVICE_MAGIC UINT64_C(0x3156454452544550) /* the bytes "PETRDEV1" */
 #define PETROUS_DEVICE_VERSION 1u
-#define PETROUS_DEVICE_SILENCE_NS INT64_C(50000000) /* motors off without a wrench for this long   \
-                                                     */
+#define PETROUS_DEVICE_SILENCE_NS                                                                  \
+  INT64_C(50000000) /* motors off without a wrench for this long                                   \
+                     */
 
 /* petrous_state */
 enum

@@ -78,3 +78,21 @@ TEST_F(RealData, TiltedPhilipsScanIsRefusedWithTheMillimetres)
   EXPECT_LT(finding["error_mm"], 25.0);
   expectRefused("new tilted --ct " + quoted(series), 3, "tilt");
 }
+
+// The frame of reference of a stored case is a salted hash.
+TEST_F(RealData, ASegmentationOfAnotherFrameOfReferenceIsRefusedAlsoByAStoredCase)
+{
+  const auto folder = m_data / "seg_rt/dcmqi/data/segmentations";
+  if (!std::filesystem::exists(folder / "liver.dcm"))
+    GTEST_SKIP() << folder << " is not there";
+  json("new abdomen --ct " + quoted(folder / "ct-3slice") + " --labels " +
+       quoted(folder / "liver.dcm"));
+  const auto built = json("add abdomen --labels " + quoted(folder / "partial_overlaps.dcm"));
+  ASSERT_EQ(built["labels"].size(), 6u);
+  EXPECT_EQ(built["labels"][0]["voxels"], 107098); // by pydicom
+  const std::string foreign = quoted(folder / "sparse-labelmap-noppv.dcm");
+  expectRefused("add abdomen --labels other=" + foreign, 3, "frame of reference");
+  expectRefused("new again --ct " + quoted(folder / "ct-3slice") + " --labels other=" + foreign, 3,
+                "frame of reference");
+  EXPECT_EQ(json("info abdomen")["labels"].size(), 6u);
+}

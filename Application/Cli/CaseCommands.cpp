@@ -4,6 +4,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -172,10 +173,12 @@ void addAdd(CLI::App& app, Context& context)
       app, "add", "Add MR, structures or meshes to a case",
       [options, &context]
       {
-        const auto sources = options->parts.sources();
+        auto sources = options->parts.sources();
         if (sources.mr.empty() && sources.labels.empty() && sources.meshes.empty())
           throw UsageError("add: nothing to add; give --mr, --labels or --mesh");
         library::Library library = context.openLibrary();
+        sources.salted = [&library](const std::string& frame)
+        { return library::saltedFrame(library, frame); };
         scene::Case value = library.open(options->name);
         presenters::addParts(value, sources, context.progress());
         library.save(value);

@@ -21,6 +21,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
 
@@ -524,10 +525,13 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
   work(tr("Adding to %1").arg(words(value->name)),
-       [this, value, parts, what,
+       [this, value, parts, what, library = m_model.library(),
         shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
        {
-         presenters::addParts(*value, parts, progress);
+         presenters::PartSources sources = parts;
+         sources.salted = [&library](const std::string& frame)
+         { return library::saltedFrame(library, frame); };
+         presenters::addParts(*value, sources, progress);
          return [this, value, what, shownAs]
          {
            endWork();

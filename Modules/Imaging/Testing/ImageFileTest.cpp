@@ -698,12 +698,12 @@ TEST(ImageFile, RefusesImpossibleQuaternionsAndPlaces)
   nifti.qform = 1;
   nifti.quaternion = {0.9F, 0.9F, 0.1F};
   expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
-                Reason::NoGeometry, "no rotation");
+                Reason::NoGeometry, "not a rotation");
   nifti.quaternion = {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F};
   expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
-                Reason::NoGeometry, "no rotation");
+                Reason::NoGeometry, "not a rotation");
   nifti.sform = 1;
-  EXPECT_TRUE(noted(readImageFile(putFile(folder / "b.nii", nifti.bytes())), "no rotation"));
+  EXPECT_TRUE(noted(readImageFile(putFile(folder / "b.nii", nifti.bytes())), "not a rotation"));
   nifti = shortNifti();
   nifti.srow[3] = 1e30F;
   expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nii", nifti.bytes())); }),

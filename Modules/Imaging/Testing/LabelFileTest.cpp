@@ -124,9 +124,9 @@ TEST(LabelFile, RefusesWhatIsNoLabel)
   expectRefused(refused("short", std::int16_t{-1024}), Reason::Unsupported, "-1024");
   expectRefused(refused("int", std::int32_t{65536}), Reason::Unsupported, "65536");
   expectRefused(refused("int64", std::numeric_limits<std::int64_t>::min()), Reason::Unsupported);
-  expectRefused(refused("float", 0.5F), Reason::Unsupported, "no whole number");
+  expectRefused(refused("float", 0.5F), Reason::Unsupported, "not a whole number");
   expectRefused(refused("float", std::numeric_limits<float>::quiet_NaN()), Reason::Unsupported,
-                "no whole number");
+                "not a whole number");
   expectRefused(refused("double", 1e300), Reason::Unsupported);
   expectRefused(refused("short", std::int16_t{0}), Reason::Unsupported, "no structure");
   expectRefused(refusalOf([&] { readLabelFile(folder / "none.nrrd"); }), Reason::NotFound);

@@ -297,17 +297,19 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
 }
 
 // A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
-// an MR. Of a stored case only salted hashes are known, with which nothing can be compared.
-void settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid)
+// an MR. Of a stored case only salted hashes are known.
+void settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
+                 const std::function<std::string(const std::string&)>& salted)
 {
   const std::string frame = withoutIdentity(frameUid);
-  const auto isKnown = [](const scene::ImagePart& image)
-  { return !image.isFrameSalted && !image.frameOfReference.empty(); };
-  if (!source.drawnOn.empty() || frame.empty() || !isKnown(value.ct) ||
-      value.ct.frameOfReference == frame)
+  const auto isKnown = [&salted](const scene::ImagePart& image)
+  { return !image.frameOfReference.empty() && (!image.isFrameSalted || salted); };
+  const auto isOf = [&](const scene::ImagePart& image)
+  { return image.frameOfReference == (image.isFrameSalted ? salted(frame) : frame); };
+  if (!source.drawnOn.empty() || frame.empty() || !isKnown(value.ct) || isOf(value.ct))
     return;
   for (const scene::ImagePart& mr : value.mr)
-    if (isKnown(mr) && mr.frameOfReference == frame)
+    if (isKnown(mr) && isOf(mr))
     {
       source.drawnOn = mr.name;
       return;
@@ -318,11 +320,13 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
                                "say FILE@ct, or add the MR on which it was drawn");
 }
 
-void addLabels(scene::Case& value, PartSource source, const core::Progress& progress)
+void addLabels(scene::Case& value, PartSource source,
+               const std::function<std::string(const std::string&)>& salted,
+               const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   auto loaded = imaging::loadLabels(source.path, progress);
-  settleFrame(value, source, loaded.frameOfReferenceUid);
+  settleFrame(value, source, loaded.frameOfReferenceUid, salted);
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
   const std::size_t before = value.labels.size();
@@ -514,7 +518,7 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   for (const PartSource& source : parts.mr)
     addMr(next, source, share());
   for (const PartSource& source : parts.labels)
-    addLabels(next, source, share());
+    addLabels(next, source, parts.salted, share());
   for (const PartSource& source : parts.meshes)
   {
     share().report(0.0, "reading meshes");

@@ -223,7 +223,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
     return;
   if (!qLinear)
   {
-    header.notes.emplace_back("places itself twice, once by a quaternion (qform) that is no "
+    header.notes.emplace_back("places itself twice, once by a quaternion (qform) that is not a "
                               "rotation; the sform is used");
     return;
   }

@@ -22,6 +22,7 @@
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Volume/VolumeBytes.h"
@@ -138,17 +139,19 @@ std::string saltOf(const fs::path& folder)
   return salt;
 }
 
-/// A plain hash would allow anyone who knows a hospital's UIDs to test them against it.
+// A plain hash would allow anyone who knows a hospital's UIDs to test them against it.
+std::string withSalt(const std::string& frame, const fs::path& folder)
+{
+  const std::string text = saltOf(folder) + frame;
+  return sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
 void saltFrames(scene::Case& value, const fs::path& folder)
 {
   const auto salted = [&folder](scene::ImagePart& image)
   {
     if (!image.isFrameSalted && !image.frameOfReference.empty())
-    {
-      const std::string text = saltOf(folder) + image.frameOfReference;
-      image.frameOfReference =
-          sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-    }
+      image.frameOfReference = withSalt(image.frameOfReference, folder);
     image.isFrameSalted = true;
   };
   salted(value.ct);
@@ -456,6 +459,11 @@ std::vector<std::string> Library::damageFound(const scene::Case& value) const
     if (const std::string words = m_checks->found(path); !words.empty())
       damage.push_back(words);
   return damage;
+}
+
+std::string saltedFrame(const Library& library, const std::string& frameOfReference)
+{
+  return withSalt(frameOfReference, library.folder());
 }
 
 void Library::save(scene::Case& value, const core::Progress& progress)

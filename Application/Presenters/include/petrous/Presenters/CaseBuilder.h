@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ struct PartSources
   std::vector<PartSource> mr;     ///< DICOM folders, NIfTI, NRRD, MetaImage
   std::vector<PartSource> labels; ///< NIfTI, NRRD (.seg.nrrd too), MetaImage, DICOM SEG
   std::vector<PartSource> meshes; ///< OBJ, STL, PLY
+  /// A frame of reference as the library of a stored case keeps it (library::saltedFrame), so that
+  /// a DICOM SEG's can be compared with it; empty: only cases that are not stored are compared.
+  std::function<std::string(const std::string&)> salted = {};
 };
 
 struct CaseSources
@@ -61,8 +65,8 @@ struct CaseSources
 /// A case built in memory, not saved. What was accepted or assumed is in the parts' notes. Labels
 /// whose image is unspecified, and whose grid is that of one MR and not the CT's, are taken as
 /// drawn on that MR; so is a DICOM SEG in the frame of reference of an MR and not the CT's, and one
-/// in neither is refused unless "FILE@ct" says otherwise. Throws the imaging module's errors, InvalidParameter (also if several MR
-/// images have that grid), CancelledError.
+/// in neither is refused unless "FILE@ct" says otherwise. Throws the imaging module's errors,
+/// InvalidParameter (also if several MR images have that grid), CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress);
 

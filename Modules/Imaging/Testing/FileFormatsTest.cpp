@@ -126,7 +126,8 @@ TEST(FileFormats, AFileOfAnotherFormatThanItsNameSaysIsNamed)
 TEST(FileFormats, ListsEachEndingOnceAndNoneThatAnotherCovers)
 {
   EXPECT_EQ(orText(readEndings(kMesh)), ".obj, .stl or .ply");
-  EXPECT_EQ(orText(readEndings(kImage | kLabels)), ".nrrd, .nhdr, .nii.gz, .nii, .mha or .mhd");
+  EXPECT_EQ(orText(readEndings(kImage | kLabels)),
+            ".nrrd, .nhdr, .nii.gz, .nii, .hdr, .img, .mha or .mhd");
   EXPECT_EQ(orText(readEndings(kDicom)), ".dcm");
   EXPECT_EQ(orText(writtenEndings(kLabels)), ".seg.nrrd, .nrrd, .nii.gz or .nii");
   EXPECT_EQ(orText({}), "");

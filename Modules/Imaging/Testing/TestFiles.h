@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -149,6 +151,42 @@ struct TestNifti
     put(280, srow);
     h.replace(344, 3, "n+1");
     return h + voxels;
+  }
+
+  /// The same header as NIfTI-2 (nifti2.h), without the voxels; as wanted, big-endian.
+  std::string second(const std::string& magic, std::int64_t voxelOffset, bool big = false) const
+  {
+    std::string h(544, '\0');
+    const auto put = [&h, big](std::size_t at, auto value)
+    {
+      std::string raw = bytesOf(std::vector{value});
+      if (big)
+        std::reverse(raw.begin(), raw.end());
+      h.replace(at, raw.size(), raw);
+    };
+    put(0, std::int32_t{540});
+    h.replace(4, magic.size(), magic);
+    h.replace(8, 4, "\r\n\x1a\n");
+    put(12, dataType);
+    put(14, bits);
+    for (std::size_t n = 0; n < 8; ++n)
+      put(16 + 8 * n, std::int64_t{dims[n]});
+    for (std::size_t n = 0; n < 8; ++n)
+      put(104 + 8 * n, double{pixdim[n]});
+    put(168, voxelOffset);
+    put(176, double{slope});
+    put(184, double{intercept});
+    put(344, std::int32_t{qform});
+    put(348, std::int32_t{sform});
+    for (std::size_t n = 0; n < 3; ++n)
+    {
+      put(352 + 8 * n, double{quaternion[n]});
+      put(376 + 8 * n, double{offset[n]});
+    }
+    for (std::size_t n = 0; n < 12; ++n)
+      put(400 + 8 * n, double{srow[n]});
+    put(500, std::int32_t{units});
+    return h;
   }
 };
 

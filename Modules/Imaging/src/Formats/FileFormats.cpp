@@ -31,7 +31,14 @@ bool startsNrrd(std::string_view bytes)
 
 bool startsNifti(std::string_view bytes)
 {
-  return bytes.size() >= 348 && bytes.substr(344, 4) == std::string_view("n+1\0", 4);
+  return bytes.size() >= 348 && (bytes.substr(344, 4) == std::string_view("n+1\0", 4) ||
+                                 bytes.substr(4, 4) == std::string_view("n+2\0", 4));
+}
+
+bool startsNiftiPair(std::string_view bytes)
+{
+  return bytes.size() >= 348 && (bytes.substr(344, 4) == std::string_view("ni1\0", 4) ||
+                                 bytes.substr(4, 4) == std::string_view("ni2\0", 4));
 }
 
 bool startsMeta(std::string_view bytes)
@@ -67,6 +74,8 @@ constexpr FileFormat kFormats[] = {
     {"NRRD", ".nhdr", kVoxels, 0, startsNrrd, &Source::openNrrd, {}, {}, {}},
     {"NIfTI", ".nii.gz", kVoxels, kVoxels, startsNifti, &Source::openNifti, writeNiftiGz, {}, {}},
     {"NIfTI", ".nii", kVoxels, kVoxels, startsNifti, &Source::openNifti, writeNifti, {}, {}},
+    {"NIfTI", ".hdr", kVoxels, 0, startsNiftiPair, &Source::openNifti, {}, {}, {}},
+    {"NIfTI", ".img", kVoxels, 0, {}, &Source::openNifti, {}, {}, {}},
     {"MetaImage", ".mha", kVoxels, kImage, startsMeta, &Source::openMeta, writeMeta, {}, {}},
     {"MetaImage", ".mhd", kVoxels, 0, startsMeta, &Source::openMeta, {}, {}, {}},
     {"DICOM", ".dcm", kDicom, 0, startsDicom, {}, {}, {}, {}},

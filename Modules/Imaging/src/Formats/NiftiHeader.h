@@ -10,7 +10,7 @@
 namespace petrous::imaging
 {
 
-/// A NIfTI-1 header (nifti1.h of the NIfTI data format working group).
+/// A NIfTI-1 or NIfTI-2 header (nifti1.h, nifti2.h of the NIfTI data format working group).
 struct NiftiHeader
 {
   std::vector<std::uint64_t> dims; ///< without trailing ones, at least 3
@@ -18,6 +18,7 @@ struct NiftiHeader
   int dataType = 0;                ///< DT_ code
   bool swapped = false;            ///< big-endian
   bool packed = false;             ///< the whole file is gzip-compressed
+  std::filesystem::path file;      ///< containing the voxels
   std::uint64_t voxelOffset = 0;   ///< bytes, in the uncompressed file
   double slope = 0.0;              ///< scl_slope; 0: none
   double intercept = 0.0;
@@ -28,8 +29,9 @@ struct NiftiHeader
   bool rescaled() const { return slope != 0.0 && (slope != 1.0 || intercept != 0.0); }
 };
 
-/// Reads the header of a .nii or .nii.gz according to the standard: sform if present, else qform,
-/// else voxel size only (noted). ITK would silently orthogonalize a sheared sform. Throws
+/// Reads the header of a .nii, .nii.gz or of a pair .hdr, .img (either named) according to the
+/// standard: sform if present, else qform, else voxel size only (noted). ITK would silently
+/// orthogonalize a sheared sform. ANALYZE 7.5 is refused: it leaves left and right open. Throws
 /// FileError.
 NiftiHeader readNiftiHeader(const std::filesystem::path& path);
 

@@ -116,6 +116,12 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
     const std::string_view line = takeLine(text);
     if (line.empty() || line.front() == '#')
       continue;
+    // Names of data files follow "data file: LIST" to the end of the header, one a line.
+    if (const std::string* list = header.field("data file"); list && list->rfind("LIST", 0) == 0)
+    {
+      header.dataFiles.emplace_back(trimmed(line));
+      continue;
+    }
     // A key contains no colon; a key/value pair differs from a field by ":=".
     const std::size_t colon = line.find(':');
     const bool pair = colon != line.npos && colon + 1 < line.size() && line[colon + 1] == '=';
@@ -125,13 +131,8 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
       continue;
     }
     if (colon == line.npos)
-    {
-      // Names of data files may follow "data file: LIST", one per line.
-      if (const std::string* list = header.field("data file"); list && list->rfind("LIST", 0) == 0)
-        break;
       fail(FileError::Reason::Unreadable, path,
            "its NRRD header has a line that is not a field; copy it again from where it came");
-    }
     std::string name(trimmed(line.substr(0, colon)));
     for (char& c : name)
       if (c >= 'A' && c <= 'Z')

@@ -24,7 +24,8 @@ struct NrrdHeader
 {
   std::vector<std::pair<std::string, std::string>> fields;
   std::vector<std::pair<std::string, std::string>> keys;
-  std::size_t dataOffset = 0; ///< first byte after the blank line
+  std::vector<std::string> dataFiles; ///< the lines after "data file: LIST"
+  std::size_t dataOffset = 0;         ///< first byte after the blank line
 
   const std::string* field(const std::string& name) const;
   const std::string* key(const std::string& name) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -281,28 +282,85 @@ std::uint64_t skippedLines(const Path& path, std::uint64_t offset, std::int64_t 
   return at;
 }
 
+/// "slice%03d.raw" with the number; nullopt if it is no such pattern.
+std::optional<std::string> numberedName(std::string_view pattern, std::int64_t number)
+{
+  const std::size_t start = pattern.find('%');
+  std::size_t at = start + 1;
+  const bool zeros = at < pattern.size() && pattern[at] == '0';
+  std::size_t width = 0;
+  for (; at < pattern.size() && pattern[at] >= '0' && pattern[at] <= '9' && width < 100; ++at)
+    width = width * 10 + static_cast<std::size_t>(pattern[at] - '0');
+  if (at >= pattern.size() || (pattern[at] != 'd' && pattern[at] != 'u' && pattern[at] != 'i') ||
+      pattern.find('%', at) != pattern.npos || number < 0)
+    return std::nullopt;
+  std::string digits = std::to_string(number);
+  if (digits.size() < width)
+    digits.insert(0, width - digits.size(), zeros ? '0' : ' ');
+  return std::string(pattern.substr(0, start)) + digits + std::string(pattern.substr(at + 1));
+}
+
+/// The files named by "data file": one, "LIST" and one a line, or a pattern, first and last number
+/// and step. Empty if it is none of these.
+std::vector<std::string> dataFileNames(const NrrdHeader& header, const std::string& text)
+{
+  constexpr std::size_t kMaxFiles = 65536;
+  if (text.rfind("LIST", 0) == 0)
+    return header.dataFiles;
+  if (text.find('%') == text.npos)
+    return {text};
+  std::vector<std::string> names;
+  std::string_view rest = text;
+  const std::string_view pattern = takeWord(rest);
+  const auto first = parseInteger(takeWord(rest));
+  const auto last = parseInteger(takeWord(rest));
+  const auto step = parseInteger(takeWord(rest));
+  constexpr std::int64_t kLargest = 1000000000;
+  if (!first || !last || !step || *step == 0 || std::abs(*first) > kLargest ||
+      std::abs(*last) > kLargest || std::abs(*step) > kLargest)
+    return {};
+  for (std::int64_t n = *first; *step > 0 ? n <= *last : n >= *last; n += *step)
+  {
+    const auto name = numberedName(pattern, n);
+    if (!name || names.size() == kMaxFiles)
+      return {};
+    names.push_back(*name);
+  }
+  return names;
+}
+
 void findVoxels(const Path& path, const NrrdHeader& header, NrrdLayout& layout)
 {
   const std::string encoding = valueOf(header, "encoding");
+  VoxelPlace& place = layout.place;
   if (encoding == "gz" || encoding == "gzip")
-    layout.encoding = NrrdLayout::Encoding::Gzip;
+    place.packing = Packing::Zlib;
+  else if (encoding == "bz2" || encoding == "bzip2")
+    place.packing = Packing::Bzip2;
+  else if (encoding == "hex")
+    place.packing = Packing::Hex;
   else if (encoding == "txt" || encoding == "text" || encoding == "ascii")
-    layout.encoding = NrrdLayout::Encoding::Text;
+    layout.isText = true;
   else if (encoding != "raw")
     fail(FileError::Reason::Unsupported, path,
          "its voxels are packed in a way that is not read; save it with encoding raw or gzip");
 
-  layout.file = path;
-  layout.offset = header.dataOffset;
+  place.parts = {{path, header.dataOffset}};
   if (const std::string* data = header.field("data file"))
   {
-    if (data->rfind("LIST", 0) == 0 || data->find('%') != data->npos)
+    place.parts.clear();
+    for (const std::string& name : dataFileNames(header, *data))
+      place.parts.push_back({detachedFile(path, name), 0});
+    // Each file holds as many slices.
+    const std::uint64_t slices = layout.dims[2];
+    if (place.parts.empty() || slices % place.parts.size() != 0)
+      fail(FileError::Reason::Unreadable, path,
+           "its list of data files is damaged, or does not share the " + std::to_string(slices) +
+               " slices evenly; save it as one .nrrd");
+    if (place.parts.size() > 1 && layout.isText)
       fail(FileError::Reason::Unsupported, path,
-           "keeps its voxels in several files; save it as one .nrrd");
-    layout.file = detachedFile(path, *data);
-    layout.offset = 0;
+           "keeps its voxels as text in several files; save it as one .nrrd");
   }
-  layout.dataBytes = checkedFileSize(layout.file);
 
   const auto skipOf = [&](const char* name, const char* other) -> std::int64_t
   {
@@ -315,23 +373,26 @@ void findVoxels(const Path& path, const NrrdHeader& header, NrrdLayout& layout)
   };
   const std::int64_t lines = skipOf("line skip", "lineskip");
   const std::int64_t bytes = skipOf("byte skip", "byteskip");
-  layout.offset = skippedLines(layout.file, layout.offset, std::max<std::int64_t>(lines, 0));
-  if (bytes >= 0)
-  {
-    const auto skip = static_cast<std::uint64_t>(bytes);
-    (layout.encoding == NrrdLayout::Encoding::Gzip ? layout.unpackedOffset : layout.offset) += skip;
-    return;
-  }
-  // -1: the voxels are at the end of the file.
-  if (layout.encoding != NrrdLayout::Encoding::Raw)
+  if (bytes < 0 && (place.packing != Packing::None || layout.isText))
     fail(FileError::Reason::Unsupported, path,
          "counts its packed voxels from the end of the file; save it as one .nrrd");
-  long double voxels = static_cast<long double>(layout.components) *
-                       visitComponent(layout.component, [](auto type) { return sizeof type; });
+  long double partBytes = static_cast<long double>(layout.components) *
+                          visitComponent(layout.component, [](auto type) { return sizeof type; }) /
+                          static_cast<long double>(place.parts.size());
   for (const std::uint64_t n : layout.dims)
-    voxels *= static_cast<long double>(n);
-  if (voxels <= static_cast<long double>(layout.dataBytes))
-    layout.offset = layout.dataBytes - static_cast<std::uint64_t>(voxels);
+    partBytes *= static_cast<long double>(n);
+  for (VoxelPlace::Part& part : place.parts)
+  {
+    const std::uintmax_t size = checkedFileSize(part.file);
+    layout.dataBytes += size;
+    part.offset = skippedLines(part.file, part.offset, std::max<std::int64_t>(lines, 0));
+    if (bytes < 0 && partBytes <= static_cast<long double>(size)) // the voxels are at the end
+      part.offset = size - static_cast<std::uint64_t>(partBytes);
+    else if (bytes > 0 && layout.isText)
+      part.offset += static_cast<std::uint64_t>(bytes);
+  }
+  if (bytes > 0 && !layout.isText)
+    place.packedOffset = static_cast<std::uint64_t>(bytes);
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 
 #include "Component.h"
 #include "NrrdHeader.h"
+#include "VoxelStream.h"
 
 namespace petrous::imaging
 {
@@ -26,18 +27,10 @@ struct NrrdLayout
   Eigen::Vector3d origin; ///< LPS mm
   std::vector<std::string> notes;
 
-  enum class Encoding
-  {
-    Raw,
-    Gzip,
-    Text
-  };
-  std::filesystem::path file;   ///< containing the voxels
-  std::uintmax_t dataBytes = 0; ///< size of that file
-  Encoding encoding = Encoding::Raw;
-  std::uint64_t offset = 0;         ///< in the file
-  std::uint64_t unpackedOffset = 0; ///< in the decompressed stream
-  bool swapped = false;             ///< big-endian
+  VoxelPlace place;             ///< without partBytes
+  std::uintmax_t dataBytes = 0; ///< size of its files together
+  bool isText = false;          ///< decimal numbers
+  bool swapped = false;         ///< big-endian
 };
 
 /// Throws FileError.

@@ -10,7 +10,6 @@
 #include "MetaHeader.h"
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"
-#include "VoxelStream.h"
 #include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
@@ -19,8 +18,23 @@ namespace petrous::imaging
 namespace
 {
 
-// Maximum compression ratio of zlib; beyond it the header does not belong to the voxels.
-constexpr long double kTightestPacking = 1032.0L;
+/// The most decoded bytes that a byte of the file can stand for; beyond, the header does not belong
+/// to the voxels.
+long double mostBytesPerByte(Packing packing)
+{
+  switch (packing)
+  {
+  case Packing::Zlib:
+    return 1032.0L;
+  case Packing::Bzip2:
+    return 1.2e6L; // a block of 900,000 runs of up to 259 bytes in 5, in some 40 bytes
+  case Packing::Hex:
+    return 0.5L;
+  case Packing::None:
+    break;
+  }
+  return 1.0L;
+}
 
 /// DT_ codes of nifti1.h.
 std::optional<Component> niftiComponent(int dataType)
@@ -80,8 +94,11 @@ void VoxelSource::openNifti()
     m_intercept = header.intercept;
   }
   m_dims = header.dims;
-  m_place = Place{m_path, header.packed ? 0 : header.voxelOffset,
-                  header.packed ? header.voxelOffset : 0, header.packed, header.swapped};
+  m_dataBytes = checkedFileSize(header.file);
+  m_place.parts = {{header.file, 0}};
+  m_place.packedOffset = header.voxelOffset;
+  m_place.packing = header.packed ? Packing::Zlib : Packing::None;
+  m_swapped = header.swapped;
   checkRoom();
   m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
 }
@@ -95,10 +112,9 @@ void VoxelSource::openNrrd()
   m_components = layout.components;
   m_stored = layout.component;
   m_dataBytes = layout.dataBytes;
-  using Encoding = NrrdLayout::Encoding;
-  m_place = Place{layout.file,           layout.offset,
-                  layout.unpackedOffset, layout.encoding == Encoding::Gzip,
-                  layout.swapped,        layout.encoding == Encoding::Text};
+  m_place = std::move(layout.place);
+  m_swapped = layout.swapped;
+  m_isText = layout.isText;
   checkRoom();
   m_geometry = gridFromAffine(m_path, m_dims, layout.linear, layout.origin, m_notes);
 }
@@ -116,7 +132,9 @@ void VoxelSource::openMeta()
     m_intercept = header.intercept;
   }
   m_dataBytes = header.dataBytes;
-  m_place = Place{header.file, header.offset, 0, header.packed, header.swapped};
+  m_place.parts = {{header.file, header.offset}};
+  m_place.packing = header.packed ? Packing::Zlib : Packing::None;
+  m_swapped = header.swapped;
   checkRoom();
   // Unless declared binary, the voxels may be text, except if their length matches exactly.
   if (!header.saysBinary && !header.packed &&
@@ -145,18 +163,22 @@ long double VoxelSource::voxelBytes() const
   return bytes * visitComponent(m_stored, [](auto type) { return sizeof type; });
 }
 
-void VoxelSource::checkRoom() const
+void VoxelSource::checkRoom()
 {
   // A number as text takes a digit and a separator; the last needs no separator.
   const long double numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
-  const long double needed =
-      m_place.isText ? 2.0L * voxelBytes() / numberBytes - 1.0L : voxelBytes();
-  const auto behind = static_cast<long double>(m_place.offset);
-  const long double there = static_cast<long double>(m_dataBytes) - behind;
-  if (needed > (m_place.packed ? kTightestPacking : 1.0L) * there)
+  const long double needed = m_isText ? 2.0L * voxelBytes() / numberBytes - 1.0L : voxelBytes();
+  auto before =
+      static_cast<long double>(m_place.packing == Packing::None ? m_place.packedOffset : 0);
+  before *= static_cast<long double>(m_place.parts.size());
+  for (const VoxelPlace::Part& part : m_place.parts)
+    before += static_cast<long double>(part.offset);
+  const long double there = static_cast<long double>(m_dataBytes) - before;
+  if (needed > mostBytesPerByte(m_place.packing) * there)
     fail(FileError::Reason::Unreadable, m_path,
          "its header speaks of " + dimsText(m_dims) +
              " voxels, which the file is too short to hold; copy it again from where it came");
+  m_place.partBytes = static_cast<std::uint64_t>(voxelBytes()) / m_place.parts.size();
 }
 
 std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count) const
@@ -183,14 +205,13 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
   const std::size_t perVoxel = m_components * numberBytes;
   progress.report(0.0, "reading voxels");
   auto memory = allocate(m_path, box.count() * perVoxel);
-  if (m_place.isText)
+  if (m_isText)
     readText(box, memory.get());
   else
   {
-    VoxelStream stream(m_place.file, m_place.offset, m_place.packed);
-    stream.skip(m_place.packedOffset);
+    VoxelStream stream(m_place);
     readBox(stream, m_geometry->dims(), box, perVoxel, memory.get(), progress);
-    if (m_place.swapped)
+    if (m_swapped)
       swapBytes(memory.get(), box.count() * m_components, numberBytes);
   }
   return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
@@ -198,9 +219,10 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
 
 void VoxelSource::readText(const core::IndexBox& box, void* out) const
 {
-  std::string bytes = readWholeFile(m_place.file);
+  std::string bytes = readWholeFile(m_place.parts.front().file);
   std::replace(bytes.begin(), bytes.end(), ',', ' ');
-  std::string_view rest = std::string_view(bytes).substr(static_cast<std::size_t>(m_place.offset));
+  std::string_view rest =
+      std::string_view(bytes).substr(static_cast<std::size_t>(m_place.parts.front().offset));
   const core::Index3& dims = m_geometry->dims();
   visitComponent(
       m_stored,

@@ -13,6 +13,7 @@
 
 #include "Component.h"
 #include "NrrdHeader.h"
+#include "VoxelStream.h"
 
 namespace petrous::imaging
 {
@@ -45,32 +46,25 @@ public:
   void openMeta();
 
 private:
-  struct Place
-  {
-    std::filesystem::path file;
-    std::uint64_t offset = 0;       ///< in the file
-    std::uint64_t packedOffset = 0; ///< in the decompressed stream
-    bool packed = false;
-    bool swapped = false;
-    bool isText = false;
-  };
   void requireThreeDims() const;
   long double voxelBytes() const;
-  void checkRoom() const;
+  void checkRoom();
   void readText(const core::IndexBox& box, void* out) const;
   std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count) const;
 
   std::filesystem::path m_path;
   std::vector<std::uint64_t> m_dims;
   std::optional<core::GridGeometry> m_geometry;
-  Place m_place;
+  VoxelPlace m_place;
+  bool m_swapped = false;                ///< big-endian
+  bool m_isText = false;                 ///< decimal numbers
   Component m_stored = Component::Int16; ///< before rescaling
   std::size_t m_components = 1;
   double m_slope = 0.0; ///< 0: no rescaling
   double m_intercept = 0.0;
   std::vector<std::string> m_notes;
   std::optional<NrrdHeader> m_nrrd;
-  std::uintmax_t m_dataBytes = 0; ///< upper limit of the bytes on disk available for voxels
+  std::uintmax_t m_dataBytes = 0; ///< bytes on disk that hold the voxels
 };
 
 } // namespace petrous::imaging

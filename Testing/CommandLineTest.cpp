@@ -1,6 +1,9 @@
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <vector>
@@ -223,6 +226,138 @@ TEST_F(CommandLine, ExportsWhatOtherProgramsOpen)
   EXPECT_EQ(a["ct"]["min"], b["ct"]["min"]);
   EXPECT_EQ(a["ct"]["max"], b["ct"]["max"]);
   EXPECT_EQ(a["labels"].size(), b["labels"].size());
+}
+
+TEST_F(CommandLine, ExportsSeriesThatComeBackToTheBit)
+{
+  makePatient();
+  const auto patient = m_folder / "patient";
+  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr"));
+  const auto ct = json("info ear")["ct"];
+  std::array<double, 3> from{};
+  std::array<double, 3> to{};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    from[a] = ct["origin_mm"][a].get<double>() + 30.0;
+    to[a] = from[a] + (a == 0 ? 4.0 : 0.0);
+  }
+  ASSERT_EQ(run("drill ear --path " + quoted(writePath(from, to))).code, 0);
+  std::map<std::string, nlohmann::json> series;
+  for (const std::string what : {"ct", "mr", "dissected"})
+  {
+    const auto folder = m_folder / (what + "-series");
+    const auto told = json("export ear --what " + what + " --out " + quoted(folder / ""));
+    json("export ear --what " + what + " --out " + quoted(m_folder / (what + ".nii")));
+    json("new again-" + what + " --ct " + quoted(folder));
+    json("export again-" + what + " --what ct --out " + quoted(m_folder / "again.nii"));
+    const std::string sent = textOf(m_folder / (what + ".nii"));
+    const std::string back = textOf(m_folder / "again.nii");
+    ASSERT_EQ(sent.size(), back.size()) << what;
+    EXPECT_TRUE(sent.compare(352, sent.npos, back, 352, back.npos) == 0) << what;
+    const auto scan = json("scan " + quoted(folder))["series"];
+    ASSERT_EQ(scan.size(), 1U) << what;
+    EXPECT_EQ(scan[0]["verdict"], "ok") << scan[0]["findings"];
+    EXPECT_EQ(scan[0]["modality"], what == "mr" ? "MR" : "CT");
+    EXPECT_EQ(told["instances"], scan[0]["slices"]);
+    series[what] = scan[0];
+    const auto info = json("info again-" + what)["ct"];
+    const auto was = what == "mr" ? nlohmann::json() : ct;
+    for (const char* key : {"origin_mm", "spacing_mm", "direction"})
+      for (std::size_t n = 0; !was.is_null() && n < was[key].size(); ++n)
+        EXPECT_NEAR(info[key][n].get<double>(), was[key][n].get<double>(), 1e-6) << what << key;
+    for (const auto& file : std::filesystem::directory_iterator(folder))
+    {
+      const std::string bytes = textOf(file.path());
+      EXPECT_EQ(bytes.find("Phantom"), bytes.npos) << "nothing of the source's patient";
+      EXPECT_EQ(bytes.find("20200101"), bytes.npos) << "no date";
+      EXPECT_NE(bytes.find("DERIVED\\SECONDARY"), bytes.npos);
+    }
+  }
+  EXPECT_NE(series["ct"]["uid"], series["dissected"]["uid"]);
+  EXPECT_NE(textOf(m_folder / "ct.nii"), textOf(m_folder / "dissected.nii"));
+  // Once more: the same files; a folder that holds something is left alone.
+  json("export ear --what ct --out " + quoted(m_folder / "twice/deep/"));
+  EXPECT_EQ(json("scan " + quoted(m_folder / "twice"))["series"][0]["uid"], series["ct"]["uid"]);
+  expectRefused("export ear --what ct --out " + quoted(m_folder / "twice/deep"), 4, "not empty");
+  expectRefused("export ear --what labels --out " + quoted(m_folder / "x/"), 3, ".nrrd");
+  expectRefused("export ear --what ct --on-ct --out " + quoted(m_folder / "x.nrrd"), 2, "--on-ct");
+}
+
+// An image that is linear in space is sampled without error.
+TEST_F(CommandLine, ExportsAnMrOnTheGridOfTheCt)
+{
+  const int n = 40;
+  std::ofstream(m_folder / "mr.nrrd", std::ios::binary)
+      << "NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 40\n"
+         "space directions: (1.5,0,0) (0,2,0) (0,0,1)\nkinds: domain domain domain\n"
+         "endian: little\nencoding: raw\nspace origin: (-60,-40,-20)\n\n";
+  std::ofstream voxels(m_folder / "mr.nrrd", std::ios::binary | std::ios::app);
+  const auto value = [](double x, double y, double z) { return 1000.5 + 3.0 * x - 2.0 * y + z; };
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+      {
+        const auto v = static_cast<float>(value(-60.0 + 1.5 * i, -40.0 + 2.0 * j, -20.0 + k));
+        voxels.write(reinterpret_cast<const char*>(&v), sizeof v);
+      }
+  voxels.close();
+  json("new bone --ct " + quoted(writeBone(m_folder)) + " --mr " + quoted(m_folder / "mr.nrrd"));
+  const std::string name = json("info bone")["mr"][0]["name"];
+  const std::string command = "export bone --what mr --on-ct --out " + quoted(m_folder / "on.nii");
+  expectRefused(command, 3, "register");
+  // x_mr = -y_ct + 2, y_mr = x_ct + 3, z_mr = z_ct - 1
+  std::ofstream(m_folder / "turn.json")
+      << R"({"transform":[0,-1,0,2, 1,0,0,3, 0,0,1,-1, 0,0,0,1]})";
+  json("register bone --mr " + name + " --as-is --transform " + quoted(m_folder / "turn.json"));
+  json(command);
+  const std::string bytes = textOf(m_folder / "on.nii");
+  const auto ct = json("info bone")["ct"];
+  const auto at = [&ct](const char* key, int a) { return ct[key][a].get<double>(); };
+  std::size_t offset = 352;
+  int inside = 0;
+  for (int k = 0; k < ct["dims"][2]; ++k)
+    for (int j = 0; j < ct["dims"][1]; ++j)
+      for (int i = 0; i < ct["dims"][0]; ++i, offset += sizeof(float))
+      {
+        const double x = -(at("origin_mm", 1) + j * at("spacing_mm", 1)) + 2.0;
+        const double y = at("origin_mm", 0) + i * at("spacing_mm", 0) + 3.0;
+        const double z = at("origin_mm", 2) + k * at("spacing_mm", 2) - 1.0;
+        if (x < -60.0 || x > -1.5 || y < -40.0 || y > 38.0 || z < -20.0 || z > 19.0)
+          continue;
+        ++inside;
+        float v = 0.0F;
+        std::memcpy(&v, bytes.data() + offset, sizeof v);
+        ASSERT_NEAR(v, value(x, y, z), 1e-3) << i << ' ' << j << ' ' << k;
+      }
+  EXPECT_GT(inside, 1000);
+  EXPECT_EQ(offset, bytes.size());
+  expectRefused("export bone --what mr --on-ct --out " + quoted(m_folder / "s/"), 3, "nrrd");
+}
+
+TEST_F(CommandLine, ExportsAStructureAsAClosedSurface)
+{
+  makePatient();
+  const auto patient = m_folder / "patient";
+  json("new ear --ct " + quoted(patient / "ct") + " --labels " +
+       quoted(patient / "labels.seg.nrrd"));
+  const nlohmann::json info = json("info ear");
+  for (const nlohmann::json& label : info["labels"])
+    for (const char* ending : {".stl", ".obj", ".ply"})
+    {
+      const nlohmann::json told =
+          json("export ear --what structure --part '" + label["name"].get<std::string>() +
+               "' --out " + quoted(m_folder / (std::string("part") + ending)));
+      EXPECT_EQ(told["closed"], true) << label["name"];
+      EXPECT_EQ(told["decimation"], "none");
+      const double wanted = label["volume_mm3"];
+      EXPECT_NEAR(told["volume_mm3"].get<double>(), wanted, 0.01 * wanted) << label["name"];
+      EXPECT_EQ(told["voxels_mm3"], label["volume_mm3"]);
+    }
+  EXPECT_EQ(json("export ear --what surface --out " + quoted(m_folder / "all.stl"))["closed"],
+            true);
+  expectRefused("export ear --what structure --out " + quoted(m_folder / "x.stl"), 2, "--part");
+  expectRefused("export ear --what structure --part nobody --out " + quoted(m_folder / "x.stl"), 3,
+                "no structure");
 }
 
 TEST_F(CommandLine, CropsToARegionOnLoad)

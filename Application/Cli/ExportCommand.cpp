@@ -1,12 +1,21 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <type_traits>
+#include <utility>
+
+#include <tbb/parallel_for.h>
 
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/Fingerprint.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -26,7 +35,16 @@ constexpr double kAirHu = -1000.0;
 struct Options
 {
   std::string caseName, what, out, part;
+  bool onCt = false;
   bool withoutDamaged = false;
+
+  /// Whether --out is a folder, for a DICOM series.
+  bool isSeries() const
+  {
+    std::error_code ignored;
+    return !out.empty() && (out.back() == '/' || std::filesystem::is_directory(out, ignored)) &&
+           (what == "ct" || what == "mr" || what == "dissected");
+  }
 };
 
 template <class T>
@@ -131,20 +149,141 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
   return volume::makeLabelMap(std::move(voxels), std::move(segments));
 }
 
+// The MR on the CT's grid, trilinear; beyond the MR its padding, or else its smallest value.
+template <class T>
+volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridGeometry& ct,
+                            const core::RigidTransform& mrFromCt, const core::Progress& progress)
+{
+  volume::Volume<T> result(ct);
+  const T outside = rounded<T>(mr.padding() ? *mr.padding() : mr.range().min);
+  const core::GridGeometry& grid = mr.geometry();
+  const Eigen::Vector3d last(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
+  constexpr double kRounding = 1e-6; // voxels; so that a grid on the CT's keeps its border
+  const core::Index3& n = ct.dims();
+  std::atomic<int> done{0};
+  tbb::parallel_for(
+      0, n[2],
+      [&](int k)
+      {
+        progress.report(static_cast<double>(done.fetch_add(1)) / n[2], "resampling");
+        for (int j = 0; j < n[1]; ++j)
+          for (int i = 0; i < n[0]; ++i)
+          {
+            const Eigen::Vector3d patient = ct.patientFromVoxel(Eigen::Vector3d(i, j, k));
+            const Eigen::Vector3d at = grid.voxelFromPatient(mrFromCt * patient);
+            const bool isInside =
+                at.minCoeff() >= -kRounding && (last - at).minCoeff() >= -kRounding;
+            result.at(i, j, k) =
+                isInside ? rounded<T>(mr.sample(at.cwiseMax(0.0).cwiseMin(last))) : outside;
+          }
+      });
+  return result;
+}
+
+template <class T>
+std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
+                                                      std::optional<double> padding)
+{
+  return std::make_shared<const volume::IntensityVolume>(
+      std::make_shared<const volume::Volume<T>>(std::move(voxels)), padding);
+}
+
 imaging::FileContent contentOf(const std::string& what)
 {
   if (what == "labels")
     return imaging::kLabels;
-  if (what == "surface")
+  if (what == "surface" || what == "structure")
     return imaging::kMesh;
-  if (what != "ct" && what != "mr" && what != "mask" && what != "dissected")
-    throw UsageError("--what: ct, mr, labels, mask, dissected or surface, not '" + what + "'");
   return imaging::kImage;
+}
+
+// A DICOM series with identifiers of its own and nothing of the patient's. Images of one case share
+// study and, in the CT's space, frame of reference; equal voxels give equal files.
+void writeSeries(const Options& options, const scene::Case& value,
+                 const volume::IntensityVolume& image, const std::string& space,
+                 const core::Progress& progress)
+{
+  if (std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels()))
+    throw core::InvalidParameter(
+        "export " + options.what +
+        ": its voxels are fractions, and a DICOM series holds whole numbers; write " +
+        imaging::orText(imaging::writtenEndings(imaging::kImage)));
+  using Modality = imaging::SeriesDescription::Modality;
+  const std::string& id = value.id.empty() ? value.name : value.id;
+  core::Fingerprint ofCase;
+  ofCase.add(id.data(), id.size());
+  core::Fingerprint ofImage = ofCase;
+  ofImage.add(options.what.data(), options.what.size());
+  const core::GridGeometry& grid = image.geometry();
+  ofImage.add(grid.patientFromVoxelLinear().data(), 9 * sizeof(double));
+  ofImage.add(grid.origin().data(), 3 * sizeof(double));
+  image.visit([&](const auto& voxels)
+              { ofImage.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
+
+  imaging::SeriesDescription series;
+  series.modality = options.what == "mr" ? Modality::Mr : Modality::Ct;
+  series.derived = true;
+  series.description = options.what == "dissected" ? "CT, dissected"
+                       : options.what == "ct"      ? "CT"
+                       : options.onCt              ? "MR, resampled on the CT"
+                                                   : "MR";
+  series.seriesNumber = options.what == "ct" ? 1 : options.what == "mr" ? 2 : 3;
+  series.patientId = "ANONYMOUS";
+  series.patientName = "Anonymous";
+  series.studyUid = imaging::deterministicUid(ofCase.value(), "study");
+  series.seriesUid = imaging::deterministicUid(ofImage.value(), "series");
+  series.frameOfReferenceUid = imaging::deterministicUid(ofCase.value(), "frame " + space);
+  if (value.denseBone != volume::IntensityScale{}.dense)
+    series.rescaleType = "US";
+  if (series.modality == Modality::Mr)
+  {
+    const volume::ValueRange range = image.range();
+    series.windowCenter = 0.5 * (range.min + range.max);
+    series.windowWidth = std::max(range.max - range.min, 1.0);
+  }
+  core::OutputFolder folder(options.out);
+  imaging::writeDicomSeries(folder.path(), image, series, std::nullopt, progress);
+  progress.check("writing DICOM slices");
+  folder.commit();
+}
+
+// One structure as a surface: of its voxels on the CT, or the mesh that it is.
+core::TriangleMesh structureMesh(const Context& context, const scene::Case& value,
+                                 const std::string& name, const core::Progress& progress,
+                                 nlohmann::json& json)
+{
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      if (structure.name == name)
+      {
+        const auto placed = scene::labelsOnCt(value, part);
+        if (!placed)
+          context.warn("'" + name + "' is written where its MR has it, not on the CT: " +
+                       scene::missingPlace(value, name));
+        const volume::LabelMap& map = *(placed ? placed : part.labels.get());
+        json["voxels_mm3"] = structure.volume;
+        return rendering::extractLabel(*map.voxels, structure.index, progress);
+      }
+  for (const auto& part : value.meshes)
+    if (part.name == name)
+    {
+      const auto placed = scene::meshOnCt(value, part);
+      if (!placed)
+        context.warn("'" + name + "' is written where its MR has it, not on the CT: " +
+                     scene::missingPlace(value, name));
+      return *(placed ? placed : part.mesh.get());
+    }
+  throw core::InvalidParameter("case '" + value.name + "' has no structure '" + name + "'");
 }
 
 void exportCase(const Context& context, const Options& options)
 {
-  imaging::writingFormat(options.out, contentOf(options.what)); // before anything is computed
+  if (!options.isSeries()) // before anything is computed
+    imaging::writingFormat(options.out, contentOf(options.what));
+  if (options.onCt && options.what != "mr")
+    throw UsageError("--on-ct is for --what mr");
+  if (options.what == "structure" && options.part.empty())
+    throw UsageError("export structure: give --part NAME");
   context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
@@ -165,31 +304,77 @@ void exportCase(const Context& context, const Options& options)
   // Labels that are written are read, and thus checked; the surface is that of all structures.
   if (options.what == "surface" || (options.what == "labels" && options.withoutDamaged))
     leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
+  nlohmann::json json{{"case", value.name}, {"what", options.what}, {"out", options.out}};
+  std::string words;
+  const auto writeImage = [&](const volume::IntensityVolume& image, const std::string& space)
+  {
+    if (options.isSeries())
+    {
+      writeSeries(options, value, image, space, progress.part(0.5, 1.0));
+      json["instances"] = image.geometry().dims()[2];
+      words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
+    }
+    else
+      imaging::writeVolume(options.out, image, progress.part(0.5, 1.0));
+  };
+  const auto writeSurface = [&](const core::TriangleMesh& mesh)
+  {
+    const bool closed = mesh.isClosed();
+    json["triangles"] = mesh.triangles.size();
+    json["closed"] = closed;
+    json["decimation"] = "none";
+    words =
+        ", " + std::to_string(mesh.triangles.size()) + " triangles, not decimated, " +
+        (closed ? "closed, " + core::generalText(mesh.signedVolume(), 5) + " mm3" : "not closed");
+    if (closed)
+      json["volume_mm3"] = mesh.signedVolume();
+    imaging::writeMesh(options.out, mesh);
+  };
   if (options.what == "ct")
-    imaging::writeVolume(options.out, *checked(value.ct), progress);
+    writeImage(*checked(value.ct), "CT");
   else if (options.what == "mr")
-    imaging::writeVolume(options.out, *checked(chooseMr(value, options.part)), progress);
+  {
+    const scene::ImagePart& mr = chooseMr(value, options.part);
+    if (options.onCt && !mr.registered)
+      throw core::InvalidParameter("export mr: '" + mr.name +
+                                   "' is not registered with the CT; register it first");
+    const auto image = checked(mr);
+    if (!options.onCt)
+      writeImage(*image, "MR " + mr.name);
+    else
+      image->visit(
+          [&](const auto& voxels)
+          {
+            using T = typename std::decay_t<decltype(voxels)>::Value;
+            writeImage(*shared(resampled<T>(*image, value.ct.geometry, mr.mrFromCt,
+                                            progress.part(0.0, 0.5)),
+                               image->padding()),
+                       "CT");
+          });
+  }
   else if (options.what == "labels")
     imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part, leftOut));
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);
   else if (options.what == "dissected")
-    checked(value.ct)->visit(
+  {
+    const auto image = checked(value.ct);
+    image->visit(
         [&](const auto& ct)
-        { imaging::writeVolume(options.out, dissected(ct, mask(), value.iso), progress); });
+        { writeImage(*shared(dissected(ct, mask(), value.iso), image->padding()), "CT"); });
+  }
+  else if (options.what == "structure")
+    writeSurface(structureMesh(context, value, options.part, progress, json));
   else // surface
   {
     mask();
     checked(value.ct);
     const volume::TissueField field = scene::tissueField(value);
-    imaging::writeMesh(options.out,
-                       rendering::extractSurface(field, field.geometry().fullBox(), progress));
+    writeSurface(rendering::extractSurface(field, field.geometry().fullBox(), progress));
   }
-  context.print(options.out + ": " + options.what + " of '" + value.name + "'");
-  context.printJson({{"case", value.name},
-                     {"what", options.what},
-                     {"out", options.out},
-                     {"left_out", leftOutJson(value, leftOut)}});
+  context.print(options.out + ": " + options.what + " of '" + value.name + "'" + words);
+  json["left_out"] = leftOutJson(value, leftOut);
+  context.printJson(json);
 }
 
 } // namespace
@@ -200,18 +385,21 @@ void addExportCommand(CLI::App& app, Context& context)
   CLI::App* command = context.addCommand(app, "export", "Voxels or a surface for other programs",
                                          [options, &context] { exportCase(context, *options); });
   command->add_option("CASE", options->caseName)->required();
-  command->add_option("--what", options->what, "ct, mr, labels, mask, dissected or surface")
-      ->check(oneOf({"ct", "mr", "labels", "mask", "dissected", "surface"}))
+  command
+      ->add_option("--what", options->what, "ct, mr, labels, mask, dissected, surface or structure")
+      ->check(oneOf({"ct", "mr", "labels", "mask", "dissected", "surface", "structure"}))
       ->required();
   command
-      ->add_option("--out", options->out,
-                   "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) +
-                       "; labels: " + imaging::orText(imaging::writtenEndings(imaging::kLabels)) +
-                       "; surface: " + imaging::orText(imaging::writtenEndings(imaging::kMesh)) +
-                       "; mm LPS")
+      ->add_option(
+          "--out", options->out,
+          "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) +
+              "; labels: " + imaging::orText(imaging::writtenEndings(imaging::kLabels)) +
+              "; surface, structure: " + imaging::orText(imaging::writtenEndings(imaging::kMesh)) +
+              "; mm LPS. FOLDER/: ct, mr or dissected as a DICOM series")
       ->type_name("F")
       ->required();
   command->add_option("--part", options->part, "One MR or structure of several")->type_name("NAME");
+  command->add_flag("--on-ct", options->onCt, "An MR resampled on the CT's grid");
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

@@ -86,6 +86,66 @@ TEST(SurfaceExtraction, IsEmptyWhereThereIsNoTissueOrNoBox)
   EXPECT_TRUE(extractSurface(synthetic::field(contents), {}).triangles.empty());
 }
 
+// Blobs of 1 to some thousand voxels, at the border too, oblique and left-handed: closed, and of
+// the volume of the voxels.
+TEST(SurfaceExtraction, EnclosesAStructuresVoxelsByVolume)
+{
+  const core::GridGeometry grids[] = {synthetic::cube(32, 0.4),
+                                      core::GridGeometry({32, 32, 32}, {0.3, 0.3, 0.8},
+                                                         {90.0, -70.0, 800.0},
+                                                         synthetic::obliqueMirrored())};
+  for (const core::GridGeometry& grid : grids)
+    for (const double radius : {0.3, 1.2, 2.4, 5.0, 9.0})
+      for (const Eigen::Vector3d& centre :
+           {Eigen::Vector3d(16.0, 15.0, 14.0), Eigen::Vector3d(0.0, 16.0, 31.0)})
+      {
+        volume::Volume<std::uint16_t> labels(grid, std::uint16_t{0});
+        std::size_t count = 0;
+        for (int k = 0; k < 32; ++k)
+          for (int j = 0; j < 32; ++j)
+            for (int i = 0; i < 32; ++i)
+            {
+              const bool isInside = (Eigen::Vector3d(i, j, k) - centre).norm() <= radius;
+              labels.at(i, j, k) = isInside ? 7 : (i + j) % 2 == 0 ? 3 : 0;
+              count += isInside ? 1 : 0;
+            }
+        ASSERT_GT(count, 0U);
+        const core::TriangleMesh mesh = extractLabel(labels, 7);
+        const double wanted = static_cast<double>(count) * grid.spacing().prod();
+        EXPECT_TRUE(mesh.isClosed()) << radius;
+        EXPECT_NEAR(mesh.signedVolume(), wanted, 1e-3 * wanted) << radius;
+        for (const Eigen::Vector3f& vertex : mesh.vertices)
+        {
+          // Between an inner and an outer voxel's centres.
+          const double off = (grid.voxelFromPatient(vertex.cast<double>()) - centre).norm();
+          EXPECT_LT(off, radius + 1.0);
+          if (centre[0] > 0.0) // not cut flat by the border
+          {
+            EXPECT_GT(off, radius - 1.0);
+          }
+        }
+      }
+  const volume::Volume<std::uint16_t> none(grids[0], std::uint16_t{0});
+  EXPECT_TRUE(extractLabel(none, 1).triangles.empty());
+}
+
+// Every configuration of neighbours occurs in noise: no edge is left open, none faces inwards.
+TEST(SurfaceExtraction, ClosesEveryConfigurationOfVoxels)
+{
+  volume::Volume<std::uint16_t> labels(synthetic::cube(24, 0.5), std::uint16_t{0});
+  std::uint32_t random = 5;
+  double count = 0.0;
+  for (std::size_t v = 0; v < labels.size(); ++v)
+  {
+    random = random * 1664525U + 1013904223U;
+    labels.data()[v] = (random >> 24) < 90 ? 1 : 0;
+    count += labels.data()[v];
+  }
+  const core::TriangleMesh mesh = extractLabel(labels, 1);
+  EXPECT_NEAR(mesh.signedVolume(), count * 0.125, 1e-3 * count * 0.125);
+  EXPECT_TRUE(mesh.isClosed());
+}
+
 TEST(SurfaceExtraction, StopsWhenCancelled)
 {
   const SceneContents contents = ballScene(Eigen::Matrix3d::Identity());

@@ -99,7 +99,13 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   const std::pair<std::uint16_t, std::uint16_t> dated[] = {
       {0x0020, 0x0030}, {0x0021, 0x0031}, {0x0022, 0x0032}, {0x0023, 0x0033}, {0x0012, 0x0013}};
   for (const auto& [date, time] : dated)
-    put(d, {{0x0008, date, VR::DA, "20200101"}, {0x0008, time, VR::TM, "120000"}});
+    put(d, {{0x0008, date, VR::DA, series.derived ? "" : "20200101"},
+            {0x0008, time, VR::TM, series.derived ? "" : "120000"}});
+  if (series.derived) // instance creation may not be empty
+  {
+    d.Remove(gdcm::Tag(0x0008, 0x0012));
+    d.Remove(gdcm::Tag(0x0008, 0x0013));
+  }
   put(d, {// patient, study
           {0x0010, 0x0010, VR::PN, series.patientName},
           {0x0010, 0x0020, VR::LO, series.patientId},
@@ -109,22 +115,23 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
           {0x0008, 0x0090, VR::PN, ""},
           {0x0020, 0x0010, VR::SH, "1"},
           {0x0008, 0x0050, VR::SH, ""},
-          {0x0008, 0x1030, VR::LO, "Phantom temporal bone"},
+          {0x0008, 0x1030, VR::LO, series.derived ? "" : "Phantom temporal bone"},
           // series, frame of reference, equipment
           {0x0008, 0x0060, VR::CS, ct ? "CT" : "MR"},
           {0x0020, 0x000E, VR::UI, series.seriesUid},
           {0x0020, 0x0011, VR::IS, std::to_string(series.seriesNumber)},
           {0x0008, 0x103E, VR::LO, series.description},
           {0x0018, 0x0015, VR::CS, "SKULL"},
-          {0x0018, 0x5100, VR::CS, "HFS"},
-          {0x0020, 0x0060, VR::CS, "R"},
+          {0x0018, 0x5100, VR::CS, series.derived ? "" : "HFS"},
           {0x0020, 0x0052, VR::UI, series.frameOfReferenceUid},
           {0x0020, 0x1040, VR::LO, ""},
           {0x0008, 0x0070, VR::LO, "Petrous"},
-          {0x0008, 0x1090, VR::LO, "Phantom"},
+          {0x0008, 0x1090, VR::LO, series.derived ? "" : "Phantom"},
           {0x0018, 0x1020, VR::LO, "1"},
           // image
-          {0x0008, 0x0008, VR::CS, ct ? "ORIGINAL\\PRIMARY\\AXIAL" : "ORIGINAL\\PRIMARY\\OTHER"},
+          {0x0008, 0x0008, VR::CS,
+           std::string(series.derived ? "DERIVED\\SECONDARY" : "ORIGINAL\\PRIMARY") +
+               (ct ? "\\AXIAL" : "\\OTHER")},
           {0x0020, 0x0012, VR::IS, "1"},
           {0x0020, 0x0037, VR::DS,
            decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)})},
@@ -139,20 +146,26 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
       {0x0102, 15}, {0x0103, isSigned ? 1 : 0}};
   for (const auto& [element, value] : numbers)
     put(d, 0x0028, element, static_cast<std::uint16_t>(value));
+  if (series.derived)
+    put(d, {{0x0012, 0x0062, VR::CS, "YES"},
+            {0x0012, 0x0063, VR::LO, "written from voxels and geometry alone"}});
+  else
+    put(d, 0x0020, 0x0060, VR::CS, "R");
   if (ct)
     put(d, {{0x0028, 0x1052, VR::DS, decimal(series.rescaleIntercept)},
             {0x0028, 0x1053, VR::DS, decimal(series.rescaleSlope)},
-            {0x0028, 0x1054, VR::LO, "HU"},
-            {0x0018, 0x0060, VR::DS, "120"},
-            {0x0018, 0x1210, VR::SH, "BONE"}});
-  else
-    put(d, {{0x0018, 0x0020, VR::CS, "SE"},
-            {0x0018, 0x0021, VR::CS, "SK"},
+            {0x0028, 0x1054, VR::LO, series.rescaleType},
+            {0x0018, 0x0060, VR::DS, series.derived ? "" : "120"}});
+  if (ct && !series.derived)
+    put(d, 0x0018, 0x1210, VR::SH, "BONE");
+  if (!ct)
+    put(d, {{0x0018, 0x0020, VR::CS, series.derived ? "RM" : "SE"},
+            {0x0018, 0x0021, VR::CS, series.derived ? "NONE" : "SK"},
             {0x0018, 0x0022, VR::CS, ""},
-            {0x0018, 0x0023, VR::CS, "3D"},
-            {0x0018, 0x0080, VR::DS, "2000"},
-            {0x0018, 0x0081, VR::DS, "250"},
-            {0x0018, 0x0091, VR::IS, "100"},
+            {0x0018, 0x0023, VR::CS, series.derived ? "" : "3D"},
+            {0x0018, 0x0080, VR::DS, series.derived ? "" : "2000"},
+            {0x0018, 0x0081, VR::DS, series.derived ? "" : "250"},
+            {0x0018, 0x0091, VR::IS, series.derived ? "" : "100"},
             {0x0018, 0x0088, VR::DS, decimal(grid.spacing()[2])}});
   return d;
 }

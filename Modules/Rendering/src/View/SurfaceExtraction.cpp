@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/LU>
@@ -119,6 +120,73 @@ core::TriangleMesh extractSurface(const volume::TissueField& field, const core::
                       }
                     });
   core::TriangleMesh mesh = isoTriangles(samples);
+  progress.report(1.0, "surface");
+  return mesh;
+}
+
+core::TriangleMesh extractLabel(const volume::Volume<std::uint16_t>& labels, std::uint16_t label,
+                                const core::Progress& progress)
+{
+  const core::GridGeometry& grid = labels.geometry();
+  const core::Index3& dims = grid.dims();
+  core::IndexBox box{dims, {0, 0, 0}};
+  std::size_t count = 0;
+  for (int k = 0; k < dims[2]; ++k)
+  {
+    progress.report(0.2 * k / dims[2], "surface");
+    for (int j = 0; j < dims[1]; ++j)
+      volume::forEachLabel(&labels.at(0, j, k), dims[0],
+                           [&, j, k](int i, std::uint16_t found)
+                           {
+                             if (found != label)
+                               return;
+                             ++count;
+                             const core::Index3 at{i, j, k};
+                             for (std::size_t a = 0; a < 3; ++a)
+                             {
+                               box.lower[a] = std::min(box.lower[a], at[a]);
+                               box.upper[a] = std::max(box.upper[a], at[a] + 1);
+                             }
+                           });
+  }
+  if (count == 0)
+    return {};
+  const core::Index3 size = box.size();
+  volume::Volume<float> samples(
+      core::GridGeometry({size[0] + 2, size[1] + 2, size[2] + 2}, grid.spacing(),
+                         grid.patientFromVoxel(
+                             Eigen::Vector3d(box.lower[0] - 1, box.lower[1] - 1, box.lower[2] - 1)),
+                         grid.direction()),
+      0.0F);
+  // The surface lies a share `depth` of the way from the outer voxel's centre to the inner one's.
+  const auto surfaceAt = [&](double depth)
+  {
+    const auto inside = static_cast<float>(1.0 - depth);
+    const auto outside = static_cast<float>(-depth);
+    std::fill(samples.data(), samples.data() + samples.size(), outside);
+    for (int k = 0; k < size[2]; ++k)
+      for (int j = 0; j < size[1]; ++j)
+        for (int i = 0; i < size[0]; ++i)
+          if (labels.at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k) == label)
+            samples.at(i + 1, j + 1, k + 1) = inside;
+    return isoTriangles(samples);
+  };
+  const double wanted = static_cast<double>(count) * grid.spacing().prod();
+  // The volume falls as the depth grows, always through the wanted one: bisection.
+  double low = 0.01;
+  double high = 0.99;
+  core::TriangleMesh mesh;
+  constexpr int kMostSteps = 16;
+  for (int step = 0; step < kMostSteps; ++step)
+  {
+    progress.report(0.2 + 0.8 * step / kMostSteps, "surface");
+    const double depth = 0.5 * (low + high);
+    mesh = surfaceAt(depth);
+    const double excess = mesh.signedVolume() / wanted - 1.0;
+    if (std::abs(excess) < 1e-4)
+      break;
+    (excess > 0.0 ? low : high) = depth;
+  }
   progress.report(1.0, "surface");
   return mesh;
 }

@@ -36,6 +36,11 @@ struct SeriesDescription
   std::string frameOfReferenceUid; ///< required
   double rescaleIntercept = 0.0;   ///< CT: -1024; MR: 0 (its image module has no rescale)
   double rescaleSlope = 1.0;       ///< > 0; value = slope * stored + intercept
+  std::string rescaleType = "HU";  ///< of CT: "HU", or "US" for values that are not calibrated
+  /// Exported from an image of a patient: DERIVED\\SECONDARY, with nothing about acquisition,
+  /// position on the table or date, which are not known, and stated to be without identity. Else a
+  /// phantom's.
+  bool derived = false;
   double windowCenter = 700.0;     ///< in the image's units
   double windowWidth = 4000.0;
 };

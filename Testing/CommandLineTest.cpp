@@ -352,6 +352,10 @@ TEST_F(CommandLine, ExportsAStructureAsAClosedSurface)
       const double wanted = label["volume_mm3"];
       EXPECT_NEAR(told["volume_mm3"].get<double>(), wanted, 0.01 * wanted) << label["name"];
       EXPECT_EQ(told["voxels_mm3"], label["volume_mm3"]);
+      const std::string named = textOf(m_folder / (std::string("part") + ending));
+      json("export ear --what structure '" + label["name"].get<std::string>() + "' --out " +
+           quoted(m_folder / (std::string("named") + ending)));
+      EXPECT_TRUE(textOf(m_folder / (std::string("named") + ending)) == named);
     }
   EXPECT_EQ(json("export ear --what surface --out " + quoted(m_folder / "all.stl"))["closed"],
             true);

@@ -398,7 +398,10 @@ void addExportCommand(CLI::App& app, Context& context)
               "; mm LPS. FOLDER/: ct, mr or dissected as a DICOM series")
       ->type_name("F")
       ->required();
-  command->add_option("--part", options->part, "One MR or structure of several")->type_name("NAME");
+  auto* part = command->add_option("--part", options->part, "One MR or structure of several")
+                   ->type_name("NAME");
+  command->add_option("NAME", options->part, "As --part: 'export ear --what structure NAME'")
+      ->excludes(part);
   command->add_flag("--on-ct", options->onCt, "An MR resampled on the CT's grid");
   addWithoutDamaged(*command, options->withoutDamaged);
 }

@@ -48,6 +48,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addSampleCommand(app, context);
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
+  cli::addArchiveCommands(app, context);
   cli::addLibraryCommand(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);

@@ -9,6 +9,7 @@
 
 #include "DicomHeader.h"
 #include "LabelNames.h"
+#include "PixelCodec.h"
 #include "petrous/Core/CsvTable.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Imaging/ImageFile.h"
@@ -83,7 +84,16 @@ try
   else if (reader == "manifest")
     scene::fromManifest(bytes, "case");
   else if (reader == "dicom")
-    return imaging::readHeader(put("a.dcm", bytes)).kind == imaging::FileKind::Dicom;
+  {
+    const imaging::FileHeader header = imaging::readHeader(put("a.dcm", bytes));
+    if (header.kind != imaging::FileKind::Dicom || !header.slice.damage.empty())
+      return false;
+    imaging::StoredPixels pixels;
+    if (header.frames.empty())
+      imaging::decodePixels(header.slice, pixels);
+    for (const imaging::SliceHeader& frame : header.frames)
+      imaging::decodePixels(frame, pixels);
+  }
   else if (reader == "segmentation")
     imaging::loadLabels(put("a.dcm", bytes));
   else

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,16 @@ private:
   EdgeLevels m_edges;
   std::shared_ptr<const volume::CutMask> m_mask;
   std::vector<Layer> m_layers;
+};
+
+/// Voxels that are being segmented, drawn over a slice as a visible structure is.
+struct DraftLayer
+{
+  core::GridGeometry geometry;
+  std::function<bool(const core::Index3&)> contains; ///< of a voxel of the grid
+  std::array<float, 3> color{};                      ///< 0 to 255
+
+  void paint(const SliceGeometry& slice, SlicePixels& pixels) const;
 };
 
 } // namespace petrous::presenters

@@ -145,10 +145,8 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
 
 void DraftLayer::paint(const SliceGeometry& slice, SlicePixels& pixels) const
 {
-  if (contains)
-    tint(slice, geometry,
-         [this](const core::Index3& at) { return static_cast<std::uint16_t>(contains(at)); },
-         {{}, color}, pixels);
+  if (indexAt)
+    tint(slice, geometry, indexAt, colors, pixels);
 }
 
 void SlicePresenter::drawCut(const SliceGeometry& slice, SlicePixels& pixels) const

@@ -57,8 +57,8 @@ private:
 struct DraftLayer
 {
   core::GridGeometry geometry;
-  std::function<bool(const core::Index3&)> contains; ///< of a voxel of the grid
-  std::array<float, 3> color{};                      ///< 0 to 255
+  std::function<std::uint16_t(const core::Index3&)> indexAt; ///< of a voxel of the grid; 0: none
+  std::vector<std::array<float, 3>> colors;                  ///< 0 to 255, by index
 
   void paint(const SliceGeometry& slice, SlicePixels& pixels) const;
 };

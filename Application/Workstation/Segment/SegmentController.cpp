@@ -282,9 +282,7 @@ void SegmentController::undo()
     attempt(
         [this]
         {
-          const bool created = !m_editor.hasDraft();
-          m_editor.undo();
-          if (created)
+          if (m_editor.undo())
             emit structureCreated();
         });
 }
@@ -345,7 +343,7 @@ void SegmentController::drawing()
 
 void SegmentController::askWork()
 {
-  if (auto work = m_editor.previewWork())
+  if (auto work = m_editor.dueWork())
     run(std::move(*work), false);
 }
 
@@ -400,6 +398,11 @@ void SegmentController::discard()
 {
   if (!m_editor.hasDraft() || m_asking)
     return;
+  if (!m_editor.isUnsaved()) // a structure of the case, not changed
+  {
+    m_work->drop();
+    return m_editor.discard();
+  }
   const QScopedValueRollback<bool> asking(m_asking, true);
   QMessageBox box(QMessageBox::Question, tr("Discard the draft?"),
                   tr("The draft of “%1” is dropped.")
@@ -427,7 +430,7 @@ void SegmentController::escape()
 
 bool SegmentController::mayLeave()
 {
-  if (!m_editor.hasDraft())
+  if (!m_editor.isUnsaved())
     return true;
   if (m_asking)
     return false;

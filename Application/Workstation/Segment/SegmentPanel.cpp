@@ -86,6 +86,7 @@ SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& t
   , m_volume(new QLabel)
   , m_line(new QLabel)
   , m_remark(new QLabel)
+  , m_note(new QLabel)
   , m_progress(new QProgressBar)
 {
   auto* inside = new QWidget;
@@ -415,7 +416,8 @@ QWidget* SegmentPanel::addFoot()
   layout->setSpacing(5);
   m_remark->setObjectName("segmentRemark");
   m_line->setObjectName("segmentLine");
-  for (QLabel* label : {m_remark, m_line})
+  m_note->setObjectName("segmentNote");
+  for (QLabel* label : {m_remark, m_note, m_line})
   {
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
@@ -437,6 +439,7 @@ QWidget* SegmentPanel::addFoot()
   connect(m_redo, &QPushButton::clicked, this, &SegmentPanel::redoAsked);
   connect(m_create, &QPushButton::clicked, this, &SegmentPanel::createAsked);
   connect(m_discard, &QPushButton::clicked, this, &SegmentPanel::discardAsked);
+  layout->addWidget(m_note);
   layout->addWidget(m_remark);
   layout->addWidget(m_line);
   layout->addLayout(rowOf({m_progress, m_cancel}));
@@ -549,8 +552,10 @@ void SegmentPanel::refresh()
   m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
   const bool free = !m_editor.stepping();
   m_volume->setText(volumeText(m_editor));
-  m_remark->setText(words(m_editor.remark()));
-  m_remark->setVisible(!m_editor.remark().empty());
+  m_remark->setText(words(m_editor.warning()));
+  m_remark->setVisible(!m_editor.warning().empty());
+  m_note->setText(words(m_editor.note()));
+  m_note->setVisible(!m_editor.note().empty());
   m_progress->setVisible(!free);
   m_cancel->setVisible(!free);
   const std::string whyNot = m_editor.whyNotStep();

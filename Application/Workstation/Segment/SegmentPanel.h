@@ -80,6 +80,7 @@ private:
   QLabel* m_volume;
   QLabel* m_line;
   QLabel* m_remark;
+  QLabel* m_note;
   QProgressBar* m_progress;
   QPushButton* m_cancel;
   QPushButton* m_undo;

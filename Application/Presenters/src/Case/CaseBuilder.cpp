@@ -502,6 +502,11 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   return value;
 }
 
+std::vector<std::array<float, 3>> structureColors(const scene::Case& value)
+{
+  return colorsOf(value);
+}
+
 void addStructures(scene::Case& value, volume::LabelMap labels)
 {
   const auto presets = appearance::StructurePresets::builtIn();

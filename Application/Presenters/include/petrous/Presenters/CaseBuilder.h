@@ -83,4 +83,7 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
 /// structure without a voxel; the case is unchanged then.
 void addStructures(scene::Case& value, volume::LabelMap labels);
 
+/// The colours of all structures and meshes, for one that is to differ (distinctColor).
+std::vector<std::array<float, 3>> structureColors(const scene::Case& value);
+
 } // namespace petrous::presenters

@@ -88,7 +88,8 @@ public:
   void partsChanged(); ///< the case's images or structures are others
   void mrMoved();      ///< the registration of an MR changed
 
-  bool hasDraft() const; ///< something would be lost: voxels, strokes, points
+  bool hasDraft() const;  ///< something is begun: voxels, strokes, points
+  bool isUnsaved() const; ///< and would be lost
   const std::string& name() const noexcept;
   void setName(const std::string& name);
   /// Why the draft cannot become a structure now, one sentence; empty: it can.
@@ -133,7 +134,10 @@ public:
   void removeTubePoint(std::size_t index);
   const std::vector<Eigen::Vector3d>& path() const noexcept; ///< LPS mm
   const std::vector<Eigen::Vector3d>& seeds() const noexcept; ///< of the connected threshold
-  const std::string& remark() const noexcept { return m_remark; } ///< on the tool's result
+  /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
+  const std::string& note() const noexcept { return m_note; }
+  /// What is wrong with the tool's result, in words; usually empty.
+  const std::string& warning() const noexcept { return m_warning; }
 
   /// Work that is due: a preview to be brought up to date, or a step begun by a click. None if there
   /// is none, or while a step is under way.
@@ -150,6 +154,9 @@ public:
   /// True in the latter case.
   bool undo();
   void redo();
+
+  /// The preview is outdated: a Work for it is due or under way.
+  bool previewPending() const noexcept { return m_previewDue || m_previewRunning; }
 
   /// The draft, with the preview, becomes a structure of the case. Throws InvalidParameter with
   /// `whyNotCreate`.
@@ -171,18 +178,37 @@ public:
 private:
   struct Draft;
   struct Created;
+  struct SourceImage;
+  struct Preview;
+  using Points = std::vector<Eigen::Vector3d>;
+  using Computed = std::function<Preview(const core::Progress&)>;
 
+  SourceImage& image();
+  Computed computed() const;
+  std::optional<Work> previewWork();
+  Work replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool);
+  void show(const Preview& preview);
   void dropPreview();
-  void touched(); ///< something that a panel shows has changed
+  void setPoints(Points points);
+  void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  void refuse(const std::string& why);
+  void reset();
+  void touched(); // something that a panel shows has changed
 
   WorkstationModel& m_model;
   Tool m_tool = Tool::None;
   std::string m_source = "ct";
+  std::unique_ptr<SourceImage> m_image; // made on demand
   SegmentValues m_values;
-  std::unique_ptr<Draft> m_draft;
-  std::unique_ptr<Created> m_created; ///< the last one, until something else is begun
-  std::string m_remark;
+  std::shared_ptr<Draft> m_draft; // never null
+  std::unique_ptr<Created> m_created; // the last one
+  std::unique_ptr<Preview> m_preview; // none: the draft alone
+  std::string m_note, m_warning;
+  bool m_proposeDue = false;
+  bool m_previewDue = false;
+  bool m_previewRunning = false;
   bool m_stepping = false;
+  std::optional<Work> m_stepDue; // begun by a click
   std::shared_ptr<const core::TriangleMesh> m_surface;
 };
 
